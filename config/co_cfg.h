@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_cfg.h
+/// Configuration. Each value can be given as a compiler definition, by a preset (CO_CFG_PRESET names a header of
+/// config/presets), or by a co_cfg.h of your own that is found first. Library and application must agree.
+#ifndef CO_CFG_H_
+#define CO_CFG_H_
+
+#ifdef CO_CFG_PRESET
+#include CO_CFG_PRESET
+#endif
+
+/// SDO servers (1200h, 1201h, …): 1…128. Each costs 44 bytes of RAM (32-bit CPU).
+#ifndef CO_SSDO_N
+#define CO_SSDO_N 1
+#endif
+#if CO_SSDO_N < 1 || CO_SSDO_N > 128
+#error "CO_SSDO_N: 1...128 SDO servers"
+#endif
+
+/// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended
+/// before 7/8 of that time.
+#ifndef CO_SDO_TIMEOUT
+#define CO_SDO_TIMEOUT 2000
+#endif
+#if CO_SDO_TIMEOUT < 0 || CO_SDO_TIMEOUT > 60000
+#error "CO_SDO_TIMEOUT: 0...60000 ms"
+#endif
+
+/// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
+/// bring more memory.
+#ifndef CO_TX_QUEUE_N
+#define CO_TX_QUEUE_N 8
+#endif
+#if CO_TX_QUEUE_N < 1 || CO_TX_QUEUE_N > 1000
+#error "CO_TX_QUEUE_N: 1...1000 frames"
+#endif
+
+/// Segments of 7 bytes in the buffer of each SDO server (CO_NODE_SPEC.SdoBuf): 1…127.
+#ifndef CO_SDO_BUF_SEG
+#define CO_SDO_BUF_SEG 127
+#endif
+#if CO_SDO_BUF_SEG < 1 || CO_SDO_BUF_SEG > 127
+#error "CO_SDO_BUF_SEG: 1...127 segments"
+#endif
+
+#endif

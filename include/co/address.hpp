@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co/address.hpp
+/// The address of any object, to be used as bytes: what a `uint8_t *` member is in C++ where the documentation
+/// initialises it with `&structure`. Size and layout are those of the C type (uint8_t *).
+#pragma once
+
+#include <stdint.h>
+
+#include <type_traits>
+
+namespace co {
+
+/// `Address a = &anything;`, then `a[i]`, `a + i`, `memcpy(a, …)`, `uint8_t *p = a;`, `(struct Parameters *)a`,
+/// `if (a == nullptr)`, as with a `uint8_t *`. Constants keep being accepted, too: default values lie in read-only
+/// memory.
+union Address {
+  Address() = default;
+
+  constexpr Address(const volatile void* address) noexcept : address_(const_cast<void*>(address)) {}
+
+  operator uint8_t*() const noexcept { return static_cast<uint8_t*>(address_); }
+
+  template <class T, std::enable_if_t<std::is_object_v<T> || std::is_void_v<T>, int> = 0>
+  explicit operator T*() const noexcept {
+    return static_cast<T*>(address_);
+  }
+
+ private:
+  void* address_;
+  // Tells the link-time optimiser that C code may see the same memory as a pointer.
+  unsigned char bytes_[sizeof(void*)];
+};
+
+static_assert(sizeof(Address) == sizeof(uint8_t*) && alignof(Address) == alignof(uint8_t*));
+static_assert(std::is_trivial_v<Address> && std::is_standard_layout_v<Address>);
+
+}  // namespace co

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co/data.hpp
+/// CO_DATA as C++ sees it: the address of an object's data, or the value itself, in one word.
+/// Size and layout are those of the C type (uintptr_t).
+#pragma once
+
+#include <stdint.h>
+
+#include <type_traits>
+
+/// Converts from and to whatever firmware puts into a dictionary: `(CO_DATA)(&variable)`, `(CO_DATA)(5)`,
+/// `(CO_DATA)(&function)`; `(uint32_t *)obj->Data`, `(uint8_t)obj->Data`, `obj->Data == 0`. Towards addresses and
+/// enumerations the conversion must be written, towards integers it is implicit, as with the C type.
+///
+/// A table of entries is a constant expression: it lies in read-only memory without any code that runs at start-up.
+/// Only casts between numbers and pointers are none. So the address of a register is written as
+/// `(CO_DATA)(0x40005400)`, that of a variable without a detour over uintptr_t. In a constexpr table the compiler says
+/// so; a const one would be filled at start-up.
+union CO_DATA {
+  CO_DATA() = default;
+
+  /// A value (flag D).
+  template <class T, std::enable_if_t<std::is_integral_v<T> || std::is_enum_v<T>, int> = 0>
+  constexpr CO_DATA(T value) noexcept : value_(static_cast<uintptr_t>(value)) {}
+
+  /// The address of a variable.
+  constexpr CO_DATA(const volatile void* address) noexcept : address_(address) {}
+
+  /// The address of a function, for types of the application. The conditional is what makes the cast a constant
+  /// expression: compilers fold both its branches when the condition is __builtin_constant_p.
+  template <class F, std::enable_if_t<std::is_function_v<F>, int> = 0>
+  constexpr CO_DATA(F* function) noexcept
+      : function_(__builtin_constant_p(reinterpret_cast<uintptr_t>(function)) ? reinterpret_cast<uintptr_t>(function)
+                                                                              : reinterpret_cast<uintptr_t>(function)) {
+  }
+
+  constexpr operator uintptr_t() const noexcept { return value_; }
+
+  template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
+  constexpr explicit operator E() const noexcept {
+    return static_cast<E>(value_);
+  }
+
+  // Reads the member that a table was initialised with, so that the compiler can follow an address through it.
+  template <class T>
+  explicit operator T*() const noexcept {
+    if constexpr (std::is_function_v<T>) {
+      return reinterpret_cast<T*>(function_);
+    } else {
+      return static_cast<T*>(const_cast<void*>(address_));
+    }
+  }
+
+  /// \name What a constant expression can ask
+  /// One of the two is a constant expression, depending on what the initialiser was; neither for a function.
+  /// \{
+  constexpr uintptr_t value() const noexcept { return value_; }
+  constexpr const volatile void* address() const noexcept { return address_; }
+  /// \}
+
+ private:
+  uintptr_t value_;
+  const volatile void* address_;
+  uintptr_t function_;  // apart from value_, so that a constant expression can tell them apart
+  // Tells the link-time optimiser that C code may see the same memory as an integer.
+  unsigned char bytes_[sizeof(uintptr_t)];
+};
+
+static_assert(sizeof(CO_DATA) == sizeof(uintptr_t) && alignof(CO_DATA) == alignof(uintptr_t));
+static_assert(std::is_trivial_v<CO_DATA> && std::is_standard_layout_v<CO_DATA>);

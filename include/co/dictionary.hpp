@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co/dictionary.hpp
+/// A dictionary that the compiler has proved right, and entries that it has looked up.
+///
+///     constexpr CO_OBJ od[] = {
+///         {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+///         {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
+///         CO_OBJ_DICT_ENDMARK};
+///     CO_OD_CHECK(od);
+///
+/// A fault stops the compiler, whose message then holds, for example,
+/// `Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1', '0', '0', '1'>, co::Sub<'0', '0'>>`: the CO_DICT_FAULT of
+/// co_dict.h, index and sub-index in hexadecimal digits.
+///
+/// Nothing of this file is left in the program. It needs gcc 12, clang 14 or later. Very long tables may need a higher
+/// limit of the compiler
+/// (-fconstexpr-steps of clang, -fconstexpr-ops-limit of gcc): the defaults are good for some ten thousand entries.
+#pragma once
+
+#ifdef CO_DATA_INTEGER
+#error "co/dictionary.hpp: with CO_DATA_INTEGER the compiler cannot look into a dictionary"
+#endif
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "co/rules.hpp"
+#include "co_domain.h"
+#include "co_hb_prod.h"
+#include "co_integer16.h"
+#include "co_integer32.h"
+#include "co_integer64.h"
+#include "co_integer8.h"
+#include "co_obj.h"
+#include "co_real.h"
+#include "co_sdo_id.h"
+#include "co_string.h"
+#include "co_time_of_day.h"
+
+/// Proves that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults. For namespace
+/// and function scope. Types of the application are checked for what holds for all types.
+#define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od>(), "see Dictionary<...> above")
+
+namespace co {
+
+/// \name Numbers that compilers print the way the standard writes them
+/// \{
+template <char... HexDigits>
+struct Index {};
+template <char... HexDigits>
+struct Sub {};
+/// \}
+
+/// Exists only for dictionaries without fault.
+template <CO_DICT_FAULT Fault, class Index, class Sub>
+struct Dictionary {
+  static_assert(Fault == CO_DICT_OK, "Dictionary<fault, index, sub-index>: the entry that breaks a rule of co_dict.h");
+  static constexpr bool proved = true;
+};
+
+/// Exists only for entries that their dictionary has.
+template <class Index, class Sub, bool Exists>
+struct Entry {
+  static_assert(Exists, "Entry<index, sub-index, false>: the dictionary has no such entry");
+  static constexpr bool proved = true;
+};
+
+namespace dictionary {
+
+template <std::size_t Length>
+constexpr std::size_t length(const CO_OBJ (&)[Length]) {
+  return Length;
+}
+
+constexpr char hex(unsigned number) { return "0123456789ABCDEF"[number & 0xFu]; }
+
+template <std::uint16_t Number>
+using IndexOf = Index<hex(Number >> 12), hex(Number >> 8), hex(Number >> 4), hex(Number)>;
+template <std::uint8_t Number>
+using SubOf = Sub<hex(Number >> 4), hex(Number)>;
+
+/// What C++ takes the values of a type for.
+enum class Value : std::uint8_t { integer, unsigned_integer, signed_integer, boolean, real, bytes, of_application };
+
+struct Type {
+  const CO_OBJ_TYPE* type;
+  rules::Rule rule;
+  Value value;
+  std::uint8_t width;  // bytes on the bus, 0: varies
+};
+
+inline constexpr Type types[] = {
+    {&COTBoolean, rules::boolean, Value::boolean, 1},
+    {&COTInt8, rules::integer(1), Value::integer, 1},
+    {&COTInt16, rules::integer(2), Value::integer, 2},
+    {&COTInt32, rules::integer(4), Value::integer, 4},
+    {&COTInt64, rules::integer(8), Value::integer, 8},
+    {&COTUnsigned24, rules::integer(4), Value::unsigned_integer, 3},
+    {&COTUnsigned40, rules::integer(8), Value::unsigned_integer, 5},
+    {&COTUnsigned48, rules::integer(8), Value::unsigned_integer, 6},
+    {&COTUnsigned56, rules::integer(8), Value::unsigned_integer, 7},
+    {&COTSigned24, rules::integer(4), Value::signed_integer, 3},
+    {&COTSigned40, rules::integer(8), Value::signed_integer, 5},
+    {&COTSigned48, rules::integer(8), Value::signed_integer, 6},
+    {&COTSigned56, rules::integer(8), Value::signed_integer, 7},
+    {&COTReal32, rules::variable, Value::real, 4},
+    {&COTReal64, rules::variable, Value::real, 8},
+    {&COTTimeOfDay, rules::variable, Value::bytes, 6},
+    {&COTString, rules::variable, Value::bytes, 0},
+    {&COTVisibleString, rules::variable, Value::bytes, 0},
+    {&COTOctetString, rules::variable, Value::bytes, 0},
+    {&COTUnicodeString, rules::variable, Value::bytes, 0},
+    {&COTDomain, rules::variable, Value::bytes, 0},
+    {&COTNmtHbProd, rules::heartbeat_producer, Value::unsigned_integer, 2},
+    {&COTSdoId, rules::sdo_cob_id, Value::unsigned_integer, 4},
+};
+
+/// Where the compiler must reckon with symbols at address 0 (-fno-delete-null-pointer-checks, sanitizers of gcc), it
+/// knows only that an address is equal to itself. That is enough: what it does not know to be equal is not.
+constexpr bool is_same(const CO_OBJ_TYPE* a, const CO_OBJ_TYPE* b) { return __builtin_constant_p(a == b) && a == b; }
+
+constexpr Type type_of(const CO_OBJ_TYPE* type) {
+  for (const Type& known : types) {
+    if (is_same(known.type, type)) {
+      return known;
+    }
+  }
+  return {type, rules::variable, Value::of_application, 0};
+}
+
+/// What Data was initialised with. Only an expression that names the table itself lets the compiler tell: reading a
+/// value out of the initialiser is a constant, reading an address as a number is none.
+enum class Content : std::uint8_t { null, value, address };
+
+template <const auto& Od>
+constexpr Content content(std::size_t position) {
+  if (__builtin_constant_p(Od[position].Data.value())) {
+    return Od[position].Data.value() == 0 ? Content::null : Content::value;
+  }
+  if (__builtin_constant_p(Od[position].Data.address() == nullptr)) {
+    return Od[position].Data.address() == nullptr ? Content::null : Content::address;
+  }
+  return Content::address;
+}
+
+/// The rules that only the compiler can check, because the running program sees one word.
+constexpr CO_DICT_FAULT check_content(std::uint32_t key, Content content) {
+  const bool direct = rules::has(key, CO_OBJ_D_____);
+  if (content == (direct ? Content::address : Content::value)) {
+    return CO_DICT_DIRECT_ADDRESS;
+  }
+  return direct && rules::has(key, CO_OBJ______W) ? CO_DICT_DIRECT_CONST : CO_DICT_OK;
+}
+
+template <const auto& Od>
+constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
+  const CO_OBJ& entry = Od[position];
+  const Content data = content<Od>(position);
+  const bool has_data = data != Content::null;
+  const CO_DICT_FAULT fault = rules::check_entry(previous, entry.Key, !is_same(entry.Type, nullptr), has_data);
+  const Type type = type_of(entry.Type);
+  if (fault != CO_DICT_OK || type.value == Value::of_application) {
+    return fault;
+  }
+  const CO_DICT_FAULT of_type = rules::check_type(type.rule, entry.Key, has_data);
+  return of_type != CO_DICT_OK ? of_type : check_content(entry.Key, data);
+}
+
+struct Finding {
+  CO_DICT_FAULT fault;
+  std::uint32_t key;
+};
+
+/// The first fault of the table.
+template <const auto& Od>
+constexpr Finding check() {
+  std::uint32_t previous = 0;
+  bool ended = false;
+  for (std::size_t position = 0; position < length(Od); ++position) {
+    const std::uint32_t key = Od[position].Key;
+    if (key == 0) {
+      ended = true;
+      continue;
+    }
+    const CO_DICT_FAULT fault = ended ? CO_DICT_NOT_ASCENDING : check<Od>(previous, position);
+    if (fault != CO_DICT_OK) {
+      return {fault, key};
+    }
+    previous = key;
+  }
+  return {CO_DICT_OK, 0};
+}
+
+template <const auto& Od>
+constexpr bool is_proved() {
+  constexpr Finding finding = check<Od>();
+  return Dictionary<finding.fault, IndexOf<rules::index_of(finding.key)>, SubOf<rules::sub_of(finding.key)>>::proved;
+}
+
+/// Position of an entry, or the length of the table.
+template <std::size_t Length>
+constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
+  for (std::size_t i = 0; i < Length && od[i].Key != 0; ++i) {
+    if ((od[i].Key >> 8) == (key >> 8)) {
+      return i;
+    }
+  }
+  return Length;
+}
+
+constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
+  return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
+}
+
+}  // namespace dictionary
+
+/// Finds an entry of a constexpr table by CO_DEV(index, sub), null if there is none. Meant for constant expressions: it
+/// looks at one entry after the other.
+template <std::size_t Length>
+constexpr const CO_OBJ* find(const CO_OBJ (&od)[Length], std::uint32_t key) {
+  const std::size_t position = dictionary::position(od, key);
+  return position < Length ? &od[position] : nullptr;
+}
+
+/// An entry of a constexpr dictionary, found by the compiler: the address is a constant. An entry that does not exist
+/// does not compile. The result goes to COObjRdValue() and its like; the entry itself is const.
+///
+///     CO_OBJ *const speed = co::entry<od, 0x2100, 1>();
+template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>
+constexpr CO_OBJ* entry() {
+  constexpr std::size_t position = dictionary::position(Od, dictionary::key_of(Index, Sub));
+  constexpr bool exists = position < dictionary::length(Od);
+  static_assert(Entry<dictionary::IndexOf<Index>, dictionary::SubOf<Sub>, exists>::proved);
+  return const_cast<CO_OBJ*>(&Od[exists ? position : 0]);
+}
+
+}  // namespace co

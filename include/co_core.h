@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_core.h
+/// A CANopen node: everything an application includes, except co_ver.h.
+///
+/// Contexts: all functions of the stack belong to one context, the loop (or one task), with two exceptions:
+/// COTmrService() (timer interrupt) and CORingPut() (producer end of a driver's queue).
+#ifndef CO_CORE_H_
+#define CO_CORE_H_
+
+#include "co_types.h"
+
+#include "co_cfg.h"
+
+#include "co_domain.h"
+#include "co_integer16.h"
+#include "co_integer32.h"
+#include "co_integer64.h"
+#include "co_integer8.h"
+#include "co_real.h"
+#include "co_string.h"
+#include "co_time_of_day.h"
+
+#include "co_hb_prod.h"
+#include "co_para.h"
+#include "co_sdo_id.h"
+
+#include "co_dict.h"
+#include "co_if.h"
+#include "co_nmt.h"
+#include "co_ring.h"
+#include "co_sdo.h"
+#include "co_ssdo.h"
+#include "co_tmr.h"
+
+#include "co_err.h"
+#include "co_obj.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CO_EMCY_TBL_T;
+
+/// What a node is made of. Filled by position or member by member; used only during CONodeInit().
+typedef struct CO_NODE_SPEC_T {
+  uint8_t NodeId;                  ///< 1…127
+  uint32_t Baudrate;               ///< bit/s
+  struct CO_OBJ_T* Dict;           ///< the dictionary; may be const (cast it), must live as long as the node
+  uint16_t DictLen;                ///< length of that array
+  struct CO_EMCY_TBL_T* EmcyCode;  ///< emergency codes of the application, may be null
+  struct CO_TMR_MEM_T* TmrMem;     ///< timers for the application; the stack needs none of them
+  uint16_t TmrNum;                 ///< length of that array, may be 0
+  uint32_t TmrFreq;                ///< ticks of the timer driver per second
+  CO_IF_DRV* Drv;                  ///< drivers without context; may be null if CO_NODE_EXT names all drivers
+  uint8_t* SdoBuf;                 ///< CO_SSDO_N * CO_SDO_BUF_BYTE bytes, or null
+} CO_NODE_SPEC;
+
+/// What a CAN controller reports.
+typedef enum CO_CAN_EVENT_T {
+  CO_CAN_OVERRUN = 0,  ///< a received frame was lost
+  CO_CAN_PASSIVE,      ///< error passive
+  CO_CAN_BUS_OFF,      ///< bus-off
+  CO_CAN_RECOVERED,    ///< error active again
+  CO_CAN_EVENT_NUM
+} CO_CAN_EVENT;
+
+/// What the node has counted since CONodeInit(). All counters saturate.
+typedef struct CO_NODE_COUNTERS_T {
+  uint32_t Received;                     ///< frames read from the driver
+  uint32_t Unclaimed;                    ///< of these: for nobody here, or for a service that the NMT state forbids
+  uint32_t Malformed;                    ///< of these: for us, but of a wrong length or kind; ignored
+  uint32_t Sent;                         ///< frames that the driver took
+  uint32_t Dropped;                      ///< frames that found the transmit queue full, or that a reset threw away
+  uint32_t SdoAborts;                    ///< SDO transfers that the server aborted
+  uint32_t TimerExhausted;               ///< COTmrCreate() without a free timer
+  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< what CONodeCanEvent() was told
+} CO_NODE_COUNTERS;
+
+/// Everything that CO_NODE_SPEC has no place for. Initialise it with zero, set Size, then what you need; it is only
+/// read and must live as long as the node.
+typedef struct CO_NODE_EXT_T {
+  uint32_t Size;                ///< sizeof(CO_NODE_EXT)
+  const CO_IF_CAN_DRV_EX* Can;  ///< CAN driver with context, or null: CO_NODE_SPEC.Drv
+  void* CanCtx;
+  const CO_IF_TIMER_DRV_EX* Timer;  ///< timer driver with context, or null: CO_NODE_SPEC.Drv
+  void* TimerCtx;
+  const CO_IF_NVM_DRV_EX* Nvm;  ///< memory driver with context, or null: CO_NODE_SPEC.Drv
+  void* NvmCtx;
+  CO_IF_FRM* TxQueue;        ///< memory for frames that wait for the controller, or null: CO_TX_QUEUE_N frames
+  uint16_t TxQueueLen;       ///< in the node
+  void (*Lock)(void* user);  ///< instead of COTmrLock()/COTmrUnlock(); both or none
+  void (*Unlock)(void* user);
+  /// May \a size bytes at \a address be written? Null: yes. Asked before a basic type stores a value; for tables and
+  /// variables that the linker has put into read-only memory. false: refused with CO_ERR_OBJ_ACC.
+  bool (*Writable)(void* user, const void* address, uint32_t size);
+  void* User;  ///< for the functions above, and for CONodeGetUser()
+} CO_NODE_EXT;
+
+/// \cond internal
+#define CO_ROUTE_N (1 + CO_SSDO_N)
+
+typedef struct CO_ROUTES_T {   ///< who gets the frames of an identifier
+  uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
+  uint16_t Owner[CO_ROUTE_N];  ///< service in bits 15…12, number of its instance in bits 11…0
+  uint8_t Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
+} CO_ROUTES;
+
+typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by priority
+  CO_IF_FRM* Frame;
+  uint16_t Len;
+  uint16_t Num;
+  uint8_t BootUp;  ///< 1: the first frame is the boot-up, which nothing may overtake
+} CO_TX_QUEUE;
+/// \endcond
+
+/// A node. The application uses the members up to NodeId as handles (&node.Dict, &node.Nmt, &node.Tmr, …), reads NodeId
+/// and Baudrate, and touches nothing else.
+typedef struct CO_NODE_T {
+  CO_DICT Dict;
+  CO_IF If;
+  CO_NMT Nmt;
+  CO_TMR Tmr;
+  CO_SDO Sdo[CO_SSDO_N];
+  uint8_t* SdoBuf;
+  enum CO_ERR_T Error;
+  uint32_t Baudrate;
+  uint8_t NodeId;
+  uint8_t Busy;     ///< a frame is being processed
+  uint8_t Pending;  ///< what is to be done when it has been answered
+  const CO_NODE_EXT* Ext;
+  CO_ROUTES Routes;
+  CO_TX_QUEUE TxQueue;
+  CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
+  CO_NODE_COUNTERS Count;
+  CO_TMR_MEM HbProdTmr;
+  CO_TMR_MEM SdoTmr;
+} CO_NODE;
+
+/// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;
+/// what went wrong is told by CONodeGetErr(): CO_ERR_DICT_INIT (CODictGetFault() names the entry) and CO_ERR_BAD_ARG
+/// (node-ID, drivers) leave it in CO_INVALID, anything else does not keep it from running.
+/// \a node and what \a spec points to stay the caller's and must live as long as the node; \a spec itself need not.
+/// Null arguments end in CONodeFatalError().
+void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec);
+
+/// The same with everything that CO_NODE_SPEC has no place for. CONodeInit() is this with a null \a ext.
+void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext);
+
+/// From CO_INIT: sends the boot-up message and enters Pre-operational. [301:7.3.2.2.1] Else nothing.
+void CONodeStart(CO_NODE* node);
+
+/// Stops the timers of the stack, goes off the bus; the node is in CO_INVALID until CONodeInit().
+void CONodeStop(CO_NODE* node);
+
+/// The last error, which is thereby cleared. CO_ERR_BAD_ARG if \a node is null.
+CO_ERR CONodeGetErr(CO_NODE* node);
+
+/// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver.
+/// Blocks only if the driver's Read does.
+void CONodeProcess(CO_NODE* node);
+
+/// Ticks until COTmrService() and COTmrProcess(), or CONodeProcess() for frames that wait to be sent (again after 1
+/// ms), have something to do: 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait sooner.
+uint32_t CONodeNextDeadline(CO_NODE* node);
+
+/// To be called by a CAN driver or the loop: the controller has changed its state. Counts it and calls
+/// CONodeCanChange(). SocketCAN error frames read by the driver are turned into it by the node itself.
+/// Context: the loop.
+void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event);
+
+/// A copy of the counters; all 0 if \a node is null.
+CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node);
+
+/// The user pointer of CO_NODE_EXT; null if there is none.
+void* CONodeGetUser(const CO_NODE* node);
+
+/// \name Callbacks of the application (see co_nmt.h on how to define them)
+/// \{
+
+/// A frame that no service of the node has claimed; not called in CO_INIT and CO_INVALID.
+void COIfCanReceive(CO_IF_FRM* frm);
+
+/// The CAN controller has changed its state.
+void CONodeCanChange(CO_NODE* node, CO_CAN_EVENT event);
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_dict.h
+/// The object dictionary: a table of CO_OBJ, sorted by index and sub-index, and its look-up. [301:7.4]
+///
+/// Context: the loop (see co_obj.h).
+#ifndef CO_DICT_H_
+#define CO_DICT_H_
+
+#include "co_obj.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What makes CODictInit() refuse a table. The same checks run at compile time with CO_OD_CHECK() (co/dictionary.hpp).
+typedef enum CO_DICT_FAULT_T {
+  CO_DICT_OK = 0,
+  CO_DICT_NOT_ASCENDING,   ///< key not greater than the one before it
+  CO_DICT_NO_TYPE,         ///< Type is null
+  CO_DICT_NO_DATA,         ///< a basic type without flag D needs the address of its variable
+  CO_DICT_DIRECT_TYPE,     ///< flag D with a type that needs an address, or that does not fit into a pointer
+  CO_DICT_NODEID_TYPE,     ///< flag N with a type that has no node-ID relative values
+  CO_DICT_WRONG_PLACE,     ///< type not allowed at this index or sub-index
+  CO_DICT_NOT_CONFIGURED,  ///< number of the service beyond the configuration (CO_SSDO_N, …)
+  CO_DICT_DIRECT_ADDRESS,  ///< flag D with an address, or no flag D with a value (found at compile time only)
+  CO_DICT_DIRECT_CONST,    ///< flags D and W in a table in read-only memory (found at compile time only)
+  CO_DICT_RESERVED_INDEX,  ///< entry at an index below 0001h, or an entry of a static data type with data
+} CO_DICT_FAULT;
+
+typedef struct CO_DICT_T {
+  struct CO_OBJ_T* Root;   ///< first entry
+  struct CO_OBJ_T* Split;  ///< first entry of the upper half of a search
+  struct CO_OBJ_T* Last;   ///< last entry
+  struct CO_OBJ_T*
+      Next;       ///< entry behind the one found last: the next sub-index is found without a search; null: no entries
+  uint16_t Num;   ///< entries in use
+  uint16_t Max;   ///< length of the table
+  uint8_t Steps;  ///< halvings that a search needs in either half
+  uint8_t Fault;  ///< CO_DICT_FAULT of the last CODictInit()
+  uint32_t FaultKey;       ///< key of the entry with that fault
+  struct CO_NODE_T* Node;  ///< owner
+} CO_DICT;
+
+/// Finds an entry by index and sub-index (CO_DEV(); flags of \a key are ignored).
+/// Returns the entry; null if there is none or \a cod is null.
+CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key);
+
+/// \name Values of one, two and four bytes
+/// Find the entry and read or write it in the byte order of the CPU, without the network's access rights.
+/// CO_ERR_BAD_ARG: an argument is null; CO_ERR_OBJ_NOT_FOUND: no such entry; CO_ERR_OBJ_SIZE: the object has another
+/// length; CO_ERR_OBJ_ACC: the type cannot be read or written; else what the type function returns.
+/// \{
+CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val);
+CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val);
+CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val);
+CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val);
+CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val);
+CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);
+/// \}
+
+/// Finds a stream or value and reads \a len bytes of it from its beginning into \a buf (any length; a stream shorter
+/// than \a len leaves the rest of \a buf as it is). Errors as CODictRdByte(), except CO_ERR_OBJ_SIZE.
+CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
+
+/// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Errors as CODictRdBuffer().
+CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
+
+/// Takes the table \a root of \a max entries, which ends there or at the first entry with key 0, into use. CONodeInit()
+/// does it; call it again (in the loop context) after entries were added to or taken from a table in RAM.
+/// An SDO transfer whose entry was moved is aborted at its next frame. The table stays the caller's and must live as
+/// long as the node. An empty table is legal.
+/// Not to be called from a type function.
+/// CO_ERR_BAD_ARG: null or \a max 0; CO_ERR_DICT_INIT: a structural fault, see CODictGetFault(); nothing is found then.
+CO_ERR CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
+
+/// Runs the Init function of every entry, from the first to the last. Returns the last error, or CO_ERR_NONE.
+CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
+
+/// What the last CODictInit() found; \a key (may be null) receives the key of the entry. Also legal after a
+/// CONodeInit() that ended with CO_ERR_DICT_INIT.
+CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_domain.h
+/// DOMAIN: any bytes. [301:7.1.6.8] Data: a CO_OBJ_DOM. A download may be shorter than the memory.
+#ifndef CO_DOMAIN_H_
+#define CO_DOMAIN_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct CO_OBJ_DOM_T {
+  uint32_t Offset;  ///< position of the next access
+  uint32_t Size;    ///< bytes at Start
+  uint8_t* Start;
+} CO_OBJ_DOM;
+
+extern const CO_OBJ_TYPE COTDomain;
+
+#define CO_TDOMAIN ((const CO_OBJ_TYPE*)&COTDomain)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

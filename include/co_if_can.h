@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_if_can.h
+/// CAN frames and what a CAN driver has to supply.
+#ifndef CO_IF_CAN_H_
+#define CO_IF_CAN_H_
+
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// \name Identifier of a frame: CAN-ID in bits 0…28 and these flags. Drivers that know none leave them 0.
+/// \{
+#define CO_IF_FRM_EXT 0x80000000u    ///< 29-bit identifier
+#define CO_IF_FRM_RTR 0x40000000u    ///< remote frame
+#define CO_IF_FRM_ERROR 0x20000000u  ///< error frame: a state of the controller, coded as SocketCAN does
+#define CO_IF_FRM_ID 0x1FFFFFFFu     ///< the CAN-ID
+/// \}
+
+/// A CAN frame.
+typedef struct CO_IF_FRM_T {
+  uint32_t Identifier;  ///< CAN-ID and flags
+  uint8_t Data[8];
+  uint8_t DLC;  ///< bytes of Data in use, 0…8
+} CO_IF_FRM;
+
+/// \name Members of a frame; \a f is a pointer, \a pos a position in Data (modulo 8), multi-byte values are little
+/// endian
+/// \{
+#define CO_SET_ID(f, id) ((f)->Identifier = (uint32_t)(id))
+#define CO_SET_DLC(f, n) ((f)->DLC = (uint8_t)(n))
+#define CO_SET_BYTE(f, value, pos) ((f)->Data[(pos)&7] = (uint8_t)(value))
+#define CO_SET_WORD(f, value, pos)                       \
+  do {                                                   \
+    CO_SET_BYTE(f, (uint32_t)(value), (pos));            \
+    CO_SET_BYTE(f, (uint32_t)(value) >> 8, ((pos) + 1)); \
+  } while (0)
+#define CO_SET_LONG(f, value, pos)                        \
+  do {                                                    \
+    CO_SET_WORD(f, (uint32_t)(value), (pos));             \
+    CO_SET_WORD(f, (uint32_t)(value) >> 16, ((pos) + 2)); \
+  } while (0)
+#define CO_GET_ID(f) ((f)->Identifier)
+#define CO_GET_DLC(f) ((f)->DLC)
+#define CO_GET_BYTE(f, pos) ((f)->Data[(pos)&7])
+#define CO_GET_WORD(f, pos) ((uint16_t)(CO_GET_BYTE(f, (pos)) | ((uint32_t)CO_GET_BYTE(f, (pos) + 1) << 8)))
+#define CO_GET_LONG(f, pos) ((uint32_t)(CO_GET_WORD(f, (pos)) | ((uint32_t)CO_GET_WORD(f, (pos) + 2) << 16)))
+/// \}
+
+/// A CAN driver without context: one table, one controller. All functions run in the loop context and must not block,
+/// except Read in a task of an RTOS.
+typedef struct CO_IF_CAN_DRV_T {
+  void (*Init)(void);             ///< prepare the controller, off the bus
+  void (*Enable)(uint32_t baud);  ///< set the bit timing (bit/s) and go on the bus
+  int16_t (*Read)(CO_IF_FRM*);    ///< sizeof(CO_IF_FRM): a frame; 0: none; -1: error
+  int16_t (*Send)(CO_IF_FRM*);    ///< sizeof(CO_IF_FRM): taken; 0: not now (asked again later); -1: error (the same)
+  void (*Reset)(void);            ///< clear errors and queues, back on the bus
+  void (*Close)(void);            ///< off the bus
+} CO_IF_CAN_DRV;
+
+/// The same with a context, for several controllers in one program (CO_NODE_EXT).
+typedef struct CO_IF_CAN_DRV_EX_T {
+  void (*Init)(void* ctx);
+  void (*Enable)(void* ctx, uint32_t baud);
+  int16_t (*Read)(void* ctx, CO_IF_FRM* frm);
+  int16_t (*Send)(void* ctx, const CO_IF_FRM* frm);
+  void (*Reset)(void* ctx);
+  void (*Close)(void* ctx);
+  /// May be null. The identifiers (with flags) that the node wants to receive, ascending, the caller's for the time of
+  /// the call; called in CONodeStart() and after every change. A driver may let more through.
+  void (*Filter)(void* ctx, const uint32_t* ids, uint16_t num);
+} CO_IF_CAN_DRV_EX;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_integer32.h
+/// INTEGER24, UNSIGNED24, INTEGER32 and UNSIGNED32. [301:7.1.4]
+/// Data: a variable of four bytes, or the value itself (flag D).
+#ifndef CO_INTEGER32_H_
+#define CO_INTEGER32_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTInt32;
+extern const CO_OBJ_TYPE COTUnsigned24;  ///< 3 bytes on the bus, in a uint32_t
+extern const CO_OBJ_TYPE COTSigned24;    ///< 3 bytes on the bus, in an int32_t
+
+#define CO_TUNSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)
+#define CO_TSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)
+#define CO_TUNSIGNED24 ((const CO_OBJ_TYPE*)&COTUnsigned24)
+#define CO_TSIGNED24 ((const CO_OBJ_TYPE*)&COTSigned24)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

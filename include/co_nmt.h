@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_nmt.h
+/// Network management of the node: the NMT slave and its heartbeat. [301:7.3.2, 7.2.8]
+///
+/// Context: the loop. Called from a type function or callback while a received frame is processed, a reset takes
+/// effect when the answer to that frame has been sent.
+#ifndef CO_NMT_H_
+#define CO_NMT_H_
+
+#include "co_err.h"
+#include "co_if.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CO_NODE_T;
+
+/// \name What may be communicated, in CO_NMT.Allowed. [301:7.3.2.2.4]
+/// \{
+#define CO_NMT_ALLOWED 0x01u   ///< NMT commands and error control
+#define CO_BOOT_ALLOWED 0x02u  ///< boot-up
+#define CO_EMCY_ALLOWED 0x04u
+#define CO_TIME_ALLOWED 0x08u
+#define CO_SYNC_ALLOWED 0x10u
+#define CO_SDO_ALLOWED 0x20u
+#define CO_PDO_ALLOWED 0x40u
+/// \}
+
+typedef enum CO_MODE_T {
+  CO_INVALID = 0,  ///< not initialised, or stopped by CONodeStop()
+  CO_INIT,         ///< Initialisation
+  CO_PREOP,        ///< Pre-operational
+  CO_OPERATIONAL,  ///< Operational
+  CO_STOP,         ///< Stopped
+  CO_MODE_NUM
+} CO_MODE;
+
+typedef enum CO_NMT_RESET_T {
+  CO_RESET_INVALID = 0,
+  CO_RESET_NODE,  ///< reset node: application and communication
+  CO_RESET_COM,   ///< reset communication
+  CO_RESET_NUM
+} CO_NMT_RESET;
+
+typedef struct CO_NMT_T {
+  struct CO_NODE_T* Node;
+  CO_MODE Mode;
+  uint8_t Allowed;  ///< CO_…_ALLOWED bits of the present mode
+} CO_NMT;
+
+/// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is
+/// initialised by the same code as in CONodeInit(). Ends with boot-up and Pre-operational, except in CO_INIT, where
+/// the node waits for CONodeStart(). Timers of the application go on. \a type other than CO_RESET_NODE and
+/// CO_RESET_COM, and a node in CO_INVALID, are ignored.
+void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
+
+/// Changes the NMT state, as a command of the NMT master would. A node in CO_INVALID, and modes other than CO_PREOP,
+/// CO_OPERATIONAL and CO_STOP, are refused with CO_ERR_NMT_MODE (node error). In CO_INIT use CONodeStart() first;
+/// firmware that changes the mode from CO_INIT directly gets the boot-up of CONodeStart() before the new mode.
+void CONmtSetMode(CO_NMT* nmt, CO_MODE mode);
+
+/// The NMT state. CO_INVALID if \a nmt is null (after CONodeFatalError()).
+CO_MODE CONmtGetMode(CO_NMT* nmt);
+
+/// Sets the node-ID (1…127), in CO_INIT only (else node error CO_ERR_NMT_MODE; an ID out of range: CO_ERR_BAD_ARG, and
+/// nothing changes). Call CONmtReset(nmt, CO_RESET_NODE) afterwards, so that node-ID relative identifiers follow.
+void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId);
+
+/// The node-ID; 0 if \a nmt is null (after CONodeFatalError()).
+uint8_t CONmtGetNodeId(CO_NMT* nmt);
+
+/// State byte of a heartbeat (0, 4, 5, 127) as mode; CO_INVALID for any other value. [301:7.2.8.2.2.1]
+CO_MODE CONmtModeDecode(uint8_t code);
+/// Mode as state byte of a heartbeat; 255 for CO_INVALID and out of range.
+uint8_t CONmtModeEncode(CO_MODE mode);
+
+/// \name Callbacks of the application
+/// Ordinary functions to be defined by the application; the defaults do nothing. Define them in an object file or an
+/// object library of the program: linkers ignore a definition in a static library that nothing else needs.
+/// \{
+
+/// Before the mode changes to \a mode; CO_NMT.Mode is still the old one.
+void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
+
+/// After a reset that the NMT master commanded: the stack is reset and in Pre-operational.
+void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_ssdo.h
+/// The SDO server. It needs no calls from the application; see COObjTypeUserSDOAbort() (co_obj.h) for abort codes of
+/// its own. [301:7.2.4]
+#ifndef CO_SSDO_H_
+#define CO_SSDO_H_
+
+#include "co_cfg.h"
+#include "co_obj.h"
+#include "co_sdo.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// One SDO server channel (1200h, 1201h, …).
+typedef struct CO_SDO_T {
+  struct CO_NODE_T* Node;
+  CO_OBJ* Obj;         ///< entry of the open transfer, or being accessed; null: none
+  uint32_t RxId;       ///< COB-ID client -> server, with bit 31 = 1 if not valid
+  uint32_t TxId;       ///< COB-ID server -> client
+  uint32_t Key;        ///< CO_DEV() of the open transfer
+  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort()
+  uint32_t Size;       ///< bytes that the transfer will have, or may have at most
+  uint32_t Num;        ///< bytes transferred so far
+  uint8_t Value[8];    ///< a value of up to 8 bytes is collected here, in the byte order of the bus
+  uint8_t State;
+  uint8_t Flags;
+  uint8_t Toggle;  ///< toggle bit expected next, in place (00h or 10h)
+  uint8_t Idle;    ///< time slices since the last frame of the transfer
+} CO_SDO;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

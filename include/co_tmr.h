@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_tmr.h
+/// Timers: actions that run once after a time, or cyclically without drift, in the context of COTmrProcess().
+///
+/// Units: ticks of the timer driver's clock (CO_NODE_SPEC.TmrFreq per second).
+/// Contexts: COTmrService() in the timer interrupt, everything else in the loop. Between them stand COTmrLock() and
+/// COTmrUnlock(), to be supplied by the application: they keep the timer interrupt away (default: empty, right where
+/// COTmrService() is called from the loop, too).
+/// Timers that are due at the same tick run in the order in which they were started; a cyclic timer starts anew with
+/// each expiry. A late call of COTmrProcess() runs every expired timer once; a cyclic timer then skips the expiries
+/// that were missed and keeps its phase.
+#ifndef CO_TMR_H_
+#define CO_TMR_H_
+
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CO_NODE_T;
+
+#define CO_TMR_UNIT_1MS 1000u     ///< times given in milliseconds
+#define CO_TMR_UNIT_100US 10000u  ///< times given in units of 100 microseconds (inhibit times)
+
+/// The action of a timer; receives the parameter given at creation. May create and delete any timer, itself included.
+typedef void (*CO_TMR_FUNC)(void*);
+
+/// One timer. Applications declare arrays of it for CO_NODE_SPEC.TmrMem and do not touch the members.
+typedef struct CO_TMR_MEM_T {
+  struct CO_TMR_MEM_T* Next;
+  CO_TMR_FUNC Func;
+  void* Para;
+  uint32_t Delta;  ///< armed: ticks after the timer before it in the list; due: clock at expiry
+  uint32_t Cycle;  ///< ticks, 0: runs once
+  uint16_t Generation;
+  uint8_t State;
+  uint8_t Pooled;  ///< 1: belongs to the pool and has an id; 0: part of its owner
+} CO_TMR_MEM;
+
+typedef struct CO_TMR_T {
+  struct CO_NODE_T* Node;
+  CO_TMR_MEM* Pool;
+  CO_TMR_MEM* Free;  ///< unused timers of the pool
+  CO_TMR_MEM* Use;   ///< armed, by time
+  CO_TMR_MEM* Due;   ///< elapsed, oldest first; filled by COTmrService()
+  CO_TMR_MEM* DueEnd;
+  CO_TMR_MEM* Run;      ///< elapsed, being worked off by COTmrProcess()
+  uint32_t Freq;        ///< ticks per second
+  uint32_t Clock;       ///< time in ticks, as of the last programming of the driver
+  uint32_t Programmed;  ///< ticks that the driver was told to wait, 0: stopped
+  uint16_t Max;         ///< timers in the pool
+  uint8_t IdBits;       ///< bits of an id that hold the number in the pool
+} CO_TMR;
+
+/// \a time in units of 1/\a unit seconds (CO_TMR_UNIT_…) in ticks, rounded up: never early.
+/// Returns 0 if \a time, \a unit or the timer frequency is 0, or the result does not fit in 32 bits.
+uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit);
+
+/// The shortest time that can be told apart, in units of 1/\a unit seconds: at least 1, rounded up.
+/// Returns 0 if \a unit or the timer frequency is 0, or the result does not fit in 16 bits.
+uint16_t COTmrGetMinTime(CO_TMR* tmr, uint32_t unit);
+
+/// Starts a timer: \a func(\a para) runs \a startTicks from now (0: after \a cycleTicks) and then every \a cycleTicks
+/// (0: once). Returns an id (>= 0), opaque: it is used up when the timer has run for the last time or was deleted. A
+/// used-up id matches no younger timer until its place in the pool was used 32768 / (pool size, rounded up to a power
+/// of two) times more.
+/// Returns -1: both times 0, \a func null (CO_ERR_BAD_ARG), no free timer (CO_ERR_TMR_NO_ACT; also counted). A null
+/// \a tmr or a timer management without node ends in CONodeFatalError().
+int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TMR_FUNC func, void* para);
+
+/// Deletes a timer at any moment: running, elapsed but not yet run, or from its own action.
+/// Returns 0; -1 if there is no such timer (any more).
+int16_t COTmrDelete(CO_TMR* tmr, int16_t actId);
+
+/// To be called from the timer interrupt (or the loop, where the driver is polled). Takes no lock and runs no action.
+/// Returns 1: at least one timer has elapsed, 0: none, -1: \a tmr null.
+int16_t COTmrService(CO_TMR* tmr);
+
+/// Runs the actions of all timers that have elapsed up to now, without the lock held.
+void COTmrProcess(CO_TMR* tmr);
+
+/// Prepares the timer management of a node; CONodeInit() does it. \a mem: \a num timers, the caller's for as long as
+/// the node lives, may be null if \a num is 0; \a freq: ticks per second.
+void COTmrInit(CO_TMR* tmr, struct CO_NODE_T* node, CO_TMR_MEM* mem, uint16_t num, uint32_t freq);
+
+/// To be supplied by the application where COTmrService() runs in an interrupt: keep it away, let it in again.
+/// Calls do not nest. Defaults: empty.
+void COTmrLock(void);
+void COTmrUnlock(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// From what a type function or the storage answers to what the bus is told, for servers and clients alike.
+#pragma once
+
+#include "co_err.h"
+#include "co_sdo.h"
+
+namespace co {
+
+namespace abort_codes {
+struct Row {
+  CO_ERR err;
+  uint32_t code;
+};
+inline constexpr Row rows[] = {
+    {CO_ERR_OBJ_NOT_FOUND, CO_SDO_ERR_OBJ},
+    {CO_ERR_OBJ_SIZE, CO_SDO_ERR_LEN},
+    {CO_ERR_OBJ_MAP_LEN, CO_SDO_ERR_OBJ_MAP_N},
+    {CO_ERR_OBJ_MAP_TYPE, CO_SDO_ERR_OBJ_MAP},
+    {CO_ERR_OBJ_ACC, CO_SDO_ERR_UNSUP},
+    {CO_ERR_OBJ_RANGE, CO_SDO_ERR_RANGE},
+    {CO_ERR_OBJ_INCOMPATIBLE, CO_SDO_ERR_PARA_INCOMP},
+    {CO_ERR_OBJ_STATE, CO_SDO_ERR_TOS_STATE},
+    {CO_ERR_OBJ_NO_DATA, CO_SDO_ERR_NO_DATA},
+    {CO_ERR_TYPE_RD, CO_SDO_ERR_TOS},
+    {CO_ERR_TYPE_WR, CO_SDO_ERR_TOS},
+    {CO_ERR_BAD_ARG, CO_SDO_ERR_INTERNAL},
+    {CO_ERR_PARA_STORE, CO_SDO_ERR_HW_ACCESS},
+    {CO_ERR_PARA_RESTORE, CO_SDO_ERR_HW_ACCESS},
+    {CO_ERR_PARA_LOAD, CO_SDO_ERR_HW_ACCESS},
+    {CO_ERR_IF_NVM_READ, CO_SDO_ERR_HW_ACCESS},
+    {CO_ERR_IF_NVM_WRITE, CO_SDO_ERR_HW_ACCESS},
+};
+}  // namespace abort_codes
+
+[[nodiscard]] constexpr uint32_t abort_code(CO_ERR err) {
+  for (const auto& row : abort_codes::rows) {
+    if (row.err == err) {
+      return row.code;
+    }
+  }
+  return CO_SDO_ERR_GENERAL;
+}
+
+static_assert(abort_code(CO_ERR_OBJ_RANGE) == 0x06090030 && abort_code(CO_ERR_TMR_CREATE) == 0x08000000);
+
+}  // namespace co

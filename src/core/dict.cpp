@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/dict.hpp"
+
+#include "core/obj.hpp"
+
+namespace co::dict {
+namespace {
+
+// Highest key of an entry that is not behind the searched one: flags do not count.
+constexpr uint32_t bound_of(uint32_t key) { return key | 0xFFU; }
+
+constexpr bool is_same(uint32_t entry_key, uint32_t key) { return (entry_key ^ key) <= 0xFFU; }
+
+template <unsigned entries>
+inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
+  return from[entries].Key <= bound ? from + entries : from;
+}
+
+// Halves 2^steps entries until one is left: without a branch for the result of a comparison, and with constant offsets.
+inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
+  switch (steps & 15U) {
+    case 15: from = step<1U << 14>(from, bound); [[fallthrough]];
+    case 14: from = step<1U << 13>(from, bound); [[fallthrough]];
+    case 13: from = step<1U << 12>(from, bound); [[fallthrough]];
+    case 12: from = step<1U << 11>(from, bound); [[fallthrough]];
+    case 11: from = step<1U << 10>(from, bound); [[fallthrough]];
+    case 10: from = step<1U << 9>(from, bound); [[fallthrough]];
+    case 9: from = step<1U << 8>(from, bound); [[fallthrough]];
+    case 8: from = step<1U << 7>(from, bound); [[fallthrough]];
+    case 7: from = step<1U << 6>(from, bound); [[fallthrough]];
+    case 6: from = step<1U << 5>(from, bound); [[fallthrough]];
+    case 5: from = step<1U << 4>(from, bound); [[fallthrough]];
+    case 4: from = step<1U << 3>(from, bound); [[fallthrough]];
+    case 3: from = step<1U << 2>(from, bound); [[fallthrough]];
+    case 2: from = step<1U << 1>(from, bound); [[fallthrough]];
+    case 1: from = step<1U << 0>(from, bound); [[fallthrough]];
+    default: return from;
+  }
+}
+
+// The last entry that is not behind the searched one, or the first of the table. The table must not be empty.
+inline CO_OBJ* last_not_behind(const CO_DICT& dict, uint32_t key) {
+  const uint32_t bound = bound_of(key);
+  return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
+}
+
+uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
+  uint16_t num = 0;
+  while (num < max && root[num].Key != 0) {
+    ++num;
+  }
+  return num;
+}
+
+CO_DICT_FAULT fault_of(const CO_OBJ& entry, uint32_t key_before) {
+  if (CO_GET_IDX(entry.Key) == 0) {
+    return CO_DICT_RESERVED_INDEX;
+  }
+  if (CO_GET_DEV(entry.Key) <= CO_GET_DEV(key_before)) {
+    return CO_DICT_NOT_ASCENDING;
+  }
+  return entry.Type == nullptr ? CO_DICT_NO_TYPE : CO_DICT_OK;
+}
+
+CO_ERR check(CO_DICT& dict) {
+  uint32_t key_before = 0;
+  for (uint16_t n = 0; n < dict.Num; ++n) {
+    const CO_OBJ& entry = dict.Root[n];
+    dict.Fault = fault_of(entry, key_before);
+    if (dict.Fault != CO_DICT_OK) {
+      dict.FaultKey = entry.Key;
+      return CO_ERR_DICT_INIT;
+    }
+    key_before = entry.Key;
+  }
+  return CO_ERR_NONE;
+}
+
+// The table is searched as two halves that overlap, each of the largest power of two that fits.
+void prepare_search(CO_DICT& dict) {
+  uint32_t half = 1;
+  while (half * 2 <= dict.Num) {
+    half *= 2;
+    ++dict.Steps;
+  }
+  dict.Split = dict.Root + (dict.Num - half);
+  dict.Last = dict.Root + (dict.Num - 1);
+  dict.Next = dict.Root;
+}
+
+CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
+              CO_ERR (*run)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
+  if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  CO_OBJ* const found = find(*dict, key);
+  if (found == nullptr) {
+    return CO_ERR_OBJ_NOT_FOUND;
+  }
+  if (obj::size(*found, *dict->Node, width) != width) {
+    return CO_ERR_OBJ_SIZE;
+  }
+  return run(*found, *dict->Node, value, width);
+}
+
+}  // namespace
+
+CO_OBJ* find(CO_DICT& dict, uint32_t key) {
+  CO_OBJ* found = dict.Next;
+  if (found == nullptr) {  // an empty table
+    return nullptr;
+  }
+  key = CO_GET_DEV(key);
+  if (!is_same(found->Key, key)) {
+    found = last_not_behind(dict, key);
+    if (!is_same(found->Key, key)) {
+      return nullptr;
+    }
+  }
+  dict.Next = found == dict.Last ? dict.Root : found + 1;
+  return found;
+}
+
+bool has_index(const CO_DICT& dict, uint32_t key) {
+  return dict.Num != 0 && CO_GET_IDX(last_not_behind(dict, key | 0xFF00U)->Key) == CO_GET_IDX(key);
+}
+
+CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
+  return access(&dict, key, &value, sizeof value, obj::read);
+}
+
+CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value) {
+  return access(&dict, key, &value, sizeof value, obj::read);
+}
+
+}  // namespace co::dict
+
+using namespace co;
+
+namespace {
+
+CO_OBJ* find_entry(CO_DICT* cod, uint32_t key) { return cod == nullptr ? nullptr : dict::find(*cod, key); }
+
+}  // namespace
+
+extern "C" {
+
+CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
+  if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
+    return CO_ERR_BAD_ARG;
+  }
+  *cod = {};
+  cod->Node = node;
+  cod->Root = root;
+  cod->Max = max;
+  cod->Num = dict::count_entries(root, max);
+  const CO_ERR err = dict::check(*cod);
+  if (err != CO_ERR_NONE) {
+    cod->Num = 0;
+  }
+  if (cod->Num != 0) {
+    dict::prepare_search(*cod);
+  }
+  return err;
+}
+
+CO_ERR CODictObjInit(CO_DICT* cod, CO_NODE_T* node) {
+  if (cod == nullptr || node == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  CO_ERR result = CO_ERR_NONE;
+  for (uint16_t n = 0; n < cod->Num; ++n) {
+    const CO_ERR err = COObjInit(&cod->Root[n], node);
+    result = err != CO_ERR_NONE ? err : result;
+  }
+  return result;
+}
+
+CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
+  if (cod == nullptr) {
+    return CO_DICT_OK;
+  }
+  if (key != nullptr) {
+    *key = cod->FaultKey;
+  }
+  return static_cast<CO_DICT_FAULT>(cod->Fault);
+}
+
+CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key) { return find_entry(cod, key); }
+
+CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val) {
+  return dict::access(cod, key, val, sizeof *val, obj::read);
+}
+
+CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val) {
+  return dict::access(cod, key, val, sizeof *val, obj::read);
+}
+
+CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val) {
+  return dict::access(cod, key, val, sizeof *val, obj::read);
+}
+
+CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val) {
+  return dict::access(cod, key, &val, sizeof val, obj::write);
+}
+
+CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val) {
+  return dict::access(cod, key, &val, sizeof val, obj::write);
+}
+
+CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val) {
+  return dict::access(cod, key, &val, sizeof val, obj::write);
+}
+
+CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {
+  if (cod == nullptr || buf == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  CO_OBJ* const found = find_entry(cod, key);
+  return found == nullptr ? CO_ERR_OBJ_NOT_FOUND : COObjRdBufStart(found, cod->Node, buf, len);
+}
+
+CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {
+  if (cod == nullptr || buf == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  CO_OBJ* const found = find_entry(cod, key);
+  return found == nullptr ? CO_ERR_OBJ_NOT_FOUND : COObjWrBufStart(found, cod->Node, buf, len);
+}
+
+}  // extern "C"

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What services tell the rest of the node. They do not know one another: the table of node/services.cpp passes it on.
+#pragma once
+
+#include "co_core.h"
+
+namespace co::event {
+
+// Changes the NMT state: the application's callback, the permissions, then every service.
+void change_mode(CO_NODE& node, CO_MODE mode);
+
+// Things that wait until the frame being processed has been answered (CO_NODE.Pending); done at once if none is.
+enum Pending : uint8_t {
+  reset_node = 0x01,
+  reset_communication = 0x02,
+  commanded = 0x04,  // the reset was commanded by the NMT master
+  configure_sdo = 0x08,
+};
+void defer(CO_NODE& node, uint8_t what);
+
+}  // namespace co::event

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/obj.hpp"
+
+namespace co::obj {
+
+uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width) {
+  return obj.Type->Size == nullptr ? 0 : obj.Type->Size(&obj, &node, width);
+}
+
+CO_ERR read(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  return obj.Type->Read == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Read(&obj, &node, buffer, size);
+}
+
+CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
+}
+
+CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
+  return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
+}
+
+}  // namespace co::obj
+
+using namespace co;
+
+namespace {
+
+bool is_complete(const CO_OBJ* obj, const CO_NODE_T* node) {
+  return obj != nullptr && obj->Type != nullptr && node != nullptr;
+}
+
+}  // namespace
+
+extern "C" {
+
+uint32_t COObjGetSize(CO_OBJ* obj, CO_NODE_T* node, uint32_t width) {
+  return is_complete(obj, node) ? obj::size(*obj, *node, width) : 0;
+}
+
+CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
+  if (!is_complete(obj, node)) {
+    return CO_ERR_BAD_ARG;
+  }
+  return obj->Type->Init == nullptr ? CO_ERR_NONE : obj->Type->Init(obj, node);
+}
+
+CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
+  return is_complete(obj, node) ? obj::seek(*obj, *node, para) : CO_ERR_BAD_ARG;
+}
+
+CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
+  return is_complete(obj, node) && buffer != nullptr ? obj::read(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+}
+
+CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
+  return is_complete(obj, node) && buffer != nullptr ? obj::write(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+}
+
+CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {
+  return COObjRdBufCont(obj, node, static_cast<uint8_t*>(value), width);
+}
+
+CO_ERR COObjWrValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {
+  return COObjWrBufCont(obj, node, static_cast<uint8_t*>(value), width);
+}
+
+CO_ERR COObjRdBufStart(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
+  const CO_ERR err = COObjReset(obj, node, 0);
+  return err != CO_ERR_NONE ? err : COObjRdBufCont(obj, node, buffer, size);
+}
+
+CO_ERR COObjWrBufStart(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
+  const CO_ERR err = COObjReset(obj, node, 0);
+  return err != CO_ERR_NONE ? err : COObjWrBufCont(obj, node, buffer, size);
+}
+
+}  // extern "C"

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Access to one entry through its type.
+#pragma once
+
+#include "co_obj.h"
+
+namespace co::obj {
+
+// A stream of bytes has a position that Reset() sets; anything else is a value.
+[[nodiscard]] inline bool is_stream(const CO_OBJ& obj) { return obj.Type->Reset != nullptr; }
+
+[[nodiscard]] uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width);
+[[nodiscard]] CO_ERR read(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
+[[nodiscard]] CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
+[[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position);
+
+}  // namespace co::obj

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/port.hpp"
+
+#include "core/transmit.hpp"
+
+namespace co::port {
+
+const CO_NODE_EXT no_extension = {sizeof(CO_NODE_EXT),
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  0,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr};
+
+void init(CO_NODE& node) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  if (ext.Nvm != nullptr) {
+    ext.Nvm->Init(ext.NvmCtx);
+  } else if (node.If.Drv != nullptr && node.If.Drv->Nvm != nullptr) {
+    node.If.Drv->Nvm->Init();
+  }
+  if (ext.Timer != nullptr) {
+    ext.Timer->Init(ext.TimerCtx, node.Tmr.Freq);
+  } else {
+    node.If.Drv->Timer->Init(node.Tmr.Freq);
+  }
+  can_init(node);
+}
+
+void lock(CO_NODE& node) {
+  if (node.Ext->Lock != nullptr) {
+    node.Ext->Lock(node.Ext->User);
+  } else {
+    COTmrLock();
+  }
+}
+
+void unlock(CO_NODE& node) {
+  if (node.Ext->Unlock != nullptr) {
+    node.Ext->Unlock(node.Ext->User);
+  } else {
+    COTmrUnlock();
+  }
+}
+
+void alarm(const CO_NODE& node, uint32_t ticks) {
+  if (has_clock(node)) {
+    if (node.Ext->Timer->Alarm != nullptr) {
+      node.Ext->Timer->Alarm(node.Ext->TimerCtx, ticks);
+    }
+    return;
+  }
+  const CO_IF_TIMER_DRV& driver = *node.If.Drv->Timer;
+  if (ticks == 0) {
+    driver.Stop();
+    return;
+  }
+  driver.Reload(ticks);
+  driver.Start();
+}
+
+void can_init(const CO_NODE& node) {
+  node.Ext->Can != nullptr ? node.Ext->Can->Init(node.Ext->CanCtx) : node.If.Drv->Can->Init();
+}
+
+void can_enable(const CO_NODE& node, uint32_t baud) {
+  node.Ext->Can != nullptr ? node.Ext->Can->Enable(node.Ext->CanCtx, baud) : node.If.Drv->Can->Enable(baud);
+}
+
+void can_reset(const CO_NODE& node) {
+  node.Ext->Can != nullptr ? node.Ext->Can->Reset(node.Ext->CanCtx) : node.If.Drv->Can->Reset();
+}
+
+void can_close(const CO_NODE& node) {
+  node.Ext->Can != nullptr ? node.Ext->Can->Close(node.Ext->CanCtx) : node.If.Drv->Can->Close();
+}
+
+bool can_wants_filter(const CO_NODE& node) { return node.Ext->Can != nullptr && node.Ext->Can->Filter != nullptr; }
+
+void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num) {
+  node.Ext->Can->Filter(node.Ext->CanCtx, ids, num);
+}
+
+int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
+  const int16_t result =
+      node.Ext->Can != nullptr ? node.Ext->Can->Read(node.Ext->CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
+  if (result < 0) {
+    node.Error = CO_ERR_IF_CAN_READ;
+  }
+  return result;
+}
+
+bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
+  int16_t result = 0;
+  if (node.Ext->Can != nullptr) {
+    result = node.Ext->Can->Send(node.Ext->CanCtx, &frame);
+  } else {
+    CO_IF_FRM copy = frame;  // drivers without context may change the frame
+    result = node.If.Drv->Can->Send(&copy);
+  }
+  if (result < 0) {
+    node.Error = CO_ERR_IF_CAN_SEND;
+  }
+  return result > 0;
+}
+
+uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size) {
+  if (node.Ext->Nvm != nullptr) {
+    return node.Ext->Nvm->Read(node.Ext->NvmCtx, start, buffer, size);
+  }
+  const CO_IF_DRV* const drivers = node.If.Drv;
+  return drivers == nullptr || drivers->Nvm == nullptr ? 0 : drivers->Nvm->Read(start, buffer, size);
+}
+
+uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size) {
+  if (node.Ext->Nvm != nullptr) {
+    return node.Ext->Nvm->Write(node.Ext->NvmCtx, start, buffer, size);
+  }
+  const CO_IF_DRV* const drivers = node.If.Drv;
+  return drivers == nullptr || drivers->Nvm == nullptr ? 0 : drivers->Nvm->Write(start, buffer, size);
+}
+
+}  // namespace co::port
+
+using namespace co;
+
+extern "C" {
+
+void COIfInit(CO_IF* cif, CO_NODE* node, uint32_t freq) {
+  ASSERT_PTR_FATAL(cif);
+  ASSERT_PTR_FATAL(node);
+  cif->Node = node;
+  node->Tmr.Freq = freq;
+  port::init(*node);
+}
+
+void COIfCanInit(CO_IF* cif, CO_NODE* node) {
+  ASSERT_PTR_FATAL(cif);
+  ASSERT_PTR_FATAL(node);
+  cif->Node = node;
+  port::can_init(*node);
+}
+
+void COIfCanEnable(CO_IF* cif, uint32_t baud) {
+  ASSERT_PTR_FATAL(cif);
+  ASSERT_PTR_FATAL(cif->Node);
+  if (baud != 0) {
+    cif->Node->Baudrate = baud;
+  }
+  port::can_enable(*cif->Node, cif->Node->Baudrate);
+}
+
+int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm) {
+  ASSERT_PTR_ERR(cif, -1);
+  ASSERT_PTR_ERR(cif->Node, -1);
+  ASSERT_PTR_ERR(frm, -1);
+  return port::can_read(*cif->Node, *frm);
+}
+
+int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
+  ASSERT_PTR_ERR(cif, -1);
+  ASSERT_PTR_ERR(cif->Node, -1);
+  ASSERT_PTR_ERR(frm, -1);
+  return transmit::send(*cif->Node, *frm) ? static_cast<int16_t>(sizeof(CO_IF_FRM)) : static_cast<int16_t>(0);
+}
+
+void COIfCanReset(CO_IF* cif) {
+  ASSERT_PTR_FATAL(cif);
+  ASSERT_PTR_FATAL(cif->Node);
+  port::can_reset(*cif->Node);
+}
+
+void COIfCanClose(CO_IF* cif) {
+  ASSERT_PTR_FATAL(cif);
+  ASSERT_PTR_FATAL(cif->Node);
+  port::can_close(*cif->Node);
+}
+
+uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size) {
+  ASSERT_PTR_ERR(cif, 0);
+  ASSERT_PTR_ERR(cif->Node, 0);
+  ASSERT_PTR_ERR(buffer, 0);
+  return port::nvm_read(*cif->Node, start, buffer, size);
+}
+
+uint32_t COIfNvmWrite(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size) {
+  ASSERT_PTR_ERR(cif, 0);
+  ASSERT_PTR_ERR(cif->Node, 0);
+  ASSERT_PTR_ERR(buffer, 0);
+  return port::nvm_write(*cif->Node, start, buffer, size);
+}
+
+}  // extern "C"

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only caller of drivers and lock hooks. Every driver comes in two forms: with a context (CO_NODE_EXT) or without.
+#pragma once
+
+#include "co_core.h"
+
+namespace co::port {
+
+// The extension of a node that has none.
+extern const CO_NODE_EXT no_extension;
+
+void init(CO_NODE& node);
+
+void lock(CO_NODE& node);
+void unlock(CO_NODE& node);
+
+// Timer drivers with a context have a clock; the others count down and tell what is left.
+[[nodiscard]] inline bool has_clock(const CO_NODE& node) { return node.Ext->Timer != nullptr; }
+[[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }
+[[nodiscard]] inline uint32_t ticks_left(const CO_NODE& node) { return node.If.Drv->Timer->Delay(); }
+[[nodiscard]] inline bool has_elapsed(const CO_NODE& node) { return node.If.Drv->Timer->Update() != 0; }
+void alarm(const CO_NODE& node, uint32_t ticks);  // 0: never
+
+void can_init(const CO_NODE& node);
+void can_enable(const CO_NODE& node, uint32_t baud);
+void can_reset(const CO_NODE& node);
+void can_close(const CO_NODE& node);
+void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
+[[nodiscard]] bool can_wants_filter(const CO_NODE& node);
+
+// As the driver: sizeof(CO_IF_FRM), 0, < 0. A negative result sets the node's error.
+[[nodiscard]] int16_t can_read(CO_NODE& node, CO_IF_FRM& frame);
+[[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
+
+[[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
+[[nodiscard]] uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
+
+// May a basic type store a value there?
+[[nodiscard]] inline bool is_writable(const CO_NODE& node, const void* address, uint32_t size) {
+  return node.Ext->Writable == nullptr || node.Ext->Writable(node.Ext->User, address, size);
+}
+
+}  // namespace co::port

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Head and Tail count modulo twice the size, so that full and empty differ without a spare place.
+#include "co_ring.h"
+
+namespace {
+
+uint16_t load(const uint16_t& position) { return __atomic_load_n(&position, __ATOMIC_ACQUIRE); }
+
+void store(uint16_t& position, uint16_t value) { __atomic_store_n(&position, value, __ATOMIC_RELEASE); }
+
+uint16_t used(const CO_RING& ring, uint16_t head, uint16_t tail) {
+  return static_cast<uint16_t>(head >= tail ? head - tail : head + 2 * ring.Size - tail);
+}
+
+uint16_t next(const CO_RING& ring, uint16_t position) {
+  return static_cast<uint16_t>(position + 1 == 2 * ring.Size ? 0 : position + 1);
+}
+
+CO_IF_FRM& frame_at(const CO_RING& ring, uint16_t position) {
+  return ring.Mem[position < ring.Size ? position : position - ring.Size];
+}
+
+}  // namespace
+
+extern "C" {
+
+bool CORingInit(CO_RING* ring, CO_IF_FRM* mem, uint16_t size) {
+  if (ring == nullptr) {
+    return false;
+  }
+  const bool usable = mem != nullptr && size != 0 && size <= INT16_MAX;
+  *ring = {mem, static_cast<uint16_t>(usable ? size : 0), 0, 0, 0};
+  return usable;
+}
+
+bool CORingPut(CO_RING* ring, const CO_IF_FRM* frame) {
+  if (ring == nullptr || frame == nullptr) {
+    return false;
+  }
+  if (used(*ring, ring->Head, load(ring->Tail)) == ring->Size) {
+    if (ring->Lost != UINT16_MAX) {
+      store(ring->Lost, static_cast<uint16_t>(ring->Lost + 1));
+    }
+    return false;
+  }
+  frame_at(*ring, ring->Head) = *frame;
+  store(ring->Head, next(*ring, ring->Head));
+  return true;
+}
+
+bool CORingGet(CO_RING* ring, CO_IF_FRM* frame) {
+  if (ring == nullptr || frame == nullptr || load(ring->Head) == ring->Tail) {
+    return false;
+  }
+  *frame = frame_at(*ring, ring->Tail);
+  store(ring->Tail, next(*ring, ring->Tail));
+  return true;
+}
+
+uint16_t CORingCount(const CO_RING* ring) {
+  return ring == nullptr ? static_cast<uint16_t>(0) : used(*ring, load(ring->Head), load(ring->Tail));
+}
+
+uint16_t CORingLost(const CO_RING* ring) { return ring == nullptr ? static_cast<uint16_t>(0) : load(ring->Lost); }
+
+}  // extern "C"

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Timers. Armed ones wait in a list ordered by time, each with the ticks after the one before it; elapsed ones wait in
+// the order of their expiry, each with the clock of that moment, from which a cyclic one is armed again: its phase
+// does not depend on when it is run.
+#pragma once
+
+#include "co_tmr.h"
+
+namespace co::tmr {
+
+// ms as ticks, rounded up; 0 if 0 or beyond 32 bits.
+[[nodiscard]] uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit);
+
+// Starts a timer that is part of its owner; one that runs is started anew. start and cycle as in COTmrCreate(), not
+// both 0.
+void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
+
+// Stops a timer that is part of its owner; a stopped one stays stopped.
+void stop(CO_TMR& timers, CO_TMR_MEM& timer);
+
+[[nodiscard]] bool is_running(const CO_TMR_MEM& timer);
+
+// Ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: none.
+[[nodiscard]] uint32_t next_deadline(CO_TMR& timers);
+
+}  // namespace co::tmr

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/transmit.hpp"
+
+#include "core/count.hpp"
+#include "core/port.hpp"
+
+namespace co::transmit {
+namespace {
+
+// Arbitration: compares identifiers as they appear on the bus, 11-bit before 29-bit identifiers of the same base.
+uint32_t rank(const CO_IF_FRM& frame) {
+  const uint32_t id = frame.Identifier & CO_IF_FRM_ID;
+  const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;
+  return extended ? (id << 1) | 1U : id << 19;
+}
+
+bool try_send(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!port::can_send(node, frame)) {
+    return false;
+  }
+  count(node.Count.Sent);
+  return true;
+}
+
+uint16_t first_free_place(const CO_TX_QUEUE& queue) { return queue.BootUp; }
+
+void insert(CO_TX_QUEUE& queue, const CO_IF_FRM& frame) {
+  uint16_t place = queue.Num;
+  while (place > first_free_place(queue) && rank(queue.Frame[place - 1]) > rank(frame)) {
+    queue.Frame[place] = queue.Frame[place - 1];
+    --place;
+  }
+  queue.Frame[place] = frame;
+  ++queue.Num;
+}
+
+void remove_first(CO_TX_QUEUE& queue) {
+  --queue.Num;
+  for (uint16_t n = 0; n < queue.Num; ++n) {
+    queue.Frame[n] = queue.Frame[n + 1];
+  }
+  queue.BootUp = 0;
+}
+
+bool enqueue(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (node.TxQueue.Num == node.TxQueue.Len) {
+    count(node.Count.Dropped);
+    return false;
+  }
+  insert(node.TxQueue, frame);
+  return true;
+}
+
+CO_IF_FRM* find_waiting(CO_TX_QUEUE& queue, uint32_t identifier) {
+  for (uint16_t n = first_free_place(queue); n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      return &queue.Frame[n];
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  const bool own = ext.TxQueue == nullptr || ext.TxQueueLen == 0;
+  node.TxQueue = {own ? node.TxFrame : ext.TxQueue, own ? static_cast<uint16_t>(CO_TX_QUEUE_N) : ext.TxQueueLen, 0, 0};
+}
+
+bool send(CO_NODE& node, const CO_IF_FRM& frame) {
+  flush(node);
+  return (!is_waiting(node) && try_send(node, frame)) || enqueue(node, frame);
+}
+
+void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (try_send(node, frame)) {
+    return;
+  }
+  CO_TX_QUEUE& queue = node.TxQueue;
+  if (queue.Num == queue.Len) {
+    --queue.Num;
+    count(node.Count.Dropped);
+  }
+  for (uint16_t place = queue.Num; place > 0; --place) {
+    queue.Frame[place] = queue.Frame[place - 1];
+  }
+  queue.Frame[0] = frame;
+  ++queue.Num;
+  queue.BootUp = 1;
+}
+
+void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
+  flush(node);
+  CO_IF_FRM* const waiting = find_waiting(node.TxQueue, frame.Identifier);
+  if (waiting != nullptr) {
+    *waiting = frame;
+  } else {
+    send(node, frame);
+  }
+}
+
+void flush(CO_NODE& node) {
+  while (is_waiting(node) && try_send(node, node.TxQueue.Frame[0])) {
+    remove_first(node.TxQueue);
+  }
+}
+
+void clear(CO_NODE& node) {
+  for (; node.TxQueue.Num != 0; --node.TxQueue.Num) {
+    count(node.Count.Dropped);
+  }
+  node.TxQueue.BootUp = 0;
+}
+
+}  // namespace co::transmit

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sending. What the controller does not take waits in a queue in the order of the priorities on the bus, frames of one
+// identifier in the order in which they were sent. The boot-up message is overtaken by nothing. [301:7.3.2.2.1]
+#pragma once
+
+#include "co_core.h"
+
+namespace co::transmit {
+
+void init(CO_NODE& node);
+
+// False: the queue is full, the frame is lost and counted.
+bool send(CO_NODE& node, const CO_IF_FRM& frame);
+
+// Sends the boot-up message, which everything else waits for.
+void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
+
+// Sends the state of something that is sent again and again: a frame of the same identifier that still waits is
+// replaced, except the boot-up message.
+void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
+
+// Offers the frames that wait to the driver.
+void flush(CO_NODE& node);
+
+// Throws away what waits; counted as dropped.
+void clear(CO_NODE& node);
+
+[[nodiscard]] inline bool is_waiting(const CO_NODE& node) { return node.TxQueue.Num != 0; }
+
+}  // namespace co::transmit

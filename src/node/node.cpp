@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_core.h"
+#include "core/count.hpp"
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "core/port.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "node/services.hpp"
+#include "service/nmt/nmt.hpp"
+#include "service/sdo_server/sdo_server.hpp"
+#include "wire/can_error.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co::node {
+namespace {
+
+// Objects that every device has. [301:7.5.1] Without them the node runs, and says so.
+void check_mandatory_objects(CO_NODE& node) {
+  if (dict::find(node.Dict, CO_DEV(0x1001, 0)) == nullptr) {
+    node.Error = CO_ERR_CFG_1001_0;
+  }
+  if (dict::find(node.Dict, CO_DEV(0x1018, 1)) == nullptr) {
+    node.Error = CO_ERR_CFG_1018;
+  }
+}
+
+// The part of the initialisation that every NMT reset runs, too.
+void initialise(CO_NODE& node) {
+  event::change_mode(node, CO_INIT);
+  transmit::clear(node);
+  routes::clear(node);
+  if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
+    node.Error = CO_ERR_OBJ_INIT;
+  }
+  services::init(node);
+  routes::publish(node);
+}
+
+void reset(CO_NODE& node) {
+  const bool waits_for_start = node.Nmt.Mode == CO_INIT;
+  if (node.Nmt.Mode == CO_INVALID) {
+    return;
+  }
+  event::change_mode(node, CO_INIT);
+  port::can_reset(node);
+  initialise(node);
+  if (!waits_for_start) {
+    nmt::boot(node);
+  }
+}
+
+// Does what has waited for the end of a frame.
+void settle(CO_NODE& node) {
+  while (node.Pending != 0) {
+    const uint8_t pending = node.Pending;
+    node.Pending = 0;
+    if ((pending & (event::reset_node | event::reset_communication)) == 0) {
+      sdo_server::configure(node);
+      routes::publish(node);
+      continue;
+    }
+    reset(node);
+    if ((pending & event::commanded) != 0) {
+      CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
+    }
+  }
+}
+
+bool has_drivers(const CO_NODE& node) {
+  const CO_IF_DRV* const plain = node.If.Drv;
+  const bool can = node.Ext->Can != nullptr || (plain != nullptr && plain->Can != nullptr);
+  const bool timer = node.Ext->Timer != nullptr || (plain != nullptr && plain->Timer != nullptr);
+  return can && timer;
+}
+
+bool is_usable(const CO_NODE& node) {
+  return node.NodeId >= 1 && node.NodeId <= 127 && node.Ext->Size >= sizeof(CO_NODE_EXT) && has_drivers(node);
+}
+
+void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) {
+  node = {};
+  node.Ext = &ext;
+  node.NodeId = spec.NodeId;
+  node.Baudrate = spec.Baudrate;
+  node.SdoBuf = spec.SdoBuf;
+  node.If = {&node, spec.Drv};
+  node.Nmt.Node = &node;
+}
+
+void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
+  if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
+    CONodeCanEvent(&node, wire::can_event(frame));
+    return;
+  }
+  frame.Identifier = wire::normalised(frame.Identifier);
+  frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
+  if (services::dispatch(node, frame)) {
+    return;
+  }
+  count(node.Count.Unclaimed);
+  if ((node.Nmt.Allowed & CO_NMT_ALLOWED) != 0) {
+    COIfCanReceive(&frame);
+  }
+}
+
+}  // namespace
+}  // namespace co::node
+
+namespace co {
+
+void event::defer(CO_NODE& node, uint8_t what) {
+  node.Pending = static_cast<uint8_t>(node.Pending | what);
+  if (node.Busy == 0) {
+    node::settle(node);
+  }
+}
+
+}  // namespace co
+
+using namespace co;
+
+extern "C" {
+
+void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) { CONodeInitEx(node, spec, nullptr); }
+
+void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) {
+  ASSERT_PTR_FATAL(node);
+  ASSERT_PTR_FATAL(spec);
+  node::take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
+  const bool usable = node::is_usable(*node);
+  if (usable) {
+    node->Tmr.Freq = spec->TmrFreq;
+    port::init(*node);
+  }
+  COTmrInit(&node->Tmr, node, spec->TmrMem, usable ? spec->TmrNum : static_cast<uint16_t>(0), spec->TmrFreq);
+  transmit::init(*node);
+  if (!usable) {
+    node->Error = CO_ERR_BAD_ARG;
+    return;
+  }
+  if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) != CO_ERR_NONE) {
+    node->Error = CO_ERR_DICT_INIT;
+    return;
+  }
+  node::initialise(*node);
+  node::check_mandatory_objects(*node);
+  port::can_enable(*node, node->Baudrate);
+}
+
+void CONodeStart(CO_NODE* node) {
+  ASSERT_PTR_FATAL(node);
+  if (node->Nmt.Mode == CO_INIT) {
+    nmt::boot(*node);
+  }
+}
+
+void CONodeStop(CO_NODE* node) {
+  ASSERT_PTR_FATAL(node);
+  if (node->Nmt.Mode == CO_INVALID) {
+    return;
+  }
+  event::change_mode(*node, CO_INVALID);
+  transmit::clear(*node);
+  port::can_close(*node);
+}
+
+CO_ERR CONodeGetErr(CO_NODE* node) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  const CO_ERR err = node->Error;
+  node->Error = CO_ERR_NONE;
+  return err;
+}
+
+void CONodeProcess(CO_NODE* node) {
+  ASSERT_PTR_FATAL(node);
+  if (node->Nmt.Mode == CO_INVALID || node->Busy != 0) {
+    return;
+  }
+  transmit::flush(*node);
+  CO_IF_FRM frame = {};
+  if (port::can_read(*node, frame) <= 0) {
+    return;
+  }
+  count(node->Count.Received);
+  node->Busy = 1;
+  node::dispatch(*node, frame);
+  node->Busy = 0;
+  node::settle(*node);
+}
+
+uint32_t CONodeNextDeadline(CO_NODE* node) {
+  ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
+  const uint32_t timers = tmr::next_deadline(node->Tmr);
+  const uint32_t retry = tmr::ticks(node->Tmr, 1, CO_TMR_UNIT_1MS);
+  return transmit::is_waiting(*node) && retry < timers ? retry : timers;
+}
+
+void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
+  ASSERT_PTR_FATAL(node);
+  if (event < CO_CAN_EVENT_NUM) {
+    count(node->Count.CanEvents[event]);
+    CONodeCanChange(node, event);
+  }
+}
+
+CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr ? CO_NODE_COUNTERS{} : node->Count; }
+
+void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
+
+}  // extern "C"

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/services.hpp"
+
+#include "core/events.hpp"
+#include "core/routes.hpp"
+#include "service/heartbeat/heartbeat.hpp"
+#include "service/nmt/nmt.hpp"
+#include "service/sdo_server/sdo_server.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co {
+namespace {
+
+constexpr Service table[] = {
+    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr},
+    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode},
+    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode},
+};
+
+static_assert(table[nmt::service].init == nmt::init && table[sdo_server::service].init == sdo_server::init);
+
+}  // namespace
+
+namespace services {
+
+void init(CO_NODE& node) {
+  for (const Service& service : table) {
+    if (service.init != nullptr) {
+      service.init(node);
+    }
+  }
+}
+
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
+  bool claimed = false;
+  const routes::Range range = routes::candidates(node, frame.Identifier);
+  for (uint16_t n = range.first; n < range.last; ++n) {
+    const uint16_t owner = node.Routes.Owner[n];
+    const Service& service = table[routes::service_of(owner)];
+    if (node.Routes.Id[n] == frame.Identifier && (service.allowed & node.Nmt.Allowed) != 0) {
+      service.on_frame(node, frame, routes::number_of(owner));
+      claimed = true;
+    }
+  }
+  return claimed;
+}
+
+}  // namespace services
+
+void event::change_mode(CO_NODE& node, CO_MODE mode) {
+  if (node.Nmt.Mode == mode) {
+    return;
+  }
+  CONmtModeChange(&node.Nmt, mode);
+  node.Nmt.Mode = mode;
+  node.Nmt.Allowed = nmt::allowed_in(mode);
+  for (const Service& service : table) {
+    if (service.on_mode != nullptr) {
+      service.on_mode(node);
+    }
+  }
+}
+
+}  // namespace co

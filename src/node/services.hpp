@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The services of the node, a row each. A service that is switched off is a row less.
+#pragma once
+
+#include "co_core.h"
+
+namespace co {
+
+struct Service {
+  uint8_t allowed;  // CO_…_ALLOWED bit that its frames need
+  void (*init)(CO_NODE& node);
+  void (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+  void (*on_mode)(CO_NODE& node);
+};
+
+namespace services {
+
+void init(CO_NODE& node);
+
+// Gives a frame to the services whose route it has. False: none wants it, or may have it.
+[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
+
+}  // namespace services
+}  // namespace co

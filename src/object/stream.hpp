@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What domains and strings share: memory with a position.
+#pragma once
+
+#include "co_obj.h"
+#include "object/place.hpp"
+
+namespace co::stream {
+
+// Bytes from one place to another, any alignment.
+inline void copy(uint8_t* to, const uint8_t* from, uint32_t n) {
+  if (n != 0) {
+    __builtin_memcpy(to, from, n);
+  }
+}
+
+// The bytes of an access of n at position that lie within size.
+constexpr uint32_t clip(uint32_t n, uint32_t position, uint32_t size) {
+  const uint32_t left = position < size ? size - position : 0;
+  return n < left ? n : left;
+}
+
+// Init function: position 0.
+CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
+
+// Sets the position. Every structure of a stream begins with it.
+CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
+
+}  // namespace co::stream

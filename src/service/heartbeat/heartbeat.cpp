@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/heartbeat/heartbeat.hpp"
+
+#include "core/dict.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "wire/nmt.hpp"
+
+namespace co::heartbeat {
+namespace {
+
+bool is_allowed(const CO_NODE& node) { return (node.Nmt.Allowed & CO_NMT_ALLOWED) != 0; }
+
+void send(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  transmit::send_latest(node, wire::error_control(node.NodeId, node.Nmt.Mode));
+}
+
+uint32_t period(const CO_NODE& node, uint16_t ms) { return tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS); }
+
+void restart(CO_NODE& node, uint32_t ticks) {
+  if (ticks == 0) {
+    tmr::stop(node.Tmr, node.HbProdTmr);
+  } else {
+    tmr::start(node.Tmr, node.HbProdTmr, 0, ticks, send, &node);
+  }
+}
+
+// 1017h, producer heartbeat time. [301:7.5.2.20] The value itself is kept by the basic type.
+
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
+
+CO_ERR init(CO_OBJ* obj, CO_NODE*) {
+  return CO_GET_DEV(obj->Key) == CO_DEV(0x1017, 0) ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+}
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return CO_TUNSIGNED16->Read(obj, node, buffer, size);
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  uint16_t ms = 0;
+  if (size != sizeof ms) {
+    return CO_ERR_BAD_ARG;
+  }
+  __builtin_memcpy(&ms, buffer, sizeof ms);
+  const uint32_t ticks = period(*node, ms);
+  if (ms != 0 && ticks == 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  const CO_ERR err = CO_TUNSIGNED16->Write(obj, node, buffer, size);
+  if (err == CO_ERR_NONE && is_allowed(*node)) {
+    restart(*node, ticks);
+  }
+  return err;
+}
+
+}  // namespace
+
+// Runs from the boot-up message on, which counts as the first heartbeat, through all states.
+void on_mode(CO_NODE& node) {
+  if (!is_allowed(node)) {
+    tmr::stop(node.Tmr, node.HbProdTmr);
+    return;
+  }
+  uint16_t ms = 0;
+  if (!tmr::is_running(node.HbProdTmr) && dict::read_u16(node.Dict, CO_DEV(0x1017, 0), ms) == CO_ERR_NONE) {
+    restart(node, period(node, ms));
+  }
+}
+
+}  // namespace co::heartbeat
+
+extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::heartbeat::size, co::heartbeat::init, co::heartbeat::read,
+                                             co::heartbeat::write, nullptr};

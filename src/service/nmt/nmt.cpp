@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/nmt/nmt.hpp"
+
+#include "core/count.hpp"
+#include "core/events.hpp"
+#include "core/machine.hpp"
+#include "core/routes.hpp"
+#include "core/transmit.hpp"
+#include "wire/nmt.hpp"
+
+namespace co::nmt {
+namespace {
+
+constexpr uint8_t error_control = CO_NMT_ALLOWED;
+constexpr uint8_t configured = CO_NMT_ALLOWED | CO_SDO_ALLOWED | CO_SYNC_ALLOWED | CO_TIME_ALLOWED | CO_EMCY_ALLOWED;
+constexpr uint8_t permissions[CO_MODE_NUM] = {
+    0,                            // CO_INVALID
+    CO_BOOT_ALLOWED,              // CO_INIT
+    configured,                   // CO_PREOP
+    configured | CO_PDO_ALLOWED,  // CO_OPERATIONAL
+    error_control,                // CO_STOP
+};
+
+enum class Event : uint8_t { start, stop, enter_pre_operational, reset_node, reset_communication, count };
+
+// Commands that are none are Event::count.
+constexpr Event event_of(uint8_t command) {
+  switch (static_cast<wire::NmtCommand>(command)) {
+    case wire::NmtCommand::start: return Event::start;
+    case wire::NmtCommand::stop: return Event::stop;
+    case wire::NmtCommand::enter_pre_operational: return Event::enter_pre_operational;
+    case wire::NmtCommand::reset_node: return Event::reset_node;
+    case wire::NmtCommand::reset_communication: return Event::reset_communication;
+    default: return Event::count;
+  }
+}
+
+template <CO_MODE mode>
+void enter(CO_NODE& node) {
+  event::change_mode(node, mode);
+}
+
+template <uint8_t kind>
+void reset(CO_NODE& node) {
+  event::defer(node, kind | event::commanded);
+}
+
+void stay(CO_NODE&) {}
+
+using Service = void (*)(CO_NODE&);
+using NmtRow = Row<CO_MODE, Event, Service>;
+
+// [301:7.3.2.1 figure 46]
+constexpr NmtRow rows[] = {
+    {CO_PREOP, Event::start, enter<CO_OPERATIONAL>},
+    {CO_PREOP, Event::stop, enter<CO_STOP>},
+    {CO_PREOP, Event::reset_node, reset<event::reset_node>},
+    {CO_PREOP, Event::reset_communication, reset<event::reset_communication>},
+
+    {CO_OPERATIONAL, Event::stop, enter<CO_STOP>},
+    {CO_OPERATIONAL, Event::enter_pre_operational, enter<CO_PREOP>},
+    {CO_OPERATIONAL, Event::reset_node, reset<event::reset_node>},
+    {CO_OPERATIONAL, Event::reset_communication, reset<event::reset_communication>},
+
+    {CO_STOP, Event::start, enter<CO_OPERATIONAL>},
+    {CO_STOP, Event::enter_pre_operational, enter<CO_PREOP>},
+    {CO_STOP, Event::reset_node, reset<event::reset_node>},
+    {CO_STOP, Event::reset_communication, reset<event::reset_communication>},
+};
+
+constexpr Machine<CO_MODE, Event, Service, CO_MODE_NUM, static_cast<size_t>(Event::count)> machine(rows, stay);
+
+}  // namespace
+
+uint8_t allowed_in(CO_MODE mode) { return permissions[mode]; }
+
+void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), service, 0); }
+
+void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
+  if (frame.DLC != wire::nmt_dlc) {
+    count(node.Count.Malformed);
+    return;
+  }
+  const Event event = event_of(frame.Data[0]);
+  if (event != Event::count && wire::addresses(frame, node.NodeId)) {
+    machine(node.Nmt.Mode, event)(node);
+  }
+}
+
+void boot(CO_NODE& node) {
+  transmit::send_boot_up(node, wire::boot_up(node.NodeId));
+  event::change_mode(node, CO_PREOP);
+}
+
+}  // namespace co::nmt
+
+using namespace co;
+
+extern "C" {
+
+void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type) {
+  ASSERT_PTR_FATAL(nmt);
+  ASSERT_PTR_FATAL(nmt->Node);
+  if (type == CO_RESET_NODE) {
+    event::defer(*nmt->Node, event::reset_node);
+  } else if (type == CO_RESET_COM) {
+    event::defer(*nmt->Node, event::reset_communication);
+  }
+}
+
+void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
+  ASSERT_PTR_FATAL(nmt);
+  ASSERT_PTR_FATAL(nmt->Node);
+  CO_NODE& node = *nmt->Node;
+  if (nmt->Mode == CO_INVALID || mode < CO_PREOP || mode >= CO_MODE_NUM) {
+    node.Error = CO_ERR_NMT_MODE;
+    return;
+  }
+  if (nmt->Mode == CO_INIT) {
+    nmt::boot(node);
+  }
+  event::change_mode(node, mode);
+}
+
+CO_MODE CONmtGetMode(CO_NMT* nmt) {
+  ASSERT_PTR_FATAL_ERR(nmt, CO_INVALID);
+  return nmt->Mode;
+}
+
+void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId) {
+  ASSERT_PTR_FATAL(nmt);
+  ASSERT_PTR_FATAL(nmt->Node);
+  if (nmt->Mode != CO_INIT) {
+    nmt->Node->Error = CO_ERR_NMT_MODE;
+  } else if (nodeId < 1 || nodeId > 127) {
+    nmt->Node->Error = CO_ERR_BAD_ARG;
+  } else {
+    nmt->Node->NodeId = nodeId;
+  }
+}
+
+uint8_t CONmtGetNodeId(CO_NMT* nmt) {
+  ASSERT_PTR_FATAL_ERR(nmt, 0);
+  ASSERT_PTR_FATAL_ERR(nmt->Node, 0);
+  return nmt->Node->NodeId;
+}
+
+CO_MODE CONmtModeDecode(uint8_t code) {
+  constexpr CO_MODE modes[] = {CO_INIT, CO_PREOP, CO_OPERATIONAL, CO_STOP};
+  for (const CO_MODE mode : modes) {
+    if (wire::heartbeat_state(mode) == code) {
+      return mode;
+    }
+  }
+  return CO_INVALID;
+}
+
+uint8_t CONmtModeEncode(CO_MODE mode) { return wire::heartbeat_state(mode); }
+
+}  // extern "C"

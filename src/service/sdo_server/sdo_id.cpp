@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1200h…127Fh, sub 1 and 2: COB-IDs of the SDO servers. [301:7.5.2.33]
+#include "co_sdo_id.h"
+
+#include "co_core.h"
+#include "core/events.hpp"
+#include "core/port.hpp"
+#include "object/place.hpp"
+#include "wire/cob_id.hpp"
+
+namespace {
+
+using namespace co;
+
+// The stored value holds the CAN-ID relative to the node-ID where the entry says so; flags stay as they are.
+uint32_t shift_id(uint32_t cob_id, uint32_t by) {
+  const uint32_t ids = (cob_id & wire::cob_frame) != 0 ? wire::extended_ids : wire::base_ids;
+  return (cob_id & ~ids) | ((cob_id + by) & ids);
+}
+
+uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) { return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U; }
+
+uint32_t load(CO_OBJ& obj) {
+  return CO_IS_DIRECT(obj.Key) != 0 ? static_cast<uint32_t>(uintptr_t{obj.Data}) : *data_of<const uint32_t>(obj);
+}
+
+void store(CO_OBJ& obj, uint32_t value) {
+  if (CO_IS_DIRECT(obj.Key) != 0) {
+    obj.Data = value;
+  } else {
+    *data_of<uint32_t>(obj) = value;
+  }
+}
+
+bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
+
+bool is_allowed(uint32_t before, uint32_t value) {
+  if (!is_valid(value) || value == before) {
+    return true;
+  }
+  return !is_valid(before) && wire::fits_format(value) && !wire::is_restricted(value & wire::extended_ids);
+}
+
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj) == nullptr ? 0 : sizeof(uint32_t); }
+
+CO_ERR init(CO_OBJ* obj, CO_NODE*) {
+  const uint16_t index = CO_GET_IDX(obj->Key);
+  const uint8_t sub = CO_GET_SUB(obj->Key);
+  const bool fits = index >= 0x1200 && index < 0x1200 + CO_SSDO_N && (sub == 1 || sub == 2);
+  return fits ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+}
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint32_t) || place_of(*obj) == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  const uint32_t value = shift_id(load(*obj), node_id_of(*obj, *node));
+  __builtin_memcpy(buffer, &value, sizeof value);
+  return CO_ERR_NONE;
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  uint32_t before = 0;
+  const CO_ERR err = read(obj, node, &before, size);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+  uint32_t value = 0;
+  __builtin_memcpy(&value, buffer, sizeof value);
+  if (!is_allowed(before, value)) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  const uint32_t stored = shift_id(value, 0U - node_id_of(*obj, *node));
+  if (!port::is_writable(*node, place_of(*obj), sizeof stored)) {
+    return CO_ERR_OBJ_ACC;
+  }
+  store(*obj, stored);
+  event::defer(*node, event::configure_sdo);
+  return CO_ERR_NONE;
+}
+
+}  // namespace
+
+extern "C" const CO_OBJ_TYPE COTSdoId = {size, init, read, write, nullptr};

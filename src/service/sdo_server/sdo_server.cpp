@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/sdo_server/sdo_server.hpp"
+
+#include "core/count.hpp"
+#include "core/dict.hpp"
+#include "core/machine.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "service/sdo_server/transfer.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co::sdo_server {
+namespace {
+
+// The table may have been changed since the transfer began.
+bool is_gone(const CO_SDO& channel) { return CO_GET_DEV(channel.Obj->Key) != channel.Key; }
+
+uint32_t end_by_client(Step& step) {
+  close(step.channel);
+  return no_answer;
+}
+
+uint32_t refuse_command(Step&) { return CO_SDO_ERR_CMD; }
+
+using Service = uint32_t (*)(Step&);
+using SdoRow = Row<State, wire::Ccs, Service>;
+using wire::Ccs;
+
+// A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3]
+constexpr SdoRow rows[] = {
+    {State::idle, Ccs::initiate_download, initiate_download},
+    {State::idle, Ccs::initiate_upload, initiate_upload},
+    {State::idle, Ccs::abort, end_by_client},
+
+    {State::download, Ccs::download_segment, download_segment},
+    {State::download, Ccs::initiate_download, initiate_download},
+    {State::download, Ccs::initiate_upload, initiate_upload},
+    {State::download, Ccs::abort, end_by_client},
+
+    {State::upload, Ccs::upload_segment, upload_segment},
+    {State::upload, Ccs::initiate_download, initiate_download},
+    {State::upload, Ccs::initiate_upload, initiate_upload},
+    {State::upload, Ccs::abort, end_by_client},
+};
+
+constexpr Machine<State, Ccs, Service, state_count, wire::ccs_count> machine(rows, refuse_command);
+
+// An abort names the transfer that it ends; without one, what the request names.
+uint32_t aborted_key(const CO_SDO& channel, State before, const CO_IF_FRM& request) {
+  const Ccs command = wire::ccs(request);
+  const bool within = before != State::idle && command != Ccs::initiate_download && command != Ccs::initiate_upload;
+  return within ? channel.Key : wire::multiplexer(request);
+}
+
+uint32_t run(Step& step) {
+  CO_SDO& channel = step.channel;
+  const State state = state_of(channel);
+  channel.Idle = 0;
+  if (state != State::idle && is_gone(channel)) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  channel.UserAbort = 0;
+  channel.Flags |= busy;
+  const uint32_t result = machine(state, wire::ccs(step.request))(step);
+  channel.Flags &= static_cast<uint8_t>(~busy);
+  return result;
+}
+
+uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise) {
+  uint32_t value = otherwise;
+  const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(0x1200U + number, sub), value);
+  return err == CO_ERR_NONE ? value : otherwise;
+}
+
+void configure_channel(CO_NODE& node, uint16_t number) {
+  CO_SDO& channel = node.Sdo[number];
+  const bool is_default = number == 0;
+  const uint32_t none = wire::cob_invalid;
+  const uint32_t rx = cob_id(node, number, 1, is_default ? wire::CobId::sdo_rx + node.NodeId : none);
+  const uint32_t tx = cob_id(node, number, 2, is_default ? wire::CobId::sdo_tx + node.NodeId : none);
+  const bool valid = ((rx | tx) & wire::cob_invalid) == 0;
+  const uint32_t rx_id = valid ? wire::frame_id(rx) : none;
+  const uint32_t tx_id = valid ? wire::frame_id(tx) : none;
+  if (channel.RxId == rx_id && channel.TxId == tx_id) {
+    return;
+  }
+  close(channel);
+  channel.RxId = rx_id;
+  channel.TxId = tx_id;
+  routes::remove(node, service, number);
+  if (valid) {
+    routes::add(node, rx_id, service, number);
+  }
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  for (CO_SDO& channel : node.Sdo) {
+    channel = {};
+    channel.Node = &node;
+  }
+  tmr::stop(node.Tmr, node.SdoTmr);
+  configure(node);
+}
+
+void configure(CO_NODE& node) {
+  for (uint16_t number = 0; number < CO_SSDO_N; ++number) {
+    configure_channel(node, number);
+  }
+}
+
+void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  CO_SDO& channel = node.Sdo[number];
+  if (frame.DLC != wire::sdo_dlc) {
+    count(node.Count.Malformed);
+    return;
+  }
+  CO_IF_FRM answer = {channel.TxId, {}, wire::sdo_dlc};
+  Step step = {node, channel, frame, answer};
+  const State before = state_of(channel);
+  const uint32_t abort = run(step);
+  if ((node.Nmt.Allowed & CO_SDO_ALLOWED) == 0) {  // a type function has changed the NMT state
+    on_mode(node);
+    return;
+  }
+  if (abort == no_answer) {
+    return;
+  }
+  if (abort == no_abort) {
+    transmit::send(node, answer);
+    return;
+  }
+  close(channel);
+  send_abort(channel, aborted_key(channel, before, frame), abort);
+}
+
+void on_mode(CO_NODE& node) {
+  if ((node.Nmt.Allowed & CO_SDO_ALLOWED) != 0) {
+    return;
+  }
+  for (CO_SDO& channel : node.Sdo) {
+    if ((channel.Flags & busy) == 0) {
+      close(channel);
+    }
+  }
+  tmr::stop(node.Tmr, node.SdoTmr);
+}
+
+}  // namespace co::sdo_server
+
+using namespace co;
+
+extern "C" void COObjTypeUserSDOAbort(CO_OBJ* obj, CO_NODE_T* node, uint32_t abort) {
+  if (obj == nullptr || node == nullptr) {
+    return;
+  }
+  for (CO_SDO& channel : node->Sdo) {
+    if (channel.Obj == obj && (channel.Flags & sdo_server::busy) != 0) {
+      channel.UserAbort = abort;
+    }
+  }
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO server: expedited and segmented transfer. [301:7.2.4]
+#pragma once
+
+#include "co_core.h"
+
+namespace co::sdo_server {
+
+// Number of the service in the table of node/services.cpp, for the routes of its channels.
+inline constexpr uint8_t service = 1;
+
+// Ends all transfers and takes the COB-IDs from the dictionary.
+void init(CO_NODE& node);
+
+// A frame for channel number.
+void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+// Transfers end, without an abort, when SDO is no longer allowed. [301:7.3.2.2.4]
+void on_mode(CO_NODE& node);
+
+// Takes the COB-IDs from the dictionary again; a channel whose identifiers have changed drops its transfer.
+void configure(CO_NODE& node);
+
+}  // namespace co::sdo_server

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// A transfer of one channel: what the services of the machine share.
+#pragma once
+
+#include "core/obj.hpp"
+#include "service/sdo_server/sdo_server.hpp"
+#include "wire/sdo.hpp"
+
+namespace co::sdo_server {
+
+enum class State : uint8_t { idle, download, upload };
+inline constexpr size_t state_count = 3;
+
+// CO_SDO.Flags
+enum Flag : uint8_t {
+  sized = 0x01,  // the client has announced the size
+  whole = 0x02,  // a value: collected in Value, read or written in one piece
+  busy = 0x04,   // a type function may be running: the transfer is closed afterwards only
+};
+
+// What a service answers: an abort code, or one of these.
+inline constexpr uint32_t no_abort = 0;  // the answer is to be sent
+inline constexpr uint32_t no_answer = UINT32_MAX;
+
+// What a service of the machine works on: the channel, the request and the answer in the making.
+struct Step {
+  CO_NODE& node;
+  CO_SDO& channel;
+  const CO_IF_FRM& request;
+  CO_IF_FRM& answer;
+};
+
+inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
+
+// The services of the machine. [301:7.2.4.3]
+[[nodiscard]] uint32_t initiate_download(Step& step);
+[[nodiscard]] uint32_t download_segment(Step& step);
+[[nodiscard]] uint32_t initiate_upload(Step& step);
+[[nodiscard]] uint32_t upload_segment(Step& step);
+
+// The checks that every transfer begins with: the object, its access right (a flag of its key), and whether its type
+// has the function for it. refused: the abort code without the right.
+[[nodiscard]] uint32_t open(Step& step, uint32_t right, bool (*can)(const CO_OBJ_TYPE&), uint32_t refused);
+
+// The transfer goes on with segments.
+void start(Step& step, State state);
+
+void close(CO_SDO& channel);
+
+void send_abort(CO_SDO& channel, uint32_t key, uint32_t code);
+
+// Decides how the bytes pass: a value of up to 8 bytes and whatever fits into one frame in one piece, anything else in
+// the pieces that arrive; a stream only for one channel at a time.
+[[nodiscard]] uint32_t choose_access(Step& step, bool fits_one_frame);
+
+// The object through its type; values in the byte order of the bus.
+[[nodiscard]] CO_ERR read_whole(CO_SDO& channel, uint32_t n);
+[[nodiscard]] CO_ERR write_whole(CO_SDO& channel, uint32_t n);
+[[nodiscard]] CO_ERR begin_reading(CO_SDO& channel);
+[[nodiscard]] CO_ERR begin_writing(CO_SDO& channel);
+[[nodiscard]] CO_ERR read_piece(CO_SDO& channel, uint8_t* to, uint32_t n);
+[[nodiscard]] CO_ERR write_piece(CO_SDO& channel, uint8_t* from, uint32_t n);
+
+// The abort code for what a type function has returned; the node's error is set.
+[[nodiscard]] uint32_t read_failed(const CO_SDO& channel, CO_ERR err);
+[[nodiscard]] uint32_t write_failed(const CO_SDO& channel, CO_ERR err);
+
+[[nodiscard]] inline bool has_wrong_toggle(const Step& step) {
+  return wire::toggle(step.request) != step.channel.Toggle;
+}
+
+}  // namespace co::sdo_server

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes of the bus (little endian [301:7.1.3]) and numbers of the CPU.
+#pragma once
+
+#include <stdint.h>
+
+namespace co::wire {
+
+inline constexpr bool host_is_little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+
+constexpr uint32_t get_u32(const uint8_t* p) {
+  return p[0] | (static_cast<uint32_t>(p[1]) << 8) | (static_cast<uint32_t>(p[2]) << 16) |
+         (static_cast<uint32_t>(p[3]) << 24);
+}
+
+constexpr void put_u32(uint8_t* p, uint32_t value) {
+  p[0] = static_cast<uint8_t>(value);
+  p[1] = static_cast<uint8_t>(value >> 8);
+  p[2] = static_cast<uint8_t>(value >> 16);
+  p[3] = static_cast<uint8_t>(value >> 24);
+}
+
+// A number of n bytes from the order of the bus to that of the CPU, or back.
+constexpr void swap_host([[maybe_unused]] uint8_t* p, [[maybe_unused]] uint32_t n) {
+  if constexpr (!host_is_little_endian) {
+    for (uint32_t low = 0, high = n; low + 1 < high; ++low) {
+      --high;
+      const uint8_t kept = p[low];
+      p[low] = p[high];
+      p[high] = kept;
+    }
+  }
+}
+
+}  // namespace co::wire

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// COB-IDs: CAN-ID and flags of a communication object. [301:7.2.2.1, 7.3.5]
+#pragma once
+
+#include "co_if_can.h"
+
+namespace co::wire {
+
+enum class CobId : uint32_t {
+  nmt = 0x000,
+  sdo_tx = 0x580,
+  sdo_rx = 0x600,
+  error_control = 0x700,
+};
+
+constexpr uint32_t operator+(CobId base, uint8_t node_id) { return static_cast<uint32_t>(base) + node_id; }
+
+inline constexpr uint32_t cob_invalid = 1U << 31;  // the object does not exist
+inline constexpr uint32_t cob_dynamic = 1U << 30;  // SDO: assigned dynamically, not to be stored
+inline constexpr uint32_t cob_frame = 1U << 29;    // 29-bit CAN-ID
+inline constexpr uint32_t base_ids = 0x7FF;
+inline constexpr uint32_t extended_ids = CO_IF_FRM_ID;
+
+// CAN-IDs that no configurable object may use. [301:7.3.5 table 38]
+constexpr bool is_restricted(uint32_t id) {
+  constexpr struct {
+    uint16_t first;
+    uint16_t last;
+  } ranges[] = {{0x000, 0x07F}, {0x101, 0x180}, {0x581, 0x5FF}, {0x601, 0x67F}, {0x6E0, 0x6FF}, {0x701, 0x7FF}};
+  for (const auto& range : ranges) {
+    if (id >= range.first && id <= range.last) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The CAN-ID fits the frame format that bit 29 names.
+constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }
+
+// The identifier of frames of this COB-ID, as drivers see it.
+constexpr uint32_t frame_id(uint32_t cob_id) {
+  return (cob_id & extended_ids) | ((cob_id & cob_frame) != 0 ? CO_IF_FRM_EXT : 0);
+}
+
+// An identifier as a driver gave it. Drivers that know no flags still tell a 29-bit identifier by its value.
+constexpr uint32_t normalised(uint32_t identifier) {
+  return (identifier & extended_ids) > base_ids ? identifier | CO_IF_FRM_EXT : identifier;
+}
+
+static_assert(is_restricted(0x000) && is_restricted(0x07F) && !is_restricted(0x080) && !is_restricted(0x100));
+static_assert(is_restricted(0x101) && is_restricted(0x180) && !is_restricted(0x181) && !is_restricted(0x580));
+static_assert(is_restricted(0x581) && is_restricted(0x5FF) && !is_restricted(0x600) && is_restricted(0x601));
+static_assert(is_restricted(0x67F) && !is_restricted(0x680) && is_restricted(0x6E0) && !is_restricted(0x700));
+static_assert(is_restricted(0x701) && is_restricted(0x7FF) && !is_restricted(0x800));
+static_assert(frame_id(0x20000123) == 0x80000123 && frame_id(0xC0000601) == 0x601);
+static_assert(!fits_format(0x00000800) && fits_format(0x20000800));
+
+}  // namespace co::wire

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// NMT and error control frames. [301:7.2.8]
+#pragma once
+
+#include "co_nmt.h"
+#include "wire/cob_id.hpp"
+
+namespace co::wire {
+
+inline constexpr uint8_t nmt_dlc = 2;
+
+// Command specifiers of "NMT node control". [301:7.2.8.2.1]
+enum class NmtCommand : uint8_t {
+  start = 1,
+  stop = 2,
+  enter_pre_operational = 128,
+  reset_node = 129,
+  reset_communication = 130,
+};
+
+constexpr bool addresses(const CO_IF_FRM& nmt, uint8_t node_id) { return nmt.Data[1] == 0 || nmt.Data[1] == node_id; }
+
+// Heartbeat state byte of a mode. [301:7.2.8.3.2.2]
+constexpr uint8_t heartbeat_state(CO_MODE mode) {
+  switch (mode) {
+    case CO_INIT: return 0;
+    case CO_STOP: return 4;
+    case CO_OPERATIONAL: return 5;
+    case CO_PREOP: return 127;
+    default: return 255;
+  }
+}
+
+constexpr CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode) {
+  return {CobId::error_control + node_id, {heartbeat_state(mode)}, 1};
+}
+
+// The boot-up message is a heartbeat of the state Initialisation. [301:7.2.8.3.3]
+constexpr CO_IF_FRM boot_up(uint8_t node_id) { return error_control(node_id, CO_INIT); }
+
+static_assert(boot_up(5).Identifier == 0x705 && boot_up(5).DLC == 1 && boot_up(5).Data[0] == 0x00);
+static_assert(error_control(127, CO_PREOP).Identifier == 0x77F && error_control(127, CO_PREOP).Data[0] == 0x7F);
+
+}  // namespace co::wire
