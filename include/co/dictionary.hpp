@@ -12,9 +12,9 @@
 /// `Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1', '0', '0', '1'>, co::Sub<'0', '0'>>`: the CO_DICT_FAULT of
 /// co_dict.h, index and sub-index in hexadecimal digits.
 ///
-/// Nothing of this file is left in the program. It needs gcc 12, clang 14 or later. Very long tables may need a higher
-/// limit of the compiler
-/// (-fconstexpr-steps of clang, -fconstexpr-ops-limit of gcc): the defaults are good for some ten thousand entries.
+/// Nothing of this file is left in the program. It is tried with gcc 11 and 12 and with clang 14 to 19. A table of more
+/// than some thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
+/// -fconstexpr-ops-limit).
 #pragma once
 
 #ifdef CO_DATA_INTEGER

@@ -6,7 +6,7 @@
 /// - check_entry(): needs no more than the table. CO_OD_CHECK() and CODictInit().
 /// - check_type(): needs the rule of the entry's type. CO_OD_CHECK() finds it by the address of the type object, which
 ///   only the compiler may do: in the running program a list of all types would link them all into a firmware that
-///   uses three. There each type brings its own rule, which its Init function applies.
+///   uses three. There a type that belongs to one place applies its rule in its Init function.
 /// - Values against addresses, and what must not lie in read-only memory: CO_OD_CHECK() only (co/dictionary.hpp).
 #pragma once
 

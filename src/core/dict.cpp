@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/dict.hpp"
 
+#include "co/rules.hpp"
 #include "core/obj.hpp"
 
 namespace co::dict {
@@ -52,21 +53,11 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
   return num;
 }
 
-CO_DICT_FAULT fault_of(const CO_OBJ& entry, uint32_t key_before) {
-  if (CO_GET_IDX(entry.Key) == 0) {
-    return CO_DICT_RESERVED_INDEX;
-  }
-  if (CO_GET_DEV(entry.Key) <= CO_GET_DEV(key_before)) {
-    return CO_DICT_NOT_ASCENDING;
-  }
-  return entry.Type == nullptr ? CO_DICT_NO_TYPE : CO_DICT_OK;
-}
-
 CO_ERR check(CO_DICT& dict) {
   uint32_t key_before = 0;
   for (uint16_t n = 0; n < dict.Num; ++n) {
     const CO_OBJ& entry = dict.Root[n];
-    dict.Fault = fault_of(entry, key_before);
+    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, uintptr_t{entry.Data} != 0);
     if (dict.Fault != CO_DICT_OK) {
       dict.FaultKey = entry.Key;
       return CO_ERR_DICT_INIT;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/heartbeat/heartbeat.hpp"
 
+#include "co/rules.hpp"
 #include "core/dict.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
@@ -31,7 +32,9 @@ void restart(CO_NODE& node, uint32_t ticks) {
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE*) {
-  return CO_GET_DEV(obj->Key) == CO_DEV(0x1017, 0) ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+  const bool has_data = uintptr_t{obj->Data} != 0;
+  return rules::check_type(rules::heartbeat_producer, obj->Key, has_data) == CO_DICT_OK ? CO_ERR_NONE
+                                                                                        : CO_ERR_TYPE_INIT;
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {

@@ -2,6 +2,7 @@
 // 1200h…127Fh, sub 1 and 2: COB-IDs of the SDO servers. [301:7.5.2.33]
 #include "co_sdo_id.h"
 
+#include "co/rules.hpp"
 #include "co_core.h"
 #include "core/events.hpp"
 #include "core/port.hpp"
@@ -44,10 +45,8 @@ bool is_allowed(uint32_t before, uint32_t value) {
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj) == nullptr ? 0 : sizeof(uint32_t); }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE*) {
-  const uint16_t index = CO_GET_IDX(obj->Key);
-  const uint8_t sub = CO_GET_SUB(obj->Key);
-  const bool fits = index >= 0x1200 && index < 0x1200 + CO_SSDO_N && (sub == 1 || sub == 2);
-  return fits ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+  const bool has_data = place_of(*obj) != nullptr;
+  return rules::check_type(rules::sdo_cob_id, obj->Key, has_data) == CO_DICT_OK ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {

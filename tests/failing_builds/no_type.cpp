@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_NO_TYPE, co::Index<'2', '0', '0', '0'>, co::Sub<'0', '0'>
+// An entry without a type.
+#include "co/dictionary.hpp"
+
+std::uint32_t number;
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x2000, 0, CO_OBJ_____RW), nullptr, (CO_DATA)(&number)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);
