@@ -68,7 +68,7 @@ typedef struct CO_IF_CAN_DRV_EX_T {
   void (*Reset)(void* ctx);
   void (*Close)(void* ctx);
   /// May be null. The identifiers (with flags) that the node wants to receive, ascending, the caller's for the time of
-  /// the call; called in CONodeStart() and after every change. A driver may let more through.
+  /// the call; called before Enable and after every change. A driver may let more through.
   void (*Filter)(void* ctx, const uint32_t* ids, uint16_t num);
 } CO_IF_CAN_DRV_EX;
 

@@ -11,8 +11,8 @@
 namespace co {
 
 /// `Address a = &anything;`, then `a[i]`, `a + i`, `memcpy(a, …)`, `uint8_t *p = a;`, `(struct Parameters *)a`,
-/// `if (a == nullptr)`, as with a `uint8_t *`. Constants keep being accepted, too: default values lie in read-only
-/// memory.
+/// `(uintptr_t)a`, `if (a == nullptr)`, as with a `uint8_t *`. Constants keep being accepted, too: default values lie
+/// in read-only memory.
 union Address {
   Address() = default;
 
@@ -23,6 +23,11 @@ union Address {
   template <class T, std::enable_if_t<std::is_object_v<T> || std::is_void_v<T>, int> = 0>
   explicit operator T*() const noexcept {
     return static_cast<T*>(address_);
+  }
+
+  template <class T, std::enable_if_t<std::is_integral_v<T> && sizeof(T) == sizeof(void*), int> = 0>
+  explicit operator T() const noexcept {
+    return reinterpret_cast<T>(address_);
   }
 
  private:

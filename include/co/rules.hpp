@@ -29,18 +29,20 @@ constexpr bool is_static_type(std::uint32_t key) { return index_of(key) >= 0x000
 
 /// Objects that exist once for each instance of a service.
 struct Instances {
-  std::uint16_t first;  // index
-  std::uint16_t last;   // index
+  std::uint16_t first;    // index
+  std::uint16_t last;     // index
+  std::uint8_t last_sub;  // entries above are the application's, wherever they stand
   std::uint16_t configured;
 };
 
 inline constexpr Instances instances[] = {
-    {0x1200, 0x127F, CO_SSDO_N},  // SDO servers [301:7.5.2.33]
+    {0x1200, 0x127F, 3, CO_SSDO_N},  // SDO servers [301:7.5.2.33]
 };
 
-constexpr bool is_configured(std::uint16_t index) {
+constexpr bool is_configured(std::uint32_t key) {
+  const std::uint16_t index = index_of(key);
   for (const Instances& service : instances) {
-    if (index >= service.first && index <= service.last) {
+    if (index >= service.first && index <= service.last && sub_of(key) <= service.last_sub) {
       return index - service.first < service.configured;
     }
   }
@@ -58,7 +60,7 @@ constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, b
   if (!has_type) {
     return CO_DICT_NO_TYPE;
   }
-  return is_configured(index_of(key)) ? CO_DICT_OK : CO_DICT_NOT_CONFIGURED;
+  return is_configured(key) ? CO_DICT_OK : CO_DICT_NOT_CONFIGURED;
 }
 
 /// What a type asks of its entries. 8 bytes of flash where it is used at run time.

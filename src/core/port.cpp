@@ -4,20 +4,37 @@
 #include "core/transmit.hpp"
 
 namespace co::port {
+namespace {
 
-const CO_NODE_EXT no_extension = {sizeof(CO_NODE_EXT),
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  0,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr,
-                                  nullptr};
+void nothing(void*) {}
+void no_rate(void*, uint32_t) {}
+int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
+int16_t not_sent(void*, const CO_IF_FRM*) { return 0; }
+uint32_t no_time(void*) { return 0; }
+
+constexpr CO_IF_CAN_DRV_EX no_can = {nothing, no_rate, no_frame, not_sent, nothing, nothing, nullptr};
+constexpr CO_IF_TIMER_DRV_EX no_timer = {no_rate, no_time, nullptr};
+
+constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIMER_DRV_EX* timer) {
+  return {sizeof(CO_NODE_EXT),
+          can,
+          nullptr,
+          timer,
+          nullptr,
+          nullptr,
+          nullptr,
+          nullptr,
+          0,
+          nullptr,
+          nullptr,
+          nullptr,
+          nullptr};
+}
+
+}  // namespace
+
+const CO_NODE_EXT no_extension = with_drivers(nullptr, nullptr);
+const CO_NODE_EXT no_drivers = with_drivers(&no_can, &no_timer);
 
 void init(CO_NODE& node) {
   const CO_NODE_EXT& ext = *node.Ext;

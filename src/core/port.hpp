@@ -9,6 +9,10 @@ namespace co::port {
 // The extension of a node that has none.
 extern const CO_NODE_EXT no_extension;
 
+// The extension of a node that could not be initialised: drivers that do nothing, so that calls of the application that
+// come all the same are harmless.
+extern const CO_NODE_EXT no_drivers;
+
 void init(CO_NODE& node);
 
 void lock(CO_NODE& node);

@@ -106,6 +106,19 @@ void flush(CO_NODE& node) {
   }
 }
 
+void withdraw(CO_NODE& node, uint32_t identifier) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  uint16_t kept = first_free_place(queue);
+  for (uint16_t n = kept; n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      count(node.Count.Dropped);
+    } else {
+      queue.Frame[kept++] = queue.Frame[n];
+    }
+  }
+  queue.Num = kept;
+}
+
 void clear(CO_NODE& node) {
   for (; node.TxQueue.Num != 0; --node.TxQueue.Num) {
     count(node.Count.Dropped);

@@ -25,6 +25,9 @@ void flush(CO_NODE& node);
 // Throws away what waits; counted as dropped.
 void clear(CO_NODE& node);
 
+// The same for the frames of one identifier, which may no longer be sent.
+void withdraw(CO_NODE& node, uint32_t identifier);
+
 [[nodiscard]] inline bool is_waiting(const CO_NODE& node) { return node.TxQueue.Num != 0; }
 
 }  // namespace co::transmit

@@ -133,11 +133,13 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (usable) {
     node->Tmr.Freq = spec->TmrFreq;
     port::init(*node);
+  } else {
+    node->Error = CO_ERR_BAD_ARG;
+    node->Ext = &port::no_drivers;
   }
-  COTmrInit(&node->Tmr, node, spec->TmrMem, usable ? spec->TmrNum : static_cast<uint16_t>(0), spec->TmrFreq);
+  COTmrInit(&node->Tmr, node, spec->TmrMem, spec->TmrNum, spec->TmrFreq);
   transmit::init(*node);
   if (!usable) {
-    node->Error = CO_ERR_BAD_ARG;
     return;
   }
   if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) != CO_ERR_NONE) {

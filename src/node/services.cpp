@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/services.hpp"
 
+#include "core/count.hpp"
 #include "core/events.hpp"
 #include "core/routes.hpp"
 #include "service/heartbeat/heartbeat.hpp"
@@ -19,6 +20,15 @@ constexpr Service table[] = {
 
 static_assert(table[nmt::service].init == nmt::init && table[sdo_server::service].init == sdo_server::init);
 
+// No service of the node is asked by a remote frame.
+void serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
+  if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
+    count(node.Count.Malformed);
+  } else {
+    table[routes::service_of(owner)].on_frame(node, frame, routes::number_of(owner));
+  }
+}
+
 }  // namespace
 
 namespace services {
@@ -33,12 +43,13 @@ void init(CO_NODE& node) {
 
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   bool claimed = false;
-  const routes::Range range = routes::candidates(node, frame.Identifier);
+  const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
+  const routes::Range range = routes::candidates(node, id);
   for (uint16_t n = range.first; n < range.last; ++n) {
     const uint16_t owner = node.Routes.Owner[n];
     const Service& service = table[routes::service_of(owner)];
-    if (node.Routes.Id[n] == frame.Identifier && (service.allowed & node.Nmt.Allowed) != 0) {
-      service.on_frame(node, frame, routes::number_of(owner));
+    if (node.Routes.Id[n] == id && (service.allowed & node.Nmt.Allowed) != 0) {
+      serve(node, frame, owner);
       claimed = true;
     }
   }

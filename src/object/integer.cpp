@@ -87,9 +87,11 @@ void copy_bytes(uint8_t* to, const uint8_t* from, uint8_t n) {
   }
 }
 
+// The value modulo its width, with its sign in the bits above.
 template <class T>
-T extend_sign(T value, const Format& format) {
+T extend(T value, const Format& format) {
   const T sign = static_cast<T>(T{1} << (8U * format.bytes - 1U));
+  value &= static_cast<T>(sign | (sign - 1U));
   return format.is_signed ? static_cast<T>((value ^ sign) - sign) : value;
 }
 
@@ -121,7 +123,7 @@ CO_ERR write(CO_OBJ& obj, const CO_NODE& node, const void* buffer, uint32_t size
   }
   T value = 0;
   copy_bytes(significant(value, format.bytes), static_cast<const uint8_t*>(buffer), format.bytes);
-  value = extend_sign(static_cast<T>(value - node_id_of<T>(obj, node, format)), format);
+  value = extend(static_cast<T>(value - node_id_of<T>(obj, node, format)), format);
   if (CO_IS_DIRECT(obj.Key) != 0) {
     obj.Data = static_cast<uintptr_t>(value);
   } else {

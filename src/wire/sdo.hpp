@@ -26,7 +26,14 @@ enum class Ccs : uint8_t {
 };
 inline constexpr uint8_t ccs_count = 8;
 
-constexpr Ccs ccs(const CO_IF_FRM& frame) { return static_cast<Ccs>(frame.Data[0] >> 5); }
+// Bits of a command that are always 0, by client command specifier. [301:7.2.4.3] The rest of an abort does not matter.
+inline constexpr uint8_t reserved_bits[ccs_count] = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x00, 0x00, 0x00};
+
+constexpr Ccs ccs_of(uint8_t command) {
+  const unsigned specifier = command >> 5;
+  return (command & reserved_bits[specifier]) == 0 ? static_cast<Ccs>(specifier) : Ccs::unknown;
+}
+constexpr Ccs ccs(const CO_IF_FRM& frame) { return ccs_of(frame.Data[0]); }
 
 inline constexpr uint8_t toggle_bit = 0x10;
 constexpr uint8_t toggle(const CO_IF_FRM& frame) { return frame.Data[0] & toggle_bit; }
@@ -64,6 +71,8 @@ constexpr uint8_t upload_segment_response(uint8_t toggle, uint32_t length, bool 
   return static_cast<uint8_t>(toggle | ((segment_bytes - length) << 1) | (last ? 1U : 0U));
 }
 
+static_assert(ccs_of(0x2F) == Ccs::initiate_download && ccs_of(0x30) == Ccs::unknown && ccs_of(0x41) == Ccs::unknown);
+static_assert(ccs_of(0x70) == Ccs::upload_segment && ccs_of(0x61) == Ccs::unknown && ccs_of(0x9F) == Ccs::abort);
 static_assert(expedited_upload_response(4) == 0x43 && expedited_upload_response(3) == 0x47);
 static_assert(expedited_upload_response(2) == 0x4B && expedited_upload_response(1) == 0x4F);
 static_assert(expedited_length(0x2F) == 1 && expedited_length(0x23) == 4 && !is_size_indicated(0x22));

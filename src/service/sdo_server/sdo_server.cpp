@@ -13,8 +13,12 @@
 namespace co::sdo_server {
 namespace {
 
-// The table may have been changed since the transfer began.
-bool is_gone(const CO_SDO& channel) { return CO_GET_DEV(channel.Obj->Key) != channel.Key; }
+// The table may have been changed, or replaced by another, since the transfer began.
+bool is_gone(const CO_SDO& channel) {
+  const CO_DICT& dict = channel.Node->Dict;
+  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
+}
 
 uint32_t end_by_client(Step& step) {
   close(step.channel);
@@ -144,6 +148,7 @@ void on_mode(CO_NODE& node) {
     if ((channel.Flags & busy) == 0) {
       close(channel);
     }
+    transmit::withdraw(node, channel.TxId);
   }
   tmr::stop(node.Tmr, node.SdoTmr);
 }

@@ -111,7 +111,7 @@ uint32_t open(Step& step, uint32_t right, bool (*can)(const CO_OBJ_TYPE&), uint3
     return dict::has_index(step.node.Dict, channel.Key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
   }
   if ((obj->Key & right) == 0 || !can(*obj->Type)) {
-    return refused;
+    return (obj->Key & CO_OBJ_____RW) == 0 ? CO_SDO_ERR_UNSUP : refused;
   }
   channel.Obj = obj;
   return no_abort;
