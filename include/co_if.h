@@ -40,6 +40,7 @@ void COIfCanEnable(CO_IF* cif, uint32_t baud);
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
 /// Sends a frame of the application, in any NMT state; takes its place by priority behind frames that wait.
 /// Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as dropped), -1: argument null.
+/// Up to half of the queue (CO_SSDO_N + 1 frames at most) is kept for the node's own frames.
 /// A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm);
 /// Clears errors and queues of the controller.

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_node/dictionary.hpp"
+
+#include <iterator>
+
+#include "co/dictionary.hpp"
+#include "co_ver.h"
+
+namespace demo {
+
+TimeOfDay clock_time{};
+
+namespace {
+
+// --- A type of our own: a figure of the time of day. It stores and reads as UNSIGNED8 does, but knows its limit.
+
+std::uint32_t figure_size(CO_OBJ* obj, CO_NODE* node, std::uint32_t width) {
+  return CO_TUNSIGNED8->Size(obj, node, width);
+}
+
+CO_ERR figure_read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+  return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+}
+
+CO_ERR figure_write(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+  const std::uint8_t limit = (CO_GET_SUB(obj->Key) == 1) ? 23 : 59;
+  if (*static_cast<const std::uint8_t*>(buffer) > limit) {
+    COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_RANGE);
+    return CO_ERR_TYPE_WR;
+  }
+  return CO_TUNSIGNED8->Write(obj, node, buffer, size);
+}
+
+constexpr CO_OBJ_TYPE figure_type = {figure_size, nullptr, figure_read, figure_write, nullptr};
+constexpr const CO_OBJ_TYPE* CO_TFIGURE = &figure_type;
+
+// --- The variables behind the entries
+
+std::uint8_t error_register = 0;
+std::uint16_t heartbeat_time = 1000;  // ms
+
+const std::uint8_t hardware_version_text[] = "host";
+const std::uint8_t software_version_text[] = {'0' + CO_VER_MAJOR, '.', '0' + CO_VER_MINOR, '.', '0' + CO_VER_BUILD, 0};
+static_assert(CO_VER_MAJOR < 10 && CO_VER_MINOR < 10 && CO_VER_BUILD < 10, "one digit each");
+
+CO_OBJ_STR device_name = {0, reinterpret_cast<const std::uint8_t*>(clock_name)};
+CO_OBJ_STR hardware_version = {0, hardware_version_text};
+CO_OBJ_STR software_version = {0, software_version_text};
+
+std::uint8_t picture_memory[picture_size] = {};
+CO_OBJ_DOM picture = {0, picture_size, picture_memory};
+
+std::uint8_t station_memory[32] = {};
+CO_OBJ_STR_RW station = {0, 0, sizeof station_memory, station_memory};
+
+// --- The dictionary
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // no device profile
+    {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
+    {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&device_name)},
+    {CO_KEY(0x1009, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&hardware_version)},
+    {CO_KEY(0x100A, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&software_version)},
+    {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)(0x80)},
+    {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
+    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(4)},
+    {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // no vendor-ID of CiA
+    {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(clock_product_code)},
+    {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)((CO_VER_MAJOR << 16) | CO_VER_MINOR)},
+    {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(clock_serial_number)},
+    {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(2)},
+    {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(CO_COBID_SDO_REQUEST())},
+    {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(CO_COBID_SDO_RESPONSE())},
+    {CO_KEY(0x2100, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(3)},
+    {CO_KEY(0x2100, 1, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.hour)},
+    {CO_KEY(0x2100, 2, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.minute)},
+    {CO_KEY(0x2100, 3, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.second)},
+    {CO_KEY(0x2200, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&picture)},
+    {CO_KEY(0x2201, 0, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&station)},
+};
+CO_OD_CHECK(od);
+
+}  // namespace
+
+Table clock_dictionary() { return {const_cast<CO_OBJ*>(od), static_cast<std::uint16_t>(std::size(od))}; }
+
+const trace::Names& clock_object_names() {
+  using trace::Form;
+  static const trace::Names names = {
+      {0x1000, 0, "device type", Form::hex},
+      {0x1001, 0, "error register", Form::hex},
+      {0x1008, 0, "device name", Form::characters},
+      {0x1009, 0, "hardware version", Form::characters},
+      {0x100A, 0, "software version", Form::characters},
+      {0x1014, 0, "COB-ID EMCY", Form::hex},
+      {0x1017, 0, "heartbeat time in ms", Form::decimal},
+      {0x1018, 0, "identity, highest sub-index", Form::decimal},
+      {0x1018, 1, "vendor-ID", Form::hex},
+      {0x1018, 2, "product code", Form::hex},
+      {0x1018, 3, "revision number", Form::hex},
+      {0x1018, 4, "serial number", Form::decimal},
+      {0x1200, 0, "SDO server, highest sub-index", Form::decimal},
+      {0x1200, 1, "COB-ID of SDO requests", Form::hex},
+      {0x1200, 2, "COB-ID of SDO responses", Form::hex},
+      {0x2100, 0, "time, highest sub-index", Form::decimal},
+      {0x2100, 1, "hour", Form::decimal},
+      {0x2100, 2, "minute", Form::decimal},
+      {0x2100, 3, "second", Form::decimal},
+      {0x2200, 0, "picture", Form::hex},
+      {0x2201, 0, "station name", Form::characters},
+  };
+  return names;
+}
+
+}  // namespace demo

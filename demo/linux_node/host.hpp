@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file host.hpp
+/// The bus and the time in which device and master live: real ones, or simulated ones in tests.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "co_core.h"
+
+namespace demo {
+
+using Micros = std::uint64_t;
+constexpr Micros millisecond = 1'000;
+constexpr Micros second = 1'000'000;
+
+/// A CAN controller: a driver and its context.
+struct Can {
+  const CO_IF_CAN_DRV_EX* driver;
+  void* context;
+};
+
+struct Timer {
+  const CO_IF_TIMER_DRV_EX* driver;
+  void* context;
+};
+
+class Host {
+ public:
+  virtual ~Host() = default;
+
+  virtual Can device_can() = 0;
+  virtual Timer device_timer() = 0;
+  /// The other end of the bus. Not to be used where the host was made for a device alone.
+  virtual Can master_can() = 0;
+
+  /// What is wrong with the bus, in words; empty: nothing so far.
+  virtual std::string bus_fault() { return {}; }
+
+  /// Time since any moment.
+  virtual Micros now() = 0;
+  /// Lets at most \a time pass; ends sooner when a frame arrives or interrupted() becomes true.
+  virtual void wait(Micros time) = 0;
+  /// Whether somebody wants the program to end.
+  virtual bool interrupted() = 0;
+};
+
+}  // namespace demo

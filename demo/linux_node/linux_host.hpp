@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file linux_host.hpp
+/// Real time, and a bus: SocketCAN, or the one inside the program.
+#pragma once
+
+#include <poll.h>
+#include <signal.h>
+
+#include <string>
+#include <vector>
+
+#include "linux_node/host.hpp"
+#include "linux_timer.hpp"
+#include "socketcan.hpp"
+#include "virtual_bus.hpp"
+
+namespace demo {
+
+/// While it lives, SIGINT and SIGTERM are noted instead of ending the program. They are let in while the program waits,
+/// so that none can slip in between a look at happened() and the wait. One at a time.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  static bool happened();
+  /// The signal mask for the wait.
+  const sigset_t& while_waiting() const { return before_; }
+
+ private:
+  sigset_t before_{};
+};
+
+class LinuxHost : public Host {
+ public:
+  /// \a interruption must outlive the host.
+  explicit LinuxHost(const Interruption& interruption) : interruption_(interruption) {}
+  Timer device_timer() override { return {&co::LinuxTimerDriver, &timer_}; }
+  Micros now() override { return co::monotonic_ns() / 1000; }
+  void wait(Micros time) override;
+  bool interrupted() override { return Interruption::happened(); }
+
+ private:
+  /// What ends a wait: descriptors that become readable when a frame arrives.
+  virtual std::vector<pollfd> wake_ups() { return {}; }
+
+  const Interruption& interruption_;
+  co::LinuxTimer timer_;
+};
+
+class VirtualBusHost : public LinuxHost {
+ public:
+  using LinuxHost::LinuxHost;
+  Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
+  Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+
+ private:
+  co::VirtualBus bus_;
+  co::VirtualBus::Port& device_ = bus_.attach({"node"});
+  co::VirtualBus::Port& master_ = bus_.attach({"master"});
+};
+
+class SocketCanHost : public LinuxHost {
+ public:
+  using LinuxHost::LinuxHost;
+  /// \a with_master: a socket for the master, too. Returns why the interface cannot be used, in words; empty: it can.
+  std::string open(const std::string& interface, bool with_master);
+
+  Can device_can() override { return {&co::SocketCanDriver, &device_}; }
+  Can master_can() override { return {&co::SocketCanDriver, &master_}; }
+  std::string bus_fault() override { return device_.error().empty() ? master_.error() : device_.error(); }
+
+ private:
+  std::vector<pollfd> wake_ups() override;
+
+  co::SocketCan device_;
+  co::SocketCan master_;
+};
+
+}  // namespace demo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// lexican-demo-node: the clock as a CANopen node, alone or with a master that shows what it can do.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "linux_node/clock.hpp"
+#include "linux_node/linux_host.hpp"
+#include "linux_node/options.hpp"
+#include "linux_node/tour.hpp"
+#include "linux_node/view.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+namespace {
+
+constexpr const char* default_interface = "vcan0";
+
+/// The bus to use, and why; or no host, and what is wrong.
+struct Bus {
+  std::unique_ptr<Host> host;
+  std::string about;
+};
+
+Bus open_bus(const Options& options, const Interruption& interruption) {
+  if (options.virtual_bus) {
+    return {std::make_unique<VirtualBusHost>(interruption), "built-in virtual bus, as told by --virtual"};
+  }
+  const bool chosen = !options.interface.empty();
+  const std::string interface = chosen ? options.interface : default_interface;
+  auto host = std::make_unique<SocketCanHost>(interruption);
+  const std::string fault = host->open(interface, !options.serve);
+  if (fault.empty()) {
+    return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", as told by --can" : ", which is up")};
+  }
+  if (chosen || options.serve) {
+    return {nullptr, (chosen ? "" : "--serve needs a CAN interface. ") + fault};
+  }
+  return {std::make_unique<VirtualBusHost>(interruption), "built-in virtual bus; " + fault};
+}
+
+bool wants_colours() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+
+View::Style style_for(const Options& options) {
+  return {wants_colours(), options.every_frame, options.serve ? "bus" : "master"};
+}
+
+int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
+  Master master(host, clock, options.node_id);
+  const TourResult result = take_tour(clock, master, view);
+  summarise(result, clock.counters(), view);
+  if (!result.failed.empty() && !host.bus_fault().empty()) {
+    view.finding(false, host.bus_fault());
+  }
+  if (result.interrupted) {
+    return exit_interrupted;
+  }
+  return result.failed.empty() ? exit_ok : exit_step_failed;
+}
+
+/// Shows what is wrong with the bus, once as long as nothing else happens.
+class FaultReport {
+ public:
+  void update(Host& host, Clock& clock, View& view) {
+    const CO_NODE_COUNTERS counters = clock.counters();
+    if (clock.error() == CO_ERR_NONE) {
+      shown_ = shown_ && frames_ == counters.Sent + counters.Received;
+    } else if (!shown_ && !host.bus_fault().empty()) {
+      view.line(host.bus_fault());
+      shown_ = true;
+    }
+    frames_ = counters.Sent + counters.Received;
+  }
+
+ private:
+  bool shown_ = false;
+  std::uint32_t frames_ = 0;
+};
+
+int serve(Host& host, Clock& clock, View& view) {
+  if (!clock.start()) {
+    view.line(text("The node does not start: error %04Xh", static_cast<unsigned>(clock.error())));
+    return exit_step_failed;
+  }
+  FaultReport faults;
+  while (!host.interrupted()) {
+    clock.process();
+    faults.update(host, clock, view);
+    host.wait(clock.due_in());
+  }
+  view.line("\nThe end");
+  show_counters(clock.counters(), view);
+  return exit_ok;
+}
+
+int run(const Options& options) {
+  const Interruption interruption;
+  const Bus bus = open_bus(options, interruption);
+  if (bus.host == nullptr) {
+    std::cerr << bus.about << '\n';
+    return exit_usage;
+  }
+  Host& host = *bus.host;
+  View view(std::cout, clock_object_names(), style_for(options));
+  view.line("Bus:  " + bus.about);
+  view.line(text("Node: the demo clock, node-ID %u%s\n", options.node_id, options.serve ? "; Ctrl-C ends it" : ""));
+  view.columns();
+  const Micros begin = host.now();
+  Clock clock(options.node_id, host.device_can(), host.device_timer(),
+              [&](bool received, const CO_IF_FRM& frame) { view.frame(host.now() - begin, received, frame); });
+  return options.serve ? serve(host, clock, view) : show_tour(host, clock, options, view);
+}
+
+}  // namespace
+}  // namespace demo
+
+int main(int argc, char** argv) {
+  const demo::CommandLine line = demo::read_command_line(argc, argv);
+  return line.run ? demo::run(line.options) : line.exit_code;
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file options.hpp
+/// The command line of lexican-demo-node.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace demo {
+
+/// Exit codes of the program.
+enum Exit : int {
+  exit_ok = 0,
+  exit_step_failed = 1,
+  exit_usage = 2,  // also: the bus cannot be used
+  exit_interrupted = 130,
+};
+
+struct Options {
+  std::string interface;  // SocketCAN; empty: the program chooses
+  std::uint8_t node_id = 1;
+  bool serve = false;
+  bool virtual_bus = false;
+  bool every_frame = false;
+};
+
+struct CommandLine {
+  Options options;
+  bool run = false;  // false: all is said (--help, or a fault), end with exit_code
+  int exit_code = exit_ok;
+};
+
+CommandLine read_command_line(int argc, char** argv);
+
+}  // namespace demo

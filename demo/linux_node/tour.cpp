@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_node/tour.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+#include "linux_node/sdo_client.hpp"
+#include "trace/decode.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+namespace {
+
+struct Finding {
+  bool good;
+  std::string text;
+};
+
+struct Tour {
+  Clock& clock;
+  Master& master;
+  SdoClient sdo;
+  Micros set_at = 0;  // when the clock was set
+};
+
+constexpr Micros heartbeat_timeout = 3 * second;
+constexpr TimeOfDay set_time = {12, 34, 57};  // the minute changes while we look
+constexpr std::uint32_t day = 24 * 60 * 60;   // s
+
+Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
+
+/// No byte is equal to its neighbours, and none is a character.
+Bytes test_picture() {
+  Bytes picture(picture_size);
+  for (std::size_t i = 0; i < picture.size(); ++i) {
+    picture[i] = static_cast<std::uint8_t>(0x80 | (i * 7));
+  }
+  return picture;
+}
+
+std::uint32_t number(const Bytes& data) {
+  std::uint32_t result = 0;
+  for (std::size_t i = 0; i < data.size() && i < 4; ++i) {
+    result |= static_cast<std::uint32_t>(data[i]) << (8 * i);
+  }
+  return result;
+}
+
+Finding failure(const char* what, const Transfer& transfer) {
+  return {false, std::string(what) + ": " + transfer.outcome()};
+}
+
+/// The transfer has to end with this abort code.
+Finding expect_abort(const char* what, const Transfer& transfer, std::uint32_t code) {
+  return {transfer.abort_code == code, std::string(what) + ": " + transfer.outcome()};
+}
+
+Finding expect_text(const char* what, const Transfer& transfer, const char* expected) {
+  if (!transfer.done()) {
+    return failure(what, transfer);
+  }
+  return {transfer.data == bytes_of(expected),
+          std::string(what) + " is " + quoted(transfer.data.data(), transfer.data.size())};
+}
+
+// --- The steps
+
+Finding boot(Tour& tour) {
+  const bool booted = tour.clock.start() && tour.master.await_state(State::boot_up, second);
+  return {booted, text(booted ? "node %u is there" : "node %u does not boot", tour.master.node_id())};
+}
+
+Finding identify(Tour& tour) {
+  std::uint32_t value[5] = {};
+  if (const Transfer type = tour.sdo.upload(0x1000, 0); !type.done()) {
+    return failure("device type", type);
+  }
+  for (std::uint8_t sub = 0; sub <= 4; ++sub) {
+    const Transfer transfer = tour.sdo.upload(0x1018, sub);
+    if (!transfer.done()) {
+      return failure("identity", transfer);
+    }
+    value[sub] = number(transfer.data);
+  }
+  const bool good = value[0] == 4 && value[2] == clock_product_code && value[4] == clock_serial_number;
+  return {good, text("product %04Xh, revision %u.%u, serial number %u", value[2], value[3] >> 16, value[3] & 0xFFFFu,
+                     value[4])};
+}
+
+Finding read_name(Tour& tour) { return expect_text("the device name", tour.sdo.upload(0x1008, 0), clock_name); }
+
+Finding set_clock(Tour& tour) {
+  const std::uint8_t figures[] = {set_time.hour, set_time.minute, set_time.second};
+  for (std::uint8_t sub = 1; sub <= 3; ++sub) {
+    const Transfer transfer = tour.sdo.download(0x2100, sub, {figures[sub - 1]});
+    if (!transfer.done()) {
+      return failure("setting the clock", transfer);
+    }
+  }
+  tour.set_at = tour.master.now();
+  return {true, text("the clock is set to %02u:%02u:%02u", set_time.hour, set_time.minute, set_time.second)};
+}
+
+Finding set_impossible_hour(Tour& tour) {
+  return expect_abort("hour 24", tour.sdo.download(0x2100, 1, {24}), CO_SDO_ERR_RANGE);
+}
+
+Finding read_missing_object(Tour& tour) {
+  return expect_abort("object 2FFFh", tour.sdo.upload(0x2FFF, 0), CO_SDO_ERR_OBJ);
+}
+
+Finding write_constant(Tour& tour) {
+  return expect_abort("a new device type", tour.sdo.download(0x1000, 0, {1, 0, 0, 0}), CO_SDO_ERR_WR);
+}
+
+Finding name_station(Tour& tour) {
+  constexpr const char* name = "Central Station";
+  if (const Transfer written = tour.sdo.download(0x2201, 0, bytes_of(name)); !written.done()) {
+    return failure("the station name", written);
+  }
+  return expect_text("the station name", tour.sdo.upload(0x2201, 0), name);
+}
+
+Finding exchange_picture(Tour& tour) {
+  const Bytes picture = test_picture();
+  if (const Transfer written = tour.sdo.download(0x2200, 0, picture); !written.done()) {
+    return failure("writing the picture", written);
+  }
+  const Transfer read = tour.sdo.upload(0x2200, 0);
+  if (!read.done()) {
+    return failure("reading the picture", read);
+  }
+  const bool same = read.data == picture;
+  return {same, text("%zu bytes written and read, %s", read.data.size(), same ? "all equal" : "NOT equal")};
+}
+
+Finding start(Tour& tour) {
+  if (!tour.master.command(Nmt::start)) {
+    return {false, "the bus takes no frames"};
+  }
+  const bool good = tour.master.await_state(State::operational, heartbeat_timeout) &&
+                    tour.master.await_state(State::operational, heartbeat_timeout);
+  return {good, good ? "operational, two heartbeats" : "no heartbeat says operational"};
+}
+
+Finding stop(Tour& tour) {
+  if (!tour.master.command(Nmt::stop) || !tour.master.await_state(State::stopped, heartbeat_timeout)) {
+    return {false, "no heartbeat says stopped"};
+  }
+  const Transfer transfer = SdoClient(tour.master, 200 * millisecond).upload(0x1000, 0);
+  const bool silent = transfer.fault == "no answer";
+  return {silent, silent ? "stopped: a heartbeat, but no answer to SDO" : "stopped, but SDO is answered"};
+}
+
+Finding enter_pre_operational(Tour& tour) {
+  const bool good = tour.master.command(Nmt::enter_pre_operational) &&
+                    tour.master.await_state(State::pre_operational, heartbeat_timeout);
+  return {good, good ? "pre-operational again" : "no heartbeat says pre-operational"};
+}
+
+Finding read_clock(Tour& tour) {
+  std::uint32_t figure[3] = {};
+  for (std::uint8_t sub = 1; sub <= 3; ++sub) {
+    const Transfer transfer = tour.sdo.upload(0x2100, sub);
+    if (!transfer.done()) {
+      return failure("reading the clock", transfer);
+    }
+    figure[sub - 1] = number(transfer.data);
+  }
+  const auto passed = static_cast<std::uint32_t>((tour.master.now() - tour.set_at) / second);
+  const std::uint32_t set = (set_time.hour * 60u + set_time.minute) * 60u + set_time.second;
+  const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
+  // The clock was set somewhere within one of its seconds.
+  const bool right = (shown + day - set - passed) % day <= 1;
+  return {right, text("%02u:%02u:%02u, %u s after it was set", figure[0], figure[1], figure[2], passed)};
+}
+
+Finding reset(Tour& tour) {
+  const bool good = tour.master.command(Nmt::reset_node) && tour.master.await_state(State::boot_up, second) &&
+                    tour.master.await_state(State::pre_operational, heartbeat_timeout);
+  return {good, good ? "booted again, pre-operational, heartbeat on" : "the node did not come back"};
+}
+
+struct Step {
+  const char* title;
+  const char* shown;  // in the summary
+  Finding (*take)(Tour& tour);
+};
+
+constexpr Step steps[] = {
+    {"The node boots", "boot-up", boot},
+    {"Who is it? Device type and identity, by expedited SDO", "identity", identify},
+    {"Its name has more than 4 bytes: segmented SDO", "segmented upload", read_name},
+    {"Set the clock", "expedited download", set_clock},
+    {"The clock refuses hour 24 with an abort code of its own", "abort of the application", set_impossible_hour},
+    {"An object that does not exist", "abort: no object", read_missing_object},
+    {"An object that cannot be written", "abort: read-only", write_constant},
+    {"Give the station a name: segmented download", "segmented download", name_station},
+    {"A picture there and back: a domain", "domain", exchange_picture},
+    {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
+    {"Stop the node: SDO is silent now", "NMT stop", stop},
+    {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational},
+    {"Meanwhile the clock has run", "a cyclic timer", read_clock},
+    {"Reset the node", "NMT reset node", reset},
+};
+
+/// A few in a line.
+void show_list(const std::vector<std::string>& items, View& view) {
+  constexpr std::size_t per_line = 5;
+  for (std::size_t first = 0; first < items.size(); first += per_line) {
+    const std::size_t end = std::min(first + per_line, items.size());
+    std::string line = items[first];
+    for (std::size_t i = first + 1; i < end; ++i) {
+      line += ", " + items[i];
+    }
+    view.note(first == 0 ? "shown" : "", line + (end == items.size() ? "" : ","));
+  }
+}
+
+}  // namespace
+
+TourResult take_tour(Clock& clock, Master& master, View& view) {
+  Tour tour{clock, master, SdoClient(master)};
+  TourResult result;
+  const Micros begin = master.now();
+  for (const Step& step : steps) {
+    view.heading(result.steps + 1, step.title);
+    const Finding finding = step.take(tour);
+    master.await([](const CO_IF_FRM&) { return false; }, 0);  // what was sent last is still seen in this step
+    if (master.interrupted()) {
+      result.interrupted = true;
+      break;
+    }
+    view.finding(finding.good, finding.text);
+    ++result.steps;
+    if (finding.good) {
+      result.shown.emplace_back(step.shown);
+    } else {
+      result.failed.emplace_back(step.title);
+    }
+  }
+  result.duration = master.now() - begin;
+  return result;
+}
+
+void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view) {
+  const double seconds = static_cast<double>(result.duration) / static_cast<double>(second);
+  const std::string taken = text("%u of %zu steps in %.1f s", result.steps, std::size(steps), seconds);
+  view.line("\nSummary");
+  show_list(result.shown, view);
+  show_counters(counters, view);
+  for (const std::string& title : result.failed) {
+    view.finding(false, title);
+  }
+  if (result.interrupted) {
+    view.note("end", "interrupted: " + taken);
+  } else if (result.failed.empty()) {
+    view.finding(true, taken + ", all as expected");
+  } else {
+    view.finding(false, taken + text(", %zu not as expected", result.failed.size()));
+  }
+}
+
+void show_counters(const CO_NODE_COUNTERS& counters, View& view) {
+  view.note("node", text("%u frames received, %u sent; %u unclaimed, %u malformed, %u dropped, %u SDO aborts",
+                         counters.Received, counters.Sent, counters.Unclaimed, counters.Malformed, counters.Dropped,
+                         counters.SdoAborts));
+}
+
+}  // namespace demo

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_node/view.hpp"
+
+#include <algorithm>
+
+#include "trace/text.hpp"
+
+namespace demo {
+namespace {
+
+constexpr unsigned segments_shown = 4;
+constexpr unsigned segments_worth_showing = 4;  // behind these; more are folded
+
+// Select Graphic Rendition of ECMA-48.
+constexpr const char* plain = "";
+constexpr const char* bold = "\033[1m";
+constexpr const char* green = "\033[32m";
+constexpr const char* red = "\033[1;31m";
+constexpr const char* yellow = "\033[33m";
+constexpr const char* cyan = "\033[36m";
+constexpr const char* grey = "\033[90m";
+constexpr const char* reset = "\033[0m";
+
+std::string identifier(const CO_IF_FRM& frame) {
+  const auto id = static_cast<unsigned>(frame.Identifier & (CO_IF_FRM_ID | CO_IF_FRM_ERROR));
+  return text((frame.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) != 0 ? "%08X" : "%03X", id);
+}
+
+std::string bytes(const CO_IF_FRM& frame) {
+  if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
+    return "remote";
+  }
+  return hex_bytes(frame.Data, std::min<std::size_t>(frame.DLC, sizeof frame.Data));
+}
+
+const char* colour_of(bool received, const std::string& meaning) {
+  if (meaning.find("ABORT") != std::string::npos) {
+    return yellow;
+  }
+  return received ? plain : cyan;
+}
+
+}  // namespace
+
+void View::put(const Row& row) {
+  const bool coloured = style_.colours && *row.colour != '\0';
+  out_ << (coloured ? row.colour : "") << row.text << (coloured ? reset : "") << std::endl;
+}
+
+void View::line(const std::string& text) {
+  end_fold();
+  put({plain, text});
+}
+
+void View::columns() { put({grey, text("%9s  %-6s  %-3s  %-23s  %s", "time/s", "from", "ID", "bytes", "meaning")}); }
+
+View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame) const {
+  const std::string meaning = trace::decode(frame, names_);
+  const double seconds = static_cast<double>(time) / static_cast<double>(second);
+  return {colour_of(received, meaning), text("%9.3f  %-6s  %s  %-23s  ", seconds, received ? style_.others : "node",
+                                             identifier(frame).c_str(), bytes(frame).c_str()) +
+                                            meaning};
+}
+
+void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
+  if (style_.every_frame || !trace::is_segment(frame)) {
+    end_fold();
+    put(row(time, received, frame));
+    return;
+  }
+  ++segments_;
+  if (segments_ <= segments_shown) {
+    put(row(time, received, frame));
+  } else if (held_back_.size() < segments_worth_showing) {
+    held_back_.push_back(row(time, received, frame));
+  }
+}
+
+void View::heading(unsigned number, const std::string& title) {
+  end_fold();
+  put({plain, ""});
+  put({bold, text("%2u. ", number) + title});
+}
+
+void View::finding(bool good, const std::string& text) { note(good ? "ok" : "FAILED", text, good ? green : red); }
+
+void View::note(const char* label, const std::string& text, const char* colour) {
+  end_fold();
+  put({colour, demo::text("%9s  ", label) + text});
+}
+
+void View::end_fold() {
+  const unsigned hidden = segments_ > segments_shown ? segments_ - segments_shown : 0;
+  if (hidden > segments_worth_showing) {
+    put({grey, text("%9s  %u more frames like these", "...", hidden)});
+  } else {
+    for (const Row& row : held_back_) {
+      put(row);
+    }
+  }
+  held_back_.clear();
+  segments_ = 0;
+}
+
+}  // namespace demo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file fakes.h
+/// The surroundings of a node in these programs: drivers without context as a firmware has them, and the bus and the
+/// clock behind them. Frames are written as candump does: "601#4000100000000000".
+#ifndef COMPAT_FAKES_H_
+#define COMPAT_FAKES_H_
+
+#include "co_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_IF_CAN_DRV FakeCanDriver;
+extern const CO_IF_TIMER_DRV FakeCyclicTimerDriver;  ///< a periodic interrupt and a count-down
+extern const CO_IF_TIMER_DRV FakeDeltaTimerDriver;   ///< a compare match
+extern const CO_IF_NVM_DRV FakeNvmDriver;
+
+/// What the drivers were told.
+typedef struct FAKES {
+  unsigned CanInits;
+  unsigned CanEnables;
+  unsigned CanResets;
+  unsigned CanCloses;
+  unsigned NvmInits;
+  uint32_t Baudrate;
+  uint32_t TimerFreq;
+  int CanBroken;  ///< 1: Read and Send report an error
+} FAKES;
+
+extern FAKES Fakes;
+
+/// Back to the state before power-on.
+void FakesReset(void);
+
+/// Puts a frame on the bus and lets \a node process it.
+void BusReceive(CO_NODE* node, const char* frame);
+/// The next frame that the node has sent, "" if there is none.
+const char* BusSent(void);
+
+/// Lets \a ticks pass in the timer interrupt, then in the loop.
+void TimePasses(CO_NODE* node, uint32_t ticks);
+
+/// Initialises and starts a node (node-ID 1) without timers of its own; its boot-up message has been taken from the
+/// bus.
+void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len);
+
+#ifdef __cplusplus
+}
+#endif
+
+#define TEST_ASSERT_SENT(frame) TEST_ASSERT_EQUAL_STRING(frame, BusSent())
+
+#endif

@@ -1,0 +1,59 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Builds library and program with link-time optimisation, the table in one language and its use in the other, and runs it.
+# A warning of compiler or linker is a failure. lto.sh CC CXX PROJECT DOCTEST-DIRECTORY BUILD-DIRECTORY
+set -eu
+cc=$1 cxx=$2 project=$3 doctest=$4 build=$5
+compat=$project/tests/compat
+
+for tool in "$cc" "$cxx"; do
+  command -v "$tool" >/dev/null || { echo "skipped: no $tool"; exit 77; }
+done
+
+rm -rf "$build"
+mkdir -p "$build"
+cd "$build"
+
+# clang's objects need a linker of its own.
+linker=
+if [ "$cc" = clang ]; then
+  linker=-fuse-ld=lld
+  command -v ld.lld >/dev/null || { echo "skipped: no ld.lld"; exit 77; }
+fi
+
+warnings="-Wall -Wextra -Werror"
+includes="-I$project/include -I$project/config -I$project/src -I$project/tests/support -I$compat -idirafter $doctest"
+common="-O2 -flto $warnings $includes"
+as_c="$cc -x c -std=c11 $common -c"
+as_cpp="$cxx -x c++ -std=c++17 $common -c"
+
+mkdir library
+cd library
+# shellcheck disable=SC2086
+find "$project/src" -name '*.cpp' -print0 | xargs -0 -n 8 -P 2 $as_cpp -fno-exceptions -fno-rtti
+cd ..
+
+# The assertions are no subject of this test, and doctest is large.
+# shellcheck disable=SC2086
+$cxx -std=c++17 -O0 $includes -c "$project/tests/support/unity.cpp" "$compat/doctest.cpp"
+
+for source in fakes mixed_table mixed_use; do
+  $as_c "$compat/$source.c" -o $source.c.o
+  $as_cpp "$compat/$source.c" -o $source.cpp.o
+done
+
+run() {  # TABLE-LANGUAGE USE-LANGUAGE
+  # shellcheck disable=SC2086
+  $cxx -O2 -flto $linker -Wodr "mixed_table.$1.o" "mixed_use.$2.o" "fakes.$1.o" unity.o doctest.o library/*.o \
+    -o "table_$1_use_$2" 2>"warnings.$1.$2" || { cat "warnings.$1.$2"; exit 1; }
+  if grep -q 'warning' "warnings.$1.$2"; then
+    cat "warnings.$1.$2"
+    echo "table in $1, use in $2: the linker warns"
+    exit 1
+  fi
+  echo "== table in $1, use in $2"
+  "./table_$1_use_$2"
+}
+
+run c cpp
+run cpp c

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// The demo clock and its master, on a virtual bus and with a virtual clock.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "linux_node/clock.hpp"
+#include "linux_node/master.hpp"
+#include "linux_node/sdo_client.hpp"
+#include "linux_node/tour.hpp"
+#include "linux_node/view.hpp"
+#include "support/notation.hpp"
+#include "virtual_bus.hpp"
+#include "virtual_clock.hpp"
+
+namespace {
+
+using demo::Bytes;
+using demo::Micros;
+using demo::SdoClient;
+using demo::second;
+using demo::State;
+using demo::TimeOfDay;
+using demo::Transfer;
+
+constexpr std::uint8_t node_id = 5;
+
+class SimulatedHost : public demo::Host {
+ public:
+  demo::Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
+  demo::Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  demo::Timer device_timer() override { return {&co::VirtualTimerDriver, &timer_}; }
+  Micros now() override { return clock_.elapsed(); }  // the clock of the device ticks in microseconds
+  void wait(Micros time) override { clock_.advance(time); }
+  bool interrupted() override { return now() >= interrupted_at; }
+
+  co::VirtualBus bus;
+  Micros interrupted_at = UINT64_MAX;
+
+ private:
+  co::VirtualClock clock_{0xFFFFFF00};  // wraps soon
+  co::VirtualTimer timer_{clock_};
+  co::VirtualBus::Port& device_ = bus.attach({"node"});
+  co::VirtualBus::Port& master_ = bus.attach({"master"});
+};
+
+struct Bench {
+  void start() {
+    REQUIRE(clock.start());
+    REQUIRE(master.await_state(State::boot_up, 0));
+  }
+  void after(Micros time) {
+    master.await([](const CO_IF_FRM&) { return false; }, time);
+  }
+  std::string trace() const { return out.str(); }
+  bool shows(const char* text) const { return trace().find(text) != std::string::npos; }
+
+  std::ostringstream out;
+  SimulatedHost host;
+  demo::View view{out, demo::clock_object_names(), {}};
+  demo::Clock clock{node_id, host.device_can(), host.device_timer(),
+                    [this](bool received, const CO_IF_FRM& frame) { view.frame(host.now(), received, frame); }};
+  demo::Master master{host, clock, node_id};
+  SdoClient sdo{master};
+};
+
+bool same(const TimeOfDay& time, unsigned hour, unsigned minute, unsigned seconds) {
+  return time.hour == hour && time.minute == minute && time.second == seconds;
+}
+
+}  // namespace
+
+TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable") {
+  Bench bench;
+  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  demo::summarise(result, bench.clock.counters(), bench.view);
+  INFO(bench.trace());
+  CHECK(result.steps == 14);
+  CHECK(result.failed.empty());
+  CHECK_FALSE(result.interrupted);
+  CHECK(bench.shows("705  00                       boot-up"));
+  CHECK(bench.shows("585  43 18 10 02 0C C1 00 00  SDO answer: 1018h:02 product code = 0000C10Ch"));
+  CHECK(bench.shows("605  40 08 10 00 00 00 00 00  SDO upload 1008h:00 device name"));
+  CHECK(bench.shows("585  41 08 10 00 12 00 00 00  SDO answer: 1008h:00 device name, 18 bytes in segments"));
+  CHECK(bench.shows("585  00 4C 65 78 69 63 61 6E  SDO answer: segment: \"Lexican\""));
+  CHECK(bench.shows("605  2F 00 21 01 0C 00 00 00  SDO download 2100h:01 hour = 12"));
+  CHECK(bench.shows("585  80 00 21 01 30 00 09 06  SDO ABORT 2100h:01 hour: 0609 0030h invalid value"));
+  CHECK(bench.shows("585  80 FF 2F 00 00 00 02 06  SDO ABORT 2FFFh:00: 0602 0000h object does not exist"));
+  CHECK(bench.shows("000  01 05                    NMT start, node 5"));
+  CHECK(bench.shows("705  05                       heartbeat: operational"));
+  CHECK(bench.shows("14 of 14 steps in 5.0 s, all as expected"));
+}
+
+TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
+  Bench bench;
+  demo::take_tour(bench.clock, bench.master, bench.view);
+  std::istringstream lines(bench.trace());
+  std::size_t longest = 0;
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    longest = std::max(longest, line.size());
+  }
+  CHECK(longest <= 120);
+  CHECK(count < 130);
+  CHECK(bench.shows("more frames like these"));
+}
+
+TEST_CASE("demo: a step that goes wrong is reported, and the tour goes on") {
+  Bench bench;
+  const auto is_last_name_segment = [](const co::VirtualBus::Traffic& traffic) {
+    return traffic.frame.Identifier == 0x585 && traffic.frame.Data[0] == 0x07;
+  };
+  bench.host.bus.add_rule({co::VirtualBus::Fault::drop, is_last_name_segment});
+  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  INFO(bench.trace());
+  CHECK(result.steps == 14);
+  REQUIRE(result.failed.size() == 1);
+  CHECK(result.failed[0] == "Its name has more than 4 bytes: segmented SDO");
+  CHECK(bench.shows("FAILED  the device name: no answer"));
+  demo::summarise(result, bench.clock.counters(), bench.view);
+  CHECK(bench.shows(", 1 not as expected"));
+}
+
+TEST_CASE("demo: an interruption ends the tour") {
+  Bench bench;
+  bench.host.interrupted_at = 100;  // before the first heartbeat
+  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  demo::summarise(result, bench.clock.counters(), bench.view);
+  CHECK(result.interrupted);
+  CHECK(result.steps == 9);
+  CHECK(result.failed.empty());
+  CHECK(bench.shows("interrupted: 9 of 14 steps"));
+}
+
+TEST_CASE("demo: the clock runs, and changes minute, hour and day") {
+  Bench bench;
+  bench.start();
+  CHECK(same(demo::Clock::time(), 0, 0, 0));
+  bench.after(59 * second);
+  CHECK(same(demo::Clock::time(), 0, 0, 59));
+  bench.after(second);
+  CHECK(same(demo::Clock::time(), 0, 1, 0));
+  REQUIRE(bench.sdo.download(0x2100, 1, {23}).done());
+  REQUIRE(bench.sdo.download(0x2100, 2, {59}).done());
+  REQUIRE(bench.sdo.download(0x2100, 3, {59}).done());
+  CHECK(same(demo::Clock::time(), 23, 59, 59));
+  bench.after(second);
+  CHECK(same(demo::Clock::time(), 0, 0, 0));
+}
+
+TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0030h") {
+  Bench bench;
+  bench.start();
+  CHECK(bench.sdo.download(0x2100, 1, {24}).abort_code == 0x06090030);
+  CHECK(bench.sdo.download(0x2100, 2, {60}).abort_code == 0x06090030);
+  CHECK(bench.sdo.download(0x2100, 3, {60}).abort_code == 0x06090030);
+  CHECK(same(demo::Clock::time(), 0, 0, 0));
+  CHECK(bench.sdo.upload(0x2100, 1).data == Bytes{0});
+}
+
+TEST_CASE("demo: the station name can be written and read; one that is too long is refused") {
+  Bench bench;
+  bench.start();
+  const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
+  REQUIRE(bench.sdo.download(0x2201, 0, name).done());
+  CHECK(bench.sdo.upload(0x2201, 0).data == name);
+  CHECK(bench.sdo.download(0x2201, 0, Bytes(33, 'x')).abort_code == 0x06070012);
+}
+
+TEST_CASE("demo: identifiers of the clock follow its node-ID") {
+  Bench bench;
+  bench.start();
+  CHECK(bench.sdo.upload(0x1014, 0).data == Bytes{0x85, 0, 0, 0});
+  CHECK(bench.sdo.upload(0x1200, 1).data == Bytes{0x05, 0x06, 0, 0});
+  CHECK(bench.sdo.upload(0x1200, 2).data == Bytes{0x85, 0x05, 0, 0});
+}
+
+TEST_CASE("demo: the heartbeat comes each second, and as it is told") {
+  Bench bench;
+  bench.start();
+  std::vector<Micros> beats;
+  const auto note = [&](const CO_IF_FRM& frame) {
+    if (frame.Identifier == 0x705) {
+      beats.push_back(bench.host.now());
+    }
+    return false;
+  };
+  bench.master.await(note, 3 * second);
+  REQUIRE(beats.size() == 3);
+  CHECK(beats[2] - beats[1] == second);
+  REQUIRE(bench.sdo.download(0x1017, 0, {0xFA, 0x00}).done());  // 250 ms
+  beats.clear();
+  bench.master.await(note, second);
+  CHECK(beats.size() == 4);
+  REQUIRE(bench.sdo.download(0x1017, 0, {0xE8, 0x03}).done());
+}
+
+namespace {
+
+/// The lines of a trace with an upload whose middle has so many frames.
+std::vector<std::string> shown_of(unsigned segments, demo::View::Style style = {}) {
+  std::ostringstream out;
+  demo::View view(out, demo::clock_object_names(), style);
+  for (unsigned i = 0; i < segments; ++i) {
+    view.frame(0, true, test::frame("601#6000000000000000"));
+  }
+  view.frame(0, false, test::frame("581#0F00000000000000"));
+  std::istringstream lines(out.str());
+  std::vector<std::string> shown;
+  for (std::string line; std::getline(lines, line);) {
+    shown.push_back(line);
+  }
+  return shown;
+}
+
+}  // namespace
+
+TEST_CASE("demo: a clock whose frames the bus does not take asks again after 1 ms, after an error after 10 ms") {
+  Bench bench;
+  bench.start();
+  using co::VirtualBus;
+  bench.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, VirtualBus::always});
+  bench.host.wait(second);  // a heartbeat is due
+  bench.clock.process();
+  CHECK(bench.clock.due_in() == 1000);
+  bench.host.bus.clear_rules();
+  bench.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
+  bench.clock.process();
+  CHECK(bench.clock.due_in() == 10000);
+  bench.host.bus.clear_rules();
+  bench.clock.process();
+  CHECK(bench.master.await_state(State::pre_operational, 0));
+  CHECK(bench.clock.due_in() > 10000);
+}
+
+TEST_CASE("demo: the view folds the middle of a long transfer, and says how much it left out") {
+  const std::vector<std::string> shown = shown_of(10);
+  REQUIRE(shown.size() == 6);
+  CHECK(shown[4] == "      ...  6 more frames like these");
+  CHECK(shown[5].find("last segment") != std::string::npos);
+}
+
+TEST_CASE("demo: the view shows short transfers, and on request all, frame by frame") {
+  CHECK(shown_of(4).size() == 5);
+  CHECK(shown_of(8).size() == 9);
+  demo::View::Style style;
+  style.every_frame = true;
+  CHECK(shown_of(10, style).size() == 11);
+}

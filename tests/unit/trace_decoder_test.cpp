@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "support/notation.hpp"
+#include "trace/decode.hpp"
+
+namespace {
+
+using demo::trace::Form;
+
+const demo::trace::Names names = {
+    {0x1000, 0, "device type", Form::hex},
+    {0x1008, 0, "device name", Form::characters},
+    {0x1017, 0, "heartbeat time", Form::decimal},
+    {0x2100, 1, "hour", Form::decimal},
+    {0x2200, 0, "picture", Form::hex},
+};
+
+std::string meaning(const char* frame) { return demo::trace::decode(test::frame(frame), names); }
+bool is_segment(const char* frame) { return demo::trace::is_segment(test::frame(frame)); }
+
+}  // namespace
+
+TEST_CASE("trace: boot-up and heartbeat name the state [301 error control]") {
+  CHECK(meaning("701#00") == "boot-up");
+  CHECK(meaning("77F#04") == "heartbeat: stopped");
+  CHECK(meaning("705#05") == "heartbeat: operational");
+  CHECK(meaning("705#7F") == "heartbeat: pre-operational");
+  CHECK(meaning("705#12") == "heartbeat: unknown state 12h");
+}
+
+TEST_CASE("trace: NMT commands name the command and the node [301 NMT node control]") {
+  CHECK(meaning("000#0105") == "NMT start, node 5");
+  CHECK(meaning("000#0205") == "NMT stop, node 5");
+  CHECK(meaning("000#8000") == "NMT enter pre-operational, all nodes");
+  CHECK(meaning("000#817F") == "NMT reset node, node 127");
+  CHECK(meaning("000#8200") == "NMT reset communication, all nodes");
+  CHECK(meaning("000#0301") == "NMT unknown command 03h, node 1");
+}
+
+TEST_CASE("trace: an expedited download shows the object and its value [301 SDO download]") {
+  CHECK(meaning("601#2F0021010C000000") == "SDO download 2100h:01 hour = 12");
+  CHECK(meaning("601#2B171000E8030000") == "SDO download 1017h:00 heartbeat time = 1000");
+  CHECK(meaning("601#2300100091010F00") == "SDO download 1000h:00 device type = 000F0191h");
+  CHECK(meaning("601#2734120556341200") == "SDO download 1234h:05 = 123456h");
+  CHECK(meaning("601#22171000E8030000") == "SDO download 1017h:00 heartbeat time = 1000");  // size not given
+  CHECK(meaning("581#6000210100000000") == "SDO answer: 2100h:01 hour download accepted");
+}
+
+TEST_CASE("trace: an expedited upload shows the object and its value [301 SDO upload]") {
+  CHECK(meaning("601#4017100000000000") == "SDO upload 1017h:00 heartbeat time");
+  CHECK(meaning("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
+  CHECK(meaning("581#4F00210117000000") == "SDO answer: 2100h:01 hour = 23");
+  CHECK(meaning("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
+  CHECK(meaning("581#4B08100041070000") == "SDO answer: 1008h:00 device name = 0741h");  // no readable text
+}
+
+TEST_CASE("trace: a segmented transfer shows size, toggle bit and what is in the segments [301 SDO segments]") {
+  CHECK(meaning("601#2100220010270000") == "SDO download 2200h:00 picture, 10000 bytes in segments");
+  CHECK(meaning("601#2000220000000000") == "SDO download 2200h:00 picture, segments of unknown size");
+  CHECK(meaning("601#0041424344454647") == "SDO download segment: \"ABCDEFG\"");
+  CHECK(meaning("601#1000010203040506") == "SDO download segment, 7 bytes");
+  CHECK(meaning("601#0D41000000000000") == "SDO download last segment: \"A\"");
+  CHECK(meaning("601#0D01000000000000") == "SDO download last segment, 1 byte");
+  CHECK(meaning("601#0F00000000000000") == "SDO download last segment, 0 bytes");
+  CHECK(meaning("581#2000000000000000") == "SDO answer: segment taken, toggle 0");
+  CHECK(meaning("581#3000000000000000") == "SDO answer: segment taken, toggle 1");
+  CHECK(meaning("581#410810000B000000") == "SDO answer: 1008h:00 device name, 11 bytes in segments");
+  CHECK(meaning("601#6000000000000000") == "SDO upload next segment, toggle 0");
+  CHECK(meaning("601#7000000000000000") == "SDO upload next segment, toggle 1");
+  CHECK(meaning("581#0041424344454647") == "SDO answer: segment: \"ABCDEFG\"");
+  CHECK(meaning("581#1748494A4B000000") == "SDO answer: last segment: \"HIJK\"");
+}
+
+TEST_CASE("trace: an abort shows object, code and reason, from either side [301 SDO abort]") {
+  CHECK(meaning("581#8000210130000906") == "SDO ABORT 2100h:01 hour: 0609 0030h invalid value");
+  CHECK(meaning("581#80FF2F0000000206") == "SDO ABORT 2FFFh:00: 0602 0000h object does not exist");
+  CHECK(meaning("601#8008100000000405") == "SDO ABORT 1008h:00 device name: 0504 0000h protocol timed out");
+  CHECK(meaning("581#8000210178563412") == "SDO ABORT 2100h:01 hour: 1234 5678h unknown abort code");
+}
+
+TEST_CASE("trace: every abort code of CiA 301 has a meaning of its own [301 SDO abort codes]") {
+  const std::uint32_t codes[] = {
+      0x05030000, 0x05040000, 0x05040001, 0x05040002, 0x05040003, 0x05040004, 0x05040005, 0x06010000,
+      0x06010001, 0x06010002, 0x06020000, 0x06040041, 0x06040042, 0x06040043, 0x06040047, 0x06060000,
+      0x06070010, 0x06070012, 0x06070013, 0x06090011, 0x06090030, 0x06090031, 0x06090032, 0x06090036,
+      0x060A0023, 0x08000000, 0x08000020, 0x08000021, 0x08000022, 0x08000023, 0x08000024,
+  };
+  for (const std::uint32_t code : codes) {
+    CAPTURE(code);
+    CHECK(demo::trace::abort_meaning(code) != std::string("unknown abort code"));
+  }
+}
+
+TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
+  CHECK(meaning("181#1122334455667788") == "unknown 181#1122334455667788");
+  CHECK(meaning("080#") == "unknown 080#");
+  CHECK(meaning("000#01") == "unknown 000#01");  // NMT has two bytes
+  CHECK(meaning("000#010500") == "unknown 000#010500");
+  CHECK(meaning("701#0000") == "unknown 701#0000");  // a heartbeat has one
+  CHECK(meaning("700#05") == "unknown 700#05");      // of node 0
+  CHECK(meaning("600#4000100000000000") == "unknown 600#4000100000000000");
+  CHECK(meaning("601#40001000") == "unknown 601#40001000");  // SDO frames have eight
+  CHECK(meaning("601#E000100000000000") == "SDO unknown command 601#E000100000000000");
+  CHECK(meaning("581#E000100000000000") == "SDO answer: unknown command 581#E000100000000000");
+  CHECK(meaning("601#A008100015000000") == "SDO block upload 601#A008100015000000");
+  CHECK(meaning("601#C200220010270000") == "SDO block download 601#C200220010270000");
+}
+
+TEST_CASE("trace: 29-bit identifiers, remote frames and error frames are not taken for services") {
+  CHECK(meaning("00000701#00") == "unknown 00000701#00");
+  CHECK(meaning("701#R") == "remote frame 701#R");
+  CHECK(meaning("181#R8") == "remote frame 181#R8");
+  CHECK(meaning("20000040#0000000000000000") == "CAN error frame: bus-off 20000040#0000000000000000");
+  CHECK(meaning("20000004#000C000000000000") == "CAN error frame: controller problem 20000004#000C000000000000");
+  CHECK(meaning("20000100#0000000000000000") == "CAN error frame: controller restarted 20000100#0000000000000000");
+}
+
+TEST_CASE("trace: only the middle of a segmented transfer can be folded") {
+  CHECK(is_segment("601#6000000000000000"));
+  CHECK(is_segment("601#0041424344454647"));
+  CHECK(is_segment("581#0041424344454647"));
+  CHECK(is_segment("581#3000000000000000"));
+  CHECK_FALSE(is_segment("601#0148494A4B000000"));  // the last
+  CHECK_FALSE(is_segment("581#1748494A4B000000"));
+  CHECK_FALSE(is_segment("601#4008100000000000"));  // the initiates
+  CHECK_FALSE(is_segment("581#6000220000000000"));
+  CHECK_FALSE(is_segment("581#8008100000000405"));
+  CHECK_FALSE(is_segment("181#0041424344454647"));
+  CHECK_FALSE(is_segment("00000601#0041424344454647"));
+}
