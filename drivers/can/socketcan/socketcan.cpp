@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "socketcan.hpp"
+
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace co {
+namespace {
+
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+
+// What a node acts on. Single bus errors are left out: they may flood.
+constexpr can_err_mask_t reported_errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;
+
+// More frames than a receive queue holds; an end for a bus that is faster than we are.
+constexpr int drain_limit = 4096;
+
+bool not_now(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == ENOBUFS || error == EINTR; }
+
+// The device of the socket is gone; it stays gone for this socket when one of the same name comes back.
+bool vanished(int error) { return error == ENODEV || error == ENXIO; }
+
+CO_IF_FRM overflow_frame() {
+  return {CO_IF_FRM_ERROR | CAN_ERR_CRTL, {0, CAN_ERR_CRTL_RX_OVERFLOW, 0, 0, 0, 0, 0, 0}, CAN_ERR_DLC};
+}
+
+bool request(int fd, unsigned long what, const std::string& interface, ifreq& answer) {
+  answer = {};
+  std::memcpy(answer.ifr_name, interface.data(), interface.size());  // fits: checked by open()
+  return ::ioctl(fd, what, &answer) == 0;
+}
+
+template <typename Value>
+bool set_option(int fd, int level, int name, const Value& value) {
+  return ::setsockopt(fd, level, name, &value, sizeof value) == 0;
+}
+
+}  // namespace
+
+SocketCan::~SocketCan() { release(); }
+
+bool SocketCan::open(const std::string& interface) {
+  release();
+  interface_ = interface;
+  code_ = 0;
+  error_.clear();
+  on_bus_ = open_socket();
+  return on_bus_;
+}
+
+void SocketCan::close() {
+  release();
+  on_bus_ = false;
+}
+
+bool SocketCan::up() const {
+  ifreq answer{};
+  return fd_ >= 0 && request(fd_, SIOCGIFFLAGS, interface_, answer) && (answer.ifr_flags & IFF_UP) != 0;
+}
+
+void SocketCan::init() { drain(); }
+
+void SocketCan::enable() {
+  if (fd_ >= 0) {
+    drain();
+    return;
+  }
+  open_socket();
+  on_bus_ = true;  // even if it has failed: the interface may come
+}
+
+std::int16_t SocketCan::read(CO_IF_FRM& frame) {
+  if (!present()) {
+    return 0;
+  }
+  if (overrun_) {
+    overrun_ = false;
+    frame = overflow_frame();
+    return taken;
+  }
+  can_frame raw{};
+  const long bytes = receive(raw);
+  if (bytes < 0) {
+    return not_now(errno) ? std::int16_t{0} : failed("receiving", errno);
+  }
+  if (bytes != static_cast<long>(sizeof raw)) {
+    return failed("receiving", EBADMSG);
+  }
+  frame = from_socketcan(raw);
+  return taken;
+}
+
+std::int16_t SocketCan::send(const CO_IF_FRM& frame) {
+  if (!present()) {
+    return -1;
+  }
+  const can_frame raw = to_socketcan(frame);
+  const ssize_t bytes = ::send(fd_, &raw, sizeof raw, MSG_DONTWAIT);
+  if (bytes < 0) {
+    return not_now(errno) ? std::int16_t{0} : failed("sending", errno);
+  }
+  return taken;
+}
+
+void SocketCan::reset() {
+  if (present()) {
+    drain();
+  }
+}
+
+void SocketCan::filter(const std::uint32_t* ids, std::uint16_t num) {
+  filters_ = socketcan_filters(ids, num);
+  filtered_ = true;
+  if (fd_ >= 0 && !apply_filters()) {
+    fail(SocketCanStep::option, errno);
+  }
+}
+
+bool SocketCan::open_socket() {
+  if (interface_.empty() || interface_.size() >= IFNAMSIZ) {
+    return fail(SocketCanStep::name, EINVAL);
+  }
+  fd_ = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
+  lost_on_socket_ = 0;
+  if (fd_ < 0) {
+    return fail(SocketCanStep::socket, errno);
+  }
+  // Options first: a bound socket receives at once.
+  if (set_options() && bind_to_interface()) {
+    return true;
+  }
+  release();
+  return false;
+}
+
+bool SocketCan::set_options() {
+  const int off = 0;
+  const int on = 1;
+  const bool done = apply_filters() && set_option(fd_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, reported_errors) &&
+                    set_option(fd_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, off) &&
+                    set_option(fd_, SOL_SOCKET, SO_RXQ_OVFL, on);
+  return done || fail(SocketCanStep::option, errno);
+}
+
+bool SocketCan::apply_filters() {
+  if (!filtered_) {
+    return true;  // a new socket passes everything
+  }
+  const auto size = static_cast<socklen_t>(filters_.size() * sizeof(can_filter));
+  return ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, filters_.empty() ? nullptr : filters_.data(), size) == 0;
+}
+
+bool SocketCan::bind_to_interface() {
+  ifreq answer{};
+  if (!request(fd_, SIOCGIFINDEX, interface_, answer)) {
+    return fail(SocketCanStep::interface, errno);
+  }
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = answer.ifr_ifindex;
+  if (::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    return fail(SocketCanStep::bind, errno);
+  }
+  return true;
+}
+
+// Whether there is a socket; an interface that had vanished may be back.
+bool SocketCan::present() { return fd_ >= 0 || (on_bus_ && open_socket()); }
+
+void SocketCan::release() {
+  if (fd_ >= 0) {
+    ::close(fd_);
+  }
+  fd_ = -1;
+  overrun_ = false;
+}
+
+void SocketCan::drain() {
+  can_frame raw{};
+  for (int i = 0; i < drain_limit && fd_ >= 0; ++i) {
+    if (receive(raw) >= 0) {
+      continue;
+    }
+    if (not_now(errno)) {
+      break;
+    }
+    failed("receiving", errno);  // an error that has waited hides the frames behind it
+  }
+  overrun_ = false;
+}
+
+long SocketCan::receive(can_frame& frame) {
+  iovec data{&frame, sizeof frame};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint32_t))];
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  const ssize_t bytes = ::recvmsg(fd_, &message, MSG_DONTWAIT);
+  const cmsghdr* const extra = (bytes < 0) ? nullptr : CMSG_FIRSTHDR(&message);
+  if (extra != nullptr && extra->cmsg_level == SOL_SOCKET && extra->cmsg_type == SO_RXQ_OVFL) {
+    std::uint32_t total = 0;
+    std::memcpy(&total, CMSG_DATA(extra), sizeof total);
+    note_lost(total);
+  }
+  return bytes;
+}
+
+void SocketCan::note_lost(std::uint32_t total) {
+  const std::uint32_t more = total - lost_on_socket_;
+  lost_on_socket_ = total;
+  lost_ += more;
+  overrun_ = overrun_ || more != 0;
+}
+
+// Keeps the error and what it means; the socket is closed by whoever has opened it.
+bool SocketCan::fail(SocketCanStep step, int error) {
+  code_ = error;
+  error_ = socketcan_error(step, error, interface_);
+  return false;
+}
+
+std::int16_t SocketCan::failed(const char* action, int error) {
+  code_ = error;
+  error_ = "CAN interface '" + interface_ + "': " + action + " failed: " + std::generic_category().message(error);
+  if (vanished(error)) {
+    release();
+  }
+  return -1;
+}
+
+namespace {
+
+SocketCan& can(void* ctx) { return *static_cast<SocketCan*>(ctx); }
+
+void init(void* ctx) { can(ctx).init(); }
+void enable(void* ctx, std::uint32_t /*baud*/) { can(ctx).enable(); }
+std::int16_t read(void* ctx, CO_IF_FRM* frm) { return can(ctx).read(*frm); }
+std::int16_t send(void* ctx, const CO_IF_FRM* frm) { return can(ctx).send(*frm); }
+void reset(void* ctx) { can(ctx).reset(); }
+void close(void* ctx) { can(ctx).close(); }
+void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { can(ctx).filter(ids, num); }
+
+}  // namespace
+
+const CO_IF_CAN_DRV_EX SocketCanDriver = {init, enable, read, send, reset, close, filter};
+
+}  // namespace co

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file socketcan.hpp
+/// A CAN interface of Linux (SocketCAN), through a raw socket that never blocks.
+///
+///     co::SocketCan can;
+///     if (!can.open("can0")) { report(can.error()); }            // no exception, the reason in words
+///     ext.Can = &co::SocketCanDriver;  ext.CanCtx = &can;        // CO_NODE_EXT
+///     pollfd wait{can.fd(), POLLIN, 0};                          // then CONodeProcess()
+///
+/// Bit rate. A socket cannot set it, that takes an administrator (ip link set can0 up type can bitrate 250000). Enable
+/// goes on the bus at the rate that the interface has; a rate changed by LSS has to be set by other means.
+///
+/// Going on and off the bus. open() does it with a name, Enable with the name of the last open(), Close ends it. Init,
+/// Enable and Reset throw away what was received before. What the kernel has taken to send cannot be called back.
+///
+/// Filters. The kernel passes what the node asks for, exactly (up to 512 identifiers, all frames beyond that); before
+/// the node has asked, everything. Frames sent through this socket are not received by it.
+///
+/// Errors. Error frames of the controller (bus-off, controller problems, restarted) come out of Read as SocketCAN codes
+/// them. So does a receive queue of the kernel that has overflowed, counted by lost().
+/// Send returns 0 while the transmit queue of the interface is full.
+/// Any other error is -1, with errno in code() and words in error(): ENETDOWN while the interface is down (Read reports
+/// it once; sending and receiving go on when it is up again), ENODEV when it has vanished (USB adapters). In this case
+/// the socket is closed, fd() is -1, and every Read and Send tries to open the interface anew: ask for fd() before each
+/// poll(). While it is away Read returns 0 and Send -1.
+///
+/// Context: one thread. Owner: the caller; must outlive the node.
+#ifndef CO_DRIVERS_SOCKETCAN_HPP_
+#define CO_DRIVERS_SOCKETCAN_HPP_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "co_if_can.h"
+#include "socketcan_frame.hpp"
+
+namespace co {
+
+class SocketCan {
+ public:
+  SocketCan() = default;
+  ~SocketCan();
+  SocketCan(const SocketCan&) = delete;
+  SocketCan& operator=(const SocketCan&) = delete;
+
+  /// Returns false if the interface cannot be used, see error(). An interface that is down can be opened, see up().
+  bool open(const std::string& interface);
+  void close();
+
+  bool up() const;                    ///< open, and the interface is up
+  int fd() const { return fd_; }      ///< for poll() and the like; -1: off the bus
+  int code() const { return code_; }  ///< errno of the last error, 0: none since open()
+  const std::string& error() const { return error_; }
+  std::uint32_t lost() const { return lost_; }  ///< frames that found the receive queue of the kernel full
+
+  /// \name As CO_IF_CAN_DRV_EX
+  /// \{
+  void init();
+  void enable();
+  std::int16_t read(CO_IF_FRM& frame);
+  std::int16_t send(const CO_IF_FRM& frame);
+  void reset();
+  void filter(const std::uint32_t* ids, std::uint16_t num);
+  /// \}
+
+ private:
+  bool open_socket();
+  bool set_options();
+  bool apply_filters();
+  bool bind_to_interface();
+  bool present();
+  void release();
+  void drain();
+  long receive(can_frame& frame);
+  void note_lost(std::uint32_t total);
+  bool fail(SocketCanStep step, int error);
+  std::int16_t failed(const char* action, int error);
+
+  std::string interface_;
+  std::string error_;
+  std::vector<can_filter> filters_;
+  std::uint32_t lost_ = 0;
+  std::uint32_t lost_on_socket_ = 0;  // as the kernel counts: since the socket was made
+  int code_ = 0;
+  int fd_ = -1;
+  bool on_bus_ = false;    // wanted: between open()/Enable and Close
+  bool filtered_ = false;  // filters_ is what the node wants
+  bool overrun_ = false;   // not yet reported
+};
+
+/// The driver; its context is a SocketCan.
+extern const CO_IF_CAN_DRV_EX SocketCanDriver;
+
+}  // namespace co
+
+#endif

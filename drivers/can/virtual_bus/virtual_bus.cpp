@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "virtual_bus.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace co {
+namespace {
+
+// SocketCAN's codes, spelled out because this driver also runs where there is no Linux.
+constexpr std::uint32_t error_controller = 0x004;
+constexpr std::uint32_t error_bus_off = 0x040;
+constexpr std::uint32_t error_restarted = 0x100;
+constexpr std::uint8_t controller_rx_overflow = 0x01;
+constexpr std::uint8_t error_dlc = 8;
+
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+
+bool is_error(const CO_IF_FRM& frame) { return (frame.Identifier & CO_IF_FRM_ERROR) != 0; }
+
+// The bits of the arbitration field in the order in which they are sent; the lower value wins. [ISO 11898-1]
+//   11-bit identifier: base ID, RTR, IDE = 0;  29-bit: base ID, SRR = 1, IDE = 1, ID extension, RTR
+std::uint32_t arbitration(const CO_IF_FRM& frame) {
+  const std::uint32_t rtr = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? 1 : 0;
+  const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
+  if ((frame.Identifier & CO_IF_FRM_EXT) == 0) {
+    return ((id & 0x7FF) << 21) | (rtr << 20);
+  }
+  return ((id >> 18) << 21) | (3u << 19) | ((id & 0x3FFFF) << 1) | rtr;
+}
+
+bool seen_by_sender(VirtualBus::Fault fault) {
+  return fault == VirtualBus::Fault::refuse || fault == VirtualBus::Fault::error || fault == VirtualBus::Fault::bus_off;
+}
+
+}  // namespace
+
+VirtualBus::VirtualBus() : outside_(std::make_unique<Port>(*this, Options{"outside", 0, SIZE_MAX, false})) {
+  outside_->enable();
+}
+
+VirtualBus::~VirtualBus() = default;
+
+VirtualBus::Port& VirtualBus::attach(Options options) {
+  ports_.push_back(std::make_unique<Port>(*this, std::move(options)));
+  return *ports_.back();
+}
+
+VirtualBus::Port& VirtualBus::attach() { return attach(Options{}); }
+
+void VirtualBus::inject(const CO_IF_FRM& frame) {
+  if (!is_error(frame)) {
+    outside_->send(frame);
+    return;
+  }
+  for (const auto& port : ports_) {
+    port->report(frame);
+  }
+}
+
+void VirtualBus::set_trace(std::function<void(const Traffic&)> trace) { trace_ = std::move(trace); }
+
+void VirtualBus::set_time(std::function<Time()> source) { source_ = std::move(source); }
+
+VirtualBus::Time VirtualBus::now() const { return source_ ? source_() : Time{0}; }
+
+std::size_t VirtualBus::add_rule(Rule rule) {
+  rules_.push_back({std::move(rule)});
+  return rules_.size() - 1;
+}
+
+std::uint32_t VirtualBus::struck(std::size_t rule) const { return rule < rules_.size() ? rules_[rule].struck : 0; }
+
+void VirtualBus::clear_rules() { rules_.clear(); }
+
+void VirtualBus::hold() { held_ = true; }
+
+void VirtualBus::release() {
+  held_ = false;
+  run();
+}
+
+void VirtualBus::poll() { run(); }
+
+VirtualBus::Time VirtualBus::next_due() const { return late_.empty() ? never : late_.front().due; }
+
+CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t controller) {
+  return {CO_IF_FRM_ERROR | (error_class & CO_IF_FRM_ID), {0, controller, 0, 0, 0, 0, 0, 0}, error_dlc};
+}
+
+const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) {
+  CountedRule* decides = nullptr;
+  for (std::size_t i = 0; i < rules_.size(); ++i) {  // by number: a match may add rules
+    CountedRule& counted = rules_[i];
+    const Rule& rule = counted.rule;
+    if (seen_by_sender(rule.fault) != (phase == Phase::send) || (rule.match && !rule.match(traffic))) {
+      continue;
+    }
+    ++counted.seen;
+    const bool applies = counted.seen >= rule.first && counted.seen - rule.first < rule.times;
+    if (applies && decides == nullptr) {
+      decides = &counted;
+    }
+  }
+  if (decides == nullptr) {
+    return nullptr;
+  }
+  ++decides->struck;
+  return &decides->rule;
+}
+
+VirtualBus::Port* VirtualBus::winner() {
+  Port* best = outside_->transmit_.empty() ? nullptr : outside_.get();
+  for (const auto& port : ports_) {
+    if (port->transmit_.empty()) {
+      continue;
+    }
+    if (best == nullptr || arbitration(port->transmit_.front()) < arbitration(best->transmit_.front())) {
+      best = port.get();
+    }
+  }
+  return best;
+}
+
+void VirtualBus::run() {
+  if (held_ || running_) {
+    return;
+  }
+  running_ = true;
+  deliver_due();
+  for (Port* port = winner(); port != nullptr && !held_; port = winner()) {
+    const CO_IF_FRM frame = port->transmit_.front();
+    port->transmit_.pop_front();
+    transmit(frame, port);
+  }
+  running_ = false;
+}
+
+void VirtualBus::transmit(const CO_IF_FRM& frame, const Port* sender) {
+  const Rule* const rule = strike({frame, visible(*sender), now()}, Phase::bus);
+  const Fault fault = (rule != nullptr) ? rule->fault : Fault::none;
+  if (fault == Fault::delay || fault == Fault::reorder) {
+    postpone(frame, sender, *rule);
+    return;
+  }
+  if (fault == Fault::drop) {
+    trace(frame, sender, true);
+  } else {
+    deliver(frame, sender);
+  }
+  if (fault == Fault::duplicate) {
+    deliver(frame, sender);
+  }
+  deliver_reordered(sender);
+}
+
+void VirtualBus::postpone(const CO_IF_FRM& frame, const Port* sender, const Rule& rule) {
+  const bool behind_next = rule.fault == Fault::reorder;
+  const Time due = (behind_next && rule.delay == Time{0}) ? never : now() + rule.delay;
+  const auto after =
+      std::upper_bound(late_.begin(), late_.end(), due, [](Time time, const Late& late) { return time < late.due; });
+  late_.insert(after, {frame, sender, due, behind_next});
+}
+
+void VirtualBus::deliver(const CO_IF_FRM& frame, const Port* sender) {
+  trace(frame, sender, false);
+  for (const auto& port : ports_) {
+    if (port.get() != sender && port->hears(*sender)) {
+      port->receive(frame);
+    }
+  }
+}
+
+void VirtualBus::trace(const CO_IF_FRM& frame, const Port* sender, bool dropped) const {
+  if (trace_) {
+    trace_({frame, visible(*sender), now(), dropped});
+  }
+}
+
+void VirtualBus::deliver_due() {
+  deliver_first([this](const Late& late) { return late.due != never && late.due <= now(); });
+}
+
+void VirtualBus::deliver_reordered(const Port* sender) {
+  deliver_first([sender](const Late& late) { return late.behind_next && late.sender == sender; });
+}
+
+// Searches anew after every delivery: the trace hook may have added rules or advanced the time.
+void VirtualBus::deliver_first(const std::function<bool(const Late&)>& ready) {
+  for (auto it = std::find_if(late_.begin(), late_.end(), ready); it != late_.end();
+       it = std::find_if(late_.begin(), late_.end(), ready)) {
+    const Late late = *it;
+    late_.erase(it);
+    deliver(late.frame, late.sender);
+  }
+}
+
+const VirtualBus::Port* VirtualBus::visible(const Port& port) const {
+  return (&port == outside_.get()) ? nullptr : &port;
+}
+
+VirtualBus::Port::Port(VirtualBus& bus, Options options) : bus_(bus), options_(std::move(options)) {}
+
+void VirtualBus::Port::enable(std::uint32_t baud) {
+  empty();
+  baud_ = baud;
+  enabled_ = true;
+  bus_off_ = false;
+}
+
+void VirtualBus::Port::close() {
+  empty();
+  enabled_ = false;
+}
+
+void VirtualBus::Port::reset() {
+  empty();
+  recover();
+}
+
+std::int16_t VirtualBus::Port::send(const CO_IF_FRM& frame) {
+  if (!active()) {
+    return -1;
+  }
+  const Rule* const rule = bus_.strike({frame, bus_.visible(*this), bus_.now()}, Phase::send);
+  const Fault fault = (rule != nullptr) ? rule->fault : Fault::none;
+  if (fault == Fault::bus_off) {
+    bus_off();
+  }
+  if (fault == Fault::bus_off || fault == Fault::error) {
+    return -1;
+  }
+  if (fault == Fault::refuse || transmit_.size() >= options_.transmit) {
+    return 0;
+  }
+  transmit_.push_back(frame);
+  bus_.run();
+  return taken;
+}
+
+std::optional<CO_IF_FRM> VirtualBus::Port::read() {
+  bus_.run();
+  if (overrun_) {
+    overrun_ = false;
+    return error_frame(error_controller, controller_rx_overflow);
+  }
+  if (receive_.empty()) {
+    return std::nullopt;
+  }
+  const CO_IF_FRM frame = receive_.front();
+  receive_.pop_front();
+  return frame;
+}
+
+void VirtualBus::Port::filter(const std::uint32_t* ids, std::uint16_t num) {
+  accepted_.assign(ids, ids + num);
+  std::sort(accepted_.begin(), accepted_.end());
+  filtered_ = true;
+}
+
+void VirtualBus::Port::report(const CO_IF_FRM& error) {
+  if (enabled_) {
+    receive(error);
+  }
+}
+
+void VirtualBus::Port::bus_off() {
+  if (!active()) {
+    return;
+  }
+  transmit_.clear();
+  bus_off_ = true;
+  report(error_frame(error_bus_off));
+}
+
+void VirtualBus::Port::recover() {
+  if (!bus_off_) {
+    return;
+  }
+  bus_off_ = false;
+  report(error_frame(error_restarted));
+}
+
+bool VirtualBus::Port::hears(const Port& sender) const {
+  return active() && (baud_ == 0 || sender.baud_ == 0 || baud_ == sender.baud_);
+}
+
+bool VirtualBus::Port::accepts(const CO_IF_FRM& frame) const {
+  return is_error(frame) || !filtered_ || !options_.filter ||
+         std::binary_search(accepted_.begin(), accepted_.end(), frame.Identifier);
+}
+
+void VirtualBus::Port::receive(const CO_IF_FRM& frame) {
+  if (!accepts(frame)) {
+    return;
+  }
+  if (receive_.size() >= options_.receive) {
+    ++lost_;
+    overrun_ = true;
+    return;
+  }
+  receive_.push_back(frame);
+}
+
+void VirtualBus::Port::empty() {
+  transmit_.clear();
+  receive_.clear();
+  overrun_ = false;
+}
+
+namespace {
+
+VirtualBus::Port& port(void* ctx) { return *static_cast<VirtualBus::Port*>(ctx); }
+
+void init(void* ctx) { port(ctx).close(); }
+void enable(void* ctx, std::uint32_t baud) { port(ctx).enable(baud); }
+
+std::int16_t read(void* ctx, CO_IF_FRM* frm) {
+  const std::optional<CO_IF_FRM> frame = port(ctx).read();
+  if (!frame) {
+    return 0;
+  }
+  *frm = *frame;
+  return taken;
+}
+
+std::int16_t send(void* ctx, const CO_IF_FRM* frm) { return port(ctx).send(*frm); }
+void reset(void* ctx) { port(ctx).reset(); }
+void close(void* ctx) { port(ctx).close(); }
+void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { port(ctx).filter(ids, num); }
+
+}  // namespace
+
+const CO_IF_CAN_DRV_EX VirtualBusDriver = {init, enable, read, send, reset, close, filter};
+
+}  // namespace co

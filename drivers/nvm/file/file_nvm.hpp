@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file file_nvm.hpp
+/// A parameter memory in a file.
+///
+///     co::FileNvm memory;
+///     if (!memory.open("/var/lib/node/parameters", 4096)) { report(memory.error()); }
+///     ext.Nvm = &co::FileNvmDriver;  ext.NvmCtx = &memory;   // CO_NODE_EXT
+///
+/// A file that does not exist is created; what is missing to the capacity is filled with FFh, as in a fresh memory.
+/// A longer file keeps its rest. Accesses are cut at the capacity and return what they have done. A write has reached
+/// the storage device when it returns (fdatasync); if that fails it returns 0, because nothing is certain then.
+/// error() tells what went wrong last, in words.
+///
+/// Context: one thread. Owner: the caller; must outlive the node. One process per file: nothing is locked.
+#ifndef CO_DRIVERS_FILE_NVM_HPP_
+#define CO_DRIVERS_FILE_NVM_HPP_
+
+#include <cstdint>
+#include <string>
+
+#include "co_if_nvm.h"
+
+namespace co {
+
+class FileNvm {
+ public:
+  FileNvm() = default;
+  ~FileNvm();
+  FileNvm(const FileNvm&) = delete;
+  FileNvm& operator=(const FileNvm&) = delete;
+
+  /// \a capacity: bytes. Returns false if the file cannot be used, see error().
+  bool open(const std::string& path, std::uint32_t capacity);
+  void close();
+
+  std::uint32_t read(std::uint32_t start, std::uint8_t* buffer, std::uint32_t size);
+  std::uint32_t write(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
+
+  /// Bytes, 0: not open.
+  std::uint32_t capacity() const { return capacity_; }
+  /// Empty after a successful open().
+  const std::string& error() const { return error_; }
+
+ private:
+  bool fill_up();
+  std::uint32_t inside(std::uint32_t start, std::uint32_t size) const;
+  std::uint32_t put(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
+  bool fail(const char* action);
+
+  std::string path_;
+  std::string error_;
+  std::uint32_t capacity_ = 0;
+  int fd_ = -1;
+};
+
+/// The driver; its context is a FileNvm.
+extern const CO_IF_NVM_DRV_EX FileNvmDriver;
+
+}  // namespace co
+
+#endif

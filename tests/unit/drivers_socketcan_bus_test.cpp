@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// SocketCAN on a real kernel: a virtual interface that these tests make, take down and remove. They need root and
+// AF_CAN and are skipped elsewhere; tests/system runs them in a guest.
+#include <doctest/doctest.h>
+
+#ifdef __linux__
+
+#include <linux/can/raw.h>
+#include <linux/tty.h>
+#include <net/if.h>
+#include <poll.h>
+#include <pty.h>
+#include <spawn.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <vector>
+
+#include "socketcan.hpp"
+#include "support/notation.hpp"
+
+namespace {
+
+using co::SocketCan;
+using Texts = std::vector<std::string>;
+
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+const std::string interface = "lexicantest0";
+
+// The program ip of iproute2.
+bool ip(std::vector<std::string> words) {
+  words.insert(words.begin(), "ip");
+  std::vector<char*> arguments;
+  for (std::string& word : words) {
+    arguments.push_back(word.data());
+  }
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  int status = -1;
+  return posix_spawnp(&child, "ip", nullptr, nullptr, arguments.data(), environ) == 0 &&
+         waitpid(child, &status, 0) == child && status == 0;
+}
+
+bool has_can() {
+  const int fd = ::socket(PF_CAN, SOCK_RAW, CAN_RAW);
+  if (fd >= 0) {
+    ::close(fd);
+  }
+  return fd >= 0 && ::geteuid() == 0;
+}
+
+// The interface, for the time of a test.
+class Interface {
+ public:
+  Interface() { add(); }
+  ~Interface() { ip({"link", "del", interface}); }  // fails where the test has removed it
+  Interface(const Interface&) = delete;
+  Interface& operator=(const Interface&) = delete;
+  void add() {
+    REQUIRE(ip({"link", "add", "dev", interface, "type", "vcan"}));
+    up();
+  }
+  void remove() { REQUIRE(ip({"link", "del", interface})); }
+  void down() { REQUIRE(ip({"link", "set", interface, "down"})); }
+  void up() { REQUIRE(ip({"link", "set", interface, "up"})); }
+};
+
+// A CAN adapter at a serial line (slcan) whose other end nobody reads: a bus that has come to a stop.
+class StuckAdapter {
+ public:
+  StuckAdapter() {
+    const int protocol = N_SLCAN;
+    char name[IFNAMSIZ] = {};
+    if (openpty(&master_, &line_, nullptr, nullptr, nullptr) == 0 && ::ioctl(line_, TIOCSETD, &protocol) == 0 &&
+        ::ioctl(line_, SIOCGIFNAME, name) >= 0) {
+      name_ = name;
+    }
+  }
+  ~StuckAdapter() {
+    ::close(line_);
+    ::close(master_);
+  }
+  StuckAdapter(const StuckAdapter&) = delete;
+  StuckAdapter& operator=(const StuckAdapter&) = delete;
+  const std::string& name() const { return name_; }  // empty: this kernel has no slcan
+
+ private:
+  int master_ = -1;
+  int line_ = -1;
+  std::string name_;
+};
+
+bool has_slcan() { return has_can() && !StuckAdapter().name().empty(); }
+
+std::int16_t send(SocketCan& can, const char* text) { return can.send(test::frame(text)); }
+
+Texts received(SocketCan& can) {
+  Texts texts;
+  CO_IF_FRM frame{};
+  while (can.read(frame) == taken) {
+    texts.push_back(test::notation(frame));
+  }
+  return texts;
+}
+
+}  // namespace
+
+TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
+  TEST_CASE("socketcan on a bus: frames cross with all flags, and are not heard by their sender") {
+    const Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE_MESSAGE(a.open(interface), a.error());
+    REQUIRE(b.open(interface));
+    CHECK(a.up());
+    const Texts all = {"601#4008100000000000", "1ABCDEF0#01", "701#R", "000#", "20000040#0000000000000000"};
+    for (const std::string& text : all) {
+      CHECK(send(a, text.c_str()) == taken);
+    }
+    CHECK(received(b) == all);
+    CHECK(received(a).empty());
+    pollfd wait{b.fd(), POLLIN, 0};
+    CHECK(poll(&wait, 1, 0) == 0);
+    send(a, "123#");
+    CHECK(poll(&wait, 1, 0) == 1);
+  }
+
+  TEST_CASE("socketcan on a bus: the kernel passes what the node asks for, error frames always") {
+    const Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE(a.open(interface));
+    REQUIRE(b.open(interface));
+    const std::uint32_t ids[] = {0x000, 0x605, CO_IF_FRM_EXT | 0x181u, CO_IF_FRM_RTR | 0x705u};
+    b.filter(ids, 4);
+    for (const char* text : {"000#0101", "605#40", "606#40", "00000605#40", "181#", "00000181#", "705#", "705#R",
+                             "20000040#0000000000000000", "20000080#0000000000000000"}) {
+      send(a, text);
+    }
+    CHECK(received(b) == Texts{"000#0101", "605#40", "00000181#", "705#R", "20000040#0000000000000000"});
+    b.filter(ids, 0);
+    send(a, "000#0101");
+    send(a, "20000100#0000000000000000");
+    CHECK(received(b) == Texts{"20000100#0000000000000000"});
+    b.close();
+    b.enable();  // a new socket, the same filter
+    send(a, "000#0101");
+    CHECK(received(b).empty());
+  }
+
+  TEST_CASE("socketcan on a bus: more identifiers than the kernel takes let everything through") {
+    const Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE(a.open(interface));
+    REQUIRE(b.open(interface));
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t id = 0; id < 512; ++id) {
+      ids.push_back(id);
+    }
+    b.filter(ids.data(), 512);
+    send(a, "1FF#");
+    send(a, "200#");
+    CHECK(received(b) == Texts{"1FF#"});
+    ids.push_back(512);
+    b.filter(ids.data(), 513);
+    send(a, "7FF#");
+    CHECK(received(b) == Texts{"7FF#"});
+    CHECK(b.code() == 0);
+  }
+
+  TEST_CASE("socketcan on a bus: an interface that goes down is told once, and works on when it is up again") {
+    Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE(a.open(interface));
+    REQUIRE(b.open(interface));
+    const std::uint32_t id = 0x605;
+    b.filter(&id, 1);
+    const int fd = b.fd();
+    vcan.down();
+    CO_IF_FRM frame{};
+    CHECK_FALSE(b.up());
+    CHECK(b.read(frame) == -1);
+    CHECK(b.code() == ENETDOWN);
+    CHECK(b.error() == "CAN interface 'lexicantest0': receiving failed: Network is down");
+    CHECK(b.read(frame) == 0);
+    CHECK(send(b, "585#60") == -1);
+    CHECK(b.code() == ENETDOWN);
+    vcan.up();
+    received(a);
+    CHECK(b.up());
+    CHECK(b.fd() == fd);
+    CHECK(send(b, "585#60") == taken);
+    CHECK(received(a) == Texts{"585#60"});
+    send(a, "606#40");
+    send(a, "605#40");
+    CHECK(received(b) == Texts{"605#40"});
+  }
+
+  TEST_CASE("socketcan on a bus: an interface that is down can be opened and is used when it comes up") {
+    Interface vcan;
+    vcan.down();
+    SocketCan can;
+    CHECK(can.open(interface));
+    CHECK_FALSE(can.up());
+    can.enable();
+    CHECK(send(can, "701#00") == -1);
+    vcan.up();
+    CHECK(send(can, "701#00") == taken);
+  }
+
+  TEST_CASE("socketcan on a bus: an interface that vanishes is told, and found again with its filters") {
+    Interface vcan;
+    SocketCan b;
+    REQUIRE(b.open(interface));
+    const std::uint32_t id = 0x605;
+    b.filter(&id, 1);
+    vcan.remove();
+    CO_IF_FRM frame{};
+    int errors = 0;
+    for (int i = 0; i < 10; ++i) {
+      errors += (b.read(frame) == -1) ? 1 : 0;
+    }
+    const bool told = errors == 1 || errors == 2;  // down, then gone
+    CHECK(told);
+    CHECK(b.fd() == -1);
+    CHECK(send(b, "585#60") == -1);
+    CHECK(b.code() == ENODEV);
+    vcan.add();
+    SocketCan a;
+    REQUIRE(a.open(interface));
+    CHECK(b.read(frame) == 0);
+    CHECK(b.fd() >= 0);
+    send(a, "606#40");
+    send(a, "605#40");
+    CHECK(received(b) == Texts{"605#40"});
+    CHECK(send(b, "585#60") == taken);
+  }
+
+  TEST_CASE("socketcan on a bus: frames that find the kernel's queue full are counted, and reported as overrun") {
+    const Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE(a.open(interface));
+    REQUIRE(b.open(interface));
+    const int small = 1;  // bytes: the kernel takes its least
+    REQUIRE(::setsockopt(b.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small) == 0);
+    for (int i = 0; i < 200; ++i) {
+      CHECK(send(a, "201#01") == taken);
+    }
+    const Texts before = received(b);
+    CHECK(before.size() < 200);
+    CHECK(b.lost() == 0);  // the kernel tells it with the next frame
+    send(a, "201#02");
+    CHECK(received(b) == Texts{"201#02", "20000004#0001000000000000"});
+    CHECK(b.lost() == 200 - before.size());
+    send(a, "201#03");
+    CHECK(received(b) == Texts{"201#03"});
+  }
+
+  TEST_CASE("socketcan on a bus: a full transmit queue is 'not now' and no error" * doctest::skip(!has_slcan())) {
+    const StuckAdapter adapter;
+    REQUIRE(ip({"link", "set", adapter.name(), "up"}));
+    SocketCan can;
+    REQUIRE_MESSAGE(can.open(adapter.name()), can.error());
+    std::int16_t result = taken;
+    for (int i = 0; i < 100000 && result == taken; ++i) {
+      result = send(can, "201#1122334455667788");
+    }
+    CHECK(result == 0);
+    CHECK(can.code() == 0);
+    CHECK(can.error().empty());
+  }
+
+  TEST_CASE("socketcan on a bus: going on the bus anew, and a reset, drop what was received before") {
+    const Interface vcan;
+    SocketCan a;
+    SocketCan b;
+    REQUIRE(a.open(interface));
+    REQUIRE(b.open(interface));
+    send(a, "000#0101");
+    b.init();
+    b.enable();
+    CHECK(received(b).empty());
+    send(a, "000#0101");
+    b.reset();
+    CHECK(received(b).empty());
+    send(a, "000#0201");
+    CHECK(received(b) == Texts{"000#0201"});
+    b.close();
+    CHECK(b.fd() == -1);
+    CHECK(send(b, "705#00") == -1);
+    CHECK(send(a, "000#0101") == taken);
+    b.enable();
+    CHECK(received(b).empty());
+    CHECK(send(b, "705#00") == taken);
+    CHECK(received(a) == Texts{"705#00"});
+  }
+
+  TEST_CASE("socketcan on a bus: what cannot be opened is told in words") {
+    SocketCan can;
+    CHECK_FALSE(can.open("lo"));
+    CHECK(can.error() == "CAN interface 'lo': not a CAN interface");
+    CHECK_FALSE(can.open("lexicannone0"));
+    CHECK(can.error().find("no such interface") != std::string::npos);
+    CHECK(can.code() == ENODEV);
+  }
+}
+
+#endif
