@@ -109,7 +109,7 @@ typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by pri
   CO_IF_FRM* Frame;
   uint16_t Len;
   uint16_t Num;
-  uint8_t BootUp;  ///< 1: the first frame is the boot-up, which nothing may overtake
+  uint16_t Fixed;  ///< frames at the head that nothing may overtake: up to and including the boot-up
 } CO_TX_QUEUE;
 /// \endcond
 

@@ -46,7 +46,8 @@ typedef struct CO_DICT_T {
 CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key);
 
 /// \name Values of one, two and four bytes
-/// Find the entry and read or write it in the byte order of the CPU, without the network's access rights.
+/// Find the entry and read or write it in the byte order of the CPU, without the network's access rights; a stream from
+/// its beginning.
 /// CO_ERR_BAD_ARG: an argument is null; CO_ERR_OBJ_NOT_FOUND: no such entry; CO_ERR_OBJ_SIZE: the object has another
 /// length; CO_ERR_OBJ_ACC: the type cannot be read or written; else what the type function returns.
 /// \{

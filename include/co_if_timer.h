@@ -13,6 +13,8 @@ extern "C" {
 /// A timer driver without context. Cyclic: a periodic interrupt calls COTmrService(); Reload stores a count-down,
 /// Update decrements it and returns 1 at its end. Tickless ("delta"): Reload programs a compare match, whose interrupt
 /// calls COTmrService(); Update returns 1.
+/// COTmrService() belongs into the interrupt: a driver without a clock cannot tell how late it comes. Reload and Stop
+/// discard an expiry that is pending.
 /// A Reload that follows an Update of 1 should count from the moment that has just elapsed, so that cyclic timers do
 /// not drift; any other Reload counts from now.
 /// All but Update run in the loop context with COTmrLock() held, or in COTmrService().

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/dict.hpp"
 
-#include "co/rules.hpp"
+#include "co_core.h"
 #include "core/obj.hpp"
 
 namespace co::dict {
@@ -91,7 +91,8 @@ CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
   if (obj::size(*found, *dict->Node, width) != width) {
     return CO_ERR_OBJ_SIZE;
   }
-  return run(*found, *dict->Node, value, width);
+  const CO_ERR err = obj::seek(*found, *dict->Node, 0);
+  return err != CO_ERR_NONE ? err : run(*found, *dict->Node, value, width);
 }
 
 }  // namespace
@@ -114,6 +115,18 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
 
 bool has_index(const CO_DICT& dict, uint32_t key) {
   return dict.Num != 0 && CO_GET_IDX(last_not_behind(dict, key | 0xFF00U)->Key) == CO_GET_IDX(key);
+}
+
+CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
+  const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
+  if (fault == CO_DICT_OK) {
+    return CO_ERR_NONE;
+  }
+  if (node.Dict.Fault == CO_DICT_OK) {
+    node.Dict.Fault = fault;
+    node.Dict.FaultKey = obj.Key;
+  }
+  return CO_ERR_TYPE_INIT;
 }
 
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {

@@ -2,6 +2,7 @@
 // Look-up in the sorted table.
 #pragma once
 
+#include "co/rules.hpp"
 #include "co_dict.h"
 
 namespace co::dict {
@@ -10,6 +11,10 @@ namespace co::dict {
 
 // Is there an entry with this index, at whatever sub-index?
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
+
+// For the Init functions of types: CO_ERR_TYPE_INIT if the entry breaks the type's rule. The first one that does is
+// named by CODictGetFault(), and keeps the node from starting.
+[[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
 
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
 [[nodiscard]] CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value);

@@ -2,6 +2,7 @@
 #include "core/port.hpp"
 
 #include "core/transmit.hpp"
+#include "wire/cob_id.hpp"
 
 namespace co::port {
 namespace {
@@ -67,7 +68,7 @@ void unlock(CO_NODE& node) {
   }
 }
 
-void alarm(const CO_NODE& node, uint32_t ticks) {
+void alarm(const CO_NODE& node, uint32_t ticks, bool stopped) {
   if (has_clock(node)) {
     if (node.Ext->Timer->Alarm != nullptr) {
       node.Ext->Timer->Alarm(node.Ext->TimerCtx, ticks);
@@ -80,7 +81,9 @@ void alarm(const CO_NODE& node, uint32_t ticks) {
     return;
   }
   driver.Reload(ticks);
-  driver.Start();
+  if (stopped) {
+    driver.Start();
+  }
 }
 
 void can_init(const CO_NODE& node) {
@@ -185,7 +188,10 @@ int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
   ASSERT_PTR_ERR(cif, -1);
   ASSERT_PTR_ERR(cif->Node, -1);
   ASSERT_PTR_ERR(frm, -1);
-  return transmit::send(*cif->Node, *frm) ? static_cast<int16_t>(sizeof(CO_IF_FRM)) : static_cast<int16_t>(0);
+  CO_IF_FRM frame = *frm;
+  frame.Identifier = wire::normalised(frame.Identifier);
+  return transmit::send_for_application(*cif->Node, frame) ? static_cast<int16_t>(sizeof frame)
+                                                           : static_cast<int16_t>(0);
 }
 
 void COIfCanReset(CO_IF* cif) {

@@ -23,7 +23,8 @@ void unlock(CO_NODE& node);
 [[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }
 [[nodiscard]] inline uint32_t ticks_left(const CO_NODE& node) { return node.If.Drv->Timer->Delay(); }
 [[nodiscard]] inline bool has_elapsed(const CO_NODE& node) { return node.If.Drv->Timer->Update() != 0; }
-void alarm(const CO_NODE& node, uint32_t ticks);  // 0: never
+// 0: never. stopped: the driver waits for nothing so far.
+void alarm(const CO_NODE& node, uint32_t ticks, bool stopped);
 
 void can_init(const CO_NODE& node);
 void can_enable(const CO_NODE& node, uint32_t baud);

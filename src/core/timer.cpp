@@ -33,8 +33,7 @@ void append_due(CO_TMR& t, CO_TMR_MEM& timer) {
 }
 
 // Lets the time of the list go on by some ticks; what has elapsed becomes due.
-bool advance(CO_TMR& t, uint32_t elapsed) {
-  bool any = false;
+void advance(CO_TMR& t, uint32_t elapsed) {
   t.Clock += elapsed;
   while (t.Use != nullptr && t.Use->Delta <= elapsed) {
     CO_TMR_MEM& timer = *t.Use;
@@ -42,12 +41,10 @@ bool advance(CO_TMR& t, uint32_t elapsed) {
     elapsed -= timer.Delta;
     timer.Delta = t.Clock - elapsed;
     append_due(t, timer);
-    any = true;
   }
   if (t.Use != nullptr) {
     t.Use->Delta -= elapsed;
   }
-  return any;
 }
 
 uint32_t first_cycle(const CO_TMR_MEM* list) {
@@ -68,8 +65,9 @@ uint32_t idle_time(const CO_TMR& t) {
 }
 
 void program(CO_TMR& t) {
+  const uint32_t before = t.Programmed;
   t.Programmed = t.Use != nullptr ? t.Use->Delta : idle_time(t);
-  port::alarm(*t.Node, t.Programmed);
+  port::alarm(*t.Node, t.Programmed, before == 0);
 }
 
 // Brings Clock and the first delta up to now. Returns the ticks by which now is later than that: 1 while a driver
@@ -89,8 +87,9 @@ uint32_t synchronise(CO_TMR& t) {
   return left == 0 ? 1 : 0;
 }
 
-// Behind all timers that elapse before or with it.
-void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t ticks) {
+// Behind all timers that elapse before or with it. A driver that has elapsed is programmed by COTmrService().
+void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t ticks, uint32_t late_by) {
+  ticks = ticks == UINT32_MAX ? ticks : ticks + late_by;
   CO_TMR_MEM** place = &t.Use;
   while (*place != nullptr && (*place)->Delta <= ticks) {
     ticks -= (*place)->Delta;
@@ -103,7 +102,7 @@ void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t ticks) {
   if (timer.Next != nullptr) {
     timer.Next->Delta -= ticks;
   }
-  if (place == &t.Use) {
+  if (place == &t.Use && late_by == 0) {
     program(t);
   }
 }
@@ -124,8 +123,7 @@ void disarm(CO_TMR& t, CO_TMR_MEM& timer) {
     timer.Next->Delta += timer.Delta;
   }
   unlink(&t.Use, timer);
-  if (first) {
-    synchronise(t);
+  if (first && synchronise(t) == 0) {
     program(t);
   }
 }
@@ -163,16 +161,15 @@ void rearm(CO_TMR& t, CO_TMR_MEM& timer) {
   const uint32_t late_by = synchronise(t);
   const uint32_t passed = t.Clock + late_by - timer.Delta;
   const uint32_t since = passed < timer.Cycle ? passed : passed % timer.Cycle;
-  insert(t, timer, timer.Cycle - since + late_by);
+  insert(t, timer, timer.Cycle - since, late_by);
 }
 
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
   timer.Func = func;
   timer.Para = para;
   timer.Cycle = cycle;
-  const uint32_t first = start == 0 ? cycle : start;
   const uint32_t late_by = synchronise(t);
-  insert(t, timer, first == UINT32_MAX ? first : first + late_by);
+  insert(t, timer, start == 0 ? cycle : start, late_by);
 }
 
 // The action of the timer that has elapsed first; false if none is left.
@@ -347,9 +344,9 @@ int16_t COTmrService(CO_TMR* tmr) {
   } else if (!port::has_elapsed(*tmr->Node)) {
     return 0;
   }
-  const bool any = tmr::advance(*tmr, elapsed);
+  tmr::advance(*tmr, elapsed);
   tmr::program(*tmr);
-  return any ? 1 : 0;
+  return tmr->Due != nullptr ? 1 : 0;
 }
 
 void COTmrProcess(CO_TMR* tmr) {

@@ -22,11 +22,9 @@ bool try_send(CO_NODE& node, const CO_IF_FRM& frame) {
   return true;
 }
 
-uint16_t first_free_place(const CO_TX_QUEUE& queue) { return queue.BootUp; }
-
 void insert(CO_TX_QUEUE& queue, const CO_IF_FRM& frame) {
   uint16_t place = queue.Num;
-  while (place > first_free_place(queue) && rank(queue.Frame[place - 1]) > rank(frame)) {
+  while (place > queue.Fixed && rank(queue.Frame[place - 1]) > rank(frame)) {
     queue.Frame[place] = queue.Frame[place - 1];
     --place;
   }
@@ -39,11 +37,11 @@ void remove_first(CO_TX_QUEUE& queue) {
   for (uint16_t n = 0; n < queue.Num; ++n) {
     queue.Frame[n] = queue.Frame[n + 1];
   }
-  queue.BootUp = 0;
+  queue.Fixed = static_cast<uint16_t>(queue.Fixed == 0 ? 0 : queue.Fixed - 1);
 }
 
-bool enqueue(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (node.TxQueue.Num == node.TxQueue.Len) {
+bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
+  if (node.TxQueue.Num >= places) {
     count(node.Count.Dropped);
     return false;
   }
@@ -51,8 +49,20 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame) {
   return true;
 }
 
+bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
+  flush(node);
+  return (!is_waiting(node) && try_send(node, frame)) || enqueue(node, frame, places);
+}
+
+// The rest is kept for the node's own frames: an answer of each SDO server and a heartbeat, but at most half the queue.
+uint16_t places_for_application(const CO_TX_QUEUE& queue) {
+  constexpr uint16_t own = CO_SSDO_N + 1;
+  const auto half = static_cast<uint16_t>(queue.Len / 2);
+  return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
+}
+
 CO_IF_FRM* find_waiting(CO_TX_QUEUE& queue, uint32_t identifier) {
-  for (uint16_t n = first_free_place(queue); n < queue.Num; ++n) {
+  for (uint16_t n = queue.Fixed; n < queue.Num; ++n) {
     if (queue.Frame[n].Identifier == identifier) {
       return &queue.Frame[n];
     }
@@ -68,26 +78,29 @@ void init(CO_NODE& node) {
   node.TxQueue = {own ? node.TxFrame : ext.TxQueue, own ? static_cast<uint16_t>(CO_TX_QUEUE_N) : ext.TxQueueLen, 0, 0};
 }
 
-bool send(CO_NODE& node, const CO_IF_FRM& frame) {
-  flush(node);
-  return (!is_waiting(node) && try_send(node, frame)) || enqueue(node, frame);
+bool send(CO_NODE& node, const CO_IF_FRM& frame) { return send_or_enqueue(node, frame, node.TxQueue.Len); }
+
+bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
+  return send_or_enqueue(node, frame, places_for_application(node.TxQueue));
 }
 
 void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (try_send(node, frame)) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  flush(node);
+  if (queue.Fixed == 0 && try_send(node, frame)) {
     return;
   }
-  CO_TX_QUEUE& queue = node.TxQueue;
   if (queue.Num == queue.Len) {
     --queue.Num;
     count(node.Count.Dropped);
   }
-  for (uint16_t place = queue.Num; place > 0; --place) {
+  queue.Fixed = queue.Fixed < queue.Num ? queue.Fixed : queue.Num;
+  for (uint16_t place = queue.Num; place > queue.Fixed; --place) {
     queue.Frame[place] = queue.Frame[place - 1];
   }
-  queue.Frame[0] = frame;
+  queue.Frame[queue.Fixed] = frame;
   ++queue.Num;
-  queue.BootUp = 1;
+  ++queue.Fixed;
 }
 
 void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -108,7 +121,7 @@ void flush(CO_NODE& node) {
 
 void withdraw(CO_NODE& node, uint32_t identifier) {
   CO_TX_QUEUE& queue = node.TxQueue;
-  uint16_t kept = first_free_place(queue);
+  uint16_t kept = queue.Fixed;
   for (uint16_t n = kept; n < queue.Num; ++n) {
     if (queue.Frame[n].Identifier == identifier) {
       count(node.Count.Dropped);
@@ -123,7 +136,9 @@ void clear(CO_NODE& node) {
   for (; node.TxQueue.Num != 0; --node.TxQueue.Num) {
     count(node.Count.Dropped);
   }
-  node.TxQueue.BootUp = 0;
+  node.TxQueue.Fixed = 0;
 }
+
+void fix(CO_NODE& node) { node.TxQueue.Fixed = node.TxQueue.Num; }
 
 }  // namespace co::transmit

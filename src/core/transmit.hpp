@@ -12,6 +12,9 @@ void init(CO_NODE& node);
 // False: the queue is full, the frame is lost and counted.
 bool send(CO_NODE& node, const CO_IF_FRM& frame);
 
+// The same for a frame of the application, which leaves some places in the queue to the node's own.
+bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame);
+
 // Sends the boot-up message, which everything else waits for.
 void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
 
@@ -22,10 +25,13 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 // Offers the frames that wait to the driver.
 void flush(CO_NODE& node);
 
+// What waits goes out before anything that follows, the boot-up message included.
+void fix(CO_NODE& node);
+
 // Throws away what waits; counted as dropped.
 void clear(CO_NODE& node);
 
-// The same for the frames of one identifier, which may no longer be sent.
+// The same for the frames of one identifier that may no longer be sent.
 void withdraw(CO_NODE& node, uint32_t identifier);
 
 [[nodiscard]] inline bool is_waiting(const CO_NODE& node) { return node.TxQueue.Num != 0; }

@@ -26,28 +26,44 @@ void check_mandatory_objects(CO_NODE& node) {
   }
 }
 
-// The part of the initialisation that every NMT reset runs, too.
-void initialise(CO_NODE& node) {
+// The part of the initialisation that every NMT reset runs, too. Busy is set: what type functions and callbacks ask for
+// waits. False: they have stopped the node.
+[[nodiscard]] bool initialise(CO_NODE& node) {
   event::change_mode(node, CO_INIT);
-  transmit::clear(node);
   routes::clear(node);
   if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
     node.Error = CO_ERR_OBJ_INIT;
   }
   services::init(node);
   routes::publish(node);
+  return node.Nmt.Mode == CO_INIT;
 }
 
-void reset(CO_NODE& node) {
+// A reset that the application asked for lets the frames go out that wait, an answer among them.
+void reset(CO_NODE& node, bool commanded) {
   const bool waits_for_start = node.Nmt.Mode == CO_INIT;
+  commanded ? transmit::clear(node) : transmit::fix(node);
+  event::change_mode(node, CO_INIT);
+  if (node.Nmt.Mode != CO_INIT) {
+    return;
+  }
+  port::can_reset(node);
+  if (initialise(node) && !waits_for_start) {
+    nmt::boot(node);
+  }
+}
+
+void settle_reset(CO_NODE& node, uint8_t pending) {
+  const bool commanded = (pending & event::commanded) != 0;
   if (node.Nmt.Mode == CO_INVALID) {
     return;
   }
-  event::change_mode(node, CO_INIT);
-  port::can_reset(node);
-  initialise(node);
-  if (!waits_for_start) {
-    nmt::boot(node);
+  node.Busy = 1;
+  reset(node, commanded);
+  node.Busy = 0;
+  node.Pending = 0;  // what was asked for meanwhile has just been done
+  if (commanded) {
+    CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
   }
 }
 
@@ -56,14 +72,11 @@ void settle(CO_NODE& node) {
   while (node.Pending != 0) {
     const uint8_t pending = node.Pending;
     node.Pending = 0;
-    if ((pending & (event::reset_node | event::reset_communication)) == 0) {
+    if ((pending & (event::reset_node | event::reset_communication)) != 0) {
+      settle_reset(node, pending);
+    } else {
       sdo_server::configure(node);
       routes::publish(node);
-      continue;
-    }
-    reset(node);
-    if ((pending & event::commanded) != 0) {
-      CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
     }
   }
 }
@@ -89,9 +102,17 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.Nmt.Node = &node;
 }
 
+void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
+  for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
+    if (wire::reports(frame, static_cast<CO_CAN_EVENT>(event))) {
+      CONodeCanEvent(&node, static_cast<CO_CAN_EVENT>(event));
+    }
+  }
+}
+
 void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-    CONodeCanEvent(&node, wire::can_event(frame));
+    report_error(node, frame);
     return;
   }
   frame.Identifier = wire::normalised(frame.Identifier);
@@ -146,14 +167,25 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
     node->Error = CO_ERR_DICT_INIT;
     return;
   }
-  node::initialise(*node);
+  node->Busy = 1;
+  const bool initialised = node::initialise(*node);
+  node->Busy = 0;
+  node->Pending = 0;
+  if (node->Dict.Fault != CO_DICT_OK) {
+    event::change_mode(*node, CO_INVALID);
+    node->Error = CO_ERR_DICT_INIT;
+    return;
+  }
+  if (!initialised) {
+    return;
+  }
   node::check_mandatory_objects(*node);
   port::can_enable(*node, node->Baudrate);
 }
 
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INIT) {
+  if (node->Nmt.Mode == CO_INIT && node->Busy == 0) {
     nmt::boot(*node);
   }
 }

@@ -59,10 +59,14 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
 }  // namespace services
 
 void event::change_mode(CO_NODE& node, CO_MODE mode) {
-  if (node.Nmt.Mode == mode) {
+  const CO_MODE before = node.Nmt.Mode;
+  if (before == mode) {
     return;
   }
   CONmtModeChange(&node.Nmt, mode);
+  if (node.Nmt.Mode != before) {  // the callback has changed it
+    return;
+  }
   node.Nmt.Mode = mode;
   node.Nmt.Allowed = nmt::allowed_in(mode);
   for (const Service& service : table) {

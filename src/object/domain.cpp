@@ -38,7 +38,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   }
   auto& domain = *co::data_of<CO_OBJ_DOM>(*obj);
   const uint32_t n = clip(size, domain.Offset, domain.Size);
-  if (!co::port::is_writable(*node, domain.Start + domain.Offset, n)) {
+  if (!co::port::is_writable(*node, domain.Start, domain.Size)) {
     return CO_ERR_OBJ_ACC;
   }
   co::stream::copy(domain.Start + domain.Offset, static_cast<const uint8_t*>(buffer), n);

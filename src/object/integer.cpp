@@ -8,6 +8,7 @@
 #include "co_integer64.h"
 #include "co_integer8.h"
 #include "co_real.h"
+#include "core/dict.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
 #include "wire/bytes.hpp"
@@ -136,18 +137,22 @@ template <uint8_t bytes, uint8_t storage, bool is_signed = false, bool may_follo
 struct Type {
   using Body = std::conditional_t<storage == 8, uint64_t, uint32_t>;
   static constexpr Format format = {bytes, storage, is_signed, may_follow_node_id};
+  static constexpr rules::Rule rule = may_follow_node_id ? rules::integer(storage) : rules::variable;
 
   static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj) == nullptr ? 0 : bytes; }
+  static CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rule); }
   static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return integer::read<Body>(*obj, *node, buffer, size, format);
   }
   static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return integer::write<Body>(*obj, *node, buffer, size, format);
   }
-  static constexpr CO_OBJ_TYPE table = {size, nullptr, read, write, nullptr};
+  static constexpr CO_OBJ_TYPE table = {size, init, read, write, nullptr};
 };
 
 using Byte = Type<1, 1>;
+
+CO_ERR init_boolean(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::boolean); }
 
 CO_ERR write_boolean(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size == 1 && *static_cast<const uint8_t*>(buffer) > 1) {
@@ -177,6 +182,6 @@ const CO_OBJ_TYPE COTSigned48 = Type<6, 8, true>::table;
 const CO_OBJ_TYPE COTSigned56 = Type<7, 8, true>::table;
 const CO_OBJ_TYPE COTReal32 = Type<4, 4, false, false>::table;
 const CO_OBJ_TYPE COTReal64 = Type<8, 8, false, false>::table;
-const CO_OBJ_TYPE COTBoolean = {Byte::size, nullptr, Byte::read, write_boolean, nullptr};
+const CO_OBJ_TYPE COTBoolean = {Byte::size, init_boolean, Byte::read, write_boolean, nullptr};
 
 }  // extern "C"

@@ -3,6 +3,7 @@
 
 #include "co_domain.h"
 #include "co_string.h"
+#include "core/dict.hpp"
 
 namespace co::stream {
 
@@ -19,6 +20,10 @@ CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) {
 }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
+  const CO_ERR err = dict::check_type(*obj, *node, rules::variable);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
   return reset(obj, node, 0) == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
 }
 

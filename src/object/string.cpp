@@ -97,13 +97,13 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   }
   const auto* from = static_cast<const uint8_t*>(buffer);
   uint32_t n = clip(size, string->Offset, string->Capacity);
-  if (!co::port::is_writable(*node, string->Start + string->Offset, n)) {
+  if (!co::port::is_writable(*node, string->Start, string->Capacity)) {
     return CO_ERR_OBJ_ACC;
   }
   for (; n != 0; --n) {
     string->Start[string->Offset++ ^ flip] = *from++;
   }
-  string->Size = string->Offset;
+  string->Size = string->Offset < string->Capacity ? string->Offset : string->Capacity;
   return CO_ERR_NONE;
 }
 

@@ -2,6 +2,7 @@
 // On the bus: a 48-bit number, milliseconds in the low 28 bits, days in the high 16. [301:7.1.6.5]
 #include "co_time_of_day.h"
 
+#include "core/dict.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
 #include "wire/bytes.hpp"
@@ -12,6 +13,8 @@ constexpr uint32_t bytes = 6;
 constexpr uint32_t ms_bits = 0x0FFFFFFF;
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return co::data_of<CO_TIME_OF_DAY>(*obj) == nullptr ? 0 : bytes; }
+
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return co::dict::check_type(*obj, *node, co::rules::variable); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
   const auto* const time = co::data_of<const CO_TIME_OF_DAY>(*obj);
@@ -44,4 +47,4 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTTimeOfDay = {size, nullptr, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTTimeOfDay = {size, init, read, write, nullptr};

@@ -6,28 +6,29 @@
 
 namespace co::wire {
 
-// The event that an error frame reports; CO_CAN_EVENT_NUM: none that matters to a node.
-constexpr CO_CAN_EVENT can_event(const CO_IF_FRM& frame) {
-  constexpr uint32_t controller = 0x004;
-  constexpr uint32_t bus_off = 0x040;
-  constexpr uint32_t restarted = 0x100;
-  constexpr uint8_t receive_overflow = 0x01;
-  constexpr uint8_t passive = 0x10 | 0x20;  // receiver, transmitter
-  constexpr uint8_t active = 0x40;
-  if ((frame.Identifier & bus_off) != 0) {
-    return CO_CAN_BUS_OFF;
+inline constexpr uint32_t error_controller = 0x004;
+inline constexpr uint32_t error_bus_off = 0x040;
+inline constexpr uint32_t error_restarted = 0x100;
+
+// Data[1] of an error of the class controller.
+inline constexpr uint8_t controller_overflow = 0x01;        // of received frames
+inline constexpr uint8_t controller_passive = 0x10 | 0x20;  // receiving, transmitting
+inline constexpr uint8_t controller_active = 0x40;
+
+// Does an error frame report this event? It may report several.
+constexpr bool reports(const CO_IF_FRM& frame, CO_CAN_EVENT event) {
+  const uint8_t status = (frame.Identifier & error_controller) != 0 ? frame.Data[1] : static_cast<uint8_t>(0);
+  switch (event) {
+    case CO_CAN_OVERRUN: return (status & controller_overflow) != 0;
+    case CO_CAN_PASSIVE: return (status & controller_passive) != 0;
+    case CO_CAN_BUS_OFF: return (frame.Identifier & error_bus_off) != 0;
+    case CO_CAN_RECOVERED: return (frame.Identifier & error_restarted) != 0 || (status & controller_active) != 0;
+    default: return false;
   }
-  if ((frame.Identifier & restarted) != 0) {
-    return CO_CAN_RECOVERED;
-  }
-  const uint8_t status = (frame.Identifier & controller) != 0 ? frame.Data[1] : static_cast<uint8_t>(0);
-  if ((status & receive_overflow) != 0) {
-    return CO_CAN_OVERRUN;
-  }
-  if ((status & passive) != 0) {
-    return CO_CAN_PASSIVE;
-  }
-  return (status & active) != 0 ? CO_CAN_RECOVERED : CO_CAN_EVENT_NUM;
 }
+
+static_assert(reports({0x20000040, {}, 8}, CO_CAN_BUS_OFF) && !reports({0x20000040, {}, 8}, CO_CAN_RECOVERED));
+static_assert(reports({0x20000004, {0, 0x11}, 8}, CO_CAN_OVERRUN) &&
+              reports({0x20000004, {0, 0x11}, 8}, CO_CAN_PASSIVE));
 
 }  // namespace co::wire

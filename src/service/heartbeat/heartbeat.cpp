@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/heartbeat/heartbeat.hpp"
 
-#include "co/rules.hpp"
 #include "core/dict.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
@@ -31,11 +30,7 @@ void restart(CO_NODE& node, uint32_t ticks) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE*) {
-  const bool has_data = uintptr_t{obj->Data} != 0;
-  return rules::check_type(rules::heartbeat_producer, obj->Key, has_data) == CO_DICT_OK ? CO_ERR_NONE
-                                                                                        : CO_ERR_TYPE_INIT;
-}
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::heartbeat_producer); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED16->Read(obj, node, buffer, size);

@@ -19,7 +19,8 @@ uint32_t check_length(Step& step, uint32_t length) {
     return no_abort;
   }
   const uint32_t need = obj::size(obj, step.node, length);
-  return need == 0 ? CO_SDO_ERR_TOS : compare_length(length, need);
+  const bool failed = need == 0 && !obj::is_stream(obj);
+  return failed ? abort_for(step.channel, CO_ERR_TYPE_WR) : compare_length(length, need);
 }
 
 // Bytes that a download can have when the client does not say how many.
@@ -63,7 +64,8 @@ uint32_t announce(Step& step) {
     return check_length(step, channel.Size);
   }
   channel.Size = capacity(step);
-  return channel.Size == 0 ? CO_SDO_ERR_TOS : no_abort;
+  const bool failed = channel.Size == 0 && !obj::is_stream(*channel.Obj);
+  return failed ? abort_for(channel, CO_ERR_TYPE_WR) : no_abort;
 }
 
 uint32_t segmented_download(Step& step) {
@@ -81,7 +83,7 @@ uint32_t segmented_download(Step& step) {
       return write_failed(channel, err);
     }
   }
-  start(step, State::download);
+  set_state(channel, State::download);
   return no_abort;
 }
 
@@ -131,8 +133,9 @@ uint32_t end_download(Step& step) {
 uint32_t download_segment(Step& step) {
   CO_SDO& channel = step.channel;
   const uint8_t command = step.request.Data[0];
-  if (has_wrong_toggle(step)) {
-    return CO_SDO_ERR_TBIT;
+  const uint32_t abort = check_segment(step);
+  if (abort != no_abort) {
+    return abort;
   }
   const uint32_t n = wire::segment_length(command);
   if (n > channel.Size - channel.Num) {

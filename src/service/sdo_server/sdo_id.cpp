@@ -2,8 +2,8 @@
 // 1200h…127Fh, sub 1 and 2: COB-IDs of the SDO servers. [301:7.5.2.33]
 #include "co_sdo_id.h"
 
-#include "co/rules.hpp"
 #include "co_core.h"
+#include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
@@ -44,10 +44,7 @@ bool is_allowed(uint32_t before, uint32_t value) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj) == nullptr ? 0 : sizeof(uint32_t); }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE*) {
-  const bool has_data = place_of(*obj) != nullptr;
-  return rules::check_type(rules::sdo_cob_id, obj->Key, has_data) == CO_DICT_OK ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
-}
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::sdo_cob_id); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint32_t) || place_of(*obj) == nullptr) {

@@ -13,16 +13,10 @@
 namespace co::sdo_server {
 namespace {
 
-// The table may have been changed, or replaced by another, since the transfer began.
-bool is_gone(const CO_SDO& channel) {
-  const CO_DICT& dict = channel.Node->Dict;
-  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
-  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
-}
-
 uint32_t end_by_client(Step& step) {
   close(step.channel);
-  return no_answer;
+  step.silent = true;
+  return no_abort;
 }
 
 uint32_t refuse_command(Step&) { return CO_SDO_ERR_CMD; }
@@ -61,13 +55,13 @@ uint32_t run(Step& step) {
   CO_SDO& channel = step.channel;
   const State state = state_of(channel);
   channel.Idle = 0;
-  if (state != State::idle && is_gone(channel)) {
-    return CO_SDO_ERR_TOS_STATE;
-  }
   channel.UserAbort = 0;
   channel.Flags |= busy;
   const uint32_t result = machine(state, wire::ccs(step.request))(step);
   channel.Flags &= static_cast<uint8_t>(~busy);
+  if (state_of(channel) != State::idle) {
+    watch(step.node);
+  }
   return result;
 }
 
@@ -77,13 +71,18 @@ uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise)
   return err == CO_ERR_NONE ? value : otherwise;
 }
 
+// The identifier 000h belongs to NMT, whatever a table says.
+bool is_usable(uint32_t cob_id) {
+  return (cob_id & wire::cob_invalid) == 0 && wire::fits_format(cob_id) && (cob_id & wire::extended_ids) != 0;
+}
+
 void configure_channel(CO_NODE& node, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   const bool is_default = number == 0;
   const uint32_t none = wire::cob_invalid;
   const uint32_t rx = cob_id(node, number, 1, is_default ? wire::CobId::sdo_rx + node.NodeId : none);
   const uint32_t tx = cob_id(node, number, 2, is_default ? wire::CobId::sdo_tx + node.NodeId : none);
-  const bool valid = ((rx | tx) & wire::cob_invalid) == 0;
+  const bool valid = is_usable(rx) && is_usable(tx);
   const uint32_t rx_id = valid ? wire::frame_id(rx) : none;
   const uint32_t tx_id = valid ? wire::frame_id(tx) : none;
   if (channel.RxId == rx_id && channel.TxId == tx_id) {
@@ -122,22 +121,19 @@ void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
     return;
   }
   CO_IF_FRM answer = {channel.TxId, {}, wire::sdo_dlc};
-  Step step = {node, channel, frame, answer};
+  Step step = {node, channel, frame, answer, false};
   const State before = state_of(channel);
   const uint32_t abort = run(step);
   if ((node.Nmt.Allowed & CO_SDO_ALLOWED) == 0) {  // a type function has changed the NMT state
     on_mode(node);
     return;
   }
-  if (abort == no_answer) {
-    return;
-  }
-  if (abort == no_abort) {
+  if (abort != no_abort) {
+    close(channel);
+    send_abort(channel, aborted_key(channel, before, frame), abort);
+  } else if (!step.silent) {
     transmit::send(node, answer);
-    return;
   }
-  close(channel);
-  send_abort(channel, aborted_key(channel, before, frame), abort);
 }
 
 void on_mode(CO_NODE& node) {

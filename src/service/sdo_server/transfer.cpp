@@ -20,6 +20,9 @@ void on_slice(void* node_pointer) {
     if (state_of(channel) == State::idle) {
       continue;
     }
+    if ((channel.Flags & busy) != 0) {
+      channel.Idle = 0;
+    }
     if (++channel.Idle == slices) {
       close(channel);
       send_abort(channel, channel.Key, CO_SDO_ERR_TIMEOUT);
@@ -30,18 +33,6 @@ void on_slice(void* node_pointer) {
   if (!any_open) {
     tmr::stop(node.Tmr, node.SdoTmr);
   }
-}
-
-// One timer watches all channels: a transfer ends after eight slices without a frame.
-void watch(CO_NODE& node) {
-  const uint32_t slice = tmr::ticks(node.Tmr, CO_SDO_TIMEOUT, CO_TMR_UNIT_1MS * slices);
-  if (slice != 0 && !tmr::is_running(node.SdoTmr)) {
-    tmr::start(node.Tmr, node.SdoTmr, 0, slice, on_slice, &node);
-  }
-}
-
-uint32_t abort_for(const CO_SDO& channel, CO_ERR err) {
-  return channel.UserAbort != 0 ? channel.UserAbort : abort_code(err);
 }
 
 // Another channel has the position of this stream.
@@ -68,10 +59,17 @@ CO_ERR seek_piece(CO_SDO& channel) {
   return own ? obj::seek(*channel.Obj, *channel.Node, channel.Num) : CO_ERR_NONE;
 }
 
+// The table may have been changed, or replaced by another, since the transfer began.
+bool is_gone(const CO_SDO& channel) {
+  const CO_DICT& dict = channel.Node->Dict;
+  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
+}
+
 }  // namespace
 
 void close(CO_SDO& channel) {
-  channel.State = static_cast<uint8_t>(State::idle);
+  set_state(channel, State::idle);
   channel.Obj = nullptr;
 }
 
@@ -83,9 +81,26 @@ void send_abort(CO_SDO& channel, uint32_t key, uint32_t code) {
   transmit::send(*channel.Node, frame);
 }
 
-void start(Step& step, State state) {
-  step.channel.State = static_cast<uint8_t>(state);
-  watch(step.node);
+// One timer watches all channels: a transfer ends after eight slices without a frame.
+void watch(CO_NODE& node) {
+  if (tmr::is_running(node.SdoTmr)) {
+    return;
+  }
+  const uint32_t slice = tmr::ticks(node.Tmr, CO_SDO_TIMEOUT, CO_TMR_UNIT_1MS * slices);
+  if (slice != 0) {
+    tmr::start(node.Tmr, node.SdoTmr, 0, slice, on_slice, &node);
+  }
+}
+
+uint32_t check_segment(const Step& step) {
+  if (is_gone(step.channel)) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  return wire::toggle(step.request) != step.channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
+}
+
+uint32_t abort_for(const CO_SDO& channel, CO_ERR err) {
+  return channel.UserAbort != 0 ? channel.UserAbort : abort_code(err);
 }
 
 uint32_t read_failed(const CO_SDO& channel, CO_ERR err) {

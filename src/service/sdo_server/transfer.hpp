@@ -18,9 +18,8 @@ enum Flag : uint8_t {
   busy = 0x04,   // a type function may be running: the transfer is closed afterwards only
 };
 
-// What a service answers: an abort code, or one of these.
-inline constexpr uint32_t no_abort = 0;  // the answer is to be sent
-inline constexpr uint32_t no_answer = UINT32_MAX;
+// What a service returns unless it is an abort code.
+inline constexpr uint32_t no_abort = 0;
 
 // What a service of the machine works on: the channel, the request and the answer in the making.
 struct Step {
@@ -28,9 +27,11 @@ struct Step {
   CO_SDO& channel;
   const CO_IF_FRM& request;
   CO_IF_FRM& answer;
+  bool silent;  // no answer at all
 };
 
 inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
+inline void set_state(CO_SDO& channel, State state) { channel.State = static_cast<uint8_t>(state); }
 
 // The services of the machine. [301:7.2.4.3]
 [[nodiscard]] uint32_t initiate_download(Step& step);
@@ -42,8 +43,11 @@ inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel
 // has the function for it. refused: the abort code without the right.
 [[nodiscard]] uint32_t open(Step& step, uint32_t right, bool (*can)(const CO_OBJ_TYPE&), uint32_t refused);
 
-// The transfer goes on with segments.
-void start(Step& step, State state);
+// Lets the time-out watch the open transfers.
+void watch(CO_NODE& node);
+
+// The checks that every segment begins with.
+[[nodiscard]] uint32_t check_segment(const Step& step);
 
 void close(CO_SDO& channel);
 
@@ -61,12 +65,9 @@ void send_abort(CO_SDO& channel, uint32_t key, uint32_t code);
 [[nodiscard]] CO_ERR read_piece(CO_SDO& channel, uint8_t* to, uint32_t n);
 [[nodiscard]] CO_ERR write_piece(CO_SDO& channel, uint8_t* from, uint32_t n);
 
-// The abort code for what a type function has returned; the node's error is set.
+// The abort code for what a type function has returned. The others set the node's error, too.
+[[nodiscard]] uint32_t abort_for(const CO_SDO& channel, CO_ERR err);
 [[nodiscard]] uint32_t read_failed(const CO_SDO& channel, CO_ERR err);
 [[nodiscard]] uint32_t write_failed(const CO_SDO& channel, CO_ERR err);
-
-[[nodiscard]] inline bool has_wrong_toggle(const Step& step) {
-  return wire::toggle(step.request) != step.channel.Toggle;
-}
 
 }  // namespace co::sdo_server

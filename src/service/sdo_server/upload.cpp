@@ -29,7 +29,7 @@ uint32_t initiate_upload(Step& step) {
   CO_SDO& channel = step.channel;
   channel.Size = obj::size(*channel.Obj, step.node, 0);
   if (channel.Size == 0 && !obj::is_stream(*channel.Obj)) {
-    return CO_SDO_ERR_TOS;
+    return abort_for(channel, CO_ERR_TYPE_RD);
   }
   const bool expedited = channel.Size != 0 && channel.Size <= wire::expedited_bytes;
   abort = choose_access(step, expedited);
@@ -46,7 +46,7 @@ uint32_t initiate_upload(Step& step) {
   }
   wire::put_head(step.answer, wire::initiate_upload_response_sized, channel.Key);
   wire::put_u32(step.answer.Data + 4, channel.Size);
-  start(step, State::upload);
+  set_state(channel, State::upload);
   return no_abort;
 }
 
@@ -64,8 +64,9 @@ CO_ERR give_segment(CO_SDO& channel, uint8_t* data, uint32_t n) {
 
 uint32_t upload_segment(Step& step) {
   CO_SDO& channel = step.channel;
-  if (has_wrong_toggle(step)) {
-    return CO_SDO_ERR_TBIT;
+  const uint32_t abort = check_segment(step);
+  if (abort != no_abort) {
+    return abort;
   }
   const uint32_t left = channel.Size - channel.Num;
   const uint32_t n = left < wire::segment_bytes ? left : wire::segment_bytes;
