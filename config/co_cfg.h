@@ -18,7 +18,7 @@
 #endif
 
 /// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended
-/// before 7/8 of that time.
+/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver.
 #ifndef CO_SDO_TIMEOUT
 #define CO_SDO_TIMEOUT 2000
 #endif

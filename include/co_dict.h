@@ -68,9 +68,10 @@ CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Takes the table \a root of \a max entries, which ends there or at the first entry with key 0, into use. CONodeInit()
 /// does it; call it again (in the loop context) after entries were added to or taken from a table in RAM.
-/// An SDO transfer whose entry was moved is aborted at its next frame. The table stays the caller's and must live as
-/// long as the node. An empty table is legal.
-/// Not to be called from a type function.
+/// Init functions of added entries are not run: COObjInit() does that. An SDO transfer whose entry was moved is aborted
+/// at its next frame. The table stays the caller's and must live as long as the node. An empty table is legal. Not to
+/// be called from a type function.
+///
 /// CO_ERR_BAD_ARG: null or \a max 0; CO_ERR_DICT_INIT: a structural fault, see CODictGetFault(); nothing is found then.
 CO_ERR CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
 

@@ -74,7 +74,7 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
 int16_t COTmrDelete(CO_TMR* tmr, int16_t actId);
 
 /// To be called from the timer interrupt (or the loop, where the driver is polled). Takes no lock and runs no action.
-/// Returns 1: at least one timer has elapsed, 0: none, -1: \a tmr null.
+/// Returns 1: elapsed timers wait for COTmrProcess(), 0: none, -1: \a tmr null.
 int16_t COTmrService(CO_TMR* tmr);
 
 /// Runs the actions of all timers that have elapsed up to now, without the lock held.

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "support/network.hpp"
-#include "support/notation.hpp"
 #include "support/raw_sdo_client.hpp"
 
 namespace {

@@ -2,8 +2,10 @@
 // Nodes with and without receive filters in their controllers must be told apart by their load only.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <random>
 #include <vector>
 

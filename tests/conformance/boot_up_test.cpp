@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boot-up. [301:7.2.8.2.2, 7.3.2.2.1]
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("boot-up: one frame of one byte 00h when the node starts, none before [N4] [State 01]") {
+  Fixture node(Setup().node_id(0x7F).stay_in_init());
+  node.after(1000ms);
+  node.loop();
+  node.silent();
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("77F#00");
+  CHECK(node.mode() == CO_PREOP);
+  node.call([&] { CONodeStart(&node.node); });
+  node.after(1000ms);
+  node.silent();
+}
+
+TEST_CASE("boot-up: everything else is held until it has been sent [N4]") {
+  Fixture node(Setup().stay_in_init().heartbeat(10));
+  node.can.refuse_all();
+  node.call([&] { CONodeStart(&node.node); });
+  node.rx("601#4000100000000000");
+  node.after(10ms);
+  node.silent();
+  node.can.accept_all();
+  node.loop();
+  node.tx({"701#00", "581#4300100091010F00", "701#7F"});
+}
+
+TEST_CASE("boot-up: a frame of the application with a higher priority does not overtake it [N4]") {
+  Fixture node(Setup().stay_in_init());
+  node.can.refuse_all();
+  CO_IF_FRM frm = frame("081#00");
+  node.call([&] {
+    CONodeStart(&node.node);
+    CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM));
+  });
+  node.can.accept_all();
+  node.loop();
+  node.tx({"701#00", "081#00"});
+}
+
+TEST_CASE("boot-up: it is held through the commands of the master [N4]") {
+  Fixture node(Setup().stay_in_init());
+  node.can.refuse_all();
+  node.call([&] { CONodeStart(&node.node); });
+  node.rx("000#0101");
+  node.silent();
+  node.can.accept_all();
+  node.loop();
+  node.tx("701#00");
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("boot-up: frames of the life before a reset are not sent after it [N4]") {
+  for (const std::string reset : {"000#8101", "000#8201"}) {
+    CAPTURE(reset);
+    Fixture node;
+    node.can.refuse_all();
+    node.rx("601#4000100000000000");
+    const std::uint32_t dropped = node.counters().Dropped;
+    node.rx(reset);
+    node.silent();
+    node.can.accept_all();
+    node.loop();
+    node.tx("701#00");
+    CHECK(node.counters().Dropped == dropped + 1);
+  }
+}
+
+TEST_CASE("boot-up: two resets without a free controller give one boot-up for the last") {
+  Fixture node;
+  node.can.refuse_all();
+  node.rx("000#8101");
+  node.rx("000#8101");
+  node.can.accept_all();
+  node.loop();
+  node.tx("701#00");
+  node.loop();
+  node.silent();
+}
+
+TEST_CASE("boot-up: a controller that reports errors delays it, no more [N4] [T12]") {
+  Fixture node(Setup().stay_in_init());
+  node.can.refuse_next(3, -1);
+  node.call([&] { CONodeStart(&node.node); });
+  for (int i = 0; i < 4; ++i) node.loop();
+  node.tx("701#00");
+  CHECK(node.error() == CO_ERR_IF_CAN_SEND);
+}
+
+TEST_CASE("boot-up: the node is started again after a stop, with initialisation") {
+  Fixture first;
+  first.call([&] { CONodeStop(&first.node); });
+  CHECK(first.mode() == CO_INVALID);
+  CHECK_FALSE(first.can.on_bus);
+  first.rx("601#4000100000000000");
+  first.rx("000#0101");
+  first.call([&] { CONodeStart(&first.node); });
+  first.silent();
+  CHECK(first.mode() == CO_INVALID);
+}
+
+}  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The SDO cases of CiA's conformance test tool, in its order and with its preparation, for a device without block
+// transfer. The other cases of the tool for these services carry their numbers in the names of the tests beside this.
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+// Before each group: reset node, "load" to 1011h, reset again; the tool's marks on 7FFh are nobody's.
+void prepare(Fixture& node) {
+  node.rx("000#8101");
+  node.tx("701#00");
+  node.ask("601#231110016C6F6164", "581#8011100100000206");
+  node.rx("000#8101");
+  node.tx("701#00");
+  node.rx("7FF#010203040506");
+  node.silent();
+}
+
+TEST_CASE("CiA tool: SDO, expedited transfers [SDO 01] [SDO 02] [SDO 12] [SDO 13]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+  node.ask("601#4017100000000000", "581#4B17100000000000");
+  node.ask("601#2B17100000000000", "581#6017100000000000");
+  node.ask("601#4000120100000000", "581#4300120101060000");
+  node.ask("601#4000120200000000", "581#4300120281050000");
+}
+
+TEST_CASE("CiA tool: SDO, refused accesses [SDO 03]-[SDO 11]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#2300100000000000", "581#8000100002000106");
+  node.ask("601#4030200000000000", "581#8030200001000106");
+  node.ask("601#4000100100000000", "581#8000100111000906");
+  node.ask("601#4004100000000000", "581#8004100000000206");
+  node.ask("601#E000100000000000", "581#8000100001000405");
+  node.ask("601#2301200000000000", "581#8001200012000706");
+  node.ask("601#2302200000000000", "581#8002200012000706");
+  node.ask("601#2F02200000000000", "581#8002200013000706");
+  node.ask("601#2F04200000000000", "581#8004200013000706");
+  node.ask("601#2F202000FF000000", "581#8020200030000906");
+}
+
+TEST_CASE("CiA tool: SDO, segmented transfers [SDO 14]-[SDO 18]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#2117100002000000", "581#6017100000000000");
+  node.ask("601#0B00000000000000", "581#2000000000000000");
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.ask("601#6000000000000000", "581#004C65786963616E");
+  node.ask("601#7000000000000000", "581#102074657374206E");
+  node.ask("601#6000000000000000", "581#096F646500000000");
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.ask("601#7000000000000000", "581#8008100000000305");
+}
+
+TEST_CASE("CiA tool: SDO, block transfers are refused as long as there are none [SDO 19]-[SDO 27]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#A000100014000000", "581#8000100001000405");
+  node.ask("601#C217100002000000", "581#8017100001000405");
+  node.ask("601#A008100014000000", "581#8008100001000405");
+  node.ask("601#A408100014000000", "581#8008100001000405");
+  node.ask("601#C617100002000000", "581#8017100001000405");
+  node.ask("601#A008100080000000", "581#8008100001000405");
+  node.ask("601#A208100080000000", "581#8008100001000405");
+}
+
+TEST_CASE("CiA tool: SDO, servers and clients that do not exist [SDO 28]-[SDO 30]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#407F120100000000", "581#807F120100000206");
+  node.ask("601#4080120100000000", "581#8080120100000206");
+  node.ask("601#40FF120100000000", "581#80FF120100000206");
+}
+
+TEST_CASE("CiA tool: garbage written to every entry that takes it is survived [State 01]") {
+  Fixture node(Setup().only_small());
+  for (unsigned index = 0x1000; index < 0x2000; ++index) {
+    if (index == 0x1017) continue;
+    CO_IF_FRM write = frame("601#23000000DEADBEEF");
+    CO_SET_WORD(&write, index, 1);
+    for (const unsigned sub : {0U, 1U, 2U, 3U, 255U}) {
+      CO_SET_BYTE(&write, sub, 3);
+      node.rx(write);
+      CHECK(node.frames().size() == 1);
+    }
+  }
+  prepare(node);
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+}
+
+}  // namespace

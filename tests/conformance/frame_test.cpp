@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// The entry of all frames: kinds of frames, lengths, counters, error frames, and the order of what is sent.
+#include <limits>
+
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("frames: a remote frame on an identifier of the node is malformed, elsewhere nobody's [Q1]") {
+  Fixture node;
+  std::vector<std::string> passed_on;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
+  const CO_NODE_COUNTERS before = node.counters();
+  node.rx("601#R8");
+  node.rx("000#R2");
+  CHECK(node.counters().Malformed == before.Malformed + 2);
+  CHECK(passed_on.empty());
+  node.rx("123#R");
+  node.rx("701#R1");
+  CHECK(node.counters().Unclaimed == before.Unclaimed + 2);
+  CHECK(passed_on == std::vector<std::string>{"123#R", "701#R"});
+  node.silent();
+}
+
+TEST_CASE("frames: a 29-bit identifier is not the 11-bit one of the same number [Q1]") {
+  Fixture node;
+  std::vector<std::string> passed_on;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
+  const CO_NODE_COUNTERS before = node.counters();
+  node.rx("00000601#4000100000000000");
+  node.rx("00000000#0101");
+  node.rx("1FFFFFFF#00");
+  node.silent();
+  CHECK(node.counters().Unclaimed == before.Unclaimed + 3);
+  CHECK(passed_on == std::vector<std::string>{"00000601#4000100000000000", "00000000#0101", "1FFFFFFF#00"});
+}
+
+TEST_CASE("frames: a length code of 9 to 15 means 8 bytes [Q1]") {
+  Fixture node;
+  node.ask("601#4000100000000000_9", "581#4300100091010F00");
+  node.ask("601#4000100000000000_F", "581#4300100091010F00");
+  unsigned dlc = 0;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) { dlc = frm->DLC; };
+  node.rx("123#1122334455667788_F");
+  CHECK(dlc == 8);
+}
+
+TEST_CASE("frames: what nobody claims goes to the application as it came, and is counted") {
+  Fixture node;
+  std::vector<std::string> passed_on;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
+  const CO_NODE_COUNTERS before = node.counters();
+  node.rx("602#4000100000000000");
+  node.rx("581#4300100091010F00");
+  node.rx("7FF#112233445566");
+  node.rx("080#");
+  CHECK(passed_on ==
+        std::vector<std::string>{"602#4000100000000000", "581#4300100091010F00", "7FF#112233445566", "080#"});
+  CHECK(node.counters().Unclaimed == before.Unclaimed + 4);
+  CHECK(node.counters().Received == before.Received + 4);
+  CHECK(node.counters().Malformed == before.Malformed);
+  node.silent();
+}
+
+TEST_CASE("frames: what is served is not passed on") {
+  Fixture node;
+  unsigned passed_on = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+  node.rx("000#0101");
+  node.rx("000#0155");
+  node.rx("601#40");
+  CHECK(passed_on == 0);
+}
+
+TEST_CASE("frames: every identifier, only those of the node are answered") {
+  Fixture node(Setup().only_small().node_id(0x35));
+  unsigned answered = 0;
+  for (unsigned id = 0x001; id < 0x800; ++id) {
+    CO_IF_FRM frm = frame("001#4000100000000000");
+    frm.Identifier = id;
+    node.rx(frm);
+    if (!node.frames().empty()) {
+      ++answered;
+      CHECK(id == 0x635);
+    }
+  }
+  CHECK(answered == 1);
+}
+
+TEST_CASE("frames: error frames of SocketCAN become events of the controller") {
+  Fixture node;
+  std::vector<CO_CAN_EVENT> events;
+  unsigned passed_on = 0;
+  callbacks().can_change = [&](CO_NODE* of, CO_CAN_EVENT event) {
+    CHECK(of == &node.node);
+    events.push_back(event);
+  };
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  node.rx("20000004#0001000000000000");  // controller: receive buffer overflow
+  node.rx("20000004#0010000000000000");  // controller: error passive, receiving
+  node.rx("20000004#0020000000000000");  // controller: error passive, sending
+  node.rx("20000040#0000000000000000");  // bus-off
+  node.rx("20000100#0000000000000000");  // restarted
+  CHECK(events ==
+        std::vector<CO_CAN_EVENT>{CO_CAN_OVERRUN, CO_CAN_PASSIVE, CO_CAN_PASSIVE, CO_CAN_BUS_OFF, CO_CAN_RECOVERED});
+  CHECK(passed_on == 0);
+  const CO_NODE_COUNTERS counters = node.counters();
+  CHECK(counters.CanEvents[CO_CAN_OVERRUN] == 1);
+  CHECK(counters.CanEvents[CO_CAN_PASSIVE] == 2);
+  CHECK(counters.CanEvents[CO_CAN_BUS_OFF] == 1);
+  CHECK(counters.CanEvents[CO_CAN_RECOVERED] == 1);
+  node.silent();
+}
+
+TEST_CASE("frames: an error frame is never taken for a command") {
+  Fixture node;
+  node.rx("20000000#0101000000000000");
+  node.rx("20000601#4000100000000000");
+  CHECK(node.mode() == CO_PREOP);
+  node.silent();
+}
+
+TEST_CASE("frames: events of the controller come from the driver, too; unknown ones do nothing") {
+  Fixture node;
+  unsigned events = 0;
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
+  node.call([&] {
+    CONodeCanEvent(&node.node, CO_CAN_BUS_OFF);
+    CONodeCanEvent(&node.node, CO_CAN_EVENT_NUM);
+  });
+  CHECK(events == 1);
+  CHECK(node.counters().CanEvents[CO_CAN_BUS_OFF] == 1);
+}
+
+TEST_CASE("frames: all counters saturate [Q10]") {
+  Fixture node;
+  constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
+  node->Count.Received = node->Count.Unclaimed = node->Count.Malformed = most;
+  node->Count.Sent = node->Count.SdoAborts = node->Count.Dropped = node->Count.TimerExhausted = most;
+  node->Count.CanEvents[CO_CAN_PASSIVE] = most;
+  node.rx("123#");
+  node.rx("601#40");
+  node.ask("601#4004100000000000", "581#8004100000000206");
+  node.call([&] { CONodeCanEvent(&node.node, CO_CAN_PASSIVE); });
+  node.call([&] {
+    for (int i = 0; i < 20; ++i)
+      COTmrCreate(
+          &node->Tmr, 1000000, 0, [](void*) {}, nullptr);
+  });
+  node.can.refuse_all();
+  CO_IF_FRM frm = frame("7E0#00");
+  node.call([&] {
+    for (int i = 0; i < 2 * CO_TX_QUEUE_N; ++i) COIfCanSend(&node->If, &frm);
+  });
+  const CO_NODE_COUNTERS counters = node.counters();
+  CHECK(counters.Received == most);
+  CHECK(counters.Unclaimed == most);
+  CHECK(counters.Malformed == most);
+  CHECK(counters.Sent == most);
+  CHECK(counters.SdoAborts == most);
+  CHECK(counters.Dropped == most);
+  CHECK(counters.TimerExhausted == most);
+  CHECK(counters.CanEvents[CO_CAN_PASSIVE] == most);
+}
+
+TEST_CASE("frames: a driver that cannot read is reported, and served again") {
+  Fixture node;
+  node.can.read_result = -1;
+  node.loop();
+  CHECK(node.error() == CO_ERR_IF_CAN_READ);
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+}
+
+TEST_CASE("frames: one is processed in each call") {
+  Fixture node;
+  for (int i = 0; i < 3; ++i) node.can.to_node.push_back(frame("601#4000100000000000"));
+  node.call([&] { CONodeProcess(&node.node); });
+  node.tx("581#4300100091010F00");
+  node.call([&] { CONodeProcess(&node.node); });
+  node.tx("581#4300100091010F00");
+  node.loop();
+  node.tx("581#4300100091010F00");
+}
+
+}  // namespace

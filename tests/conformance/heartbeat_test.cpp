@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heartbeat producer. [301:7.2.8.2.2.1, 7.5.2.20]
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("heartbeat: every period after boot-up, which counts as the first one [H1] [Heartbeat 02]") {
+  Fixture node(Setup().heartbeat(1000));
+  node.after(3500ms);
+  node.tx_at(1000ms, "701#7F");
+  node.tx_at(2000ms, "701#7F");
+  node.tx_at(3000ms, "701#7F");
+  node.silent();
+}
+
+TEST_CASE("heartbeat: it tells the NMT state [N5] [Transition 01-04]") {
+  Fixture node(Setup().heartbeat(100).node_id(0x22));
+  node.after(100ms);
+  node.tx("722#7F");
+  node.rx("000#0122");
+  node.after(100ms);
+  node.tx("722#05");
+  node.rx("000#0222");
+  node.after(100ms);
+  node.tx("722#04");
+  node.rx("000#8022");
+  node.after(100ms);
+  node.tx("722#7F");
+}
+
+TEST_CASE("heartbeat: a change of the NMT state leaves its phase alone [H1]") {
+  Fixture node(Setup().heartbeat(100));
+  node.after(30ms);
+  node.rx("000#0101");
+  node.after(30ms);
+  node.rx("000#0201");
+  node.after(30ms);
+  node.rx("000#8001");
+  node.after(10ms);
+  node.tx_at(10ms, "701#7F");
+}
+
+TEST_CASE("heartbeat: 1017h = 0 means none [H1] [Heartbeat 03]") {
+  Fixture node;
+  node.after(70000ms);
+  node.silent();
+}
+
+TEST_CASE("heartbeat: writing 1017h starts it at once [H1] [Heartbeat 01]") {
+  Fixture node;
+  node.ask("601#2B171000F4010000", "581#6017100000000000");
+  node.ask("601#4017100000000000", "581#4B171000F4010000");
+  node.after(1600ms);
+  node.tx_at(500ms, "701#7F");
+  node.tx_at(1000ms, "701#7F");
+  node.tx_at(1500ms, "701#7F");
+  node.silent();
+}
+
+TEST_CASE("heartbeat: a new time in 1017h takes effect immediately [H1]") {
+  Fixture node(Setup().heartbeat(60000));
+  node.after(1000ms);
+  node.ask("601#2B17100064000000", "581#6017100000000000");
+  node.after(250ms);
+  node.tx_at(100ms, "701#7F");
+  node.tx_at(200ms, "701#7F");
+  node.silent();
+  node.ask("601#2B17100000000000", "581#6017100000000000");
+  node.after(70000ms);
+  node.silent();
+}
+
+TEST_CASE("heartbeat: the application changes the time through the dictionary as well [H1]") {
+  Fixture node;
+  node.may_change(0x1017, 0);
+  node.call([&] { CHECK(CODictWrWord(&node->Dict, CO_DEV(0x1017, 0), 20) == CO_ERR_NONE); });
+  node.after(50ms);
+  node.tx_at(20ms, "701#7F");
+  node.tx_at(40ms, "701#7F");
+  std::uint16_t time = 0;
+  CHECK(CODictRdWord(&node->Dict, CO_DEV(0x1017, 0), &time) == CO_ERR_NONE);
+  CHECK(time == 20);
+}
+
+TEST_CASE("heartbeat: it goes on after both resets [N6]") {
+  for (const std::string reset : {"000#8101", "000#8201"}) {
+    CAPTURE(reset);
+    Fixture node(Setup().heartbeat(100));
+    node.after(250ms);
+    node.tx({"701#7F", "701#7F"});
+    node.rx(reset);
+    node.tx("701#00");
+    node.after(250ms);
+    node.tx_at(100ms, "701#7F");
+    node.tx_at(200ms, "701#7F");
+    node.silent();
+  }
+}
+
+TEST_CASE("heartbeat: none before the node is started [N3]") {
+  Fixture node(Setup().heartbeat(100).stay_in_init());
+  node.after(1000ms);
+  node.silent();
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  node.after(100ms);
+  node.tx_at(100ms, "701#7F");
+}
+
+TEST_CASE("heartbeat: none after a stop of the node") {
+  Fixture node(Setup().heartbeat(100));
+  node.call([&] { CONodeStop(&node.node); });
+  node.after(1000ms);
+  node.silent();
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("heartbeat: no period is lost or added over an hour [T15]") {
+  Fixture node(Setup().heartbeat(1000).rate(32768));
+  node.after(3600s);
+  CHECK(node.trace().size() == 3600);
+}
+
+TEST_CASE("heartbeat: it needs no timer of the application's pool") {
+  Fixture node(Setup().heartbeat(10).timers(0));
+  node.after(10ms);
+  node.tx("701#7F");
+  CHECK(node.error() == CO_ERR_NONE);
+}
+
+TEST_CASE("heartbeat: time 1 ms and time 65535 ms [H1]") {
+  Fixture node;
+  node.ask("601#2B17100001000000", "581#6017100000000000");
+  node.after(3ms);
+  node.tx({"701#7F", "701#7F", "701#7F"});
+  node.ask("601#2B171000FFFF0000", "581#6017100000000000");
+  node.after(65534ms);
+  node.silent();
+  node.after(1ms);
+  node.tx("701#7F");
+}
+
+TEST_CASE("heartbeat: a time that the timer cannot hold is refused and the old one stays [H1]") {
+  Fixture node(Setup().heartbeat(100).rate(1000000000));
+  node.ask("601#2B171000FFFF0000", "581#8017100030000906");
+  node.ask("601#4017100000000000", "581#4B17100064000000");
+  node.after(100ms);
+  node.tx("701#7F");
+}
+
+TEST_CASE("heartbeat: a late loop sends one and keeps the phase [Q8]") {
+  Fixture node(Setup().heartbeat(100));
+  node.jump(1050ms);
+  node.tx("701#7F");
+  node.after(100ms);
+  node.tx_at(50ms, "701#7F");
+  node.silent();
+}
+
+TEST_CASE("heartbeat: the time may lie in the dictionary itself (flag D)") {
+  Fixture node(Setup().with({CO_KEY(0x1017, 0, CO_OBJ_D___RW), CO_THB_PROD, 50}));
+  node.after(50ms);
+  node.tx("701#7F");
+  node.ask("601#4017100000000000", "581#4B17100032000000");
+  node.ask("601#2B17100000000000", "581#6017100000000000");
+  node.after(1000ms);
+  node.silent();
+  node.ask("601#4017100000000000", "581#4B17100000000000");
+}
+
+TEST_CASE("heartbeat: without 1017h there is none") {
+  Fixture node(Setup().without(0x1017, 0));
+  node.after(5000ms);
+  node.silent();
+}
+
+}  // namespace

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// NMT slave. [301:7.3.2]
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+constexpr const char* read_1000 = "601#4000100000000000";
+constexpr const char* value_1000 = "581#4300100091010F00";
+
+TEST_CASE("NMT: start, stop and enter pre-operational change the state [N2] [N5] [Transition 02-04]") {
+  Fixture node;
+  CHECK(node.mode() == CO_PREOP);
+  node.rx("000#0101");
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.rx("000#0201");
+  CHECK(node.mode() == CO_STOP);
+  node.rx("000#8001");
+  CHECK(node.mode() == CO_PREOP);
+  node.rx("000#0201");
+  node.rx("000#0101");
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.rx("000#8001");
+  CHECK(node.mode() == CO_PREOP);
+  node.silent();
+}
+
+TEST_CASE("NMT: node-ID 0 addresses all nodes, another node-ID nobody here [N1]") {
+  Fixture node(Setup().node_id(5));
+  node.rx("000#0100");
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.rx("000#0204");
+  node.rx("000#0206");
+  node.rx("000#0285");
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.rx("000#0205");
+  CHECK(node.mode() == CO_STOP);
+}
+
+TEST_CASE("NMT: a command whose length is not 2 is ignored and counted [N1]") {
+  for (const std::string command : {"000#", "000#01", "000#010100", "000#01010000", "000#0101000000000000"}) {
+    CAPTURE(command);
+    Fixture node;
+    const std::uint32_t before = node.counters().Malformed;
+    node.rx(command);
+    CHECK(node.mode() == CO_PREOP);
+    CHECK(node.counters().Malformed == before + 1);
+    node.silent();
+  }
+}
+
+TEST_CASE("NMT: the second byte of a command of one byte is not taken from an older frame [N1]") {
+  Fixture node;
+  CO_IF_FRM frm = frame("000#0101");
+  frm.DLC = 1;
+  node.rx(frm);
+  CHECK(node.mode() == CO_PREOP);
+}
+
+TEST_CASE("NMT: remote frames and 29-bit frames are no commands [N1] [Q1]") {
+  Fixture node;
+  node.rx("000#R2");
+  node.rx("00000000#0101");
+  CHECK(node.mode() == CO_PREOP);
+  node.silent();
+}
+
+TEST_CASE("NMT: in Stopped the SDO server does not answer, and the request goes to the application [N3] [D17]") {
+  Fixture node;
+  unsigned passed_on = 0;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) {
+    ++passed_on;
+    CHECK(notation(*frm) == read_1000);
+  };
+  node.rx("000#0201");
+  const std::uint32_t before = node.counters().Unclaimed;
+  node.rx(read_1000);
+  node.silent();
+  CHECK(passed_on == 1);
+  CHECK(node.counters().Unclaimed == before + 1);
+  node.rx("000#8001");
+  node.ask(read_1000, value_1000);
+  node.rx("000#0101");
+  node.ask(read_1000, value_1000);
+  CHECK(passed_on == 1);
+}
+
+TEST_CASE("NMT: while initialising nothing is answered and no command obeyed [N3] [N4] [D17]") {
+  Fixture node(Setup().stay_in_init());
+  unsigned passed_on = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  node.rx(read_1000);
+  node.rx("000#0101");
+  node.rx("123#11");
+  node.silent();
+  CHECK(node.mode() == CO_INIT);
+  CHECK(passed_on == 0);
+}
+
+TEST_CASE("NMT: what each state allows [N3]") {
+  Fixture node(Setup().stay_in_init());
+  CHECK(node->Nmt.Allowed == CO_BOOT_ALLOWED);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  CHECK(node->Nmt.Allowed == (CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED));
+  node.rx("000#0101");
+  CHECK(node->Nmt.Allowed ==
+        (CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED | CO_PDO_ALLOWED));
+  node.rx("000#0201");
+  CHECK(node->Nmt.Allowed == CO_NMT_ALLOWED);
+}
+
+TEST_CASE("NMT: reset node and reset communication end in Pre-operational after boot-up, from every state [N2] [N6]") {
+  for (const std::string state : {"000#8001", "000#0101", "000#0201"}) {
+    for (const std::string reset : {"000#8101", "000#8100", "000#8201", "000#8200"}) {
+      CAPTURE(state);
+      CAPTURE(reset);
+      Fixture node;
+      node.rx(state);
+      node.rx(reset);
+      node.tx("701#00");
+      CHECK(node.mode() == CO_PREOP);
+      node.ask(read_1000, value_1000);
+      node.after(1000ms);
+      node.silent();
+    }
+  }
+}
+
+TEST_CASE("NMT: the application is told of a reset when it is done, and of every change of state before it") {
+  Fixture node;
+  std::vector<int> told;
+  callbacks().reset_request = [&](CO_NMT* nmt, CO_NMT_RESET reset) {
+    told.push_back(100 + reset);
+    CHECK(nmt->Mode == CO_PREOP);
+  };
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+    told.push_back(mode);
+    CHECK(nmt->Mode != mode);
+  };
+  node.rx("000#0101");
+  node.rx("000#0101");
+  node.rx("000#8101");
+  node.tx("701#00");
+  CHECK(told == std::vector<int>{CO_OPERATIONAL, CO_INIT, CO_PREOP, 100 + CO_RESET_NODE});
+  told.clear();
+  node.rx("000#8201");
+  node.tx("701#00");
+  CHECK(told == std::vector<int>{CO_INIT, CO_PREOP, 100 + CO_RESET_COM});
+}
+
+TEST_CASE("NMT: a reset by the application is announced by boot-up, but not to itself") {
+  Fixture node;
+  unsigned told = 0;
+  callbacks().reset_request = [&](CO_NMT*, CO_NMT_RESET) { ++told; };
+  node.rx("000#0101");
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
+  node.tx("701#00");
+  CHECK(node.mode() == CO_PREOP);
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_INVALID); });
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NUM); });
+  node.silent();
+  CHECK(told == 0);
+}
+
+TEST_CASE("NMT: a reset while initialising waits for the start") {
+  Fixture node(Setup().stay_in_init());
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.silent();
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+}
+
+TEST_CASE("NMT: timers of the application go on through a reset") {
+  Fixture node;
+  static unsigned ran;
+  ran = 0;
+  node.call([&] {
+    COTmrCreate(
+        &node->Tmr, 10, 10, [](void*) { ++ran; }, nullptr);
+  });
+  node.after(25ms);
+  CHECK(ran == 2);
+  node.rx("000#8201");
+  node.tx("701#00");
+  node.after(25ms);
+  CHECK(ran == 5);
+}
+
+TEST_CASE("NMT: a command to enter the present state has no effect [N7]") {
+  Fixture node(Setup().heartbeat(100));
+  node.rx("000#0101");
+  unsigned changes = 0;
+  callbacks().mode_change = [&](CO_NMT*, CO_MODE) { ++changes; };
+  node.after(70ms);
+  node.rx("000#0101");
+  node.after(100ms);
+  node.tx_at(30ms, "701#05");
+  node.silent();
+  CHECK(changes == 0);
+}
+
+TEST_CASE("NMT: an open SDO transfer ends without a word when SDO becomes unavailable [N8]") {
+  Fixture node;
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.rx("000#0201");
+  node.silent();
+  node.after(3000ms);
+  node.silent();
+  node.rx("000#8001");
+  node.ask("601#6001020300000000", "581#8001020301000405");
+}
+
+TEST_CASE("NMT: an SDO answer that still waits when the node is stopped is not sent [D17] [N8]") {
+  Fixture node;
+  node.can.refuse_all();
+  node.rx(read_1000);
+  node.rx("000#0201");
+  node.can.accept_all();
+  node.loop();
+  node.after(100ms);
+  node.silent();
+}
+
+TEST_CASE("NMT: an open SDO transfer survives start and enter pre-operational [N8]") {
+  Fixture node;
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.rx("000#0101");
+  node.ask("601#6000000000000000", "581#004C65786963616E");
+  node.rx("000#8001");
+  node.ask("601#7000000000000000", "581#102074657374206E");
+  node.ask("601#6000000000000000", "581#096F646500000000");
+}
+
+TEST_CASE("NMT: every command to every node, exactly as the table says [N1] [N2]") {
+  Fixture node(Setup().node_id(5).only_small());
+  std::vector<std::string> wrong;
+  for (unsigned command = 0; command < 256; ++command) {
+    for (unsigned target = 0; target < 256; ++target) {
+      CO_IF_FRM frm{0, {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(target)}, 2};
+      const CO_MODE before = node.mode();
+      node.rx(frm);
+      CO_MODE expected = before;
+      const bool ours = target == 0 || target == 5;
+      const bool reset = ours && (command == 129 || command == 130);
+      if (ours && command == 1) expected = CO_OPERATIONAL;
+      if (ours && command == 2) expected = CO_STOP;
+      if (ours && (command == 128 || reset)) expected = CO_PREOP;
+      const std::vector<std::string> sent = node.frames();
+      const bool right = sent == (reset ? std::vector<std::string>{"705#00"} : std::vector<std::string>{});
+      if (node.mode() != expected || !right) wrong.push_back(notation(frm));
+    }
+  }
+  CHECK_MESSAGE(wrong.empty(), wrong.size(), " wrong, the first is ", wrong.empty() ? "" : wrong[0]);
+}
+
+TEST_CASE("NMT: no command of another length has any effect [N1]") {
+  Fixture node(Setup().node_id(5).only_small());
+  const std::uint32_t before = node.counters().Malformed;
+  std::uint32_t number = 0;
+  unsigned wrong = 0;
+  for (unsigned command = 0; command < 256; ++command) {
+    for (const unsigned target : {0U, 1U, 4U, 5U, 6U, 127U, 128U, 255U}) {
+      for (const unsigned dlc : {0U, 1U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+        node.rx(CO_IF_FRM{0,
+                          {static_cast<std::uint8_t>(command), static_cast<std::uint8_t>(target)},
+                          static_cast<std::uint8_t>(dlc)});
+        ++number;
+        if (node.mode() != CO_PREOP || !node.frames().empty()) ++wrong;
+      }
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(node.counters().Malformed == before + number);
+}
+
+TEST_CASE("NMT: the application changes the state itself") {
+  Fixture node(Setup().stay_in_init());
+  node.call([&] { CONmtSetMode(&node->Nmt, CO_OPERATIONAL); });
+  node.tx("701#00");
+  CHECK(CONmtGetMode(&node->Nmt) == CO_OPERATIONAL);
+  node.call([&] { CONmtSetMode(&node->Nmt, CO_STOP); });
+  CHECK(CONmtGetMode(&node->Nmt) == CO_STOP);
+  node.call([&] { CONmtSetMode(&node->Nmt, CO_PREOP); });
+  CHECK(CONmtGetMode(&node->Nmt) == CO_PREOP);
+  CHECK(node.error() == CO_ERR_NONE);
+  for (const CO_MODE refused : {CO_INVALID, CO_INIT, CO_MODE_NUM}) {
+    node.call([&] { CONmtSetMode(&node->Nmt, refused); });
+    CHECK(node.error() == CO_ERR_NMT_MODE);
+    CHECK(CONmtGetMode(&node->Nmt) == CO_PREOP);
+  }
+  node.silent();
+}
+
+TEST_CASE("NMT: the node-ID is set while initialising, and identifiers follow it after a reset") {
+  Fixture node(Setup().stay_in_init());
+  node.call([&] { CONmtSetNodeId(&node->Nmt, 0); });
+  CHECK(node.error() == CO_ERR_BAD_ARG);
+  node.call([&] { CONmtSetNodeId(&node->Nmt, 128); });
+  CHECK(node.error() == CO_ERR_BAD_ARG);
+  CHECK(CONmtGetNodeId(&node->Nmt) == 1);
+  node.call([&] {
+    CONmtSetNodeId(&node->Nmt, 0x42);
+    CONmtReset(&node->Nmt, CO_RESET_NODE);
+    CONodeStart(&node.node);
+  });
+  node.tx("742#00");
+  CHECK(CONmtGetNodeId(&node->Nmt) == 0x42);
+  node.ask("642#4000120100000000", "5C2#4300120142060000");
+  node.ask("642#4000120200000000", "5C2#43001202C2050000");
+  node.ask("642#4014100000000000", "5C2#43141000C2000000");
+  node.call([&] { CONmtSetNodeId(&node->Nmt, 3); });
+  CHECK(node.error() == CO_ERR_NMT_MODE);
+  CHECK(CONmtGetNodeId(&node->Nmt) == 0x42);
+}
+
+TEST_CASE("NMT: state byte of a heartbeat [N5]") {
+  CHECK(CONmtModeDecode(0) == CO_INIT);
+  CHECK(CONmtModeDecode(4) == CO_STOP);
+  CHECK(CONmtModeDecode(5) == CO_OPERATIONAL);
+  CHECK(CONmtModeDecode(127) == CO_PREOP);
+  for (const unsigned other : {1U, 2U, 3U, 6U, 126U, 128U, 255U}) {
+    CHECK(CONmtModeDecode(static_cast<std::uint8_t>(other)) == CO_INVALID);
+  }
+  CHECK(CONmtModeEncode(CO_INIT) == 0);
+  CHECK(CONmtModeEncode(CO_STOP) == 4);
+  CHECK(CONmtModeEncode(CO_OPERATIONAL) == 5);
+  CHECK(CONmtModeEncode(CO_PREOP) == 127);
+  CHECK(CONmtModeEncode(CO_INVALID) == 255);
+  CHECK(CONmtModeEncode(CO_MODE_NUM) == 255);
+}
+
+TEST_CASE("NMT: null arguments stop the device or are told") {
+  Fixture node;
+  CONmtReset(nullptr, CO_RESET_NODE);
+  CONmtSetMode(nullptr, CO_STOP);
+  CONmtSetNodeId(nullptr, 5);
+  CHECK(callbacks().fatal_errors == 3);
+  CHECK(CONmtGetMode(nullptr) == CO_INVALID);
+  CHECK(CONmtGetNodeId(nullptr) == 0);
+  CHECK(callbacks().fatal_errors == 5);
+}
+
+}  // namespace

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several SDO servers, and their COB-IDs. [301:7.5.2.33]
+#include "support/fixture.hpp"
+
+#if CO_SSDO_N >= 2
+
+namespace {
+
+using namespace test;
+
+// Servers 1201h on 690h/6A0h and, where there is a third, 1202h on 691h/6A1h.
+Setup channels() {
+  return Setup().before_init([](Objects& o) {
+    o.sdo2_rx = 0x690;
+    o.sdo2_tx = 0x6A0;
+    o.sdo3_rx = 0x691;
+    o.sdo3_tx = 0x6A1;
+  });
+}
+
+TEST_CASE("SDO channels: the default one is 600h and 580h + node-ID [SDO 12] [D16]") {
+  Fixture node(Setup().node_id(0x7F));
+  node.ask("67F#4000120100000000", "5FF#430012017F060000");
+  node.ask("67F#4000120200000000", "5FF#43001202FF050000");
+  node.rx("601#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("SDO channels: without 1200h the default one exists all the same") {
+  Fixture node(Setup().without(0x1200, 0).without(0x1200, 1).without(0x1200, 2));
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+}
+
+TEST_CASE("SDO channels: a second one serves at its own identifiers") {
+  Fixture node(channels());
+  node.ask("690#4000100000000000", "6A0#4300100091010F00");
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+  node.ask("690#E0AABBCC00000000", "6A0#80AABBCC01000405");
+}
+
+TEST_CASE("SDO channels: an invalid one is silent, whichever of its COB-IDs says so [D26]") {
+  for (const bool rx_valid : {false, true}) {
+    CAPTURE(rx_valid);
+    Fixture node(Setup().before_init([=](Objects& o) {
+      o.sdo2_rx = rx_valid ? 0x690 : 0x80000690;
+      o.sdo2_tx = rx_valid ? 0x800006A0 : 0x6A0;
+    }));
+    const std::uint32_t before = node.counters().Unclaimed;
+    node.rx("690#4000100000000000");
+    node.silent();
+    CHECK(node.counters().Unclaimed == before + 1);
+  }
+}
+
+TEST_CASE("SDO channels: made valid over the network, served from the next frame on [D16] [D26]") {
+  Fixture node;
+  node.ask("601#2301120190060000", "581#6001120100000000");
+  node.rx("690#4000100000000000");
+  node.silent();
+  node.ask("601#23011202A0060000", "581#6001120200000000");
+  node.ask("690#4000100000000000", "6A0#4300100091010F00");
+  node.ask("601#2301120190060080", "581#6001120100000000");
+  node.rx("690#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("SDO channels: the CAN-ID changes only from and to invalid [D16]") {
+  Fixture node(channels());
+  node.ask("601#2301120192060000", "581#8001120130000906");
+  node.ask("601#23011202A2060000", "581#8001120230000906");
+  node.ask("601#2301120190060000", "581#6001120100000000");
+  node.ask("601#2301120190060080", "581#6001120100000000");
+  node.ask("601#2301120192060080", "581#6001120100000000");
+  node.ask("601#2301120192060000", "581#6001120100000000");
+  node.ask("692#4000100000000000", "6A0#4300100091010F00");
+  node.rx("690#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("SDO channels: a server that makes itself invalid answers that request and then falls silent [Q3] [D16]") {
+  Fixture node(channels());
+  node.ask("690#2301120190060080", "6A0#6001120100000000");
+  node.rx("690#4000100000000000");
+  node.silent();
+  node.ask("601#2301120190060000", "581#6001120100000000");
+  node.ask("690#23011202A0060080", "6A0#6001120200000000");
+  node.rx("690#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("SDO channels: restricted identifiers are refused, all others taken [D16] [D26]") {
+  Fixture node(Setup().only_small());
+  const auto restricted = [](unsigned id) {
+    return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
+           (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || (id >= 0x701 && id <= 0x7FF);
+  };
+  for (const unsigned sub : {1U, 2U}) {
+    for (unsigned id = 0; id < 0x800; ++id) {
+      CAPTURE(sub);
+      CAPTURE(id);
+      CO_IF_FRM write = frame(sub == 1 ? "601#2301120100000000" : "601#2301120200000000");
+      CO_SET_LONG(&write, id, 4);
+      node.rx(write);
+      const std::vector<std::string> sent = node.frames();
+      REQUIRE(sent.size() == 1);
+      const std::string object = sub == 1 ? "011201" : "011202";
+      CHECK(sent[0] == "581#" + (restricted(id) ? "80" + object + "30000906" : "60" + object + "00000000"));
+      CO_SET_BYTE(&write, 0x80, 7);
+      node.rx(write);
+      node.frames();
+    }
+  }
+}
+
+TEST_CASE("SDO channels: a CAN-ID of more than 11 bits needs bit 29 [D16]") {
+  Fixture node;
+  node.ask("601#2301120190160000", "581#8001120130000906");
+  node.ask("601#2301120190160020", "581#6001120100000000");
+  node.ask("601#23011202A0160020", "581#6001120200000000");
+  node.ask("00001690#4000100000000000", "000016A0#4300100091010F00");
+  node.rx("690#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("SDO channels: a reset closes what was opened in another channel, and the COB-IDs stay [N6]") {
+  Fixture node(channels());
+  node.ask("690#4008100000000000", "6A0#4108100011000000");
+  node.rx("000#8201");
+  node.tx("701#00");
+  node.ask("690#6001020300000000", "6A0#8001020301000405");
+}
+
+TEST_CASE("SDO channels: two transfers of different objects do not disturb each other, in any interleaving") {
+  struct Step {
+    const char* request;
+    const char* answer;
+  };
+  const Step one[] = {{"601#4008100000000000", "581#4108100011000000"},
+                      {"601#6000000000000000", "581#004C65786963616E"},
+                      {"601#7000000000000000", "581#102074657374206E"},
+                      {"601#6000000000000000", "581#096F646500000000"}};
+  const Step two[] = {{"690#2100210F0F000000", "6A0#6000210F00000000"},
+                      {"690#00A1A2A3A4A5A6A7", "6A0#2000000000000000"},
+                      {"690#10A8A9AAABACADAE", "6A0#3000000000000000"},
+                      {"690#0DAF000000000000", "6A0#2000000000000000"}};
+  unsigned interleavings = 0;
+  for (unsigned order = 0; order < 256; ++order) {
+    if (__builtin_popcount(order) != 4) continue;
+    ++interleavings;
+    CAPTURE(order);
+    Fixture node(channels().only_small());
+    std::size_t i = 0;
+    std::size_t j = 0;
+    for (unsigned step = 0; step < 8; ++step) {
+      const Step& next = ((order >> step) & 1U) != 0 ? one[i++] : two[j++];
+      node.ask(next.request, next.answer);
+    }
+    CHECK(node.objects.memory[15][0] == 0xA1);
+    CHECK(node.objects.memory[15][14] == 0xAF);
+  }
+  CHECK(interleavings == 70);
+}
+
+TEST_CASE("SDO channels: the same value can be transferred by two channels at once") {
+  Fixture node(channels());
+  node.ask("601#4008200000000000", "581#4108200008000000");
+  node.ask("690#2108200008000000", "6A0#6008200000000000");
+  node.ask("690#0001020304050607", "6A0#2000000000000000");
+  node.ask("601#6000000000000000", "581#0011223344556677");
+  node.ask("690#1D08000000000000", "6A0#3000000000000000");
+  node.ask("601#7000000000000000", "581#1D88000000000000");
+  CHECK(node.objects.u64 == 0x0807060504030201);
+}
+
+TEST_CASE("SDO channels: a stream that is open in one channel is refused to another with 0800 0022h") {
+  Fixture node(channels());
+  node.ask("601#4000210F00000000", "581#4100210F0F000000");
+  node.ask("690#4000210F00000000", "6A0#8000210F22000008");
+  node.ask("690#2100210F0F000000", "6A0#8000210F22000008");
+  node.ask("690#2F00210FAA000000", "6A0#8000210F22000008");
+  node.ask("601#6000000000000000", "581#0001020304050607");
+  node.ask("601#7000000000000000", "581#1008090A0B0C0D0E");
+  node.ask("601#6000000000000000", "581#0D0F000000000000");
+  node.ask("690#4000210F00000000", "6A0#4100210F0F000000");
+}
+
+TEST_CASE("SDO channels: the same channel may open its stream anew [D8]") {
+  Fixture node(channels());
+  node.ask("601#4000210F00000000", "581#4100210F0F000000");
+  node.ask("601#6000000000000000", "581#0001020304050607");
+  node.ask("601#4000210F00000000", "581#4100210F0F000000");
+  node.ask("601#6000000000000000", "581#0001020304050607");
+}
+
+TEST_CASE("SDO channels: each has its own time-out [D18]") {
+  Fixture node(channels());
+  const Time timeout = node.sdo_time_out();
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.after(timeout / 2);
+  node.ask("690#4008200000000000", "6A0#4108200008000000");
+  node.after(timeout / 2);
+  node.tx("581#8008100000000405");
+  node.after(timeout / 2);
+  node.tx("6A0#8008200000000405");
+}
+
+#if CO_SSDO_N >= 3
+
+TEST_CASE("SDO channels: two channels at the same request identifier are both served") {
+  Fixture node(Setup().before_init([](Objects& o) {
+    o.sdo2_rx = o.sdo3_rx = 0x690;
+    o.sdo2_tx = 0x6A0;
+    o.sdo3_tx = 0x6A1;
+  }));
+  node.frames_per_call(2);
+  node.rx("690#4000100000000000");
+  node.tx({"6A0#4300100091010F00", "6A1#4300100091010F00"});
+}
+
+TEST_CASE("SDO channels: the filter names what is received, and follows changes") {
+  Fixture node(channels());
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x690, 0x691});
+  node.ask("601#2301120190060080", "581#6001120100000000");
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x691});
+}
+
+#endif
+
+}  // namespace
+
+#endif

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO server: download, expedited and segmented. [301:7.2.4.3.3, 7.2.4.3.4]
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("SDO download: one to four bytes expedited, confirmed with the multiplexer [D2] [D3]") {
+  Fixture node;
+  node.ask("601#2F012000A5000000", "581#6001200000000000");
+  CHECK(node.objects.u8 == 0xA5);
+  node.ask("601#2B02200034120000", "581#6002200000000000");
+  CHECK(node.objects.u16 == 0x1234);
+  node.ask("601#2703200056341200", "581#6003200000000000");
+  CHECK(node.objects.u24 == 0x123456);
+  node.ask("601#2304200078563412", "581#6004200000000000");
+  CHECK(node.objects.u32 == 0x12345678);
+}
+
+TEST_CASE("SDO download: bytes without data do not matter [D2]") {
+  Fixture node;
+  node.ask("601#2F012000A5FFFFFF", "581#6001200000000000");
+  CHECK(node.objects.u8 == 0xA5);
+  node.ask("601#2B0220003412FFFF", "581#6002200000000000");
+  CHECK(node.objects.u16 == 0x1234);
+}
+
+TEST_CASE("SDO download: an expedited one without a length takes the object's [D2]") {
+  Fixture node;
+  node.ask("601#22012000A5000000", "581#6001200000000000");
+  CHECK(node.objects.u8 == 0xA5);
+  node.ask("601#2202200034120000", "581#6002200000000000");
+  CHECK(node.objects.u16 == 0x1234);
+  node.ask("601#2203200056341200", "581#6003200000000000");
+  CHECK(node.objects.u24 == 0x123456);
+  node.ask("601#2204200078563412", "581#6004200000000000");
+  CHECK(node.objects.u32 == 0x12345678);
+  node.ask("601#22002103AABBCC00", "581#6000210300000000");
+  CHECK(node.objects.memory[3] == Bytes{0xAA, 0xBB, 0xCC});
+}
+
+TEST_CASE("SDO download: an expedited one without a length cannot fill a longer object [D2]") {
+  Fixture node;
+  node.ask("601#2208200078563412", "581#8008200010000706");
+  node.ask("601#2200210F78563412", "581#8000210F10000706");
+}
+
+TEST_CASE("SDO download: values of up to eight bytes in segments, size announced [D4] [SDO 14] [SDO 15]") {
+  Fixture node;
+  node.ask("601#2117100002000000", "581#6017100000000000");
+  node.ask("601#0BE8030000000000", "581#2000000000000000");
+  CHECK(node.objects.heartbeat == 1000);
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  CHECK(node.objects.u64 == 0x8877665544332211);
+  node.ask("601#1D08000000000000", "581#3000000000000000");
+  CHECK(node.objects.u64 == 0x0807060504030201);
+  node.ask("601#2105200005000000", "581#6005200000000000");
+  node.ask("601#0501020304050000", "581#2000000000000000");
+  CHECK(node.objects.u40 == 0x0504030201);
+}
+
+TEST_CASE("SDO download: values in segments, size not announced [D2] [D4]") {
+  Fixture node;
+  node.ask("601#2001200000000000", "581#6001200000000000");
+  node.ask("601#0D5A000000000000", "581#2000000000000000");
+  CHECK(node.objects.u8 == 0x5A);
+  node.ask("601#2008200000000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#1D08000000000000", "581#3000000000000000");
+  CHECK(node.objects.u64 == 0x0807060504030201);
+}
+
+TEST_CASE("SDO download: segments need not be full [D4]") {
+  Fixture node;
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#0C01000000000000", "581#2000000000000000");
+  node.ask("601#1C02000000000000", "581#3000000000000000");
+  CHECK(node.objects.u32 == 0x44332211);
+  node.ask("601#0B03040000000000", "581#2000000000000000");
+  CHECK(node.objects.u32 == 0x04030201);
+}
+
+TEST_CASE("SDO download: a value is not touched before it is complete [D10]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  CHECK(node.objects.u64 == 0x8877665544332211);
+  node.rx("601#8008200000000405");
+  node.silent();
+  CHECK(node.objects.u64 == 0x8877665544332211);
+}
+
+TEST_CASE("SDO download: a size announced that does not fit is refused at once [D5] [SDO 08] [SDO 09]") {
+  Fixture node;
+  node.ask("601#2104200005000000", "581#8004200012000706");
+  node.ask("601#2104200003000000", "581#8004200013000706");
+  node.ask("601#2104200000000000", "581#8004200013000706");
+  node.ask("601#21042000FFFFFFFF", "581#8004200012000706");
+  node.ask("601#2104200000000080", "581#8004200012000706");
+  node.ask("601#2108200009000000", "581#8008200012000706");
+  node.ask("601#2108200007000000", "581#8008200013000706");
+  node.ask("601#2100210500000100", "581#8000210512000706");
+  node.ask("601#2100210506000000", "581#8000210512000706");
+  node.ask("601#211121000B000000", "581#8011210012000706");
+  node.ask("601#0001020304050607", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: an expedited length that does not fit is refused [D5] [SDO 08] [SDO 09]") {
+  Fixture node;
+  node.ask("601#2301200001000000", "581#8001200012000706");
+  node.ask("601#2B01200001000000", "581#8001200012000706");
+  node.ask("601#2302200001000000", "581#8002200012000706");
+  node.ask("601#2F02200001000000", "581#8002200013000706");
+  node.ask("601#2F04200001000000", "581#8004200013000706");
+  node.ask("601#2308200001000000", "581#8008200013000706");
+  node.ask("601#2300210301020304", "581#8000210312000706");
+}
+
+TEST_CASE("SDO download: fewer bytes than announced are refused at the last segment [D5]") {
+  Fixture node;
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#0901020300000000", "581#8004200013000706");
+  CHECK(node.objects.u32 == 0x44332211);
+  node.ask("601#2100210508000000", "581#8000210512000706");
+  node.ask("601#2100210F08000000", "581#6000210F00000000");
+  node.ask("601#0101020304050607", "581#8000210F13000706");
+  node.ask("601#1D08000000000000", "581#8008000001000405");
+}
+
+TEST_CASE("SDO download: more bytes than announced are refused at the segment that shows it [D5]") {
+  Fixture node;
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#0501020304050000", "581#8004200012000706");
+  CHECK(node.objects.u32 == 0x44332211);
+  node.ask("601#2100210F08000000", "581#6000210F00000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#1B08090000000000", "581#8000210F12000706");
+}
+
+TEST_CASE("SDO download: more bytes than announced are refused even before the last segment [D5]") {
+  Fixture node;
+  node.ask("601#2100210F05000000", "581#6000210F00000000");
+  node.ask("601#0001020304050607", "581#8000210F12000706");
+}
+
+TEST_CASE("SDO download: without announcement the object's size decides [D5]") {
+  Fixture node;
+  node.ask("601#2004200000000000", "581#6004200000000000");
+  node.ask("601#0901020300000000", "581#8004200013000706");
+  node.ask("601#2004200000000000", "581#6004200000000000");
+  node.ask("601#0501020304050000", "581#8004200012000706");
+  node.ask("601#2004200000000000", "581#6004200000000000");
+  node.ask("601#0F00000000000000", "581#8004200013000706");
+  node.ask("601#2000210500000000", "581#6000210500000000");
+  node.ask("601#0001020304050607", "581#8000210512000706");
+  CHECK(node.objects.u32 == 0x44332211);
+}
+
+TEST_CASE("SDO download: a domain takes less than its memory [D5]") {
+  Fixture node;
+  node.ask("601#2100210F02000000", "581#6000210F00000000");
+  node.ask("601#0BAABB0000000000", "581#2000000000000000");
+  node.ask("601#2F002105CC000000", "581#6000210500000000");
+  CHECK(node.objects.memory[15][0] == 0xAA);
+  CHECK(node.objects.memory[15][1] == 0xBB);
+  CHECK(node.objects.memory[15][2] == 3);
+  CHECK(node.objects.memory[5][0] == 0xCC);
+  CHECK(node.objects.memory[5][1] == 2);
+}
+
+TEST_CASE("SDO download: a short domain is written again and again from its beginning [D2]") {
+  Fixture node;
+  node.ask("601#2B00210211220000", "581#6000210200000000");
+  CHECK(node.objects.memory[2] == Bytes{0x11, 0x22});
+  node.ask("601#2B00210233440000", "581#6000210200000000");
+  CHECK(node.objects.memory[2] == Bytes{0x33, 0x44});
+}
+
+TEST_CASE("SDO download: an empty download to a string or a domain [D19]") {
+  Fixture node;
+  node.ask("601#2100210500000000", "581#6000210500000000");
+  node.ask("601#0F00000000000000", "581#2000000000000000");
+  node.ask("601#2111210000000000", "581#6011210000000000");
+  node.ask("601#0F00000000000000", "581#2000000000000000");
+  CHECK(node.objects.octets.Size == 0);
+  node.ask("601#2010210000000000", "581#6010210000000000");
+  node.ask("601#0F00000000000000", "581#2000000000000000");
+  node.ask("601#4010210000000000", "581#4110210000000000");
+  node.ask("601#6000000000000000", "581#0F00000000000000");
+  node.ask("601#2100210000000000", "581#6000210000000000");
+  node.ask("601#0F00000000000000", "581#2000000000000000");
+}
+
+TEST_CASE("SDO download: strings may be shorter than their capacity and are then read back so [D5]") {
+  Fixture node;
+  node.ask("601#2110210009000000", "581#6010210000000000");
+  node.ask("601#0053686F72746572", "581#2000000000000000");
+  node.ask("601#1B2E2E0000000000", "581#3000000000000000");
+  node.ask("601#4010210000000000", "581#4110210009000000");
+  node.ask("601#6000000000000000", "581#0053686F72746572");
+  node.ask("601#7000000000000000", "581#1B2E2E0000000000");
+  node.ask("601#2710210041424300", "581#6010210000000000");
+  node.ask("601#4010210000000000", "581#4710210041424300");
+  node.ask("601#2B12210041000000", "581#6012210000000000");
+  node.ask("601#4012210000000000", "581#4B12210041000000");
+  CHECK(node.objects.unicode_memory[0] == 0x0041);
+}
+
+TEST_CASE("SDO download: a UNICODE_STRING has no half characters [D5]") {
+  Fixture node;
+  node.rx("601#2712210041000000");
+  const std::vector<std::string> sent = node.frames();
+  REQUIRE(sent.size() == 1);
+  CHECK(sent[0].substr(0, 12) == "581#80122100");
+  CHECK(sent[0].substr(14) == "000706");
+  CHECK(node.objects.unicode.Size == 6);
+}
+
+TEST_CASE("SDO download: as much as a string can hold [D5]") {
+  Fixture node;
+  const Bytes sixteen{'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'};
+  CHECK(node.download(0x2110, 0, sixteen) == 0);
+  CHECK(node.upload(0x2110, 0) == sixteen);
+  const Bytes ten{0, 1, 0, 3, 4, 5, 0, 7, 8, 0};
+  CHECK(node.download(0x2111, 0, ten, false) == 0);
+  CHECK(node.upload(0x2111, 0) == ten);
+  CHECK(node.download(0x2111, 0, sixteen, false) == 0x06070012);
+}
+
+TEST_CASE("SDO download: data of every size arrive as they are, announced or not [D4]") {
+  Fixture node;
+  for (const bool announced : {true, false}) {
+    CAPTURE(announced);
+    for (const std::uint32_t size : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U, 889U, 70000U}) {
+      CAPTURE(size);
+      Bytes data(size);
+      for (std::uint32_t i = 0; i < size; ++i) {
+        data[i] = static_cast<std::uint8_t>(0xFF - i * 3 - (announced ? 1 : 0));
+      }
+      const std::uint16_t index = size < 16 ? 0x2100 : size == 889 ? 0x2101 : 0x2102;
+      const auto sub = static_cast<std::uint8_t>(size < 16 ? size : 0);
+      CHECK(node.download(index, sub, data, announced) == 0);
+      CHECK(node.objects.memory[size] == data);
+      data.push_back(0);
+      CHECK(node.download(index, sub, data, announced) == 0x06070012);
+    }
+  }
+}
+
+TEST_CASE("SDO download: a wrong toggle bit at the first segment is aborted with 0503 0000h [D4]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#1001020304050607", "581#8008200000000305");
+  node.ask("601#0001020304050607", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: a repeated toggle bit is aborted with 0503 0000h [D4]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#0D08000000000000", "581#8008200000000305");
+  CHECK(node.objects.u64 == 0x8877665544332211);
+}
+
+TEST_CASE("SDO download: a segment without a transfer is aborted with its own bytes 1 to 3 [D7] [D25]") {
+  Fixture node;
+  node.ask("601#0311223344556677", "581#8011223301000405");
+  node.ask("601#1311223344556677", "581#8011223301000405");
+  for (int i = 0; i < 300; ++i) {
+    node.ask("601#0311223344556677", "581#8011223301000405");
+    node.ask("601#1311223344556677", "581#8011223301000405");
+  }
+}
+
+TEST_CASE("SDO download: a segment after the last one is stray [D7]") {
+  Fixture node;
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#0701020304000000", "581#2000000000000000");
+  node.ask("601#1701020304000000", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: an upload segment request does not belong to a download [D9] [D25]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#60AABBCC00000000", "581#8008200001000405");
+  node.ask("601#0001020304050607", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: a new initiate during a transfer starts the new one, of the new object [D8]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#0701020304000000", "581#2000000000000000");
+  CHECK(node.objects.u32 == 0x04030201);
+  CHECK(node.objects.u64 == 0x8877665544332211);
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#2F0120005A000000", "581#6001200000000000");
+  node.ask("601#0001020304050607", "581#8001020301000405");
+  CHECK(node.objects.u8 == 0x5A);
+}
+
+TEST_CASE("SDO download: a refused new initiate ends the old transfer all the same [D8]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#4004100000000000", "581#8004100000000206");
+  node.ask("601#0001020304050607", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: a client's abort ends the transfer without an answer [D6]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.rx("601#8000000000000405");
+  node.silent();
+  node.ask("601#0001020304050607", "581#8001020301000405");
+}
+
+TEST_CASE("SDO download: the sizes announced, sent and possible in every combination [D5]") {
+  constexpr std::uint32_t sizes[] = {0, 1, 3, 4, 5, 7, 8, 889, 890};
+  Fixture node;
+  const auto verdict = [](std::uint32_t object, bool is_value, std::uint32_t number) -> std::uint32_t {
+    if (number > object) return 0x06070012;
+    return number < object && is_value ? 0x06070013 : 0;
+  };
+  struct Target {
+    std::uint16_t index;
+    std::uint8_t sub;
+    std::uint32_t size;
+    bool is_value;
+  };
+  constexpr Target targets[] = {{0x2001, 0, 1, true},  {0x2004, 0, 4, true},  {0x2008, 0, 8, true},
+                                {0x2100, 1, 1, false}, {0x2100, 8, 8, false}, {0x2101, 0, 889, false}};
+  for (const Target& target : targets) {
+    for (const std::uint32_t sent : sizes) {
+      CAPTURE(target.index);
+      CAPTURE(sent);
+      CHECK(node.download(target.index, target.sub, Bytes(sent), true) == verdict(target.size, target.is_value, sent));
+      CHECK(node.download(target.index, target.sub, Bytes(sent), false) == verdict(target.size, target.is_value, sent));
+    }
+  }
+}
+
+TEST_CASE("SDO download: BOOLEAN takes 0 and 1 only") {
+  Fixture node;
+  node.ask("601#2F20200001000000", "581#6020200000000000");
+  node.ask("601#2F20200002000000", "581#8020200030000906");
+  node.ask("601#2F202000FF000000", "581#8020200030000906");
+  node.ask("601#4020200000000000", "581#4F20200001000000");
+}
+
+TEST_CASE("SDO download: time of day, six bytes, the four high bits of the milliseconds are not kept") {
+  Fixture node;
+  node.ask("601#2126200006000000", "581#6026200000000000");
+  node.ask("601#0378563412BBAA00", "581#2000000000000000");
+  CHECK(node.objects.time_of_day.Ms == 0x02345678);
+  CHECK(node.objects.time_of_day.Days == 0xAABB);
+}
+
+}  // namespace

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file fixture.hpp
+/// A node on a virtual bus with a virtual clock, driven by frames in candump notation:
+///
+///     Fixture node;                                      // node-ID 1, Pre-operational, boot-up already received
+///     node.rx("601#4000100000000000");                   // the bus sends to the node
+///     node.tx("581#4300100091010F00");                   // the node has sent exactly this since, nothing else
+///     node.after(1000ms);  node.silent();
+///
+/// After every call the properties that must hold whatever happens are checked (invariants.hpp).
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "callbacks.hpp"
+#include "co_core.h"
+#include "heap_watch.hpp"
+#include "invariants.hpp"
+#include "notation.hpp"
+
+template <>
+struct doctest::StringMaker<std::vector<std::string>> {
+  static String convert(const std::vector<std::string>& lines) {
+    std::string all;
+    for (const std::string& line : lines) {
+      all += (all.empty() ? "" : ", ") + line;
+    }
+    return ("[" + all + "]").c_str();
+  }
+};
+
+namespace test {
+
+using namespace std::chrono_literals;
+using Bytes = std::vector<std::uint8_t>;
+using Time = std::chrono::microseconds;
+
+/// The line of a test that a failure is reported for.
+struct Where {
+  const char* file;
+  int line;
+};
+
+/// How the loop of the application waits for time to pass.
+enum class Wake {
+  alarm,       ///< it sleeps until the alarm that the node has asked for
+  deadline,    ///< it sleeps as long as CONodeNextDeadline() says; the driver has no alarm
+  every_tick,  ///< it polls at each tick of the clock
+};
+
+/// The variables behind the dictionary of a fixture. Index and value are listed at Setup::dictionary().
+struct Objects {
+  std::uint8_t error_register = 0;
+  std::uint16_t heartbeat = 0;
+  CO_OBJ_STR device_name{0, reinterpret_cast<const std::uint8_t*>("Lexican test node")};
+  CO_OBJ_STR version{0, reinterpret_cast<const std::uint8_t*>("1.0")};
+  std::uint32_t sdo2_rx = 0x80000000;
+  std::uint32_t sdo2_tx = 0x80000000;
+  std::uint32_t sdo3_rx = 0x80000000;
+  std::uint32_t sdo3_tx = 0x80000000;
+  std::uint8_t u8 = 0x11;
+  std::uint16_t u16 = 0x2211;
+  std::uint32_t u24 = 0x332211;
+  std::uint32_t u32 = 0x44332211;
+  std::uint64_t u40 = 0x5544332211;
+  std::uint64_t u48 = 0x665544332211;
+  std::uint64_t u56 = 0x77665544332211;
+  std::uint64_t u64 = 0x8877665544332211;
+  std::uint8_t boolean = 0;
+  float real32 = 1.0F;
+  double real64 = 1.0;
+  CO_TIME_OF_DAY time_of_day{0x01020304, 0x0506};
+  std::uint32_t write_only = 0;
+  std::uint32_t read_only = 0xCAFEBABE;
+  std::uint32_t no_access = 0;
+  std::uint32_t record = 0x01010101;
+  std::map<std::uint32_t, Bytes> memory;       ///< of the domains, by size
+  std::map<std::uint32_t, CO_OBJ_DOM> domain;  ///< by size
+  std::uint8_t text_memory[16] = {'t', 'e', 'x', 't', 0};
+  CO_OBJ_STR_RW text{0, 4, 16, text_memory};
+  std::uint8_t octets_memory[10] = {1, 2, 3, 4, 5, 6};
+  CO_OBJ_STR_RW octets{0, 6, 10, octets_memory};
+  std::uint16_t unicode_memory[4] = {0x0041, 0x00E4, 0x20AC, 0};
+  CO_OBJ_STR_RW unicode{0, 6, 8, reinterpret_cast<std::uint8_t*>(unicode_memory)};
+};
+
+/// What a fixture is made of. All settings have the default that most tests want.
+class Setup {
+ public:
+  Setup& node_id(std::uint8_t id);
+  Setup& rate(std::uint32_t ticks_per_second);
+  Setup& clock(std::uint32_t start_tick);
+  Setup& heartbeat(std::uint16_t ms);
+  Setup& wake(Wake how);
+  Setup& timers(std::uint16_t number);
+  Setup& tx_queue(std::uint16_t frames);  ///< own memory instead of the node's CO_TX_QUEUE_N frames
+  Setup& stay_in_init();                  ///< CONodeStart() is left to the test
+  Setup& with(CO_OBJ entry);              ///< adds an entry to the dictionary, or replaces it
+  Setup& without(std::uint16_t index, std::uint8_t sub);
+  Setup& only_small();  ///< without the domains of more than 15 bytes: fast, for sweeps
+  Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
+  Setup& before_init(std::function<void(Objects&)> change);
+
+ private:
+  friend class Fixture;
+  /// Read-only unless said otherwise.
+  /// 1000h 000F0191h, 1001h, 1008h device name, 100Ah "1.0", 1014h 80h + node-ID, 1017h (rw), 1018h,
+  /// 1200h, 1201h and 1202h (rw, invalid) where the configuration has that many servers;
+  /// 200wh (rw) a number of w bytes, 2020h BOOLEAN, 2024h REAL32, 2028h REAL64, 2026h TIME_OF_DAY;
+  /// 2030h write-only, 2031h read-only, 2032h without any right, 2033h only sub 1, 2034h relative to the node-ID;
+  /// 2100h:n domain of n bytes (0…9, 14, 15), 2101h of 889, 2102h of 70000 bytes; byte i holds i + 1 modulo 256;
+  /// 2110h VISIBLE_STRING of 16, 2111h OCTET_STRING of 10, 2112h UNICODE_STRING of 8 bytes.
+  std::vector<CO_OBJ> dictionary(Objects& objects) const;
+
+  std::uint8_t node_id_ = 1;
+  std::uint32_t rate_ = 1000;
+  std::uint32_t clock_ = 0;
+  std::uint16_t heartbeat_ = 0;
+  Wake wake_ = Wake::alarm;
+  std::uint16_t timers_ = 8;
+  std::uint16_t tx_queue_ = 0;
+  bool start_ = true;
+  bool large_domains_ = true;
+  std::map<std::uint32_t, CO_OBJ> with_;
+  std::vector<std::uint32_t> without_;
+  std::function<bool(const void*, std::uint32_t)> may_write_;
+  std::function<void(Objects&)> before_init_;
+};
+
+/// A frame that the driver took, and when.
+struct Sent {
+  CO_IF_FRM frm;
+  std::uint64_t tick;  ///< since the fixture was made
+};
+
+/// The far side of the CAN driver. A test plans its faults here.
+struct FakeCan {
+  std::deque<CO_IF_FRM> to_node;
+  std::deque<Sent> sent;
+  std::vector<std::uint32_t> filter;
+  bool filter_off_bus = false;    ///< the first filter came before Enable
+  std::uint64_t attempts = 0;     ///< calls of Send, from 1
+  std::uint64_t refuse_from = 0;  ///< attempts refuse_from … refuse_to-1 are answered with \a refusal
+  std::uint64_t refuse_to = 0;
+  std::int16_t refusal = 0;  ///< 0: not now, -1: error
+  bool has_refused = false;
+  std::int16_t read_result = 0;  ///< what Read returns when there is no frame
+  unsigned init_calls = 0;
+  unsigned resets = 0;
+  std::uint32_t baud = 0;
+  bool on_bus = false;
+
+  void refuse_next(std::uint64_t number, std::int16_t with = 0);
+  void refuse_nth(std::uint64_t number, std::int16_t with = 0);  ///< counted from now, 1 = the next
+  void refuse_all() { refuse_next(1000000); }
+  void accept_all() { refuse_to = 0; }
+};
+
+class Fixture {
+ public:
+  explicit Fixture(Setup setup = {});
+  ~Fixture();
+  Fixture(const Fixture&) = delete;
+  Fixture& operator=(const Fixture&) = delete;
+
+  /// The bus sends a frame; the loop runs until the node has nothing more to do.
+  void rx(std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void rx(const CO_IF_FRM& frm, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// Everything that the node has sent since the last look is this, in this order.
+  void tx(std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void tx(std::initializer_list<std::string_view> all, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void silent(Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// rx() and tx().
+  void ask(std::string_view request, std::string_view answer, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// The next frame was sent at \a time after the begin of the last after() (rounded up to ticks).
+  void tx_at(Time time, std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// Takes what was sent out of the record: "time in ms since the last after() began, frame".
+  std::vector<std::string> trace();
+  std::vector<std::string> frames();  ///< the same without times
+
+  void after(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});  ///< lets time pass
+  void jump(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});   ///< … during which the loop does not run
+  /// Time passes, the timer interrupt comes, but not the loop. COTmrService() then tells 1 (\a elapsed).
+  void elapse_only(Time time, std::int16_t elapsed = 1, Where at = {__builtin_FILE(), __builtin_LINE()});
+  std::uint64_t ticks(Time time) const;       ///< rounded up
+  std::uint64_t now() const { return now_; }  ///< ticks since the fixture was made
+
+  /// Runs anything else on the node, with the checks.
+  void call(const std::function<void()>& api, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void init_again(Where at = {__builtin_FILE(), __builtin_LINE()});  ///< CONodeInitEx() as at first
+  void loop(Where at = {__builtin_FILE(), __builtin_LINE()});        ///< CONodeProcess() until nothing is left to do
+
+  /// A client on server channel 1, for data too long to be typed. Empty: aborted, or not as the standard says.
+  Bytes upload(std::uint16_t index, std::uint8_t sub, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// Returns the abort code, 0: done.
+  std::uint32_t download(std::uint16_t index, std::uint8_t sub, const Bytes& data, bool announced = true,
+                         Where at = {__builtin_FILE(), __builtin_LINE()});
+
+  /// The longest time that the server waits for a client. It counts in eighths, each rounded up to ticks.
+  Time sdo_time_out() const { return std::chrono::milliseconds{CO_SDO_TIMEOUT} + 8 * Time{1000000 / setup_.rate_ + 1}; }
+
+  void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, from now on
+  void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
+  void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size);
+
+  CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node); }
+  CO_ERR error() { return CONodeGetErr(&node); }
+  CO_OBJ* find(std::uint16_t index, std::uint8_t sub);
+  CO_MODE mode() const { return node.Nmt.Mode; }
+  CO_NODE* operator->() { return &node; }
+
+  /// Same protocol state as \a other: mode, servers, routes, queue, timers. Empty if so, else what differs.
+  std::string difference(const Fixture& other) const;
+  unsigned armed_timers() const;
+
+  Objects objects;
+  FakeCan can;
+  CO_NODE node;
+
+ private:
+  struct Drivers;
+  friend struct Drivers;
+
+  void init();
+  void process_frames();
+  void wake_up(Where at);
+  void run_until(std::uint64_t end, Where at);
+  std::uint64_t next_wake() const;
+  void check_properties(Where at);
+  void check_each_frame(Where at);
+  void check_back_to_idle();
+  std::string pop();
+
+  Setup setup_;
+  std::vector<CO_OBJ> dictionary_;
+  std::vector<CO_TMR_MEM> timers_;
+  std::vector<CO_IF_FRM> tx_queue_;
+  Bytes sdo_buffer_;
+  CO_NODE_EXT ext_{};
+  MemoryWatch memory_;
+  DownloadObserver downloads_;
+  std::uint64_t now_ = 0;
+  std::uint64_t began_ = 0;
+  std::uint64_t alarm_ = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t heap_before_ = 0;
+  std::size_t checked_ = 0;  ///< of can.sent
+  unsigned frames_per_call_ = 1;
+  std::vector<std::string> violations_;
+};
+
+/// Start ticks at which counters of 32 bits show what they are worth.
+inline constexpr std::uint32_t clock_starts[] = {0, 0x80000000U - 1000U, 0xFFFFFFFFU - 999U};
+/// Ticks per second.
+inline constexpr std::uint32_t clock_rates[] = {1000, 1000000, 300, 1024, 32768};
+
+}  // namespace test

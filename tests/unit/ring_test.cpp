@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_ring.h"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace {
+
+CO_IF_FRM numbered(std::uint32_t number) {
+  CO_IF_FRM frm{};
+  frm.Identifier = number;
+  frm.DLC = 8;
+  for (unsigned i = 0; i < 8; ++i) {
+    frm.Data[i] = static_cast<std::uint8_t>(number + i);
+  }
+  return frm;
+}
+
+bool is_numbered(const CO_IF_FRM& frm, std::uint32_t number) {
+  const CO_IF_FRM expected = numbered(number);
+  bool same = frm.Identifier == expected.Identifier && frm.DLC == expected.DLC;
+  for (unsigned i = 0; i < 8; ++i) {
+    same = same && frm.Data[i] == expected.Data[i];
+  }
+  return same;
+}
+
+TEST_CASE("ring: frames come out whole and in order") {
+  CO_IF_FRM mem[4];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem, 4));
+  CO_IF_FRM frm;
+  CHECK_FALSE(CORingGet(&ring, &frm));
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    const CO_IF_FRM in = numbered(n);
+    CHECK(CORingPut(&ring, &in));
+  }
+  CHECK(CORingCount(&ring) == 3);
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    REQUIRE(CORingGet(&ring, &frm));
+    CHECK(is_numbered(frm, n));
+  }
+  CHECK(CORingCount(&ring) == 0);
+  CHECK_FALSE(CORingGet(&ring, &frm));
+}
+
+TEST_CASE("ring: all places can be used; a frame too many is lost and counted, the others stay") {
+  for (const std::uint16_t size : {std::uint16_t{1}, std::uint16_t{2}, std::uint16_t{7}, std::uint16_t{8}}) {
+    CAPTURE(size);
+    std::vector<CO_IF_FRM> mem(size);
+    CO_RING ring;
+    REQUIRE(CORingInit(&ring, mem.data(), size));
+    for (std::uint32_t round = 0; round < 3; ++round) {
+      for (std::uint32_t n = 0; n < size; ++n) {
+        const CO_IF_FRM in = numbered(100 * round + n);
+        CHECK(CORingPut(&ring, &in));
+      }
+      CHECK(CORingCount(&ring) == size);
+      const CO_IF_FRM lost = numbered(999);
+      CHECK_FALSE(CORingPut(&ring, &lost));
+      CHECK_FALSE(CORingPut(&ring, &lost));
+      CHECK(CORingLost(&ring) == 2 * (round + 1));
+      for (std::uint32_t n = 0; n < size; ++n) {
+        CO_IF_FRM out;
+        REQUIRE(CORingGet(&ring, &out));
+        CHECK(is_numbered(out, 100 * round + n));
+      }
+    }
+  }
+}
+
+TEST_CASE("ring: order is kept through any number of turns, at any filling") {
+  for (std::uint16_t size = 1; size <= 5; ++size) {
+    for (std::uint16_t filling = 0; filling < size; ++filling) {
+      std::vector<CO_IF_FRM> mem(size);
+      CO_RING ring;
+      REQUIRE(CORingInit(&ring, mem.data(), size));
+      std::uint32_t in = 0;
+      std::uint32_t wrong = 0;
+      for (std::uint32_t out = 0; out < 1000; ++out) {
+        while (CORingCount(&ring) <= filling) {
+          const CO_IF_FRM frm = numbered(in++);
+          wrong += CORingPut(&ring, &frm) ? 0U : 1U;
+        }
+        CO_IF_FRM frm;
+        wrong += CORingGet(&ring, &frm) && is_numbered(frm, out) ? 0U : 1U;
+      }
+      CHECK(wrong == 0);
+      CHECK(CORingLost(&ring) == 0);
+    }
+  }
+}
+
+TEST_CASE("ring: the largest size") {
+  std::vector<CO_IF_FRM> mem(32767);
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem.data(), 32767));
+  std::uint32_t in = 0;
+  std::uint32_t out = 0;
+  for (int round = 0; round < 3; ++round) {
+    CO_IF_FRM frm = numbered(in);
+    while (CORingPut(&ring, &frm)) {
+      frm = numbered(++in);
+    }
+    CHECK(CORingCount(&ring) == 32767);
+    unsigned wrong = 0;
+    while (CORingGet(&ring, &frm)) {
+      wrong += is_numbered(frm, out++) ? 0U : 1U;
+    }
+    CHECK(wrong == 0);
+  }
+  CHECK(out == 3 * 32767);
+  CHECK(CORingLost(&ring) == 3);
+}
+
+TEST_CASE("ring: the count of lost frames saturates [Q10]") {
+  CO_IF_FRM mem[1];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem, 1));
+  const CO_IF_FRM frm = numbered(1);
+  for (int i = 0; i < 70000; ++i) {
+    CORingPut(&ring, &frm);
+  }
+  CHECK(CORingLost(&ring) == 65535);
+}
+
+TEST_CASE("ring: arguments out of range make a ring that holds nothing") {
+  CO_IF_FRM mem[2];
+  CO_IF_FRM frm = numbered(1);
+  CO_RING ring;
+  CHECK_FALSE(CORingInit(nullptr, mem, 2));
+  for (const std::uint16_t size : {std::uint16_t{0}, std::uint16_t{32768}, std::uint16_t{65535}}) {
+    CHECK_FALSE(CORingInit(&ring, mem, size));
+    CHECK_FALSE(CORingPut(&ring, &frm));
+    CHECK_FALSE(CORingGet(&ring, &frm));
+    CHECK(CORingCount(&ring) == 0);
+  }
+  CHECK_FALSE(CORingInit(&ring, nullptr, 2));
+  CHECK_FALSE(CORingPut(&ring, &frm));
+  CHECK_FALSE(CORingGet(&ring, &frm));
+}
+
+TEST_CASE("ring: one thread puts while another gets, nothing is torn, lost or out of order") {
+  constexpr std::uint32_t number = 50000;
+  CO_IF_FRM mem[16];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem, 16));
+  std::thread producer([&] {
+    for (std::uint32_t n = 0; n < number; ++n) {
+      const CO_IF_FRM frm = numbered(n);
+      while (!CORingPut(&ring, &frm)) {
+        std::this_thread::yield();
+      }
+    }
+  });
+  std::uint32_t wrong = 0;
+  for (std::uint32_t n = 0; n < number; ++n) {
+    CO_IF_FRM frm;
+    while (!CORingGet(&ring, &frm)) {
+      std::this_thread::yield();
+    }
+    wrong += is_numbered(frm, n) ? 0U : 1U;
+    wrong += CORingCount(&ring) <= 16 ? 0U : 1U;
+    CORingLost(&ring);
+  }
+  producer.join();
+  CHECK(wrong == 0);
+}
+
+}  // namespace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/routes.hpp"
+
+#include <random>
+
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+struct Route {
+  std::uint32_t id;
+  std::uint8_t service;
+  std::uint16_t number;
+  bool operator<(const Route& other) const { return id < other.id; }
+};
+
+// The routes of an identifier as the node finds them.
+std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
+  std::vector<Route> all;
+  const co::routes::Range range = co::routes::candidates(node, id);
+  for (std::uint16_t n = range.first; n < range.last; ++n) {
+    if (node.Routes.Id[n] == id) {
+      all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
+    }
+  }
+  return all;
+}
+
+unsigned number_of_routes(const CO_NODE& node) { return node.Routes.Start[17]; }
+
+CO_NODE& empty_node() {
+  static CO_NODE node;
+  co::routes::clear(node);
+  return node;
+}
+
+TEST_CASE("routes: an empty table knows nobody") {
+  CO_NODE& node = empty_node();
+  for (const std::uint32_t id : {0x000U, 0x601U, 0x7FFU, 0x80000601U, 0x9FFFFFFFU}) {
+    CHECK(found(node, id).empty());
+  }
+}
+
+TEST_CASE("routes: 11-bit and 29-bit identifiers of the same number are different") {
+  CO_NODE& node = empty_node();
+  co::routes::add(node, 0x123, 1, 0);
+  co::routes::add(node, 0x80000123, 2, 5);
+  REQUIRE(found(node, 0x123).size() == 1);
+  CHECK(found(node, 0x123)[0].service == 1);
+  REQUIRE(found(node, 0x80000123).size() == 1);
+  CHECK(found(node, 0x80000123)[0].service == 2);
+  CHECK(found(node, 0x80000123)[0].number == 5);
+  CHECK(found(node, 0x122).empty());
+}
+
+TEST_CASE("routes: a foreign identifier is compared with those of its own function code only") {
+  CO_NODE& node = empty_node();
+  co::routes::add(node, 0x000, 1, 0);
+  co::routes::add(node, 0x601, 2, 0);
+  const co::routes::Range foreign = co::routes::candidates(node, 0x181);
+  CHECK(foreign.first == foreign.last);
+  const co::routes::Range same = co::routes::candidates(node, 0x602);
+  CHECK(same.last - same.first == 1);
+}
+
+TEST_CASE("routes: what is not there cannot be removed") {
+  CO_NODE& node = empty_node();
+  co::routes::add(node, 0x601, 2, 0);
+  co::routes::remove(node, 2, 1);
+  co::routes::remove(node, 1, 0);
+  CHECK(number_of_routes(node) == 1);
+  co::routes::remove(node, 2, 0);
+  co::routes::remove(node, 2, 0);
+  CHECK(number_of_routes(node) == 0);
+}
+
+TEST_CASE("routes: sorted whatever was added and removed, and equal identifiers are all found") {
+  std::mt19937 random(42);
+  constexpr std::uint32_t ids[] = {0x000, 0x07F, 0x080, 0x601, 0x67F, 0x690, 0x7FF, 0x80000601, 0x9FFFFFFF};
+  for (int round = 0; round < 200; ++round) {
+    CO_NODE& node = empty_node();
+    std::vector<Route> model;
+    for (std::uint16_t step = 0; step < 40; ++step) {
+      if (model.size() < CO_ROUTE_N && random() % 2 == 0) {
+        const Route route{ids[random() % 9], static_cast<std::uint8_t>(random() % 3), step};
+        co::routes::add(node, route.id, route.service, route.number);
+        model.push_back(route);
+      } else if (!model.empty()) {
+        const auto victim = model.begin() + static_cast<std::ptrdiff_t>(random() % model.size());
+        co::routes::remove(node, victim->service, victim->number);
+        model.erase(victim);
+      }
+      REQUIRE(number_of_routes(node) == model.size());
+      for (const std::uint32_t id : ids) {
+        const auto number = std::count_if(model.begin(), model.end(), [&](const Route& r) { return r.id == id; });
+        CHECK(found(node, id).size() == static_cast<std::size_t>(number));
+      }
+      CHECK(std::is_sorted(node.Routes.Id, node.Routes.Id + number_of_routes(node)));
+    }
+  }
+}
+
+TEST_CASE("routes: a driver that filters is told what to let through before it goes on the bus") {
+  Fixture node(Setup().stay_in_init().node_id(9));
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x609});
+  CHECK(node.can.filter_off_bus);
+}
+
+}  // namespace
