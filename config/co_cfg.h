@@ -9,7 +9,8 @@
 #include CO_CFG_PRESET
 #endif
 
-/// SDO servers (1200h, 1201h, …): 1…128. Each costs 44 bytes of RAM (32-bit CPU).
+/// SDO servers (1200h, 1201h, …): 1…128. Each costs 48 bytes of RAM (32-bit CPU),
+/// besides its part of CO_NODE_SPEC.SdoBuf.
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
 #endif
@@ -18,7 +19,7 @@
 #endif
 
 /// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended
-/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver.
+/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. No cost.
 #ifndef CO_SDO_TIMEOUT
 #define CO_SDO_TIMEOUT 2000
 #endif
@@ -35,7 +36,7 @@
 #error "CO_TX_QUEUE_N: 1...1000 frames"
 #endif
 
-/// Segments of 7 bytes in the buffer of each SDO server (CO_NODE_SPEC.SdoBuf): 1…127.
+/// Segments of 7 bytes in the buffer of each SDO server (CO_NODE_SPEC.SdoBuf): 1…127. Each costs 7 bytes of RAM there.
 #ifndef CO_SDO_BUF_SEG
 #define CO_SDO_BUF_SEG 127
 #endif

@@ -4,6 +4,9 @@
 ///
 /// Contexts: all functions of the stack belong to one context, the loop (or one task), with two exceptions:
 /// COTmrService() (timer interrupt) and CORingPut() (producer end of a driver's queue).
+///
+/// Null pointers: a function that returns CO_ERR answers CO_ERR_BAD_ARG; others call CONodeFatalError() and return,
+/// unless they say otherwise.
 #ifndef CO_CORE_H_
 #define CO_CORE_H_
 
@@ -86,8 +89,8 @@ typedef struct CO_NODE_EXT_T {
   void* TimerCtx;
   const CO_IF_NVM_DRV_EX* Nvm;  ///< memory driver with context, or null: CO_NODE_SPEC.Drv
   void* NvmCtx;
-  CO_IF_FRM* TxQueue;        ///< memory for frames that wait for the controller, or null: CO_TX_QUEUE_N frames
-  uint16_t TxQueueLen;       ///< in the node
+  CO_IF_FRM* TxQueue;        ///< memory for frames that wait for the controller, or null: CO_TX_QUEUE_N in the node
+  uint16_t TxQueueLen;       ///< frames at TxQueue
   void (*Lock)(void* user);  ///< instead of COTmrLock()/COTmrUnlock(); both or none
   void (*Unlock)(void* user);
   /// May \a size bytes at \a address be written? Null: yes. Asked before a basic type stores a value; for tables and
@@ -138,7 +141,7 @@ typedef struct CO_NODE_T {
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;
 /// what went wrong is told by CONodeGetErr(): CO_ERR_DICT_INIT (CODictGetFault() names the entry) and CO_ERR_BAD_ARG
-/// (node-ID, drivers) leave it in CO_INVALID, anything else does not keep it from running.
+/// (node-ID, drivers, no dictionary) leave it in CO_INVALID, anything else does not keep it from running.
 /// \a node and what \a spec points to stay the caller's and must live as long as the node; \a spec itself need not.
 /// Null arguments end in CONodeFatalError().
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec);

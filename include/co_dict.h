@@ -34,9 +34,8 @@ typedef struct CO_DICT_T {
   struct CO_OBJ_T*
       Next;       ///< entry behind the one found last: the next sub-index is found without a search; null: no entries
   uint16_t Num;   ///< entries in use
-  uint16_t Max;   ///< length of the table
   uint8_t Steps;  ///< halvings that a search needs in either half
-  uint8_t Fault;  ///< CO_DICT_FAULT of the last CODictInit()
+  uint8_t Fault;  ///< CO_DICT_FAULT of CODictInit() or of a type's Init function
   uint32_t FaultKey;       ///< key of the entry with that fault
   struct CO_NODE_T* Node;  ///< owner
 } CO_DICT;
@@ -60,7 +59,8 @@ CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);
 /// \}
 
 /// Finds a stream or value and reads \a len bytes of it from its beginning into \a buf (any length; a stream shorter
-/// than \a len leaves the rest of \a buf as it is). Errors as CODictRdByte(), except CO_ERR_OBJ_SIZE.
+/// than \a len leaves the rest of \a buf as it is). Errors as CODictRdByte(), except CO_ERR_OBJ_SIZE: a value
+/// of another length answers CO_ERR_BAD_ARG.
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Errors as CODictRdBuffer().
@@ -78,8 +78,8 @@ CO_ERR CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t m
 /// Runs the Init function of every entry, from the first to the last. Returns the last error, or CO_ERR_NONE.
 CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 
-/// What the last CODictInit() found; \a key (may be null) receives the key of the entry. Also legal after a
-/// CONodeInit() that ended with CO_ERR_DICT_INIT.
+/// What CODictInit(), or the Init function of a basic type, found; \a key (may be null) receives the key of the entry.
+/// Also legal after a CONodeInit() that ended with CO_ERR_DICT_INIT.
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
 
 #ifdef __cplusplus

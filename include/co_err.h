@@ -50,7 +50,7 @@ typedef enum CO_ERR_T {
   CO_ERR_CFG_1018,    ///< the mandatory object 1018h:1 is missing; the node runs
   CO_ERR_TMR_NO_ACT,  ///< no free timer
   CO_ERR_TMR_INSERT,
-  CO_ERR_TMR_CREATE,  ///< a timer of the stack could not be started
+  CO_ERR_TMR_CREATE,
   CO_ERR_TMR_DELETE,
   CO_ERR_NMT_INIT,
   CO_ERR_NMT_APP_RESET,
@@ -88,8 +88,8 @@ typedef enum CO_ERR_T {
   CO_ERR_IF_TIMER_STOP,
   CO_ERR_IF_TIMER_START,
   CO_ERR_IF_NVM_INIT,
-  CO_ERR_IF_NVM_READ,   ///< the NVM driver read fewer bytes than asked
-  CO_ERR_IF_NVM_WRITE,  ///< the NVM driver wrote fewer bytes than asked
+  CO_ERR_IF_NVM_READ,   ///< non-volatile memory could not be read (SDO abort 0606 0000h)
+  CO_ERR_IF_NVM_WRITE,  ///< non-volatile memory could not be written (SDO abort 0606 0000h)
   CO_ERR_SIG_INIT,
   CO_ERR_SIG_CREATE,
   CO_ERR_MSG_INIT,

@@ -38,10 +38,10 @@ void COIfCanInit(CO_IF* cif, struct CO_NODE_T* node);
 void COIfCanEnable(CO_IF* cif, uint32_t baud);
 /// Reads a frame. Returns sizeof(CO_IF_FRM), 0 (none), or < 0 (error; the node's error is then CO_ERR_IF_CAN_READ).
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
-/// Sends a frame of the application, in any NMT state; takes its place by priority behind frames that wait.
-/// Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as dropped), -1: argument null.
-/// Up to half of the queue (CO_SSDO_N + 1 frames at most) is kept for the node's own frames.
-/// A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
+/// Sends a frame of the application, in any NMT state; in CO_INIT it waits for the boot-up message. Takes its place by
+/// priority among frames that wait. Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as
+/// dropped), -1: an argument is null, or the node is in CO_INVALID. Up to half of the queue (CO_SSDO_N + 1 frames at
+/// most) is kept for the node's own frames. A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm);
 /// Clears errors and queues of the controller.
 void COIfCanReset(CO_IF* cif);

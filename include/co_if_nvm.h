@@ -10,7 +10,8 @@
 extern "C" {
 #endif
 
-/// A memory driver without context. The address space is the application's. Functions return the bytes done.
+/// A memory driver without context. The address space is the application's. Functions return the bytes done; fewer than
+/// asked for means an error. They are called in the loop context and may block.
 typedef struct CO_IF_NVM_DRV_T {
   void (*Init)(void);
   uint32_t (*Read)(uint32_t start, uint8_t* buffer, uint32_t size);
@@ -24,7 +25,7 @@ typedef struct CO_NVM_SHAPE_T {
   uint32_t EraseSize;    ///< erase unit; 0: memory that needs no erase (EEPROM, FRAM, file)
 } CO_NVM_SHAPE;
 
-/// The same with a context, a capacity and an erase function (CO_NODE_EXT).
+/// The same with a context, a shape and an erase function (CO_NODE_EXT).
 typedef struct CO_IF_NVM_DRV_EX_T {
   void (*Init)(void* ctx);
   uint32_t (*Read)(void* ctx, uint32_t start, uint8_t* buffer, uint32_t size);         ///< returns the bytes read

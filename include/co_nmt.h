@@ -47,7 +47,9 @@ typedef enum CO_NMT_RESET_T {
 typedef struct CO_NMT_T {
   struct CO_NODE_T* Node;
   CO_MODE Mode;
-  uint8_t Allowed;  ///< CO_…_ALLOWED bits of the present mode
+  CO_MODE Next;      ///< mode to be entered; Mode unless Changing
+  uint8_t Allowed;   ///< CO_…_ALLOWED bits of the present mode
+  uint8_t Changing;  ///< CONmtModeChange() is running
 } CO_NMT;
 
 /// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is
@@ -81,7 +83,8 @@ uint8_t CONmtModeEncode(CO_MODE mode);
 /// object library of the program: linkers ignore a definition in a static library that nothing else needs.
 /// \{
 
-/// Before the mode changes to \a mode; CO_NMT.Mode is still the old one.
+/// Before the mode changes to \a mode; CO_NMT.Mode is still the old one. If it asks for another mode, or for
+/// CONodeStop(), that is entered in place of \a mode, after it was called for that one, too.
 void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
 
 /// After a reset that the NMT master commanded: the stack is reset and in Pre-operational.

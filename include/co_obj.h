@@ -98,7 +98,9 @@ struct CO_OBJ_T;
 /// in pieces of at most 7 bytes in a segmented transfer; a Read or Write of length 0 follows Reset and opens
 /// the access. A type *without* one is a value: up to 8 bytes are always read and written as a whole; a longer one is
 /// read and written in pieces like a stream, and knows the start of an access by the call with length 0.
-/// Values of 2 to 8 bytes are numbers in the byte order of the CPU; streams are bytes in the order of the bus.
+/// A value of up to 8 bytes is written when all of it has arrived. A stream is written as it arrives: a transfer that
+/// is aborted leaves what it has written. Values of 2 to 8 bytes are numbers in the byte order of the CPU; streams are
+/// bytes in the order of the bus.
 /// \{
 
 /// Length of the object in bytes. \a width is the length that the access has in mind, 0 if unknown: a type whose
@@ -157,13 +159,15 @@ CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t wi
 /// Errors as COObjRdValue(); CO_ERR_OBJ_ACC: the type cannot be written.
 CO_ERR COObjWrValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
-/// Starts to read a stream from its beginning: Reset(0), then \a size bytes into \a buffer. Errors as COObjRdValue().
+/// Starts to read a stream from its beginning: Reset(0), then \a size bytes into \a buffer. Errors as COObjRdValue(),
+/// and what the type's Reset function returns.
 CO_ERR COObjRdBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
 /// Reads the next \a size bytes of a stream. Errors as COObjRdValue().
 CO_ERR COObjRdBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Starts to write a stream from its beginning: Reset(0), then \a size bytes from \a buffer. Errors as COObjWrValue().
+/// Starts to write a stream from its beginning: Reset(0), then \a size bytes from \a buffer. Errors as COObjWrValue(),
+/// and what the type's Reset function returns.
 CO_ERR COObjWrBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
 /// Writes the next \a size bytes of a stream. Errors as COObjWrValue().

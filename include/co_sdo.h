@@ -4,6 +4,7 @@
 #ifndef CO_SDO_H_
 #define CO_SDO_H_
 
+#include "co_cfg.h"
 #include "co_types.h"
 
 /// \name SDO abort codes
@@ -41,12 +42,9 @@
 #define CO_SDO_ERR_NO_DATA 0x08000024u       ///< no data available
 /// \}
 
-/// \name Buffer for each SDO server that CO_NODE_SPEC.SdoBuf has to provide, in segments of 7 bytes and in bytes.
+/// \name Buffer for each SDO server that CO_NODE_SPEC.SdoBuf has to provide, CO_SDO_BUF_SEG segments of 7 bytes.
 /// Expedited and segmented transfers do not use it; SdoBuf may be null.
 /// \{
-#ifndef CO_SDO_BUF_SEG
-#define CO_SDO_BUF_SEG 127
-#endif
 #define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)
 /// \}
 

@@ -18,8 +18,8 @@ extern "C" {
 typedef struct CO_SDO_T {
   struct CO_NODE_T* Node;
   CO_OBJ* Obj;         ///< entry of the open transfer, or being accessed; null: none
-  uint32_t RxId;       ///< COB-ID client -> server, with bit 31 = 1 if not valid
-  uint32_t TxId;       ///< COB-ID server -> client
+  uint32_t RxId;       ///< identifier of the client's frames, as in CO_IF_FRM; FFFF FFFFh: the channel is off
+  uint32_t TxId;       ///< identifier of the server's frames
   uint32_t Key;        ///< CO_DEV() of the open transfer
   uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort()
   uint32_t Size;       ///< bytes that the transfer will have, or may have at most

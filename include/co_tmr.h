@@ -77,7 +77,7 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId);
 /// Returns 1: elapsed timers wait for COTmrProcess(), 0: none, -1: \a tmr null.
 int16_t COTmrService(CO_TMR* tmr);
 
-/// Runs the actions of all timers that have elapsed up to now, without the lock held.
+/// Runs the actions of all timers that COTmrService() has found elapsed, without the lock held.
 void COTmrProcess(CO_TMR* tmr);
 
 /// Prepares the timer management of a node; CONodeInit() does it. \a mem: \a num timers, the caller's for as long as

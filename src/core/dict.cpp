@@ -156,7 +156,6 @@ CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   *cod = {};
   cod->Node = node;
   cod->Root = root;
-  cod->Max = max;
   cod->Num = dict::count_entries(root, max);
   const CO_ERR err = dict::check(*cod);
   if (err != CO_ERR_NONE) {

@@ -6,6 +6,9 @@
 
 namespace co::event {
 
+// May the node communicate so? what: CO_…_ALLOWED
+[[nodiscard]] inline bool is_allowed(const CO_NODE& node, uint8_t what) { return (node.Nmt.Allowed & what) != 0; }
+
 // Changes the NMT state: the application's callback, the permissions, then every service.
 void change_mode(CO_NODE& node, CO_MODE mode);
 
@@ -17,5 +20,8 @@ enum Pending : uint8_t {
   configure_sdo = 0x08,
 };
 void defer(CO_NODE& node, uint8_t what);
+
+// Does what waits, unless a frame is being processed or the mode is being changed.
+void settle(CO_NODE& node);
 
 }  // namespace co::event

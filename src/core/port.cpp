@@ -188,6 +188,7 @@ int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
   ASSERT_PTR_ERR(cif, -1);
   ASSERT_PTR_ERR(cif->Node, -1);
   ASSERT_PTR_ERR(frm, -1);
+  ASSERT_NOT_ERR(cif->Node->Nmt.Mode, CO_INVALID, -1);
   CO_IF_FRM frame = *frm;
   frame.Identifier = wire::normalised(frame.Identifier);
   return transmit::send_for_application(*cif->Node, frame) ? static_cast<int16_t>(sizeof frame)

@@ -14,6 +14,9 @@ uint32_t rank(const CO_IF_FRM& frame) {
   return extended ? (id << 1) | 1U : id << 19;
 }
 
+// In Initialisation only what a reset has left to be sent: the boot-up message comes before anything else.
+bool may_send_next(const CO_NODE& node) { return node.TxQueue.Fixed != 0 || node.Nmt.Mode != CO_INIT; }
+
 bool try_send(CO_NODE& node, const CO_IF_FRM& frame) {
   if (!port::can_send(node, frame)) {
     return false;
@@ -51,7 +54,7 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
 
 bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
   flush(node);
-  return (!is_waiting(node) && try_send(node, frame)) || enqueue(node, frame, places);
+  return (!is_waiting(node) && may_send_next(node) && try_send(node, frame)) || enqueue(node, frame, places);
 }
 
 // The rest is kept for the node's own frames: an answer of each SDO server and a heartbeat, but at most half the queue.
@@ -114,7 +117,7 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 void flush(CO_NODE& node) {
-  while (is_waiting(node) && try_send(node, node.TxQueue.Frame[0])) {
+  while (is_waiting(node) && may_send_next(node) && try_send(node, node.TxQueue.Frame[0])) {
     remove_first(node.TxQueue);
   }
 }

@@ -30,6 +30,9 @@ void check_mandatory_objects(CO_NODE& node) {
 // waits. False: they have stopped the node.
 [[nodiscard]] bool initialise(CO_NODE& node) {
   event::change_mode(node, CO_INIT);
+  if (node.Nmt.Mode != CO_INIT) {
+    return false;
+  }
   routes::clear(node);
   if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
     node.Error = CO_ERR_OBJ_INIT;
@@ -62,22 +65,8 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
   reset(node, commanded);
   node.Busy = 0;
   node.Pending = 0;  // what was asked for meanwhile has just been done
-  if (commanded) {
+  if (commanded && node.Nmt.Mode != CO_INVALID) {
     CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
-  }
-}
-
-// Does what has waited for the end of a frame.
-void settle(CO_NODE& node) {
-  while (node.Pending != 0) {
-    const uint8_t pending = node.Pending;
-    node.Pending = 0;
-    if ((pending & (event::reset_node | event::reset_communication)) != 0) {
-      settle_reset(node, pending);
-    } else {
-      sdo_server::configure(node);
-      routes::publish(node);
-    }
   }
 }
 
@@ -121,7 +110,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
     return;
   }
   count(node.Count.Unclaimed);
-  if ((node.Nmt.Allowed & CO_NMT_ALLOWED) != 0) {
+  if (event::is_allowed(node, CO_NMT_ALLOWED)) {
     COIfCanReceive(&frame);
   }
 }
@@ -131,11 +120,22 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
 
 namespace co {
 
+void event::settle(CO_NODE& node) {
+  while (node.Pending != 0 && node.Busy == 0 && node.Nmt.Changing == 0) {
+    const uint8_t pending = node.Pending;
+    node.Pending = 0;
+    if ((pending & (reset_node | reset_communication)) != 0) {
+      node::settle_reset(node, pending);
+    } else {
+      sdo_server::configure(node);
+      routes::publish(node);
+    }
+  }
+}
+
 void event::defer(CO_NODE& node, uint8_t what) {
   node.Pending = static_cast<uint8_t>(node.Pending | what);
-  if (node.Busy == 0) {
-    node::settle(node);
-  }
+  settle(node);
 }
 
 }  // namespace co
@@ -163,8 +163,8 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (!usable) {
     return;
   }
-  if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) != CO_ERR_NONE) {
-    node->Error = CO_ERR_DICT_INIT;
+  node->Error = CODictInit(&node->Dict, node, spec->Dict, spec->DictLen);
+  if (node->Error != CO_ERR_NONE) {
     return;
   }
   node->Busy = 1;
@@ -192,7 +192,7 @@ void CONodeStart(CO_NODE* node) {
 
 void CONodeStop(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INVALID) {
+  if (node->Nmt.Mode == CO_INVALID && node->Nmt.Changing == 0) {
     return;
   }
   event::change_mode(*node, CO_INVALID);
@@ -221,7 +221,7 @@ void CONodeProcess(CO_NODE* node) {
   node->Busy = 1;
   node::dispatch(*node, frame);
   node->Busy = 0;
-  node::settle(*node);
+  event::settle(*node);
 }
 
 uint32_t CONodeNextDeadline(CO_NODE* node) {

@@ -48,7 +48,7 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   for (uint16_t n = range.first; n < range.last; ++n) {
     const uint16_t owner = node.Routes.Owner[n];
     const Service& service = table[routes::service_of(owner)];
-    if (node.Routes.Id[n] == id && (service.allowed & node.Nmt.Allowed) != 0) {
+    if (node.Routes.Id[n] == id && event::is_allowed(node, service.allowed)) {
       serve(node, frame, owner);
       claimed = true;
     }
@@ -58,15 +58,9 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
 
 }  // namespace services
 
-void event::change_mode(CO_NODE& node, CO_MODE mode) {
-  const CO_MODE before = node.Nmt.Mode;
-  if (before == mode) {
-    return;
-  }
-  CONmtModeChange(&node.Nmt, mode);
-  if (node.Nmt.Mode != before) {  // the callback has changed it
-    return;
-  }
+namespace {
+
+void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Mode = mode;
   node.Nmt.Allowed = nmt::allowed_in(mode);
   for (const Service& service : table) {
@@ -74,6 +68,27 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
       service.on_mode(node);
     }
   }
+}
+
+}  // namespace
+
+// The callback may ask for another mode, which comes back here: the outermost call enters what was asked for last.
+void event::change_mode(CO_NODE& node, CO_MODE mode) {
+  CO_NMT& nmt = node.Nmt;
+  nmt.Next = mode;
+  if (nmt.Changing != 0) {
+    return;
+  }
+  nmt.Changing = 1;
+  while (nmt.Mode != nmt.Next) {
+    const CO_MODE next = nmt.Next;
+    CONmtModeChange(&nmt, next);
+    if (nmt.Next == next) {
+      enter(node, next);
+    }
+  }
+  nmt.Changing = 0;
+  event::settle(node);
 }
 
 }  // namespace co

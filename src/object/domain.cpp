@@ -8,8 +8,8 @@ namespace {
 
 using co::stream::clip;
 
-const CO_OBJ_DOM* usable(const CO_OBJ& obj) {
-  const auto* const domain = co::data_of<const CO_OBJ_DOM>(obj);
+CO_OBJ_DOM* usable(const CO_OBJ& obj) {
+  auto* const domain = co::data_of<CO_OBJ_DOM>(obj);
   return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
 }
 
@@ -22,27 +22,27 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
-  if (usable(*obj) == nullptr) {
+  CO_OBJ_DOM* const domain = usable(*obj);
+  if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  auto& domain = *co::data_of<CO_OBJ_DOM>(*obj);
-  const uint32_t n = clip(size, domain.Offset, domain.Size);
-  co::stream::copy(static_cast<uint8_t*>(buffer), domain.Start + domain.Offset, n);
-  domain.Offset += n;
+  const uint32_t n = clip(size, domain->Offset, domain->Size);
+  co::stream::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
+  domain->Offset += n;
   return CO_ERR_NONE;
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (usable(*obj) == nullptr) {
+  CO_OBJ_DOM* const domain = usable(*obj);
+  if (domain == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  auto& domain = *co::data_of<CO_OBJ_DOM>(*obj);
-  const uint32_t n = clip(size, domain.Offset, domain.Size);
-  if (!co::port::is_writable(*node, domain.Start, domain.Size)) {
+  if (!co::port::is_writable(*node, domain->Start, domain->Size)) {
     return CO_ERR_OBJ_ACC;
   }
-  co::stream::copy(domain.Start + domain.Offset, static_cast<const uint8_t*>(buffer), n);
-  domain.Offset += n;
+  const uint32_t n = clip(size, domain->Offset, domain->Size);
+  co::stream::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
+  domain->Offset += n;
   return CO_ERR_NONE;
 }
 

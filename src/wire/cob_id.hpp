@@ -16,7 +16,6 @@ enum class CobId : uint32_t {
 constexpr uint32_t operator+(CobId base, uint8_t node_id) { return static_cast<uint32_t>(base) + node_id; }
 
 inline constexpr uint32_t cob_invalid = 1U << 31;  // the object does not exist
-inline constexpr uint32_t cob_dynamic = 1U << 30;  // SDO: assigned dynamically, not to be stored
 inline constexpr uint32_t cob_frame = 1U << 29;    // 29-bit CAN-ID
 inline constexpr uint32_t base_ids = 0x7FF;
 inline constexpr uint32_t extended_ids = CO_IF_FRM_ID;
@@ -37,6 +36,9 @@ constexpr bool is_restricted(uint32_t id) {
 
 // The CAN-ID fits the frame format that bit 29 names.
 constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }
+
+// No identifier of a frame at all.
+inline constexpr uint32_t no_frame = UINT32_MAX;
 
 // The identifier of frames of this COB-ID, as drivers see it.
 constexpr uint32_t frame_id(uint32_t cob_id) {

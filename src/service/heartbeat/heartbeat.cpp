@@ -2,6 +2,7 @@
 #include "service/heartbeat/heartbeat.hpp"
 
 #include "core/dict.hpp"
+#include "core/events.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
 #include "wire/nmt.hpp"
@@ -9,7 +10,7 @@
 namespace co::heartbeat {
 namespace {
 
-bool is_allowed(const CO_NODE& node) { return (node.Nmt.Allowed & CO_NMT_ALLOWED) != 0; }
+bool is_allowed(const CO_NODE& node) { return event::is_allowed(node, CO_NMT_ALLOWED); }
 
 void send(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);

@@ -112,7 +112,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
-  const bool initialising = nmt->Mode == CO_INIT && node.Busy != 0;
+  const bool initialising = nmt->Next == CO_INIT && node.Busy != 0;
   if (nmt->Mode == CO_INVALID || initialising || mode < CO_PREOP || mode >= CO_MODE_NUM) {
     node.Error = CO_ERR_NMT_MODE;
     return;

@@ -5,8 +5,6 @@
 #include "co_core.h"
 #include "core/dict.hpp"
 #include "core/events.hpp"
-#include "core/port.hpp"
-#include "object/place.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {
@@ -21,18 +19,6 @@ uint32_t shift_id(uint32_t cob_id, uint32_t by) {
 
 uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) { return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U; }
 
-uint32_t load(CO_OBJ& obj) {
-  return CO_IS_DIRECT(obj.Key) != 0 ? static_cast<uint32_t>(uintptr_t{obj.Data}) : *data_of<const uint32_t>(obj);
-}
-
-void store(CO_OBJ& obj, uint32_t value) {
-  if (CO_IS_DIRECT(obj.Key) != 0) {
-    obj.Data = value;
-  } else {
-    *data_of<uint32_t>(obj) = value;
-  }
-}
-
 bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
 bool is_allowed(uint32_t before, uint32_t value) {
@@ -42,22 +28,28 @@ bool is_allowed(uint32_t before, uint32_t value) {
   return !is_valid(before) && wire::fits_format(value) && !wire::is_restricted(value & wire::extended_ids);
 }
 
-uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj) == nullptr ? 0 : sizeof(uint32_t); }
+// UNSIGNED32 keeps the value. It takes the node-ID into account for the 32 bits as a whole, which could reach the flags
+// above the CAN-ID; so what it adds or takes off is undone, and done for the CAN-ID alone.
+
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::sdo_cob_id); }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint32_t) || place_of(*obj) == nullptr) {
-    return CO_ERR_BAD_ARG;
+  uint32_t shown = 0;
+  const CO_ERR err = CO_TUNSIGNED32->Read(obj, node, &shown, size);
+  if (err != CO_ERR_NONE) {
+    return err;
   }
-  const uint32_t value = shift_id(load(*obj), node_id_of(*obj, *node));
+  const uint32_t node_id = node_id_of(*obj, *node);
+  const uint32_t value = shift_id(shown - node_id, node_id);
   __builtin_memcpy(buffer, &value, sizeof value);
   return CO_ERR_NONE;
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t before = 0;
-  const CO_ERR err = read(obj, node, &before, size);
+  CO_ERR err = read(obj, node, &before, size);
   if (err != CO_ERR_NONE) {
     return err;
   }
@@ -66,13 +58,13 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (!is_allowed(before, value)) {
     return CO_ERR_OBJ_RANGE;
   }
-  const uint32_t stored = shift_id(value, 0U - node_id_of(*obj, *node));
-  if (!port::is_writable(*node, place_of(*obj), sizeof stored)) {
-    return CO_ERR_OBJ_ACC;
+  const uint32_t node_id = node_id_of(*obj, *node);
+  uint32_t shown = shift_id(value, 0U - node_id) + node_id;
+  err = CO_TUNSIGNED32->Write(obj, node, &shown, size);
+  if (err == CO_ERR_NONE) {
+    event::defer(*node, event::configure_sdo);
   }
-  store(*obj, stored);
-  event::defer(*node, event::configure_sdo);
-  return CO_ERR_NONE;
+  return err;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "core/count.hpp"
 #include "core/dict.hpp"
+#include "core/events.hpp"
 #include "core/machine.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
@@ -42,7 +43,8 @@ constexpr SdoRow rows[] = {
     {State::upload, Ccs::abort, end_by_client},
 };
 
-constexpr Machine<State, Ccs, Service, state_count, wire::ccs_count> machine(rows, refuse_command);
+constexpr Machine<State, Ccs, Service, static_cast<size_t>(State::count), wire::ccs_count> machine(rows,
+                                                                                                   refuse_command);
 
 // An abort names the transfer that it ends; without one, what the request names.
 uint32_t aborted_key(const CO_SDO& channel, State before, const CO_IF_FRM& request) {
@@ -79,12 +81,11 @@ bool is_usable(uint32_t cob_id) {
 void configure_channel(CO_NODE& node, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   const bool is_default = number == 0;
-  const uint32_t none = wire::cob_invalid;
-  const uint32_t rx = cob_id(node, number, 1, is_default ? wire::CobId::sdo_rx + node.NodeId : none);
-  const uint32_t tx = cob_id(node, number, 2, is_default ? wire::CobId::sdo_tx + node.NodeId : none);
+  const uint32_t rx = cob_id(node, number, 1, is_default ? wire::CobId::sdo_rx + node.NodeId : wire::cob_invalid);
+  const uint32_t tx = cob_id(node, number, 2, is_default ? wire::CobId::sdo_tx + node.NodeId : wire::cob_invalid);
   const bool valid = is_usable(rx) && is_usable(tx);
-  const uint32_t rx_id = valid ? wire::frame_id(rx) : none;
-  const uint32_t tx_id = valid ? wire::frame_id(tx) : none;
+  const uint32_t rx_id = valid ? wire::frame_id(rx) : wire::no_frame;
+  const uint32_t tx_id = valid ? wire::frame_id(tx) : wire::no_frame;
   if (channel.RxId == rx_id && channel.TxId == tx_id) {
     return;
   }
@@ -124,7 +125,7 @@ void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   Step step = {node, channel, frame, answer, false};
   const State before = state_of(channel);
   const uint32_t abort = run(step);
-  if ((node.Nmt.Allowed & CO_SDO_ALLOWED) == 0) {  // a type function has changed the NMT state
+  if (!event::is_allowed(node, CO_SDO_ALLOWED)) {  // a type function has changed the NMT state
     on_mode(node);
     return;
   }
@@ -137,7 +138,7 @@ void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 }
 
 void on_mode(CO_NODE& node) {
-  if ((node.Nmt.Allowed & CO_SDO_ALLOWED) != 0) {
+  if (event::is_allowed(node, CO_SDO_ALLOWED)) {
     return;
   }
   for (CO_SDO& channel : node.Sdo) {

@@ -128,6 +128,9 @@ uint32_t open(Step& step, uint32_t right, bool (*can)(const CO_OBJ_TYPE&), uint3
   if ((obj->Key & right) == 0 || !can(*obj->Type)) {
     return (obj->Key & CO_OBJ_____RW) == 0 ? CO_SDO_ERR_UNSUP : refused;
   }
+  if (obj->Type->Size == nullptr) {
+    return CO_SDO_ERR_TOS;
+  }
   channel.Obj = obj;
   return no_abort;
 }

@@ -8,8 +8,7 @@
 
 namespace co::sdo_server {
 
-enum class State : uint8_t { idle, download, upload };
-inline constexpr size_t state_count = 3;
+enum class State : uint8_t { idle, download, upload, count };
 
 // CO_SDO.Flags
 enum Flag : uint8_t {

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: Apache-2.0
+// Type functions and callbacks that act on the node while it works for them.
+#include <algorithm>
+
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+// What the functions of the type at 3000h (a stream of 20 bytes) and 3001h (a value of 8 bytes) do besides.
+struct Script {
+  std::function<void(CO_NODE*)> on_init;
+  std::function<void(CO_NODE*)> on_read;
+  std::function<void(CO_NODE*)> on_write;
+  unsigned inits = 0;
+} script;
+
+void run(const std::function<void(CO_NODE*)>& function, CO_NODE* node) {
+  if (function) {
+    function(node);
+  }
+}
+
+CO_ERR scripted_init(CO_OBJ*, CO_NODE* node) {
+  ++script.inits;
+  run(script.on_init, node);
+  return CO_ERR_NONE;
+}
+
+CO_ERR scripted_read(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
+  auto* const bytes = static_cast<std::uint8_t*>(buffer);
+  std::fill(bytes, bytes + size, std::uint8_t{0x55});
+  if (size != 0) {
+    run(script.on_read, node);
+  }
+  return CO_ERR_NONE;
+}
+
+CO_ERR scripted_write(CO_OBJ*, CO_NODE* node, void*, uint32_t size) {
+  if (size != 0) {
+    run(script.on_write, node);
+  }
+  return CO_ERR_NONE;
+}
+
+uint32_t stream_size(CO_OBJ*, CO_NODE*, uint32_t width) { return width != 0 && width < 20 ? width : 20; }
+uint32_t value_size(CO_OBJ*, CO_NODE*, uint32_t) { return 8; }
+CO_ERR scripted_reset(CO_OBJ*, CO_NODE*, uint32_t) { return CO_ERR_NONE; }
+
+const CO_OBJ_TYPE stream_type = {stream_size, scripted_init, scripted_read, scripted_write, scripted_reset};
+const CO_OBJ_TYPE value_type = {value_size, nullptr, scripted_read, scripted_write, nullptr};
+
+Setup scripted() {
+  script = Script{};
+  return Setup()
+      .with({CO_KEY(0x3000, 0, CO_OBJ_____RW), &stream_type, 0})
+      .with({CO_KEY(0x3001, 0, CO_OBJ_____RW), &value_type, 0});
+}
+
+void check_serves(Fixture& node) { node.ask("601#4000100000000000", "581#4300100091010F00"); }
+
+void check_stopped(Fixture& node) {
+  CHECK(node.mode() == CO_INVALID);
+  CHECK_FALSE(node.can.on_bus);
+  CHECK(node.armed_timers() == 0);
+  node.after(1000ms);
+  node.rx("601#4000100000000000");
+  node.rx("000#8100");
+  node.silent();
+  CHECK(node.mode() == CO_INVALID);
+}
+
+constexpr unsigned plenty = 20;  // an endless recursion shall fail, and not end the test program
+
+// Resets that are asked for during a reset ----------------------------------------------------------------------------
+
+TEST_CASE("re-entrancy: CONmtModeChange asks for a reset during a reset: it is part of it, one boot-up") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    for (const CO_NMT_RESET asked_for : {CO_RESET_NODE, CO_RESET_COM}) {
+      for (const CO_MODE at : {CO_INIT, CO_PREOP}) {
+        CAPTURE(std::string(command));
+        CAPTURE(at);
+        Fixture node(scripted());
+        unsigned asked = 0;
+        unsigned told = 0;
+        callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+          if (mode == at && ++asked < plenty) CONmtReset(nmt, asked_for);
+        };
+        callbacks().reset_request = [&](CO_NMT*, CO_NMT_RESET) { ++told; };
+        script.inits = 0;
+        node.rx(command);
+        node.tx("701#00");
+        CHECK(asked == 1);
+        CHECK(told == 1);
+        CHECK(script.inits == 1);
+        CHECK(node.can.resets == 1);
+        CHECK(node.mode() == CO_PREOP);
+        check_serves(node);
+      }
+    }
+  }
+}
+
+TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset: it is part of it, one boot-up") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    for (const CO_NMT_RESET asked_for : {CO_RESET_NODE, CO_RESET_COM}) {
+      CAPTURE(std::string(command));
+      Fixture node(scripted());
+      script.on_init = [=](CO_NODE* n) {
+        if (script.inits < plenty) CONmtReset(&n->Nmt, asked_for);
+      };
+      script.inits = 0;
+      node.rx(command);
+      node.tx("701#00");
+      CHECK(script.inits == 1);
+      CHECK(node.mode() == CO_PREOP);
+      CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601});
+      check_serves(node);
+    }
+  }
+}
+
+TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset of the application: it is part of it") {
+  Fixture node(scripted());
+  script.on_init = [](CO_NODE* n) {
+    if (script.inits < plenty) CONmtReset(&n->Nmt, CO_RESET_COM);
+  };
+  script.inits = 0;
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
+  node.tx("701#00");
+  CHECK(script.inits == 1);
+  check_serves(node);
+}
+
+TEST_CASE("re-entrancy: a reset asked for while the node is initialised or started sends no second boot-up") {
+  Setup setup = scripted().stay_in_init();
+  script.on_init = [](CO_NODE* n) {
+    if (script.inits < plenty) CONmtReset(&n->Nmt, CO_RESET_NODE);
+  };
+  Fixture node(setup);
+  node.silent();
+  CHECK(script.inits == 1);
+  CHECK(node.mode() == CO_INIT);
+  unsigned asked = 0;
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE) {
+    if (++asked < plenty) CONmtReset(nmt, CO_RESET_NODE);
+  };
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  CHECK(asked == 1);
+  CHECK(node.mode() == CO_PREOP);
+  check_serves(node);
+}
+
+TEST_CASE("re-entrancy: a reset asked for when the master changes the state follows the change") {
+  Fixture node;
+  std::vector<CO_MODE> modes;
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+    modes.push_back(mode);
+    if (mode == CO_OPERATIONAL) CONmtReset(nmt, CO_RESET_COM);
+  };
+  node.rx("000#0101");
+  node.tx("701#00");
+  CHECK(modes == std::vector<CO_MODE>{CO_OPERATIONAL, CO_INIT, CO_PREOP});
+  CHECK(node.mode() == CO_PREOP);
+}
+
+// Frames that wait at a reset -----------------------------------------------------------------------------------------
+
+void send(Fixture& node, const char* text) {
+  CO_IF_FRM frm = frame(text);
+  node.call([&] { COIfCanSend(&node->If, &frm); });
+}
+
+TEST_CASE("re-entrancy: a write resets the node, the controller is busy: answers, boot-up, then the rest [Q3]") {
+  for (const CO_NMT_RESET reset : {CO_RESET_NODE, CO_RESET_COM}) {
+    Fixture node(scripted().heartbeat(100).tx_queue(20));
+    node.frames_per_call(4);
+    script.on_write = [=](CO_NODE* n) { CONmtReset(&n->Nmt, reset); };
+    node.can.refuse_all();
+    node.rx("601#2301300001000000");
+    node.rx("601#2101300008000000");
+    node.rx("601#0001020304050607");
+    node.rx("601#1D08000000000000");
+    send(node, "081#01");
+    node.after(100ms);
+    node.rx("601#4000100000000000");
+    node.silent();
+    node.can.accept_all();
+    node.loop();
+    node.tx({"581#8001300013000706", "581#6001300000000000", "581#2000000000000000", "581#3000000000000000", "701#00",
+             "081#01", "581#4300100091010F00", "701#7F"});
+  }
+}
+
+TEST_CASE("re-entrancy: a reset by the master throws away even what a reset of the application has let through [N4]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  node.rx("601#4000100000000000");
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  const std::uint32_t dropped = node.counters().Dropped;
+  node.rx("000#8201");
+  node.silent();
+  CHECK(node.counters().Dropped == dropped + 2);
+  node.can.accept_all();
+  node.loop();
+  node.tx("701#00");
+}
+
+// Slow type functions -------------------------------------------------------------------------------------------------
+
+// Lets time pass for the timers, as a function that waits for a slow memory does.
+void wait(Fixture& node, Time time) {
+  const OutsideStack outside;
+  node.after(time);
+}
+
+struct Step {
+  const char* request;
+  const char* answer;
+};
+
+// The last step is the one whose type function is slow.
+const std::vector<std::vector<Step>>& slow_transfers() {
+  static const std::vector<std::vector<Step>> all = {
+      {{"601#2000300000000000", "581#6000300000000000"}, {"601#0001020304050607", "581#2000000000000000"}},
+      {{"601#2000300000000000", "581#6000300000000000"}, {"601#0101020304050607", "581#2000000000000000"}},
+      {{"601#2100300007000000", "581#6000300000000000"}, {"601#0101020304050607", "581#2000000000000000"}},
+      {{"601#2101300008000000", "581#6001300000000000"},
+       {"601#0001020304050607", "581#2000000000000000"},
+       {"601#1D08000000000000", "581#3000000000000000"}},
+      {{"601#4000300000000000", "581#4100300014000000"}, {"601#6000000000000000", "581#0055555555555555"}},
+  };
+  return all;
+}
+
+TEST_CASE("re-entrancy: a transfer goes on although its type function works for longer than the time-out [D18]") {
+  for (const std::vector<Step>& steps : slow_transfers()) {
+    CAPTURE(std::string(steps.back().request));
+    Fixture node(scripted());
+    script.on_write = script.on_read = [&](CO_NODE*) { wait(node, 2 * node.sdo_time_out()); };
+    for (const Step& step : steps) {
+      node.ask(step.request, step.answer);
+    }
+    CHECK(node.counters().SdoAborts == 0);
+  }
+}
+
+TEST_CASE("re-entrancy: after a slow type function the client has its whole time again [D18]") {
+  Fixture node(scripted());
+  script.on_write = [&](CO_NODE*) { wait(node, 2 * node.sdo_time_out()); };
+  node.ask("601#2000300000000000", "581#6000300000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.after(std::chrono::milliseconds{CO_SDO_TIMEOUT} * 3 / 4);
+  node.silent();
+  script.on_write = nullptr;
+  node.ask("601#1101020304050607", "581#3000000000000000");
+}
+
+TEST_CASE("re-entrancy: a type function that stops and starts SDO leaves a transfer that is still timed out [D18]") {
+  for (const std::vector<Step>& steps : {slow_transfers().front(), slow_transfers().back()}) {
+    CAPTURE(std::string(steps.back().request));
+    Fixture node(scripted());
+    script.on_write = script.on_read = [](CO_NODE* n) {
+      CONmtSetMode(&n->Nmt, CO_STOP);
+      CONmtSetMode(&n->Nmt, CO_PREOP);
+    };
+    for (const Step& step : steps) {
+      node.ask(step.request, step.answer);
+    }
+    node.after(node.sdo_time_out());
+    node.tx("581#8000300000000405");
+    node.ask("601#6011223300000000", "581#8011223301000405");
+  }
+}
+
+// Stops and changes of state within callbacks -------------------------------------------------------------------------
+
+TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange: the node stays in CO_INVALID, no frame afterwards") {
+  struct Case {
+    const char* command;
+    CO_MODE at;
+  };
+  const Case cases[] = {{"000#0101", CO_OPERATIONAL},
+                        {"000#0201", CO_STOP},
+                        {"000#8101", CO_INIT},
+                        {"000#8201", CO_INIT},
+                        {"000#8001", CO_PREOP}};
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.command));
+    Fixture node(Setup().heartbeat(100));
+    if (one.at == CO_PREOP) node.rx("000#0101");
+    callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+      if (mode == one.at) CONodeStop(nmt->Node);
+    };
+    node.rx(one.command);
+    check_stopped(node);
+  }
+}
+
+TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange after the boot-up: that frame is the last one") {
+  Fixture node(Setup().heartbeat(100));
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_PREOP) CONodeStop(nmt->Node);
+  };
+  node.rx("000#8101");
+  node.tx("701#00");
+  check_stopped(node);
+}
+
+TEST_CASE("re-entrancy: CONodeStop within a type's Init during a reset: no boot-up, the node stays in CO_INVALID") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    CAPTURE(std::string(command));
+    Fixture node(scripted().heartbeat(100));
+    script.on_init = [](CO_NODE* n) { CONodeStop(n); };
+    node.rx(command);
+    check_stopped(node);
+  }
+}
+
+TEST_CASE("re-entrancy: CONodeStop within a type's Init during CONodeInit: the controller stays off the bus") {
+  Setup setup = scripted().heartbeat(100).stay_in_init();
+  script.on_init = [](CO_NODE* n) { CONodeStop(n); };
+  Fixture node(setup);
+  node.call([&] { CONodeStart(&node.node); });
+  check_stopped(node);
+}
+
+TEST_CASE("re-entrancy: CONodeStop within a write: no answer, the node stays in CO_INVALID [Q9]") {
+  Fixture node(scripted().heartbeat(100));
+  script.on_write = [](CO_NODE* n) { CONodeStop(n); };
+  node.rx("601#2F00300001000000");
+  check_stopped(node);
+}
+
+TEST_CASE("re-entrancy: CONmtSetMode within CONmtModeChange wins") {
+  Fixture node(Setup().heartbeat(100));
+  std::vector<CO_MODE> told;
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+    told.push_back(mode);
+    if (mode == CO_OPERATIONAL) CONmtSetMode(nmt, CO_STOP);
+  };
+  node.rx("000#0101");
+  CHECK(node.mode() == CO_STOP);
+  CHECK(told == std::vector<CO_MODE>{CO_OPERATIONAL, CO_STOP});
+  node.rx("601#4000100000000000");
+  node.silent();
+  node.after(100ms);
+  node.tx("701#04");
+}
+
+TEST_CASE("re-entrancy: CONmtSetMode within a type's Init is refused with CO_ERR_NMT_MODE") {
+  for (const CO_MODE mode : {CO_PREOP, CO_OPERATIONAL, CO_STOP}) {
+    CAPTURE(mode);
+    Setup setup = scripted().stay_in_init();
+    script.on_init = [=](CO_NODE* n) { CONmtSetMode(&n->Nmt, mode); };
+    Fixture node(setup);
+    node.silent();
+    CHECK(node.error() == CO_ERR_NMT_MODE);
+    CHECK(node.mode() == CO_INIT);
+    node.call([&] { CONodeStart(&node.node); });
+    node.tx("701#00");
+    node.rx("000#8201");
+    node.tx("701#00");
+    CHECK(node.error() == CO_ERR_NMT_MODE);
+    CHECK(node.mode() == CO_PREOP);
+  }
+}
+
+TEST_CASE("re-entrancy: CONodeStart within a type's Init does nothing") {
+  Setup setup = scripted().stay_in_init();
+  script.on_init = [](CO_NODE* n) { CONodeStart(n); };
+  Fixture node(setup);
+  node.silent();
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  node.rx("000#8101");
+  node.tx("701#00");
+  CHECK(node.mode() == CO_PREOP);
+}
+
+// A dictionary that is replaced during a transfer ---------------------------------------------------------------------
+
+// The fixture's node with a copy of its table, at another place: what is open refers to the old one.
+class Moved : public Fixture {
+ public:
+  Moved() {
+    ask("601#2108200008000000", "581#6008200000000000");
+    table_.assign(node.Dict.Root, node.Dict.Root + node.Dict.Num);
+    call([this] { CHECK(CODictInit(&node.Dict, &node, table_.data(), node.Dict.Num) == CO_ERR_NONE); });
+  }
+
+ private:
+  std::vector<CO_OBJ> table_;
+};
+
+TEST_CASE("re-entrancy: the table moves during a transfer: a segment is aborted with 0800 0022h") {
+  Moved node;
+  node.ask("601#0001020304050607", "581#8008200022000008");
+  node.ask("601#0011223300000000", "581#8011223301000405");
+}
+
+TEST_CASE("re-entrancy: the table moves during a transfer: the client's abort is not answered [D6]") {
+  Moved node;
+  node.rx("601#8008200000000405");
+  node.silent();
+  node.ask("601#0011223300000000", "581#8011223301000405");
+}
+
+TEST_CASE("re-entrancy: the table moves during a transfer: a new initiate is served [D8]") {
+  Moved one;
+  check_serves(one);
+  Moved two;
+  two.ask("601#2108200008000000", "581#6008200000000000");
+  two.ask("601#0001020304050607", "581#2000000000000000");
+  two.ask("601#1D08000000000000", "581#3000000000000000");
+  CHECK(two.objects.u64 == 0x0807060504030201);
+}
+
+}  // namespace

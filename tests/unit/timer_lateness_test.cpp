@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// Timers when the timer interrupt is late: what has elapsed in the hardware, the stack hears of only later.
+#include <cstring>
+
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+// A counter with a compare match, as timer drivers use it. The test moves it on; an interrupt comes when it says so.
+struct Hardware {
+  std::uint64_t now;
+  std::uint64_t match;
+  std::uint64_t last_match;
+  bool armed;
+  bool from_match;  // the next Reload counts from the moment that has just elapsed
+  bool stopped;
+  unsigned starts;
+  unsigned reloads;
+  std::string misuse;
+} hardware;
+
+bool has_elapsed() { return hardware.armed && hardware.match <= hardware.now; }
+
+void init(std::uint32_t) {}
+void reload(std::uint32_t ticks) {
+  ++hardware.reloads;
+  if (ticks == 0) hardware.misuse = "Reload of 0 ticks";
+  hardware.match = (hardware.from_match ? hardware.last_match : hardware.now) + ticks;
+  hardware.armed = true;
+  hardware.from_match = false;
+}
+std::uint32_t delay() { return has_elapsed() ? 0 : static_cast<std::uint32_t>(hardware.match - hardware.now); }
+void stop() {
+  hardware.armed = hardware.from_match = false;
+  hardware.stopped = true;
+}
+void start() {
+  ++hardware.starts;
+  if (!hardware.stopped) hardware.misuse = "Start without Stop";
+  if (!hardware.armed) hardware.misuse = "Start without Reload";
+  hardware.stopped = false;
+}
+std::uint8_t update() {
+  if (!has_elapsed()) {
+    return 0;
+  }
+  hardware.last_match = hardware.match;
+  hardware.from_match = true;
+  hardware.armed = false;
+  return 1;
+}
+
+const CO_IF_TIMER_DRV counter_driver = {init, reload, delay, stop, start, update};
+
+// The same as a free running clock; it has no alarm, the loop asks for the next deadline.
+std::uint32_t clock_now(void*) { return static_cast<std::uint32_t>(hardware.now); }
+const CO_IF_TIMER_DRV_EX clock_driver = {[](void*, std::uint32_t) {}, clock_now, nullptr};
+
+void nothing() {}
+void nothing_with_baud(std::uint32_t) {}
+std::int16_t no_frame(CO_IF_FRM*) { return 0; }
+std::int16_t taken(CO_IF_FRM*) { return sizeof(CO_IF_FRM); }
+const CO_IF_CAN_DRV can = {nothing, nothing_with_baud, no_frame, taken, nothing, nothing};
+
+struct Run {
+  std::uintptr_t number;
+  std::uint64_t at;
+  bool operator==(const Run& other) const { return number == other.number && at == other.at; }
+};
+using Runs = std::vector<Run>;
+Runs runs;
+
+void note(void* para) { runs.push_back({reinterpret_cast<std::uintptr_t>(para), hardware.now}); }
+
+enum class Driver { counter, clock };
+
+class Device {
+ public:
+  explicit Device(Driver driver) {
+    runs.clear();
+    hardware = Hardware{};
+    hardware.stopped = true;
+    ext_.Size = sizeof ext_;
+    ext_.Timer = driver == Driver::clock ? &clock_driver : nullptr;
+    std::memset(static_cast<void*>(&node), 0xA5, sizeof node);
+    const CO_NODE_SPEC spec = {1, 250000, dictionary_, 1, nullptr, memory_, 8, 1000, &drivers_, nullptr};
+    CONodeInitEx(&node, &spec, &ext_);
+  }
+  ~Device() { CHECK(hardware.misuse == ""); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  std::int16_t create(std::uint32_t start, std::uint32_t cycle, std::uintptr_t number) {
+    return COTmrCreate(&node.Tmr, start, cycle, note, reinterpret_cast<void*>(number));
+  }
+  int remove(std::int16_t id) { return COTmrDelete(&node.Tmr, id); }
+  void interrupt() {
+    if (has_elapsed()) COTmrService(&node.Tmr);
+  }
+  void process() { COTmrProcess(&node.Tmr); }
+  // Time with interrupts, and a loop that is always in time.
+  void until(std::uint64_t tick) {
+    interrupt();
+    process();
+    while (hardware.now < tick) {
+      ++hardware.now;
+      interrupt();
+      process();
+    }
+  }
+
+  CO_NODE node;
+
+ private:
+  CO_OBJ dictionary_[1] = {CO_OBJ_DICT_ENDMARK};
+  CO_TMR_MEM memory_[8];
+  CO_IF_DRV drivers_{&can, &counter_driver, nullptr};
+  CO_NODE_EXT ext_{};
+};
+
+TEST_CASE("timer lateness: deleting the first timer while its expiry is pending does not shift a cyclic one") {
+  Device device(Driver::counter);
+  device.create(0, 10, 1);
+  const std::int16_t first = device.create(5, 0, 2);
+  hardware.now = 5;  // the interrupt is kept away
+  CHECK(device.remove(first) == 0);
+  device.until(35);
+  CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}});
+}
+
+TEST_CASE("timer lateness: no drift, however often a timer is deleted while its expiry is pending") {
+  Device device(Driver::counter);
+  device.create(0, 10, 1);
+  for (std::uint64_t tick = 0; tick < 1000; tick += 10) {
+    const std::int16_t first = device.create(5, 0, 2);
+    hardware.now = tick + 5;
+    CHECK(device.remove(first) == 0);
+    device.until(tick + 10);
+  }
+  CHECK(runs.size() == 100);
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    CHECK(runs[n] == Run{1, 10 * (n + 1)});
+  }
+}
+
+TEST_CASE("timer lateness: a timer that is created while an expiry is pending runs after its time, none is lost") {
+  Device device(Driver::counter);
+  device.create(0, 10, 1);
+  device.create(5, 0, 2);
+  hardware.now = 5;
+  device.create(3, 0, 3);
+  device.create(1, 0, 4);
+  device.until(20);
+  CHECK(runs == Runs{{2, 5}, {4, 6}, {3, 8}, {1, 10}, {1, 20}});
+}
+
+TEST_CASE("timer lateness: COTmrService tells of what has elapsed, whoever has noticed it first") {
+  const auto service = [](Device& device) { return COTmrService(&device.node.Tmr); };
+  const std::function<void(Device&)> notices[] = {
+      [](Device& d) { d.create(100, 0, 2); },
+      [](Device& d) { d.remove(d.create(100, 0, 2)); },
+      [](Device& d) { CHECK(CONodeNextDeadline(&d.node) == 0); },
+  };
+  for (const std::function<void(Device&)>& notice : notices) {
+    Device device(Driver::clock);
+    device.create(5, 0, 1);
+    hardware.now = 4;
+    CHECK(service(device) == 0);
+    hardware.now = 6;
+    notice(device);
+    CHECK(service(device) == 1);
+    device.process();
+    CHECK(runs == Runs{{1, 6}});
+    CHECK(service(device) == 0);
+  }
+}
+
+TEST_CASE("timer lateness: a driver without a clock is started when it was stopped, and not at each Reload") {
+  Device device(Driver::counter);
+  CHECK(hardware.starts == 0);
+  const std::int16_t cyclic = device.create(0, 10, 1);
+  CHECK(hardware.starts == 1);
+  const std::int16_t sooner = device.create(5, 0, 2);
+  device.create(3, 0, 3);
+  CHECK(device.remove(sooner) == 0);
+  device.until(100);
+  CHECK(hardware.reloads >= 11);
+  CHECK(hardware.starts == 1);
+  CHECK_FALSE(hardware.stopped);
+  CHECK(device.remove(cyclic) == 0);
+  CHECK(hardware.stopped);
+  device.create(5, 0, 4);
+  CHECK(hardware.starts == 2);
+  device.until(110);
+  CHECK(hardware.stopped);
+  device.create(0, 5, 5);
+  device.until(200);
+  CHECK(hardware.starts == 3);
+}
+
+TEST_CASE("timer lateness: a cyclic timer keeps its phase when the loop is a cycle late, and before the interrupt") {
+  Device device(Driver::counter);
+  device.create(0, 10, 1);
+  hardware.now = 10;
+  device.interrupt();
+  hardware.now = 20;
+  device.process();
+  device.until(45);
+  CHECK(runs == Runs{{1, 20}, {1, 30}, {1, 40}});
+}
+
+constexpr std::uint64_t longest = 0xFFFFFFFF;
+
+// Lets the clock jump from one expiry to the next.
+void jump(Device& device, std::uint64_t tick) {
+  hardware.now = tick;
+  COTmrService(&device.node.Tmr);
+  device.process();
+}
+
+TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks, with either kind of driver") {
+  for (const Driver driver : {Driver::counter, Driver::clock}) {
+    CAPTURE(driver == Driver::clock);
+    Device device(driver);
+    device.create(0, 0xFFFFFFFF, 1);
+    Runs expected;
+    for (std::uint64_t cycle = 1; cycle <= 4; ++cycle) {
+      jump(device, cycle * longest - 1);
+      CHECK(runs == expected);
+      jump(device, cycle * longest);
+      expected.push_back({1, cycle * longest});
+      CHECK(runs == expected);
+    }
+  }
+}
+
+TEST_CASE("timer lateness: a timer of 2^32 - 1 ticks that is created while an expiry is pending does not run at once") {
+  for (const std::uint32_t cycle : {0U, 0xFFFFFFFFU}) {
+    CAPTURE(cycle);
+    Device device(Driver::counter);
+    device.create(5, 0, 1);
+    hardware.now = 5;
+    device.create(0xFFFFFFFF, cycle, 2);
+    device.until(1000);
+    CHECK(runs == Runs{{1, 5}});
+  }
+}
+
+TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks whose next expiry is pending when it is run does not run twice") {
+  Device device(Driver::counter);
+  device.create(0, 0xFFFFFFFF, 1);
+  hardware.now = longest;
+  device.interrupt();
+  hardware.now = 2 * longest;  // the loop comes a whole cycle late, and before the interrupt
+  device.process();
+  CHECK(runs == Runs{{1, 2 * longest}});
+  device.until(2 * longest + 1000);
+  CHECK(runs.size() == 1);
+}
+
+}  // namespace

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames of the application whose identifier tells by its value only that it has 29 bits.
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+// Sends an identifier as firmware may write it; the caller's frame stays as it is.
+void send(Fixture& node, std::uint32_t identifier) {
+  CO_IF_FRM frm = {identifier, {1}, 1};
+  node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+  CHECK(frm.Identifier == identifier);
+}
+
+TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits, up to 7FFh with 11") {
+  Fixture node;
+  send(node, 0x7FF);
+  node.tx("7FF#01");
+  send(node, 0x800);
+  node.tx("00000800#01");
+  send(node, 0x1FFFFFFF);
+  node.tx("1FFFFFFF#01");
+  send(node, 0x80000800);
+  node.tx("00000800#01");
+  send(node, 0x800007FF);
+  node.tx("000007FF#01");
+}
+
+TEST_CASE("transmit identifier: above 7FFh without flag it waits with the priority of a 29-bit frame [Q4]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  // 081h is 02040000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
+  for (const std::uint32_t id : {0x7FFU, 0x082U, 0x02040000U, 0x081U, 0x02080000U, 0x0203FFFFU, 0x800U}) {
+    send(node, id);
+  }
+  node.can.accept_all();
+  node.loop();
+  node.tx({"00000800#01", "0203FFFF#01", "081#01", "02040000#01", "082#01", "02080000#01", "7FF#01"});
+}
+
+}  // namespace
