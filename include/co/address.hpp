@@ -36,7 +36,8 @@ union Address {
   unsigned char bytes_[sizeof(void*)];
 };
 
-static_assert(sizeof(Address) == sizeof(uint8_t*) && alignof(Address) == alignof(uint8_t*));
+static_assert(sizeof(Address) == sizeof(uint8_t*));
+static_assert(alignof(Address) == alignof(uint8_t*));
 static_assert(std::is_trivial_v<Address> && std::is_standard_layout_v<Address>);
 
 }  // namespace co

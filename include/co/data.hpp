@@ -30,6 +30,7 @@ union CO_DATA {
   /// expression: compilers fold both its branches when the condition is __builtin_constant_p.
   template <class F, std::enable_if_t<std::is_function_v<F>, int> = 0>
   constexpr CO_DATA(F* function) noexcept
+      // NOLINTNEXTLINE(bugprone-branch-clone): see above
       : function_(__builtin_constant_p(reinterpret_cast<uintptr_t>(function)) ? reinterpret_cast<uintptr_t>(function)
                                                                               : reinterpret_cast<uintptr_t>(function)) {
   }
@@ -66,5 +67,6 @@ union CO_DATA {
   unsigned char bytes_[sizeof(uintptr_t)];
 };
 
-static_assert(sizeof(CO_DATA) == sizeof(uintptr_t) && alignof(CO_DATA) == alignof(uintptr_t));
+static_assert(sizeof(CO_DATA) == sizeof(uintptr_t));
+static_assert(alignof(CO_DATA) == alignof(uintptr_t));
 static_assert(std::is_trivial_v<CO_DATA> && std::is_standard_layout_v<CO_DATA>);

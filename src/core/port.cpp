@@ -34,6 +34,7 @@ constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIME
 
 }  // namespace
 
+const CO_IF_DRV no_plain_drivers = {nullptr, nullptr, nullptr};
 const CO_NODE_EXT no_extension = with_drivers(nullptr, nullptr);
 const CO_NODE_EXT no_drivers = with_drivers(&no_can, &no_timer);
 
@@ -41,7 +42,7 @@ void init(CO_NODE& node) {
   const CO_NODE_EXT& ext = *node.Ext;
   if (ext.Nvm != nullptr) {
     ext.Nvm->Init(ext.NvmCtx);
-  } else if (node.If.Drv != nullptr && node.If.Drv->Nvm != nullptr) {
+  } else if (node.If.Drv->Nvm != nullptr) {
     node.If.Drv->Nvm->Init();
   }
   if (ext.Timer != nullptr) {
@@ -135,16 +136,16 @@ uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t
   if (node.Ext->Nvm != nullptr) {
     return node.Ext->Nvm->Read(node.Ext->NvmCtx, start, buffer, size);
   }
-  const CO_IF_DRV* const drivers = node.If.Drv;
-  return drivers == nullptr || drivers->Nvm == nullptr ? 0 : drivers->Nvm->Read(start, buffer, size);
+  const CO_IF_NVM_DRV* const driver = node.If.Drv->Nvm;
+  return driver == nullptr ? 0 : driver->Read(start, buffer, size);
 }
 
 uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size) {
   if (node.Ext->Nvm != nullptr) {
     return node.Ext->Nvm->Write(node.Ext->NvmCtx, start, buffer, size);
   }
-  const CO_IF_DRV* const drivers = node.If.Drv;
-  return drivers == nullptr || drivers->Nvm == nullptr ? 0 : drivers->Nvm->Write(start, buffer, size);
+  const CO_IF_NVM_DRV* const driver = node.If.Drv->Nvm;
+  return driver == nullptr ? 0 : driver->Write(start, buffer, size);
 }
 
 }  // namespace co::port

@@ -9,6 +9,9 @@ namespace co::port {
 // The extension of a node that has none.
 extern const CO_NODE_EXT no_extension;
 
+// The drivers of a node whose CO_NODE_SPEC names none.
+extern const CO_IF_DRV no_plain_drivers;
+
 // The extension of a node that could not be initialised: drivers that do nothing, so that calls of the application that
 // come all the same are harmless.
 extern const CO_NODE_EXT no_drivers;

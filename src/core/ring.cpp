@@ -33,8 +33,8 @@ bool CORingInit(CO_RING* ring, CO_IF_FRM* mem, uint16_t size) {
   return usable;
 }
 
-bool CORingPut(CO_RING* ring, const CO_IF_FRM* frame) {
-  if (ring == nullptr || frame == nullptr) {
+bool CORingPut(CO_RING* ring, const CO_IF_FRM* frm) {
+  if (ring == nullptr || frm == nullptr) {
     return false;
   }
   if (used(*ring, ring->Head, load(ring->Tail)) == ring->Size) {
@@ -43,16 +43,16 @@ bool CORingPut(CO_RING* ring, const CO_IF_FRM* frame) {
     }
     return false;
   }
-  frame_at(*ring, ring->Head) = *frame;
+  frame_at(*ring, ring->Head) = *frm;
   store(ring->Head, next(*ring, ring->Head));
   return true;
 }
 
-bool CORingGet(CO_RING* ring, CO_IF_FRM* frame) {
-  if (ring == nullptr || frame == nullptr || load(ring->Head) == ring->Tail) {
+bool CORingGet(CO_RING* ring, CO_IF_FRM* frm) {
+  if (ring == nullptr || frm == nullptr || load(ring->Head) == ring->Tail) {
     return false;
   }
-  *frame = frame_at(*ring, ring->Tail);
+  *frm = frame_at(*ring, ring->Tail);
   store(ring->Tail, next(*ring, ring->Tail));
   return true;
 }

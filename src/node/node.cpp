@@ -71,9 +71,8 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
 }
 
 bool has_drivers(const CO_NODE& node) {
-  const CO_IF_DRV* const plain = node.If.Drv;
-  const bool can = node.Ext->Can != nullptr || (plain != nullptr && plain->Can != nullptr);
-  const bool timer = node.Ext->Timer != nullptr || (plain != nullptr && plain->Timer != nullptr);
+  const bool can = node.Ext->Can != nullptr || node.If.Drv->Can != nullptr;
+  const bool timer = node.Ext->Timer != nullptr || node.If.Drv->Timer != nullptr;
   return can && timer;
 }
 
@@ -87,7 +86,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.NodeId = spec.NodeId;
   node.Baudrate = spec.Baudrate;
   node.SdoBuf = spec.SdoBuf;
-  node.If = {&node, spec.Drv};
+  node.If = {&node, spec.Drv != nullptr ? spec.Drv : const_cast<CO_IF_DRV*>(&port::no_plain_drivers)};
   node.Nmt.Node = &node;
 }
 

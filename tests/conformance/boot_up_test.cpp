@@ -44,6 +44,43 @@ TEST_CASE("boot-up: a frame of the application with a higher priority does not o
   node.tx({"701#00", "081#00"});
 }
 
+TEST_CASE("boot-up: a frame that the application sends in Initialisation is held until it has been sent [N4]") {
+  for (const bool busy : {false, true}) {
+    CAPTURE(busy);
+    Fixture node(Setup().stay_in_init());
+    CO_IF_FRM low = frame("7FF#01");
+    CO_IF_FRM high = frame("081#02");
+    node.call([&] {
+      CHECK(COIfCanSend(&node->If, &low) == sizeof(CO_IF_FRM));
+      CHECK(COIfCanSend(&node->If, &high) == sizeof(CO_IF_FRM));
+    });
+    node.loop();
+    node.after(1000ms);
+    node.silent();
+    if (busy) node.can.refuse_next(2);
+    node.call([&] { CONodeStart(&node.node); });
+    for (int i = 0; i < 3; ++i) node.loop();
+    node.tx({"701#00", "081#02", "7FF#01"});
+  }
+}
+
+TEST_CASE(
+    "boot-up: a frame that the application sends in its callbacks of a reset is held until it has been sent [N4]") {
+  for (const std::string reset : {"000#8101", "000#8201"}) {
+    CAPTURE(reset);
+    Fixture node;
+    node.frames_per_call(2);
+    callbacks().mode_change = [&](CO_NMT*, CO_MODE) {
+      CO_IF_FRM frm = frame("081#03");
+      if (node.mode() == CO_INIT) COIfCanSend(&node->If, &frm);
+    };
+    node.rx(reset);
+    node.loop();
+    node.tx({"701#00", "081#03"});
+    callbacks() = Callbacks{};
+  }
+}
+
 TEST_CASE("boot-up: it is held through the commands of the master [N4]") {
   Fixture node(Setup().stay_in_init());
   node.can.refuse_all();

@@ -149,4 +149,21 @@ TEST_CASE("fixture: an NMT command by the node fails" * doctest::should_fail()) 
   node.tx("000#0100");
 }
 
+TEST_CASE("fixture: a timer that is neither armed nor free fails" * doctest::should_fail()) {
+  Fixture node;
+  node.call([&] { node->Tmr.Free = node->Tmr.Free->Next; });
+}
+
+TEST_CASE("fixture: a timer of the stack that is armed without a use fails" * doctest::should_fail()) {
+  Fixture node(Setup().heartbeat(100));
+  node.call([&] { node->Nmt.Mode = CO_INIT; });
+}
+
+TEST_CASE("fixture: an open transfer that no timer watches fails" * doctest::should_fail()) {
+  Fixture node;
+  node.ask("601#4008100000000000", "581#4108100011000000");
+  node.call([&] { node->Tmr.Use = nullptr; });
+  node.rx("601#8008100000000000");
+}
+
 }  // namespace

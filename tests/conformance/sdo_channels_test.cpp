@@ -122,6 +122,50 @@ TEST_CASE("SDO channels: a CAN-ID of more than 11 bits needs bit 29 [D16]") {
   node.silent();
 }
 
+TEST_CASE("SDO channels: a COB-ID relative to the node-ID reads back as written, its flags unharmed [D16]") {
+  struct Row {
+    const char* bytes;     // as on the bus
+    std::uint32_t stored;  // node-ID 127 taken off the CAN-ID alone, modulo its width
+  };
+  const Row rows[] = {
+      {"05000080", 0x80000786},  // below the node-ID
+      {"00000080", 0x80000781},  // 0
+      {"7F000080", 0x80000000},  // the node-ID
+      {"7E0000C0", 0xC00007FF},  // dynamic
+      {"050000A0", 0xBFFFFF86},  // 29 bits
+      {"FF0700C0", 0xC0000780},  // the highest of 11 bits
+      {"FFFFFFBF", 0xBFFFFF80},  // the highest of 29 bits
+      {"90060000", 0x00000611},  // valid
+  };
+  for (const Row& row : rows) {
+    const std::string bytes = row.bytes;
+    CAPTURE(bytes);
+    std::uint32_t cob_id = 0x80000000;
+    Fixture node(Setup().only_small().node_id(127).with({CO_KEY(0x1201, 1, CO_OBJ__N__RW), CO_TSDO_ID, &cob_id}));
+    node.ask("67F#4001120100000000", "5FF#430112017F000080");
+    node.ask("67F#23011201" + bytes, "5FF#6001120100000000");
+    node.ask("67F#4001120100000000", "5FF#43011201" + bytes);
+    CHECK(cob_id == row.stored);
+    node.rx("000#827F");
+    node.tx("77F#00");
+    node.ask("67F#4001120100000000", "5FF#43011201" + bytes);
+  }
+}
+
+TEST_CASE("SDO channels: COB-IDs relative to the node-ID serve at the identifiers that were written [D16]") {
+  std::uint32_t rx = 0x80000000;
+  std::uint32_t tx = 0x80000000;
+  Fixture node(Setup()
+                   .only_small()
+                   .node_id(127)
+                   .with({CO_KEY(0x1201, 1, CO_OBJ__N__RW), CO_TSDO_ID, &rx})
+                   .with({CO_KEY(0x1201, 2, CO_OBJ__N__RW), CO_TSDO_ID, &tx}));
+  node.ask("67F#2301120190060000", "5FF#6001120100000000");
+  node.ask("67F#2301120280000020", "5FF#6001120200000000");
+  node.ask("690#4000100000000000", "00000080#4300100091010F00");
+  CHECK(tx == 0x20000001);
+}
+
 TEST_CASE("SDO channels: a reset closes what was opened in another channel, and the COB-IDs stay [N6]") {
   Fixture node(channels());
   node.ask("690#4008100000000000", "6A0#4108100011000000");

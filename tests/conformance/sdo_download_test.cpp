@@ -82,6 +82,39 @@ TEST_CASE("SDO download: segments need not be full [D4]") {
   CHECK(node.objects.u32 == 0x04030201);
 }
 
+TEST_CASE("SDO download: four bytes of unknown size to a longer object are refused, and nothing is left open [D2]") {
+  Fixture node;
+  const std::string objects[] = {"052000", "082000", "282000", "262000", "00210F", "102100", "112100"};
+  for (const std::string& object : objects) {
+    CAPTURE(object);
+    node.ask("601#22" + object + "01020304", "581#80" + object + "10000706");
+    node.ask("601#0001020304050607", "581#8001020301000405");
+    node.ask("601#6001020304050607", "581#8001020301000405");
+    node.after(2 * node.sdo_time_out());
+    node.silent();
+  }
+  CHECK(node.objects.u64 == 0x8877665544332211);
+  CHECK(node.objects.memory[15][0] == 1);
+  CHECK(node.objects.text.Size == 4);
+}
+
+TEST_CASE("SDO download: an aborted one leaves a value as it was, and of a string or domain what has arrived [D10]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#00A1A2A3A4A5A6A7", "581#2000000000000000");
+  node.rx("601#8008200000000008");
+  CHECK(node.objects.u64 == 0x8877665544332211);
+  node.ask("601#2110210010000000", "581#6010210000000000");
+  node.ask("601#0041424344454647", "581#2000000000000000");
+  node.rx("601#8010210000000008");
+  node.ask("601#4010210000000000", "581#4110210007000000");
+  node.ask("601#6000000000000000", "581#0141424344454647");
+  node.ask("601#2100210F0F000000", "581#6000210F00000000");
+  node.ask("601#00A1A2A3A4A5A6A7", "581#2000000000000000");
+  node.ask("601#0000000000000000", "581#8000210F00000305");
+  CHECK(node.objects.memory[15] == Bytes{0xA1, 0xA2, 0xA3, 0xA4, 0xA5, 0xA6, 0xA7, 8, 9, 10, 11, 12, 13, 14, 15});
+}
+
 TEST_CASE("SDO download: a value is not touched before it is complete [D10]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");

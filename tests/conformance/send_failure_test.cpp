@@ -159,4 +159,33 @@ TEST_CASE("send failure: the node wants to try again after a millisecond as long
   CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
 }
 
+TEST_CASE("send failure: when SDO ends, its answers that wait are withdrawn, and no frame of the application is [N8]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  node.rx("601#4000100000000000");
+  for (const char* text : {"00000000#01", "00000581#02", "57F#03", "600#04", "1FFFFFFF#05"}) {
+    CO_IF_FRM frm = frame(text);
+    node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+  }
+  CHECK(node->TxQueue.Num == 6);
+  node.rx("000#0201");
+  CHECK(node->TxQueue.Num == 5);
+  node.can.accept_all();
+  node.loop();
+  node.tx({"00000000#01", "00000581#02", "57F#03", "600#04", "1FFFFFFF#05"});
+}
+
+TEST_CASE("send failure: channels that are off withdraw nothing [N8]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  CO_IF_FRM frm = frame("1FFFFFFF#01");
+  node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+  frm = frame("00000000#02");
+  node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+  node.rx("000#0201");
+  node.can.accept_all();
+  node.loop();
+  node.tx({"00000000#02", "1FFFFFFF#01"});
+}
+
 }  // namespace

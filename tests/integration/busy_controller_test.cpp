@@ -171,9 +171,9 @@ TEST_CASE("busy controller: answers wait in their order; those that find the que
 TEST_CASE("busy controller: what waits goes out by the priority of CAN, whatever came first [Q4]") {
   Blocked blocked(true);
   CHECK(blocked.application_sends("700#01"));
+  CHECK(blocked.application_sends("080#03"));
   blocked.line.say(request(0));
   blocked.world.settle();
-  CHECK(blocked.application_sends("080#03"));
   CHECK(blocked.unblock() == Texts{"080#03", answer(0), "700#01"});
 }
 

@@ -213,7 +213,8 @@ class Fixture {
 
   void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, from now on
   void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
-  void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size);
+  /// Memory behind an entry of a type of the test.
+  void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size, bool stream = false);
 
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node); }
   CO_ERR error() { return CONodeGetErr(&node); }
@@ -239,7 +240,9 @@ class Fixture {
   void run_until(std::uint64_t end, Where at);
   std::uint64_t next_wake() const;
   void check_properties(Where at);
-  void check_each_frame(Where at);
+  void check_memory(Where at);
+  std::vector<const CO_TMR_MEM*> armed() const;
+  std::vector<std::string> timer_faults() const;
   void check_back_to_idle();
   std::string pop();
 
@@ -253,9 +256,9 @@ class Fixture {
   DownloadObserver downloads_;
   std::uint64_t now_ = 0;
   std::uint64_t began_ = 0;
-  std::uint64_t alarm_ = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t alarm_ = never;
   std::uint64_t heap_before_ = 0;
-  std::size_t checked_ = 0;  ///< of can.sent
   unsigned frames_per_call_ = 1;
   std::vector<std::string> violations_;
 };

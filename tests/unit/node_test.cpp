@@ -187,15 +187,22 @@ TEST_CASE("node: an object whose Init function fails is told, and the node runs 
   node.tx("701#00");
 }
 
-TEST_CASE("node: without a dictionary") {
-  OldNode n;
-  n.spec.Dict = nullptr;
-  CHECK(n.init() != CO_ERR_NONE);
-  CHECK(n.node.Nmt.Mode == CO_INVALID);
-  OldNode m;
-  m.spec.DictLen = 0;
-  CHECK(m.init() != CO_ERR_NONE);
-  CHECK(m.node.Nmt.Mode == CO_INVALID);
+TEST_CASE("node: without a dictionary it ends with CO_ERR_BAD_ARG in CO_INVALID, and does not start") {
+  for (const bool null : {true, false}) {
+    CAPTURE(null);
+    OldNode n;
+    n.spec.Dict = null ? nullptr : n.dictionary;
+    n.spec.DictLen = null ? 4 : 0;
+    CHECK(n.init() == CO_ERR_BAD_ARG);
+    CHECK(n.node.Nmt.Mode == CO_INVALID);
+    CONodeStart(&n.node);
+    CONodeProcess(&n.node);
+    CHECK(n.node.Nmt.Mode == CO_INVALID);
+    CHECK(bus.sent.empty());
+    CHECK(bus.baud == 0);
+    CHECK(CODictFind(&n.node.Dict, CO_DEV(0x1000, 0)) == nullptr);
+    CONodeStop(&n.node);
+  }
 }
 
 TEST_CASE("node: the specification need not live longer than the initialisation") {

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+# lexican_doctest: the doctest header of the distribution, for native and for cross builds.
+find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+
+add_library(lexican_doctest INTERFACE)
+
+if(CMAKE_CROSSCOMPILING)
+  # The host's include directory must not be seen by a cross compiler: only this one directory of it is.
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/doctest_only)
+  file(CREATE_LINK ${LEXICAN_DOCTEST_DIR}/doctest ${PROJECT_BINARY_DIR}/doctest_only/doctest SYMBOLIC)
+  target_include_directories(lexican_doctest SYSTEM INTERFACE ${PROJECT_BINARY_DIR}/doctest_only)
+else()
+  target_include_directories(lexican_doctest SYSTEM INTERFACE ${LEXICAN_DOCTEST_DIR})
+endif()

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file fuzz.hpp
+/// What the fuzz targets share: an input that is read like a stream, and the end of the program for a broken promise.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace fuzz {
+
+/// Bytes of chance. Behind the end all are 0, so that everything that depends on them comes to rest.
+class Input {
+ public:
+  Input() = default;
+  Input(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) {}
+
+  bool is_empty() const { return next_ == end_; }
+  std::uint8_t byte() { return is_empty() ? std::uint8_t{0} : *next_++; }
+  std::uint32_t below(std::size_t limit) { return static_cast<std::uint32_t>(byte() % limit); }  ///< limit: 1…256
+  bool flag() { return (byte() & 1U) != 0; }
+  std::uint16_t word() {
+    const std::uint32_t low = byte();
+    return static_cast<std::uint16_t>(low | (std::uint32_t{byte()} << 8));
+  }
+  std::uint32_t number() {
+    const std::uint32_t low = word();
+    return low | (std::uint32_t{word()} << 16);
+  }
+
+ private:
+  const std::uint8_t* next_ = nullptr;
+  const std::uint8_t* end_ = nullptr;
+};
+
+/// Ends the program, which is a finding.
+inline void require(bool holds, const std::string& promise) {
+  if (!holds) {
+    std::fprintf(stderr, "BROKEN: %s\n", promise.c_str());
+    std::abort();
+  }
+}
+
+}  // namespace fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

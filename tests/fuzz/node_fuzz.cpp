@@ -1,0 +1,688 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole node in a hostile world: frames, time and calls of chance, a controller that refuses, callbacks and type
+// functions that call the stack again, a table that changes. Whatever happens, the properties of invariants.hpp and
+// those of check() hold, and a reset brings back a node that answers.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "co_core.h"
+#include "fuzz/fuzz.hpp"
+#include "support/invariants.hpp"
+
+namespace {
+
+using fuzz::require;
+
+constexpr std::uint8_t first_node_id = 5;
+constexpr std::uint16_t own_timers = 6;
+constexpr std::uint32_t frequency = 1000;                                // ticks per second
+constexpr std::uint32_t patience = 20 + 8 * ((CO_SDO_TIMEOUT + 7) / 8);  // ticks, longer than the time-out
+constexpr unsigned max_depth = 3;                                        // of calls out of calls
+
+enum class TimerDriver { clock, clock_without_alarm, cyclic, delta };
+
+class Bench;
+Bench* bench = nullptr;  // the one that the callbacks belong to
+
+// Memory that ends where its object ends, so that the address sanitizer sees the first byte beyond.
+using Memory = std::unique_ptr<std::uint8_t[]>;
+
+struct Objects {
+  std::uint8_t error_register = 0;
+  std::uint16_t heartbeat = 0;
+  std::uint32_t cob_id[4] = {0x600, 0x580, 0x685, 0x586};
+  std::uint8_t u8 = 1;
+  std::uint16_t u16 = 2;
+  std::uint32_t u24 = 3;
+  std::uint32_t u32 = 4;
+  std::uint64_t u40 = 5;
+  std::uint64_t u56 = 6;
+  std::uint64_t u64 = 7;
+  std::int32_t s24 = -1;
+  float real32 = 1.0F;
+  double real64 = 1.0;
+  CO_TIME_OF_DAY time_of_day{};
+  std::uint8_t boolean = 0;
+  std::uint8_t no_access = 0;
+  Memory domain_memory = std::make_unique<std::uint8_t[]>(30);
+  Memory small_memory = std::make_unique<std::uint8_t[]>(3);
+  Memory text_memory = std::make_unique<std::uint8_t[]>(12);
+  Memory octets_memory = std::make_unique<std::uint8_t[]>(9);
+  Memory unicode_memory = std::make_unique<std::uint8_t[]>(16);
+  CO_OBJ_DOM domain{0, 30, domain_memory.get()};
+  CO_OBJ_DOM small_domain{0, 3, small_memory.get()};
+  CO_OBJ_STR_RW text{0, 0, 12, text_memory.get()};
+  CO_OBJ_STR_RW octets{0, 9, 9, octets_memory.get()};
+  CO_OBJ_STR_RW unicode{0, 16, 16, unicode_memory.get()};
+  CO_OBJ_STR_RW nothing{0, 0, 0, nullptr};
+  CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("hello device")};
+};
+
+// Types of an application that refuses, answers any length, and calls the stack from within.
+// ---------------------------
+
+constexpr std::uint32_t long_value = 20;
+
+CO_ERR mood();
+CO_ERR answer_of(CO_OBJ* obj, CO_NODE* node) {
+  const CO_ERR err = mood();
+  if (err != CO_ERR_NONE) {
+    COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
+  }
+  return err;
+}
+
+std::uint32_t size_of_short(CO_OBJ*, CO_NODE*, std::uint32_t) {
+  mood();
+  return 4;
+}
+std::uint32_t size_of_long(CO_OBJ*, CO_NODE*, std::uint32_t width) {
+  mood();
+  return width != 0 && width < long_value ? width : long_value;
+}
+std::uint32_t size_of_chance(CO_OBJ*, CO_NODE*, std::uint32_t);
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return answer_of(obj, node); }
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+  require(size <= long_value, "a type function is asked for no more than its size");
+  std::memset(buffer, 0x22, size);
+  return answer_of(obj, node);
+}
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
+  require(size <= long_value, "a type function is given no more than its size");
+  std::uint8_t copy[long_value];
+  std::memcpy(copy, buffer, size);
+  return answer_of(obj, node);
+}
+CO_ERR reset(CO_OBJ* obj, CO_NODE* node, std::uint32_t) { return answer_of(obj, node); }
+
+constexpr CO_OBJ_TYPE short_value_type = {size_of_short, init, read, write, nullptr};
+constexpr CO_OBJ_TYPE long_value_type = {size_of_long, nullptr, read, write, nullptr};
+constexpr CO_OBJ_TYPE stream_type = {size_of_long, nullptr, read, write, reset};
+constexpr CO_OBJ_TYPE moody_type = {size_of_chance, nullptr, read, write, nullptr};
+constexpr CO_OBJ_TYPE moody_stream_type = {size_of_chance, init, read, write, reset};
+constexpr CO_OBJ_TYPE empty_type = {nullptr, nullptr, nullptr, nullptr, nullptr};
+
+std::vector<CO_OBJ> dictionary(Objects& o) {
+  return {
+      {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x191)},
+      {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&o.error_register)},
+      {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&o.name)},
+      {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&o.heartbeat)},
+      {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(5)},
+      {CO_KEY(0x1200, 1, CO_OBJ__N__RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[0])},
+      {CO_KEY(0x1200, 2, CO_OBJ__N__RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[1])},
+      {CO_KEY(0x1201, 1, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[2])},
+      {CO_KEY(0x1201, 2, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[3])},
+      {CO_KEY(0x1202, 1, CO_OBJ_DN__RW), CO_TSDO_ID, (CO_DATA)(CO_SDO_ID_OFF)},
+      {CO_KEY(0x1202, 2, CO_OBJ_DN__RW), CO_TSDO_ID, (CO_DATA)(CO_SDO_ID_OFF)},
+      {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&o.u8)},
+      {CO_KEY(0x2000, 1, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&o.u16)},
+      {CO_KEY(0x2000, 2, CO_OBJ__N__RW), CO_TUNSIGNED24, (CO_DATA)(&o.u24)},
+      {CO_KEY(0x2000, 3, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&o.u32)},
+      {CO_KEY(0x2000, 4, CO_OBJ_____RW), CO_TUNSIGNED40, (CO_DATA)(&o.u40)},
+      {CO_KEY(0x2000, 5, CO_OBJ_____RW), CO_TUNSIGNED56, (CO_DATA)(&o.u56)},
+      {CO_KEY(0x2000, 6, CO_OBJ_____RW), CO_TUNSIGNED64, (CO_DATA)(&o.u64)},
+      {CO_KEY(0x2000, 7, CO_OBJ_____RW), CO_TSIGNED24, (CO_DATA)(&o.s24)},
+      {CO_KEY(0x2000, 8, CO_OBJ_____RW), CO_TREAL32, (CO_DATA)(&o.real32)},
+      {CO_KEY(0x2000, 9, CO_OBJ_____RW), CO_TREAL64, (CO_DATA)(&o.real64)},
+      {CO_KEY(0x2000, 10, CO_OBJ_____RW), CO_TTIME_OF_DAY, (CO_DATA)(&o.time_of_day)},
+      {CO_KEY(0x2000, 11, CO_OBJ_____RW), CO_TBOOLEAN, (CO_DATA)(&o.boolean)},
+      {CO_KEY(0x2000, 12, CO_OBJ_______), CO_TUNSIGNED8, (CO_DATA)(&o.no_access)},
+      {CO_KEY(0x2000, 13, CO_OBJ_D___RW), CO_TUNSIGNED32, (CO_DATA)(7)},
+      {CO_KEY(0x2100, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.domain)},
+      {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.small_domain)},
+      {CO_KEY(0x2100, 2, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&o.text)},
+      {CO_KEY(0x2100, 3, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.octets)},
+      {CO_KEY(0x2100, 4, CO_OBJ_____RW), CO_TUNICODE_STRING, (CO_DATA)(&o.unicode)},
+      {CO_KEY(0x2100, 5, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.nothing)},
+      {CO_KEY(0x2200, 0, CO_OBJ_____RW), &short_value_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 1, CO_OBJ_____RW), &stream_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 2, CO_OBJ_____RW), &long_value_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 3, CO_OBJ_____RW), &moody_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 4, CO_OBJ_____RW), &moody_stream_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 5, CO_OBJ_____RW), &empty_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 6, CO_OBJ_D___RW), CO_TUNSIGNED64, (CO_DATA)(7)},
+  };
+}
+
+// Drivers.
+// -------------------------------------------------------------------------------------------------------------
+
+// A timer of each kind that a port may have. The bench lets the time pass and serves the interrupt.
+struct Clock {
+  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
+
+  std::uint64_t now = 0;
+  std::uint64_t alarm = never;   // of a driver with a clock, or the compare match of a delta driver
+  std::uint32_t count_down = 0;  // of a cyclic driver
+};
+
+struct Bus {
+  std::deque<CO_IF_FRM> to_node;
+  bool is_on = false;
+  unsigned refusals = 0;  // Send answers "not now" or "error" so many times
+  std::uint64_t sent = 0;
+  CO_IF_FRM last{};
+};
+
+class Bench {
+ public:
+  explicit Bench(fuzz::Input input) : input_(input) {
+    bench = this;
+    choose_configuration(input_.byte());
+    table_ = dictionary(objects_);
+    end_of_table_ = table_.size();
+    std::memset(static_cast<void*>(&node_), 0xA5, sizeof node_);  // nothing may rely on memory being zero
+    init();
+  }
+  ~Bench() {
+    CONodeStop(&node_);
+    bench = nullptr;
+  }
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  void run() {
+    if (input_.flag()) {
+      act(start_action);
+    }
+    while (!input_.is_empty()) {
+      step();
+      check();
+    }
+    recover();
+  }
+
+  // From callbacks and type functions: perhaps does something with the node.
+  void meddle() {
+    const std::uint8_t byte = input_.byte();
+    if ((byte & 0x80U) != 0 && depth_ < max_depth) {
+      act(byte);
+    }
+  }
+  CO_ERR mood() {
+    meddle();
+    return input_.below(8) == 7 ? CO_ERR_TYPE_WR : CO_ERR_NONE;
+  }
+  std::uint32_t chance(std::uint32_t limit) { return input_.below(limit); }
+
+  void lock() { require(!std::exchange(locked_, true), "locks do not nest"); }
+  void unlock() { require(std::exchange(locked_, false), "a lock is given back once"); }
+
+ private:
+  using Action = void (Bench::*)();
+  static constexpr std::uint8_t start_action = 3;  // in act()
+
+  // Set-up ---------------------------------------------------------------
+
+  void choose_configuration(std::uint8_t bits) {
+    timer_driver_ = static_cast<TimerDriver>(bits & 3U);
+    objects_.cob_id[2] = (bits & 4U) != 0 ? 0x605 : 0x685;  // two servers that listen to the same client
+    ext_.Size = sizeof ext_;
+    ext_.TxQueue = (bits & 8U) != 0 ? queue_ : nullptr;
+    ext_.TxQueueLen = (bits & 8U) != 0 ? 3 : 0;
+    ext_.Writable = (bits & 16U) != 0 ? may_write : nullptr;
+    has_context_ = (bits & 32U) != 0;
+    ext_.Can = has_context_ ? &can_with_context : nullptr;
+    if (timer_driver_ == TimerDriver::clock || timer_driver_ == TimerDriver::clock_without_alarm) {
+      ext_.Timer = timer_driver_ == TimerDriver::clock ? &clock_with_alarm : &clock_alone;
+    }
+    drivers_.Timer = timer_driver_ == TimerDriver::delta ? &delta : &cyclic;
+  }
+
+  void init() {
+    const auto length = static_cast<std::uint16_t>(table_.size());
+    const CO_NODE_SPEC spec{first_node_id, 250000,     table_.data(), length,    nullptr,
+                            timers_,       own_timers, frequency,     &drivers_, nullptr};
+    ++depth_;  // type functions call the stack
+    CONodeInitEx(&node_, &spec, &ext_);
+    --depth_;
+    for (std::int16_t& id : timer_ids_) {
+      id = -1;
+    }
+    watch();
+  }
+
+  void watch() {
+    memory_ = {};
+    for (std::size_t n = 0; n < end_of_table_; ++n) {
+      memory_.add(table_[n]);
+    }
+  }
+
+  // What happens -----------------------------------------------------------
+
+  void step() {
+    const std::uint8_t kind = input_.byte();
+    if (kind >= 0xA0) {
+      act(kind);
+    } else {
+      receive(any_frame(kind));
+    }
+  }
+
+  CO_IF_FRM any_frame(std::uint8_t kind) {
+    constexpr std::uint32_t identifiers[] = {0x605, 0x685, 0x000, 0x606, 0x705, 0x000, 0x605, 0x605};
+    CO_IF_FRM frame{};
+    frame.Identifier = (kind & 0x18U) == 0x18U ? input_.number() : identifiers[kind & 7U];
+    frame.DLC = (kind & 0x60U) == 0x60U ? input_.byte() : frame.Identifier == 0 ? 2 : 8;
+    for (std::uint8_t& byte : frame.Data) {
+      byte = input_.byte();
+    }
+    if ((kind & 0xC0U) == 0x40U) {
+      name_object(frame);
+    }
+    return frame;
+  }
+
+  // Chance alone would rarely find the objects.
+  static void name_object(CO_IF_FRM& frame) {
+    constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008, 0x1017, 0x1200, 0x1201, 0x1202};
+    const std::uint16_t index = indices[frame.Data[1] & 7U];
+    CO_SET_WORD(&frame, index, 1);
+    frame.Data[3] &= 15U;
+  }
+
+  // What a frame may change: what it names, and what is being downloaded.
+  void receive(const CO_IF_FRM& frame) {
+    bus_.to_node.assign(1, frame);
+    memory_.remember();
+    meddled_ = false;
+    std::vector<std::uint32_t> may_change = open_transfers();
+    may_change.push_back(CO_DEV(CO_GET_WORD(&frame, 1), frame.Data[3]));
+    const std::uint64_t sent = bus_.sent;
+    const std::size_t waiting = node_.TxQueue.Num;
+    ++depth_;
+    CONodeProcess(&node_);
+    --depth_;
+    if (meddled_) {
+      return;
+    }
+    require(bus_.sent - sent <= waiting + CO_SSDO_N, "a frame is answered once by each server");
+    for (const std::uint32_t dev : memory_.changed()) {
+      require(!memory_.is_read_only(dev), "what is read-only does not change");
+      const bool may = std::find(may_change.begin(), may_change.end(), dev) != may_change.end();
+      require(may && frame.DLC >= 8, "an object changes by its download only");
+    }
+  }
+
+  std::vector<std::uint32_t> open_transfers() const {
+    std::vector<std::uint32_t> devs;
+    for (const CO_SDO& server : node_.Sdo) {
+      if (node_.Nmt.Mode != CO_INVALID && server.State != 0) {
+        devs.push_back(server.Key);
+      }
+    }
+    return devs;
+  }
+
+  void act(std::uint8_t kind) {
+    constexpr Action actions[] = {
+        &Bench::reset_node,     &Bench::set_mode,     &Bench::stop,         &Bench::start,
+        &Bench::short_time,     &Bench::run_timers,   &Bench::process,      &Bench::create_timer,
+        &Bench::delete_timer,   &Bench::delete_any,   &Bench::set_cob_id,   &Bench::set_heartbeat,
+        &Bench::send,           &Bench::refuse,       &Bench::ask_deadline, &Bench::write_buffer,
+        &Bench::read_buffer,    &Bench::report_event, &Bench::move_stream,  &Bench::use_value,
+        &Bench::abort_transfer, &Bench::long_time,    &Bench::change_table, &Bench::change_length,
+        &Bench::set_node_id,    &Bench::take_error,   &Bench::init_again,   &Bench::time_out,
+    };
+    ++depth_;
+    meddled_ = true;
+    (this->*actions[(kind & 31U) % std::size(actions)])();
+    --depth_;
+  }
+
+  bool is_outermost() const { return depth_ == 1; }
+
+  void reset_node() { CONmtReset(&node_.Nmt, input_.flag() ? CO_RESET_NODE : CO_RESET_COM); }
+  void set_mode() { CONmtSetMode(&node_.Nmt, static_cast<CO_MODE>(input_.below(CO_MODE_NUM + 1))); }
+  void stop() { CONodeStop(&node_); }
+  void start() { CONodeStart(&node_); }
+  void short_time() { pass(input_.byte()); }
+  void long_time() { pass(input_.word() % 3000U); }
+  void time_out() { pass(patience); }
+  void run_timers() { COTmrProcess(&node_.Tmr); }
+  void process() { CONodeProcess(&node_); }
+  void create_timer() {
+    const std::uint32_t start = input_.byte();
+    const std::uint32_t cycle = input_.byte();
+    const auto run = [](void* ctx) { static_cast<Bench*>(ctx)->meddle(); };
+    timer_ids_[input_.below(std::size(timer_ids_))] = COTmrCreate(&node_.Tmr, start, cycle, run, this);
+  }
+  void delete_timer() { COTmrDelete(&node_.Tmr, timer_ids_[input_.below(std::size(timer_ids_))]); }
+  void delete_any() { COTmrDelete(&node_.Tmr, static_cast<std::int16_t>(input_.word())); }
+  void set_cob_id() {
+    const std::uint32_t index = 0x1200 + input_.below(3);
+    const std::uint32_t sub = 1 + input_.below(2);
+    const std::uint32_t flags = (input_.flag() ? CO_SDO_ID_OFF : 0U) | (input_.flag() ? 0x20000000U : 0U);
+    CODictWrLong(&node_.Dict, CO_DEV(index, sub), flags | 0x600U | input_.byte());
+  }
+  void set_heartbeat() { CODictWrWord(&node_.Dict, CO_DEV(0x1017, 0), input_.byte()); }
+  // An identifier that no server can be given.
+  void send() {
+    CO_IF_FRM frame{0x101U + input_.below(64), {}, 8};
+    COIfCanSend(&node_.If, &frame);
+  }
+  void refuse() { bus_.refusals = input_.byte() & 127U; }
+  void ask_deadline() { CONodeNextDeadline(&node_); }
+  void write_buffer() {
+    const std::uint32_t sub = input_.below(6);
+    std::vector<std::uint8_t> bytes(1 + input_.below(40), 0x41);
+    CODictWrBuffer(&node_.Dict, CO_DEV(0x2100, sub), bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  }
+  void read_buffer() {
+    const std::uint32_t sub = input_.below(6);
+    std::vector<std::uint8_t> bytes(1 + input_.below(64));
+    CODictRdBuffer(&node_.Dict, CO_DEV(0x2100, sub), bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  }
+  void report_event() { CONodeCanEvent(&node_, static_cast<CO_CAN_EVENT>(input_.below(CO_CAN_EVENT_NUM))); }
+  void move_stream() {
+    CO_OBJ* const obj = CODictFind(&node_.Dict, CO_DEV(0x2100, input_.below(6)));
+    COObjReset(obj, &node_, input_.number());
+  }
+  void use_value() {
+    std::uint32_t value = 0;
+    CODictRdLong(&node_.Dict, CO_DEV(0x2200, input_.below(6)), &value);
+    CODictWrLong(&node_.Dict, CO_DEV(0x2200, input_.below(6)), value);
+  }
+  void abort_transfer() {
+    COObjTypeUserSDOAbort(CODictFind(&node_.Dict, CO_DEV(0x2200, input_.below(6))), &node_, input_.number());
+  }
+  void change_length() { objects_.text.Size = input_.below(20); }
+  void set_node_id() { CONmtSetNodeId(&node_.Nmt, input_.byte()); }
+  void take_error() { CONodeGetErr(&node_); }
+
+  // Not allowed within type functions.
+  void change_table() {
+    if (!is_outermost()) {
+      return;
+    }
+    const bool takes = input_.flag() && end_of_table_ > 1;
+    const std::size_t place = input_.byte() % end_of_table_;
+    takes ? take_entry(place) : restore_table();
+    const auto length = static_cast<std::uint16_t>(table_.size());
+    require(CODictInit(&node_.Dict, &node_, table_.data(), length) == CO_ERR_NONE, "the changed table is taken");
+    watch();
+  }
+  void take_entry(std::size_t place) {
+    std::move(table_.begin() + static_cast<std::ptrdiff_t>(place) + 1, table_.end(),
+              table_.begin() + static_cast<std::ptrdiff_t>(place));
+    table_.back() = CO_OBJ CO_OBJ_DICT_ENDMARK;
+    --end_of_table_;
+  }
+  void restore_table() {
+    const std::vector<CO_OBJ> all = dictionary(objects_);
+    std::copy(all.begin(), all.end(), table_.begin());  // the table stays where it is
+    end_of_table_ = all.size();
+  }
+
+  void init_again() {
+    if (is_outermost()) {
+      init();
+    }
+  }
+
+  // Time -------------------------------------------------------------------
+
+  void pass(std::uint32_t ticks) {
+    const std::uint64_t end = clock_.now + ticks;
+    while (clock_.now < end) {
+      to_next_interrupt(end);
+      if (is_outermost() && input_.flag()) {
+        COTmrProcess(&node_.Tmr);
+        CONodeProcess(&node_);
+      }
+    }
+  }
+
+  void to_next_interrupt(std::uint64_t end) {
+    clock_.now = std::min(end, std::max(next_interrupt(), clock_.now + 1));
+    interrupt();
+  }
+
+  std::uint64_t next_interrupt() {
+    switch (timer_driver_) {
+      case TimerDriver::cyclic: return clock_.now + 1;
+      case TimerDriver::clock_without_alarm: return clock_.now + std::min(CONodeNextDeadline(&node_), frequency);
+      default: return clock_.alarm;
+    }
+  }
+
+  void interrupt() {
+    const bool has_match = timer_driver_ == TimerDriver::clock || timer_driver_ == TimerDriver::delta;
+    if (has_match && clock_.now < clock_.alarm) {
+      return;
+    }
+    if (timer_driver_ == TimerDriver::clock) {
+      clock_.alarm = Clock::never;
+    }
+    if (node_.Nmt.Mode != CO_INVALID) {
+      COTmrService(&node_.Tmr);
+    }
+    if (timer_driver_ == TimerDriver::delta && clock_.alarm <= clock_.now) {
+      clock_.alarm = Clock::never;
+    }
+  }
+
+  // What must hold -----------------------------------------------------------
+
+  void check() const {
+    require(!locked_, "no lock is left");
+    require(node_.Busy == 0 && node_.Pending == 0, "nothing is left to be done");
+    require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
+    require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
+    require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");
+    require(timers_in_lists() <= own_timers + 2U, "no timer is in two lists");
+    for (const CO_SDO& server : node_.Sdo) {
+      require(server.State == 0 || server.Obj != nullptr, "an open transfer has an object");
+    }
+    const CO_NODE_COUNTERS counters = CONodeGetCounters(&node_);
+    require(counters.Unclaimed <= counters.Received, "only what was received was unclaimed");
+    require(counters.Malformed <= counters.Received * CO_SSDO_N, "each server counts a frame once");
+  }
+
+  unsigned timers_in_lists() const {
+    unsigned number = 0;
+    for (const CO_TMR_MEM* list : {node_.Tmr.Use, node_.Tmr.Due, node_.Tmr.Run}) {
+      for (; list != nullptr && number <= own_timers + 2U; list = list->Next) {
+        ++number;
+      }
+    }
+    return number;
+  }
+
+  // The input is used up, so that no callback does anything any more.
+  void recover() {
+    bus_.refusals = 0;
+    forget_transfers();
+    restore_table();
+    objects_.cob_id[0] = 0x600;
+    objects_.cob_id[1] = 0x580;
+    objects_.cob_id[2] = objects_.cob_id[3] = CO_SDO_ID_OFF;
+    if (node_.Nmt.Mode == CO_INVALID) {
+      init();
+    } else {
+      CODictInit(&node_.Dict, &node_, table_.data(), static_cast<std::uint16_t>(table_.size()));
+      CONmtReset(&node_.Nmt, CO_RESET_NODE);
+    }
+    CONodeStart(&node_);
+    require(bus_.last.Identifier == 0x700U + node_.NodeId && bus_.last.DLC == 1, "a reset ends with the boot-up");
+    ask();
+    check();
+  }
+
+  void forget_transfers() {
+    bus_.to_node.clear();
+    const std::uint64_t end = clock_.now + patience;
+    while (clock_.now < end) {
+      to_next_interrupt(end);
+      COTmrProcess(&node_.Tmr);
+      CONodeProcess(&node_);
+    }
+    require(open_transfers().empty(), "a transfer ends by itself when its client is silent");
+    require(node_.TxQueue.Num == 0 || node_.Nmt.Mode == CO_INIT, "frames do not wait without a reason");
+  }
+
+  void ask() {
+    bus_.to_node.assign(1, CO_IF_FRM{0x600U + node_.NodeId, {0x40, 0x18, 0x10, 0x01}, 8});
+    CONodeProcess(&node_);
+    constexpr std::uint8_t answer[8] = {0x43, 0x18, 0x10, 0x01, 0x05, 0x00, 0x00, 0x00};
+    require(bus_.last.Identifier == 0x580U + node_.NodeId, "a node that was reset answers");
+    require(std::equal(std::begin(answer), std::end(answer), bus_.last.Data), "… and answers right");
+  }
+
+  // A frame that had to wait may belong to a state that is no more.
+  CO_MODE mode_of(const CO_IF_FRM& frame) const {
+    if (node_.TxQueue.Num == 0) {
+      return node_.Nmt.Mode;
+    }
+    const bool is_stopped = frame.Identifier == 0x700U + node_.NodeId && frame.Data[0] == 0x04;
+    const bool is_operational = frame.Identifier == 0x700U + node_.NodeId && frame.Data[0] == 0x05;
+    return is_stopped ? CO_STOP : is_operational ? CO_OPERATIONAL : CO_PREOP;
+  }
+
+  bool is_answer(const CO_IF_FRM& frame) const {
+    return (frame.Identifier >= 0x580 && frame.Identifier <= 0x5FF) ||
+           std::any_of(std::begin(node_.Sdo), std::end(node_.Sdo),
+                       [&](const CO_SDO& server) { return server.TxId == frame.Identifier; });
+  }
+
+  std::int16_t take(const CO_IF_FRM& frame) {
+    if (bus_.refusals > 0) {
+      --bus_.refusals;
+      return input_.flag() ? std::int16_t{-1} : std::int16_t{0};
+    }
+    const std::string fault = test::fault_of(frame, node_.NodeId, mode_of(frame), is_answer(frame));
+    require(fault.empty(), fault);
+    require(bus_.is_on, "nothing is sent while off the bus");
+    ++bus_.sent;
+    bus_.last = frame;
+    return sizeof frame;
+  }
+
+  std::int16_t give(CO_IF_FRM& frame) {
+    if (bus_.to_node.empty()) {
+      return 0;
+    }
+    frame = bus_.to_node.front();
+    bus_.to_node.pop_front();
+    return sizeof frame;
+  }
+
+  static bool may_write(void*, const void*, std::uint32_t) { return bench->chance(8) != 7; }
+
+  static void can_off() { bench->bus_.is_on = false; }
+  static void can_on(std::uint32_t) { bench->bus_.is_on = true; }
+  static void can_reset() {}
+  static std::int16_t can_read(CO_IF_FRM* frame) { return bench->give(*frame); }
+  static std::int16_t can_send(CO_IF_FRM* frame) {
+    const std::int16_t result = bench->take(*frame);
+    std::memset(static_cast<void*>(frame), 0xFF, sizeof *frame);  // it is the driver's
+    return result;
+  }
+  static std::int16_t can_take(void*, const CO_IF_FRM* frame) { return bench->take(*frame); }
+  static constexpr CO_IF_CAN_DRV can = {can_off, can_on, can_read, can_send, can_reset, can_off};
+  static constexpr CO_IF_CAN_DRV_EX can_with_context = {[](void*) { can_off(); },
+                                                        [](void*, std::uint32_t baud) { can_on(baud); },
+                                                        [](void*, CO_IF_FRM* frame) { return can_read(frame); },
+                                                        can_take,
+                                                        [](void*) { can_reset(); },
+                                                        [](void*) { can_off(); },
+                                                        [](void*, const std::uint32_t* ids, std::uint16_t number) {
+                                                          require(std::is_sorted(ids, ids + number),
+                                                                  "the filter is sorted");
+                                                        }};
+
+  static void timer_init(std::uint32_t) {}
+  static void timer_start() {}
+
+  static void reload_count(std::uint32_t ticks) {
+    require(ticks > 0, "a timer is never told to wait for nothing");
+    bench->clock_.count_down = ticks;
+  }
+  static void stop_count() { bench->clock_.count_down = 0; }
+  static std::uint32_t count_left() { return bench->clock_.count_down; }
+  static std::uint8_t count() {
+    std::uint32_t& left = bench->clock_.count_down;
+    return left != 0 && --left == 0 ? 1 : 0;
+  }
+  static constexpr CO_IF_TIMER_DRV cyclic = {timer_init, reload_count, count_left, stop_count, timer_start, count};
+
+  static void reload_match(std::uint32_t ticks) {
+    require(ticks > 0, "a timer is never told to wait for nothing");
+    bench->clock_.alarm = bench->clock_.now + ticks;
+  }
+  static void stop_match() { bench->clock_.alarm = Clock::never; }
+  static std::uint32_t match_left() {
+    const Clock& clock = bench->clock_;
+    return clock.alarm == Clock::never || clock.alarm <= clock.now
+               ? 0U
+               : static_cast<std::uint32_t>(clock.alarm - clock.now);
+  }
+  static std::uint8_t matched() { return 1; }
+  static constexpr CO_IF_TIMER_DRV delta = {timer_init, reload_match, match_left, stop_match, timer_start, matched};
+
+  static std::uint32_t time_now(void*) { return static_cast<std::uint32_t>(bench->clock_.now + 0xFFFFFF00U); }
+  static void set_alarm(void*, std::uint32_t ticks) {
+    bench->clock_.alarm = ticks == 0 ? Clock::never : bench->clock_.now + ticks;
+  }
+  static constexpr CO_IF_TIMER_DRV_EX clock_with_alarm = {[](void*, std::uint32_t) {}, time_now, set_alarm};
+  static constexpr CO_IF_TIMER_DRV_EX clock_alone = {[](void*, std::uint32_t) {}, time_now, nullptr};
+
+  fuzz::Input input_;
+  TimerDriver timer_driver_ = TimerDriver::clock;
+  bool has_context_ = false;
+  bool locked_ = false;
+  bool meddled_ = false;  // since the frame: something else than the frame may have changed the node
+  unsigned depth_ = 0;
+  Clock clock_;
+  Bus bus_;
+  Objects objects_;
+  std::vector<CO_OBJ> table_;
+  std::size_t end_of_table_ = 0;
+  test::MemoryWatch memory_;
+  std::int16_t timer_ids_[8] = {};
+  CO_TMR_MEM timers_[own_timers] = {};
+  CO_IF_FRM queue_[3] = {};
+  CO_IF_DRV drivers_{&can, nullptr, nullptr};
+  CO_NODE_EXT ext_{};
+  CO_NODE node_;
+};
+
+CO_ERR mood() { return bench->mood(); }
+
+// A type that answers another size each time: 1…20.
+std::uint32_t size_of_chance(CO_OBJ*, CO_NODE*, std::uint32_t) {
+  bench->meddle();
+  return 1 + bench->chance(long_value);
+}
+
+}  // namespace
+
+extern "C" {
+
+void CONmtModeChange(CO_NMT*, CO_MODE) { bench->meddle(); }
+void CONmtResetRequest(CO_NMT*, CO_NMT_RESET) { bench->meddle(); }
+void COIfCanReceive(CO_IF_FRM* frame) {
+  require(frame->DLC <= 8, "a frame of the bus has up to eight bytes");
+  bench->meddle();
+}
+void CONodeCanChange(CO_NODE*, CO_CAN_EVENT) { bench->meddle(); }
+void COTmrLock(void) { bench->lock(); }
+void COTmrUnlock(void) { bench->unlock(); }
+void CONodeFatalError(void) { require(false, "no fatal error"); }
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bench(fuzz::Input(data, size)).run();
+  return 0;
+}
+
+}  // extern "C"

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# What all lanes share. A lane file sets
+#   about      one line for --list
+#   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
+#   optional   not empty: the lane is skipped, with a reason, where its packages cannot be had
+# and defines lane(), which reports every case by the functions below. $lane_name, $root and $build are known.
+
+passed=0
+failed=0
+skipped=0
+excused=0  # skipped cases that are missing in the comparison with tests/expected_counts
+
+pass() { passed=$((passed + 1)); }
+
+fail() {  # WHAT [LOG]
+  failed=$((failed + 1))
+  echo "   FAILED $1"
+  [ -z "${2:-}" ] || tail -n 60 "$2" | sed 's/^/      /'
+}
+
+# Runs a command as one case: check WHAT COMMAND...
+check() {
+  local what=$1 log=$results/check.log
+  shift
+  if "$@" >"$log" 2>&1; then
+    pass
+  else
+    fail "$what" "$log"
+  fi
+}
+
+skip() {  # WHAT: one case
+  skipped=$((skipped + 1)) excused=$((excused + 1))
+  echo "   SKIPPED $1"
+}
+
+# The rest of the lane cannot be run: as many cases are skipped as are committed and have not been run.
+skip_rest() {  # REASON
+  local expected
+  expected=$(expected_count "$lane_name")
+  local rest=$((${expected:-1} - passed - failed))
+  [ "$rest" -gt 0 ] || rest=1
+  excused=$((excused + rest))
+  skipped=$((skipped + rest))
+  echo "   SKIPPED $1"
+}
+
+measure_lane() {
+  trap 'echo "$passed $failed $skipped $excused" >"$results/$lane_name.count"' EXIT
+  rm -f "$results/$lane_name.count"
+  lane || [ "$failed" -gt 0 ] || fail "$lane_name ended early"
+  [ $((passed + failed + skipped)) -gt 0 ] || fail "$lane_name ran nothing"
+}
+
+# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... In the largest configuration, unless told otherwise: it has
+# several SDO servers.
+build_tree() {
+  local name=$1 log=$results/build-$1.log
+  shift
+  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name"; } >"$log" 2>&1; then
+    fail "build of $name" "$log"
+    return 1
+  fi
+}
+
+# Builds a preset of CMakePresets.json in build/NAME, which is the preset's name unless another one is given.
+build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
+  local preset=$1 name=${2:-$1}
+  shift
+  (cd "$root" && build_tree "$name" --preset "$preset" "${@:2}")
+}
+
+# Counts the cases of a doctest program: run_doctest WHAT COMMAND...
+run_doctest() {
+  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-}.log status
+  shift
+  ("$@" --no-colors >"$log" 2>&1) 2>>"$log"
+  status=$?
+  local summary='^\[doctest\] test cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
+  if ! [[ $(grep '^\[doctest\] test cases:' "$log") =~ $summary ]]; then
+    fail "$what: ended without a summary (status $status)" "$log"
+    return
+  fi
+  [ "${BASH_REMATCH[1]}" -gt 0 ] || fail "$what: no test case"
+  local ok=${BASH_REMATCH[2]} bad=${BASH_REMATCH[3]} unrun=${BASH_REMATCH[4]}
+  # What a crash leaves undone was not skipped on purpose.
+  grep -q 'test case CRASHED' "$log" && bad=$((bad + unrun)) unrun=0
+  passed=$((passed + ok)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  if [ "$bad" -gt 0 ]; then
+    fail "$what: $bad test cases" "$log"
+    failed=$((failed + bad - 1))
+  elif [ $status -ne 0 ]; then
+    fail "$what: status $status" "$log"
+  fi
+}
+
+# Counts the ctest cases below a build directory: run_ctest WHAT DIRECTORY [CTEST-ARGUMENT...]
+run_ctest() {
+  local what=$1 directory=$2 log=$results/ctest-${1//[^a-zA-Z0-9_]/-}
+  shift 2
+  rm -f "$log.xml"
+  ctest --test-dir "$directory" --no-tests=error --output-on-failure -j "$(nproc)" --output-junit "$log.xml" "$@" \
+    >"$log.log" 2>&1
+  local status=$?
+  if [ ! -f "$log.xml" ]; then
+    fail "$what: no test was run" "$log.log"
+    return
+  fi
+  local ran bad unrun
+  ran=$(junit_count tests "$log.xml") bad=$(junit_count failures "$log.xml") unrun=$(junit_count skipped "$log.xml")
+  passed=$((passed + ran - bad - unrun)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  if [ "$bad" -gt 0 ]; then
+    fail "$what: $bad tests" "$log.log"
+    failed=$((failed + bad - 1))
+  elif [ $status -ne 0 ] || [ "$ran" -eq 0 ]; then
+    fail "$what: ctest status $status" "$log.log"
+  fi
+}
+
+junit_count() { grep -oE "\b$1=\"[0-9]+\"" "$2" | head -n 1 | grep -oE '[0-9]+'; }
+
+# Counts the lines "ok …" and "not ok …" of a program that also says how many there should be ("1..N"). With status 77
+# it says, in its last line, why it cannot be run here: run_tap COMMAND...
+run_tap() {
+  local log=$results/$lane_name.tap
+  "$@" >"$log" 2>&1
+  local status=$? ok bad planned
+  if [ $status -eq 77 ]; then
+    skip_rest "$(tail -n 1 "$log")"
+    return
+  fi
+  ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log")
+  planned=$(sed -n 's/^1\.\.\([0-9][0-9]*\)$/\1/p' "$log" | head -n 1)
+  passed=$((passed + ok)) failed=$((failed + bad))
+  sed -n 's/^not ok/   FAILED/p' "$log"
+  if [ "${planned:-0}" -ne $((ok + bad)) ]; then
+    fail "$lane_name: $((ok + bad)) of ${planned:-an unknown number of} cases came back (status $status)" "$log"
+  elif [ $status -ne 0 ] && [ "$bad" -eq 0 ]; then
+    fail "$lane_name: status $status" "$log"
+  fi
+}
+
+# The project's files: sources src drivers -name '*.cpp'
+sources() {
+  local places=()
+  while [ $# -gt 0 ] && [[ $1 != -* ]]; do
+    [ ! -d "$root/$1" ] || places+=("$1")
+    shift
+  done
+  (cd "$root" && find "${places[@]}" -type f "$@" | sort)
+}
+
+build_packages=(g++ cmake ninja-build=ninja doctest-dev=/usr/include/doctest/doctest.h
+  libcli11-dev=/usr/include/CLI/CLI.hpp)
+clang_packages=(clang libclang-rt-dev='/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.asan-*.a')
+arm_packages=(gcc-arm-none-eabi=arm-none-eabi-g++ libnewlib-arm-none-eabi=/usr/lib/arm-none-eabi/newlib/libc.a
+  libstdc++-arm-none-eabi-newlib=/usr/lib/arm-none-eabi/newlib/libstdc++.a)

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+about="line and branch coverage of src/ by all doctest cases"
+packages=("${build_packages[@]}" gcovr)
+
+# As deployed: asserts off. Not optimised, so that a branch of the report is one of the source.
+lane() {
+  local flags="--coverage -O0 -DNDEBUG" program=$build/coverage/tests/lexican_tests
+  build_tree coverage -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" || return
+  find "$build/coverage" -name '*.gcda' -delete
+  run_doctest coverage "$program"
+  local lines branches
+  read -r lines branches < <(grep -v '^#' "$root/tests/coverage_threshold")
+  (cd "$root" && gcovr --root . --filter src/ --object-directory "$build/coverage" --exclude-unreachable-branches \
+    --exclude-throw-branches --txt "$results/coverage-lines.txt" --html-details "$results/coverage.html" "$build/coverage" &&
+    gcovr --root . --filter src/ --exclude-unreachable-branches --exclude-throw-branches --branches "$build/coverage" \
+      >"$results/coverage-branches.txt") || fail "gcovr"
+  echo "lines:"
+  sed -n '/^File/,$p' "$results/coverage-lines.txt"
+  echo "branches:"
+  sed -n '/^File/,$p' "$results/coverage-branches.txt"
+  check "at least $lines % of the lines" reaches "$lines" "$results/coverage-lines.txt"
+  check "at least $branches % of the branches" reaches "$branches" "$results/coverage-branches.txt"
+}
+
+reaches() {  # PERCENT REPORT
+  local got
+  got=$(awk '$1 == "TOTAL" { sub("%", "", $4); print $4 }' "$2")
+  echo "$got % of at least $1 %"
+  [ -n "$got" ] && [ "$got" -ge "$1" ]
+}

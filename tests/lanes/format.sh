@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+about="clang-format and the licence line of each source"
+packages=(clang-format-14)
+
+lane() {
+  check "clang-format" formatted
+  check "licence lines" licensed
+}
+
+formatted() {
+  local files
+  mapfile -t files < <(sources include config src drivers demo tests -name '*.[ch]' -o -name '*.[ch]pp')
+  [ ${#files[@]} -gt 0 ] || return
+  local unformatted
+  unformatted=$(cd "$root" && clang-format-14 --dry-run -Werror "${files[@]}" 2>&1 | grep -oE '^[^: ]+:[0-9]+:.*error' |
+    cut -d: -f1 | sort | uniq -c)
+  [ -z "$unformatted" ] || { printf 'places to be formatted:\n%s\n' "$unformatted"; return 1; }
+}
+
+licensed() {
+  local without
+  without=$(cd "$root" && sources include config src drivers demo tests cmake .ci \
+    -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt -o -name run |
+    while read -r file; do head -n 2 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"; done)
+  [ -z "$without" ] || { printf 'no licence line:\n%s\n' "$without"; return 1; }
+}

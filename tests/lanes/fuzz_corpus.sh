@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+about="the fuzz targets with their committed inputs, gcc and clang with address and undefined behaviour sanitizers"
+packages=("${build_packages[@]}" "${clang_packages[@]}")
+. "$root/tests/fuzz/build.sh"
+
+lane() {
+  corpus_of gcc g++
+  corpus_of clang clang++
+}
+
+corpus_of() {  # COMPILER C++-COMPILER
+  build_fuzz "fuzz-corpus-$1" "$1" "$2" address,undefined || return
+  local target
+  for target in "${fuzz_targets[@]}"; do
+    check "$target, $1" "$build/fuzz-corpus-$1/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
+  done
+}

@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The rules of inclusion: include < wire < core < object < service < node, drivers know only include.
+
+layers.py ROOT         checks a source tree, a case per room
+layers.py --self-test  plants a violation of each rule in a small tree and must find it
+Both print "1..N" and N lines "ok …" or "not ok …".
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+ROOMS = ["wire", "core", "object", "service", "node"]
+# What a compiler offers without an operating system and without allocation.
+FREESTANDING = {
+    "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",
+    "type_traits", "utility", "stdbool.h", "stddef.h", "stdint.h",
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+DEFINE = re.compile(r"^\s*#\s*define\s+(\w+)", re.MULTILINE)
+
+
+def sources(directory):
+    return sorted(p for p in directory.rglob("*") if p.suffix in (".h", ".hpp", ".c", ".cpp"))
+
+
+class Tree:
+    def __init__(self, root):
+        self.root = Path(root)
+
+    def is_public(self, name):
+        return any((self.root / place / name).is_file() for place in ("include", "config"))
+
+    def rooms(self):
+        """The directories to check, each with its rule."""
+        yield "include", self.in_include
+        for room in ROOMS:
+            yield f"src/{room}", self.in_src
+        yield "drivers", self.in_drivers
+
+    def faults(self, directory, rule):
+        """What is wrong below a directory; None if nothing is there to be checked."""
+        files = sources(self.root / directory)
+        if not files:
+            return None
+        found = []
+        for file in files:
+            text = file.read_text()
+            for bracket, name in INCLUDE.findall(text):
+                reason = rule(file, name, bracket == "<")
+                if reason:
+                    found.append(f"{file.relative_to(self.root)} includes {name}: {reason}")
+            if directory.startswith("src/"):
+                found += [f"{file.relative_to(self.root)} defines the macro {m}" for m in DEFINE.findall(text)]
+        return found
+
+    def in_include(self, file, name, system):
+        if system:
+            return None if name in FREESTANDING else "not a freestanding header"
+        return None if self.is_public(name) else "not a public header"
+
+    def in_src(self, file, name, system):
+        if system:
+            return None if name in FREESTANDING else "not a freestanding header"
+        if self.is_public(name):
+            return None
+        source = self.root / "src"
+        here = file.relative_to(source).parts
+        there = Path(name).parts
+        if there[0] not in ROOMS or not (source / name).is_file():
+            return "neither a public header nor room/file"
+        if ROOMS.index(there[0]) > ROOMS.index(here[0]):
+            return f"{there[0]} lies above {here[0]}"
+        in_service_room = len(here) > 2 and len(there) > 2
+        if here[0] == there[0] == "service" and in_service_room and here[1] != there[1]:
+            return "one service never includes another"
+        return None
+
+    def in_drivers(self, file, name, system):
+        if system or self.is_public(name):
+            return None
+        own = [file.parent / name, self.root / "drivers" / name]
+        kind = file.relative_to(self.root / "drivers").parts[0]
+        for path in own:
+            if path.is_file() and path.resolve().relative_to((self.root / "drivers").resolve()).parts[0] == kind:
+                return None
+        return "drivers include only include/, the system and their own room"
+
+
+def check(root):
+    tree = Tree(root)
+    rooms = list(tree.rooms())
+    print(f"1..{len(rooms)}")
+    good = True
+    for directory, rule in rooms:
+        faults = tree.faults(directory, rule)
+        if faults == []:
+            print(f"ok {directory}")
+        else:
+            good = False
+            print(f"not ok {directory}: " + ("no source found" if faults is None else "; ".join(faults)))
+    return good
+
+
+CLEAN = {
+    "include/co_a.h": "#include <stdint.h>\n",
+    "include/co_b.h": '#include "co_a.h"\n',
+    "config/co_cfg.h": "",
+    "src/wire/sdo.hpp": '#include "co_a.h"\n',
+    "src/core/dict.cpp": '#include "wire/sdo.hpp"\n#include "co_cfg.h"\n',
+    "src/core/dict.hpp": "",
+    "src/object/string.cpp": '#include "core/dict.hpp"\n',
+    "src/service/nmt/nmt.hpp": '#include "core/dict.hpp"\n',
+    "src/service/pdo/pdo.cpp": '#include "service/pdo/pdo.hpp"\n',
+    "src/service/pdo/pdo.hpp": "",
+    "src/node/services.cpp": '#include "service/nmt/nmt.hpp"\n#include "service/pdo/pdo.hpp"\n',
+    "drivers/can/socket.cpp": '#include "co_b.h"\n#include "socket.h"\n#include <sys/socket.h>\n',
+    "drivers/can/socket.h": "",
+    "drivers/nvm/file.cpp": "#include <cstdio>\n",
+}
+
+PLANTED = {
+    "a public header includes a room": ("include/co_b.h", '#include "core/dict.hpp"'),
+    "a public header needs a hosted library": ("include/co_b.h", "#include <string>"),
+    "wire includes core": ("src/wire/sdo.hpp", '#include "core/dict.hpp"'),
+    "core includes a service": ("src/core/dict.cpp", '#include "service/nmt/nmt.hpp"'),
+    "object includes the node": ("src/object/string.cpp", '#include "node/services.cpp"'),
+    "a service includes another service": ("src/service/pdo/pdo.cpp", '#  include "service/nmt/nmt.hpp"'),
+    "a room needs a hosted library": ("src/core/dict.cpp", "#include <vector>"),
+    "a room includes by a relative path": ("src/core/dict.cpp", '#include "../wire/sdo.hpp"'),
+    "a room defines a macro": ("src/core/dict.cpp", "#define FAST 1"),
+    "a driver includes a room": ("drivers/can/socket.cpp", '#include "core/dict.hpp"'),
+    "a driver includes another kind of driver": ("drivers/nvm/file.cpp", '#include "../can/socket.h"'),
+}
+
+
+def plant(root, extra=None):
+    for name, text in CLEAN.items():
+        path = Path(root) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text + (extra[1] + "\n" if extra and extra[0] == name else ""))
+
+
+def faults_of(extra=None):
+    with tempfile.TemporaryDirectory() as root:
+        plant(root, extra)
+        tree = Tree(root)
+        return [fault for directory, rule in tree.rooms() for fault in tree.faults(directory, rule)]
+
+
+def self_test():
+    print(f"1..{len(PLANTED) + 1}")
+    good = not faults_of()
+    print("ok a clean tree passes" if good else "not ok a clean tree passes")
+    for name, extra in PLANTED.items():
+        found = len(faults_of(extra)) == 1
+        good = good and found
+        print(f"{'ok' if found else 'not ok'} found: {name}")
+    return good
+
+
+if __name__ == "__main__":
+    sys.exit(0 if (self_test() if sys.argv[1] == "--self-test" else check(sys.argv[1])) else 1)

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+about="the configurations of config/presets (full is that of all other lanes)"
+packages=("${build_packages[@]}")
+
+# The smallest configuration is built for size, so that each preset of CMakePresets.json is used, too.
+lane() {
+  test_preset size minimal
+  test_preset release slave
+}
+
+test_preset() {  # CMAKE-PRESET CONFIGURATION
+  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" || return
+  run_doctest "preset-$2" "$build/preset-$2/tests/lexican_tests"
+  run_ctest "preset-$2-compat" "$build/preset-$2/tests/compat"
+}

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+about="what the library may not need or contain: heap, exceptions, C++ run time, static objects, software reals"
+packages=("${build_packages[@]}" clang "${arm_packages[@]}")
+
+# All that the library may ask of its surroundings: what every C compiler takes for granted, and integer division, shifts
+# and switches of the Arm run time, which have no software reals among them.
+allowed='mem(cpy|move|set|cmp)|strlen|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|ll?sl|ll?sr|lasr|u?lcmp|idiv0|ldiv0|mem(cpy|move|set|clr)[48]?)'
+allowed+='|__gnu_thumb1_case_[a-z]+|_GLOBAL_OFFSET_TABLE_'
+
+lane() {
+  library gcc-size "$build/symbols-gcc" nm objdump -DCMAKE_CXX_COMPILER=g++
+  library clang-size "$build/symbols-clang" nm objdump -DCMAKE_CXX_COMPILER=clang++
+  library cortex-m0 "$build/symbols-arm" arm-none-eabi-nm arm-none-eabi-objdump \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake"
+  check "a C program is linked by gcc alone, without the C++ run time" links_as_c
+  self_test
+}
+
+# Builds the library alone and looks at it: library WHAT DIRECTORY NM OBJDUMP …
+library() {
+  local what=$1 directory=$2 nm=$3 objdump=$4
+  shift 4
+  build_tree "${directory##*/}" -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF \
+    -DLEXICAN_WARNINGS_AS_ERRORS=ON "$@" || return
+  local archive=$directory/src/liblexican.a
+  check "$what: has objects" has_objects "$nm" "$archive"
+  check "$what: needs nothing but what is allowed" needs_only_allowed "$nm" "$archive"
+  check "$what: no C++ run time in it" no_cpp_runtime "$nm" "$archive"
+  check "$what: nothing runs before main" no_initialisers "$objdump" "$archive"
+  check "$what: no memory of its own" no_memory "$objdump" "$archive"
+}
+
+has_objects() { [ "$("$1" --defined-only "$2" 2>/dev/null | grep -c ' [TtWw] ')" -gt 20 ]; }
+
+# Undefined in one object and defined in none. Weak ones are defaults that the application replaces.
+needs_only_allowed() {
+  local needed
+  needed=$(comm -23 <("$1" --undefined-only -f posix "$2" 2>/dev/null | symbol_names) \
+    <("$1" --defined-only -f posix "$2" 2>/dev/null | symbol_names) | grep -vxE "$allowed")
+  [ -z "$needed" ] || { echo "$needed"; return 1; }
+}
+
+symbol_names() { awk 'NF >= 2 { print $1 }' | sort -u; }
+
+# Guards of static objects, virtual tables, type information, the standard library, exceptions, unwinding.
+no_cpp_runtime() { ! "$1" -f posix "$2" 2>/dev/null | grep -E '^(_ZG|_ZT|_ZN?K?St|__cxa|__gxx|_Unwind|__aeabi_unwind)'; }
+
+no_initialisers() { ! "$1" -h "$2" | grep -E ' \.(init_array|fini_array|ctors|dtors|preinit_array|gcc_except_table)'; }
+
+# Variables of the library: all memory is the user's, so that any number of nodes can live side by side.
+no_memory() {
+  ! "$1" -h "$2" | awk '$2 ~ /^\.(data|bss|tdata|tbss)/ && $2 !~ /^\.data\.rel\.ro/ && $3 !~ /^0+$/ { print $2, $3 }' | grep .
+}
+
+links_as_c() {
+  local program=$results/links_as_c
+  cat >"$program.c" <<'C'
+#include "co_core.h"
+static CO_NODE node;
+int main(void) {
+  CONodeProcess(&node);
+  COTmrService(&node.Tmr);
+  return CODictFind(&node.Dict, CO_DEV(0x1000, 0)) != 0;
+}
+C
+  gcc -o "$program" "$program.c" -I "$root/include" -I "$root/config" \
+    -Wl,--whole-archive "$build/symbols-gcc/src/liblexican.a" -Wl,--no-whole-archive
+}
+
+# Each check must find what it is there for.
+self_test() {
+  planted heap 'void* f() { return new int; }' needs_only_allowed nm
+  planted "a library function" 'extern "C" int puts(const char*); int f() { return puts(""); }' needs_only_allowed nm
+  planted "a virtual function" 'struct A { virtual int f(); }; int A::f() { return 1; }' no_cpp_runtime nm
+  planted "a guarded static object" 'int g(); int f() { static int a = g(); return a; }' no_cpp_runtime nm
+  planted "a throw" 'void f() { throw 1; }' no_cpp_runtime nm
+  planted "a static constructor" 'int g(); int a = g();' no_initialisers objdump
+  planted "a variable" 'int a = 1;' no_memory objdump
+  planted "real arithmetic" 'double f(double a) { return a * 3; }' needs_only_allowed arm-none-eabi-nm arm-none-eabi-
+}
+
+planted() {  # WHAT SOURCE CHECK TOOL [COMPILER-PREFIX]
+  local object=$results/planted.o
+  "${5:-}g++" -c -x c++ -o "$object" - <<<"$2" || { fail "the self-test of '$1' does not compile"; return; }
+  check "found: $1" finds "$3" "$4" "$object"
+}
+
+finds() { ! "$@"; }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co/dictionary.hpp"
+#include "co_core.h"
+
+static CO_NODE node;
+static CO_NODE_SPEC empty;
+constexpr CO_OBJ od[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)}};
+CO_OD_CHECK(od);
+
+int main() {
+  CONodeInit(&node, &empty);
+  return CONodeGetErr(&node) == CO_ERR_BAD_ARG ? 0 : 1;
+}

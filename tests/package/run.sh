@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# run.sh WAY LANGUAGE DIRECTORY SOURCE PREFIX
+# Builds the program main.c (LANGUAGE C) or main.cpp (CXX) in DIRECTORY against the library, whose sources are in SOURCE
+# and which is installed in PREFIX, in one WAY of using it; and runs it.
+set -euo pipefail
+
+way=$1 language=$2 directory=$3 source=$4 prefix=$5
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+case $language in
+  C) program=$here/main.c compiler=(gcc -std=c11) ;;
+  CXX) program=$here/main.cpp compiler=(g++ -std=c++17) ;;
+esac
+rm -rf "$directory"
+mkdir -p "$directory"
+
+by_cmake() {
+  cmake -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="$language" -DCONSUMER_SOURCE="$program" \
+    -DLEXICAN_SOURCE="$source" -DCMAKE_PREFIX_PATH="$prefix"
+  cmake --build "$directory"
+  # Nothing of ours but the library gets into a user's build.
+  [ -z "$(find "$directory" -name 'lexican_*' -o -name 'lexican-demo*')" ]
+}
+
+library=$(dirname "$(find "$prefix" -name liblexican.a)")
+case $way in
+  pkg_config)
+    export PKG_CONFIG_PATH=$library/pkgconfig
+    read -ra flags < <(pkg-config --cflags --libs lexican)
+    "${compiler[@]}" -o "$directory/consumer" "$program" "${flags[@]}"
+    ;;
+  bare_compiler)
+    "${compiler[@]}" -I "$prefix/include/lexican" -L "$library" -o "$directory/consumer" "$program" -llexican
+    ;;
+  *) by_cmake ;;
+esac
+timeout 10 "$directory/consumer"
+
+# A C program needs no C++ run time; by find_package and without CMake it does not even get it.
+if [ "$language" = C ] && [ "$way" != add_subdirectory ] && [ "$way" != fetch_content ]; then
+  ! ldd "$directory/consumer" | grep -F libstdc++
+fi

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a fixture checks after every call, and at its end.
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+#include "fixture.hpp"
+
+namespace test {
+
+// The server ends an abandoned transfer by itself. [D18]
+void Fixture::check_back_to_idle() {
+  const auto busy = [this] {
+    return std::any_of(std::begin(node.Sdo), std::end(node.Sdo), [](const CO_SDO& sdo) { return sdo.Obj != nullptr; });
+  };
+  if (node.Nmt.Mode != CO_INVALID && busy() && CO_SDO_TIMEOUT > 0) {
+    const std::vector<std::string> left = frames();
+    CHECK_MESSAGE(left.empty(), "left unread: ", left.empty() ? "" : left[0]);
+    can.accept_all();
+    after(sdo_time_out());
+    CHECK_MESSAGE(!busy(), "an SDO server is still busy after its time-out");
+    trace();
+  }
+}
+
+void Fixture::check_properties(Where at) {
+  if (heap_requests() != heap_before_) {
+    ADD_FAIL_CHECK_AT(at.file, at.line, "heap used " << heap_requests() - heap_before_ << " times");
+  }
+  for (const std::string& violation : violations_) {
+    ADD_FAIL_CHECK_AT(at.file, at.line, violation);
+  }
+  violations_.clear();
+  check_memory(at);
+  for (const std::string& fault : timer_faults()) {
+    ADD_FAIL_CHECK_AT(at.file, at.line, fault);
+  }
+}
+
+void Fixture::check_memory(Where at) {
+  const std::set<std::uint32_t> streaming = downloads_.streaming();
+  std::set<std::uint32_t> allowed = downloads_.take_completed();
+  for (const std::uint32_t dev : memory_.changed()) {
+    const bool right =
+        allowed.count(dev) > 0 || (memory_.is_stream(dev) && streaming.count(dev) > 0) || memory_.shares(dev, allowed);
+    if (!right || (memory_.is_read_only(dev) && !memory_.shares(dev, allowed))) {
+      ADD_FAIL_CHECK_AT(at.file, at.line,
+                        "object changed without a legal download: index " << CO_GET_IDX(dev) << " sub-index "
+                                                                          << unsigned{CO_GET_SUB(dev)});
+    }
+  }
+}
+
+namespace {
+
+// Timers of a list; one that does not end within \a bound is broken and gives bound + 1 of them.
+std::vector<const CO_TMR_MEM*> members(const CO_TMR_MEM* list, std::size_t bound) {
+  std::vector<const CO_TMR_MEM*> all;
+  for (; list != nullptr && all.size() <= bound; list = list->Next) {
+    all.push_back(list);
+  }
+  return all;
+}
+
+bool is_open(const CO_NODE& node) {
+  return std::any_of(std::begin(node.Sdo), std::end(node.Sdo), [](const CO_SDO& sdo) { return sdo.State != 0; });
+}
+
+}  // namespace
+
+std::vector<const CO_TMR_MEM*> Fixture::armed() const {
+  std::vector<const CO_TMR_MEM*> all;
+  for (const CO_TMR_MEM* list : {node.Tmr.Use, node.Tmr.Due, node.Tmr.Run}) {
+    const auto part = members(list, setup_.timers_ + 2U);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+unsigned Fixture::armed_timers() const { return static_cast<unsigned>(armed().size()); }
+
+// Each timer of the application's pool is armed or free; of the stack there are the heartbeat's and one for all SDO
+// servers, each while its owner has a use for it.
+std::vector<std::string> Fixture::timer_faults() const {
+  if (node.Dict.Node == nullptr) {
+    return {};  // the initialisation has failed before there were services
+  }
+  std::vector<std::string> faults;
+  const auto expect = [&](bool right, const char* fault) {
+    if (!right) faults.emplace_back(fault);
+  };
+  const std::vector<const CO_TMR_MEM*> all = armed();
+  const auto number_of = [&](const CO_TMR_MEM& one) { return std::count(all.begin(), all.end(), &one); };
+  const auto heartbeat = number_of(node.HbProdTmr);
+  const auto sdo = number_of(node.SdoTmr);
+  const auto application = all.size() - static_cast<std::size_t>(heartbeat + sdo);
+  const CO_MODE mode = node.Nmt.Mode;
+  expect(heartbeat <= 1 && sdo <= 1, "a timer is armed twice");
+  expect(application + members(node.Tmr.Free, setup_.timers_).size() == setup_.timers_, "a timer of the pool is lost");
+  expect(heartbeat == 0 || (mode != CO_INVALID && mode != CO_INIT), "heartbeat timer armed without a heartbeat");
+  expect(sdo == 0 || mode == CO_PREOP || mode == CO_OPERATIONAL, "SDO timer armed while SDO is not allowed");
+  expect(sdo == 1 || !is_open(node) || CO_SDO_TIMEOUT == 0, "a transfer is open and nothing watches it");
+  return faults;
+}
+
+std::string Fixture::difference(const Fixture& other) const {
+  const auto differs = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) != 0; };
+  if (node.Nmt.Mode != other.node.Nmt.Mode || node.NodeId != other.node.NodeId) {
+    return "mode or node-ID";
+  }
+  for (unsigned n = 0; n < CO_SSDO_N; ++n) {
+    const CO_SDO& a = node.Sdo[n];
+    const CO_SDO& b = other.node.Sdo[n];
+    if (a.Obj != b.Obj || a.RxId != b.RxId || a.TxId != b.TxId || a.State != b.State) {
+      return "SDO server " + std::to_string(n);
+    }
+  }
+  if (node.TxQueue.Num != other.node.TxQueue.Num || node.Pending != other.node.Pending) {
+    return "waiting frames or pending work";
+  }
+  if (differs(node.Routes.Start, other.node.Routes.Start)) {
+    return "routes";
+  }
+  return armed_timers() == other.armed_timers() ? "" : "timers";
+}
+
+}  // namespace test

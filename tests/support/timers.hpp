@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file timers.hpp
+/// A node of which only the timers are used.
+#pragma once
+
+#include "fixture.hpp"
+
+namespace test {
+
+/// What ran, in order. The parameter of a timer is a number.
+using Runs = std::vector<std::uintptr_t>;
+Runs& runs();
+
+/// The action of a timer: notes its parameter.
+void note(void* para);
+
+inline void* number(std::uintptr_t n) { return reinterpret_cast<void*>(n); }
+
+/// A tick is a millisecond unless the setup says otherwise.
+class Timers : public Fixture {
+ public:
+  explicit Timers(const Setup& setup = Setup());
+  std::int16_t create(std::uint32_t start, std::uint32_t cycle, std::uintptr_t n);
+  std::int16_t remove(std::int16_t id);
+};
+
+}  // namespace test

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=dash
+# Runs in the guest: can-utils against the demo node. Bytes as CiA 301 prints them, in candump's notation.
+
+node=lexican-demo-node
+heartbeat=705 request=605 response=585  # of node-ID 5
+cases=0
+
+verdict() {  # STATUS NAME DETAIL
+  cases=$((cases + 1))
+  if [ "$1" -eq 0 ]; then
+    echo "ok $2"
+  else
+    echo "not ok $2: $3"
+  fi
+}
+
+# Data frames of one CAN-ID are recorded from listen until expect. Nothing is lost between the two, however slow the
+# machine is: listen returns when the kernel knows the listener.
+listen() {  # CAN-ID NUMBER [MILLISECONDS]
+  candump -L "vcan0,$1:C00007FF" -n "$2" -T "${3:-5000}" >/tmp/heard &
+  listener=$!
+  tries=500
+  until grep -qi " $1 " /proc/net/can/rcvlist_sff || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+}
+
+# Compares what was heard since listen: the frames without time and interface, in one line.
+expect() {  # NAME EXPECTED-PATTERN
+  wait "$listener"
+  got=$(awk '{ printf "%s%s", (NR > 1 ? " " : ""), $3 }' /tmp/heard)
+  case $got in
+    $2) verdict 0 "$1" ;;
+    *) verdict 1 "$1" "expected '$2', got '$got'" ;;
+  esac
+}
+
+sdo() {  # NAME REQUEST RESPONSE
+  listen $response 1
+  cansend vcan0 "$request#$2"
+  expect "$1" "$response#$3"
+}
+
+silence() {  # NAME FRAME
+  listen $response 1 500
+  cansend vcan0 "$2"
+  expect "$1" ""
+}
+
+# A heartbeat may come before the command takes effect; from then on they carry the new state.
+nmt() {  # NAME COMMAND STATE
+  cansend vcan0 "000#$2"
+  usleep 200000
+  listen $heartbeat 1
+  expect "$1" "$heartbeat#$3"
+}
+
+# One boot-up message, among the heartbeats.
+reboot() {  # NAME COMMAND
+  listen $heartbeat 2
+  cansend vcan0 "000#$2"
+  expect "$1" "*$heartbeat#00*"
+}
+
+shown() {  # NAME TEXT: in the trace of the node
+  tries=300
+  until grep -q "$2" /tmp/trace || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+  [ $tries -gt 0 ]
+  verdict $? "$1" "no '$2' in the trace"
+}
+
+period() {  # NAME MINIMUM MAXIMUM (ms), of the heartbeat
+  listen $heartbeat 3
+  wait "$listener"
+  between=$(tr -d '()' </tmp/heard | awk 'NR == 1 { first = $1 } NR == 3 { printf "%d", ($1 - first) * 500 }')
+  [ "${between:-0}" -ge "$2" ] && [ "${between:-0}" -le "$3" ]
+  verdict $? "$1" "$between ms between two"
+}
+
+listen 123 1
+cansend vcan0 123#DEADBEEF
+expect "vcan0 carries a frame" 123#DEADBEEF
+
+listen $heartbeat 2
+$node --can vcan0 --node-id 5 --serve >/tmp/trace 2>&1 &
+process=$!
+expect "boot-up, then heartbeats: pre-operational" "$heartbeat#00 $heartbeat#7F"
+period "a heartbeat each second" 800 1200
+
+sdo "identity: four entries" 4018100000000000 4F18100004000000
+sdo "identity: product code C10Ch" 4018100200000000 431810020CC10000
+sdo "identity: serial number" 4018100400000000 4318100401000000
+
+sdo "device name: 18 bytes" 4008100000000000 4108100012000000
+sdo "device name: Lexican" 6000000000000000 004C65786963616E
+sdo "device name: _demo_c" 7000000000000000 102064656D6F2063
+sdo "device name: lock, the end" 6000000000000000 076C6F636B000000
+
+sdo "hour: written" 2F0021010C000000 6000210100000000
+sdo "hour: read back" 4000210100000000 4F0021010C000000
+sdo "hour 24: value range exceeded" 2F00210118000000 8000210130000906
+sdo "hour: unchanged" 4000210100000000 4F0021010C000000
+
+sdo "station name: 15 bytes will come" 210122000F000000 6001220000000000
+sdo "station name: Central" 0043656E7472616C 2000000000000000
+sdo "station name: _Statio" 102053746174696F 3000000000000000
+sdo "station name: n, the end" 0D6E000000000000 2000000000000000
+sdo "station name: 15 bytes" 4001220000000000 410122000F000000
+sdo "station name read back: Central" 6000000000000000 0043656E7472616C
+sdo "station name read back: _Statio" 7000000000000000 102053746174696F
+sdo "station name read back: n, the end" 6000000000000000 0D6E000000000000
+
+sdo "unknown object: object does not exist" 40FF2F0000000000 80FF2F0000000206
+sdo "unknown sub-index: does not exist" 4018100500000000 8018100511000906
+sdo "device type: attempt to write a read-only object" 2300100001000000 8000100002000106
+sdo "segment without a transfer: unknown command" 6000000000000000 8000000001000405
+silence "a request of 7 bytes is not answered" "$request#40181001000000"
+silence "a request with an extended identifier is not answered" "00000$request#4018100100000000"
+silence "a request to another node is not answered" 606#4018100100000000
+
+nmt "NMT start: operational" 0105 05
+nmt "NMT stop: stopped" 0205 04
+silence "stopped: no SDO" "$request#4018100000000000"
+nmt "NMT enter pre-operational" 8005 7F
+nmt "NMT start for all" 0100 05
+nmt "NMT stop of another node" 0206 05
+
+cansend vcan0 20000040#0000000000000000
+shown "the error frame bus-off is seen" bus-off
+cansend vcan0 20000100#0000000000000000
+sdo "and life goes on" 4018100000000000 4F18100004000000
+
+reboot "NMT reset node: boot-up" 8105
+reboot "NMT reset communication: boot-up" 8205
+nmt "NMT start after a reset" 0105 05
+
+cangen vcan0 -g 0 -p 10 -n 20000 -I 123 -L 8
+sdo "a flood of 20000 foreign frames is survived" 4018100000000000 4F18100004000000
+# What random NMT and SDO frames have done is undone by the reset.
+cangen vcan0 -g 0 -p 10 -n 20000
+reboot "a flood of 20000 random frames is survived" 8105
+sdo "and the node answers" 4018100200000000 431810020CC10000
+
+kill -TERM $process
+wait $process
+verdict $? "SIGTERM ends the node with status 0" "status $?"
+
+# Without arguments the demo takes vcan0 by itself.
+$node >/tmp/tour 2>&1 && grep -q "steps in .* all as expected" /tmp/tour && head -n 1 /tmp/tour | grep -q vcan0
+verdict $? "the tour, on vcan0 by itself" "$(tail -n 1 /tmp/tour)"
+$node --can vcan9 >/tmp/tour 2>&1
+[ $? -eq 2 ] && grep -q vcan9 /tmp/tour
+verdict $? "a missing interface is named, status 2" "$(tail -n 1 /tmp/tour)"
+$node --can lo >/tmp/tour 2>&1
+[ $? -eq 2 ] && grep -q lo /tmp/tour
+verdict $? "an interface that is not CAN is named, status 2" "$(tail -n 1 /tmp/tour)"
+
+lexican_tests --test-suite="socketcan on a bus" >/tmp/socketcan 2>&1
+summary=$(grep "test cases:" /tmp/socketcan)
+echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
+verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary"
+
+echo "1..$cases"
