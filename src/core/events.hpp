@@ -21,6 +21,9 @@ enum Pending : uint8_t {
 };
 void defer(CO_NODE& node, uint8_t what);
 
+// A reset asked for while the node is being initialised or started is part of that.
+inline void forget_resets(CO_NODE& node) { node.Pending &= configure_sdo; }
+
 // Does what waits, unless a frame is being processed or the mode is being changed.
 void settle(CO_NODE& node);
 

@@ -64,7 +64,7 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
   node.Busy = 1;
   reset(node, commanded);
   node.Busy = 0;
-  node.Pending = 0;  // what was asked for meanwhile has just been done
+  event::forget_resets(node);
   if (commanded && node.Nmt.Mode != CO_INVALID) {
     CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
   }
@@ -168,8 +168,8 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   }
   node->Busy = 1;
   const bool initialised = node::initialise(*node);
+  event::forget_resets(*node);
   node->Busy = 0;
-  node->Pending = 0;
   if (node->Dict.Fault != CO_DICT_OK) {
     event::change_mode(*node, CO_INVALID);
     node->Error = CO_ERR_DICT_INIT;

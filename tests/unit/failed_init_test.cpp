@@ -70,7 +70,7 @@ const std::vector<Failure>& failures() {
       {"no CAN driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Can = nullptr; }},
       {"no timer driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Timer = nullptr; }},
       {"extension without size", CO_ERR_BAD_ARG, [](Device& d) { d.ext.Size = 0; }},
-      {"no dictionary", CO_ERR_DICT_INIT, [](Device& d) { d.spec.Dict = nullptr; }},
+      {"no dictionary", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Dict = nullptr; }},
       {"doubled entry", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Key = d.dictionary[0].Key; }},
       {"entry without type", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Type = nullptr; }},
       {"type at a wrong index", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[2].Type = CO_THB_PROD; }},

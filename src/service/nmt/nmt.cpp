@@ -88,8 +88,13 @@ void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 }
 
 void boot(CO_NODE& node) {
+  const uint8_t busy = node.Busy;
+  node.Busy = 1;
   transmit::send_boot_up(node, wire::boot_up(node.NodeId));
   event::change_mode(node, CO_PREOP);
+  event::forget_resets(node);
+  node.Busy = busy;
+  event::settle(node);
 }
 
 }  // namespace co::nmt
@@ -120,7 +125,9 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   if (nmt->Mode == CO_INIT) {
     nmt::boot(node);
   }
-  event::change_mode(node, mode);
+  if (nmt->Mode != CO_INVALID) {  // CONmtModeChange() has not stopped the node
+    event::change_mode(node, mode);
+  }
 }
 
 CO_MODE CONmtGetMode(CO_NMT* nmt) {
