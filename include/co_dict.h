@@ -59,8 +59,8 @@ CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);
 /// \}
 
 /// Finds a stream or value and reads \a len bytes of it from its beginning into \a buf (any length; a stream shorter
-/// than \a len leaves the rest of \a buf as it is). Errors as CODictRdByte(), except CO_ERR_OBJ_SIZE: a value
-/// of another length answers CO_ERR_BAD_ARG.
+/// than \a len leaves the rest of \a buf as it is). A value lies there in the byte order of the CPU. Errors as
+/// CODictRdByte(), except CO_ERR_OBJ_SIZE: a value of another length answers CO_ERR_BAD_ARG.
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 
 /// Finds a stream or value and writes \a len bytes from \a buf to it, from its beginning. Errors as CODictRdBuffer().

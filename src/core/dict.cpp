@@ -113,8 +113,20 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   return found;
 }
 
+// Only asked when a look-up has failed: the plain search is small.
 bool has_index(const CO_DICT& dict, uint32_t key) {
-  return dict.Num != 0 && CO_GET_IDX(last_not_behind(dict, key | 0xFF00U)->Key) == CO_GET_IDX(key);
+  const uint32_t first_key = CO_DEV(CO_GET_IDX(key), 0);
+  uint32_t from = 0;
+  uint32_t to = dict.Num;
+  while (from < to) {
+    const uint32_t middle = (from + to) / 2;
+    if (dict.Root[middle].Key < first_key) {
+      from = middle + 1;
+    } else {
+      to = middle;
+    }
+  }
+  return from < dict.Num && CO_GET_IDX(dict.Root[from].Key) == CO_GET_IDX(key);
 }
 
 CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {

@@ -64,20 +64,25 @@ TEST_CASE("boot-up: a frame that the application sends in Initialisation is held
   }
 }
 
-TEST_CASE(
-    "boot-up: a frame that the application sends in its callbacks of a reset is held until it has been sent [N4]") {
+CO_ERR send_in_init(CO_OBJ*, CO_NODE* node) {
+  CO_IF_FRM frm = {0x081, {0x03}, 1};
+  COIfCanSend(&node->If, &frm);
+  return CO_ERR_NONE;
+}
+
+TEST_CASE("boot-up: a frame that an object type sends while a reset initialises it is held, too [N4]") {
+  const CO_OBJ_TYPE type = {nullptr, send_in_init, nullptr, nullptr, nullptr};
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
-    Fixture node;
+    Fixture node(Setup().stay_in_init().with({CO_KEY(0x3000, 0, CO_OBJ_____R_), &type, 0}));
+    node.silent();
+    node.call([&] { CONodeStart(&node.node); });
+    node.loop();
+    node.tx({"701#00", "081#03"});
     node.frames_per_call(2);
-    callbacks().mode_change = [&](CO_NMT*, CO_MODE) {
-      CO_IF_FRM frm = frame("081#03");
-      if (node.mode() == CO_INIT) COIfCanSend(&node->If, &frm);
-    };
     node.rx(reset);
     node.loop();
     node.tx({"701#00", "081#03"});
-    callbacks() = Callbacks{};
   }
 }
 

@@ -355,7 +355,7 @@ TEST_CASE("dictionary: buffers and values, with every error") {
   Fixture node;
   std::uint8_t buffer[8] = {1, 2, 3, 4};
   CHECK(CODictWrBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer, 4) == CO_ERR_NONE);
-  CHECK(node.objects.u32 == 0x04030201);
+  CHECK(std::memcmp(&node.objects.u32, buffer, 4) == 0);  // a value: in the byte order of the CPU
   CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer + 1, 4) == CO_ERR_NONE);
   CHECK(buffer[4] == 4);
   CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer, 3) == CO_ERR_BAD_ARG);
