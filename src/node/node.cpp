@@ -170,6 +170,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   const bool initialised = node::initialise(*node);
   event::forget_resets(*node);
   node->Busy = 0;
+  event::settle(*node);
   if (node->Dict.Fault != CO_DICT_OK) {
     event::change_mode(*node, CO_INVALID);
     node->Error = CO_ERR_DICT_INIT;
@@ -184,7 +185,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
 
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INIT && node->Busy == 0) {
+  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && node->Busy == 0) {
     nmt::boot(*node);
   }
 }
@@ -195,8 +196,6 @@ void CONodeStop(CO_NODE* node) {
     return;
   }
   event::change_mode(*node, CO_INVALID);
-  transmit::clear(*node);
-  port::can_close(*node);
 }
 
 CO_ERR CONodeGetErr(CO_NODE* node) {

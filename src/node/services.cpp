@@ -3,7 +3,9 @@
 
 #include "core/count.hpp"
 #include "core/events.hpp"
+#include "core/port.hpp"
 #include "core/routes.hpp"
+#include "core/transmit.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "service/nmt/nmt.hpp"
 #include "service/sdo_server/sdo_server.hpp"
@@ -20,13 +22,10 @@ constexpr Service table[] = {
 
 static_assert(table[nmt::service].init == nmt::init && table[sdo_server::service].init == sdo_server::init);
 
-// No service of the node is asked by a remote frame.
-void serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
-  if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
-    count(node.Count.Malformed);
-  } else {
-    table[routes::service_of(owner)].on_frame(node, frame, routes::number_of(owner));
-  }
+// No service of the node is asked by a remote frame. False: malformed.
+bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
+  const bool is_data = (frame.Identifier & CO_IF_FRM_RTR) == 0;
+  return is_data && table[routes::service_of(owner)].on_frame(node, frame, routes::number_of(owner));
 }
 
 }  // namespace
@@ -43,15 +42,19 @@ void init(CO_NODE& node) {
 
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   bool claimed = false;
+  bool served = false;
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
   const routes::Range range = routes::candidates(node, id);
   for (uint16_t n = range.first; n < range.last; ++n) {
     const uint16_t owner = node.Routes.Owner[n];
     const Service& service = table[routes::service_of(owner)];
     if (node.Routes.Id[n] == id && event::is_allowed(node, service.allowed)) {
-      serve(node, frame, owner);
       claimed = true;
+      served |= serve(node, frame, owner);
     }
+  }
+  if (claimed && !served) {
+    count(node.Count.Malformed);
   }
   return claimed;
 }
@@ -68,17 +71,26 @@ void enter(CO_NODE& node, CO_MODE mode) {
       service.on_mode(node);
     }
   }
+  if (mode == CO_INVALID) {
+    transmit::clear(node);
+    port::can_close(node);
+  }
 }
 
 }  // namespace
 
 // The callback may ask for another mode, which comes back here: the outermost call enters what was asked for last.
+// Nothing takes back a CONodeStop(), and only CONodeInit() ends CO_INVALID.
 void event::change_mode(CO_NODE& node, CO_MODE mode) {
   CO_NMT& nmt = node.Nmt;
-  nmt.Next = mode;
-  if (nmt.Changing != 0) {
+  if (nmt.Mode == CO_INVALID && mode > CO_INIT) {
     return;
   }
+  if (nmt.Changing != 0) {
+    nmt.Next = nmt.Next == CO_INVALID ? CO_INVALID : mode;
+    return;
+  }
+  nmt.Next = mode;
   nmt.Changing = 1;
   while (nmt.Mode != nmt.Next) {
     const CO_MODE next = nmt.Next;

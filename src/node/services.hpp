@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The services of the node, a row each. A service that is switched off is a row less.
+// The services of the node, a row each.
 #pragma once
 
 #include "co_core.h"
@@ -9,7 +9,7 @@ namespace co {
 struct Service {
   uint8_t allowed;  // CO_…_ALLOWED bit that its frames need
   void (*init)(CO_NODE& node);
-  void (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+  bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // false: malformed
   void (*on_mode)(CO_NODE& node);
 };
 

@@ -486,7 +486,7 @@ class Bench {
     }
     const CO_NODE_COUNTERS counters = CONodeGetCounters(&node_);
     require(counters.Unclaimed <= counters.Received, "only what was received was unclaimed");
-    require(counters.Malformed <= counters.Received * CO_SSDO_N, "each server counts a frame once");
+    require(counters.Malformed <= counters.Received, "a malformed frame is counted once");
   }
 
   unsigned timers_in_lists() const {
@@ -521,6 +521,7 @@ class Bench {
 
   void forget_transfers() {
     bus_.to_node.clear();
+    COTmrProcess(&node_.Tmr);  // what has elapsed must not wait for the next interrupt
     const std::uint64_t end = clock_.now + patience;
     while (clock_.now < end) {
       to_next_interrupt(end);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/nmt/nmt.hpp"
 
-#include "core/count.hpp"
 #include "core/events.hpp"
 #include "core/machine.hpp"
 #include "core/routes.hpp"
@@ -76,15 +75,15 @@ uint8_t allowed_in(CO_MODE mode) { return permissions[mode]; }
 
 void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), service, 0); }
 
-void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::nmt_dlc) {
-    count(node.Count.Malformed);
-    return;
+    return false;
   }
   const Event event = event_of(frame.Data[0]);
   if (event != Event::count && wire::addresses(frame, node.NodeId)) {
     machine(node.Nmt.Mode, event)(node);
   }
+  return true;
 }
 
 void boot(CO_NODE& node) {
@@ -118,7 +117,8 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
   const bool initialising = nmt->Next == CO_INIT && node.Busy != 0;
-  if (nmt->Mode == CO_INVALID || initialising || mode < CO_PREOP || mode >= CO_MODE_NUM) {
+  const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
+  if (stopped || initialising || mode < CO_PREOP || mode >= CO_MODE_NUM) {
     node.Error = CO_ERR_NMT_MODE;
     return;
   }

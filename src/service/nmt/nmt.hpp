@@ -14,7 +14,8 @@ inline constexpr uint8_t service = 0;
 
 void init(CO_NODE& node);
 
-void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+// False: malformed.
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // From CO_INIT to Pre-operational, by the boot-up message.
 void boot(CO_NODE& node);

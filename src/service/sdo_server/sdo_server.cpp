@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_server/sdo_server.hpp"
 
-#include "core/count.hpp"
 #include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/machine.hpp"
@@ -115,26 +114,24 @@ void configure(CO_NODE& node) {
   }
 }
 
-void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  CO_SDO& channel = node.Sdo[number];
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::sdo_dlc) {
-    count(node.Count.Malformed);
-    return;
+    return false;
   }
+  CO_SDO& channel = node.Sdo[number];
   CO_IF_FRM answer = {channel.TxId, {}, wire::sdo_dlc};
   Step step = {node, channel, frame, answer, false};
   const State before = state_of(channel);
   const uint32_t abort = run(step);
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {  // a type function has changed the NMT state
     on_mode(node);
-    return;
-  }
-  if (abort != no_abort) {
+  } else if (abort != no_abort) {
     close(channel);
     send_abort(channel, aborted_key(channel, before, frame), abort);
   } else if (!step.silent) {
     transmit::send(node, answer);
   }
+  return true;
 }
 
 void on_mode(CO_NODE& node) {

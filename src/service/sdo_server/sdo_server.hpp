@@ -12,8 +12,8 @@ inline constexpr uint8_t service = 1;
 // Ends all transfers and takes the COB-IDs from the dictionary.
 void init(CO_NODE& node);
 
-// A frame for channel number.
-void on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+// A frame for channel number. False: malformed.
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Transfers end, without an abort, when SDO is no longer allowed. [301:7.3.2.2.4]
 void on_mode(CO_NODE& node);
