@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="line and branch coverage of src/ by all doctest cases"
+about="line and branch coverage of src/ by all doctest cases and the C programs"
 packages=("${build_packages[@]}" gcovr)
 
 # As deployed: asserts off. Not optimised, so that a branch of the report is one of the source.
@@ -8,6 +8,7 @@ lane() {
   build_tree coverage -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" || return
   find "$build/coverage" -name '*.gcda' -delete
   run_doctest coverage "$program"
+  run_ctest coverage-compat "$build/coverage/tests/compat"
   local lines branches
   read -r lines branches < <(grep -v '^#' "$root/tests/coverage_threshold")
   (cd "$root" && gcovr --root . --filter src/ --object-directory "$build/coverage" --exclude-unreachable-branches \
