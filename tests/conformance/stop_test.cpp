@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// CONodeStop() at any moment: nothing but CONodeInit() brings the node back.
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+std::function<void(CO_NODE*)> on_init;
+
+CO_ERR scripted_init(CO_OBJ*, CO_NODE* node) {
+  if (on_init) {
+    on_init(node);
+  }
+  return CO_ERR_NONE;
+}
+
+uint32_t one_byte(CO_OBJ*, CO_NODE*, uint32_t) { return 1; }
+
+const CO_OBJ_TYPE scripted_type = {one_byte, scripted_init, nullptr, nullptr, nullptr};
+
+Setup scripted() {
+  on_init = nullptr;
+  return Setup().with({CO_KEY(0x3000, 0, CO_OBJ_____RW), &scripted_type, 0});
+}
+
+void check_stopped(Fixture& node) {
+  CHECK(node.mode() == CO_INVALID);
+  CHECK(node->TxQueue.Num == 0);
+  CHECK(node.armed_timers() == 0);
+  node.after(1000ms);
+  node.rx("000#8100");
+  node.silent();
+  CHECK(node.mode() == CO_INVALID);
+}
+
+}  // namespace
+
+TEST_CASE("stop: a mode asked for when the node becomes invalid is refused") {
+  Fixture node;
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_INVALID) CONmtSetMode(nmt, CO_OPERATIONAL);
+  };
+  node.call([&] { CONodeStop(&node.node); });
+  CHECK(CONodeGetErr(&node.node) == CO_ERR_NMT_MODE);
+  check_stopped(node);
+}
+
+TEST_CASE("stop: from a type's Init during a reset, a mode asked for in the callback does not revive the node") {
+  Fixture node(scripted());
+  on_init = [](CO_NODE* n) { CONodeStop(n); };
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_INVALID) CONmtSetMode(nmt, CO_PREOP);
+  };
+  node.rx("000#8101");
+  check_stopped(node);
+}
+
+TEST_CASE("stop: a mode asked for after the stop, in the same callback, is refused") {
+  Fixture node;
+  callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
+    if (mode != CO_STOP) return;
+    CONodeStop(&node.node);
+    CONmtSetMode(nmt, CO_OPERATIONAL);
+    CONodeStart(&node.node);
+  };
+  node.rx("000#0201");
+  check_stopped(node);
+}
+
+TEST_CASE("stop: when the node enters Initialisation in CONodeInit(), it stays invalid and off the bus") {
+  Fixture node;
+  node.call([&] { CONodeStop(&node.node); });
+  callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
+    if (mode == CO_INIT) CONodeStop(&node.node);
+  };
+  node.init_again();
+  CHECK_FALSE(node.can.on_bus);
+  check_stopped(node);
+}
+
+TEST_CASE("stop: when the start is announced, the boot-up message is the last frame") {
+  Fixture node(Setup().stay_in_init());
+  callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
+    if (mode == CO_PREOP) CONodeStop(&node.node);
+  };
+  node.call([&] { CONmtSetMode(&node->Nmt, CO_OPERATIONAL); });
+  node.tx("701#00");
+  check_stopped(node);
+}
+
+TEST_CASE("timers: an id of a place that the pool does not have deletes nothing") {
+  Fixture node;
+  const std::int16_t beyond = static_cast<std::int16_t>(node->Tmr.Max);
+  CHECK(COTmrDelete(&node->Tmr, beyond) == -1);
+  CHECK(COTmrDelete(&node->Tmr, INT16_MAX) == -1);
+  CHECK(COTmrDelete(&node->Tmr, -1) == -1);
+}
