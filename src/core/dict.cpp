@@ -7,10 +7,10 @@
 namespace co::dict {
 namespace {
 
-// Highest key of an entry that is not behind the searched one: flags do not count.
+// Highest key that an entry of this index and sub-index can have: flags do not count.
 constexpr uint32_t bound_of(uint32_t key) { return key | 0xFFU; }
 
-constexpr bool is_same(uint32_t entry_key, uint32_t key) { return (entry_key ^ key) <= 0xFFU; }
+constexpr bool is_within(uint32_t entry_key, uint32_t bound) { return bound - entry_key <= 0xFFU; }
 
 template <unsigned entries>
 inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
@@ -18,8 +18,8 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
 }
 
 // Halves 2^steps entries until one is left: without a branch for the result of a comparison, and with constant offsets.
-inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
-  switch (steps & 15U) {
+[[gnu::always_inline]] inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
+  switch (steps) {
     case 15: from = step<1U << 14>(from, bound); [[fallthrough]];
     case 14: from = step<1U << 13>(from, bound); [[fallthrough]];
     case 13: from = step<1U << 12>(from, bound); [[fallthrough]];
@@ -35,13 +35,14 @@ inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
     case 3: from = step<1U << 2>(from, bound); [[fallthrough]];
     case 2: from = step<1U << 1>(from, bound); [[fallthrough]];
     case 1: from = step<1U << 0>(from, bound); [[fallthrough]];
-    default: return from;
+    case 0: break;
+    default: __builtin_unreachable();  // 16-bit numbers of entries
   }
+  return from;
 }
 
 // The last entry that is not behind the searched one, or the first of the table. The table must not be empty.
-inline CO_OBJ* last_not_behind(const CO_DICT& dict, uint32_t key) {
-  const uint32_t bound = bound_of(key);
+[[gnu::always_inline]] inline CO_OBJ* last_not_behind(const CO_DICT& dict, uint32_t bound) {
   return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
 }
 
@@ -102,10 +103,10 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   if (found == nullptr) {  // an empty table
     return nullptr;
   }
-  key = CO_GET_DEV(key);
-  if (!is_same(found->Key, key)) {
-    found = last_not_behind(dict, key);
-    if (!is_same(found->Key, key)) {
+  const uint32_t bound = bound_of(key);
+  if (!is_within(found->Key, bound)) {
+    found = last_not_behind(dict, bound);
+    if (!is_within(found->Key, bound)) {
       return nullptr;
     }
   }
