@@ -9,13 +9,38 @@
 #include CO_CFG_PRESET
 #endif
 
-/// SDO servers (1200h, 1201h, …): 1…128. Each costs 48 bytes of RAM (32-bit CPU),
+/// SDO servers (1200h, 1201h, …): 1…128. Each costs 64 bytes of RAM (32-bit CPU),
 /// besides its part of CO_NODE_SPEC.SdoBuf.
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
 #endif
 #if CO_SSDO_N < 1 || CO_SSDO_N > 128
 #error "CO_SSDO_N: 1...128 SDO servers"
+#endif
+
+/// SDO clients (1280h, 1281h, …): 0 or 1, and how many: 1…100. Each costs 80 bytes of RAM (32-bit CPU).
+#ifndef USE_CSDO
+#define USE_CSDO 1
+#endif
+#ifndef CO_CSDO_N
+#define CO_CSDO_N 1
+#endif
+#if CO_CSDO_N < 1 || CO_CSDO_N > 100
+#error "CO_CSDO_N: 1...100 SDO clients"
+#endif
+
+/// Block transfer of servers and clients: 0 or 1. 0 saves about 2 KB of flash.
+#ifndef USE_SDO_BLOCK
+#define USE_SDO_BLOCK 1
+#endif
+
+/// Bytes from which on a client asks for a block transfer: 5…256. Shorter objects need fewer frames in segments. No
+/// cost.
+#ifndef CO_CSDO_BLOCK
+#define CO_CSDO_BLOCK 29
+#endif
+#if CO_CSDO_BLOCK < 5 || CO_CSDO_BLOCK > 256
+#error "CO_CSDO_BLOCK: 5...256 bytes"
 #endif
 
 /// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended

@@ -27,6 +27,9 @@
 #include "co_para.h"
 #include "co_sdo_id.h"
 
+#if USE_CSDO
+#include "co_csdo.h"
+#endif
 #include "co_dict.h"
 #include "co_if.h"
 #include "co_nmt.h"
@@ -100,7 +103,11 @@ typedef struct CO_NODE_EXT_T {
 } CO_NODE_EXT;
 
 /// \cond internal
+#if USE_CSDO
+#define CO_ROUTE_N (1 + CO_SSDO_N + CO_CSDO_N)
+#else
 #define CO_ROUTE_N (1 + CO_SSDO_N)
+#endif
 
 typedef struct CO_ROUTES_T {   ///< who gets the frames of an identifier
   uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
@@ -125,11 +132,15 @@ typedef struct CO_NODE_T {
   CO_TMR Tmr;
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
+#if USE_CSDO
+  CO_CSDO CSdo[CO_CSDO_N];
+#endif
   enum CO_ERR_T Error;
   uint32_t Baudrate;
   uint8_t NodeId;
   uint8_t Busy;     ///< a frame is being processed
   uint8_t Pending;  ///< what is to be done when it has been answered
+  uint8_t Paused;   ///< a block transfer waits for the controller
   const CO_NODE_EXT* Ext;
   CO_ROUTES Routes;
   CO_TX_QUEUE TxQueue;
@@ -137,6 +148,8 @@ typedef struct CO_NODE_T {
   CO_NODE_COUNTERS Count;
   CO_TMR_MEM HbProdTmr;
   CO_TMR_MEM SdoTmr;
+  CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
+  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;

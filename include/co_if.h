@@ -40,8 +40,9 @@ void COIfCanEnable(CO_IF* cif, uint32_t baud);
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
 /// Sends a frame of the application, in any NMT state; in CO_INIT it waits for the boot-up message. Takes its place by
 /// priority among frames that wait. Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as
-/// dropped), -1: an argument is null, or the node is in CO_INVALID. Up to half of the queue (CO_SSDO_N + 1 frames at
-/// most) is kept for the node's own frames. A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
+/// dropped), -1: an argument is null, or the node is in CO_INVALID. Up to half of the queue (one frame for each SDO
+/// server and client and one more, at most) is kept for the node's own frames. A driver error leaves the frame in the
+/// queue and sets CO_ERR_IF_CAN_SEND.
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm);
 /// Clears errors and queues of the controller.
 void COIfCanReset(CO_IF* cif);

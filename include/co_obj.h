@@ -95,12 +95,12 @@ struct CO_OBJ_T;
 /// Size means that every SDO transfer of the object is refused.
 ///
 /// A type *with* a Reset function is a stream of bytes: Reset(0) starts an access, reads and writes go on from there,
-/// in pieces of at most 7 bytes in a segmented transfer; a Read or Write of length 0 follows Reset and opens
-/// the access. A type *without* one is a value: up to 8 bytes are always read and written as a whole; a longer one is
-/// read and written in pieces like a stream, and knows the start of an access by the call with length 0.
-/// A value of up to 8 bytes is written when all of it has arrived. A stream is written as it arrives: a transfer that
-/// is aborted leaves what it has written. Values of 2 to 8 bytes are numbers in the byte order of the CPU; streams are
-/// bytes in the order of the bus.
+/// in pieces of at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in a block transfer; a Read or Write of length
+/// 0 follows Reset and opens the access. A type *without* one is a value: up to 8 bytes are always read and written as
+/// a whole; a longer one is read and written in pieces like a stream, and knows the start of an access by the call with
+/// length 0. A value of up to 8 bytes is written when all of it has arrived. A stream is written as it arrives: a
+/// transfer that is aborted leaves what it has written. Values of 2 to 8 bytes are numbers in the byte order of the
+/// CPU; streams are bytes in the order of the bus.
 /// \{
 
 /// Length of the object in bytes. \a width is the length that the access has in mind, 0 if unknown: a type whose
@@ -123,6 +123,53 @@ typedef struct CO_OBJ_TYPE_T {
   CO_OBJ_WRITE_FUNC Write;
   CO_OBJ_RESET_FUNC Reset;
 } CO_OBJ_TYPE;
+/// \}
+
+/// \name Types that take part in the whole transfer
+/// A stream type that needs to know when a transfer begins and how it ends (a file, a firmware image, a queue of
+/// records): a CO_OBJ_TYPE_EX, whose first member is the table that entries name and whose Type.Reset is
+/// COObjTypeExReset().
+///
+///     const CO_OBJ_TYPE_EX Image = {{size, 0, read, write, COObjTypeExReset}, seek, begin, end};
+///     ... {CO_KEY(0x1F50, 1, CO_OBJ______W), &Image.Type, (CO_DATA)(&image)} ...
+///
+/// An SDO transfer then calls Begin, Reset(0) and Read or Write of length 0, Read or Write for each piece, and End:
+/// exactly once for each Begin that succeeded. A piece has at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in
+/// a block transfer; a block download of up to CO_SDO_BUF_BYTE bytes is written after its CRC and length were found
+/// right, in one piece. A longer one streams: what was written may still be taken back by End. After a lost frame of a
+/// block upload Reset may go back to any position that was already read. CODict… and COObj… functions of the
+/// application call neither Begin nor End.
+/// \{
+
+/// What Size answers to width 0 while the length of an upload is not known. As soon as a Read has reached the end, and
+/// has therefore filled less than its buffer or nothing, Size must answer the number of bytes that all Reads have
+/// filled.
+#define CO_OBJ_SIZE_UNKNOWN 0xFFFFFFFFu
+
+typedef enum CO_OBJ_TRANSFER_T {
+  CO_OBJ_UPLOAD = 0,  ///< the object is read
+  CO_OBJ_DOWNLOAD     ///< the object is written
+} CO_OBJ_TRANSFER;
+
+/// \a size: bytes that the transfer will have, or CO_OBJ_SIZE_UNKNOWN. An error refuses the transfer;
+/// COObjTypeUserSDOAbort() names the abort code.
+typedef CO_ERR (*CO_OBJ_BEGIN_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer,
+                                    uint32_t size);
+/// \a abort 0: all bytes have been transferred; an error returned for a download becomes the abort code of its last
+/// answer. Else the transfer was ended by this abort code, of whichever side (CO_SDO_ERR_TOS_STATE: by the NMT state or
+/// by a new request of the client), and the result does not matter.
+typedef CO_ERR (*CO_OBJ_END_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer,
+                                  uint32_t abort);
+
+typedef struct CO_OBJ_TYPE_EX_T {
+  CO_OBJ_TYPE Type;         ///< Type.Reset: COObjTypeExReset
+  CO_OBJ_RESET_FUNC Reset;  ///< sets the position, may be null
+  CO_OBJ_BEGIN_FUNC Begin;  ///< may be null
+  CO_OBJ_END_FUNC End;      ///< may be null
+} CO_OBJ_TYPE_EX;
+
+/// Marks a CO_OBJ_TYPE as the first member of a CO_OBJ_TYPE_EX, and calls that one's Reset function.
+CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para);
 /// \}
 
 #if !defined(__cplusplus) || defined(CO_DATA_INTEGER)

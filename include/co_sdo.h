@@ -43,7 +43,8 @@
 /// \}
 
 /// \name Buffer for each SDO server that CO_NODE_SPEC.SdoBuf has to provide, CO_SDO_BUF_SEG segments of 7 bytes.
-/// Expedited and segmented transfers do not use it; SdoBuf may be null.
+/// Expedited and segmented transfers do not use it. SdoBuf may be null: block transfers are then refused with
+/// CO_SDO_ERR_CMD, and clients fall back to segments.
 /// \{
 #define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)
 /// \}

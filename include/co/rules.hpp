@@ -36,7 +36,8 @@ struct Instances {
 };
 
 inline constexpr Instances instances[] = {
-    {0x1200, 0x127F, 3, CO_SSDO_N},  // SDO servers [301:7.5.2.33]
+    {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [301:7.5.2.33]
+    {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [301:7.5.2.34]
 };
 
 constexpr bool is_configured(std::uint32_t key) {
@@ -83,7 +84,7 @@ constexpr Rule integer(std::uint8_t width) { return anywhere(width, true); }
 inline constexpr Rule boolean = anywhere(1, false);
 inline constexpr Rule variable = anywhere(0, false);  // reals, times, strings, domains
 inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false};
-inline constexpr Rule sdo_cob_id{0x1200, 0x127F, 1, 2, 4, true};
+inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true};
 
 constexpr bool is_place(const Rule& rule, std::uint32_t key) {
   return index_of(key) >= rule.first_index && index_of(key) <= rule.last_index && sub_of(key) >= rule.first_sub &&

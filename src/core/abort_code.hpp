@@ -7,6 +7,9 @@
 
 namespace co {
 
+// What functions that answer with an abort code return if there is none.
+inline constexpr uint32_t no_abort = 0;
+
 namespace abort_codes {
 struct Row {
   CO_ERR err;

@@ -14,26 +14,45 @@ struct Row {
   Service run;
 };
 
-// The rows as a matrix, so that a step costs one look-up whatever the number of rows.
-template <class State, class Event, class Service, size_t states, size_t events>
-struct Machine {
-  template <size_t rows>
-  constexpr Machine(const Row<State, Event, Service> (&table)[rows], Service otherwise) : run{} {
-    for (auto& state : run) {
-      for (auto& service : state) {
-        service = otherwise;
-      }
+// Services that occur in the rows.
+template <class Row, size_t rows>
+constexpr size_t count_services(const Row (&table)[rows]) {
+  size_t different = 0;
+  for (size_t n = 0; n < rows; ++n) {
+    bool first = true;
+    for (size_t before = 0; before < n; ++before) {
+      first = first && table[before].run != table[n].run;
     }
+    different += first ? 1 : 0;
+  }
+  return different;
+}
+
+// The rows as a matrix of service numbers, so that a step costs two look-ups whatever the number of rows.
+template <class State, class Event, class Service, size_t states, size_t events, size_t services>
+class Machine {
+ public:
+  template <size_t rows>
+  constexpr Machine(const Row<State, Event, Service> (&table)[rows], Service otherwise) : run_{otherwise}, number_{} {
+    uint8_t used = 1;
     for (const auto& row : table) {
-      run[static_cast<size_t>(row.in)][static_cast<size_t>(row.on)] = row.run;
+      uint8_t n = 1;
+      while (n < used && run_[n] != row.run) {
+        ++n;
+      }
+      run_[n] = row.run;
+      used = n == used ? static_cast<uint8_t>(used + 1) : used;
+      number_[static_cast<size_t>(row.in)][static_cast<size_t>(row.on)] = n;
     }
   }
 
   constexpr Service operator()(State in, Event on) const {
-    return run[static_cast<size_t>(in)][static_cast<size_t>(on)];
+    return run_[number_[static_cast<size_t>(in)][static_cast<size_t>(on)]];
   }
 
-  Service run[states][events];
+ private:
+  Service run_[services + 1];
+  uint8_t number_[states][events];
 };
 
 }  // namespace co

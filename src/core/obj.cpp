@@ -19,6 +19,21 @@ CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
   return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
 }
 
+const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj) {
+  const bool is_extended = obj.Type->Reset == COObjTypeExReset;
+  return is_extended ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type) : nullptr;
+}
+
+CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
+  const CO_OBJ_TYPE_EX* const type = extended(obj);
+  return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);
+}
+
+CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+  const CO_OBJ_TYPE_EX* const type = extended(obj);
+  return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
+}
+
 }  // namespace co::obj
 
 using namespace co;
@@ -42,6 +57,14 @@ CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
     return CO_ERR_BAD_ARG;
   }
   return obj->Type->Init == nullptr ? CO_ERR_NONE : obj->Type->Init(obj, node);
+}
+
+CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
+  if (!is_complete(obj, node)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const CO_OBJ_TYPE_EX* const type = obj::extended(*obj);
+  return type == nullptr || type->Reset == nullptr ? CO_ERR_NONE : type->Reset(obj, node, para);
 }
 
 CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {

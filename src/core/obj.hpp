@@ -14,4 +14,9 @@ namespace co::obj {
 [[nodiscard]] CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position);
 
+// For types that take part in the whole transfer; others see nothing.
+[[nodiscard]] const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj);
+[[nodiscard]] CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size);
+[[nodiscard]] CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort);
+
 }  // namespace co::obj

@@ -52,14 +52,19 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
   return true;
 }
 
-bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
+bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
   flush(node);
-  return (!is_waiting(node) && may_send_next(node) && try_send(node, frame)) || enqueue(node, frame, places);
+  return !is_waiting(node) && may_send_next(node) && try_send(node, frame);
 }
 
-// The rest is kept for the node's own frames: an answer of each SDO server and a heartbeat, but at most half the queue.
+bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
+  return try_now(node, frame) || enqueue(node, frame, places);
+}
+
+// The rest is kept for the node's own frames: one of each SDO server and client and a heartbeat, but at most half the
+// queue.
 uint16_t places_for_application(const CO_TX_QUEUE& queue) {
-  constexpr uint16_t own = CO_SSDO_N + 1;
+  constexpr uint16_t own = CO_ROUTE_N;
   const auto half = static_cast<uint16_t>(queue.Len / 2);
   return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
 }
@@ -114,6 +119,12 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
   } else {
     send(node, frame);
   }
+}
+
+bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
+  const bool sent = try_now(node, frame);
+  node.Paused = sent ? node.Paused : 1;
+  return sent;
 }
 
 void flush(CO_NODE& node) {

@@ -22,6 +22,9 @@ void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
 // replaced, except the boot-up message.
 void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 
+// Sends a frame now or not at all: for those that can be made again. False: see Service::on_free.
+[[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
+
 // Offers the frames that wait to the driver.
 void flush(CO_NODE& node);
 

@@ -9,7 +9,6 @@
 #include "core/transmit.hpp"
 #include "node/services.hpp"
 #include "service/nmt/nmt.hpp"
-#include "service/sdo_server/sdo_server.hpp"
 #include "wire/can_error.hpp"
 #include "wire/cob_id.hpp"
 
@@ -90,6 +89,14 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.Nmt.Node = &node;
 }
 
+// Block transfers that have found the controller full.
+void go_on(CO_NODE& node) {
+  node.Busy = 1;
+  services::on_free(node);
+  node.Busy = 0;
+  event::settle(node);
+}
+
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
   for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
     if (wire::reports(frame, static_cast<CO_CAN_EVENT>(event))) {
@@ -126,7 +133,7 @@ void event::settle(CO_NODE& node) {
     if ((pending & (reset_node | reset_communication)) != 0) {
       node::settle_reset(node, pending);
     } else {
-      sdo_server::configure(node);
+      services::configure(node);
       routes::publish(node);
     }
   }
@@ -211,6 +218,12 @@ void CONodeProcess(CO_NODE* node) {
     return;
   }
   transmit::flush(*node);
+  if (node->Paused != 0) {
+    node::go_on(*node);
+  }
+  if (node->Nmt.Mode == CO_INVALID) {
+    return;
+  }
   CO_IF_FRM frame = {};
   if (port::can_read(*node, frame) <= 0) {
     return;
@@ -226,7 +239,8 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
   const uint32_t timers = tmr::next_deadline(node->Tmr);
   const uint32_t retry = tmr::ticks(node->Tmr, 1, CO_TMR_UNIT_1MS);
-  return transmit::is_waiting(*node) && retry < timers ? retry : timers;
+  const bool waiting = transmit::is_waiting(*node) || node->Paused != 0;
+  return waiting && retry < timers ? retry : timers;
 }
 
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {

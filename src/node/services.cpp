@@ -8,6 +8,7 @@
 #include "core/transmit.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "service/nmt/nmt.hpp"
+#include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "wire/cob_id.hpp"
 
@@ -15,12 +16,28 @@ namespace co {
 namespace {
 
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr},
-    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode},
-    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode},
+    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr, nullptr, nullptr},
+    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free,
+     sdo_server::configure},
+    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+#if USE_CSDO
+    {CO_SDO_ALLOWED, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free,
+     sdo_client::configure},
+#endif
 };
 
 static_assert(table[nmt::service].init == nmt::init && table[sdo_server::service].init == sdo_server::init);
+#if USE_CSDO
+static_assert(table[sdo_client::service].init == sdo_client::init);
+#endif
+
+void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
+  for (const Service& service : table) {
+    if (service.*column != nullptr) {
+      (service.*column)(node);
+    }
+  }
+}
 
 // No service of the node is asked by a remote frame. False: malformed.
 bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
@@ -32,12 +49,13 @@ bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
 
 namespace services {
 
-void init(CO_NODE& node) {
-  for (const Service& service : table) {
-    if (service.init != nullptr) {
-      service.init(node);
-    }
-  }
+void init(CO_NODE& node) { run(node, &Service::init); }
+
+void configure(CO_NODE& node) { run(node, &Service::configure); }
+
+void on_free(CO_NODE& node) {
+  node.Paused = 0;
+  run(node, &Service::on_free);
 }
 
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -66,11 +84,7 @@ namespace {
 void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Mode = mode;
   node.Nmt.Allowed = nmt::allowed_in(mode);
-  for (const Service& service : table) {
-    if (service.on_mode != nullptr) {
-      service.on_mode(node);
-    }
-  }
+  run(node, &Service::on_mode);
   if (mode == CO_INVALID) {
     transmit::clear(node);
     port::can_close(node);

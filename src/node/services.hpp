@@ -11,6 +11,8 @@ struct Service {
   void (*init)(CO_NODE& node);
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // false: malformed
   void (*on_mode)(CO_NODE& node);
+  void (*on_free)(CO_NODE& node);    // transmit::offer() has failed, and may now succeed
+  void (*configure)(CO_NODE& node);  // COB-IDs have changed
 };
 
 namespace services {
@@ -19,6 +21,12 @@ void init(CO_NODE& node);
 
 // Gives a frame to the services whose route it has. False: none wants it, or may have it.
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
+
+// Takes COB-IDs from the dictionary again.
+void configure(CO_NODE& node);
+
+// Lets those go on that have found the controller full.
+void on_free(CO_NODE& node);
 
 }  // namespace services
 }  // namespace co

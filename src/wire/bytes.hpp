@@ -20,6 +20,13 @@ constexpr void put_u32(uint8_t* p, uint32_t value) {
   p[3] = static_cast<uint8_t>(value >> 24);
 }
 
+constexpr uint16_t get_u16(const uint8_t* p) { return static_cast<uint16_t>(p[0] | (p[1] << 8)); }
+
+constexpr void put_u16(uint8_t* p, uint16_t value) {
+  p[0] = static_cast<uint8_t>(value);
+  p[1] = static_cast<uint8_t>(value >> 8);
+}
+
 // A number of n bytes from the order of the bus to that of the CPU, or back.
 constexpr void swap_host([[maybe_unused]] uint8_t* p, [[maybe_unused]] uint32_t n) {
   if constexpr (!host_is_little_endian) {

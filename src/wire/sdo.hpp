@@ -13,27 +13,93 @@ inline constexpr uint8_t sdo_dlc = 8;
 inline constexpr uint32_t segment_bytes = 7;
 inline constexpr uint32_t expedited_bytes = 4;
 
-// Client command specifier, bits 7…5 of the first byte.
-enum class Ccs : uint8_t {
-  download_segment = 0,
-  initiate_download = 1,
-  initiate_upload = 2,
-  upload_segment = 3,
-  abort = 4,
-  block_upload = 5,
-  block_download = 6,
-  unknown = 7,
+// What a frame of a client asks for.
+enum class Request : uint8_t {
+  download_segment,
+  initiate_download,
+  initiate_upload,
+  upload_segment,
+  abort,
+  initiate_block_upload,
+  start_block_upload,
+  acknowledge_block,
+  end_block_upload,
+  initiate_block_download,
+  end_block_download,
+  block_segment,  // told from the others by the state alone
+  unknown,
 };
-inline constexpr uint8_t ccs_count = 8;
+inline constexpr uint8_t request_count = 13;
 
-// Bits of a command that are always 0, by client command specifier. [301:7.2.4.3] The rest of an abort does not matter.
-inline constexpr uint8_t reserved_bits[ccs_count] = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x00, 0x00, 0x00};
+// What a frame of a server answers.
+enum class Response : uint8_t {
+  upload_segment,
+  download_segment,
+  initiate_upload,
+  initiate_download,
+  abort,
+  initiate_block_download,
+  acknowledge_block,
+  end_block_download,
+  initiate_block_upload,
+  end_block_upload,
+  block_segment,  // told from the others by the state alone
+  unknown,
+};
+inline constexpr uint8_t response_count = 12;
 
-constexpr Ccs ccs_of(uint8_t command) {
-  const unsigned specifier = command >> 5;
-  return (command & reserved_bits[specifier]) == 0 ? static_cast<Ccs>(specifier) : Ccs::unknown;
+// Command specifier in bits 7…5. Reserved bits are 0, else the command is unknown; the rest of an abort does not
+// matter.
+constexpr Request request_of(uint8_t command) {
+  const unsigned low = command & 0x1FU;
+  switch (command >> 5) {
+    case 0: return Request::download_segment;
+    case 1: return low <= 0x0F ? Request::initiate_download : Request::unknown;
+    case 2: return low == 0 ? Request::initiate_upload : Request::unknown;
+    case 3: return (low & 0x0F) == 0 ? Request::upload_segment : Request::unknown;
+    case 4: return Request::abort;
+    case 5:
+      switch (low) {
+        case 0x00:
+        case 0x04: return Request::initiate_block_upload;
+        case 0x01: return Request::end_block_upload;
+        case 0x02: return Request::acknowledge_block;
+        case 0x03: return Request::start_block_upload;
+        default: return Request::unknown;
+      }
+    case 6:
+      if ((low & 0x19) == 0) {
+        return Request::initiate_block_download;
+      }
+      return (low & 0x03) == 0x01 ? Request::end_block_download : Request::unknown;
+    default: return Request::unknown;
+  }
 }
-constexpr Ccs ccs(const CO_IF_FRM& frame) { return ccs_of(frame.Data[0]); }
+
+constexpr Response response_of(uint8_t command) {
+  const unsigned low = command & 0x1FU;
+  switch (command >> 5) {
+    case 0: return Response::upload_segment;
+    case 1: return (low & 0x0F) == 0 ? Response::download_segment : Response::unknown;
+    case 2: return low <= 0x0F ? Response::initiate_upload : Response::unknown;
+    case 3: return low == 0 ? Response::initiate_download : Response::unknown;
+    case 4: return Response::abort;
+    case 5:
+      switch (low) {
+        case 0x00:
+        case 0x04: return Response::initiate_block_download;
+        case 0x01: return Response::end_block_download;
+        case 0x02: return Response::acknowledge_block;
+        default: return Response::unknown;
+      }
+    case 6:
+      if ((low & 0x19) == 0) {
+        return Response::initiate_block_upload;
+      }
+      return (low & 0x03) == 0x01 ? Response::end_block_upload : Response::unknown;
+    default: return Response::unknown;
+  }
+}
 
 inline constexpr uint8_t toggle_bit = 0x10;
 constexpr uint8_t toggle(const CO_IF_FRM& frame) { return frame.Data[0] & toggle_bit; }
@@ -59,24 +125,94 @@ constexpr uint32_t expedited_length(uint8_t command) { return expedited_bytes - 
 constexpr uint32_t segment_length(uint8_t command) { return segment_bytes - ((command >> 1) & 0x07U); }
 constexpr bool is_last_segment(uint8_t command) { return (command & 0x01) != 0; }
 
+inline constexpr uint8_t abort_command = 0x80;
+
 // Answers of a server.
 inline constexpr uint8_t initiate_download_response = 0x60;
-inline constexpr uint8_t initiate_upload_response_sized = 0x41;
-inline constexpr uint8_t abort_command = 0x80;
+constexpr uint8_t initiate_upload_response(bool sized) { return sized ? 0x41 : 0x40; }
 constexpr uint8_t expedited_upload_response(uint32_t length) {
   return static_cast<uint8_t>(0x43U | ((expedited_bytes - length) << 2));
 }
 constexpr uint8_t download_segment_response(uint8_t toggle) { return static_cast<uint8_t>(0x20U | toggle); }
-constexpr uint8_t upload_segment_response(uint8_t toggle, uint32_t length, bool last) {
+
+// Requests of a client.
+inline constexpr uint8_t initiate_upload_request = 0x40;
+inline constexpr uint8_t initiate_download_request_sized = 0x21;
+constexpr uint8_t expedited_download_request(uint32_t length) {
+  return static_cast<uint8_t>(0x23U | ((expedited_bytes - length) << 2));
+}
+constexpr uint8_t upload_segment_request(uint8_t toggle) { return static_cast<uint8_t>(0x60U | toggle); }
+
+// The same from either side.
+constexpr uint8_t segment(uint8_t toggle, uint32_t length, bool last) {
   return static_cast<uint8_t>(toggle | ((segment_bytes - length) << 1) | (last ? 1U : 0U));
 }
 
-static_assert(ccs_of(0x2F) == Ccs::initiate_download && ccs_of(0x30) == Ccs::unknown && ccs_of(0x41) == Ccs::unknown);
-static_assert(ccs_of(0x70) == Ccs::upload_segment && ccs_of(0x61) == Ccs::unknown && ccs_of(0x9F) == Ccs::abort);
+// Block transfer. The frames of a block download and those of a block upload mirror each other. [301:7.2.4.3.9-16]
+inline constexpr uint8_t max_blksize = 127;
+constexpr bool is_blksize(uint8_t blksize) { return blksize >= 1 && blksize <= max_blksize; }
+
+// From who sends the data: 110x xcss, c: CRC supported, s: size indicated; end: 110n nnx1.
+constexpr uint8_t initiate_block(bool sized) { return sized ? 0xC6 : 0xC4; }
+constexpr uint8_t end_block(uint32_t unused) { return static_cast<uint8_t>(0xC1U | (unused << 2)); }
+constexpr uint32_t unused_in_block(uint8_t command) { return (command >> 2) & 0x07U; }
+constexpr bool is_block_sized(uint8_t command) { return (command & 0x02) != 0; }
+
+// From who receives them: 101x xcss.
+inline constexpr uint8_t accept_block = 0xA4;
+inline constexpr uint8_t confirm_block = 0xA1;
+inline constexpr uint8_t acknowledge_block = 0xA2;
+inline constexpr uint8_t start_block = 0xA3;
+
+// c: both sides support the CRC.
+constexpr bool has_crc(uint8_t command) { return (command & 0x04) != 0; }
+
+// A segment of a block: cnnn nnnn, c: no more segments, n: its number from 1.
+constexpr uint8_t seqno(uint8_t command) { return command & 0x7FU; }
+constexpr bool is_last_in_block(uint8_t command) { return (command & 0x80) != 0; }
+constexpr uint8_t block_segment(uint8_t number, bool last) {
+  return static_cast<uint8_t>(number | (last ? 0x80U : 0U));
+}
+
+// CRC-16-CCITT over the data, from 0. [301:7.2.4.3.16]
+constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
+  uint32_t sum = crc;
+  for (; n != 0; --n) {
+    sum = ((sum >> 8) | (sum << 8)) ^ *data++;
+    sum ^= (sum & 0xFFU) >> 4;
+    sum ^= sum << 12;
+    sum ^= (sum & 0xFFU) << 5;
+    sum &= 0xFFFFU;
+  }
+  return static_cast<uint16_t>(sum);
+}
+
+static_assert(request_of(0x2F) == Request::initiate_download && request_of(0x30) == Request::unknown);
+static_assert(request_of(0x40) == Request::initiate_upload && request_of(0x41) == Request::unknown);
+static_assert(request_of(0x70) == Request::upload_segment && request_of(0x61) == Request::unknown);
+static_assert(request_of(0x80) == Request::abort && request_of(0x9F) == Request::abort);
+static_assert(request_of(0xA4) == Request::initiate_block_upload && request_of(0xA5) == Request::unknown);
+static_assert(request_of(0xC6) == Request::initiate_block_download && request_of(0xC8) == Request::unknown);
+static_assert(request_of(0xDD) == Request::end_block_download && request_of(0xC3) == Request::unknown);
+static_assert(request_of(0xE0) == Request::unknown && request_of(0xFF) == Request::unknown);
+static_assert(response_of(0x30) == Response::download_segment && response_of(0x31) == Response::unknown);
+static_assert(response_of(0x4F) == Response::initiate_upload && response_of(0x50) == Response::unknown);
+static_assert(response_of(0x60) == Response::initiate_download && response_of(0x61) == Response::unknown);
+static_assert(response_of(0xA0) == Response::initiate_block_download && response_of(0xA3) == Response::unknown);
+static_assert(response_of(0xC2) == Response::initiate_block_upload && response_of(0xDD) == Response::end_block_upload);
 static_assert(expedited_upload_response(4) == 0x43 && expedited_upload_response(3) == 0x47);
 static_assert(expedited_upload_response(2) == 0x4B && expedited_upload_response(1) == 0x4F);
+static_assert(expedited_download_request(4) == 0x23 && expedited_download_request(1) == 0x2F);
 static_assert(expedited_length(0x2F) == 1 && expedited_length(0x23) == 4 && !is_size_indicated(0x22));
 static_assert(segment_length(0x0F) == 0 && segment_length(0x00) == 7 && segment_length(0x1D) == 1);
-static_assert(upload_segment_response(0x10, 2, true) == 0x1B && download_segment_response(0x10) == 0x30);
+static_assert(segment(0x10, 2, true) == 0x1B && download_segment_response(0x10) == 0x30);
+static_assert(end_block(3) == 0xCD && unused_in_block(0xDD) == 7 && block_segment(1, true) == 0x81);
+static_assert(has_crc(0xA4) && !has_crc(0xC2) && is_block_sized(0xC2) && !is_block_sized(0xC4));
+
+namespace vectors {
+inline constexpr uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+static_assert(crc16(0, digits, sizeof digits) == 0x31C3);
+static_assert(crc16(crc16(0, digits, 4), digits + 4, 5) == 0x31C3);
+}  // namespace vectors
 
 }  // namespace co::wire

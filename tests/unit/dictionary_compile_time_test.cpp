@@ -81,11 +81,15 @@ static_assert(check_entry(0, CO_KEY(0x0020, 0, 0), true, true) == CO_DICT_OK);
 static_assert(check_entry(0, CO_KEY(0x1200 + CO_SSDO_N - 1, 1, 0), true, true) == CO_DICT_OK);
 static_assert(CO_SSDO_N == 128 ||
               check_entry(0, CO_KEY(0x1200 + CO_SSDO_N, 1, 0), true, true) == CO_DICT_NOT_CONFIGURED);
-static_assert(check_entry(0, CO_KEY(0x1280, 1, 0), true, true) == CO_DICT_OK, "1280h begins another service");
+constexpr std::uint32_t clients = USE_CSDO != 0 ? CO_CSDO_N : 0;  // 1280h begins another service
+static_assert(clients == 0 || check_entry(0, CO_KEY(0x1280 + clients - 1, 3, 0), true, true) == CO_DICT_OK);
+static_assert(check_entry(0, CO_KEY(0x1280 + clients, 3, 0), true, true) == CO_DICT_NOT_CONFIGURED);
+static_assert(check_entry(0, CO_KEY(0x1280 + clients, 4, 0), true, true) == CO_DICT_OK, "no sub-index of CiA 301");
 
 static_assert(check_type(sdo_cob_id, CO_KEY(0x1200, 1, CO_OBJ_DN__R_), true) == CO_DICT_OK);
 static_assert(check_type(sdo_cob_id, CO_KEY(0x127F, 2, 0), true) == CO_DICT_OK);
-static_assert(check_type(sdo_cob_id, CO_KEY(0x1280, 2, 0), true) == CO_DICT_WRONG_PLACE);
+static_assert(check_type(sdo_cob_id, CO_KEY(0x12FF, 2, 0), true) == CO_DICT_OK);
+static_assert(check_type(sdo_cob_id, CO_KEY(0x1300, 2, 0), true) == CO_DICT_WRONG_PLACE);
 static_assert(check_type(sdo_cob_id, CO_KEY(0x11FF, 2, 0), true) == CO_DICT_WRONG_PLACE);
 static_assert(check_type(sdo_cob_id, CO_KEY(0x1200, 0, 0), true) == CO_DICT_WRONG_PLACE);
 static_assert(check_type(integer(8), CO_KEY(0x2000, 0, CO_OBJ_D_____), true) ==

@@ -67,7 +67,8 @@ constexpr NmtRow rows[] = {
     {CO_STOP, Event::reset_communication, reset<event::reset_communication>},
 };
 
-constexpr Machine<CO_MODE, Event, Service, CO_MODE_NUM, static_cast<size_t>(Event::count)> machine(rows, stay);
+constexpr Machine<CO_MODE, Event, Service, CO_MODE_NUM, static_cast<size_t>(Event::count), count_services(rows)>
+    machine(rows, stay);
 
 }  // namespace
 

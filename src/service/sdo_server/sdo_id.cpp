@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1200h…127Fh, sub 1 and 2: COB-IDs of the SDO servers. [301:7.5.2.33]
+// 1200h…12FFh, sub 1 and 2: COB-IDs of the SDO servers and clients. [301:7.5.2.33-34]
 #include "co_sdo_id.h"
 
 #include "co_core.h"
@@ -21,11 +21,18 @@ uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) { return CO_IS_NODEI
 
 bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
-bool is_allowed(uint32_t before, uint32_t value) {
+// A client may have the COB-IDs of another node's default SDO server.
+bool may_use(const CO_OBJ& obj, uint32_t id) {
+  constexpr uint16_t first_client = 0x1280;
+  const bool of_client = CO_GET_IDX(obj.Key) >= first_client;
+  return !wire::is_restricted(id) || (of_client && wire::is_default_sdo(id));
+}
+
+bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   if (!is_valid(value) || value == before) {
     return true;
   }
-  return !is_valid(before) && wire::fits_format(value) && !wire::is_restricted(value & wire::extended_ids);
+  return !is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
 }
 
 // UNSIGNED32 keeps the value. It takes the node-ID into account for the 32 bits as a whole, which could reach the flags
@@ -55,7 +62,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   }
   uint32_t value = 0;
   __builtin_memcpy(&value, buffer, sizeof value);
-  if (!is_allowed(before, value)) {
+  if (!is_allowed(*obj, before, value)) {
     return CO_ERR_OBJ_RANGE;
   }
   const uint32_t node_id = node_id_of(*obj, *node);

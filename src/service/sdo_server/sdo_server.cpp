@@ -14,7 +14,7 @@ namespace co::sdo_server {
 namespace {
 
 uint32_t end_by_client(Step& step) {
-  close(step.channel);
+  close(step.channel, wire::get_u32(step.request.Data + 4));
   step.silent = true;
   return no_abort;
 }
@@ -22,48 +22,127 @@ uint32_t end_by_client(Step& step) {
 uint32_t refuse_command(Step&) { return CO_SDO_ERR_CMD; }
 
 using Service = uint32_t (*)(Step&);
-using SdoRow = Row<State, wire::Ccs, Service>;
-using wire::Ccs;
+using SdoRow = Row<State, wire::Request, Service>;
+using wire::Request;
 
-// A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3]
+// A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3] Within a
+// block of a download everything but an abort is a segment.
 constexpr SdoRow rows[] = {
-    {State::idle, Ccs::initiate_download, initiate_download},
-    {State::idle, Ccs::initiate_upload, initiate_upload},
-    {State::idle, Ccs::abort, end_by_client},
+    {State::idle, Request::initiate_download, initiate_download},
+    {State::idle, Request::initiate_upload, initiate_upload},
+    {State::idle, Request::abort, end_by_client},
 
-    {State::download, Ccs::download_segment, download_segment},
-    {State::download, Ccs::initiate_download, initiate_download},
-    {State::download, Ccs::initiate_upload, initiate_upload},
-    {State::download, Ccs::abort, end_by_client},
+    {State::download, Request::download_segment, download_segment},
+    {State::download, Request::initiate_download, initiate_download},
+    {State::download, Request::initiate_upload, initiate_upload},
+    {State::download, Request::abort, end_by_client},
 
-    {State::upload, Ccs::upload_segment, upload_segment},
-    {State::upload, Ccs::initiate_download, initiate_download},
-    {State::upload, Ccs::initiate_upload, initiate_upload},
-    {State::upload, Ccs::abort, end_by_client},
+    {State::upload, Request::upload_segment, upload_segment},
+    {State::upload, Request::initiate_download, initiate_download},
+    {State::upload, Request::initiate_upload, initiate_upload},
+    {State::upload, Request::abort, end_by_client},
+
+#if USE_SDO_BLOCK
+    {State::idle, Request::initiate_block_download, initiate_block_download},
+    {State::idle, Request::initiate_block_upload, initiate_block_upload},
+
+    {State::download, Request::initiate_block_download, initiate_block_download},
+    {State::download, Request::initiate_block_upload, initiate_block_upload},
+
+    {State::upload, Request::initiate_block_download, initiate_block_download},
+    {State::upload, Request::initiate_block_upload, initiate_block_upload},
+
+    {State::block_download, Request::block_segment, download_block_segment},
+    {State::block_download, Request::abort, end_by_client},
+
+    {State::block_download_end, Request::end_block_download, end_block_download},
+    {State::block_download_end, Request::block_segment, download_block_segment},
+    {State::block_download_end, Request::initiate_download, initiate_download},
+    {State::block_download_end, Request::initiate_upload, initiate_upload},
+    {State::block_download_end, Request::initiate_block_download, initiate_block_download},
+    {State::block_download_end, Request::initiate_block_upload, initiate_block_upload},
+    {State::block_download_end, Request::abort, end_by_client},
+
+    {State::block_upload_ready, Request::start_block_upload, start_block_upload},
+    {State::block_upload_ready, Request::initiate_download, initiate_download},
+    {State::block_upload_ready, Request::initiate_upload, initiate_upload},
+    {State::block_upload_ready, Request::initiate_block_download, initiate_block_download},
+    {State::block_upload_ready, Request::initiate_block_upload, initiate_block_upload},
+    {State::block_upload_ready, Request::abort, end_by_client},
+
+    {State::block_upload, Request::acknowledge_block, acknowledge_block},
+    {State::block_upload, Request::initiate_download, initiate_download},
+    {State::block_upload, Request::initiate_upload, initiate_upload},
+    {State::block_upload, Request::initiate_block_download, initiate_block_download},
+    {State::block_upload, Request::initiate_block_upload, initiate_block_upload},
+    {State::block_upload, Request::abort, end_by_client},
+
+    {State::block_upload_end, Request::end_block_upload, end_block_upload},
+    {State::block_upload_end, Request::initiate_download, initiate_download},
+    {State::block_upload_end, Request::initiate_upload, initiate_upload},
+    {State::block_upload_end, Request::initiate_block_download, initiate_block_download},
+    {State::block_upload_end, Request::initiate_block_upload, initiate_block_upload},
+    {State::block_upload_end, Request::abort, end_by_client},
+#endif
 };
 
-constexpr Machine<State, Ccs, Service, static_cast<size_t>(State::count), wire::ccs_count> machine(rows,
-                                                                                                   refuse_command);
+constexpr Machine<State, Request, Service, static_cast<size_t>(State::count), wire::request_count, count_services(rows)>
+    machine(rows, refuse_command);
 
-// An abort names the transfer that it ends; without one, what the request names.
-uint32_t aborted_key(const CO_SDO& channel, State before, const CO_IF_FRM& request) {
-  const Ccs command = wire::ccs(request);
-  const bool within = before != State::idle && command != Ccs::initiate_download && command != Ccs::initiate_upload;
-  return within ? channel.Key : wire::multiplexer(request);
+// Segments of a block look like anything; the state tells them.
+Request request_in(const CO_SDO& channel, uint8_t command) {
+  const bool is_last_again = command == wire::block_segment(channel.AckSeq, true);
+  const bool in_block =
+      state_of(channel) == State::block_download || (state_of(channel) == State::block_download_end && is_last_again);
+  return in_block && command != wire::abort_command ? Request::block_segment : wire::request_of(command);
 }
 
-uint32_t run(Step& step) {
-  CO_SDO& channel = step.channel;
-  const State state = state_of(channel);
-  channel.Idle = 0;
-  channel.UserAbort = 0;
-  channel.Flags |= busy;
-  const uint32_t result = machine(state, wire::ccs(step.request))(step);
-  channel.Flags &= static_cast<uint8_t>(~busy);
-  if (state_of(channel) != State::idle) {
-    watch(step.node);
+bool is_initiate(Request request) {
+  return request == Request::initiate_download || request == Request::initiate_upload ||
+         request == Request::initiate_block_download || request == Request::initiate_block_upload;
+}
+
+// A channel is busy while its type functions run: they may change the NMT state.
+class Serving {
+ public:
+  explicit Serving(CO_SDO& channel) : channel_(channel) {
+    set(channel_, busy);
+    access::serve(*channel_.Node, channel_.Obj);
   }
-  return result;
+  ~Serving() {
+    clear(channel_, busy);
+    channel_.Node->Served = nullptr;
+  }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+
+ private:
+  CO_SDO& channel_;
+};
+
+// What happened is over. Nothing is sent where SDO is no longer allowed. True: so is the transfer.
+bool is_concluded(CO_SDO& channel, uint32_t key, uint32_t abort) {
+  CO_NODE& node = *channel.Node;
+  if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
+    on_mode(node);
+    return true;
+  }
+  if (abort != no_abort) {
+    send_abort(channel, key, abort);
+    close(channel, abort);
+    return true;
+  }
+  return false;
+}
+
+bool go_on(CO_SDO& channel) {
+  uint32_t abort = no_abort;
+  bool sent = false;
+  {
+    const Serving serving(channel);
+    sent = send_segment(channel, abort);
+  }
+  return !is_concluded(channel, channel.Key, abort) && sent;
 }
 
 uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise) {
@@ -88,7 +167,7 @@ void configure_channel(CO_NODE& node, uint16_t number) {
   if (channel.RxId == rx_id && channel.TxId == tx_id) {
     return;
   }
-  close(channel);
+  close(channel, CO_SDO_ERR_TOS_STATE);
   channel.RxId = rx_id;
   channel.TxId = tx_id;
   routes::remove(node, service, number);
@@ -121,17 +200,34 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   CO_IF_FRM answer = {channel.TxId, {}, wire::sdo_dlc};
   Step step = {node, channel, frame, answer, false};
-  const State before = state_of(channel);
-  const uint32_t abort = run(step);
-  if (!event::is_allowed(node, CO_SDO_ALLOWED)) {  // a type function has changed the NMT state
-    on_mode(node);
-  } else if (abort != no_abort) {
-    close(channel);
-    send_abort(channel, aborted_key(channel, before, frame), abort);
-  } else if (!step.silent) {
+  const Request request = request_in(channel, frame.Data[0]);
+  // An abort names the transfer that it ends; without one, what the request names.
+  const bool within = state_of(channel) != State::idle && !is_initiate(request);
+  const uint32_t key = within ? channel.Key : wire::multiplexer(frame);
+  uint32_t abort = no_abort;
+  {
+    const Serving serving(channel);
+    channel.Idle = 0;
+    abort = machine(state_of(channel), request)(step);
+  }
+  if (state_of(channel) != State::idle) {
+    watch(node);
+  }
+  if (!is_concluded(channel, key, abort) && !step.silent) {
     transmit::send(node, answer);
   }
   return true;
+}
+
+// In turns, a segment each.
+void on_free(CO_NODE& node) {
+  bool any_sent = USE_SDO_BLOCK != 0;
+  while (any_sent) {
+    any_sent = false;
+    for (CO_SDO& channel : node.Sdo) {
+      any_sent |= state_of(channel) == State::block_upload && go_on(channel);
+    }
+  }
 }
 
 void on_mode(CO_NODE& node) {
@@ -139,8 +235,8 @@ void on_mode(CO_NODE& node) {
     return;
   }
   for (CO_SDO& channel : node.Sdo) {
-    if ((channel.Flags & busy) == 0) {
-      close(channel);
+    if (!has(channel, busy)) {
+      close(channel, CO_SDO_ERR_TOS_STATE);
     }
     transmit::withdraw(node, channel.TxId);
   }
@@ -148,16 +244,3 @@ void on_mode(CO_NODE& node) {
 }
 
 }  // namespace co::sdo_server
-
-using namespace co;
-
-extern "C" void COObjTypeUserSDOAbort(CO_OBJ* obj, CO_NODE_T* node, uint32_t abort) {
-  if (obj == nullptr || node == nullptr) {
-    return;
-  }
-  for (CO_SDO& channel : node->Sdo) {
-    if (channel.Obj == obj && (channel.Flags & sdo_server::busy) != 0) {
-      channel.UserAbort = abort;
-    }
-  }
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: expedited and segmented transfer. [301:7.2.4]
+// SDO server: expedited, segmented and block transfer. [301:7.2.4]
 #pragma once
 
 #include "co_core.h"
@@ -17,6 +17,9 @@ void init(CO_NODE& node);
 
 // Transfers end, without an abort, when SDO is no longer allowed. [301:7.3.2.2.4]
 void on_mode(CO_NODE& node);
+
+// The controller may take frames again: block uploads go on.
+void on_free(CO_NODE& node);
 
 // Takes the COB-IDs from the dictionary again; a channel whose identifiers have changed drops its transfer.
 void configure(CO_NODE& node);

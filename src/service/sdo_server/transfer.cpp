@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_server/transfer.hpp"
 
-#include "core/abort_code.hpp"
 #include "core/count.hpp"
-#include "core/dict.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
 #include "object/stream.hpp"
@@ -12,37 +10,33 @@ namespace co::sdo_server {
 namespace {
 
 constexpr uint8_t slices = 8;
+constexpr uint8_t reminder_slices = 2;
+
+CO_OBJ_TRANSFER direction(const CO_SDO& channel) { return has(channel, download) ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD; }
+
+// False: the transfer has been ended.
+bool count_slice(CO_SDO& channel) {
+  channel.Idle = has(channel, busy) ? 1 : static_cast<uint8_t>(channel.Idle + 1);
+  if (channel.Idle == slices) {
+    send_abort(channel, channel.Key, CO_SDO_ERR_TIMEOUT);
+    close(channel, CO_SDO_ERR_TIMEOUT);
+    return false;
+  }
+  if (USE_SDO_BLOCK != 0 && channel.Idle % reminder_slices == 0) {
+    remind(channel);
+  }
+  return true;
+}
 
 void on_slice(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   bool any_open = false;
   for (CO_SDO& channel : node.Sdo) {
-    if (state_of(channel) == State::idle) {
-      continue;
-    }
-    if ((channel.Flags & busy) != 0) {
-      channel.Idle = 0;
-    }
-    if (++channel.Idle == slices) {
-      close(channel);
-      send_abort(channel, channel.Key, CO_SDO_ERR_TIMEOUT);
-    } else {
-      any_open = true;
-    }
+    any_open |= state_of(channel) != State::idle && count_slice(channel);
   }
   if (!any_open) {
     tmr::stop(node.Tmr, node.SdoTmr);
   }
-}
-
-// Another channel has the position of this stream.
-bool is_taken(const CO_NODE& node, const CO_SDO& by, const CO_OBJ& obj) {
-  for (const CO_SDO& other : node.Sdo) {
-    if (&other != &by && other.Obj == &obj && (other.Flags & whole) == 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 // Numbers lie in the byte order of the CPU in type functions, and in that of the bus everywhere else here.
@@ -53,24 +47,56 @@ void swap_value(const CO_SDO& channel, uint8_t* value, uint32_t n) {
 }
 
 // The position of our own streams is set before each piece: the application may have used it in between. Types of the
-// application are reset once, at the beginning.
-CO_ERR seek_piece(CO_SDO& channel) {
+// application are reset at the beginning, and when an upload goes back.
+CO_ERR seek_piece(CO_SDO& channel, uint32_t position) {
   const bool own = channel.Obj->Type->Reset == stream::reset;
-  return own ? obj::seek(*channel.Obj, *channel.Node, channel.Num) : CO_ERR_NONE;
+  return own || position != channel.Read ? obj::seek(*channel.Obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
-// The table may have been changed, or replaced by another, since the transfer began.
-bool is_gone(const CO_SDO& channel) {
-  const CO_DICT& dict = channel.Node->Dict;
-  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
-  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
+// A type that did not know its size may know it after a read, which then was the last and has filled only a part.
+uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
+  if (channel.Size != CO_OBJ_SIZE_UNKNOWN) {
+    return no_abort;
+  }
+  const uint32_t size = obj::size(*channel.Obj, *channel.Node, 0);
+  if (size == CO_OBJ_SIZE_UNKNOWN) {
+    return no_abort;
+  }
+  if (size < position || size - position > n) {
+    return CO_SDO_ERR_INTERNAL;
+  }
+  channel.Size = size;
+  n = size - position;
+  return no_abort;
+}
+
+uint32_t begin(CO_SDO& channel, uint32_t size) {
+  const CO_ERR err = obj::begin(*channel.Obj, *channel.Node, direction(channel), size);
+  if (err != CO_ERR_NONE) {
+    return access::abort_for(*channel.Node, err);
+  }
+  set(channel, begun);
+  return no_abort;
 }
 
 }  // namespace
 
-void close(CO_SDO& channel) {
+uint32_t close(CO_SDO& channel, uint32_t code) {
+  const bool is_told = has(channel, begun) && !is_gone(channel);
+  CO_NODE& node = *channel.Node;
+  CO_OBJ* const obj = channel.Obj;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
+  clear(channel, begun);
+  if (!is_told) {
+    return no_abort;
+  }
+  access::serve(node, obj);
+  const CO_ERR err = obj::end(*obj, node, direction(channel), code);
+  const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
+  const uint32_t abort = refused ? access::write_failed(node, err) : no_abort;
+  node.Served = nullptr;
+  return abort;
 }
 
 void send_abort(CO_SDO& channel, uint32_t key, uint32_t code) {
@@ -92,6 +118,12 @@ void watch(CO_NODE& node) {
   }
 }
 
+bool is_gone(const CO_SDO& channel) {
+  const CO_DICT& dict = channel.Node->Dict;
+  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
+}
+
 uint32_t check_segment(const Step& step) {
   if (is_gone(step.channel)) {
     return CO_SDO_ERR_TOS_STATE;
@@ -99,49 +131,51 @@ uint32_t check_segment(const Step& step) {
   return wire::toggle(step.request) != step.channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
 }
 
-uint32_t abort_for(const CO_SDO& channel, CO_ERR err) {
-  return channel.UserAbort != 0 ? channel.UserAbort : abort_code(err);
-}
-
-uint32_t read_failed(const CO_SDO& channel, CO_ERR err) {
-  channel.Node->Error = CO_ERR_SDO_READ;
-  return abort_for(channel, err);
-}
-
-uint32_t write_failed(const CO_SDO& channel, CO_ERR err) {
-  channel.Node->Error = CO_ERR_SDO_WRITE;
-  return abort_for(channel, err);
-}
-
-uint32_t open(Step& step, uint32_t right, bool (*can)(const CO_OBJ_TYPE&), uint32_t refused) {
+uint32_t open(Step& step, CO_OBJ_TRANSFER transfer) {
   CO_SDO& channel = step.channel;
-  close(channel);
+  close(channel, CO_SDO_ERR_TOS_STATE);
   channel.Key = wire::multiplexer(step.request);
   channel.Num = 0;
+  channel.Read = 0;
   channel.Toggle = 0;
-  channel.Idle = 0;
-  channel.Flags = busy;
-  CO_OBJ* const obj = CODictFind(&step.node.Dict, channel.Key);
-  if (obj == nullptr) {
-    return dict::has_index(step.node.Dict, channel.Key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
-  }
-  if ((obj->Key & right) == 0 || !can(*obj->Type)) {
-    return (obj->Key & CO_OBJ_____RW) == 0 ? CO_SDO_ERR_UNSUP : refused;
-  }
-  if (obj->Type->Size == nullptr) {
-    return CO_SDO_ERR_TOS;
-  }
-  channel.Obj = obj;
-  return no_abort;
+  channel.Flags = static_cast<uint8_t>(busy | (transfer == CO_OBJ_DOWNLOAD ? download : 0));
+  return access::open(step.node, channel.Key, transfer, channel.Obj);
 }
 
 uint32_t choose_access(Step& step, bool fits_one_frame) {
   CO_SDO& channel = step.channel;
   const bool stream = obj::is_stream(*channel.Obj);
   if (fits_one_frame || (!stream && channel.Size <= sizeof channel.Value)) {
-    channel.Flags |= whole;
+    set(channel, whole);
   }
-  return stream && is_taken(step.node, channel, *channel.Obj) ? CO_SDO_ERR_TOS_STATE : no_abort;
+  return stream && access::is_taken(step.node, *channel.Obj, &channel) ? CO_SDO_ERR_TOS_STATE : no_abort;
+}
+
+uint32_t begin_upload(Step& step, bool fits_one_frame) {
+  CO_SDO& channel = step.channel;
+  uint32_t abort = choose_access(step, fits_one_frame);
+  if (abort == no_abort) {
+    abort = begin(channel, channel.Size);
+  }
+  if (abort != no_abort) {
+    return abort;
+  }
+  const CO_ERR err = has(channel, whole) ? read_whole(channel, channel.Size)
+                                         : COObjRdBufStart(channel.Obj, channel.Node, channel.Value, 0);
+  return err == CO_ERR_NONE ? no_abort : access::read_failed(step.node, err);
+}
+
+uint32_t begin_download(Step& step, uint32_t size, bool fits_one_frame) {
+  CO_SDO& channel = step.channel;
+  uint32_t abort = choose_access(step, fits_one_frame);
+  if (abort == no_abort) {
+    abort = begin(channel, size);
+  }
+  if (abort != no_abort || has(channel, whole)) {
+    return abort;
+  }
+  const CO_ERR err = COObjWrBufStart(channel.Obj, channel.Node, channel.Value, 0);
+  return err == CO_ERR_NONE ? no_abort : access::write_failed(step.node, err);
 }
 
 CO_ERR read_whole(CO_SDO& channel, uint32_t n) {
@@ -162,18 +196,37 @@ CO_ERR write_whole(CO_SDO& channel, uint32_t n) {
   return obj::write(*channel.Obj, *channel.Node, channel.Value, n);
 }
 
-CO_ERR begin_reading(CO_SDO& channel) { return COObjRdBufStart(channel.Obj, channel.Node, channel.Value, 0); }
-
-CO_ERR begin_writing(CO_SDO& channel) { return COObjWrBufStart(channel.Obj, channel.Node, channel.Value, 0); }
-
-CO_ERR read_piece(CO_SDO& channel, uint8_t* to, uint32_t n) {
-  const CO_ERR err = seek_piece(channel);
-  return err != CO_ERR_NONE ? err : obj::read(*channel.Obj, *channel.Node, to, n);
+uint32_t get(CO_SDO& channel, uint32_t position, uint8_t* to, uint32_t& n) {
+  if (has(channel, whole)) {
+    __builtin_memcpy(to, channel.Value + position, n);
+    return no_abort;
+  }
+  if (n == 0) {
+    return no_abort;
+  }
+  CO_ERR err = seek_piece(channel, position);
+  if (err == CO_ERR_NONE) {
+    err = obj::read(*channel.Obj, *channel.Node, to, n);
+  }
+  const uint32_t abort =
+      err == CO_ERR_NONE ? learn_size(channel, position, n) : access::read_failed(*channel.Node, err);
+  channel.Read = position + n;
+  return abort;
 }
 
-CO_ERR write_piece(CO_SDO& channel, uint8_t* from, uint32_t n) {
-  const CO_ERR err = seek_piece(channel);
-  return err != CO_ERR_NONE ? err : obj::write(*channel.Obj, *channel.Node, from, n);
+uint32_t put(CO_SDO& channel, uint8_t* from, uint32_t n) {
+  CO_ERR err = CO_ERR_NONE;
+  if (has(channel, whole)) {
+    __builtin_memcpy(channel.Value + channel.Num, from, n);
+  } else if (n != 0) {
+    err = seek_piece(channel, channel.Num);
+    if (err == CO_ERR_NONE) {
+      err = obj::write(*channel.Obj, *channel.Node, from, n);
+    }
+  }
+  channel.Num += n;
+  channel.Read = channel.Num;
+  return err == CO_ERR_NONE ? no_abort : access::write_failed(*channel.Node, err);
 }
 
 }  // namespace co::sdo_server

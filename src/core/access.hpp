@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dictionary as the network sees it: for SDO servers, and for clients that access the own node.
+#pragma once
+
+#include "co_core.h"
+#include "core/abort_code.hpp"
+#include "core/obj.hpp"
+
+namespace co::access {
+
+// The object for a transfer, which its rights and its type allow; COObjTypeUserSDOAbort() then acts for it. Returns an
+// abort code.
+[[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer, CO_OBJ*& obj);
+
+// COObjTypeUserSDOAbort() acts for this object, or none.
+void serve(CO_NODE& node, CO_OBJ* obj);
+
+// Does an SDO server channel other than this one have the object open?
+[[nodiscard]] bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
+
+// length against the nearest one that is possible: an abort code.
+[[nodiscard]] constexpr uint32_t compare_length(uint32_t length, uint32_t need) {
+  if (length == need) {
+    return no_abort;
+  }
+  return length > need ? CO_SDO_ERR_LEN_HIGH : CO_SDO_ERR_LEN_SMALL;
+}
+
+// Can the object be written with this length? Returns an abort code.
+[[nodiscard]] uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
+
+// The abort code for what a type function has returned. The others set the node's error, too.
+[[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
+[[nodiscard]] uint32_t read_failed(CO_NODE& node, CO_ERR err);
+[[nodiscard]] uint32_t write_failed(CO_NODE& node, CO_ERR err);
+
+}  // namespace co::access

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block download: the segments come out of the caller's buffer. [301:7.2.4.3.9-11]
+#include "core/transmit.hpp"
+#include "service/sdo_client/transfer.hpp"
+
+namespace co::sdo_client {
+namespace {
+
+void begin_block(CO_CSDO& client, uint8_t blksize) {
+  client.BlkSize = blksize;
+  client.Seq = 0;
+  clear(client, last_sent);
+}
+
+// Num never goes beyond Size.
+void count_acknowledged(CO_CSDO& client, uint32_t segments) {
+  const uint32_t left = client.Size - client.Num;
+  const uint32_t n = segments * wire::segment_bytes < left ? segments * wire::segment_bytes : left;
+  if (has(client, crc)) {
+    client.Crc = wire::crc16(client.Crc, client.Buf + client.Num, n);
+  }
+  client.Num += n;
+}
+
+uint32_t unused_in_last(uint32_t size) {
+  return (wire::segment_bytes - size % wire::segment_bytes) % wire::segment_bytes;
+}
+
+}  // namespace
+
+bool send_segment(CO_CSDO& client) {
+  if (state_of(client) != State::block_download || client.Seq == client.BlkSize || has(client, last_sent)) {
+    return false;
+  }
+  const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
+  const uint32_t left = client.Size - position;
+  const bool last = left <= wire::segment_bytes;
+  CO_IF_FRM frame = {client.TxId, {}, wire::sdo_dlc};
+  frame.Data[0] = wire::block_segment(static_cast<uint8_t>(client.Seq + 1), last);
+  __builtin_memcpy(frame.Data + 1, client.Buf + position, last ? left : wire::segment_bytes);
+  if (!transmit::offer(*client.Node, frame)) {
+    return false;
+  }
+  ++client.Seq;
+  if (last) {
+    set(client, last_sent);
+  }
+  return true;
+}
+
+uint32_t block_download_accepted(Step& step) {
+  CO_CSDO& client = step.client;
+  const uint8_t blksize = step.response.Data[4];
+  step.silent = true;
+  if (is_for_another(step)) {
+    return no_abort;
+  }
+  if (!wire::is_blksize(blksize)) {
+    return CO_SDO_ERR_BLK_SIZE;
+  }
+  if (wire::has_crc(step.response.Data[0])) {
+    set(client, crc);
+  }
+  begin_block(client, blksize);
+  set_state(client, State::block_download);
+  return no_abort;
+}
+
+uint32_t block_acknowledged(Step& step) {
+  CO_CSDO& client = step.client;
+  const uint8_t ackseq = step.response.Data[1];
+  const uint8_t blksize = step.response.Data[2];
+  if (ackseq > client.Seq) {
+    return CO_SDO_ERR_SEQ_NUM;
+  }
+  if (!wire::is_blksize(blksize)) {
+    return CO_SDO_ERR_BLK_SIZE;
+  }
+  const bool all = ackseq == client.Seq && has(client, last_sent);
+  count_acknowledged(client, ackseq);
+  if (all) {
+    step.request.Data[0] = wire::end_block(unused_in_last(client.Size));
+    wire::put_u16(step.request.Data + 1, client.Crc);
+    set_state(client, State::block_download_end);
+    return no_abort;
+  }
+  begin_block(client, blksize);
+  step.silent = true;
+  return no_abort;
+}
+
+uint32_t block_download_confirmed(Step& step) {
+  step.silent = true;
+  step.done = true;
+  return no_abort;
+}
+
+}  // namespace co::sdo_client

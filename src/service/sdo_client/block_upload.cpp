@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block upload: the segments go straight into the caller's buffer. [301:7.2.4.3.13-15]
+#include "service/sdo_client/transfer.hpp"
+
+namespace co::sdo_client {
+namespace {
+
+void begin_block(CO_CSDO& client) {
+  client.Seq = 0;
+  clear(client, heard);
+}
+
+void put_acknowledge(const CO_CSDO& client, CO_IF_FRM& request) {
+  request.Data[0] = wire::acknowledge_block;
+  request.Data[1] = client.AckSeq;
+  request.Data[2] = wire::max_blksize;
+}
+
+void count_bytes(CO_CSDO& client, uint32_t n) {
+  if (has(client, crc)) {
+    client.Crc = wire::crc16(client.Crc, client.Buf + client.Num, n);
+  }
+  client.Num += n;
+}
+
+// How many bytes of the last segment are data is known at the end only.
+uint32_t take(CO_CSDO& client, const CO_IF_FRM& segment) {
+  const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
+  const uint32_t room = client.Size - position;
+  const bool last = wire::is_last_in_block(segment.Data[0]);
+  if (!last && has(client, sized) && client.Total - position < wire::segment_bytes) {
+    return CO_SDO_ERR_LEN_HIGH;
+  }
+  if (!last && room < wire::segment_bytes) {
+    return CO_SDO_ERR_MEM;
+  }
+  __builtin_memcpy(client.Buf + position, segment.Data + 1, room < wire::segment_bytes ? room : wire::segment_bytes);
+  ++client.Seq;
+  return no_abort;
+}
+
+// The server goes on behind the last segment that has arrived in order.
+void end_block(CO_CSDO& client, CO_IF_FRM& request) {
+  client.AckSeq = client.Seq;
+  put_acknowledge(client, request);
+  count_bytes(client, client.Seq * wire::segment_bytes);
+  begin_block(client);
+}
+
+// The same behind the last segment of all. Its bytes are counted at the end.
+void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
+  client.AckSeq = client.Seq;
+  put_acknowledge(client, request);
+  count_bytes(client, (client.Seq - 1U) * wire::segment_bytes);
+  set_state(client, State::block_upload_end);
+}
+
+// The end of a block that comes before anything else of the block is the repeated end of the block before.
+bool is_repeated(const CO_CSDO& client, uint8_t number) { return number > 1 && !has(client, heard); }
+
+}  // namespace
+
+uint32_t block_upload_accepted(Step& step) {
+  CO_CSDO& client = step.client;
+  const uint8_t command = step.response.Data[0];
+  if (is_for_another(step)) {
+    step.silent = true;
+    return no_abort;
+  }
+  if (wire::has_crc(command)) {
+    set(client, crc);
+  }
+  const uint32_t abort = wire::is_block_sized(command) ? take_size(step) : no_abort;
+  client.AckSeq = 0;
+  begin_block(client);
+  step.request.Data[0] = wire::start_block;
+  set_state(client, State::block_upload);
+  return abort;
+}
+
+uint32_t block_segment_uploaded(Step& step) {
+  CO_CSDO& client = step.client;
+  const uint8_t number = wire::seqno(step.response.Data[0]);
+  const bool last = wire::is_last_in_block(step.response.Data[0]);
+  const bool ends = last || number == wire::max_blksize;
+  const bool in_order = number == client.Seq + 1;
+  step.silent = true;
+  if (state_of(client) != State::block_upload || (ends && is_repeated(client, number))) {
+    return no_abort;
+  }
+  if (number == 0) {
+    return CO_SDO_ERR_SEQ_NUM;
+  }
+  set(client, heard);
+  set(client, active);
+  const uint32_t abort = in_order ? take(client, step.response) : no_abort;
+  if (abort != no_abort || !ends) {
+    return abort;
+  }
+  in_order&& last ? end_last_block(client, step.request) : end_block(client, step.request);
+  step.silent = false;
+  return no_abort;
+}
+
+uint32_t block_upload_ended(Step& step) {
+  CO_CSDO& client = step.client;
+  const uint32_t n = wire::segment_bytes - wire::unused_in_block(step.response.Data[0]);
+  uint32_t abort = check_total(client, client.Num + n);
+  if (abort == no_abort && n > client.Size - client.Num) {
+    abort = CO_SDO_ERR_MEM;
+  }
+  if (abort != no_abort) {
+    return abort;
+  }
+  count_bytes(client, n);
+  if (has(client, crc) && client.Crc != wire::get_u16(step.response.Data + 1)) {
+    return CO_SDO_ERR_CRC;
+  }
+  step.request.Data[0] = wire::confirm_block;
+  step.done = true;
+  return no_abort;
+}
+
+bool put_reminder(CO_CSDO& client, CO_IF_FRM& request) {
+  if (has(client, heard)) {
+    end_block(client, request);
+    return true;
+  }
+  put_acknowledge(client, request);
+  return client.AckSeq != 0;
+}
+
+}  // namespace co::sdo_client

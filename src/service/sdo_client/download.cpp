@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expedited and segmented download. [301:7.2.4.3.3-4]
+#include "service/sdo_client/transfer.hpp"
+
+namespace co::sdo_client {
+namespace {
+
+uint32_t next_length(const CO_CSDO& client) {
+  const uint32_t left = client.Size - client.Num;
+  return left < wire::segment_bytes ? left : wire::segment_bytes;
+}
+
+void put_segment(const CO_CSDO& client, CO_IF_FRM& request) {
+  const uint32_t n = next_length(client);
+  request.Data[0] = wire::segment(client.Toggle, n, client.Num + n == client.Size);
+  __builtin_memcpy(request.Data + 1, client.Buf + client.Num, n);
+}
+
+}  // namespace
+
+uint32_t download_accepted(Step& step) {
+  CO_CSDO& client = step.client;
+  if (is_for_another(step)) {
+    step.silent = true;
+    return no_abort;
+  }
+  if (client.Size <= wire::expedited_bytes) {
+    client.Num = client.Size;
+    step.silent = true;
+    step.done = true;
+    return no_abort;
+  }
+  put_segment(client, step.request);
+  set_state(client, State::download);
+  return no_abort;
+}
+
+uint32_t segment_downloaded(Step& step) {
+  CO_CSDO& client = step.client;
+  if (wire::toggle(step.response) != client.Toggle) {
+    return CO_SDO_ERR_TBIT;
+  }
+  client.Num += next_length(client);
+  client.Toggle ^= wire::toggle_bit;
+  if (client.Num == client.Size) {
+    step.silent = true;
+    step.done = true;
+    return no_abort;
+  }
+  put_segment(client, step.request);
+  return no_abort;
+}
+
+}  // namespace co::sdo_client

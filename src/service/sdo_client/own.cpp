@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client whose server is the own node: the dictionary with the rights of the network, and without the network.
+#include "core/access.hpp"
+#include "service/sdo_client/transfer.hpp"
+
+namespace co::sdo_client {
+namespace {
+
+bool is_value(const CO_OBJ& obj, uint32_t size) { return !obj::is_stream(obj) && size <= sizeof(uint64_t); }
+
+// What is left of a stream of unknown size once the buffer is full: nothing, or it does not fit.
+CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
+  size = obj::size(obj, node, 0);
+  if (size != CO_OBJ_SIZE_UNKNOWN) {
+    return CO_ERR_NONE;
+  }
+  uint8_t more = 0;
+  const CO_ERR err = obj::read(obj, node, &more, sizeof more);
+  size = obj::size(obj, node, 0);
+  return err;
+}
+
+uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
+  CO_NODE& node = *client.Node;
+  CO_ERR err = is_value(obj, size) ? CO_ERR_NONE : COObjRdBufStart(&obj, &node, client.Buf, 0);
+  if (err == CO_ERR_NONE && size != 0) {
+    err = obj::read(obj, node, client.Buf, size == CO_OBJ_SIZE_UNKNOWN ? client.Size : size);
+  }
+  if (err == CO_ERR_NONE && size == CO_OBJ_SIZE_UNKNOWN) {
+    err = find_end(obj, node, size);
+  }
+  if (err != CO_ERR_NONE) {
+    return access::read_failed(node, err);
+  }
+  if (size > client.Size) {
+    return CO_SDO_ERR_MEM;
+  }
+  if (is_value(obj, size)) {
+    wire::swap_host(client.Buf, size);
+  }
+  client.Total = size;
+  client.Num = size;
+  return no_abort;
+}
+
+uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
+  CO_NODE& node = *client.Node;
+  uint8_t value[sizeof(uint64_t)];
+  uint8_t* from = client.Buf;
+  CO_ERR err = CO_ERR_NONE;
+  if (is_value(obj, client.Size)) {
+    __builtin_memcpy(value, client.Buf, client.Size);
+    wire::swap_host(value, client.Size);
+    from = value;
+  } else {
+    err = COObjWrBufStart(&obj, &node, client.Buf, 0);
+  }
+  if (err == CO_ERR_NONE) {
+    err = obj::write(obj, node, from, client.Size);
+  }
+  client.Num = client.Size;
+  return err == CO_ERR_NONE ? no_abort : access::write_failed(node, err);
+}
+
+uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
+  if (size == 0 && !obj::is_stream(obj)) {
+    return access::abort_for(*client.Node, CO_ERR_TYPE_RD);
+  }
+  return size != CO_OBJ_SIZE_UNKNOWN && size > client.Size ? CO_SDO_ERR_MEM : no_abort;
+}
+
+// The checks before the type is told.
+uint32_t check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
+  if (has(client, is_upload)) {
+    size = obj::size(obj, *client.Node, 0);
+    return check_upload(client, obj, size);
+  }
+  size = client.Size;
+  return access::check_length(*client.Node, obj, size);
+}
+
+uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
+  CO_NODE& node = *client.Node;
+  uint32_t size = 0;
+  uint32_t abort = check_size(client, obj, size);
+  if (abort != no_abort) {
+    return abort;
+  }
+  CO_ERR err = obj::begin(obj, node, direction, size);
+  if (err != CO_ERR_NONE) {
+    return access::abort_for(node, err);
+  }
+  abort = direction == CO_OBJ_UPLOAD ? read_all(client, obj, size) : write_all(client, obj);
+  err = obj::end(obj, node, direction, abort);
+  const bool refused = abort == no_abort && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
+  return refused ? access::write_failed(node, err) : abort;
+}
+
+}  // namespace
+
+uint32_t access_own(CO_CSDO& client) {
+  CO_NODE& node = *client.Node;
+  const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
+  CO_OBJ* obj = nullptr;
+  uint32_t abort = access::open(node, client.Key, direction, obj);
+  if (abort == no_abort) {
+    const bool taken = obj::is_stream(*obj) && access::is_taken(node, *obj, nullptr);
+    abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
+  }
+  node.Served = nullptr;
+  return abort;
+}
+
+}  // namespace co::sdo_client

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: expedited, segmented and block transfer, and the own dictionary. [301:7.2.4]
+#pragma once
+
+#include "co_core.h"
+
+namespace co::sdo_client {
+
+// Number of the service in the table of node/services.cpp, for the routes of its clients.
+inline constexpr uint8_t service = 3;
+
+// Takes the COB-IDs from the dictionary; no transfer is going on.
+void init(CO_NODE& node);
+
+// A frame for client number. False: malformed.
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+// Transfers end, without an abort, when SDO is no longer allowed. [301:7.3.2.2.4]
+void on_mode(CO_NODE& node);
+
+// The controller may take frames again: block downloads go on.
+void on_free(CO_NODE& node);
+
+// Takes the COB-IDs from the dictionary again; a client whose identifiers have changed ends its transfer.
+void configure(CO_NODE& node);
+
+}  // namespace co::sdo_client

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block download. The segments of a block wait in the buffer; it is handed to the object when it is full, and at the
+// end, after length and CRC were found right. [301:7.2.4.3.9-11]
+#include "core/transmit.hpp"
+#include "service/sdo_server/transfer.hpp"
+
+namespace co::sdo_server {
+namespace {
+
+// A new block, of as many segments as fit into the buffer.
+void begin_block(CO_SDO& channel) {
+  const auto room = static_cast<uint8_t>((CO_SDO_BUF_BYTE - channel.Fill) / wire::segment_bytes);
+  channel.BlkSize = room != 0 ? room : CO_SDO_BUF_SEG;
+  channel.Seq = 0;
+  clear(channel, heard);
+}
+
+void sum(CO_SDO& channel, uint32_t n) {
+  if (has(channel, crc)) {
+    channel.Crc = wire::crc16(channel.Crc, buffer_of(channel), n);
+  }
+}
+
+// At least this many bytes the client has sent with this segment.
+uint32_t take(CO_SDO& channel, const CO_IF_FRM& segment) {
+  const uint32_t least = wire::is_last_in_block(segment.Data[0]) ? 0 : wire::segment_bytes;
+  if (channel.Fill + least > channel.Size - channel.Num) {
+    return CO_SDO_ERR_LEN_HIGH;
+  }
+  __builtin_memcpy(buffer_of(channel) + channel.Fill, segment.Data + 1, wire::segment_bytes);
+  channel.Fill = static_cast<uint16_t>(channel.Fill + wire::segment_bytes);
+  ++channel.Seq;
+  return no_abort;
+}
+
+uint32_t hand_over(CO_SDO& channel, uint32_t n) {
+  channel.Fill = 0;
+  return put(channel, buffer_of(channel), n);
+}
+
+void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
+  answer.Data[0] = wire::acknowledge_block;
+  answer.Data[1] = channel.AckSeq;
+  answer.Data[2] = channel.AckSize;
+}
+
+void put_accept(const CO_SDO& channel, CO_IF_FRM& answer) {
+  wire::put_head(answer, wire::accept_block, channel.Key);
+  answer.Data[4] = channel.BlkSize;
+}
+
+// The client goes on behind the last segment that has arrived in order.
+void end_block(CO_SDO& channel, CO_IF_FRM& answer) {
+  channel.AckSeq = channel.Seq;
+  begin_block(channel);
+  channel.AckSize = channel.BlkSize;
+  put_acknowledge(channel, answer);
+}
+
+// The end of a block that comes before anything else of the block is the repeated end of the block before.
+bool is_repeated(const CO_SDO& channel, uint8_t number) { return number > 1 && !has(channel, heard); }
+
+}  // namespace
+
+uint32_t initiate_block_download(Step& step) {
+  CO_SDO& channel = step.channel;
+  const uint8_t command = step.request.Data[0];
+  if (buffer_of(channel) == nullptr) {
+    return CO_SDO_ERR_CMD;
+  }
+  uint32_t abort = open(step, CO_OBJ_DOWNLOAD);
+  if (abort == no_abort) {
+    abort = open_download(step, wire::is_block_sized(command));
+  }
+  if (abort != no_abort) {
+    return abort;
+  }
+  if (wire::has_crc(command)) {
+    set(channel, crc);
+  }
+  channel.Crc = 0;
+  channel.Fill = 0;
+  channel.AckSize = 0;
+  begin_block(channel);
+  put_accept(channel, step.answer);
+  set_state(channel, State::block_download);
+  return no_abort;
+}
+
+uint32_t download_block_segment(Step& step) {
+  CO_SDO& channel = step.channel;
+  const uint8_t number = wire::seqno(step.request.Data[0]);
+  const bool last = wire::is_last_in_block(step.request.Data[0]);
+  const bool ends = last || number == channel.BlkSize;
+  const bool in_order = number == channel.Seq + 1;
+  step.silent = true;
+  if (number == 0 || state_of(channel) != State::block_download || (ends && is_repeated(channel, number))) {
+    return no_abort;
+  }
+  set(channel, heard);
+  uint32_t abort = in_order ? take(channel, step.request) : no_abort;
+  if (abort != no_abort || !ends) {
+    return abort;
+  }
+  if (in_order && last) {
+    set_state(channel, State::block_download_end);
+  } else if (channel.Fill == CO_SDO_BUF_BYTE) {
+    sum(channel, channel.Fill);
+    abort = is_gone(channel) ? CO_SDO_ERR_TOS_STATE : hand_over(channel, channel.Fill);
+  }
+  end_block(channel, step.answer);
+  step.silent = false;
+  return abort;
+}
+
+uint32_t end_block_download(Step& step) {
+  CO_SDO& channel = step.channel;
+  if (is_gone(channel)) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  const uint32_t n = channel.Fill - wire::unused_in_block(step.request.Data[0]);
+  uint32_t abort = check_total(step, channel.Num + n);
+  if (abort != no_abort) {
+    return abort;
+  }
+  sum(channel, n);
+  if (has(channel, crc) && channel.Crc != wire::get_u16(step.request.Data + 1)) {
+    return CO_SDO_ERR_CRC;
+  }
+  abort = hand_over(channel, n);
+  step.answer.Data[0] = wire::confirm_block;
+  return abort == no_abort ? finish_download(step) : abort;
+}
+
+void remind(CO_SDO& channel) {
+  const State state = state_of(channel);
+  if (state != State::block_download && state != State::block_download_end) {
+    return;
+  }
+  CO_IF_FRM frame = {channel.TxId, {}, wire::sdo_dlc};
+  if (has(channel, heard)) {
+    end_block(channel, frame);
+  } else if (channel.AckSize != 0) {
+    put_acknowledge(channel, frame);
+  } else {
+    put_accept(channel, frame);
+  }
+  transmit::send(*channel.Node, frame);
+}
+
+}  // namespace co::sdo_server
