@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol machines: a row for every event that a state knows. A pair that is no row is the protocol error.
+// Protocol machines: a row for every event that states know. A pair that is in no row is the protocol error.
 #pragma once
 
 #include <stddef.h>
@@ -7,42 +7,31 @@
 
 namespace co {
 
-template <class State, class Event, class Service>
+// Some states, for the rows.
+template <class... State>
+constexpr uint32_t in(State... states) {
+  return ((uint32_t{1} << static_cast<unsigned>(states)) | ...);
+}
+
+template <class Event, class Service>
 struct Row {
-  State in;
+  uint32_t states;
   Event on;
   Service run;
 };
 
-// Services that occur in the rows.
-template <class Row, size_t rows>
-constexpr size_t count_services(const Row (&table)[rows]) {
-  size_t different = 0;
-  for (size_t n = 0; n < rows; ++n) {
-    bool first = true;
-    for (size_t before = 0; before < n; ++before) {
-      first = first && table[before].run != table[n].run;
-    }
-    different += first ? 1 : 0;
-  }
-  return different;
-}
-
-// The rows as a matrix of service numbers, so that a step costs two look-ups whatever the number of rows.
-template <class State, class Event, class Service, size_t states, size_t events, size_t services>
+// The rows as a matrix of their numbers, so that a step costs two look-ups whatever the number of rows.
+template <class State, class Event, class Service, size_t states, size_t events, size_t rows>
 class Machine {
  public:
-  template <size_t rows>
-  constexpr Machine(const Row<State, Event, Service> (&table)[rows], Service otherwise) : run_{otherwise}, number_{} {
-    uint8_t used = 1;
-    for (const auto& row : table) {
-      uint8_t n = 1;
-      while (n < used && run_[n] != row.run) {
-        ++n;
+  constexpr Machine(const Row<Event, Service> (&table)[rows], Service otherwise) : run_{otherwise}, number_{} {
+    for (size_t n = 0; n < rows; ++n) {
+      run_[n + 1] = table[n].run;
+      for (size_t state = 0; state < states; ++state) {
+        if ((table[n].states >> state & 1U) != 0) {
+          number_[state][static_cast<size_t>(table[n].on)] = static_cast<uint8_t>(n + 1);
+        }
       }
-      run_[n] = row.run;
-      used = n == used ? static_cast<uint8_t>(used + 1) : used;
-      number_[static_cast<size_t>(row.in)][static_cast<size_t>(row.on)] = n;
     }
   }
 
@@ -51,8 +40,13 @@ class Machine {
   }
 
  private:
-  Service run_[services + 1];
+  Service run_[rows + 1];
   uint8_t number_[states][events];
 };
+
+template <class State, size_t states, size_t events, class Event, class Service, size_t rows>
+constexpr auto make_machine(const Row<Event, Service> (&table)[rows], Service otherwise) {
+  return Machine<State, Event, Service, states, events, rows>(table, otherwise);
+}
 
 }  // namespace co

@@ -47,28 +47,17 @@ void reset(CO_NODE& node) {
 void stay(CO_NODE&) {}
 
 using Service = void (*)(CO_NODE&);
-using NmtRow = Row<CO_MODE, Event, Service>;
 
 // [301:7.3.2.1 figure 46]
-constexpr NmtRow rows[] = {
-    {CO_PREOP, Event::start, enter<CO_OPERATIONAL>},
-    {CO_PREOP, Event::stop, enter<CO_STOP>},
-    {CO_PREOP, Event::reset_node, reset<event::reset_node>},
-    {CO_PREOP, Event::reset_communication, reset<event::reset_communication>},
-
-    {CO_OPERATIONAL, Event::stop, enter<CO_STOP>},
-    {CO_OPERATIONAL, Event::enter_pre_operational, enter<CO_PREOP>},
-    {CO_OPERATIONAL, Event::reset_node, reset<event::reset_node>},
-    {CO_OPERATIONAL, Event::reset_communication, reset<event::reset_communication>},
-
-    {CO_STOP, Event::start, enter<CO_OPERATIONAL>},
-    {CO_STOP, Event::enter_pre_operational, enter<CO_PREOP>},
-    {CO_STOP, Event::reset_node, reset<event::reset_node>},
-    {CO_STOP, Event::reset_communication, reset<event::reset_communication>},
+constexpr Row<Event, Service> rows[] = {
+    {in(CO_PREOP, CO_STOP), Event::start, enter<CO_OPERATIONAL>},
+    {in(CO_PREOP, CO_OPERATIONAL), Event::stop, enter<CO_STOP>},
+    {in(CO_OPERATIONAL, CO_STOP), Event::enter_pre_operational, enter<CO_PREOP>},
+    {in(CO_PREOP, CO_OPERATIONAL, CO_STOP), Event::reset_node, reset<event::reset_node>},
+    {in(CO_PREOP, CO_OPERATIONAL, CO_STOP), Event::reset_communication, reset<event::reset_communication>},
 };
 
-constexpr Machine<CO_MODE, Event, Service, CO_MODE_NUM, static_cast<size_t>(Event::count), count_services(rows)>
-    machine(rows, stay);
+constexpr auto machine = make_machine<CO_MODE, CO_MODE_NUM, static_cast<size_t>(Event::count)>(rows, stay);
 
 }  // namespace
 

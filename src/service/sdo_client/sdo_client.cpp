@@ -112,48 +112,35 @@ uint32_t block_refused(Step& step) {
 }
 
 using Service = uint32_t (*)(Step&);
-using ClientRow = Row<State, wire::Response, Service>;
 using wire::Response;
 
-constexpr ClientRow rows[] = {
-    {State::download_initiated, Response::initiate_download, download_accepted},
-    {State::download_initiated, Response::abort, refused},
+constexpr Row<Response, Service> rows[] = {
+    {in(State::download_initiated), Response::initiate_download, download_accepted},
+    {in(State::download), Response::download_segment, segment_downloaded},
 
-    {State::download, Response::download_segment, segment_downloaded},
-    {State::download, Response::abort, aborted},
+    {in(State::upload_initiated, State::block_upload_initiated), Response::initiate_upload, upload_accepted},
+    {in(State::upload), Response::upload_segment, segment_uploaded},
 
-    {State::upload_initiated, Response::initiate_upload, upload_accepted},
-    {State::upload_initiated, Response::abort, refused},
-
-    {State::upload, Response::upload_segment, segment_uploaded},
-    {State::upload, Response::abort, aborted},
+    {in(State::download_initiated, State::upload_initiated), Response::abort, refused},
+    {in(State::download, State::upload), Response::abort, aborted},
 
 #if USE_SDO_BLOCK
-    {State::block_download_initiated, Response::initiate_block_download, block_download_accepted},
-    {State::block_download_initiated, Response::abort, block_refused},
+    {in(State::block_download_initiated), Response::initiate_block_download, block_download_accepted},
+    {in(State::block_download), Response::acknowledge_block, block_acknowledged},
+    {in(State::block_download_end), Response::end_block_download, block_download_confirmed},
 
-    {State::block_download, Response::acknowledge_block, block_acknowledged},
-    {State::block_download, Response::abort, aborted},
+    {in(State::block_upload_initiated), Response::initiate_block_upload, block_upload_accepted},
+    {in(State::block_upload, State::block_upload_end), Response::block_segment, block_segment_uploaded},
+    {in(State::block_upload_end), Response::end_block_upload, block_upload_ended},
 
-    {State::block_download_end, Response::end_block_download, block_download_confirmed},
-    {State::block_download_end, Response::abort, aborted},
-
-    {State::block_upload_initiated, Response::initiate_block_upload, block_upload_accepted},
-    {State::block_upload_initiated, Response::initiate_upload, upload_accepted},
-    {State::block_upload_initiated, Response::abort, block_refused},
-
-    {State::block_upload, Response::block_segment, block_segment_uploaded},
-    {State::block_upload, Response::abort, aborted},
-
-    {State::block_upload_end, Response::end_block_upload, block_upload_ended},
-    {State::block_upload_end, Response::block_segment, block_segment_uploaded},
-    {State::block_upload_end, Response::abort, aborted},
+    {in(State::block_download_initiated, State::block_upload_initiated), Response::abort, block_refused},
+    {in(State::block_download, State::block_download_end, State::block_upload, State::block_upload_end),
+     Response::abort, aborted},
 #endif
 };
 
-constexpr Machine<State, Response, Service, static_cast<size_t>(State::count), wire::response_count,
-                  count_services(rows)>
-    machine(rows, refuse_response);
+constexpr auto machine =
+    make_machine<State, static_cast<size_t>(State::count), wire::response_count>(rows, refuse_response);
 
 // Segments of a block look like anything; the state tells them.
 Response response_in(const CO_CSDO& client, uint8_t command) {

@@ -22,72 +22,36 @@ uint32_t end_by_client(Step& step) {
 uint32_t refuse_command(Step&) { return CO_SDO_ERR_CMD; }
 
 using Service = uint32_t (*)(Step&);
-using SdoRow = Row<State, wire::Request, Service>;
 using wire::Request;
 
 // A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3] Within a
 // block of a download everything but an abort is a segment.
-constexpr SdoRow rows[] = {
-    {State::idle, Request::initiate_download, initiate_download},
-    {State::idle, Request::initiate_upload, initiate_upload},
-    {State::idle, Request::abort, end_by_client},
+constexpr uint32_t outside_block = in(State::idle, State::download, State::upload, State::block_download_end,
+                                      State::block_upload_ready, State::block_upload, State::block_upload_end);
 
-    {State::download, Request::download_segment, download_segment},
-    {State::download, Request::initiate_download, initiate_download},
-    {State::download, Request::initiate_upload, initiate_upload},
-    {State::download, Request::abort, end_by_client},
+constexpr Row<Request, Service> rows[] = {
+    {outside_block | in(State::block_download), Request::abort, end_by_client},
 
-    {State::upload, Request::upload_segment, upload_segment},
-    {State::upload, Request::initiate_download, initiate_download},
-    {State::upload, Request::initiate_upload, initiate_upload},
-    {State::upload, Request::abort, end_by_client},
+    {outside_block, Request::initiate_download, initiate_download},
+    {in(State::download), Request::download_segment, download_segment},
+
+    {outside_block, Request::initiate_upload, initiate_upload},
+    {in(State::upload), Request::upload_segment, upload_segment},
 
 #if USE_SDO_BLOCK
-    {State::idle, Request::initiate_block_download, initiate_block_download},
-    {State::idle, Request::initiate_block_upload, initiate_block_upload},
+    {outside_block, Request::initiate_block_download, initiate_block_download},
+    {in(State::block_download, State::block_download_end), Request::block_segment, download_block_segment},
+    {in(State::block_download_end), Request::end_block_download, end_block_download},
 
-    {State::download, Request::initiate_block_download, initiate_block_download},
-    {State::download, Request::initiate_block_upload, initiate_block_upload},
-
-    {State::upload, Request::initiate_block_download, initiate_block_download},
-    {State::upload, Request::initiate_block_upload, initiate_block_upload},
-
-    {State::block_download, Request::block_segment, download_block_segment},
-    {State::block_download, Request::abort, end_by_client},
-
-    {State::block_download_end, Request::end_block_download, end_block_download},
-    {State::block_download_end, Request::block_segment, download_block_segment},
-    {State::block_download_end, Request::initiate_download, initiate_download},
-    {State::block_download_end, Request::initiate_upload, initiate_upload},
-    {State::block_download_end, Request::initiate_block_download, initiate_block_download},
-    {State::block_download_end, Request::initiate_block_upload, initiate_block_upload},
-    {State::block_download_end, Request::abort, end_by_client},
-
-    {State::block_upload_ready, Request::start_block_upload, start_block_upload},
-    {State::block_upload_ready, Request::initiate_download, initiate_download},
-    {State::block_upload_ready, Request::initiate_upload, initiate_upload},
-    {State::block_upload_ready, Request::initiate_block_download, initiate_block_download},
-    {State::block_upload_ready, Request::initiate_block_upload, initiate_block_upload},
-    {State::block_upload_ready, Request::abort, end_by_client},
-
-    {State::block_upload, Request::acknowledge_block, acknowledge_block},
-    {State::block_upload, Request::initiate_download, initiate_download},
-    {State::block_upload, Request::initiate_upload, initiate_upload},
-    {State::block_upload, Request::initiate_block_download, initiate_block_download},
-    {State::block_upload, Request::initiate_block_upload, initiate_block_upload},
-    {State::block_upload, Request::abort, end_by_client},
-
-    {State::block_upload_end, Request::end_block_upload, end_block_upload},
-    {State::block_upload_end, Request::initiate_download, initiate_download},
-    {State::block_upload_end, Request::initiate_upload, initiate_upload},
-    {State::block_upload_end, Request::initiate_block_download, initiate_block_download},
-    {State::block_upload_end, Request::initiate_block_upload, initiate_block_upload},
-    {State::block_upload_end, Request::abort, end_by_client},
+    {outside_block, Request::initiate_block_upload, initiate_block_upload},
+    {in(State::block_upload_ready), Request::start_block_upload, start_block_upload},
+    {in(State::block_upload), Request::acknowledge_block, acknowledge_block},
+    {in(State::block_upload_end), Request::end_block_upload, end_block_upload},
 #endif
 };
 
-constexpr Machine<State, Request, Service, static_cast<size_t>(State::count), wire::request_count, count_services(rows)>
-    machine(rows, refuse_command);
+constexpr auto machine =
+    make_machine<State, static_cast<size_t>(State::count), wire::request_count>(rows, refuse_command);
 
 // Segments of a block look like anything; the state tells them.
 Request request_in(const CO_SDO& channel, uint8_t command) {

@@ -83,7 +83,6 @@ uint32_t begin(CO_SDO& channel, uint32_t size) {
 
 uint32_t close(CO_SDO& channel, uint32_t code) {
   const bool is_told = has(channel, begun) && !is_gone(channel);
-  CO_NODE& node = *channel.Node;
   CO_OBJ* const obj = channel.Obj;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
@@ -91,6 +90,7 @@ uint32_t close(CO_SDO& channel, uint32_t code) {
   if (!is_told) {
     return no_abort;
   }
+  CO_NODE& node = *channel.Node;
   access::serve(node, obj);
   const CO_ERR err = obj::end(*obj, node, direction(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
