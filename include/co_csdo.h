@@ -51,10 +51,18 @@ typedef void (*CO_CSDO_CALLBACK_T)(struct CO_CSDO_T* csdo, uint16_t index, uint8
 /// One SDO client (1280h, 1281h, …). The application reads State and NodeId and touches nothing else.
 typedef struct CO_CSDO_T {
   struct CO_NODE_T* Node;
+  CO_CSDO_STATE State;  ///< what the application sees
+  uint8_t NodeId;       ///< of the server
+  uint8_t Step;         ///< of the protocol
+  uint8_t Flags;        ///< of the transfer
+  uint8_t Toggle;       ///< toggle bit of the segment under way, in place (00h or 10h)
+  uint8_t BlkSize;      ///< segments of a block
+  uint8_t Seq;          ///< last segment of the block that was sent, or received in order
+  uint8_t AckSeq;       ///< block upload: last acknowledge
+  uint8_t Silence;      ///< block upload: quarters of the time-out without a segment
+  uint16_t Crc;         ///< of the data so far
   uint32_t RxId;        ///< identifier of the server's frames, as in CO_IF_FRM; FFFF FFFFh: none
   uint32_t TxId;        ///< identifier of the client's frames
-  uint8_t NodeId;       ///< of the server
-  CO_CSDO_STATE State;  ///< what the application sees
   CO_CSDO_CALLBACK_T Call;
   uint8_t* Buf;    ///< the caller's
   uint32_t Size;   ///< bytes at Buf
@@ -63,14 +71,6 @@ typedef struct CO_CSDO_T {
   uint32_t Key;    ///< CO_DEV() of the object
   uint32_t Ticks;  ///< time-out; 0: none
   CO_TMR_MEM Tmr;
-  uint16_t Crc;     ///< of the data so far
-  uint8_t Step;     ///< of the protocol
-  uint8_t Flags;    ///< of the transfer
-  uint8_t Toggle;   ///< toggle bit of the segment under way, in place (00h or 10h)
-  uint8_t BlkSize;  ///< segments of a block
-  uint8_t Seq;      ///< last segment of the block that was sent, or received in order
-  uint8_t AckSeq;   ///< block upload: last acknowledge
-  uint8_t Silence;  ///< block upload: quarters of the time-out without a segment
 } CO_CSDO;
 
 /// Client \a num, from 0. Null: \a node is null, no such client, or 1280h + \a num is missing or not valid. A busy

@@ -20,6 +20,18 @@ constexpr void put_u32(uint8_t* p, uint32_t value) {
   p[3] = static_cast<uint8_t>(value >> 24);
 }
 
+// A word whose place is aligned.
+inline uint32_t get_aligned(const uint8_t* p) {
+  uint32_t value = 0;
+  __builtin_memcpy(&value, __builtin_assume_aligned(p, sizeof value), sizeof value);
+  return host_is_little_endian ? value : __builtin_bswap32(value);
+}
+
+inline void put_aligned(uint8_t* p, uint32_t value) {
+  value = host_is_little_endian ? value : __builtin_bswap32(value);
+  __builtin_memcpy(__builtin_assume_aligned(p, sizeof value), &value, sizeof value);
+}
+
 constexpr uint16_t get_u16(const uint8_t* p) { return static_cast<uint16_t>(p[0] | (p[1] << 8)); }
 
 constexpr void put_u16(uint8_t* p, uint16_t value) {

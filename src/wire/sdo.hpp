@@ -104,17 +104,21 @@ constexpr Response response_of(uint8_t command) {
 inline constexpr uint8_t toggle_bit = 0x10;
 constexpr uint8_t toggle(const CO_IF_FRM& frame) { return frame.Data[0] & toggle_bit; }
 
-// Multiplexer: index in bytes 1 and 2, sub-index in byte 3; as a key without flags.
-constexpr uint32_t multiplexer(const CO_IF_FRM& frame) {
-  return CO_DEV(static_cast<uint32_t>(frame.Data[1]) | (static_cast<uint32_t>(frame.Data[2]) << 8), frame.Data[3]);
-}
+// The bytes of a frame in two words, which lie aligned.
+static_assert(offsetof(CO_IF_FRM, Data) % sizeof(uint32_t) == 0);
+inline uint32_t get_low(const CO_IF_FRM& frame) { return get_aligned(frame.Data); }
+inline uint32_t get_high(const CO_IF_FRM& frame) { return get_aligned(frame.Data + 4); }
+inline void put_low(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data, value); }
+inline void put_high(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data + 4, value); }
 
-constexpr void put_head(CO_IF_FRM& frame, uint8_t command, uint32_t key) {
-  frame.Data[0] = command;
-  frame.Data[1] = static_cast<uint8_t>(key >> 16);
-  frame.Data[2] = static_cast<uint8_t>(key >> 24);
-  frame.Data[3] = static_cast<uint8_t>(key >> 8);
+// Multiplexer: index in bytes 1 and 2, sub-index in byte 3; as a key without flags.
+constexpr uint32_t multiplexer_of(uint32_t low) { return ((low << 8) & 0xFFFF0000U) | ((low >> 16) & 0xFF00U); }
+inline uint32_t multiplexer(const CO_IF_FRM& frame) { return multiplexer_of(get_low(frame)); }
+
+constexpr uint32_t head(uint8_t command, uint32_t key) {
+  return command | ((key >> 8) & 0x00FFFF00U) | ((key & 0xFF00U) << 16);
 }
+inline void put_head(CO_IF_FRM& frame, uint8_t command, uint32_t key) { put_low(frame, head(command, key)); }
 
 // Initiate: 0ssx nnes. e: expedited, s: size indicated, n: bytes of the four that hold no data.
 constexpr bool is_expedited(uint8_t command) { return (command & 0x02) != 0; }
@@ -126,6 +130,12 @@ constexpr uint32_t segment_length(uint8_t command) { return segment_bytes - ((co
 constexpr bool is_last_segment(uint8_t command) { return (command & 0x01) != 0; }
 
 inline constexpr uint8_t abort_command = 0x80;
+inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, uint32_t code) {
+  CO_IF_FRM frame = {identifier, {}, sdo_dlc};
+  put_head(frame, abort_command, key);
+  put_high(frame, code);
+  return frame;
+}
 
 // Answers of a server.
 inline constexpr uint8_t initiate_download_response = 0x60;
@@ -208,6 +218,8 @@ static_assert(segment_length(0x0F) == 0 && segment_length(0x00) == 7 && segment_
 static_assert(segment(0x10, 2, true) == 0x1B && download_segment_response(0x10) == 0x30);
 static_assert(end_block(3) == 0xCD && unused_in_block(0xDD) == 7 && block_segment(1, true) == 0x81);
 static_assert(has_crc(0xA4) && !has_crc(0xC2) && is_block_sized(0xC2) && !is_block_sized(0xC4));
+
+static_assert(head(0x40, 0x10180200) == 0x02101840 && multiplexer_of(0x02101840) == 0x10180200);
 
 namespace vectors {
 inline constexpr uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};

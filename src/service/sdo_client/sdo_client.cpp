@@ -42,10 +42,7 @@ void finish(CO_CSDO& client, uint32_t code) {
 
 void abort_transfer(CO_CSDO& client, uint32_t code) {
   if (state_of(client) != State::own) {
-    CO_IF_FRM frame = {client.TxId, {}, wire::sdo_dlc};
-    wire::put_head(frame, wire::abort_command, client.Key);
-    wire::put_u32(frame.Data + 4, code);
-    transmit::send(*client.Node, frame);
+    transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
   }
   finish(client, code);
 }
@@ -95,7 +92,7 @@ uint32_t ignore(Step& step) {
 uint32_t aborted(Step& step) {
   step.silent = true;
   step.done = true;
-  step.result = wire::get_u32(step.response.Data + 4);
+  step.result = wire::get_high(step.response);
   return no_abort;
 }
 
@@ -103,7 +100,7 @@ uint32_t refused(Step& step) { return is_for_another(step) ? ignore(step) : abor
 
 // Block transfer is optional for servers; the others are not.
 uint32_t block_refused(Step& step) {
-  const uint32_t code = wire::get_u32(step.response.Data + 4);
+  const uint32_t code = wire::get_high(step.response);
   if (is_for_another(step) || (code != CO_SDO_ERR_CMD && code != CO_SDO_ERR_GENERAL)) {
     return refused(step);
   }
@@ -318,7 +315,7 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   if (expedited) {
     __builtin_memcpy(request.Data + 4, client.Buf, client.Size);
   } else {
-    wire::put_u32(request.Data + 4, client.Size);
+    wire::put_high(request, client.Size);
   }
 }
 

@@ -31,7 +31,7 @@ uint32_t take_expedited(Step& step) {
 uint32_t take_size(Step& step) {
   CO_CSDO& client = step.client;
   set(client, sized);
-  client.Total = wire::get_u32(step.response.Data + 4);
+  client.Total = wire::get_high(step.response);
   return client.Total > client.Size ? CO_SDO_ERR_MEM : no_abort;
 }
 

@@ -53,7 +53,7 @@ uint32_t open_download(Step& step, bool announced) {
   uint32_t abort = no_abort;
   if (announced) {
     set(channel, sized);
-    channel.Size = wire::get_u32(step.request.Data + 4);
+    channel.Size = wire::get_high(step.request);
     abort = access::check_length(step.node, *channel.Obj, channel.Size);
   } else {
     channel.Size = capacity(step);

@@ -14,7 +14,7 @@ namespace co::sdo_server {
 namespace {
 
 uint32_t end_by_client(Step& step) {
-  close(step.channel, wire::get_u32(step.request.Data + 4));
+  close(step.channel, wire::get_high(step.request));
   step.silent = true;
   return no_abort;
 }

@@ -100,11 +100,8 @@ uint32_t close(CO_SDO& channel, uint32_t code) {
 }
 
 void send_abort(CO_SDO& channel, uint32_t key, uint32_t code) {
-  CO_IF_FRM frame = {channel.TxId, {}, wire::sdo_dlc};
-  wire::put_head(frame, wire::abort_command, key);
-  wire::put_u32(frame.Data + 4, code);
   count(channel.Node->Count.SdoAborts);
-  transmit::send(*channel.Node, frame);
+  transmit::send(*channel.Node, wire::abort_frame(channel.TxId, key, code));
 }
 
 // One timer watches all channels: a transfer ends after eight slices without a frame.

@@ -17,7 +17,7 @@ void answer_expedited(Step& step) {
 
 void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer) {
   wire::put_head(answer, command, channel.Key);
-  wire::put_u32(answer.Data + 4, channel.Size == CO_OBJ_SIZE_UNKNOWN ? 0 : channel.Size);
+  wire::put_high(answer, channel.Size == CO_OBJ_SIZE_UNKNOWN ? 0 : channel.Size);
 }
 
 uint32_t open_upload(Step& step) {
