@@ -69,6 +69,9 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
     if (node.Routes.Id[n] == id && event::is_allowed(node, service.allowed)) {
       claimed = true;
       served |= serve(node, frame, owner);
+      if (node.Routes.Owner[n] != owner) {  // the callback of a client has configured it anew
+        break;
+      }
     }
   }
   if (claimed && !served) {

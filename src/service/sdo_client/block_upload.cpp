@@ -52,6 +52,7 @@ void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
   client.AckSeq = client.Seq;
   put_acknowledge(client, request);
   count_bytes(client, (client.Seq - 1U) * wire::segment_bytes);
+  clear(client, heard);
   set_state(client, State::block_upload_end);
 }
 

@@ -15,18 +15,21 @@
 namespace co::sdo_client {
 namespace {
 
-// A quarter of the time-out is what the client listens at a time within a block of an upload.
+// A quarter of the time-out is what the client listens at a time in a block upload.
 constexpr uint32_t quarters = 4;
 constexpr uint8_t reminder_quarter = 2;
 
 void on_time(void* client_pointer);
 
+bool listens(const CO_CSDO& client) {
+  return state_of(client) == State::block_upload || state_of(client) == State::block_upload_end;
+}
+
 void await(CO_CSDO& client) {
   if (client.Ticks == 0) {
     return;
   }
-  const bool listens = state_of(client) == State::block_upload;
-  const uint32_t ticks = listens ? (client.Ticks + quarters - 1) / quarters : client.Ticks;
+  const uint32_t ticks = listens(client) ? (client.Ticks + quarters - 1) / quarters : client.Ticks;
   clear(client, active);
   tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
 }
@@ -75,10 +78,12 @@ void take_turn(CO_CSDO& client) {
 
 void on_time(void* client_pointer) {
   CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
-  switch (state_of(client)) {
-    case State::own: take_turn(client); break;
-    case State::block_upload: listen_on(client); break;
-    default: abort_transfer(client, CO_SDO_ERR_TIMEOUT); break;
+  if (state_of(client) == State::own) {
+    take_turn(client);
+  } else if (listens(client)) {
+    listen_on(client);
+  } else {
+    abort_transfer(client, CO_SDO_ERR_TIMEOUT);
   }
 }
 
