@@ -19,11 +19,6 @@ CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
   return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
 }
 
-const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj) {
-  const bool is_extended = obj.Type->Reset == COObjTypeExReset;
-  return is_extended ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type) : nullptr;
-}
-
 CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
   const CO_OBJ_TYPE_EX* const type = extended(obj);
   return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);

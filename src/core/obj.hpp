@@ -15,7 +15,10 @@ namespace co::obj {
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position);
 
 // For types that take part in the whole transfer; others see nothing.
-[[nodiscard]] const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj);
+[[nodiscard]] inline const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj) {
+  const bool is_extended = obj.Type->Reset == COObjTypeExReset;
+  return is_extended ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type) : nullptr;
+}
 [[nodiscard]] CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size);
 [[nodiscard]] CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort);
 

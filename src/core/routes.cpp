@@ -2,22 +2,16 @@
 #include "core/routes.hpp"
 
 #include "core/port.hpp"
-#include "wire/cob_id.hpp"
 
 namespace co::routes {
 namespace {
 
-constexpr uint8_t extended_class = 16;
 constexpr uint8_t end = 17;
 
 static_assert(CO_ROUTE_N <= UINT8_MAX, "routes are counted in 8 bits");
 
 constexpr uint16_t owner(uint8_t service, uint16_t number) {
   return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);
-}
-
-uint8_t class_of(uint32_t identifier) {
-  return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier & wire::base_ids) >> 7);
 }
 
 void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
@@ -66,11 +60,6 @@ void publish(const CO_NODE& node) {
   if (port::can_wants_filter(node)) {
     port::can_filter(node, node.Routes.Id, node.Routes.Start[end]);
   }
-}
-
-Range candidates(const CO_NODE& node, uint32_t identifier) {
-  const uint8_t fc = class_of(identifier);
-  return {node.Routes.Start[fc], node.Routes.Start[fc + 1]};
 }
 
 }  // namespace co::routes

@@ -18,12 +18,21 @@ void remove(CO_NODE& node, uint8_t service, uint16_t number);
 // Gives the identifiers to a driver that filters.
 void publish(const CO_NODE& node);
 
+// Function code of an identifier; all 29-bit identifiers have one of their own.
+[[nodiscard]] constexpr uint8_t class_of(uint32_t identifier) {
+  constexpr uint8_t extended_class = 16;
+  return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
+}
+
 // The routes [first, last) that an identifier may be among.
 struct Range {
   uint16_t first;
   uint16_t last;
 };
-[[nodiscard]] Range candidates(const CO_NODE& node, uint32_t identifier);
+[[nodiscard]] inline Range candidates(const CO_NODE& node, uint32_t identifier) {
+  const uint8_t fc = class_of(identifier);
+  return {node.Routes.Start[fc], node.Routes.Start[fc + 1]};
+}
 
 [[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }

@@ -187,12 +187,10 @@ constexpr uint8_t block_segment(uint8_t number, bool last) {
 // CRC-16-CCITT over the data, from 0. [301:7.2.4.3.16]
 constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
   uint32_t sum = crc;
-  for (; n != 0; --n) {
-    sum = ((sum >> 8) | (sum << 8)) ^ *data++;
-    sum ^= (sum & 0xFFU) >> 4;
-    sum ^= sum << 12;
-    sum ^= (sum & 0xFFU) << 5;
-    sum &= 0xFFFFU;
+  for (const uint8_t* const end = data + n; data != end; ++data) {
+    uint32_t x = (sum >> 8) ^ *data;
+    x ^= x >> 4;
+    sum = ((sum << 8) ^ (x << 12) ^ (x << 5) ^ x) & 0xFFFFU;
   }
   return static_cast<uint16_t>(sum);
 }

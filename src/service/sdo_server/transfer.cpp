@@ -71,6 +71,9 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
 }
 
 uint32_t begin(CO_SDO& channel, uint32_t size) {
+  if (obj::extended(*channel.Obj) == nullptr) {
+    return no_abort;
+  }
   const CO_ERR err = obj::begin(*channel.Obj, *channel.Node, direction(channel), size);
   if (err != CO_ERR_NONE) {
     return access::abort_for(*channel.Node, err);
@@ -79,24 +82,25 @@ uint32_t begin(CO_SDO& channel, uint32_t size) {
   return no_abort;
 }
 
-}  // namespace
-
-uint32_t close(CO_SDO& channel, uint32_t code) {
-  const bool is_told = has(channel, begun) && !is_gone(channel);
-  CO_OBJ* const obj = channel.Obj;
-  set_state(channel, State::idle);
-  channel.Obj = nullptr;
-  clear(channel, begun);
-  if (!is_told) {
-    return no_abort;
-  }
+uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
-  access::serve(node, obj);
-  const CO_ERR err = obj::end(*obj, node, direction(channel), code);
+  access::serve(node, &obj);
+  const CO_ERR err = obj::end(obj, node, direction(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
   const uint32_t abort = refused ? access::write_failed(node, err) : no_abort;
   node.Served = nullptr;
   return abort;
+}
+
+}  // namespace
+
+uint32_t close(CO_SDO& channel, uint32_t code) {
+  CO_OBJ* const obj = channel.Obj;
+  const bool is_told = has(channel, begun) && !is_gone(channel);
+  set_state(channel, State::idle);
+  channel.Obj = nullptr;
+  clear(channel, begun);
+  return is_told ? tell_end(channel, *obj, code) : no_abort;
 }
 
 void send_abort(CO_SDO& channel, uint32_t key, uint32_t code) {

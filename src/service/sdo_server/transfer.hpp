@@ -26,7 +26,7 @@ enum Flag : uint8_t {
   whole = 0x02,     // a value: collected in Value, read or written in one piece
   busy = 0x04,      // a type function may be running: the transfer is closed afterwards only
   download = 0x08,  // direction
-  begun = 0x10,     // the type was told the begin of the transfer
+  begun = 0x10,     // the type was told of the begin and wants to know the end
   crc = 0x20,       // both sides support the CRC
   heard = 0x40,     // block download: a segment of the block has arrived
   last_sent = 0x80  // block upload: the last segment of all was sent

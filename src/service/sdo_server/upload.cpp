@@ -7,9 +7,7 @@ namespace {
 void answer_expedited(Step& step) {
   CO_SDO& channel = step.channel;
   wire::put_head(step.answer, wire::expedited_upload_response(channel.Size), channel.Key);
-  for (uint32_t n = 0; n < channel.Size; ++n) {
-    step.answer.Data[4 + n] = channel.Value[n];
-  }
+  __builtin_memcpy(step.answer.Data + 4, channel.Value, wire::expedited_bytes);
   close(channel, no_abort);
 }
 
@@ -34,6 +32,7 @@ uint32_t open_upload(Step& step) {
 uint32_t ordinary_upload(Step& step) {
   CO_SDO& channel = step.channel;
   const bool expedited = channel.Size != 0 && channel.Size <= wire::expedited_bytes;
+  __builtin_memset(channel.Value, 0, wire::expedited_bytes);
   const uint32_t abort = begin_upload(step, expedited);
   if (abort != no_abort) {
     return abort;
