@@ -13,7 +13,8 @@ inline constexpr uint8_t sdo_dlc = 8;
 inline constexpr uint32_t segment_bytes = 7;
 inline constexpr uint32_t expedited_bytes = 4;
 
-// What a frame of a client asks for.
+// What a frame of a client asks for, and what a frame of a server answers: in the order of the command specifiers, bits
+// 7…5; those of block transfers (101b and 110b) are divided by the lowest bits.
 enum class Request : uint8_t {
   download_segment,
   initiate_download,
@@ -21,17 +22,14 @@ enum class Request : uint8_t {
   upload_segment,
   abort,
   initiate_block_upload,
-  start_block_upload,
-  acknowledge_block,
   end_block_upload,
+  acknowledge_block,
+  start_block_upload,
   initiate_block_download,
   end_block_download,
-  block_segment,  // told from the others by the state alone
   unknown,
+  block_segment,  // told from the others by the state alone
 };
-inline constexpr uint8_t request_count = 13;
-
-// What a frame of a server answers.
 enum class Response : uint8_t {
   upload_segment,
   download_segment,
@@ -39,66 +37,37 @@ enum class Response : uint8_t {
   initiate_download,
   abort,
   initiate_block_download,
-  acknowledge_block,
   end_block_download,
+  acknowledge_block,
+  none,
   initiate_block_upload,
   end_block_upload,
-  block_segment,  // told from the others by the state alone
   unknown,
+  block_segment,  // told from the others by the state alone
 };
-inline constexpr uint8_t response_count = 12;
+inline constexpr uint8_t command_count = 13;
 
-// Command specifier in bits 7…5. Reserved bits are 0, else the command is unknown; the rest of an abort does not
-// matter.
-constexpr Request request_of(uint8_t command) {
-  const unsigned low = command & 0x1FU;
-  switch (command >> 5) {
-    case 0: return Request::download_segment;
-    case 1: return low <= 0x0F ? Request::initiate_download : Request::unknown;
-    case 2: return low == 0 ? Request::initiate_upload : Request::unknown;
-    case 3: return (low & 0x0F) == 0 ? Request::upload_segment : Request::unknown;
-    case 4: return Request::abort;
-    case 5:
-      switch (low) {
-        case 0x00:
-        case 0x04: return Request::initiate_block_upload;
-        case 0x01: return Request::end_block_upload;
-        case 0x02: return Request::acknowledge_block;
-        case 0x03: return Request::start_block_upload;
-        default: return Request::unknown;
-      }
-    case 6:
-      if ((low & 0x19) == 0) {
-        return Request::initiate_block_download;
-      }
-      return (low & 0x03) == 0x01 ? Request::end_block_download : Request::unknown;
-    default: return Request::unknown;
+// Bits of each that are 0, else the command is unknown; the rest of an abort does not matter.
+using ReservedBits = uint8_t[11];
+inline constexpr ReservedBits request_reserved = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x18, 0x1C, 0x1C, 0x1C, 0x18, 0x02};
+inline constexpr ReservedBits response_reserved = {0x00, 0x0F, 0x10, 0x1F, 0x00, 0x18, 0x1C, 0x1C, 0xFF, 0x18, 0x02};
+
+constexpr uint8_t number_of_command(uint8_t command, const ReservedBits& reserved) {
+  constexpr unsigned unknown = 11;
+  unsigned number = command >> 5;
+  if (number == 5) {
+    number += command & 0x03U;
+  } else if (number >= 6) {
+    number = number == 6 ? 9 + (command & 0x01U) : unknown;
   }
+  return static_cast<uint8_t>(number < unknown && (command & reserved[number]) != 0 ? unknown : number);
 }
 
+constexpr Request request_of(uint8_t command) {
+  return static_cast<Request>(number_of_command(command, request_reserved));
+}
 constexpr Response response_of(uint8_t command) {
-  const unsigned low = command & 0x1FU;
-  switch (command >> 5) {
-    case 0: return Response::upload_segment;
-    case 1: return (low & 0x0F) == 0 ? Response::download_segment : Response::unknown;
-    case 2: return low <= 0x0F ? Response::initiate_upload : Response::unknown;
-    case 3: return low == 0 ? Response::initiate_download : Response::unknown;
-    case 4: return Response::abort;
-    case 5:
-      switch (low) {
-        case 0x00:
-        case 0x04: return Response::initiate_block_download;
-        case 0x01: return Response::end_block_download;
-        case 0x02: return Response::acknowledge_block;
-        default: return Response::unknown;
-      }
-    case 6:
-      if ((low & 0x19) == 0) {
-        return Response::initiate_block_upload;
-      }
-      return (low & 0x03) == 0x01 ? Response::end_block_upload : Response::unknown;
-    default: return Response::unknown;
-  }
+  return static_cast<Response>(number_of_command(command, response_reserved));
 }
 
 inline constexpr uint8_t toggle_bit = 0x10;
@@ -200,6 +169,8 @@ static_assert(request_of(0x40) == Request::initiate_upload && request_of(0x41) =
 static_assert(request_of(0x70) == Request::upload_segment && request_of(0x61) == Request::unknown);
 static_assert(request_of(0x80) == Request::abort && request_of(0x9F) == Request::abort);
 static_assert(request_of(0xA4) == Request::initiate_block_upload && request_of(0xA5) == Request::unknown);
+static_assert(request_of(0xA1) == Request::end_block_upload && request_of(0xA2) == Request::acknowledge_block);
+static_assert(request_of(0xA3) == Request::start_block_upload && request_of(0xA8) == Request::unknown);
 static_assert(request_of(0xC6) == Request::initiate_block_download && request_of(0xC8) == Request::unknown);
 static_assert(request_of(0xDD) == Request::end_block_download && request_of(0xC3) == Request::unknown);
 static_assert(request_of(0xE0) == Request::unknown && request_of(0xFF) == Request::unknown);

@@ -142,7 +142,7 @@ constexpr Row<Response, Service> rows[] = {
 };
 
 constexpr auto machine =
-    make_machine<State, static_cast<size_t>(State::count), wire::response_count>(rows, refuse_response);
+    make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_response);
 
 // Segments of a block look like anything; the state tells them.
 Response response_in(const CO_CSDO& client, uint8_t command) {

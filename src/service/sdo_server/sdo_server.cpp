@@ -51,7 +51,7 @@ constexpr Row<Request, Service> rows[] = {
 };
 
 constexpr auto machine =
-    make_machine<State, static_cast<size_t>(State::count), wire::request_count>(rows, refuse_command);
+    make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_command);
 
 // Segments of a block look like anything; the state tells them.
 Request request_in(const CO_SDO& channel, uint8_t command) {
