@@ -14,8 +14,6 @@ constexpr std::uint32_t error_restarted = 0x100;
 constexpr std::uint8_t controller_rx_overflow = 0x01;
 constexpr std::uint8_t error_dlc = 8;
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);
-
 bool is_error(const CO_IF_FRM& frame) { return (frame.Identifier & CO_IF_FRM_ERROR) != 0; }
 
 // The bits of the arbitration field in the order in which they are sent; the lower value wins. [ISO 11898-1]
@@ -73,16 +71,26 @@ std::uint32_t VirtualBus::struck(std::size_t rule) const { return rule < rules_.
 
 void VirtualBus::clear_rules() { rules_.clear(); }
 
+void VirtualBus::pace(std::uint32_t bit_rate) {
+  wire_.reset();
+  if (bit_rate != 0) {
+    wire_.emplace(bit_rate);
+  }
+}
+
 void VirtualBus::hold() { held_ = true; }
 
 void VirtualBus::release() {
   held_ = false;
+  not_before_ = now();
   run();
 }
 
 void VirtualBus::poll() { run(); }
 
-VirtualBus::Time VirtualBus::next_due() const { return late_.empty() ? never : late_.front().due; }
+VirtualBus::Time VirtualBus::next_due() const {
+  return std::min(late_.empty() ? never : late_.front().due, next_arrival());
+}
 
 CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t controller) {
   return {CO_IF_FRM_ERROR | (error_class & CO_IF_FRM_ID), {0, controller, 0, 0, 0, 0, 0, 0}, error_dlc};
@@ -109,7 +117,7 @@ const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) 
   return &decides->rule;
 }
 
-VirtualBus::Port* VirtualBus::winner() {
+VirtualBus::Port* VirtualBus::winner() const {
   Port* best = outside_->transmit_.empty() ? nullptr : outside_.get();
   for (const auto& port : ports_) {
     if (port->transmit_.empty()) {
@@ -128,12 +136,70 @@ void VirtualBus::run() {
   }
   running_ = true;
   deliver_due();
-  for (Port* port = winner(); port != nullptr && !held_; port = winner()) {
-    const CO_IF_FRM frame = port->transmit_.front();
-    port->transmit_.pop_front();
-    transmit(frame, port);
+  if (wire_) {
+    run_paced();
+  } else {
+    run_at_once();
   }
   running_ = false;
+}
+
+void VirtualBus::run_at_once() {
+  for (Port* port = winner(); port != nullptr && !held_; port = winner()) {
+    transmit(take_from(*port), port);
+  }
+}
+
+void VirtualBus::run_paced() {
+  while (!held_ && (on_wire_ || start_frame()) && wire_->received() <= now()) {
+    const OnWire over = *on_wire_;
+    on_wire_.reset();
+    transmit(over.frame, over.sender);
+  }
+}
+
+// Not in the very moment of the start of frame: whatever is sent in it takes part in the arbitration.
+bool VirtualBus::start_frame() {
+  Port* const port = winner();
+  if (port == nullptr || start_of_frame() >= now()) {
+    return false;
+  }
+  const Time start = start_of_frame();
+  on_wire_ = OnWire{take_from(*port), port};
+  wire_->occupy(start, frame_bits(on_wire_->frame));
+  return true;
+}
+
+CO_IF_FRM VirtualBus::take_from(Port& port) {
+  const CO_IF_FRM frame = port.transmit_.front();
+  port.transmit_.pop_front();
+  return frame;
+}
+
+VirtualBus::Time VirtualBus::start_of_frame() const { return std::max(wire_->free(), not_before_); }
+
+VirtualBus::Time VirtualBus::next_arrival() const {
+  if (!wire_ || held_) {
+    return never;
+  }
+  if (on_wire_) {
+    return wire_->received();
+  }
+  const Port* const port = winner();
+  if (port == nullptr) {
+    return never;
+  }
+  PacedWire then = *wire_;
+  then.occupy(start_of_frame(), frame_bits(port->transmit_.front()));
+  return then.received();
+}
+
+// Before the queue of a port changes: what has started by now stays started, and nothing starts in the past.
+void VirtualBus::catch_up() {
+  if (wire_) {
+    run();
+    not_before_ = now();
+  }
 }
 
 void VirtualBus::transmit(const CO_IF_FRM& frame, const Port* sender) {
@@ -222,6 +288,7 @@ std::int16_t VirtualBus::Port::send(const CO_IF_FRM& frame) {
   if (!active()) {
     return -1;
   }
+  bus_.catch_up();
   const Rule* const rule = bus_.strike({frame, bus_.visible(*this), bus_.now()}, Phase::send);
   const Fault fault = (rule != nullptr) ? rule->fault : Fault::none;
   if (fault == Fault::bus_off) {
@@ -230,12 +297,12 @@ std::int16_t VirtualBus::Port::send(const CO_IF_FRM& frame) {
   if (fault == Fault::bus_off || fault == Fault::error) {
     return -1;
   }
-  if (fault == Fault::refuse || transmit_.size() >= options_.transmit) {
+  if (fault == Fault::refuse || occupied() >= options_.transmit) {
     return 0;
   }
   transmit_.push_back(frame);
   bus_.run();
-  return taken;
+  return sizeof(CO_IF_FRM);
 }
 
 std::optional<CO_IF_FRM> VirtualBus::Port::read() {
@@ -268,6 +335,7 @@ void VirtualBus::Port::bus_off() {
   if (!active()) {
     return;
   }
+  bus_.catch_up();
   transmit_.clear();
   bus_off_ = true;
   report(error_frame(error_bus_off));
@@ -279,6 +347,11 @@ void VirtualBus::Port::recover() {
   }
   bus_off_ = false;
   report(error_frame(error_restarted));
+}
+
+std::size_t VirtualBus::Port::occupied() const {
+  const bool sending = bus_.on_wire_ && bus_.on_wire_->sender == this;
+  return transmit_.size() + (sending ? 1 : 0);
 }
 
 bool VirtualBus::Port::hears(const Port& sender) const {
@@ -303,34 +376,10 @@ void VirtualBus::Port::receive(const CO_IF_FRM& frame) {
 }
 
 void VirtualBus::Port::empty() {
+  bus_.catch_up();
   transmit_.clear();
   receive_.clear();
   overrun_ = false;
 }
-
-namespace {
-
-VirtualBus::Port& port(void* ctx) { return *static_cast<VirtualBus::Port*>(ctx); }
-
-void init(void* ctx) { port(ctx).close(); }
-void enable(void* ctx, std::uint32_t baud) { port(ctx).enable(baud); }
-
-std::int16_t read(void* ctx, CO_IF_FRM* frm) {
-  const std::optional<CO_IF_FRM> frame = port(ctx).read();
-  if (!frame) {
-    return 0;
-  }
-  *frm = *frame;
-  return taken;
-}
-
-std::int16_t send(void* ctx, const CO_IF_FRM* frm) { return port(ctx).send(*frm); }
-void reset(void* ctx) { port(ctx).reset(); }
-void close(void* ctx) { port(ctx).close(); }
-void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { port(ctx).filter(ids, num); }
-
-}  // namespace
-
-const CO_IF_CAN_DRV_EX VirtualBusDriver = {init, enable, read, send, reset, close, filter};
 
 }  // namespace co

@@ -17,6 +17,13 @@
 /// rate. Receive filters (CO_IF_CAN_DRV_EX.Filter) are honoured as by hardware, unless Options::filter is off.
 /// A full receive queue loses the frame: counted by Port::lost(), and reported to the node by an error frame.
 ///
+/// On a paced bus (pace()) a frame takes as long as on a wire of that bit rate, bit by bit. It needs a time source that
+/// a simulation advances from next_due() to next_due(). The next frame is chosen when the bus is free again, among all
+/// that were sent up to that moment; one on an idle bus starts at once. It arrives when its last bit is over, and its
+/// place in the transmit queue is free then, as in a controller; Traffic::time is that moment. A frame that has started
+/// ends, whatever becomes of its sender, but nothing arrives and nothing starts between hold() and release(). What
+/// faults add (a second copy, a late arrival) takes no time on the wire.
+///
 /// Faults are rules (class Rule): which frames, from which one on, how often, and what happens. Delays need a time
 /// source (set_time()). Delayed frames arrive when their time has come and the bus is used or polled: next_due() tells
 /// a simulation when that is.
@@ -40,6 +47,7 @@
 #include <vector>
 
 #include "co_if_can.h"
+#include "paced_wire.hpp"
 
 namespace co {
 
@@ -52,7 +60,7 @@ class VirtualBus {
   struct Options {
     std::string name;           ///< for traces
     std::size_t receive = 512;  ///< frames in the receive queue
-    std::size_t transmit = 10;  ///< frames in the transmit queue
+    std::size_t transmit = 10;  ///< frames in the transmit queue, the one on the wire included
     bool filter = true;         ///< false: a controller without receive filters
   };
 
@@ -104,6 +112,8 @@ class VirtualBus {
   void set_trace(std::function<void(const Traffic&)> trace);
   void set_time(std::function<Time()> source);
   Time now() const;
+  /// From now on frames take their time on the wire; no frame may be waiting. \a bit_rate: bit/s, 0: no longer.
+  void pace(std::uint32_t bit_rate);
 
   /// Returns a number for struck().
   std::size_t add_rule(Rule rule);
@@ -117,7 +127,7 @@ class VirtualBus {
 
   /// Delivers what is due.
   void poll();
-  /// When the next delayed frame arrives; never if none is due by time.
+  /// When the next delayed or paced frame arrives; never if none is due by time.
   Time next_due() const;
 
   /// An error frame. \a error_class: CAN_ERR_… of linux/can/error.h; \a controller: its CAN_ERR_CRTL_… .
@@ -135,11 +145,22 @@ class VirtualBus {
     Time due;
     bool behind_next;  // reorder: waits for the next frame of the sender
   };
+  struct OnWire {
+    CO_IF_FRM frame;
+    const Port* sender;
+  };
   enum class Phase { send, bus };
 
   const Rule* strike(const Traffic& traffic, Phase phase);
-  Port* winner();
+  Port* winner() const;
+  CO_IF_FRM take_from(Port& port);
   void run();
+  void run_at_once();
+  void run_paced();
+  bool start_frame();
+  Time start_of_frame() const;
+  Time next_arrival() const;
+  void catch_up();
   void transmit(const CO_IF_FRM& frame, const Port* sender);
   void postpone(const CO_IF_FRM& frame, const Port* sender, const Rule& rule);
   void deliver(const CO_IF_FRM& frame, const Port* sender);
@@ -155,6 +176,9 @@ class VirtualBus {
   std::vector<Late> late_;  // by due, equal ones in the order of sending
   std::function<void(const Traffic&)> trace_;
   std::function<Time()> source_;
+  std::optional<PacedWire> wire_;  // of a paced bus
+  std::optional<OnWire> on_wire_;
+  Time not_before_{0};  // the next start of frame
   bool held_ = false;
   bool running_ = false;
 };
@@ -197,6 +221,7 @@ class VirtualBus::Port {
  private:
   friend class VirtualBus;
   bool active() const { return enabled_ && !bus_off_; }
+  std::size_t occupied() const;
   bool hears(const Port& sender) const;
   bool accepts(const CO_IF_FRM& frame) const;
   void receive(const CO_IF_FRM& frame);

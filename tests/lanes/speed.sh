@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: Apache-2.0
+about="how fast SDO transfers are on a simulated bus, and that docs/speed.md tells it"
+packages=("${build_packages[@]}")
+
+# The time is that of the simulation: every machine measures the same.
+lane() {
+  build_preset release || return
+  local program=$build/release/tests/speed/lexican_speed page=$root/docs/speed.md
+  [ -z "${update_speed:-}" ] || "$program" --update "$page" || fail "the table is not written"
+  run_tap "$program" --check "$page"
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file transfer.hpp
+/// What is measured: SDO transfers of given data, one after the other.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace speed {
+
+using Time = std::chrono::microseconds;
+using Bytes = std::vector<std::uint8_t>;
+
+enum class Way { expedited, segmented, block };
+
+struct Transfers {
+  Way way;
+  bool upload;
+  std::vector<Bytes> data;  ///< of each transfer; 4 bytes if expedited; all of the same size
+};
+
+/// Where the server has the object.
+constexpr std::uint16_t object_index = 0x2000;
+constexpr std::uint8_t object_sub = 0;
+/// Of the server.
+constexpr std::uint8_t server_id = 5;
+
+}  // namespace speed
