@@ -34,8 +34,9 @@ constexpr bool is_restricted(uint32_t id) {
   return false;
 }
 
-// The CAN-IDs of the SDO server that every node has.
-constexpr bool is_default_sdo(uint32_t id) { return (id >= 0x581 && id <= 0x5FF) || (id >= 0x601 && id <= 0x67F); }
+// The CAN-IDs of the SDO server that every node has: from it, and to it.
+constexpr bool is_default_sdo_tx(uint32_t id) { return id >= 0x581 && id <= 0x5FF; }
+constexpr bool is_default_sdo_rx(uint32_t id) { return id >= 0x601 && id <= 0x67F; }
 
 // The CAN-ID fits the frame format that bit 29 names.
 constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }

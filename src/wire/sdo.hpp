@@ -106,6 +106,12 @@ inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, uint32_t code) {
   return frame;
 }
 
+// The code of an abort; one without a code is no success.
+inline uint32_t abort_code_in(const CO_IF_FRM& frame) {
+  const uint32_t code = get_high(frame);
+  return code != 0 ? code : CO_SDO_ERR_GENERAL;
+}
+
 // Answers of a server.
 inline constexpr uint8_t initiate_download_response = 0x60;
 constexpr uint8_t initiate_upload_response(bool sized) { return sized ? 0x41 : 0x40; }

@@ -52,9 +52,6 @@ uint32_t block_download_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t blksize = step.response.Data[4];
   step.silent = true;
-  if (is_for_another(step)) {
-    return no_abort;
-  }
   if (!wire::is_blksize(blksize)) {
     return CO_SDO_ERR_BLK_SIZE;
   }

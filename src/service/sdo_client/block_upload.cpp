@@ -56,18 +56,17 @@ void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
   set_state(client, State::block_upload_end);
 }
 
-// The end of a block that comes before anything else of the block is the repeated end of the block before.
-bool is_repeated(const CO_CSDO& client, uint8_t number) { return number > 1 && !has(client, heard); }
+// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
+// others are lost, then the client is silent for a while and asks for them.
+bool is_repeated(const CO_CSDO& client, uint8_t number) {
+  return number > 1 && client.AckSeq != 0 && !has(client, heard);
+}
 
 }  // namespace
 
 uint32_t block_upload_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t command = step.response.Data[0];
-  if (is_for_another(step)) {
-    step.silent = true;
-    return no_abort;
-  }
   if (wire::has_crc(command)) {
     set(client, crc);
   }
@@ -85,8 +84,9 @@ uint32_t block_segment_uploaded(Step& step) {
   const bool last = wire::is_last_in_block(step.response.Data[0]);
   const bool ends = last || number == wire::max_blksize;
   const bool in_order = number == client.Seq + 1;
+  const bool repeated = ends && is_repeated(client, number);
   step.silent = true;
-  if (state_of(client) != State::block_upload || (ends && is_repeated(client, number))) {
+  if (state_of(client) != State::block_upload) {
     return no_abort;
   }
   if (number == 0) {
@@ -94,6 +94,9 @@ uint32_t block_segment_uploaded(Step& step) {
   }
   set(client, heard);
   set(client, active);
+  if (repeated) {
+    return no_abort;
+  }
   const uint32_t abort = in_order ? take(client, step.response) : no_abort;
   if (abort != no_abort || !ends) {
     return abort;
@@ -101,6 +104,13 @@ uint32_t block_segment_uploaded(Step& step) {
   in_order&& last ? end_last_block(client, step.request) : end_block(client, step.request);
   step.silent = false;
   return no_abort;
+}
+
+bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame) {
+  const uint32_t room = client.Size - client.Num;
+  const uint32_t n = room < wire::segment_bytes ? room : wire::segment_bytes;
+  return frame.Data[0] == wire::block_segment(client.AckSeq, true) &&
+         __builtin_memcmp(frame.Data + 1, client.Buf + client.Num, n) == 0;
 }
 
 uint32_t block_upload_ended(Step& step) {

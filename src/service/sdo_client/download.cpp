@@ -20,10 +20,6 @@ void put_segment(const CO_CSDO& client, CO_IF_FRM& request) {
 
 uint32_t download_accepted(Step& step) {
   CO_CSDO& client = step.client;
-  if (is_for_another(step)) {
-    step.silent = true;
-    return no_abort;
-  }
   if (client.Size <= wire::expedited_bytes) {
     client.Num = client.Size;
     step.silent = true;

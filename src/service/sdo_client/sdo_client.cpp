@@ -29,7 +29,7 @@ void await(CO_CSDO& client) {
   if (client.Ticks == 0) {
     return;
   }
-  const uint32_t ticks = listens(client) ? (client.Ticks + quarters - 1) / quarters : client.Ticks;
+  const uint32_t ticks = listens(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
   clear(client, active);
   tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
 }
@@ -44,7 +44,7 @@ void finish(CO_CSDO& client, uint32_t code) {
 }
 
 void abort_transfer(CO_CSDO& client, uint32_t code) {
-  if (state_of(client) != State::own) {
+  if (state_of(client) != State::own && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
     transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
   }
   finish(client, code);
@@ -89,25 +89,18 @@ void on_time(void* client_pointer) {
 
 uint32_t refuse_response(Step&) { return CO_SDO_ERR_CMD; }
 
-uint32_t ignore(Step& step) {
-  step.silent = true;
-  return no_abort;
-}
-
 uint32_t aborted(Step& step) {
   step.silent = true;
   step.done = true;
-  step.result = wire::get_high(step.response);
+  step.result = wire::abort_code_in(step.response);
   return no_abort;
 }
-
-uint32_t refused(Step& step) { return is_for_another(step) ? ignore(step) : aborted(step); }
 
 // Block transfer is optional for servers; the others are not.
 uint32_t block_refused(Step& step) {
   const uint32_t code = wire::get_high(step.response);
-  if (is_for_another(step) || (code != CO_SDO_ERR_CMD && code != CO_SDO_ERR_GENERAL)) {
-    return refused(step);
+  if (code != CO_SDO_ERR_CMD && code != CO_SDO_ERR_GENERAL) {
+    return aborted(step);
   }
   put_initiate(step.client, false, step.request);
   return no_abort;
@@ -116,6 +109,9 @@ uint32_t block_refused(Step& step) {
 using Service = uint32_t (*)(Step&);
 using wire::Response;
 
+constexpr uint32_t initiated = in(State::download_initiated, State::upload_initiated, State::block_download_initiated,
+                                  State::block_upload_initiated);
+
 constexpr Row<Response, Service> rows[] = {
     {in(State::download_initiated), Response::initiate_download, download_accepted},
     {in(State::download), Response::download_segment, segment_downloaded},
@@ -123,8 +119,7 @@ constexpr Row<Response, Service> rows[] = {
     {in(State::upload_initiated, State::block_upload_initiated), Response::initiate_upload, upload_accepted},
     {in(State::upload), Response::upload_segment, segment_uploaded},
 
-    {in(State::download_initiated, State::upload_initiated), Response::abort, refused},
-    {in(State::download, State::upload), Response::abort, aborted},
+    {in(State::download_initiated, State::download, State::upload_initiated, State::upload), Response::abort, aborted},
 
 #if USE_SDO_BLOCK
     {in(State::block_download_initiated), Response::initiate_block_download, block_download_accepted},
@@ -144,11 +139,16 @@ constexpr Row<Response, Service> rows[] = {
 constexpr auto machine =
     make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_response);
 
+// An answer that names another object belongs to an older transfer.
+bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
+  return (in(state_of(client)) & initiated) != 0 && wire::multiplexer(frame) != client.Key;
+}
+
 // Segments of a block look like anything; the state tells them.
-Response response_in(const CO_CSDO& client, uint8_t command) {
-  const bool is_last_again = command == wire::block_segment(client.AckSeq, true);
-  const bool in_block =
-      state_of(client) == State::block_upload || (state_of(client) == State::block_upload_end && is_last_again);
+Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
+  const bool in_block = state_of(client) == State::block_upload ||
+                        (state_of(client) == State::block_upload_end && is_last_segment_again(client, frame));
+  const uint8_t command = frame.Data[0];
   return in_block && command != wire::abort_command ? Response::block_segment : wire::response_of(command);
 }
 
@@ -166,41 +166,51 @@ struct Configuration {
   uint32_t tx_id;
   uint32_t rx_id;
   uint8_t node_id;
+  CO_CSDO_STATE state;  // idle: there is a server
 };
 
+bool are_bases(uint32_t tx, uint32_t rx) {
+  return tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
+}
+
+// The own dictionary needs no identifiers.
 Configuration read_configuration(CO_NODE& node, uint16_t number) {
-  Configuration found = {wire::no_frame, wire::no_frame, 0};
+  constexpr uint8_t last_node_id = 127;
+  Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
   const uint32_t tx = cob_id(node, number, 1);
   const uint32_t rx = cob_id(node, number, 2);
   if (CODictRdByte(&node.Dict, CO_DEV(0x1280U + number, 3), &found.node_id) != CO_ERR_NONE) {
     found.node_id = 0;
   }
-  const bool valid = tx != wire::cob_invalid && rx != wire::cob_invalid;
-  if (!valid || found.node_id == node.NodeId) {
+  const uint8_t relative = are_bases(tx, rx) ? found.node_id : 0;
+  const bool has_id = relative != 0 || !are_bases(tx, rx);
+  if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {
     return found;
   }
-  const bool are_bases = tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
-  const uint8_t relative = are_bases ? found.node_id : 0;
-  found.tx_id = wire::frame_id(tx + relative);
-  found.rx_id = wire::frame_id(rx + relative);
+  found.state = CO_CSDO_STATE_IDLE;
+  if (found.node_id != node.NodeId) {
+    found.tx_id = wire::frame_id(tx + relative);
+    found.rx_id = wire::frame_id(rx + relative);
+  }
   return found;
 }
 
 bool is_configured(const CO_CSDO& client, const Configuration& as) {
-  return client.TxId == as.tx_id && client.RxId == as.rx_id && client.NodeId == as.node_id;
+  const bool is_off = client.State == CO_CSDO_STATE_INVALID;
+  return client.TxId == as.tx_id && client.RxId == as.rx_id && client.NodeId == as.node_id &&
+         is_off == (as.state == CO_CSDO_STATE_INVALID);
 }
 
 uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client - client.Node->CSdo); }
 
 void take_configuration(CO_CSDO& client, const Configuration& found) {
   CO_NODE& node = *client.Node;
-  const bool has_server = found.rx_id != wire::no_frame;
   client.TxId = found.tx_id;
   client.RxId = found.rx_id;
   client.NodeId = found.node_id;
-  client.State = has_server || found.node_id == node.NodeId ? CO_CSDO_STATE_IDLE : CO_CSDO_STATE_INVALID;
+  client.State = found.state;
   routes::remove(node, service, number_of(client));
-  if (has_server) {
+  if (found.rx_id != wire::no_frame) {
     routes::add(node, found.rx_id, service, number_of(client));
   }
 }
@@ -238,7 +248,7 @@ CO_ERR send_initiate(CO_CSDO& client) {
 // A timer does it, so that the callback never comes before the request has returned.
 void queue_own(CO_CSDO& client) {
   client.Num = 0;
-  client.Total = 0;
+  client.Total = has(client, is_upload) ? 0 : client.Size;
   set_state(client, State::own);
   tmr::start(client.Node->Tmr, client.Tmr, 1, 0, on_time, &client);
 }
@@ -246,14 +256,13 @@ void queue_own(CO_CSDO& client) {
 // What the timer cannot count is longer than anybody waits.
 uint32_t ticks(const CO_NODE& node, uint32_t timeout) {
   const uint32_t ticks = tmr::ticks(node.Tmr, timeout, CO_TMR_UNIT_1MS);
-  return timeout != 0 && (ticks == 0 || ticks > INT32_MAX) ? INT32_MAX : ticks;
+  return timeout != 0 && ticks == 0 ? UINT32_MAX : ticks;
 }
 
 CO_ERR start(CO_CSDO& client, uint32_t timeout) {
   const CO_NODE& node = *client.Node;
   client.Ticks = ticks(node, timeout);
-  const bool is_own = client.NodeId == node.NodeId;
-  if (is_own) {
+  if (client.NodeId == node.NodeId) {
     queue_own(client);
   } else if (const CO_ERR err = send_initiate(client); err != CO_ERR_NONE) {
     return err;
@@ -346,12 +355,12 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::sdo_dlc) {
     return false;
   }
-  if (client.State != CO_CSDO_STATE_BUSY) {
+  if (client.State != CO_CSDO_STATE_BUSY || is_for_another(client, frame)) {
     return true;
   }
   CO_IF_FRM request = {client.TxId, {}, wire::sdo_dlc};
   Step step = {client, frame, request, false, false, no_abort};
-  const uint32_t abort = machine(state_of(client), response_in(client, frame.Data[0]))(step);
+  const uint32_t abort = machine(state_of(client), response_in(client, frame))(step);
   if (abort != no_abort) {
     abort_transfer(client, abort);
     return true;

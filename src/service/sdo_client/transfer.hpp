@@ -67,11 +67,6 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 // The first request of a transfer. by_block: if it is long enough.
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
-// An answer that names another object belongs to an older transfer.
-[[nodiscard]] inline bool is_for_another(const Step& step) {
-  return wire::multiplexer(step.response) != step.client.Key;
-}
-
 // The size that the server tells. Returns an abort code.
 [[nodiscard]] uint32_t take_size(Step& step);
 // Are these all bytes that the server has told of? Returns an abort code.
@@ -79,6 +74,9 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
 // Sends the next segment of a block download. False: there is none, or the controller does not take it.
 [[nodiscard]] bool send_segment(CO_CSDO& client);
+
+// Block upload: is this the last segment of all once more?
+[[nodiscard]] bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame);
 
 // Block upload: tells a server that has fallen silent what has arrived. False: nothing is to be told.
 [[nodiscard]] bool put_reminder(CO_CSDO& client, CO_IF_FRM& request);

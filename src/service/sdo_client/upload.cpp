@@ -45,10 +45,6 @@ uint32_t check_total(const CO_CSDO& client, uint32_t total) {
 uint32_t upload_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t command = step.response.Data[0];
-  if (is_for_another(step)) {
-    step.silent = true;
-    return no_abort;
-  }
   if (wire::is_expedited(command)) {
     return take_expedited(step);
   }

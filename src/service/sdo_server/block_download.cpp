@@ -21,21 +21,31 @@ void sum(CO_SDO& channel, uint32_t n) {
   }
 }
 
-// At least this many bytes the client has sent with this segment.
-uint32_t take(CO_SDO& channel, const CO_IF_FRM& segment) {
+// What is wrong with a segment is told at the end of the block: those behind it would else be taken for commands.
+void take(CO_SDO& channel, const CO_IF_FRM& segment) {
   const uint32_t least = wire::is_last_in_block(segment.Data[0]) ? 0 : wire::segment_bytes;
   if (channel.Fill + least > channel.Size - channel.Num) {
-    return CO_SDO_ERR_LEN_HIGH;
+    set(channel, too_long);
+    return;
   }
   __builtin_memcpy(buffer_of(channel) + channel.Fill, segment.Data + 1, wire::segment_bytes);
   channel.Fill = static_cast<uint16_t>(channel.Fill + wire::segment_bytes);
   ++channel.Seq;
-  return no_abort;
 }
 
 uint32_t hand_over(CO_SDO& channel, uint32_t n) {
+  const uint32_t abort = channel.Num == 0 ? start_writing(channel) : no_abort;
   channel.Fill = 0;
-  return put(channel, buffer_of(channel), n);
+  return abort == no_abort ? put(channel, buffer_of(channel), n) : abort;
+}
+
+// The buffer is full: room for the next block.
+uint32_t empty_buffer(CO_SDO& channel) {
+  if (is_gone(channel)) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  sum(channel, channel.Fill);
+  return hand_over(channel, channel.Fill);
 }
 
 void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
@@ -57,8 +67,11 @@ void end_block(CO_SDO& channel, CO_IF_FRM& answer) {
   put_acknowledge(channel, answer);
 }
 
-// The end of a block that comes before anything else of the block is the repeated end of the block before.
-bool is_repeated(const CO_SDO& channel, uint8_t number) { return number > 1 && !has(channel, heard); }
+// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
+// others are lost, then the server is silent for a while and asks for them.
+bool is_repeated(const CO_SDO& channel, uint8_t number) {
+  return number > 1 && channel.AckSize != 0 && !has(channel, heard);
+}
 
 }  // namespace
 
@@ -93,24 +106,36 @@ uint32_t download_block_segment(Step& step) {
   const bool last = wire::is_last_in_block(step.request.Data[0]);
   const bool ends = last || number == channel.BlkSize;
   const bool in_order = number == channel.Seq + 1;
+  const bool repeated = ends && is_repeated(channel, number);
   step.silent = true;
-  if (number == 0 || state_of(channel) != State::block_download || (ends && is_repeated(channel, number))) {
+  if (number == 0 || state_of(channel) != State::block_download) {
     return no_abort;
   }
   set(channel, heard);
-  uint32_t abort = in_order ? take(channel, step.request) : no_abort;
-  if (abort != no_abort || !ends) {
-    return abort;
+  if (in_order) {
+    take(channel, step.request);
   }
+  if (!ends || repeated) {
+    return no_abort;
+  }
+  step.silent = false;
+  if (has(channel, too_long)) {
+    return CO_SDO_ERR_LEN_HIGH;
+  }
+  uint32_t abort = no_abort;
   if (in_order && last) {
     set_state(channel, State::block_download_end);
   } else if (channel.Fill == CO_SDO_BUF_BYTE) {
-    sum(channel, channel.Fill);
-    abort = is_gone(channel) ? CO_SDO_ERR_TOS_STATE : hand_over(channel, channel.Fill);
+    abort = empty_buffer(channel);
   }
   end_block(channel, step.answer);
-  step.silent = false;
   return abort;
+}
+
+bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
+  const uint8_t* const stored = buffer_of(channel) + channel.Fill - wire::segment_bytes;
+  return frame.Data[0] == wire::block_segment(channel.AckSeq, true) &&
+         __builtin_memcmp(frame.Data + 1, stored, wire::segment_bytes) == 0;
 }
 
 uint32_t end_block_download(Step& step) {
@@ -132,10 +157,15 @@ uint32_t end_block_download(Step& step) {
   return abort == no_abort ? finish_download(step) : abort;
 }
 
-void remind(CO_SDO& channel) {
+bool remind(CO_SDO& channel) {
   const State state = state_of(channel);
   if (state != State::block_download && state != State::block_download_end) {
-    return;
+    return true;
+  }
+  if (has(channel, too_long)) {
+    send_abort(channel, channel.Key, CO_SDO_ERR_LEN_HIGH);
+    close(channel, CO_SDO_ERR_LEN_HIGH);
+    return false;
   }
   CO_IF_FRM frame = {channel.TxId, {}, wire::sdo_dlc};
   if (has(channel, heard)) {
@@ -146,6 +176,7 @@ void remind(CO_SDO& channel) {
     put_accept(channel, frame);
   }
   transmit::send(*channel.Node, frame);
+  return true;
 }
 
 }  // namespace co::sdo_server

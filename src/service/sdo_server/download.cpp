@@ -31,10 +31,11 @@ uint32_t expedited_download(Step& step) {
 
 uint32_t segmented_download(Step& step) {
   const uint32_t abort = open_download(step, wire::is_size_indicated(step.request.Data[0]));
-  if (abort == no_abort) {
-    set_state(step.channel, State::download);
+  if (abort != no_abort) {
+    return abort;
   }
-  return abort;
+  set_state(step.channel, State::download);
+  return start_writing(step.channel);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 bool may_use(const CO_OBJ& obj, uint32_t id) {
   constexpr uint16_t first_client = 0x1280;
   const bool of_client = CO_GET_IDX(obj.Key) >= first_client;
-  return !wire::is_restricted(id) || (of_client && wire::is_default_sdo(id));
+  const bool of_server = CO_GET_SUB(obj.Key) == 1 ? wire::is_default_sdo_rx(id) : wire::is_default_sdo_tx(id);
+  return !wire::is_restricted(id) || (of_client && of_server);
 }
 
 bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {

@@ -14,7 +14,7 @@ namespace co::sdo_server {
 namespace {
 
 uint32_t end_by_client(Step& step) {
-  close(step.channel, wire::get_high(step.request));
+  close(step.channel, wire::abort_code_in(step.request));
   step.silent = true;
   return no_abort;
 }
@@ -54,10 +54,10 @@ constexpr auto machine =
     make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_command);
 
 // Segments of a block look like anything; the state tells them.
-Request request_in(const CO_SDO& channel, uint8_t command) {
-  const bool is_last_again = command == wire::block_segment(channel.AckSeq, true);
-  const bool in_block =
-      state_of(channel) == State::block_download || (state_of(channel) == State::block_download_end && is_last_again);
+Request request_in(const CO_SDO& channel, const CO_IF_FRM& frame) {
+  const bool in_block = state_of(channel) == State::block_download ||
+                        (state_of(channel) == State::block_download_end && is_last_segment_again(channel, frame));
+  const uint8_t command = frame.Data[0];
   return in_block && command != wire::abort_command ? Request::block_segment : wire::request_of(command);
 }
 
@@ -164,7 +164,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   CO_IF_FRM answer = {channel.TxId, {}, wire::sdo_dlc};
   Step step = {node, channel, frame, answer, false};
-  const Request request = request_in(channel, frame.Data[0]);
+  const Request request = request_in(channel, frame);
   // An abort names the transfer that it ends; without one, what the request names.
   const bool within = state_of(channel) != State::idle && !is_initiate(request);
   const uint32_t key = within ? channel.Key : wire::multiplexer(frame);

@@ -22,10 +22,7 @@ bool count_slice(CO_SDO& channel) {
     close(channel, CO_SDO_ERR_TIMEOUT);
     return false;
   }
-  if (USE_SDO_BLOCK != 0 && channel.Idle % reminder_slices == 0) {
-    remind(channel);
-  }
-  return true;
+  return USE_SDO_BLOCK == 0 || channel.Idle % reminder_slices != 0 || remind(channel);
 }
 
 void on_slice(void* node_pointer) {
@@ -168,15 +165,16 @@ uint32_t begin_upload(Step& step, bool fits_one_frame) {
 
 uint32_t begin_download(Step& step, uint32_t size, bool fits_one_frame) {
   CO_SDO& channel = step.channel;
-  uint32_t abort = choose_access(step, fits_one_frame);
-  if (abort == no_abort) {
-    abort = begin(channel, size);
-  }
-  if (abort != no_abort || has(channel, whole)) {
-    return abort;
+  const uint32_t abort = choose_access(step, fits_one_frame);
+  return abort == no_abort ? begin(channel, size) : abort;
+}
+
+uint32_t start_writing(CO_SDO& channel) {
+  if (has(channel, whole)) {
+    return no_abort;
   }
   const CO_ERR err = COObjWrBufStart(channel.Obj, channel.Node, channel.Value, 0);
-  return err == CO_ERR_NONE ? no_abort : access::write_failed(step.node, err);
+  return err == CO_ERR_NONE ? no_abort : access::write_failed(*channel.Node, err);
 }
 
 CO_ERR read_whole(CO_SDO& channel, uint32_t n) {

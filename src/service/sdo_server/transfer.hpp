@@ -22,14 +22,15 @@ enum class State : uint8_t {
 
 // CO_SDO.Flags
 enum Flag : uint8_t {
-  sized = 0x01,     // the size of a download was announced
-  whole = 0x02,     // a value: collected in Value, read or written in one piece
-  busy = 0x04,      // a type function may be running: the transfer is closed afterwards only
-  download = 0x08,  // direction
-  begun = 0x10,     // the type was told of the begin and wants to know the end
-  crc = 0x20,       // both sides support the CRC
-  heard = 0x40,     // block download: a segment of the block has arrived
-  last_sent = 0x80  // block upload: the last segment of all was sent
+  sized = 0x01,      // the size of a download was announced
+  whole = 0x02,      // a value: collected in Value, read or written in one piece
+  busy = 0x04,       // a type function may be running: the transfer is closed afterwards only
+  download = 0x08,   // direction
+  begun = 0x10,      // the type was told of the begin and wants to know the end
+  crc = 0x20,        // both sides support the CRC
+  heard = 0x40,      // block download: a segment of the block has arrived
+  last_sent = 0x80,  // block upload: the last segment of all was sent
+  too_long = 0x80    // block download: more data than the object can have
 };
 
 // What a service of the machine works on: the channel, the request and the answer in the making.
@@ -82,6 +83,8 @@ void send_abort(CO_SDO& channel, uint32_t key, uint32_t code);
 // one piece, anything else in the pieces that arrive; a stream belongs to one channel at a time.
 [[nodiscard]] uint32_t begin_upload(Step& step, bool fits_one_frame);
 [[nodiscard]] uint32_t begin_download(Step& step, uint32_t size, bool fits_one_frame);
+// Before the first piece of what is not written as a whole.
+[[nodiscard]] uint32_t start_writing(CO_SDO& channel);
 
 // Takes the size that the client announces, or the most that the object can have, and begins.
 [[nodiscard]] uint32_t open_download(Step& step, bool announced);
@@ -116,7 +119,10 @@ void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer);
 // Sends the next segment of a block upload. False: there is none, the controller does not take it, or abort is set.
 [[nodiscard]] bool send_segment(CO_SDO& channel, uint32_t& abort);
 
-// Block download: tells a client that has fallen silent what has arrived.
-void remind(CO_SDO& channel);
+// Block download: is this the last segment of all once more?
+[[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);
+
+// Block download: tells a client that has fallen silent what has arrived. False: that was an abort.
+[[nodiscard]] bool remind(CO_SDO& channel);
 
 }  // namespace co::sdo_server
