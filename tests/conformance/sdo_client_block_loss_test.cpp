@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: block transfers over a bus that loses, repeats, reorders and changes frames. [T11] [D11] [D22] [D23]
+#include "support/sdo_client_fixture.hpp"
+#include "support/sdo_client_peer.hpp"
+
+#if USE_CSDO && USE_SDO_BLOCK
+
+namespace {
+
+using namespace test;
+
+// 40 bytes in six segments.
+constexpr const char* segments[] = {"585#0101020304050607", "585#0208090A0B0C0D0E", "585#030F101112131415",
+                                    "585#04161718191A1B1C", "585#051D1E1F20212223", "585#8624252627280000"};
+
+void start(SdoClient& node, std::string_view answer = "585#C600200528000000") {
+  node.start_upload(0x2000, 5, 1000);
+  node.tx("605#A40020057F1C0000");
+  node.rx(answer);
+  node.tx("605#A300000000000000");
+}
+
+// The segments of these numbers come, in this order; the last one ends the sub-block.
+void send(SdoClient& node, const std::vector<unsigned>& order) {
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    node.rx(segments[order[n] - 1]);
+    if (n + 1 < order.size()) node.silent();
+  }
+}
+
+void finish(SdoClient& node) {
+  node.rx("585#C9C38B0000000000");
+  node.tx("605#A100000000000000");
+  node.has_read(counted(40));
+}
+
+TEST_CASE(
+    "SDO client: after a lost segment the rest of the sub-block is ignored, the last good one acknowledged [D22]") {
+  SdoClient node;
+  start(node);
+  send(node, {1, 2, 4, 5, 6});
+  node.tx("605#A2027F0000000000");
+  CHECK(node.num() == 14);
+  node.rx("585#010F101112131415");
+  node.rx("585#02161718191A1B1C");
+  node.rx("585#031D1E1F20212223");
+  node.silent();
+  node.rx("585#8424252627280000");
+  node.tx("605#A2047F0000000000");
+  finish(node);
+}
+
+TEST_CASE("SDO client: after the first segment was lost none is acknowledged, the server begins anew [D22]") {
+  SdoClient node;
+  start(node);
+  send(node, {2, 3, 4, 5, 6});
+  node.tx("605#A2007F0000000000");
+  CHECK(node.num() == 0);
+  send(node, {1, 2, 3, 4, 5, 6});
+  node.tx("605#A2067F0000000000");
+  finish(node);
+}
+
+TEST_CASE("SDO client: repeated segments are ignored") {
+  SdoClient node;
+  start(node);
+  send(node, {1, 1, 2, 2, 2, 1, 3, 4, 3, 5, 5, 6});
+  node.tx("605#A2067F0000000000");
+  finish(node);
+}
+
+TEST_CASE("SDO client: a segment that is overtaken comes too late, and is sent again [D22]") {
+  SdoClient node;
+  start(node);
+  send(node, {1, 3, 2, 4, 5, 6});
+  node.tx("605#A2027F0000000000");
+  node.rx("585#010F101112131415");
+  node.rx("585#02161718191A1B1C");
+  node.rx("585#031D1E1F20212223");
+  node.rx("585#8424252627280000");
+  node.tx("605#A2047F0000000000");
+  finish(node);
+}
+
+TEST_CASE("SDO client: a last segment that overtakes the one before ends the sub-block, which is no end [D22]") {
+  SdoClient node;
+  start(node);
+  send(node, {1, 2, 3, 4, 6});
+  node.tx("605#A2047F0000000000");
+  node.rx("585#011D1E1F20212223");
+  node.rx("585#8224252627280000");
+  node.tx("605#A2027F0000000000");
+  finish(node);
+}
+
+TEST_CASE("SDO client: a segment with the number 0 is refused with 0504 0003h [5.2]") {
+  for (const unsigned taken : {0U, 1U, 5U}) {
+    SdoClient node;
+    start(node);
+    for (unsigned n = 0; n < taken; ++n) node.rx(segments[n]);
+    node.rx("585#00FFFFFFFFFFFFFF");
+    node.tx("605#8000200503000405");
+    node.ended(CO_SDO_ERR_SEQ_NUM);
+  }
+}
+
+TEST_CASE("SDO client: two segments, the first is lost: none is acknowledged, the server begins anew [D22]") {
+  SdoClient node;
+  start(node, "585#C60020050E000000");
+  node.rx("585#8208090A0B0C0D0E");
+  node.tx("605#A2007F0000000000");
+  node.rx("585#0101020304050607");
+  node.rx("585#8208090A0B0C0D0E");
+  node.tx("605#A2027F0000000000");
+  node.rx("585#C1929B0000000000");
+  node.tx("605#A100000000000000");
+  node.has_read(counted(14));
+}
+
+TEST_CASE("SDO client: a lost segment in a full sub-block: its segment 127 ends it [D22]") {
+  SdoClient node;
+  start(node, "585#C60020057A030000");
+  for (unsigned n = 1; n <= 127; ++n) {
+    CO_IF_FRM frm = frame("585#0000000000000000");
+    const Bytes data = counted(7, 7 * (n - 1) + 1);
+    frm.Data[0] = static_cast<std::uint8_t>(n);
+    std::copy(data.begin(), data.end(), frm.Data + 1);
+    if (n == 126) continue;
+    node.silent();
+    node.rx(frm);
+  }
+  node.tx("605#A27D7F0000000000");
+  CHECK(node.num() == 875);
+  node.rx("585#016C6D6E6F707172");
+  node.rx("585#0273747576777879");
+  node.rx("585#837A000000000000");
+  node.tx("605#A2037F0000000000");
+  node.rx("585#D96F1D0000000000");
+  node.tx("605#A100000000000000");
+  node.has_read(counted(890));
+}
+
+TEST_CASE("SDO client: the end of a sub-block that comes twice is ignored the second time") {
+  SdoClient node;
+  start(node);
+  send(node, {1, 2, 4, 5, 6});
+  node.tx("605#A2027F0000000000");
+  node.rx(segments[5]);
+  node.silent();
+  node.rx("585#010F101112131415");
+  node.rx("585#02161718191A1B1C");
+  node.rx("585#031D1E1F20212223");
+  node.rx("585#8424252627280000");
+  node.tx("605#A2047F0000000000");
+  node.rx("585#8424252627280000");
+  node.silent();
+  finish(node);
+}
+
+// Runs a transfer of \a length bytes with one disturbance. Returns whether the client has reported success.
+bool upload_with(const Disturbance& disturbance, std::size_t length, bool crc) {
+  SdoClient node;
+  PeerOptions options;
+  options.crc = crc;
+  SdoPeer peer(counted(length, 3), options);
+  node.start_upload(0x2000, 5, 2000);
+  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer has no end");
+  REQUIRE(node.ends.size() == 1);
+  const ClientEnd end = node.ends.front();
+  node.ends.clear();
+  node.frames();
+  CHECK_MESSAGE((end.code != 0 || end.data == counted(length, 3)), "wrong data, and success");
+  return end.code == 0;
+}
+
+bool download_with(const Disturbance& disturbance, std::size_t length) {
+  SdoClient node;
+  PeerOptions options;
+  options.block_sizes = {5, 3, 127};
+  SdoPeer peer({}, options);
+  node.start_download(0x2000, 5, counted(length, 3));
+  CHECK_MESSAGE(serve(node, peer, disturbance), "the transfer has no end");
+  REQUIRE(node.ends.size() == 1);
+  const ClientEnd end = node.ends.front();
+  node.ends.clear();
+  node.frames();
+  const bool right = peer.is_done && peer.object == counted(length, 3);
+  CHECK_MESSAGE((end.code != 0 || right), "wrong data, and success");
+  return end.code == 0;
+}
+
+const Disturbance::Kind kinds[] = {Disturbance::Kind::lose, Disturbance::Kind::repeat,
+                                   Disturbance::Kind::swap_with_next, Disturbance::Kind::change_bit};
+
+TEST_CASE("SDO client: one fault at any frame of a block upload: the right data, or a reported failure [T11]") {
+  for (const std::size_t length : {29U, 100U, 890U, 1778U}) {
+    const std::size_t frames = length / 7 + 8;
+    for (const Disturbance::Kind kind : kinds) {
+      for (const bool to_node : {true, false}) {
+        const std::size_t last = to_node ? frames : 8;
+        const std::size_t step = frames > 40 && to_node ? 7 : 1;
+        for (std::size_t at = 0; at < last; at += step) {
+          CAPTURE(length);
+          CAPTURE(static_cast<int>(kind));
+          CAPTURE(to_node);
+          CAPTURE(at);
+          upload_with({kind, at, to_node}, length, true);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("SDO client: one fault at any frame of a block download: the right data, or a reported failure [T11]") {
+  for (const std::size_t length : {29U, 100U, 890U}) {
+    const std::size_t frames = length / 7 + 8;
+    for (const Disturbance::Kind kind : kinds) {
+      for (const bool to_node : {true, false}) {
+        const std::size_t last = to_node ? 10 : frames;
+        for (std::size_t at = 0; at < last; ++at) {
+          CAPTURE(length);
+          CAPTURE(static_cast<int>(kind));
+          CAPTURE(to_node);
+          CAPTURE(at);
+          download_with({kind, at, to_node}, length);
+        }
+      }
+    }
+  }
+}
+
+// Of a sub-block with a single segment nothing is heard if that is lost: the failure is reported. [T11]
+TEST_CASE("SDO client: a segment that is lost, repeated or overtaken does not fail a block upload [T11] [D11]") {
+  for (const std::size_t length : {14U, 100U, 455U, 896U}) {
+    const std::size_t count = (length + 6) / 7;
+    for (const Disturbance::Kind kind :
+         {Disturbance::Kind::lose, Disturbance::Kind::repeat, Disturbance::Kind::swap_with_next}) {
+      for (std::size_t n = 1; n <= count; ++n) {
+        const bool alone = n == count && (count == 128 || kind == Disturbance::Kind::swap_with_next);
+        if (alone) continue;
+        CAPTURE(length);
+        CAPTURE(static_cast<int>(kind));
+        CAPTURE(n);
+        CHECK(upload_with({kind, n, true}, length, true));
+      }
+    }
+  }
+}
+
+TEST_CASE("SDO client: a segment that is lost or overtaken does not fail a block download [T11] [D11]") {
+  for (const std::size_t length : {29U, 100U, 890U}) {
+    const std::size_t count = (length + 6) / 7;
+    for (const Disturbance::Kind kind : {Disturbance::Kind::lose, Disturbance::Kind::swap_with_next}) {
+      for (std::size_t n = 1; n <= count; ++n) {
+        if (n == count && kind == Disturbance::Kind::swap_with_next) continue;
+        CAPTURE(length);
+        CAPTURE(static_cast<int>(kind));
+        CAPTURE(n);
+        CHECK(download_with({kind, n, false}, length));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: transfers that the own node ends: by COCSdoCancel, or with the NMT state. [N8]
+#include "support/sdo_client_states.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+constexpr const char* cancelled = "605#8000200521000008";
+
+void check_asks(SdoClient& node) {
+  node.start_upload(0x2001, 0, 4);
+  node.tx("605#4001200000000000");
+  node.rx("585#4F01200011000000");
+  node.has_read({0x11});
+}
+
+TEST_CASE("SDO client: COCSdoCancel in every state: the server is told, the callback comes before it returns") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    const std::uint32_t num = node.num();
+    CO_ERR err = CO_ERR_BAD_ARG;
+    node.call([&] {
+      err = COCSdoCancel(node.csdo());
+      CHECK(node.ends.size() == 1);
+    });
+    CHECK(err == CO_ERR_NONE);
+    node.tx(cancelled);
+    CHECK(node.ended(CO_SDO_ERR_TOS_LOCAL).num == num);
+    CHECK(node.cancel() == CO_ERR_SDO_OFF);
+    node.after(5000ms);
+    node.silent();
+    check_asks(node);
+  }
+}
+
+TEST_CASE("SDO client: COCSdoCancel without a transfer: CO_ERR_SDO_OFF, nothing is sent") {
+  SdoClient node;
+  CHECK(node.cancel() == CO_ERR_SDO_OFF);
+  check_asks(node);
+  CHECK(node.cancel() == CO_ERR_SDO_OFF);
+  node.silent();
+}
+
+TEST_CASE("SDO client: COCSdoCancel when the time-out has elapsed and was not yet run: one callback") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 100);
+  node.frames();
+  node.elapse_only(100ms);
+  CHECK(node.cancel() == CO_ERR_NONE);
+  node.tx(cancelled);
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+  node.after(1000ms);
+  node.silent();
+  check_asks(node);
+}
+
+TEST_CASE("SDO client: COCSdoCancel within the callback finds nothing to cancel") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    CO_ERR err = CO_ERR_NONE;
+    node.on_end = [&](const ClientEnd&) { err = node.cancel(); };
+    node.rx("585#8000200520000008");
+    CHECK(err == CO_ERR_SDO_OFF);
+    node.silent();
+    node.ended(CO_SDO_ERR_TOS);
+  }
+}
+
+TEST_CASE("SDO client: COCSdoCancel within the callback of COCSdoCancel does not recurse") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4);
+  node.frames();
+  CO_ERR err = CO_ERR_NONE;
+  node.on_end = [&](const ClientEnd&) { err = node.cancel(); };
+  CHECK(node.cancel() == CO_ERR_NONE);
+  CHECK(err == CO_ERR_SDO_OFF);
+  node.tx(cancelled);
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+}
+
+TEST_CASE("SDO client: a request within the callback of COCSdoCancel is started") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4);
+  node.frames();
+  node.on_end = [&](const ClientEnd&) {
+    node.on_end = nullptr;
+    CHECK(node.try_upload(0x2001, 0, 4) == CO_ERR_NONE);
+  };
+  CHECK(node.cancel() == CO_ERR_NONE);
+  node.tx({cancelled, "605#4001200000000000"});
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+  node.rx("585#4F01200011000000");
+  node.has_read({0x11});
+}
+
+TEST_CASE("SDO client: NMT stop ends a transfer in every state: 0800 0022h, no frame [N8]") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    node.rx("000#0201");
+    node.silent();
+    node.ended(CO_SDO_ERR_TOS_STATE);
+    CHECK(node.armed_timers() == 0);
+    node.rx("585#0001020304050607");
+    node.after(5000ms);
+    node.silent();
+    CHECK(node.try_upload(0x2001, 0, 4) == CO_ERR_SDO_OFF);
+    node.rx("000#8001");
+    check_asks(node);
+  }
+}
+
+TEST_CASE(
+    "SDO client: NMT resets end a transfer in every state: 0800 0022h, the boot-up is the only frame [N8] [T14]") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    for (const ClientState& state : client_states()) {
+      CAPTURE(state.name);
+      SdoClient node;
+      enter(node, state);
+      node.rx(command);
+      node.tx("701#00");
+      node.ended(CO_SDO_ERR_TOS_STATE);
+      CHECK(node.armed_timers() == 0);
+      node.rx("585#0001020304050607");
+      node.after(5000ms);
+      node.silent();
+      check_asks(node);
+    }
+  }
+}
+
+TEST_CASE("SDO client: a reset by the application ends a transfer with 0800 0022h [T14]") {
+  for (const CO_NMT_RESET type : {CO_RESET_NODE, CO_RESET_COM}) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 4);
+    node.frames();
+    node.call([&] { CONmtReset(&node->Nmt, type); });
+    node.tx("701#00");
+    node.ended(CO_SDO_ERR_TOS_STATE);
+    check_asks(node);
+  }
+}
+
+TEST_CASE("SDO client: CONodeStop ends a transfer in every state: 0800 0022h, no frame [N8]") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    node.call([&] { CONodeStop(&node.node); });
+    node.silent();
+    node.ended(CO_SDO_ERR_TOS_STATE);
+    CHECK(node.armed_timers() == 0);
+    CHECK(node.cancel() == CO_ERR_SDO_OFF);
+    node.after(5000ms);
+    node.silent();
+  }
+}
+
+TEST_CASE(
+    "SDO client: Operational and Pre-operational both allow transfers: a change between them ends none [N3] [N7]") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    node.rx("000#0101");
+    node.rx("000#8001");
+    node.rx("000#0101");
+    node.silent();
+    node.goes_on();
+    node.cancel();
+    node.tx(cancelled);
+    node.ended(CO_SDO_ERR_TOS_LOCAL);
+  }
+}
+
+TEST_CASE("SDO client: a request within the callback of an NMT stop is refused, nothing is sent") {
+  SdoClient node;
+  CO_ERR err = CO_ERR_NONE;
+  node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };
+  node.start_upload(0x2000, 5, 4);
+  node.frames();
+  node.rx("000#0201");
+  CHECK(err == CO_ERR_SDO_OFF);
+  node.silent();
+  node.ended(CO_SDO_ERR_TOS_STATE);
+}
+
+TEST_CASE(
+    "SDO client: a request within the callback of a reset is refused: one boot-up, no timer, no second callback") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    SdoClient node;
+    CO_ERR err = CO_ERR_NONE;
+    node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };
+    node.start_upload(0x2000, 5, 4);
+    node.frames();
+    node.rx(command);
+    CHECK(err == CO_ERR_SDO_OFF);
+    node.tx("701#00");
+    node.ended(CO_SDO_ERR_TOS_STATE);
+    CHECK(node.armed_timers() == 0);
+    node.on_end = nullptr;
+    check_asks(node);
+  }
+}
+
+TEST_CASE("SDO client: a request within the callback of CONodeStop is refused") {
+  SdoClient node;
+  CO_ERR err = CO_ERR_NONE;
+  node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };
+  node.start_upload(0x2000, 5, 4);
+  node.frames();
+  node.call([&] { CONodeStop(&node.node); });
+  CHECK(err == CO_ERR_SDO_OFF);
+  node.silent();
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("SDO client: the callback may change the NMT state, reset or stop the node [Q9]") {
+  const std::vector<std::function<void(CO_NODE*)>> actions = {
+      [](CO_NODE* n) { CONmtSetMode(&n->Nmt, CO_STOP); }, [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_NODE); },
+      [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_COM); }, [](CO_NODE* n) { CONodeStop(n); }};
+  for (const char* answer : {"585#4F00200511000000", "585#8000200520000008", "585#E000200500000000"}) {
+    for (std::size_t n = 0; n < actions.size(); ++n) {
+      CAPTURE(std::string(answer));
+      CAPTURE(n);
+      SdoClient node;
+      node.start_upload(0x2000, 5, 4);
+      node.frames();
+      node.on_end = [&](const ClientEnd&) { actions[n](&node.node); };
+      node.rx(answer);
+      node.frames();
+      CHECK(node.ends.size() == 1);
+      node.ends.clear();
+      const CO_MODE modes[] = {CO_STOP, CO_PREOP, CO_PREOP, CO_INVALID};
+      CHECK(node.mode() == modes[n]);
+    }
+  }
+}
+
+TEST_CASE("SDO client: the callback of a time-out may stop or reset the node [Q9]") {
+  SdoClient one;
+  one.start_upload(0x2000, 5, 4, 100);
+  one.frames();
+  one.on_end = [&](const ClientEnd&) { CONodeStop(&one.node); };
+  one.after(100ms);
+  one.frames();
+  one.ended(CO_SDO_ERR_TIMEOUT);
+  CHECK(one.mode() == CO_INVALID);
+  SdoClient two;
+  two.start_upload(0x2000, 5, 4, 100);
+  two.frames();
+  two.on_end = [&](const ClientEnd&) { CONmtReset(&two->Nmt, CO_RESET_COM); };
+  two.after(100ms);
+  two.tx({"605#8000200500000405", "701#00"});
+  two.ended(CO_SDO_ERR_TIMEOUT);
+  two.on_end = nullptr;
+  check_asks(two);
+}
+
+TEST_CASE("SDO client: CONodeInit of a node with a transfer forgets it: idle, no callback from the life before") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 100);
+  node.frames();
+  node.call([&] { CONodeStop(&node.node); });
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  node.init_again();
+  CHECK(node.csdo()->State == CO_CSDO_STATE_IDLE);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  node.after(200ms);
+  CHECK(node.ends.empty());
+  check_asks(node);
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: how the data are carried, and what happens when a server knows no block transfer.
+#include "support/sdo_client_fixture.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("SDO client: downloads of up to 4 bytes are expedited, up to 28 segmented, longer ones are blocks") {
+  struct Case {
+    std::uint32_t length;
+    const char* request;
+  };
+  const Case cases[] = {
+    {1, "605#2F00200501000000"},
+    {4, "605#2300200501020304"},
+    {5, "605#2100200505000000"},
+    {28, "605#210020051C000000"},
+#if USE_SDO_BLOCK
+    {29, "605#C60020051D000000"},
+    {256, "605#C600200500010000"}
+#else
+    {29, "605#210020051D000000"},
+    {256, "605#2100200500010000"}
+#endif
+  };
+  for (const Case& one : cases) {
+    CAPTURE(one.length);
+    SdoClient node;
+    node.start_download(0x2000, 5, counted(one.length));
+    node.tx(one.request);
+    node.cancel();
+    node.tx("605#8000200521000008");
+    node.ended(CO_SDO_ERR_TOS_LOCAL);
+  }
+}
+
+TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are ordinary, into larger ones blocks") {
+  for (const std::uint32_t size : {1U, 4U, 5U, 28U, 29U, 1000U}) {
+    CAPTURE(size);
+    SdoClient node;
+    node.start_upload(0x2000, 5, size);
+    node.tx(size < 29 || USE_SDO_BLOCK == 0 ? "605#4000200500000000" : "605#A40020057F1C0000");
+    node.cancel();
+    node.tx("605#8000200521000008");
+    node.ended(CO_SDO_ERR_TOS_LOCAL);
+  }
+}
+
+#if USE_SDO_BLOCK
+
+constexpr const char* no_block[] = {"585#8000200501000405", "585#8000200500000008"};
+
+TEST_CASE("SDO client: a block upload that the server does not know is asked for anew as an ordinary one, expedited") {
+  for (const char* abort : no_block) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 100);
+    node.tx("605#A40020057F1C0000");
+    node.rx(abort);
+    node.goes_on();
+    node.tx("605#4000200500000000");
+    node.rx("585#4300200511223344");
+    node.silent();
+    node.has_read({0x11, 0x22, 0x33, 0x44});
+  }
+}
+
+TEST_CASE("SDO client: a block upload that the server does not know is asked for anew as an ordinary one, segmented") {
+  for (const char* abort : no_block) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 100);
+    node.tx("605#A40020057F1C0000");
+    node.rx(abort);
+    node.tx("605#4000200500000000");
+    node.rx("585#4100200508000000");
+    node.tx("605#6000000000000000");
+    node.rx("585#0001020304050607");
+    node.tx("605#7000000000000000");
+    node.rx("585#1D08000000000000");
+    CHECK(node.has_read(counted(8)).total == 8);
+  }
+}
+
+TEST_CASE("SDO client: a block download that the server does not know is sent in segments") {
+  for (const char* abort : no_block) {
+    SdoClient node;
+    node.start_download(0x2000, 5, counted(29));
+    node.tx("605#C60020051D000000");
+    node.rx(abort);
+    node.goes_on();
+    node.tx("605#210020051D000000");
+    node.rx("585#6000200500000000");
+    node.tx("605#0001020304050607");
+    node.rx("585#2000000000000000");
+    node.tx("605#1008090A0B0C0D0E");
+    node.rx("585#3000000000000000");
+    node.tx("605#000F101112131415");
+    node.rx("585#2000000000000000");
+    node.tx("605#10161718191A1B1C");
+    node.rx("585#3000000000000000");
+    node.tx("605#0D1D000000000000");
+    node.rx("585#2000000000000000");
+    node.silent();
+    CHECK(node.has_written().num == 29);
+  }
+}
+
+// Starts a transfer of 29 bytes and leads it behind its second initiate.
+void fall_back(SdoClient& node, bool upload) {
+  if (upload) {
+    node.start_upload(0x2000, 5, 29);
+  } else {
+    node.start_download(0x2000, 5, counted(29));
+  }
+  node.tx(upload ? "605#A40020057F1C0000" : "605#C60020051D000000");
+  node.rx(no_block[0]);
+  node.tx(upload ? "605#4000200500000000" : "605#210020051D000000");
+}
+
+TEST_CASE("SDO client: it tries once: the abort of the ordinary initiate ends the transfer, whatever its code") {
+  for (const bool upload : {true, false}) {
+    for (const char* abort : no_block) {
+      CAPTURE(upload);
+      SdoClient node;
+      fall_back(node, upload);
+      node.rx(abort);
+      node.silent();
+      node.ended(std::string(abort) == no_block[0] ? CO_SDO_ERR_CMD : CO_SDO_ERR_GENERAL);
+    }
+  }
+}
+
+TEST_CASE("SDO client: after the ordinary initiate, answers of a block transfer are unexpected") {
+  for (const bool upload : {true, false}) {
+    CAPTURE(upload);
+    SdoClient node;
+    fall_back(node, upload);
+    node.rx(upload ? "585#C60020051D000000" : "585#A40020057F000000");
+    node.tx("605#8000200501000405");
+    node.ended(CO_SDO_ERR_CMD);
+  }
+}
+
+TEST_CASE("SDO client: the ordinary initiate has the whole time for its answer") {
+  for (const bool upload : {true, false}) {
+    CAPTURE(upload);
+    SdoClient node;
+    if (upload) {
+      node.start_upload(0x2000, 5, 29, 100);
+    } else {
+      node.start_download(0x2000, 5, counted(29), 100);
+    }
+    node.frames();
+    node.after(99ms);
+    node.rx(no_block[0]);
+    node.frames();
+    node.after(99ms);
+    node.goes_on();
+    node.silent();
+    node.after(1ms);
+    node.tx("605#8000200500000405");
+    node.ended(CO_SDO_ERR_TIMEOUT);
+  }
+}
+
+TEST_CASE("SDO client: any other abort of a block initiate is final") {
+  for (const char* abort : {"585#8000200500000206", "585#8000200505000405", "585#8000200500000106",
+                            "585#8000200520000008", "585#8000200502000405"}) {
+    for (const bool upload : {true, false}) {
+      SdoClient node;
+      if (upload) {
+        node.start_upload(0x2000, 5, 29);
+      } else {
+        node.start_download(0x2000, 5, counted(29));
+      }
+      node.frames();
+      node.rx(abort);
+      node.silent();
+      const CO_IF_FRM frm = frame(abort);
+      node.ended(CO_GET_LONG(&frm, 4));
+    }
+  }
+}
+
+TEST_CASE("SDO client: the aborts that fall back are final when they come later in a block transfer") {
+  for (const char* abort : no_block) {
+    const std::uint32_t code = std::string(abort) == no_block[0] ? CO_SDO_ERR_CMD : CO_SDO_ERR_GENERAL;
+    SdoClient reads;
+    reads.start_upload(0x2000, 5, 29);
+    reads.tx("605#A40020057F1C0000");
+    reads.rx("585#C60020051D000000");
+    reads.tx("605#A300000000000000");
+    reads.rx(abort);
+    reads.silent();
+    reads.ended(code);
+    SdoClient writes;
+    writes.start_download(0x2000, 5, counted(29));
+    writes.tx("605#C60020051D000000");
+    writes.rx("585#A400200501000000");
+    writes.tx("605#0101020304050607");
+    writes.rx(abort);
+    writes.silent();
+    writes.ended(code);
+  }
+}
+
+TEST_CASE("SDO client: ordinary transfers do not fall back") {
+  for (const char* abort : no_block) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 28);
+    node.tx("605#4000200500000000");
+    node.rx(abort);
+    node.silent();
+    node.ended(std::string(abort) == no_block[0] ? CO_SDO_ERR_CMD : CO_SDO_ERR_GENERAL);
+  }
+}
+
+#endif
+
+}  // namespace
+
+#endif

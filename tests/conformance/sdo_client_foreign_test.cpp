@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: answers that are for nobody any more, or for somebody else. [C1]
+#include "support/sdo_client_states.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+bool awaits_initiate(const ClientState& state) { return state.path.empty(); }
+
+// The answer of the server to the initiate of this state, for the object that bytes 1…3 name.
+std::vector<std::string> initiate_answers(const std::string& multiplexer) {
+  return {
+      "585#43" + multiplexer + "11223344", "585#4F" + multiplexer + "11000000", "585#42" + multiplexer + "11223344",
+      "585#41" + multiplexer + "08000000", "585#40" + multiplexer + "00000000", "585#60" + multiplexer + "00000000",
+      "585#C6" + multiplexer + "08000000", "585#C0" + multiplexer + "00000000", "585#A4" + multiplexer + "7F000000",
+      "585#A0" + multiplexer + "01000000", "585#80" + multiplexer + "00000405", "585#80" + multiplexer + "01000405"};
+}
+
+// Any object but 2000h:05.
+constexpr const char* others[] = {"002006", "002004", "002105", "002205", "012005", "000000", "FFFFFF", "200005"};
+
+TEST_CASE("SDO client: an initiate answer or abort for another object is ignored while one is awaited [C1]") {
+  for (const ClientState& state : client_states()) {
+    if (!awaits_initiate(state)) continue;
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    for (const char* other : others) {
+      for (const std::string& answer : initiate_answers(other)) {
+        CAPTURE(answer);
+        node.rx(answer);
+        node.silent();
+        node.goes_on();
+      }
+    }
+    node.rx("585#8000200520000008");
+    node.ended(CO_SDO_ERR_TOS);
+  }
+}
+
+TEST_CASE("SDO client: an ignored answer does not prolong the time-out") {
+  for (const ClientState& state : client_states()) {
+    if (!awaits_initiate(state)) continue;
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state, 100);
+    node.after(99ms);
+    node.rx("585#8000200600000405");
+    node.rx("585#4300200611223344");
+    node.rx("585#43002005112233");
+    node.goes_on();
+    node.after(1ms);
+    node.tx("605#8000200500000405");
+    node.ended(CO_SDO_ERR_TIMEOUT);
+  }
+}
+
+TEST_CASE("SDO client: an abort that names another object ends a transfer that has begun [C1]") {
+  for (const ClientState& state : client_states()) {
+    if (awaits_initiate(state)) continue;
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state);
+    node.rx("585#8011223320000008");
+    node.silent();
+    node.ended(CO_SDO_ERR_TOS);
+  }
+}
+
+// What a slow server may still send of the transfer of 2000h:05 when that has timed out.
+constexpr const char* late[] = {
+    "585#4300200511223344", "585#410020050E000000", "585#6000200500000000", "585#0001020304050607",
+    "585#1108090A0B0C0D0E", "585#2000000000000000", "585#3000000000000000", "585#8000200501000405",
+    "585#C600200528000000", "585#A40020057F000000", "585#0208090A0B0C0D0E", "585#C9C38B0000000000",
+    "585#A2047F0000000000", "585#A100000000000000",
+};
+
+void time_out(SdoClient& node, const ClientState& state) {
+  enter(node, state, 100);
+  node.after(130ms);  // within a block it may be a quarter more
+  node.frames();
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: late answers after a time-out are ignored while the client is idle [C1]") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    time_out(node, state);
+    for (const char* answer : late) {
+      CAPTURE(std::string(answer));
+      node.rx(answer);
+      node.silent();
+    }
+    CHECK(node.ends.empty());
+  }
+}
+
+TEST_CASE("SDO client: late answers after a time-out do not disturb the next transfer [C1]") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    for (const char* answer : late) {
+      CAPTURE(std::string(answer));
+      SdoClient node;
+      time_out(node, state);
+      node.start_upload(0x2001, 0, 4);
+      node.tx("605#4001200000000000");
+      node.rx(answer);
+      node.silent();
+      node.goes_on();
+      node.rx("585#4B01200011220000");
+      node.has_read({0x11, 0x22});
+    }
+  }
+}
+
+TEST_CASE("SDO client: the answer that comes after a cancel does not disturb the next transfer [C1]") {
+  SdoClient node;
+  node.start_download(0x2000, 5, {1});
+  node.tx("605#2F00200501000000");
+  node.cancel();
+  node.tx("605#8000200521000008");
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+  node.start_download(0x2001, 0, {2});
+  node.tx("605#2F01200002000000");
+  node.rx("585#6000200500000000");
+  node.goes_on();
+  node.rx("585#6001200000000000");
+  node.has_written();
+}
+
+#if CO_CSDO_N >= 2
+
+TEST_CASE("SDO client: the answer of one server does not reach the client of another") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 1000, 0);
+  node.start_upload(0x2000, 5, 4, 1000, 1);
+  node.tx({"605#4000200500000000", "606#4000200500000000"});
+  node.rx("586#4F00200522000000");
+  node.has_read({0x22}, 1);
+  CHECK(node.is_busy(0));
+  node.rx("585#4F00200511000000");
+  node.has_read({0x11}, 0);
+}
+
+#endif
+
+}  // namespace
+
+#endif

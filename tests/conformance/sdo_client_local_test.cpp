@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client whose server is its own node: the own dictionary, with the rights of the network, and no frame.
+#include "support/sdo_client_fixture.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+class Local : public SdoClient {
+ public:
+  explicit Local(Setup setup = Setup().only_small()) : SdoClient(std::move(setup), local_entries()) {}
+
+  // Lets the callback come. It needs no time and no frame.
+  ClientEnd settle() {
+    loop();
+    after(1ms);
+    silent();
+    CHECK(ends.size() == 1);
+    const ClientEnd end = ends.empty() ? ClientEnd{} : ends.front();
+    ends.clear();
+    return end;
+  }
+  ClientEnd read(std::uint16_t index, std::uint8_t sub, std::uint32_t size) {
+    start_upload(index, sub, size);
+    return settle();
+  }
+  ClientEnd write(std::uint16_t index, std::uint8_t sub, const Bytes& data) {
+    may_change(index, sub);
+    start_download(index, sub, data);
+    return settle();
+  }
+};
+
+TEST_CASE("SDO client, own node: a value is read in the byte order of the bus") {
+  Local node;
+  CHECK(node.read(0x2001, 0, 1).data == Bytes{0x11});
+  CHECK(node.read(0x2002, 0, 2).data == Bytes{0x11, 0x22});
+  CHECK(node.read(0x2003, 0, 3).data == Bytes{0x11, 0x22, 0x33});
+  CHECK(node.read(0x2004, 0, 4).data == Bytes{0x11, 0x22, 0x33, 0x44});
+  CHECK(node.read(0x2005, 0, 5).data == Bytes{0x11, 0x22, 0x33, 0x44, 0x55});
+  CHECK(node.read(0x2008, 0, 8).data == Bytes{0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88});
+  const ClientEnd end = node.read(0x2004, 0, 100);
+  CHECK(end.code == 0);
+  CHECK(end.num == 4);
+  CHECK(end.index == 0x2004);
+}
+
+TEST_CASE("SDO client, own node: a value is written in the byte order of the bus") {
+  Local node;
+  CHECK(node.write(0x2001, 0, {0xA1}).code == 0);
+  CHECK(node.objects.u8 == 0xA1);
+  CHECK(node.write(0x2002, 0, {0xA1, 0xB2}).code == 0);
+  CHECK(node.objects.u16 == 0xB2A1);
+  CHECK(node.write(0x2004, 0, {1, 2, 3, 4}).code == 0);
+  CHECK(node.objects.u32 == 0x04030201);
+  const ClientEnd end = node.write(0x2008, 0, {1, 2, 3, 4, 5, 6, 7, 8});
+  CHECK(end.code == 0);
+  CHECK(end.num == 8);
+  CHECK(end.total == 8);
+  CHECK(node.objects.u64 == 0x0807060504030201);
+}
+
+TEST_CASE("SDO client, own node: node-ID relative objects are seen as by the network") {
+  Local node;
+  CHECK(node.read(0x2034, 0, 4).data == Bytes{0x81, 0x01, 0x00, 0x00});
+  CHECK(node.read(0x1014, 0, 4).data == Bytes{0x81, 0x00, 0x00, 0x00});
+  CHECK(node.read(0x1200, 1, 4).data == Bytes{0x01, 0x06, 0x00, 0x00});
+}
+
+TEST_CASE(
+    "SDO client, own node: the callback does not come before the request returns, and the client is busy till then") {
+  Local node;
+  node.start_upload(0x2004, 0, 4);
+  node.goes_on();
+  CHECK(node.try_upload(0x2004, 0, 4) == CO_ERR_SDO_BUSY);
+  node.goes_on();
+  node.loop();
+  node.after(1ms);
+  node.has_read({0x11, 0x22, 0x33, 0x44});
+}
+
+TEST_CASE("SDO client, own node: CONodeNextDeadline tells a sleeping loop that there is work") {
+  Local node(Setup().only_small().wake(Wake::deadline));
+  node.start_upload(0x2004, 0, 4);
+  CHECK(CONodeNextDeadline(&node.node) <= 1);
+  node.after(5ms);
+  node.has_read({0x11, 0x22, 0x33, 0x44});
+  CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
+}
+
+TEST_CASE("SDO client, own node: access rights and missing objects give the abort codes of the network [5.2]") {
+  Local node;
+  CHECK(node.read(0x2030, 0, 4).code == CO_SDO_ERR_RD);
+  CHECK(node.write(0x2031, 0, {1, 2, 3, 4}).code == CO_SDO_ERR_WR);
+  CHECK(node.read(0x2032, 0, 4).code == CO_SDO_ERR_UNSUP);
+  CHECK(node.write(0x2032, 0, {1, 2, 3, 4}).code == CO_SDO_ERR_UNSUP);
+  CHECK(node.read(0x3000, 0, 4).code == CO_SDO_ERR_OBJ);
+  CHECK(node.write(0x3000, 0, {1}).code == CO_SDO_ERR_OBJ);
+  CHECK(node.read(0x2033, 7, 4).code == CO_SDO_ERR_SUB);
+  CHECK(node.write(0x2033, 7, {1}).code == CO_SDO_ERR_SUB);
+  CHECK(node.write(0x2004, 0, {1, 2, 3}).code == CO_SDO_ERR_LEN_SMALL);
+  CHECK(node.write(0x2004, 0, {1, 2, 3, 4, 5}).code == CO_SDO_ERR_LEN_HIGH);
+  CHECK(node.objects.u32 == 0x44332211);
+}
+
+TEST_CASE("SDO client, own node: an object that does not fit into the buffer: 0504 0005h") {
+  Local node;
+  for (std::uint32_t size = 1; size < 4; ++size) {
+    CHECK(node.read(0x2004, 0, size).code == CO_SDO_ERR_MEM);
+  }
+  CHECK(node.read(0x2100, 15, 14).code == CO_SDO_ERR_MEM);
+  CHECK(node.read(0x1008, 0, 16).code == CO_SDO_ERR_MEM);
+  CHECK(node.read(0x1008, 0, 17).code == 0);
+}
+
+TEST_CASE("SDO client, own node: strings and domains of every length, into buffers of that size and more") {
+  Local node(Setup{});
+  for (const unsigned length : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U}) {
+    for (const unsigned more : {0U, 1U, 20U}) {
+      CAPTURE(length);
+      CAPTURE(more);
+      if (length + more == 0) continue;
+      const ClientEnd end = node.read(0x2100, static_cast<std::uint8_t>(length), length + more);
+      CHECK(end.code == 0);
+      CHECK(end.data == counted(length));
+    }
+  }
+  CHECK(node.read(0x2101, 0, 889).data == counted(889));
+  CHECK(node.read(0x2102, 0, 70000).data == counted(70000));
+  CHECK(node.read(0x2110, 0, 100).data == Bytes{'t', 'e', 'x', 't'});
+  CHECK(node.read(0x2111, 0, 100).data == Bytes{1, 2, 3, 4, 5, 6});
+  CHECK(node.read(0x2112, 0, 100).data == Bytes{0x41, 0x00, 0xE4, 0x00, 0xAC, 0x20});
+}
+
+TEST_CASE("SDO client, own node: strings and domains are written") {
+  Local node(Setup{});
+  CHECK(node.write(0x2110, 0, {'l', 'o', 'n', 'g', 'e', 'r'}).code == 0);
+  CHECK(node.read(0x2110, 0, 100).data == Bytes{'l', 'o', 'n', 'g', 'e', 'r'});
+  CHECK(node.write(0x2111, 0, {9, 8}).code == 0);
+  CHECK(node.objects.octets.Size == 2);
+  CHECK(node.write(0x2112, 0, {0x42, 0x00}).code == 0);
+  CHECK(node.objects.unicode_memory[0] == 0x0042);
+  CHECK(node.write(0x2101, 0, counted(889, 77)).code == 0);
+  CHECK((node.objects.memory[889] == counted(889, 77)));
+  CHECK(node.write(0x2102, 0, counted(70000, 5)).num == 70000);
+  CHECK((node.objects.memory[70000] == counted(70000, 5)));
+  CHECK(node.write(0x2110, 0, counted(17)).code == CO_SDO_ERR_LEN_HIGH);
+  CHECK(node.write(0x2112, 0, counted(3)).code != 0);
+}
+
+// What a client at the other end of the bus gets.
+std::uint32_t code_over_the_bus(Fixture& node, std::uint16_t index, std::uint8_t sub, Bytes& data) {
+  CO_IF_FRM request = frame("601#4000000000000000");
+  CO_SET_WORD(&request, index, 1);
+  CO_SET_BYTE(&request, sub, 3);
+  node.rx(request);
+  REQUIRE(node.can.sent.size() == 1);
+  const CO_IF_FRM answer = node.can.sent.front().frm;
+  node.can.sent.clear();
+  if (answer.Data[0] == 0x80) return CO_GET_LONG(&answer, 4);
+  data = node.upload(index, sub);
+  return 0;
+}
+
+TEST_CASE("SDO client, own node: every entry of the dictionary reads as over the bus") {
+  Local own;
+  Fixture remote{Setup().only_small()};
+  for (unsigned n = 0; n < remote->Dict.Num; ++n) {
+    const std::uint32_t key = remote->Dict.Root[n].Key;
+    for (const unsigned beyond : {0U, 1U}) {
+      const std::uint16_t index = CO_GET_IDX(key);
+      const auto sub = static_cast<std::uint8_t>(CO_GET_SUB(key) + beyond);
+      CAPTURE(index);
+      CAPTURE(sub);
+      Bytes expected;
+      const std::uint32_t code = code_over_the_bus(remote, index, sub, expected);
+      const ClientEnd end = own.read(index, sub, 100);
+      CHECK(end.code == code);
+      CHECK(end.data == expected);
+    }
+  }
+}
+
+TEST_CASE("SDO client, own node: every length is written to every kind of object as over the bus") {
+  for (const std::uint16_t index :
+       {std::uint16_t{0x1000}, std::uint16_t{0x1017}, std::uint16_t{0x2001}, std::uint16_t{0x2002},
+        std::uint16_t{0x2003}, std::uint16_t{0x2004}, std::uint16_t{0x2007}, std::uint16_t{0x2008},
+        std::uint16_t{0x2020}, std::uint16_t{0x2024}, std::uint16_t{0x2026}, std::uint16_t{0x2030},
+        std::uint16_t{0x2031}, std::uint16_t{0x2034}, std::uint16_t{0x2110}, std::uint16_t{0x2111},
+        std::uint16_t{0x2112}}) {
+    for (std::size_t length = 1; length <= 18; ++length) {
+      CAPTURE(index);
+      CAPTURE(length);
+      Local own;
+      Fixture remote{Setup().only_small()};
+      CHECK(own.write(index, 0, counted(length)).code == remote.download(index, 0, counted(length)));
+      Bytes expected;
+      const std::uint32_t code = code_over_the_bus(remote, index, 0, expected);
+      const ClientEnd end = own.read(index, 0, 100);
+      CHECK(end.code == code);
+      CHECK(end.data == expected);
+    }
+  }
+}
+
+TEST_CASE("SDO client, own node: a thousand accesses, each started in the callback of the one before, do not nest") {
+  Local node;
+  unsigned ended = 0;
+  unsigned depth = 0;
+  node.on_end = [&](const ClientEnd& end) {
+    ++depth;
+    CHECK(depth == 1);
+    CHECK(end.code == 0);
+    if (++ended < 1000) CHECK(node.try_upload(0x2004, 0, 4) == CO_ERR_NONE);
+    CHECK(node.ends.size() == ended);
+    --depth;
+  };
+  node.start_upload(0x2004, 0, 4);
+  for (unsigned rounds = 0; rounds < 2000 && ended < 1000; ++rounds) {
+    node.loop();
+    node.after(1ms);
+  }
+  node.silent();
+  CHECK(ended == 1000);
+  node.ends.clear();
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("SDO client, own node: COCSdoCancel before the callback: 0800 0021h, no frame, one callback") {
+  Local node;
+  node.start_upload(0x2004, 0, 4);
+  CHECK(node.cancel() == CO_ERR_NONE);
+  node.ended(CO_SDO_ERR_TOS_LOCAL);
+  node.loop();
+  node.after(1000ms);
+  node.silent();
+  CHECK(node.ends.empty());
+}
+
+TEST_CASE("SDO client, own node: NMT stop, resets and CONodeStop before the callback: 0800 0022h, one callback") {
+  const std::vector<std::function<void(CO_NODE*)>> actions = {
+      [](CO_NODE* n) { CONmtSetMode(&n->Nmt, CO_STOP); }, [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_NODE); },
+      [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_COM); }, [](CO_NODE* n) { CONodeStop(n); }};
+  for (std::size_t n = 0; n < actions.size(); ++n) {
+    CAPTURE(n);
+    Local node;
+    node.start_upload(0x2004, 0, 4);
+    node.call([&] { actions[n](&node.node); });
+    node.loop();
+    node.after(1000ms);
+    node.frames();
+    node.ended(CO_SDO_ERR_TOS_STATE);
+  }
+}
+
+TEST_CASE("SDO client, own node: requests are refused where the network would not be served [N3]") {
+  Local node;
+  node.rx("000#0201");
+  CHECK(node.try_upload(0x2004, 0, 4) == CO_ERR_SDO_OFF);
+  node.rx("000#8001");
+  CHECK(node.read(0x2004, 0, 4).code == 0);
+}
+
+TEST_CASE("SDO client, own node: a full transmit queue does not matter") {
+  Local node(Setup().only_small().tx_queue(1));
+  node.can.refuse_all();
+  CO_IF_FRM urgent = frame("081#01");
+  node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
+  CHECK(node.read(0x2004, 0, 4).code == 0);
+  node.can.accept_all();
+  node.loop();
+  node.tx("081#01");
+}
+
+TEST_CASE("SDO client, own node: frames at the identifiers of the client change nothing") {
+  Local node;
+  node.start_upload(0x2004, 0, 4);
+  node.rx("581#4F00200511000000");
+  node.rx("581#8004200000000405");
+  node.after(1ms);
+  node.silent();
+  node.has_read({0x11, 0x22, 0x33, 0x44});
+}
+
+TEST_CASE("SDO client, own node: sub 3 decides at each request whether the own node is meant") {
+  ClientEntries entries;
+  entries.entry[0] = {0x600, 0x580, 1};
+  SdoClient node(Setup().only_small(), entries);
+  node.start_upload(0x2001, 0, 1);
+  node.loop();
+  node.after(1ms);
+  node.silent();
+  node.has_read({0x11});
+  node.entry[0].node_id = 5;
+  node.start_upload(0x2001, 0, 1);
+  node.tx("605#4001200000000000");
+  node.rx("585#4F01200099000000");
+  node.has_read({0x99});
+}
+
+TEST_CASE("SDO client, own node: bit 31 of a COB-ID says that this client does not exist, too [301:7.5.2.34]") {
+  ClientEntries entries = local_entries();
+  entries.entry[0].tx = 0x80000000;
+  SdoClient node(Setup().only_small(), entries);
+  CHECK(COCSdoFind(&node.node, 0) == nullptr);
+  CHECK(node.try_upload(0x2004, 0, 4) == CO_ERR_SDO_OFF);
+  node.entry[0].tx = 0x601;
+  CHECK(COCSdoFind(&node.node, 0) == node.csdo());
+  node.start_upload(0x2001, 0, 1);
+  node.after(1ms);
+  node.silent();
+  node.has_read({0x11});
+  node.entry[0].rx = 0x80000581;
+  CHECK(COCSdoFind(&node.node, 0) == nullptr);
+}
+
+TEST_CASE("SDO client, own node: a value that a remote client is just reading or writing can be accessed") {
+  Local node;
+  node.ask("601#4008200000000000", "581#4108200008000000");
+  CHECK(node.read(0x2008, 0, 8).code == 0);
+  CHECK(node.write(0x2008, 0, {8, 7, 6, 5, 4, 3, 2, 1}).code == 0);
+  node.ask("601#6000000000000000", "581#0011223344556677");
+  node.ask("601#7000000000000000", "581#1D88000000000000");
+  CHECK(node.objects.u64 == 0x0102030405060708);
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: segmented transfers. [301:7.2.4.3.4, 7.2.4.3.6]
+#include "support/sdo_client_fixture.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+struct Upload {
+  std::uint32_t length;
+  const char* announced;  // initiate answer with the size
+  std::vector<const char*> segments;
+};
+
+// Segments of the server: 000t nnnc.
+const Upload uploads[] = {
+    {5, "585#4100200505000000", {"585#0501020304050000"}},
+    {7, "585#4100200507000000", {"585#0101020304050607"}},
+    {8, "585#4100200508000000", {"585#0001020304050607", "585#1D08000000000000"}},
+    {14, "585#410020050E000000", {"585#0001020304050607", "585#1108090A0B0C0D0E"}},
+    {28,
+     "585#410020051C000000",
+     {"585#0001020304050607", "585#1008090A0B0C0D0E", "585#000F101112131415", "585#11161718191A1B1C"}},
+};
+
+constexpr const char* asks[] = {"605#6000000000000000", "605#7000000000000000"};
+
+// The client asks for each segment with the toggle bit alternating from 0.
+void take_segments(SdoClient& node, const std::vector<const char*>& segments) {
+  std::size_t n = 0;
+  for (const char* segment : segments) {
+    node.tx(asks[n % 2]);
+    node.goes_on();
+    CHECK(node.num() == 7 * n);
+    node.rx(segment);
+    ++n;
+  }
+  node.silent();
+}
+
+TEST_CASE("SDO client: segmented upload, the size announced, into buffers of that size and more [301:7.2.4.3.6]") {
+  for (const Upload& one : uploads) {
+    for (std::uint32_t size = one.length; size <= 28; ++size) {
+      CAPTURE(one.length);
+      CAPTURE(size);
+      SdoClient node;
+      node.start_upload(0x2000, 5, size);
+      node.tx("605#4000200500000000");
+      node.rx(one.announced);
+      CHECK(node.total() == one.length);
+      take_segments(node, one.segments);
+      CHECK(node.has_read(counted(one.length)).total == one.length);
+    }
+  }
+}
+
+TEST_CASE("SDO client: segmented upload, the size not announced [301:7.2.4.3.5]") {
+  for (const Upload& one : uploads) {
+    for (const std::uint32_t size : {one.length, 28U}) {
+      CAPTURE(one.length);
+      CAPTURE(size);
+      SdoClient node;
+      node.start_upload(0x2000, 5, size);
+      node.tx("605#4000200500000000");
+      node.rx("585#4000200500000000");
+      CHECK(node.total() == 0);
+      take_segments(node, one.segments);
+      node.has_read(counted(one.length));
+    }
+  }
+}
+
+TEST_CASE("SDO client: bytes of the last segment that hold no data are not looked at") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 5);
+  node.tx("605#4000200500000000");
+  node.rx("585#4100200505000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#050102030405FFFF");
+  node.has_read(counted(5));
+}
+
+TEST_CASE("SDO client: segmented upload of 1 to 4 bytes, as servers without expedited transfer do") {
+  const char* const last[] = {"585#0D01000000000000", "585#0B01020000000000", "585#0901020300000000",
+                              "585#0701020304000000"};
+  for (std::uint32_t length = 1; length <= 4; ++length) {
+    CAPTURE(length);
+    SdoClient node;
+    node.start_upload(0x2000, 5, 4);
+    node.tx("605#4000200500000000");
+    CO_IF_FRM answer = frame("585#4100200500000000");
+    CO_SET_LONG(&answer, length, 4);
+    node.rx(answer);
+    node.tx("605#6000000000000000");
+    node.rx(last[length - 1]);
+    node.has_read(counted(length));
+  }
+}
+
+TEST_CASE("SDO client: upload of an empty object: no bytes, success [D19]") {
+  for (const char* answer : {"585#4100200500000000", "585#4000200500000000"}) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 8);
+    node.tx("605#4000200500000000");
+    node.rx(answer);
+    node.tx("605#6000000000000000");
+    node.rx("585#0F00000000000000");
+    node.silent();
+    CHECK(node.has_read({}).total == 0);
+  }
+}
+
+TEST_CASE("SDO client: upload of a full buffer whose last segment is empty") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 7);
+  node.tx("605#4000200500000000");
+  node.rx("585#4000200500000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0001020304050607");
+  node.tx("605#7000000000000000");
+  node.rx("585#1F00000000000000");
+  node.has_read(counted(7));
+}
+
+TEST_CASE("SDO client: an announced size beyond the buffer is refused with 0504 0005h at once") {
+  for (const char* answer : {"585#4100200509000000", "585#410020051C000000", "585#41002005FFFFFFFF",
+                             "585#4100200500000080", "585#4100200508000100"}) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 8);
+    node.tx("605#4000200500000000");
+    node.rx(answer);
+    node.tx("605#8000200505000405");
+    CHECK(node.ended(CO_SDO_ERR_MEM).num == 0);
+  }
+}
+
+TEST_CASE("SDO client: without an announced size, the segment that the buffer cannot take is refused with 0504 0005h") {
+  for (std::uint32_t size = 8; size < 14; ++size) {
+    CAPTURE(size);
+    SdoClient node;
+    node.start_upload(0x2000, 5, size);
+    node.tx("605#4000200500000000");
+    node.rx("585#4000200500000000");
+    node.tx("605#6000000000000000");
+    node.rx("585#0001020304050607");
+    node.tx("605#7000000000000000");
+    node.rx("585#1108090A0B0C0D0E");
+    node.tx("605#8000200505000405");
+    CHECK(node.ended(CO_SDO_ERR_MEM).num == 7);
+  }
+}
+
+TEST_CASE(
+    "SDO client: more bytes than announced are refused with 0607 0012h, although the buffer could take them [D5]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 28);
+  node.tx("605#4000200500000000");
+  node.rx("585#410020050D000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0001020304050607");
+  node.tx("605#7000000000000000");
+  node.rx("585#1108090A0B0C0D0E");
+  node.tx("605#8000200512000706");
+  node.ended(CO_SDO_ERR_LEN_HIGH);
+}
+
+TEST_CASE("SDO client: fewer bytes than announced are refused with 0607 0013h [D5]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 28);
+  node.tx("605#4000200500000000");
+  node.rx("585#410020050F000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0001020304050607");
+  node.tx("605#7000000000000000");
+  node.rx("585#1108090A0B0C0D0E");
+  node.tx("605#8000200513000706");
+  node.ended(CO_SDO_ERR_LEN_SMALL);
+}
+
+TEST_CASE("SDO client: a segment with the toggle bit of the one before is refused with 0503 0000h [C1]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 28);
+  node.tx("605#4000200500000000");
+  node.rx("585#410020051C000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0001020304050607");
+  node.tx("605#7000000000000000");
+  node.rx("585#0008090A0B0C0D0E");
+  node.tx("605#8000200500000305");
+  node.ended(CO_SDO_ERR_TBIT);
+}
+
+struct Download {
+  std::uint32_t length;
+  const char* initiate;
+  std::vector<const char*> segments;
+};
+
+const Download downloads[] = {
+    {5, "605#2100200505000000", {"605#0501020304050000"}},
+    {6, "605#2100200506000000", {"605#0301020304050600"}},
+    {7, "605#2100200507000000", {"605#0101020304050607"}},
+    {8, "605#2100200508000000", {"605#0001020304050607", "605#1D08000000000000"}},
+    {14, "605#210020050E000000", {"605#0001020304050607", "605#1108090A0B0C0D0E"}},
+    {15, "605#210020050F000000", {"605#0001020304050607", "605#1008090A0B0C0D0E", "605#0D0F000000000000"}},
+    {28,
+     "605#210020051C000000",
+     {"605#0001020304050607", "605#1008090A0B0C0D0E", "605#000F101112131415", "605#11161718191A1B1C"}},
+};
+
+TEST_CASE("SDO client: segmented download, the size is announced, the rest of the last segment is 0 [301:7.2.4.3.4]") {
+  constexpr const char* taken[] = {"585#2000000000000000", "585#3000000000000000"};
+  for (const Download& one : downloads) {
+    CAPTURE(one.length);
+    SdoClient node;
+    node.start_download(0x2000, 5, counted(one.length));
+    CHECK(node.total() == one.length);
+    node.tx(one.initiate);
+    node.rx("585#6000200500000000");
+    std::size_t n = 0;
+    for (const char* segment : one.segments) {
+      node.tx(segment);
+      node.goes_on();
+      CHECK(node.num() == 7 * n);
+      node.rx(taken[n % 2]);
+      ++n;
+    }
+    node.silent();
+    const ClientEnd end = node.has_written();
+    CHECK(end.num == one.length);
+  }
+}
+
+TEST_CASE("SDO client: an acknowledge with the wrong toggle bit is refused with 0503 0000h [C1]") {
+  SdoClient node;
+  node.start_download(0x2000, 5, counted(28));
+  node.tx("605#210020051C000000");
+  node.rx("585#6000200500000000");
+  node.tx("605#0001020304050607");
+  node.rx("585#2000000000000000");
+  node.tx("605#1008090A0B0C0D0E");
+  node.rx("585#2000000000000000");
+  node.tx("605#8000200500000305");
+  CHECK(node.ended(CO_SDO_ERR_TBIT).num == 7);
+}
+
+TEST_CASE("SDO client: the server aborts within a segmented transfer: reported, not answered, whatever it names [C1]") {
+  for (const char* abort : {"585#8000200531000906", "585#8000000031000906", "585#8011223331000906"}) {
+    SdoClient node;
+    node.start_download(0x2000, 5, counted(14));
+    node.tx("605#210020050E000000");
+    node.rx("585#6000200500000000");
+    node.tx("605#0001020304050607");
+    node.rx(abort);
+    node.silent();
+    CHECK(node.ended(CO_SDO_ERR_RANGE_HIGH).num == 0);
+  }
+}
+
+TEST_CASE("SDO client: an abort of the client names the object, in the middle of a transfer as well [D25]") {
+  SdoClient node;
+  node.start_upload(0x1018, 0x04, 28);
+  node.tx("605#4018100400000000");
+  node.rx("585#4018100400000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#4018100400000000");
+  node.tx("605#8018100401000405");
+  node.ended(CO_SDO_ERR_CMD);
+}
+
+TEST_CASE("SDO client: a text shorter than the buffer: COCSdoGetNum tells its length") {
+  SdoClient node;
+  node.start_upload(0x1008, 0, 28);
+  node.tx("605#4008100000000000");
+  node.rx("585#4108100011000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#004C65786963616E");
+  node.tx("605#7000000000000000");
+  node.rx("585#102074657374206E");
+  node.tx("605#6000000000000000");
+  node.rx("585#096F646500000000");
+  const std::string text = "Lexican test node";
+  node.has_read(Bytes(text.begin(), text.end()));
+  CHECK(node.num() == 17);
+}
+
+}  // namespace
+
+#endif

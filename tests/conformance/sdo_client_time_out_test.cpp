@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: time-outs. [301:7.2.4.3.17] [D18] [C1]
+#include "support/sdo_client_peer.hpp"
+#include "support/sdo_client_states.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+constexpr const char* time_out_abort = "605#8000200500000405";
+
+// Acknowledges that a client repeats in a silent sub-block do not belong to the end of the transfer.
+std::vector<std::string> without_acknowledges(std::vector<std::string> frames) {
+  const auto is_acknowledge = [](const std::string& text) { return text.compare(0, 6, "605#A2") == 0; };
+  frames.erase(std::remove_if(frames.begin(), frames.end(), is_acknowledge), frames.end());
+  return frames;
+}
+
+// Within a sub-block the client looks at the end of each quarter whether segments come.
+bool is_within_block(const ClientState& state) {
+  return state.name == "block upload: one segment taken" || state.name == "block upload: all segments but one taken";
+}
+
+TEST_CASE("SDO client: silence of the server ends the transfer at the time asked for, in every state") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    for (const int ms : {1000, 100, 8}) {
+      CAPTURE(ms);
+      SdoClient node;
+      enter(node, state, static_cast<std::uint32_t>(ms));
+      node.after(std::chrono::milliseconds{ms - 1});
+      node.goes_on();
+      CHECK(without_acknowledges(node.frames()).empty());
+      node.after(std::chrono::milliseconds{is_within_block(state) ? ms / 4 + 1 : 1});
+      CHECK(without_acknowledges(node.frames()) == std::vector<std::string>{time_out_abort});
+      node.ended(CO_SDO_ERR_TIMEOUT);
+      node.after(5000ms);
+      node.silent();
+    }
+  }
+}
+
+TEST_CASE("SDO client: no time-out is early, nor later than quarters that are rounded up, for odd times, too") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    for (const int ms : {1, 2, 3, 5, 7, 11, 13, 101}) {
+      CAPTURE(ms);
+      SdoClient node;
+      enter(node, state, static_cast<std::uint32_t>(ms));
+      node.after(std::chrono::milliseconds{ms - 1});
+      node.goes_on();
+      node.frames();
+      const int quarter = (ms + 3) / 4;
+      node.after(std::chrono::milliseconds{(is_within_block(state) ? 5 : 4) * quarter - ms + 1});
+      CHECK(without_acknowledges(node.frames()) == std::vector<std::string>{time_out_abort});
+      node.ended(CO_SDO_ERR_TIMEOUT);
+    }
+  }
+}
+
+TEST_CASE("SDO client: the time begins anew with each answer of the server") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 28, 100);
+  node.tx("605#4000200500000000");
+  node.after(99ms);
+  node.rx("585#410020051C000000");
+  node.tx("605#6000000000000000");
+  node.after(99ms);
+  node.rx("585#0001020304050607");
+  node.tx("605#7000000000000000");
+  node.after(99ms);
+  node.goes_on();
+  node.silent();
+  node.after(1ms);
+  node.tx(time_out_abort);
+  CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 7);
+}
+
+TEST_CASE("SDO client: a time-out of 0 waits for ever, in every state") {
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    SdoClient node;
+    enter(node, state, 0);
+    node.after(std::chrono::hours{24});
+    node.goes_on();
+    CHECK(without_acknowledges(node.frames()).empty());
+    node.cancel();
+    CHECK(node.frames() == std::vector<std::string>{"605#8000200521000008"});
+    node.ended(CO_SDO_ERR_TOS_LOCAL);
+  }
+}
+
+TEST_CASE("SDO client: times of more than 16 bits are not cut") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 65536 + 10);
+  node.tx("605#4000200500000000");
+  node.after(65545ms);
+  node.goes_on();
+  node.after(1ms);
+  node.tx(time_out_abort);
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: what the timer driver can count is counted: 40 minutes in microseconds") {
+  SdoClient node(Setup().only_small().rate(1000000));
+  node.start_upload(0x2000, 5, 4, 40 * 60 * 1000);
+  node.tx("605#4000200500000000");
+  node.after(std::chrono::minutes{40} - 1us);
+  node.goes_on();
+  node.silent();
+  node.after(1us);
+  node.tx(time_out_abort);
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: what the timer driver cannot count is taken as the longest time that it can") {
+  SdoClient node(Setup().only_small().rate(1000000));
+  node.start_upload(0x2000, 5, 4, 0xFFFFFFFF);
+  node.tx("605#4000200500000000");
+  node.after(std::chrono::minutes{35});
+  node.goes_on();
+  node.silent();
+  node.after(std::chrono::minutes{37});  // 32 bits are 71.6
+  node.tx(time_out_abort);
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: time-outs do not depend on the clock's begin and rate, and on how the loop sleeps [T15]") {
+  for (const std::uint32_t start : clock_starts) {
+    for (const std::uint32_t rate : {1000U, 1024U, 300U, 1000000U}) {
+      for (const Wake wake : {Wake::alarm, Wake::deadline}) {
+        CAPTURE(start);
+        CAPTURE(rate);
+        SdoClient node(Setup().only_small().clock(start).rate(rate).wake(wake));
+        node.start_upload(0x2000, 5, 4, 100);
+        node.tx("605#4000200500000000");
+        node.after(200ms);
+        node.tx_at(100ms, time_out_abort);
+        node.ended(CO_SDO_ERR_TIMEOUT);
+      }
+    }
+  }
+}
+
+TEST_CASE("SDO client: a transfer that has ended leaves no time-out behind") {
+  SdoClient node;
+  for (const ClientState& state : client_states()) {
+    CAPTURE(state.name);
+    enter(node, state, 100);
+    node.rx("585#8000200520000008");
+    node.ended(CO_SDO_ERR_TOS);
+    CHECK(node.armed_timers() == 0);
+    node.start_upload(0x2001, 0, 4, 1000);
+    node.tx("605#4001200000000000");
+    node.after(999ms);
+    node.goes_on();
+    node.rx("585#4F01200011000000");
+    node.has_read({0x11});
+  }
+}
+
+TEST_CASE("SDO client: a late loop finds the time-out once") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 100);
+  node.tx("605#4000200500000000");
+  node.jump(5000ms);
+  node.tx(time_out_abort);
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: an answer and the time-out at the same moment: one callback") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 4, 100);
+  node.tx("605#4000200500000000");
+  node.elapse_only(100ms);
+  node.rx("585#4F00200511000000");
+  node.after(0ms);
+  node.frames();
+  CHECK(node.ends.size() == 1);
+  node.ends.clear();
+  CHECK_FALSE(node.is_busy());
+}
+
+TEST_CASE("SDO client: the abort of a time-out names the object, in the middle of a transfer as well [D25]") {
+  SdoClient node;
+  node.start_download(0x1A02, 0xFE, counted(14), 50);
+  node.tx("605#21021AFE0E000000");
+  node.rx("585#60021AFE00000000");
+  node.tx("605#0001020304050607");
+  node.after(50ms);
+  node.tx("605#80021AFE00000405");
+  CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 0);
+}
+
+#if USE_SDO_BLOCK
+
+// The times in ms at which the client acknowledged in the silence before its time-out of a second.
+std::vector<std::uint64_t> acknowledges_in_silence(SdoClient& node, const std::string& acknowledge) {
+  node.after(999ms);
+  std::vector<std::uint64_t> times;
+  for (const std::string& line : node.trace()) {
+    const std::size_t space = line.find(' ');
+    CHECK(line.substr(space + 1) == acknowledge);
+    times.push_back(std::stoul(line));
+  }
+  return times;
+}
+
+void read_some(SdoClient& node, unsigned taken) {
+  constexpr const char* segments[] = {"585#0101020304050607", "585#0208090A0B0C0D0E", "585#030F101112131415"};
+  node.start_upload(0x2000, 5, 1000, 1000);
+  node.tx("605#A40020057F1C0000");
+  node.rx("585#C600200514000000");
+  node.tx("605#A300000000000000");
+  for (unsigned n = 0; n < taken; ++n) {
+    node.rx(segments[n]);
+  }
+}
+
+TEST_CASE("SDO client: silence within a sub-block: what has come is acknowledged, so that the server goes on [D11]") {
+  for (const unsigned taken : {1U, 2U}) {
+    CAPTURE(taken);
+    SdoClient node;
+    read_some(node, taken);
+    const std::vector<std::uint64_t> times =
+        acknowledges_in_silence(node, taken == 1 ? "605#A2017F0000000000" : "605#A2027F0000000000");
+    REQUIRE_FALSE(times.empty());
+    CHECK(times.front() >= 250);
+    CHECK(times.front() <= 750);
+    CHECK(times.size() <= 3);
+    node.after(251ms);
+    CHECK(without_acknowledges(node.frames()) == std::vector<std::string>{time_out_abort});
+    node.ended(CO_SDO_ERR_TIMEOUT);
+  }
+}
+
+TEST_CASE("SDO client: the server goes on after the acknowledge of a silence: the data are whole [D11]") {
+  SdoClient node;
+  read_some(node, 2);  // segment 3, the last, is lost
+  node.after(750ms);
+  const std::vector<std::string> sent = node.frames();
+  REQUIRE_FALSE(sent.empty());
+  for (const std::string& line : sent) CHECK(line == "605#A2027F0000000000");
+  CHECK(node.num() == 14);
+  node.rx("585#810F101112131400");
+  node.tx("605#A2017F0000000000");
+  node.rx("585#C5D3EA0000000000");
+  node.tx("605#A100000000000000");
+  node.has_read(counted(20));
+}
+
+TEST_CASE("SDO client: after a silence within a block the server has its whole time again") {
+  SdoClient node;
+  read_some(node, 2);
+  node.after(750ms);
+  node.frames();
+  node.rx("585#810F101112131400");
+  node.tx("605#A2017F0000000000");
+  node.after(999ms);
+  node.goes_on();
+  CHECK(without_acknowledges(node.frames()).empty());
+  node.after(1ms);
+  CHECK(without_acknowledges(node.frames()) == std::vector<std::string>{time_out_abort});
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: a lost acknowledge of the last segment is repeated in the silence that follows [D11]") {
+  SdoClient node;
+  read_some(node, 2);
+  node.rx("585#830F101112131400");
+  node.tx("605#A2037F0000000000");  // is lost
+  node.after(750ms);
+  const std::vector<std::string> sent = node.frames();
+  REQUIRE_FALSE(sent.empty());
+  for (const std::string& line : sent) CHECK(line == "605#A2037F0000000000");
+  node.rx("585#C5D3EA0000000000");
+  node.tx("605#A100000000000000");
+  node.has_read(counted(20));
+}
+
+#endif
+
+}  // namespace
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file sdo_client_fixture.hpp
+/// A node with SDO clients, whose servers are played by the test:
+///
+///     SdoClient node;                            // client 0 asks node-ID 5 at 605h/585h, 1 asks 6, 2 asks 7
+///     node.start_upload(0x2000, 5, 8);           // COCSdoRequestUpload() into a buffer of 8 bytes
+///     node.tx("605#4000200500000000");
+///     node.rx("585#4F00200511000000");
+///     node.has_read({0x11});                     // the callback has come, once, with code 0
+///
+/// Buffers have guards around them, and are gone when the callback has come.
+#pragma once
+
+#include "fixture.hpp"
+
+#if USE_CSDO
+
+namespace test {
+
+/// The memory of 1280h + n.
+struct ClientEntries {
+  struct Entry {
+    std::uint32_t tx;
+    std::uint32_t rx;
+    std::uint8_t node_id;
+  };
+  Entry entry[3] = {{0x605, 0x585, 5}, {0x606, 0x586, 6}, {0x607, 0x587, 7}};
+};
+
+/// The only client asks for the objects of its own node.
+inline ClientEntries local_entries() { return {{{0x601, 0x581, 1}, {0x606, 0x586, 6}, {0x607, 0x587, 7}}}; }
+
+/// Bytes 1, 2, 3, … (modulo 256) from \a first on.
+Bytes counted(std::size_t size, unsigned first = 1);
+
+/// What a callback was told, and what could be asked then.
+struct ClientEnd {
+  unsigned client;
+  std::uint16_t index;
+  std::uint8_t sub;
+  std::uint32_t code;
+  std::uint32_t num;
+  std::uint32_t total;
+  Bytes data;  ///< the first num bytes of the buffer
+};
+
+class SdoClient : public ClientEntries, public Fixture {
+ public:
+  explicit SdoClient(Setup setup = Setup().only_small(), const ClientEntries& entries = {});
+  ~SdoClient();
+
+  /// Requests that may be refused. They can be used within a callback, too. Times in ms.
+  CO_ERR try_upload(std::uint16_t index, std::uint8_t sub, std::uint32_t size, std::uint32_t timeout = 1000,
+                    unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  CO_ERR try_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, std::uint32_t timeout = 1000,
+                      unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// Requests that must be taken.
+  void start_upload(std::uint16_t index, std::uint8_t sub, std::uint32_t size, std::uint32_t timeout = 1000,
+                    unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void start_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, std::uint32_t timeout = 1000,
+                      unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  CO_ERR cancel(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+
+  /// No callback has come, the transfer goes on.
+  void goes_on(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// One callback has come since the last look, with \a code; the client is idle.
+  ClientEnd ended(std::uint32_t code, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// The same for an upload that has succeeded, with these bytes.
+  ClientEnd has_read(const Bytes& data, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+  /// The same for a download that has succeeded.
+  ClientEnd has_written(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
+
+  CO_CSDO* csdo(unsigned client = 0) { return &node.CSdo[client]; }
+  std::uint32_t num(unsigned client = 0) const { return COCSdoGetNum(&node.CSdo[client]); }
+  std::uint32_t total(unsigned client = 0) const { return COCSdoGetTotal(&node.CSdo[client]); }
+  bool is_busy(unsigned client = 0) const { return node.CSdo[client].State == CO_CSDO_STATE_BUSY; }
+  bool is_watched(unsigned client = 0) const;  ///< its timer is armed
+
+  /// Called in each callback, when its data are already noted.
+  std::function<void(const ClientEnd&)> on_end;
+  /// Callbacks that nobody has looked at.
+  std::deque<ClientEnd> ends;
+
+ private:
+  struct Request {
+    bool open = false;
+    std::uint32_t key = 0;
+    Bytes memory;  ///< guard, buffer, guard
+    Bytes sent;    ///< of a download: must not change
+  };
+  Setup with_entries(Setup setup);
+  static void note_end(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  void note(unsigned client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  void run(const std::function<void()>& api, Where at);
+  CO_ERR begin(Request request, unsigned client, const std::function<CO_ERR(std::uint8_t*)>& api, Where at);
+  void check_memory_of(const Request& request);
+  void finish();
+
+  Request requests_[CO_CSDO_N];
+  unsigned in_callback_ = 0;
+};
+
+}  // namespace test
+
+#endif
