@@ -6,10 +6,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
-#include "co_core.h"
-#include "linux_node/host.hpp"
+#include "host/node.hpp"
 #include "trace/decode.hpp"
 
 namespace demo {
@@ -17,7 +15,9 @@ namespace demo {
 constexpr std::uint32_t clock_product_code = 0xC10C;
 constexpr std::uint32_t clock_serial_number = 1;
 constexpr char clock_name[] = "Lexican demo clock";
-constexpr std::uint32_t picture_size = 300;  // bytes
+constexpr std::uint32_t picture_width = 192;                                // pixels
+constexpr std::uint32_t picture_height = 128;                               // pixels
+constexpr std::uint32_t picture_size = picture_width * picture_height * 3;  // bytes: red, green and blue of each pixel
 
 /// What the network sees under 2100h.
 struct TimeOfDay {
@@ -32,46 +32,17 @@ const trace::Names& clock_object_names();
 /// The clock as a CANopen node. Starts at 00:00:00.
 class Clock {
  public:
-  /// Called for every frame that the node takes from the bus (received) or puts on it.
-  using Observer = std::function<void(bool received, const CO_IF_FRM& frame)>;
-
   /// The drivers' contexts must outlive the clock.
-  Clock(std::uint8_t node_id, Can can, Timer timer, Observer observer);
-  ~Clock();
-  Clock(const Clock&) = delete;
-  Clock& operator=(const Clock&) = delete;
+  Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer);
 
-  /// Sends the boot-up message. Returns false if the node could not be initialised; see error().
+  /// Sends the boot-up message. Returns false if the node could not be initialised; see Node::error().
   bool start();
 
-  /// Works off the frames that have arrived and the timers that have elapsed.
-  void process();
-
-  /// Time until process() has something to do, if no frame arrives before.
-  Micros due_in();
-
-  /// The last error of the node, which is thereby cleared.
-  CO_ERR error() { return CONodeGetErr(&node_); }
-
-  CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node_); }
+  Node& node() { return node_; }
   static TimeOfDay time();
 
  private:
-  static constexpr std::uint32_t ticks_per_second = second;
-
-  /// The node's CAN driver: passes everything on and shows it to the observer.
-  struct Tap {
-    Can can;
-    Observer observer;
-    bool failing;  // the last frame could not be sent because of an error
-    static const CO_IF_CAN_DRV_EX driver;
-    static const Can& to(void* tap);
-  };
-
-  Tap tap_;
-  CO_NODE_EXT extension_{};
-  CO_TMR_MEM timer_[1]{};
-  CO_NODE node_{};
+  Node node_;
 };
 
 }  // namespace demo

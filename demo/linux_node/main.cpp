@@ -6,8 +6,8 @@
 #include <iostream>
 #include <memory>
 
+#include "host/linux_host.hpp"
 #include "linux_node/clock.hpp"
-#include "linux_node/linux_host.hpp"
 #include "linux_node/options.hpp"
 #include "linux_node/tour.hpp"
 #include "linux_node/view.hpp"
@@ -24,48 +24,50 @@ struct Bus {
   std::string about;
 };
 
+std::string virtual_bus() { return text("built-in virtual bus, %u kbit/s", VirtualBusHost::bit_rate / 1000); }
+
 Bus open_bus(const Options& options, const Interruption& interruption) {
   if (options.virtual_bus) {
-    return {std::make_unique<VirtualBusHost>(interruption), "built-in virtual bus, as told by --virtual"};
+    return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + ", as told by --virtual"};
   }
   const bool chosen = !options.interface.empty();
   const std::string interface = chosen ? options.interface : default_interface;
   auto host = std::make_unique<SocketCanHost>(interruption);
-  const std::string fault = host->open(interface, !options.serve);
+  const std::string fault = host->open(interface, true, !options.serve);
   if (fault.empty()) {
     return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", as told by --can" : ", which is up")};
   }
   if (chosen || options.serve) {
     return {nullptr, (chosen ? "" : "--serve needs a CAN interface. ") + fault};
   }
-  return {std::make_unique<VirtualBusHost>(interruption), "built-in virtual bus; " + fault};
+  return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + "; " + fault};
 }
 
-bool wants_colours() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
-
 View::Style style_for(const Options& options) {
-  return {wants_colours(), options.every_frame, options.serve ? "bus" : "master"};
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const bool colours = terminal && std::getenv("NO_COLOR") == nullptr;
+  return {terminal, colours, options.every_frame, options.serve ? "bus" : "master"};
 }
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   Master master(host, clock, options.node_id);
   const TourResult result = take_tour(clock, master, view);
-  summarise(result, clock.counters(), view);
+  summarise(result, clock.node().counters(), view);
   if (!result.failed.empty() && !host.bus_fault().empty()) {
     view.finding(false, host.bus_fault());
   }
   if (result.interrupted) {
     return exit_interrupted;
   }
-  return result.failed.empty() ? exit_ok : exit_step_failed;
+  return result.failed.empty() ? exit_ok : exit_failed;
 }
 
 /// Shows what is wrong with the bus, once as long as nothing else happens.
 class FaultReport {
  public:
   void update(Host& host, Clock& clock, View& view) {
-    const CO_NODE_COUNTERS counters = clock.counters();
-    if (clock.error() == CO_ERR_NONE) {
+    const CO_NODE_COUNTERS counters = clock.node().counters();
+    if (clock.node().error() == CO_ERR_NONE) {
       shown_ = shown_ && frames_ == counters.Sent + counters.Received;
     } else if (!shown_ && !host.bus_fault().empty()) {
       view.line(host.bus_fault());
@@ -81,17 +83,17 @@ class FaultReport {
 
 int serve(Host& host, Clock& clock, View& view) {
   if (!clock.start()) {
-    view.line(text("The node does not start: error %04Xh", static_cast<unsigned>(clock.error())));
-    return exit_step_failed;
+    view.line(text("The node does not start: error %04Xh", static_cast<unsigned>(clock.node().error())));
+    return exit_failed;
   }
   FaultReport faults;
   while (!host.interrupted()) {
-    clock.process();
+    clock.node().process();
     faults.update(host, clock, view);
-    host.wait(clock.due_in());
+    host.wait(clock.node().due_in());
   }
   view.line("\nThe end");
-  show_counters(clock.counters(), view);
+  show_counters(clock.node().counters(), view);
   return exit_ok;
 }
 

@@ -1,52 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linux_node/master.hpp"
 
-#include <algorithm>
-
 namespace demo {
+namespace {
+
+// The highest node-ID that is free: the usual place of a master.
+std::uint8_t own_node_id(std::uint8_t device) { return device == 127 ? 126 : 127; }
+
+}  // namespace
 
 Master::Master(Host& host, Clock& device, std::uint8_t node_id)
-    : host_(host), device_(device), can_(host.master_can()), node_id_(node_id) {
-  can_.driver->Init(can_.context);
-  can_.driver->Enable(can_.context, 0);
+    : node_id_(node_id),
+      dictionary_(node_id),
+      node_({own_node_id(node_id), host.master_can(), host.master_timer(), dictionary_.table(),
+             [this](bool received, const CO_IF_FRM& frame) { note(received, frame); }, true}),
+      loop_(host, {&device.node(), &node_}),
+      sdo_(node_, loop_) {
+  CONodeStart(&node_.stack());
 }
 
-Master::~Master() { can_.driver->Close(can_.context); }
-
-bool Master::send(const CO_IF_FRM& frame) { return can_.driver->Send(can_.context, &frame) > 0; }
-
-std::optional<CO_IF_FRM> Master::next_match(const Match& match) {
-  CO_IF_FRM frame{};
-  while (can_.driver->Read(can_.context, &frame) > 0) {
-    if (match(frame)) {
-      return frame;
-    }
-  }
-  return std::nullopt;
-}
-
-std::optional<CO_IF_FRM> Master::await(const Match& match, Micros timeout) {
-  const Micros deadline = host_.now() + timeout;
-  for (;;) {
-    device_.process();
-    if (auto frame = next_match(match)) {
-      return frame;
-    }
-    const Micros now = host_.now();
-    if (now >= deadline || host_.interrupted()) {
-      return std::nullopt;
-    }
-    host_.wait(std::min(deadline - now, device_.due_in()));
+void Master::note(bool received, const CO_IF_FRM& frame) {
+  if (received && frame.Identifier == 0x700u + node_id_ && frame.DLC == 1) {
+    heard_.push_back(static_cast<State>(frame.Data[0]));
   }
 }
 
-bool Master::command(Nmt command) { return send({0x000, {static_cast<std::uint8_t>(command), node_id_}, 2}); }
+bool Master::command(Nmt command) {
+  heard_.clear();
+  CO_IF_FRM frame{0x000, {static_cast<std::uint8_t>(command), node_id_}, 2};
+  return COIfCanSend(&node_.stack().If, &frame) > 0;
+}
+
+bool Master::has_heard(State state) {
+  while (!heard_.empty()) {
+    const State next = heard_.front();
+    heard_.pop_front();
+    if (next == state) {
+      return true;
+    }
+  }
+  return false;
+}
 
 bool Master::await_state(State state, Micros timeout) {
-  const auto matches = [&](const CO_IF_FRM& frame) {
-    return frame.Identifier == 0x700u + node_id_ && frame.DLC == 1 && frame.Data[0] == static_cast<std::uint8_t>(state);
-  };
-  return await(matches, timeout).has_value();
+  return loop_.run_until([&] { return has_heard(state); }, timeout);
 }
 
 }  // namespace demo

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file master.hpp
-/// A small CANopen master in the same thread as the device: while it waits, the device runs.
+/// A small CANopen master, a node of its own in the same thread as the device: while it waits, both run.
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
+#include <deque>
 
+#include "client/sdo_client.hpp"
+#include "host/loop.hpp"
+#include "host/node.hpp"
 #include "linux_node/clock.hpp"
-#include "linux_node/host.hpp"
 
 namespace demo {
 
@@ -22,33 +21,27 @@ enum class State : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, pre
 
 class Master {
  public:
-  using Match = std::function<bool(const CO_IF_FRM&)>;
-
   /// Goes on the bus. \a node_id: the node to talk to; \a host and \a device must outlive the master.
   Master(Host& host, Clock& device, std::uint8_t node_id);
-  ~Master();
-  Master(const Master&) = delete;
-  Master& operator=(const Master&) = delete;
-
-  bool send(const CO_IF_FRM& frame);
-  /// The next frame that matches; others are thrown away. Nothing if none arrives in time, or after an interruption.
-  std::optional<CO_IF_FRM> await(const Match& match, Micros timeout);
 
   bool command(Nmt command);
-  /// Waits for a boot-up or heartbeat message with this state.
+  /// Waits for a boot-up or heartbeat message with this state, which may have come since the last command.
   bool await_state(State state, Micros timeout);
 
+  SdoClient& sdo() { return sdo_; }
+  Loop& loop() { return loop_; }
   std::uint8_t node_id() const { return node_id_; }
-  Micros now() { return host_.now(); }
-  bool interrupted() { return host_.interrupted(); }
 
  private:
-  std::optional<CO_IF_FRM> next_match(const Match& match);
+  void note(bool received, const CO_IF_FRM& frame);
+  bool has_heard(State state);
 
-  Host& host_;
-  Clock& device_;
-  Can can_;
   std::uint8_t node_id_;
+  std::deque<State> heard_;  // states of the node that nobody has waited for yet
+  ClientDictionary dictionary_;
+  Node node_;
+  Loop loop_;
+  SdoClient sdo_;
 };
 
 }  // namespace demo

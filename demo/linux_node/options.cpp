@@ -12,7 +12,7 @@ namespace {
 constexpr const char* description =
     "A CANopen node, the demo clock of Lexican, and a small master that shows what the node can do.\n"
     "Without options: uses vcan0 if there is one, else a bus built into the program.\n"
-    "With --serve: the node alone, for your own tools, until Ctrl-C.";
+    "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C.";
 
 constexpr const char* footer =
     "Exit codes:\n"

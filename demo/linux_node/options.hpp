@@ -6,15 +6,9 @@
 #include <cstdint>
 #include <string>
 
-namespace demo {
+#include "host/exit.hpp"
 
-/// Exit codes of the program.
-enum Exit : int {
-  exit_ok = 0,
-  exit_step_failed = 1,
-  exit_usage = 2,  // also: the bus cannot be used
-  exit_interrupted = 130,
-};
+namespace demo {
 
 struct Options {
   std::string interface;  // SocketCAN; empty: the program chooses

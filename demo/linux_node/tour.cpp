@@ -5,7 +5,8 @@
 #include <cstring>
 #include <iterator>
 
-#include "linux_node/sdo_client.hpp"
+#include "client/progress.hpp"
+#include "client/sdo_client.hpp"
 #include "trace/decode.hpp"
 #include "trace/text.hpp"
 
@@ -20,7 +21,8 @@ struct Finding {
 struct Tour {
   Clock& clock;
   Master& master;
-  SdoClient sdo;
+  View& view;
+  SdoClient& sdo = master.sdo();
   Micros set_at = 0;  // when the clock was set
 };
 
@@ -30,11 +32,16 @@ constexpr std::uint32_t day = 24 * 60 * 60;   // s
 
 Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
 
-/// No byte is equal to its neighbours, and none is a character.
+/// Colours that change from pixel to pixel.
 Bytes test_picture() {
-  Bytes picture(picture_size);
-  for (std::size_t i = 0; i < picture.size(); ++i) {
-    picture[i] = static_cast<std::uint8_t>(0x80 | (i * 7));
+  Bytes picture;
+  picture.reserve(picture_size);
+  for (std::uint32_t y = 0; y < picture_height; ++y) {
+    for (std::uint32_t x = 0; x < picture_width; ++x) {
+      picture.push_back(static_cast<std::uint8_t>(x));
+      picture.push_back(static_cast<std::uint8_t>(y));
+      picture.push_back(static_cast<std::uint8_t>(0x80 | ((x ^ y) >> 1)));
+    }
   }
   return picture;
 }
@@ -53,7 +60,7 @@ Finding failure(const char* what, const Transfer& transfer) {
 
 /// The transfer has to end with this abort code.
 Finding expect_abort(const char* what, const Transfer& transfer, std::uint32_t code) {
-  return {transfer.abort_code == code, std::string(what) + ": " + transfer.outcome()};
+  return {transfer.code == code, std::string(what) + ": " + transfer.outcome()};
 }
 
 Finding expect_text(const char* what, const Transfer& transfer, const char* expected) {
@@ -98,7 +105,7 @@ Finding set_clock(Tour& tour) {
       return failure("setting the clock", transfer);
     }
   }
-  tour.set_at = tour.master.now();
+  tour.set_at = tour.master.loop().now();
   return {true, text("the clock is set to %02u:%02u:%02u", set_time.hour, set_time.minute, set_time.second)};
 }
 
@@ -122,17 +129,25 @@ Finding name_station(Tour& tour) {
   return expect_text("the station name", tour.sdo.upload(0x2201, 0), name);
 }
 
-Finding exchange_picture(Tour& tour) {
-  const Bytes picture = test_picture();
-  if (const Transfer written = tour.sdo.download(0x2200, 0, picture); !written.done()) {
-    return failure("writing the picture", written);
-  }
-  const Transfer read = tour.sdo.upload(0x2200, 0);
+/// For a transfer of the picture: room for it, and the progress is shown.
+SdoClient::Options picture_options(View& view) {
+  Progress progress(view.progress_form(), [&view](const std::string& text) { view.progress(text); });
+  return {picture_size, 1000, [progress](const Amount& amount) mutable { progress.update(amount); }};
+}
+
+Finding send_picture(Tour& tour) {
+  const Transfer written = tour.sdo.download(0x2200, 0, test_picture(), picture_options(tour.view));
+  return written.done() ? Finding{true, text("%u bytes written", picture_size)}
+                        : failure("writing the picture", written);
+}
+
+Finding fetch_picture(Tour& tour) {
+  const Transfer read = tour.sdo.upload(0x2200, 0, picture_options(tour.view));
   if (!read.done()) {
     return failure("reading the picture", read);
   }
-  const bool same = read.data == picture;
-  return {same, text("%zu bytes written and read, %s", read.data.size(), same ? "all equal" : "NOT equal")};
+  const bool same = read.data == test_picture();
+  return {same, text("%zu bytes read, %s", read.data.size(), same ? "all as written" : "NOT as written")};
 }
 
 Finding start(Tour& tour) {
@@ -148,8 +163,9 @@ Finding stop(Tour& tour) {
   if (!tour.master.command(Nmt::stop) || !tour.master.await_state(State::stopped, heartbeat_timeout)) {
     return {false, "no heartbeat says stopped"};
   }
-  const Transfer transfer = SdoClient(tour.master, 200 * millisecond).upload(0x1000, 0);
-  const bool silent = transfer.fault == "no answer";
+  SdoClient::Options options;
+  options.timeout = 200;
+  const bool silent = tour.sdo.upload(0x1000, 0, options).code == CO_SDO_ERR_TIMEOUT;
   return {silent, silent ? "stopped: a heartbeat, but no answer to SDO" : "stopped, but SDO is answered"};
 }
 
@@ -168,7 +184,7 @@ Finding read_clock(Tour& tour) {
     }
     figure[sub - 1] = number(transfer.data);
   }
-  const auto passed = static_cast<std::uint32_t>((tour.master.now() - tour.set_at) / second);
+  const auto passed = static_cast<std::uint32_t>((tour.master.loop().now() - tour.set_at) / second);
   const std::uint32_t set = (set_time.hour * 60u + set_time.minute) * 60u + set_time.second;
   const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
   // The clock was set somewhere within one of its seconds.
@@ -197,7 +213,8 @@ constexpr Step steps[] = {
     {"An object that does not exist", "abort: no object", read_missing_object},
     {"An object that cannot be written", "abort: read-only", write_constant},
     {"Give the station a name: segmented download", "segmented download", name_station},
-    {"A picture there and back: a domain", "domain", exchange_picture},
+    {"A picture for the clock, 192 x 128: block download", "block download", send_picture},
+    {"And back, every byte compared: block upload", "block upload", fetch_picture},
     {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
     {"Stop the node: SDO is silent now", "NMT stop", stop},
     {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational},
@@ -221,14 +238,14 @@ void show_list(const std::vector<std::string>& items, View& view) {
 }  // namespace
 
 TourResult take_tour(Clock& clock, Master& master, View& view) {
-  Tour tour{clock, master, SdoClient(master)};
+  Tour tour{clock, master, view};
   TourResult result;
-  const Micros begin = master.now();
+  const Micros begin = master.loop().now();
   for (const Step& step : steps) {
     view.heading(result.steps + 1, step.title);
     const Finding finding = step.take(tour);
-    master.await([](const CO_IF_FRM&) { return false; }, 0);  // what was sent last is still seen in this step
-    if (master.interrupted()) {
+    master.loop().run_for(millisecond);  // what was sent last is still seen in this step
+    if (master.loop().interrupted()) {
       result.interrupted = true;
       break;
     }
@@ -240,7 +257,7 @@ TourResult take_tour(Clock& clock, Master& master, View& view) {
       result.failed.emplace_back(step.title);
     }
   }
-  result.duration = master.now() - begin;
+  result.duration = master.loop().now() - begin;
   return result;
 }
 

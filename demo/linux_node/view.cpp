@@ -20,6 +20,7 @@ constexpr const char* yellow = "\033[33m";
 constexpr const char* cyan = "\033[36m";
 constexpr const char* grey = "\033[90m";
 constexpr const char* reset = "\033[0m";
+constexpr const char* erase_line = "\r\033[K";
 
 std::string identifier(const CO_IF_FRM& frame) {
   const auto id = static_cast<unsigned>(frame.Identifier & (CO_IF_FRM_ID | CO_IF_FRM_ERROR));
@@ -44,6 +45,8 @@ const char* colour_of(bool received, const std::string& meaning) {
 
 void View::put(const Row& row) {
   const bool coloured = style_.colours && *row.colour != '\0';
+  out_ << (bar_shown_ ? erase_line : "");
+  bar_shown_ = false;
   out_ << (coloured ? row.colour : "") << row.text << (coloured ? reset : "") << std::endl;
 }
 
@@ -54,26 +57,49 @@ void View::line(const std::string& text) {
 
 void View::columns() { put({grey, text("%9s  %-6s  %-3s  %-23s  %s", "time/s", "from", "ID", "bytes", "meaning")}); }
 
-View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame) const {
-  const std::string meaning = trace::decode(frame, names_);
+View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame, const std::string& meaning) const {
   const double seconds = static_cast<double>(time) / static_cast<double>(second);
   return {colour_of(received, meaning), text("%9.3f  %-6s  %s  %-23s  ", seconds, received ? style_.others : "node",
                                              identifier(frame).c_str(), bytes(frame).c_str()) +
                                             meaning};
 }
 
+/// Whether it is certain that frames are left out.
+bool View::is_folding() const { return segments_ > segments_shown + segments_worth_showing; }
+
 void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
-  if (style_.every_frame || !trace::is_segment(frame)) {
-    end_fold();
-    put(row(time, received, frame));
+  const trace::Meaning meaning = decoder_.decode(frame);
+  if (meaning.place == trace::Place::middle && !style_.every_frame) {
+    if (++segments_; !is_folding()) {
+      show_or_hold_back(row(time, received, frame, meaning.text));
+    }
     return;
   }
-  ++segments_;
-  if (segments_ <= segments_shown) {
-    put(row(time, received, frame));
-  } else if (held_back_.size() < segments_worth_showing) {
-    held_back_.push_back(row(time, received, frame));
+  if (meaning.place == trace::Place::edge || !is_folding()) {  // others may come in between
+    end_fold();
   }
+  put(row(time, received, frame, meaning.text));
+}
+
+void View::show_or_hold_back(const Row& row) {
+  if (segments_ <= segments_shown) {
+    put(row);
+  } else {
+    held_back_.push_back(row);
+  }
+}
+
+void View::progress(const std::string& text) {
+  if (!is_folding()) {
+    end_fold();
+  }
+  const std::string line = demo::text("%9s  ", "") + text;
+  if (!style_.terminal) {
+    put({grey, line});
+    return;
+  }
+  out_ << erase_line << line << std::flush;
+  bar_shown_ = true;
 }
 
 void View::heading(unsigned number, const std::string& title) {
@@ -90,9 +116,8 @@ void View::note(const char* label, const std::string& text, const char* colour) 
 }
 
 void View::end_fold() {
-  const unsigned hidden = segments_ > segments_shown ? segments_ - segments_shown : 0;
-  if (hidden > segments_worth_showing) {
-    put({grey, text("%9s  %u more frames like these", "...", hidden)});
+  if (is_folding()) {
+    put({grey, text("%9s  %u more frames like these", "...", segments_ - segments_shown)});
   } else {
     for (const Row& row : held_back_) {
       put(row);

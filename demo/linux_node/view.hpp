@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file view.hpp
-/// What a person sees: a decoded trace of the bus, in which long segmented transfers are folded, and what is said about
-/// it.
+/// What a person sees: a decoded trace of the bus, in which long transfers are folded, and what is said about it.
 #pragma once
 
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "linux_node/host.hpp"
+#include "client/progress.hpp"
+#include "host/host.hpp"
 #include "trace/decode.hpp"
 
 namespace demo {
@@ -16,12 +16,13 @@ namespace demo {
 class View {
  public:
   struct Style {
+    bool terminal = false;  // lines can be rewritten
     bool colours = false;
     bool every_frame = false;       // false: long transfers are folded
     const char* others = "master";  // who sends what the node receives
   };
 
-  View(std::ostream& out, const trace::Names& names, Style style) : out_(out), names_(names), style_(style) {}
+  View(std::ostream& out, const trace::Names& names, Style style) : out_(out), decoder_(names), style_(style) {}
 
   /// The titles of the columns.
   void columns();
@@ -34,20 +35,27 @@ class View {
   void note(const char* label, const std::string& text, const char* colour = "");
   void line(const std::string& text);
 
+  Progress::Form progress_form() const { return style_.terminal ? Progress::Form::bar : Progress::Form::lines; }
+  /// How far a long transfer is; on a terminal a line that the next one replaces.
+  void progress(const std::string& text);
+
  private:
   struct Row {
     const char* colour;
     std::string text;
   };
 
-  Row row(Micros time, bool received, const CO_IF_FRM& frame) const;
+  Row row(Micros time, bool received, const CO_IF_FRM& frame, const std::string& meaning) const;
+  bool is_folding() const;
+  void show_or_hold_back(const Row& row);
   void end_fold();
   void put(const Row& row);
 
   std::ostream& out_;
-  const trace::Names& names_;
+  trace::Decoder decoder_;
   Style style_;
-  unsigned segments_ = 0;       // in a row, up to the last frame
+  bool bar_shown_ = false;      // as the last line, without an end
+  unsigned segments_ = 0;       // of the present transfer, from its middle
   std::vector<Row> held_back_;  // of these, the first that will be shown if not many more come
 };
 

@@ -15,6 +15,9 @@ constexpr unsigned expedited = 0x02;
 constexpr unsigned size_given = 0x01;
 constexpr unsigned last_segment = 0x01;
 constexpr unsigned toggle = 0x10;
+constexpr unsigned block_crc = 0x04;
+constexpr unsigned block_size_given = 0x02;
+constexpr unsigned last_block_segment = 0x80;
 
 unsigned command(const CO_IF_FRM& frame) { return frame.Data[0] >> 5; }
 unsigned function_code(const CO_IF_FRM& frame) { return frame.Identifier >> 7; }
@@ -124,12 +127,15 @@ std::string content(const CO_IF_FRM& frame, const Names& names) {
   return ", segments of unknown size";
 }
 
+/// The bytes of a segment, if they can be read; else how many.
+std::string carried(const std::uint8_t* bytes, unsigned size) {
+  const bool readable = size > 0 && is_readable(bytes, size);
+  return readable ? ": " + quoted(bytes, size) : text(", %u byte%s", size, size == 1 ? "" : "s");
+}
+
 std::string segment(const CO_IF_FRM& frame) {
   const unsigned size = 7u - ((frame.Data[0] >> 1) & 7u);
-  const bool readable = size > 0 && is_readable(frame.Data + 1, size);
-  const std::string data =
-      readable ? ": " + quoted(frame.Data + 1, size) : text(", %u byte%s", size, size == 1 ? "" : "s");
-  return ((frame.Data[0] & last_segment) != 0) ? "last segment" + data : "segment" + data;
+  return ((frame.Data[0] & last_segment) != 0 ? "last segment" : "segment") + carried(frame.Data + 1, size);
 }
 
 std::string abort(const CO_IF_FRM& frame, const Names& names) {
@@ -139,6 +145,69 @@ std::string abort(const CO_IF_FRM& frame, const Names& names) {
 
 std::string toggle_of(const CO_IF_FRM& frame) { return (frame.Data[0] & toggle) != 0 ? ", toggle 1" : ", toggle 0"; }
 
+// --- SDO block transfer [301:7.2.4.3.8…7.2.4.3.16]
+
+std::string crc(const CO_IF_FRM& frame) { return (frame.Data[0] & block_crc) != 0 ? ", CRC" : ", no CRC"; }
+
+std::string block_size(unsigned segments) { return text(", blksize %u", segments); }
+
+std::string block_total(const CO_IF_FRM& frame) {
+  return (frame.Data[0] & block_size_given) != 0 ? text(", %u bytes", CO_GET_LONG(&frame, 4)) : ", unknown size";
+}
+
+/// How many bytes of the last segment count is told only at the end of the transfer.
+std::string block_segment(const CO_IF_FRM& frame) {
+  const unsigned number = frame.Data[0] & ~last_block_segment;
+  const bool last = (frame.Data[0] & last_block_segment) != 0;
+  return text(last ? "last block segment %u" : "block segment %u", number) +
+         (last ? ", up to 7 bytes" : carried(frame.Data + 1, 7));
+}
+
+std::string block_acknowledge(const CO_IF_FRM& frame) {
+  return text("block segments taken up to %u", frame.Data[1]) + block_size(frame.Data[2]);
+}
+
+std::string block_end(const CO_IF_FRM& frame) {
+  const unsigned size = 7u - ((frame.Data[0] >> 2) & 7u);
+  return text("end, %u byte%s in the last segment, CRC %04Xh", size, size == 1 ? "" : "s", CO_GET_WORD(&frame, 1));
+}
+
+std::string block_upload_request(const CO_IF_FRM& frame, const Names& names) {
+  switch (frame.Data[0] & 3u) {
+    case 0:
+      return "SDO block upload " + object(frame, names) + block_size(frame.Data[4]) + text(", pst %u", frame.Data[5]) +
+             crc(frame);
+    case 1: return "SDO block upload done";
+    case 2: return "SDO " + block_acknowledge(frame);
+    default: return "SDO block upload start";
+  }
+}
+
+std::string block_download_request(const CO_IF_FRM& frame, const Names& names) {
+  if ((frame.Data[0] & 1u) != 0) {
+    return "SDO block download " + block_end(frame);
+  }
+  return "SDO block download " + object(frame, names) + block_total(frame) + crc(frame);
+}
+
+std::string block_download_response(const CO_IF_FRM& frame, const Names& names) {
+  switch (frame.Data[0] & 3u) {
+    case 0: return "SDO answer: " + object(frame, names) + " block download" + block_size(frame.Data[4]) + crc(frame);
+    case 1: return "SDO answer: block download done";
+    case 2: return "SDO answer: " + block_acknowledge(frame);
+    default: return "SDO answer: unknown command " + candump(frame);
+  }
+}
+
+std::string block_upload_response(const CO_IF_FRM& frame, const Names& names) {
+  if ((frame.Data[0] & 1u) != 0) {
+    return "SDO answer: block upload " + block_end(frame);
+  }
+  return "SDO answer: " + object(frame, names) + " block upload" + block_total(frame) + crc(frame);
+}
+
+// --- SDO, all transfers
+
 std::string request(const CO_IF_FRM& frame, const Names& names) {
   switch (command(frame)) {
     case 0: return "SDO download " + segment(frame);
@@ -146,8 +215,8 @@ std::string request(const CO_IF_FRM& frame, const Names& names) {
     case 2: return "SDO upload " + object(frame, names);
     case 3: return "SDO upload next segment" + toggle_of(frame);
     case 4: return abort(frame, names);
-    case 5: return "SDO block upload " + candump(frame);
-    case 6: return "SDO block download " + candump(frame);
+    case 5: return block_upload_request(frame, names);
+    case 6: return block_download_request(frame, names);
     default: return "SDO unknown command " + candump(frame);
   }
 }
@@ -159,38 +228,47 @@ std::string response(const CO_IF_FRM& frame, const Names& names) {
     case 2: return "SDO answer: " + object(frame, names) + content(frame, names);
     case 3: return "SDO answer: " + object(frame, names) + " download accepted";
     case 4: return abort(frame, names);
-    case 5: return "SDO answer: block download " + candump(frame);
-    case 6: return "SDO answer: block upload " + candump(frame);
+    case 5: return block_download_response(frame, names);
+    case 6: return block_upload_response(frame, names);
     default: return "SDO answer: unknown command " + candump(frame);
   }
 }
 
-}  // namespace
-
-std::string decode(const CO_IF_FRM& frame, const Names& names) {
-  if ((frame.Identifier & flags) != 0) {
-    return flagged(frame);
+/// Of a segmented transfer: whether the frame carries a segment that is not the last, asks for one, or confirms one.
+bool is_in_segments(Sender from, const CO_IF_FRM& frame) {
+  if (command(frame) == 0) {
+    return (frame.Data[0] & last_segment) == 0;
   }
-  if (frame.Identifier == 0 && frame.DLC == 2) {
-    return nmt(frame);
-  }
-  if (function_code(frame) == 0x700 >> 7 && node_id(frame) != 0 && frame.DLC == 1) {
-    return error_control(frame);
-  }
-  if (is_request(frame)) {
-    return request(frame, names);
-  }
-  return is_response(frame) ? response(frame, names) : "unknown " + candump(frame);
+  return command(frame) == (from == Sender::client ? 3u : 1u);
 }
 
-bool is_segment(const CO_IF_FRM& frame) {
+}  // namespace
+
+Meaning Decoder::decode(const CO_IF_FRM& frame) {
   if ((frame.Identifier & flags) != 0) {
-    return false;
+    return {flagged(frame), Place::outside};
   }
-  const bool carries = command(frame) == 0 && (is_request(frame) || is_response(frame));
-  const bool asks = command(frame) == 3 && is_request(frame);
-  const bool confirms = command(frame) == 1 && is_response(frame);
-  return carries ? (frame.Data[0] & last_segment) == 0 : asks || confirms;
+  if (frame.Identifier == 0 && frame.DLC == 2) {
+    return {nmt(frame), Place::outside};
+  }
+  if (function_code(frame) == 0x700 >> 7 && node_id(frame) != 0 && frame.DLC == 1) {
+    return {error_control(frame), Place::outside};
+  }
+  if (is_request(frame)) {
+    return sdo(Sender::client, frame);
+  }
+  return is_response(frame) ? sdo(Sender::server, frame) : Meaning{"unknown " + candump(frame), Place::outside};
+}
+
+Meaning Decoder::sdo(Sender from, const CO_IF_FRM& frame) {
+  const Role role = transfers_[node_id(frame)].follow(from, frame);
+  if (role == Role::segment || role == Role::last_segment) {
+    return {(from == Sender::client ? "SDO download " : "SDO answer: ") + block_segment(frame),
+            role == Role::segment ? Place::middle : Place::edge};
+  }
+  const bool middle = role == Role::acknowledge || is_in_segments(from, frame);
+  return {from == Sender::client ? request(frame, names_) : response(frame, names_),
+          middle ? Place::middle : Place::edge};
 }
 
 }  // namespace demo::trace

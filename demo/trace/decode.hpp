@@ -3,11 +3,13 @@
 /// CAN frames in the words of CiA 301: NMT, heartbeat and SDO of the pre-defined connection set. [301:7.3.3]
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "co_if_can.h"
+#include "trace/block_transfer.hpp"
 
 namespace demo::trace {
 
@@ -24,12 +26,33 @@ struct ObjectName {
 /// What the objects of the node are called; any order.
 using Names = std::vector<ObjectName>;
 
-/// What \a frame means. A frame of no known service is shown in the notation of candump: "123#DEADBEEF".
-std::string decode(const CO_IF_FRM& frame, const Names& names);
+/// The place of a frame in an SDO transfer.
+enum class Place {
+  outside,  // of any
+  edge,     // begin, end and abort; all there is of an expedited transfer
+  middle,   // segments but the last, and what asks for or confirms these: a long transfer has many of them
+};
 
-/// Whether \a frame belongs to the middle of a segmented SDO transfer: carries a segment that is not the last, requests
-/// a segment, or confirms one. A long transfer has many of these.
-bool is_segment(const CO_IF_FRM& frame);
+struct Meaning {
+  std::string text;
+  Place place;
+};
+
+class Decoder {
+ public:
+  /// \a names must outlive the decoder.
+  explicit Decoder(const Names& names) : names_(names) {}
+
+  /// What \a frame means. A frame of no known service is shown in the notation of candump: "123#DEADBEEF".
+  /// Frames have to come in the order of the bus: what a segment of a block transfer is, the frames before it tell.
+  Meaning decode(const CO_IF_FRM& frame);
+
+ private:
+  Meaning sdo(Sender from, const CO_IF_FRM& frame);
+
+  const Names& names_;
+  std::array<BlockTransfer, 128> transfers_{};  // with the server of that node-ID
+};
 
 /// Meaning of an SDO abort code; "unknown abort code" if it is none of CiA 301. [301:7.2.4.3.17]
 const char* abort_meaning(std::uint32_t code);

@@ -18,8 +18,18 @@ const demo::trace::Names names = {
     {0x2200, 0, "picture", Form::hex},
 };
 
-std::string meaning(const char* frame) { return demo::trace::decode(test::frame(frame), names); }
-bool is_segment(const char* frame) { return demo::trace::is_segment(test::frame(frame)); }
+using demo::trace::Place;
+
+std::string meaning(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).text; }
+Place place(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).place; }
+
+/// Frames in the order of the bus.
+struct Listener {
+  std::string hears(const char* frame) { return decoder.decode(test::frame(frame)).text; }
+  Place place(const char* frame) { return decoder.decode(test::frame(frame)).place; }
+
+  demo::trace::Decoder decoder{names};
+};
 
 }  // namespace
 
@@ -105,8 +115,7 @@ TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
   CHECK(meaning("601#40001000") == "unknown 601#40001000");  // SDO frames have eight
   CHECK(meaning("601#E000100000000000") == "SDO unknown command 601#E000100000000000");
   CHECK(meaning("581#E000100000000000") == "SDO answer: unknown command 581#E000100000000000");
-  CHECK(meaning("601#A008100015000000") == "SDO block upload 601#A008100015000000");
-  CHECK(meaning("601#C200220010270000") == "SDO block download 601#C200220010270000");
+  CHECK(meaning("581#A300000000000000") == "SDO answer: unknown command 581#A300000000000000");
 }
 
 TEST_CASE("trace: 29-bit identifiers, remote frames and error frames are not taken for services") {
@@ -119,15 +128,150 @@ TEST_CASE("trace: 29-bit identifiers, remote frames and error frames are not tak
 }
 
 TEST_CASE("trace: only the middle of a segmented transfer can be folded") {
-  CHECK(is_segment("601#6000000000000000"));
-  CHECK(is_segment("601#0041424344454647"));
-  CHECK(is_segment("581#0041424344454647"));
-  CHECK(is_segment("581#3000000000000000"));
-  CHECK_FALSE(is_segment("601#0148494A4B000000"));  // the last
-  CHECK_FALSE(is_segment("581#1748494A4B000000"));
-  CHECK_FALSE(is_segment("601#4008100000000000"));  // the initiates
-  CHECK_FALSE(is_segment("581#6000220000000000"));
-  CHECK_FALSE(is_segment("581#8008100000000405"));
-  CHECK_FALSE(is_segment("181#0041424344454647"));
-  CHECK_FALSE(is_segment("00000601#0041424344454647"));
+  CHECK(place("601#6000000000000000") == Place::middle);
+  CHECK(place("601#0041424344454647") == Place::middle);
+  CHECK(place("581#0041424344454647") == Place::middle);
+  CHECK(place("581#3000000000000000") == Place::middle);
+  CHECK(place("601#0148494A4B000000") == Place::edge);  // the last
+  CHECK(place("581#1748494A4B000000") == Place::edge);
+  CHECK(place("601#4008100000000000") == Place::edge);  // the initiates
+  CHECK(place("581#6000220000000000") == Place::edge);
+  CHECK(place("581#8008100000000405") == Place::edge);
+  CHECK(place("705#05") == Place::outside);
+  CHECK(place("000#0105") == Place::outside);
+  CHECK(place("181#0041424344454647") == Place::outside);
+  CHECK(place("00000601#0041424344454647") == Place::outside);
+}
+
+TEST_CASE("trace: a block download, from its begin to its end [301:7.2.4.3.8, 7.2.4.3.9, 7.2.4.3.10]") {
+  Listener bus;
+  CHECK(bus.hears("601#C600220010000000") == "SDO block download 2200h:00 picture, 16 bytes, CRC");
+  CHECK(bus.hears("581#A400220002000000") == "SDO answer: 2200h:00 picture block download, blksize 2, CRC");
+  CHECK(bus.hears("601#0141424344454647") == "SDO download block segment 1: \"ABCDEFG\"");
+  CHECK(bus.hears("601#0201020304050607") == "SDO download block segment 2, 7 bytes");
+  CHECK(bus.hears("581#A2027F0000000000") == "SDO answer: block segments taken up to 2, blksize 127");
+  CHECK(bus.hears("601#8148490000000000") == "SDO download last block segment 1, up to 7 bytes");
+  CHECK(bus.hears("581#A2017F0000000000") == "SDO answer: block segments taken up to 1, blksize 127");
+  CHECK(bus.hears("601#D5C3310000000000") == "SDO block download end, 2 bytes in the last segment, CRC 31C3h");
+  CHECK(bus.hears("581#A100000000000000") == "SDO answer: block download done");
+}
+
+TEST_CASE("trace: a block upload, from its begin to its end [301:7.2.4.3.13, 7.2.4.3.14, 7.2.4.3.15]") {
+  Listener bus;
+  CHECK(bus.hears("601#A4081000027F0000") == "SDO block upload 1008h:00 device name, blksize 2, pst 127, CRC");
+  CHECK(bus.hears("581#C60810000F000000") == "SDO answer: 1008h:00 device name block upload, 15 bytes, CRC");
+  CHECK(bus.hears("601#A300000000000000") == "SDO block upload start");
+  CHECK(bus.hears("581#0141424344454647") == "SDO answer: block segment 1: \"ABCDEFG\"");
+  CHECK(bus.hears("581#0248494A4B4C4D4E") == "SDO answer: block segment 2: \"HIJKLMN\"");
+  CHECK(bus.hears("601#A2020A0000000000") == "SDO block segments taken up to 2, blksize 10");
+  CHECK(bus.hears("581#8141000000000000") == "SDO answer: last block segment 1, up to 7 bytes");
+  CHECK(bus.hears("601#A2010A0000000000") == "SDO block segments taken up to 1, blksize 10");
+  CHECK(bus.hears("581#D934120000000000") == "SDO answer: block upload end, 1 byte in the last segment, CRC 1234h");
+  CHECK(bus.hears("601#A100000000000000") == "SDO block upload done");
+}
+
+TEST_CASE("trace: block transfers without CRC and of unknown size say so [301:7.2.4.3.9, 7.2.4.3.13]") {
+  CHECK(meaning("601#C234120500000000") == "SDO block download 1234h:05, 0 bytes, no CRC");
+  CHECK(meaning("601#C434120500000000") == "SDO block download 1234h:05, unknown size, CRC");
+  CHECK(meaning("601#C034120500000000") == "SDO block download 1234h:05, unknown size, no CRC");
+  CHECK(meaning("581#A03412057F000000") == "SDO answer: 1234h:05 block download, blksize 127, no CRC");
+  CHECK(meaning("601#A03412057F000000") == "SDO block upload 1234h:05, blksize 127, pst 0, no CRC");
+  CHECK(meaning("581#C234120500100000") == "SDO answer: 1234h:05 block upload, 4096 bytes, no CRC");
+  CHECK(meaning("581#C034120500000000") == "SDO answer: 1234h:05 block upload, unknown size, no CRC");
+  CHECK(meaning("601#DD00000000000000") == "SDO block download end, 0 bytes in the last segment, CRC 0000h");
+  CHECK(meaning("581#C1FFFF0000000000") == "SDO answer: block upload end, 7 bytes in the last segment, CRC FFFFh");
+}
+
+TEST_CASE("trace: within a sub-block a first byte is a sequence number, whatever command it looks like [D21]") {
+  Listener bus;
+  bus.hears("601#C200220010270000");
+  bus.hears("581#A00022007F000000");
+  CHECK(bus.hears("601#2300100000000000") == "SDO download block segment 35, 7 bytes");
+  CHECK(bus.hears("601#4008100000000000") == "SDO download block segment 64, 7 bytes");
+  CHECK(bus.hears("601#6000000000000000") == "SDO download block segment 96, 7 bytes");
+  CHECK(bus.hears("581#A260030000000000") == "SDO answer: block segments taken up to 96, blksize 3");
+  CHECK(bus.hears("601#C108100000000000") == "SDO download last block segment 65, up to 7 bytes");
+  CHECK(bus.hears("581#A241030000000000") == "SDO answer: block segments taken up to 65, blksize 3");
+  CHECK(bus.hears("601#C108100000000000") == "SDO block download end, 7 bytes in the last segment, CRC 1008h");
+}
+
+TEST_CASE("trace: only the byte 80h is an abort within a sub-block, and ends the transfer [D23]") {
+  Listener bus;
+  bus.hears("601#C200220010270000");
+  bus.hears("581#A00022007F000000");
+  CHECK(bus.hears("601#8102030405060708") == "SDO download last block segment 1, up to 7 bytes");
+  bus.hears("581#A2007F0000000000");
+  CHECK(bus.hears("601#8000220021000008") ==
+        "SDO ABORT 2200h:00 picture: 0800 0021h data cannot be stored: local control");
+  CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");
+}
+
+TEST_CASE("trace: a sub-block that lost segments goes on after its acknowledge, even behind its last one [D22]") {
+  Listener bus;
+  bus.hears("601#A00022007F000000");
+  bus.hears("581#C200220010000000");
+  bus.hears("601#A300000000000000");
+  bus.hears("581#0101020304050607");
+  bus.hears("581#8301020000000000");  // 2 was lost
+  CHECK(bus.hears("601#A2017F0000000000") == "SDO block segments taken up to 1, blksize 127");
+  CHECK(bus.hears("581#0101020304050607") == "SDO answer: block segment 1, 7 bytes");
+  CHECK(bus.hears("581#8201020000000000") == "SDO answer: last block segment 2, up to 7 bytes");
+  CHECK(bus.hears("601#A2027F0000000000") == "SDO block segments taken up to 2, blksize 127");
+  CHECK(bus.hears("581#D500000000000000") == "SDO answer: block upload end, 2 bytes in the last segment, CRC 0000h");
+}
+
+TEST_CASE("trace: behind the last segment of a sub-block frames are commands until the acknowledge") {
+  Listener bus;
+  bus.hears("601#C200220010270000");
+  bus.hears("581#A000220001000000");
+  CHECK(bus.hears("601#0101020304050607") == "SDO download block segment 1, 7 bytes");
+  CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");  // the client has started anew
+  CHECK(bus.hears("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
+}
+
+TEST_CASE("trace: a server that refuses the block, or answers without one, gets no segments [301:7.2.4.3.13]") {
+  Listener bus;
+  bus.hears("601#A4171000017F0000");
+  CHECK(bus.hears("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
+  bus.hears("601#A300000000000000");  // there is nothing to be started
+  CHECK(bus.hears("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
+  bus.hears("601#C200220010270000");
+  CHECK(bus.hears("581#8000220001000405") == "SDO ABORT 2200h:00 picture: 0504 0001h command not valid or unknown");
+  CHECK(bus.hears("601#2100220010270000") == "SDO download 2200h:00 picture, 10000 bytes in segments");
+}
+
+TEST_CASE("trace: a command of the other direction begins no sub-block") {
+  Listener bus;
+  bus.hears("601#C200220010270000");
+  CHECK(bus.hears("601#A300000000000000") == "SDO block upload start");
+  CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");
+  bus.hears("601#A00022007F000000");
+  CHECK(bus.hears("581#A00022007F000000") == "SDO answer: 2200h:00 picture block download, blksize 127, no CRC");
+  CHECK(bus.hears("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
+}
+
+TEST_CASE("trace: the block transfers of several servers do not disturb each other") {
+  Listener bus;
+  bus.hears("601#C200220010270000");
+  bus.hears("581#A00022007F000000");
+  CHECK(bus.hears("602#4008100000000000") == "SDO upload 1008h:00 device name");
+  CHECK(bus.hears("582#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
+  CHECK(bus.hears("601#4008100000000000") == "SDO download block segment 64, 7 bytes");
+}
+
+TEST_CASE("trace: of a block transfer, segments and acknowledges can be folded, but not the last ones") {
+  Listener bus;
+  CHECK(bus.place("601#C600220010000000") == Place::edge);
+  CHECK(bus.place("581#A400220001000000") == Place::edge);
+  CHECK(bus.place("601#0141424344454647") == Place::middle);
+  CHECK(bus.place("581#A2017F0000000000") == Place::middle);
+  CHECK(bus.place("601#0141424344454647") == Place::middle);
+  CHECK(bus.place("601#8248490000000000") == Place::edge);
+  CHECK(bus.place("581#A2027F0000000000") == Place::edge);
+  CHECK(bus.place("601#D5C3310000000000") == Place::edge);
+  CHECK(bus.place("581#A100000000000000") == Place::edge);
+  CHECK(bus.place("601#A00022007F000000") == Place::edge);
+  CHECK(bus.place("581#C200220010000000") == Place::edge);
+  CHECK(bus.place("601#A300000000000000") == Place::edge);
+  CHECK(bus.place("581#0141424344454647") == Place::middle);
 }

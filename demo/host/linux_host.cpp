@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_node/linux_host.hpp"
+#include "host/linux_host.hpp"
+
+#include <algorithm>
+#include <chrono>
 
 namespace demo {
 namespace {
@@ -43,14 +46,27 @@ void LinuxHost::wait(Micros time) {
   ppoll(ends.data(), ends.size(), &timeout, &interruption_.while_waiting());
 }
 
-std::string SocketCanHost::open(const std::string& interface, bool with_master) {
-  if (!device_.open(interface)) {
-    return device_.error();
-  }
-  if (!device_.up()) {
-    return "CAN interface '" + interface + "' is down; as root: ip link set " + interface + " up";
-  }
-  return (with_master && !master_.open(interface)) ? master_.error() : std::string();
+VirtualBusHost::VirtualBusHost(const Interruption& interruption) : LinuxHost(interruption) {
+  bus_.set_time([this] { return std::chrono::microseconds{now()}; });
+  bus_.pace(bit_rate);
+}
+
+void VirtualBusHost::wait(Micros time) {
+  const auto next = static_cast<Micros>(bus_.next_due().count());
+  const Micros passed = now();
+  LinuxHost::wait(std::min(time, next > passed ? next - passed : 0));
+}
+
+std::string SocketCanHost::open(const std::string& interface, bool device, bool master) {
+  const auto fault = [&](co::SocketCan& end) {
+    if (!end.open(interface)) {
+      return end.error();
+    }
+    return end.up() ? std::string()
+                    : "CAN interface '" + interface + "' is down; as root: ip link set " + interface + " up";
+  };
+  const std::string found = device ? fault(device_) : std::string();
+  return found.empty() && master ? fault(master_) : found;
 }
 
 std::vector<pollfd> SocketCanHost::wake_ups() {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "linux_node/host.hpp"
+#include "host/host.hpp"
 #include "linux_timer.hpp"
 #include "socketcan.hpp"
 #include "virtual_bus.hpp"
@@ -37,7 +37,8 @@ class LinuxHost : public Host {
  public:
   /// \a interruption must outlive the host.
   explicit LinuxHost(const Interruption& interruption) : interruption_(interruption) {}
-  Timer device_timer() override { return {&co::LinuxTimerDriver, &timer_}; }
+  Timer device_timer() override { return {&co::LinuxTimerDriver, &device_timer_}; }
+  Timer master_timer() override { return {&co::LinuxTimerDriver, &master_timer_}; }
   Micros now() override { return co::monotonic_ns() / 1000; }
   void wait(Micros time) override;
   bool interrupted() override { return Interruption::happened(); }
@@ -47,14 +48,19 @@ class LinuxHost : public Host {
   virtual std::vector<pollfd> wake_ups() { return {}; }
 
   const Interruption& interruption_;
-  co::LinuxTimer timer_;
+  co::LinuxTimer device_timer_;
+  co::LinuxTimer master_timer_;
 };
 
+/// The bus inside the program. Frames take the time that they take on a wire.
 class VirtualBusHost : public LinuxHost {
  public:
-  using LinuxHost::LinuxHost;
+  static constexpr std::uint32_t bit_rate = 1'000'000;  // bit/s
+
+  explicit VirtualBusHost(const Interruption& interruption);
   Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
   Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  void wait(Micros time) override;
 
  private:
   co::VirtualBus bus_;
@@ -65,8 +71,8 @@ class VirtualBusHost : public LinuxHost {
 class SocketCanHost : public LinuxHost {
  public:
   using LinuxHost::LinuxHost;
-  /// \a with_master: a socket for the master, too. Returns why the interface cannot be used, in words; empty: it can.
-  std::string open(const std::string& interface, bool with_master);
+  /// A socket for each end that will be used. Returns why the interface cannot be used, in words; empty: it can.
+  std::string open(const std::string& interface, bool device, bool master);
 
   Can device_can() override { return {&co::SocketCanDriver, &device_}; }
   Can master_can() override { return {&co::SocketCanDriver, &master_}; }

@@ -13,6 +13,7 @@ namespace demo {
 using Micros = std::uint64_t;
 constexpr Micros millisecond = 1'000;
 constexpr Micros second = 1'000'000;
+constexpr Micros for_ever = UINT64_MAX;
 
 /// A CAN controller: a driver and its context.
 struct Can {
@@ -29,10 +30,13 @@ class Host {
  public:
   virtual ~Host() = default;
 
+  /// \name The two ends of the bus. Only those may be used that the host was made for.
+  /// \{
   virtual Can device_can() = 0;
   virtual Timer device_timer() = 0;
-  /// The other end of the bus. Not to be used where the host was made for a device alone.
   virtual Can master_can() = 0;
+  virtual Timer master_timer() = 0;
+  /// \}
 
   /// What is wrong with the bus, in words; empty: nothing so far.
   virtual std::string bus_fault() { return {}; }

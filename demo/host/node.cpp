@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/node.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace demo {
+namespace {
+
+// While the bus is lost, frames are offered to it at this interval, and timers may be late by as much.
+constexpr Micros patience = 10 * millisecond;
+
+std::uint32_t frames(const CO_NODE_COUNTERS& counters) { return counters.Received + counters.Sent; }
+
+}  // namespace
+
+const CO_IF_CAN_DRV_EX Node::Tap::driver = {
+    [](void* tap) { to(tap).driver->Init(to(tap).context); },
+    [](void* tap, std::uint32_t baud) { to(tap).driver->Enable(to(tap).context, baud); },
+    [](void* tap, CO_IF_FRM* frame) {
+      const std::int16_t result = to(tap).driver->Read(to(tap).context, frame);
+      if (result > 0) {
+        show(tap, true, *frame);
+      }
+      return result;
+    },
+    [](void* tap, const CO_IF_FRM* frame) {
+      const std::int16_t result = to(tap).driver->Send(to(tap).context, frame);
+      static_cast<Tap*>(tap)->failing = result < 0;
+      if (result > 0) {
+        show(tap, false, *frame);
+      }
+      return result;
+    },
+    [](void* tap) { to(tap).driver->Reset(to(tap).context); },
+    [](void* tap) { to(tap).driver->Close(to(tap).context); },
+    [](void* tap, const std::uint32_t* ids, std::uint16_t num) {
+      if (to(tap).driver->Filter != nullptr && !static_cast<Tap*>(tap)->hears_all) {
+        to(tap).driver->Filter(to(tap).context, ids, num);
+      }
+    },
+};
+
+const Can& Node::Tap::to(void* tap) { return static_cast<Tap*>(tap)->can; }
+
+void Node::Tap::show(void* tap, bool received, const CO_IF_FRM& frame) {
+  if (const Observer& observer = static_cast<Tap*>(tap)->observer) {
+    observer(received, frame);
+  }
+}
+
+Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears_all} {
+  extension_.Size = sizeof extension_;
+  extension_.Can = &Tap::driver;
+  extension_.CanCtx = &tap_;
+  extension_.Timer = setup.timer.driver;
+  extension_.TimerCtx = setup.timer.context;
+
+  CO_NODE_SPEC spec{};
+  spec.NodeId = setup.node_id;
+  spec.Baudrate = 0;  // the interface has its own, set by the system
+  spec.Dict = setup.dictionary.first;
+  spec.DictLen = setup.dictionary.length;
+  spec.TmrMem = timer_;
+  spec.TmrNum = static_cast<std::uint16_t>(std::size(timer_));
+  spec.TmrFreq = ticks_per_second;
+  spec.SdoBuf = sdo_buffer_;
+  CONodeInitEx(&node_, &spec, &extension_);
+}
+
+Node::~Node() { CONodeStop(&node_); }
+
+bool Node::process() {
+  const std::uint32_t before = frames(counters());
+  std::uint32_t received = 0;
+  do {  // one frame a call
+    received = counters().Received;
+    CONodeProcess(&node_);
+  } while (counters().Received != received);
+  COTmrService(&node_.Tmr);
+  COTmrProcess(&node_.Tmr);
+  return frames(counters()) != before;
+}
+
+Micros Node::due_in() {
+  const Micros due = CONodeNextDeadline(&node_);  // soon, while frames wait to be sent
+  return tap_.failing ? std::max(due, patience) : due;
+}
+
+}  // namespace demo

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_master/arguments.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <limits>
+
+#include "client/sdo_client.hpp"
+
+namespace demo {
+namespace {
+
+using Kind = ValueType::Kind;
+
+constexpr std::uint32_t longest = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint8_t usual_own_id = 127;
+
+/// Converts the arguments one after the other; after a fault, the others no longer matter.
+class Conversion {
+ public:
+  /// \a name: how the user calls the number.
+  std::uint32_t number(const char* name, const std::string& text, std::uint32_t lowest, std::uint32_t highest) {
+    const Encoded encoded = encode({Kind::unsigned_integer, 8}, text);
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < encoded.bytes.size(); ++i) {
+      value |= static_cast<std::uint64_t>(encoded.bytes[i]) << (8 * i);
+    }
+    if (!encoded.fault.empty() || value < lowest || value > highest) {
+      fail(std::string(name) + ": '" + text + "' is no number in " + std::to_string(lowest) + "..." +
+           std::to_string(highest));
+      return lowest;
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  void fail(const std::string& text) { fault = fault.empty() ? text : fault; }
+
+  std::string fault;
+};
+
+std::string read_all(std::istream& in, Bytes& bytes) {
+  bytes.assign(std::istreambuf_iterator<char>(in), {});
+  return in.bad() ? std::strerror(errno) : "";
+}
+
+std::string read_file(const std::string& name, Bytes& bytes) {
+  if (name == "-") {
+    return read_all(std::cin, bytes);
+  }
+  std::ifstream in(name, std::ios::binary);
+  return in ? read_all(in, bytes) : std::strerror(errno);
+}
+
+bool is_any_bytes(const std::optional<ValueType>& type) { return !type || type->size == 0; }
+
+Bytes data_to_write(const Arguments& arguments, const std::optional<ValueType>& type, Conversion& conversion) {
+  Encoded encoded;
+  if (arguments.value.has_value() == !arguments.file.empty()) {
+    conversion.fail("write needs a value, or a --file, and not both");
+  } else if (!arguments.file.empty()) {
+    const std::string fault = read_file(arguments.file, encoded.bytes);
+    encoded.fault = fault.empty() ? fault : "cannot read '" + arguments.file + "': " + fault;
+  } else if (!type) {
+    conversion.fail("write needs the --type of the value");
+  } else {
+    encoded = encode(*type, *arguments.value);
+  }
+  if (!encoded.fault.empty()) {
+    conversion.fail(encoded.fault);
+  } else if (encoded.bytes.empty()) {
+    conversion.fail("nothing to write: an SDO transfer carries at least one byte");
+  } else if (encoded.bytes.size() > longest) {
+    conversion.fail("'" + arguments.file + "' is too long for an SDO transfer");
+  }
+  return encoded.bytes;
+}
+
+}  // namespace
+
+Prepared prepare(const Arguments& arguments) {
+  Conversion conversion;
+  Request request{};
+  request.write = arguments.write;
+  request.node = static_cast<std::uint8_t>(conversion.number("--node", arguments.node, 1, 127));
+  const std::uint8_t free_id = request.node == usual_own_id ? usual_own_id - 1 : usual_own_id;
+  request.own_id = arguments.own_id.empty()
+                       ? free_id
+                       : static_cast<std::uint8_t>(conversion.number("--own-id", arguments.own_id, 1, 127));
+  request.index = static_cast<std::uint16_t>(conversion.number("--index", arguments.index, 0, 0xFFFF));
+  request.sub = static_cast<std::uint8_t>(conversion.number("--sub", arguments.sub, 0, 0xFF));
+  request.timeout = conversion.number("--timeout", arguments.timeout, 0, longest);
+  request.type = value_type(arguments.type);
+  request.file = arguments.file;
+  const std::uint32_t max = conversion.number("--max", arguments.max, 1, longest);
+  request.capacity = is_any_bytes(request.type) ? max : SdoClient::small;
+  if (request.own_id == request.node) {
+    conversion.fail("--own-id: the node to talk to has this node-ID");
+  }
+  if (!request.type && !arguments.type.empty()) {
+    conversion.fail("--type: '" + arguments.type + "' is none of " + value_type_names);
+  }
+  if (!is_any_bytes(request.type) && !arguments.file.empty()) {
+    conversion.fail("--type: a file holds bytes, no " + arguments.type);
+  }
+  if (request.write && conversion.fault.empty()) {
+    request.data = data_to_write(arguments, request.type, conversion);
+  }
+  return {request, conversion.fault};
+}
+
+}  // namespace demo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file arguments.hpp
+/// What the user of lexican-demo-master has typed, and the request that it means.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "client/values.hpp"
+
+namespace demo {
+
+/// As typed.
+struct Arguments {
+  bool write = false;
+  std::string node;
+  std::string own_id;  // empty: 127, or 126 if that is the node to talk to
+  std::string index;
+  std::string sub = "0";
+  std::string type;                  // empty: read guesses, write takes a file as it is
+  std::optional<std::string> value;  // of write
+  std::string file;                  // instead of the value; empty: none, "-": standard input or output
+  std::string timeout = "1000";
+  std::string max = "16777216";
+};
+
+struct Request {
+  bool write;
+  std::uint8_t node;
+  std::uint8_t own_id;
+  std::uint16_t index;
+  std::uint8_t sub;
+  std::optional<ValueType> type;  // read: how the value is shown; nothing: guess
+  Bytes data;                     // write
+  std::string file;               // read: where the bytes go; empty: the value is shown
+  std::uint32_t timeout;          // ms, for each answer; 0: for ever
+  std::uint32_t capacity;         // read: bytes that the object may have
+};
+
+struct Prepared {
+  Request request;
+  std::string fault;  // empty: nothing is wrong with the arguments
+};
+
+/// Reads the file that shall be written to the object.
+Prepared prepare(const Arguments& arguments);
+
+}  // namespace demo

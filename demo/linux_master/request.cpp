@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_master/request.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "host/exit.hpp"
+#include "host/loop.hpp"
+#include "trace/decode.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+namespace {
+
+constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
+
+/// Shows the texts of a Progress; a bar stays in its line until the end.
+class ProgressLine {
+ public:
+  ProgressLine(std::ostream& err, Progress::Form form)
+      : err_(err),
+        is_bar_(form == Progress::Form::bar),
+        progress_(form, [this](const std::string& text) { show(text); }) {}
+
+  void update(const Amount& amount) {
+    last_ = amount;
+    progress_.update(amount);
+  }
+
+  void end() {
+    if (begun_) {
+      show(progress_text(last_));
+      err_ << std::endl;
+    }
+  }
+
+ private:
+  void show(const std::string& text) {
+    err_ << (is_bar_ ? "\r" + text + "\033[K" : text + '\n') << std::flush;
+    begun_ = is_bar_;
+  }
+
+  std::ostream& err_;
+  bool is_bar_;
+  bool begun_ = false;  // a line without its end
+  Progress progress_;
+  Amount last_{};
+};
+
+Transfer transfer(const Request& request, SdoClient& sdo, const SdoClient::Options& options) {
+  return request.write ? sdo.download(request.index, request.sub, request.data, options)
+                       : sdo.upload(request.index, request.sub, options);
+}
+
+std::string what_went_wrong(const Request& request, const Outcome& outcome) {
+  std::string words = text("node %u, %04Xh:%02X: ", request.node, request.index, request.sub);
+  if (outcome.interrupted) {
+    return words + "cancelled";
+  }
+  words += outcome.transfer.outcome();
+  if (!request.write && outcome.transfer.code == CO_SDO_ERR_MEM) {
+    words += text("; the object has more than %u bytes", request.capacity);
+  }
+  return outcome.bus_fault.empty() ? words : words + '\n' + outcome.bus_fault;
+}
+
+int put(const Bytes& bytes, std::ostream& out, const std::string& file, std::ostream& err) {
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!out.flush()) {
+    err << "cannot write '" << file << "': " << std::strerror(errno) << '\n';
+    return exit_usage;
+  }
+  return exit_ok;
+}
+
+int save(const Bytes& bytes, const std::string& file, std::ostream& out, std::ostream& err) {
+  if (file == "-") {
+    return put(bytes, out, file, err);
+  }
+  std::ofstream stream(file, std::ios::binary);
+  return put(bytes, stream, file, err);
+}
+
+}  // namespace
+
+Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::ostream& err) {
+  ClientDictionary dictionary(request.node);
+  Node node({request.own_id, host.master_can(), host.master_timer(), dictionary.table()});
+  Loop loop(host, {&node});
+  SdoClient sdo(node, loop);
+  ProgressLine progress(err, form);
+  CONodeStart(&node.stack());
+  Outcome outcome{};
+  outcome.transfer = transfer(
+      request, sdo, {request.capacity, request.timeout, [&](const Amount& amount) { progress.update(amount); }});
+  progress.end();
+  outcome.interrupted = !outcome.transfer.done() && loop.interrupted();
+  loop.flush(last_frames);
+  outcome.bus_fault = host.bus_fault();
+  return outcome;
+}
+
+int report(const Request& request, const Outcome& outcome, std::ostream& out, std::ostream& err) {
+  const Transfer& transfer = outcome.transfer;
+  if (!transfer.done()) {
+    err << what_went_wrong(request, outcome) << std::endl;
+    if (outcome.interrupted) {
+      return exit_interrupted;
+    }
+    return transfer.fault.empty() ? exit_failed : exit_usage;
+  }
+  if (request.write) {
+    return exit_ok;
+  }
+  if (!request.file.empty()) {
+    return save(transfer.data, request.file, out, err);
+  }
+  const Shown shown = request.type ? show(*request.type, transfer.data) : Shown{guess(transfer.data), {}};
+  if (!shown.fault.empty()) {
+    err << text("node %u, %04Xh:%02X: ", request.node, request.index, request.sub) << shown.fault << std::endl;
+    return exit_failed;
+  }
+  out << shown.text << std::endl;
+  return exit_ok;
+}
+
+}  // namespace demo

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file request.hpp
+/// What lexican-demo-master does on the bus, and what it says about it.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "client/progress.hpp"
+#include "client/sdo_client.hpp"
+#include "host/host.hpp"
+#include "linux_master/arguments.hpp"
+
+namespace demo {
+
+struct Outcome {
+  Transfer transfer;
+  std::string bus_fault;  // what is wrong with the bus; empty: nothing so far
+  bool interrupted;
+};
+
+/// Goes on the bus as a node, and transfers the object. The progress is shown on \a err.
+Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::ostream& err);
+
+/// Writes the value that was read to \a out (or the bytes to the file), and nothing else there; what went wrong to \a
+/// err. Returns the exit code.
+int report(const Request& request, const Outcome& outcome, std::ostream& out, std::ostream& err);
+
+}  // namespace demo

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lexican-demo-master does, with the demo clock at the other end of a virtual bus.
+#include "co_cfg.h"
+
+#if USE_CSDO  // which the demo's master needs
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "demo_simulation.hpp"
+#include "linux_master/arguments.hpp"
+#include "linux_master/request.hpp"
+#include "linux_node/clock.hpp"
+#include "support/notation.hpp"
+
+namespace {
+
+using co::VirtualBus;
+using demo::Arguments;
+using demo::Bytes;
+using demo::Progress;
+using demo::second;
+
+struct Desk {
+  Desk() {
+    REQUIRE(clock.start());
+    host.others = [this] { return clock.node().process(); };
+    host.bus.set_trace([this](const VirtualBus::Traffic& traffic) { frames.push_back(test::notation(traffic.frame)); });
+  }
+
+  /// The exit code of the program.
+  int run(const Arguments& arguments) {
+    out.str("");
+    err.str("");
+    frames.clear();
+    const demo::Prepared prepared = demo::prepare(arguments);
+    REQUIRE(prepared.fault == "");
+    const demo::Outcome outcome = demo::carry_out(prepared.request, host, form, err);
+    return demo::report(prepared.request, outcome, out, err);
+  }
+
+  bool was_sent(const char* frame) const { return std::find(frames.begin(), frames.end(), frame) != frames.end(); }
+
+  test::SimulatedHost host;
+  Progress::Form form = Progress::Form::none;
+  std::ostringstream out;
+  std::ostringstream err;
+  std::vector<std::string> frames;  // of the last run, on the bus
+  demo::Clock clock{5, host.device_can(), host.device_timer(), {}};
+};
+
+Arguments to_read(const char* index, const char* sub, const char* type) {
+  Arguments arguments;
+  arguments.node = "5";
+  arguments.index = index;
+  arguments.sub = sub;
+  arguments.type = type;
+  return arguments;
+}
+
+Arguments to_write(const char* index, const char* sub, const char* type, const char* value) {
+  Arguments arguments = to_read(index, sub, type);
+  arguments.write = true;
+  arguments.value = value;
+  return arguments;
+}
+
+/// A file that does not outlive the test case.
+class File {
+ public:
+  ~File() { std::remove(name.c_str()); }
+  void put(const std::string& content) const { std::ofstream(name, std::ios::binary) << content; }
+  std::string content() const {
+    std::ifstream in(name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  const std::string name = (std::filesystem::temp_directory_path() / "lexican_demo_master_test").string();
+};
+
+std::string picture(std::size_t size) {
+  std::string bytes(size, '\0');
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes[i] = static_cast<char>(i * 7 + i / 256);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("demo master: a value that was read is all that goes to standard output") {
+  Desk desk;
+  CHECK(desk.run(to_read("0x1018", "2", "u32")) == 0);
+  CHECK(desk.out.str() == "49420\n");
+  CHECK(desk.err.str() == "");
+  CHECK(desk.run(to_read("0x1018", "2", "")) == 0);
+  CHECK(desk.out.str() == "0x0000C10C\n");
+  CHECK(desk.run(to_read("0x1008", "0", "string")) == 0);
+  CHECK(desk.out.str() == "Lexican demo clock\n");
+  CHECK(desk.run(to_read("0x1008", "0", "")) == 0);
+  CHECK(desk.out.str() ==
+        "00000000  4C 65 78 69 63 61 6E 20 64 65 6D 6F 20 63 6C 6F  |Lexican demo clo|\n"
+        "00000010  63 6B                                            |ck|\n");
+}
+
+TEST_CASE("demo master: it boots with its own node-ID and asks the node by its default SDO [301:7.3.3]") {
+  Desk desk;
+  CHECK(desk.run(to_read("0x2100", "1", "u8")) == 0);
+  CHECK(desk.frames == std::vector<std::string>{"77F#00", "605#4000210100000000", "585#4F00210100000000"});
+  Arguments arguments = to_read("0x2100", "1", "u8");
+  arguments.own_id = "3";
+  CHECK(desk.run(arguments) == 0);
+  CHECK(desk.frames[0] == "703#00");
+}
+
+TEST_CASE("demo master: a value that was written is read back") {
+  Desk desk;
+  CHECK(desk.run(to_write("0x2100", "1", "u8", "23")) == 0);
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() == "");
+  CHECK(demo::Clock::time().hour == 23);
+  CHECK(desk.run(to_write("0x2201", "0", "string", "Halt 7")) == 0);
+  CHECK(desk.run(to_read("0x2201", "0", "bytes")) == 0);
+  CHECK(desk.out.str() == "48 61 6C 74 20 37\n");
+}
+
+TEST_CASE("demo master: an abort is told in words, with status 1") {
+  Desk desk;
+  CHECK(desk.run(to_write("0x2100", "1", "u8", "24")) == 1);
+  CHECK(desk.err.str() == "node 5, 2100h:01: aborted with 0609 0030h invalid value\n");
+  CHECK(desk.run(to_read("0x2FFF", "0", "")) == 1);
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() == "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist\n");
+}
+
+TEST_CASE("demo master: a value of another length than the type has is not shown, with status 1") {
+  Desk desk;
+  CHECK(desk.run(to_read("0x1018", "2", "u16")) == 1);
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() == "node 5, 1018h:02: the object has 4 bytes, a value of this type has 2\n");
+  CHECK(desk.run(to_read("0x2200", "0", "u16")) == 1);
+  CHECK(desk.err.str() ==
+        "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 28 bytes\n");
+}
+
+TEST_CASE("demo master: a node that is not there gives no answer, with status 1, after the time-out") {
+  Desk desk;
+  Arguments arguments = to_read("0x1000", "0", "");
+  arguments.node = "6";
+  arguments.timeout = "250";
+  const demo::Micros begin = desk.host.now();
+  CHECK(desk.run(arguments) == 1);
+  CHECK(desk.host.now() - begin >= 250 * demo::millisecond);
+  CHECK(desk.host.now() - begin < second);
+  CHECK(desk.err.str() == "node 6, 1000h:00: no answer\n");
+  CHECK(desk.was_sent("606#8000100000000405"));
+}
+
+TEST_CASE("demo master: what is wrong with the bus is told beside") {
+  Desk desk;
+  desk.host.fault = "CAN interface 'can0' is down";
+  desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
+  CHECK(desk.run(to_read("0x1000", "0", "")) == 1);
+  CHECK(desk.err.str() == "node 5, 1000h:00: no answer\nCAN interface 'can0' is down\n");
+}
+
+TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by block transfer") {
+  Desk desk;
+  const File file;
+  const std::string content = picture(demo::picture_size);
+  file.put(content);
+  Arguments write = to_read("0x2200", "0", "domain");
+  write.write = true;
+  write.file = file.name;
+  CHECK(desk.run(write) == 0);
+  CHECK(desk.was_sent("605#C600220000200100"));
+  file.put("something else");
+  Arguments read = to_read("0x2200", "0", "");
+  read.file = file.name;
+  CHECK(desk.run(read) == 0);
+  CHECK(desk.was_sent("605#A40022007F1C0000"));
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() == "");
+  CHECK((file.content() == content));
+  read.file = "-";
+  CHECK(desk.run(read) == 0);
+  CHECK((desk.out.str() == content));
+}
+
+TEST_CASE("demo master: an object that is larger than allowed is not read") {
+  Desk desk;
+  Arguments arguments = to_read("0x2200", "0", "bytes");
+  arguments.max = "1000";
+  CHECK(desk.run(arguments) == 1);
+  CHECK(desk.err.str() ==
+        "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 1000 bytes\n");
+}
+
+TEST_CASE("demo master: a file that cannot be written is named, with status 2; a failed read leaves it as it is") {
+  Desk desk;
+  Arguments arguments = to_read("0x1008", "0", "string");
+  arguments.file = (std::filesystem::temp_directory_path() / "lexican_no_such_directory" / "file").string();
+  CHECK(desk.run(arguments) == 2);
+  CHECK(desk.err.str() == "cannot write '" + arguments.file + "': No such file or directory\n");
+  const File file;
+  file.put("kept");
+  arguments = to_read("0x2FFF", "0", "");
+  arguments.file = file.name;
+  CHECK(desk.run(arguments) == 1);
+  CHECK(file.content() == "kept");
+}
+
+TEST_CASE("demo master: an interruption cancels the transfer with an abort, with status 130 [301:7.2.4.3.17]") {
+  Desk desk;
+  Arguments arguments = to_read("0x1000", "0", "");
+  arguments.node = "6";
+  desk.host.interrupted_at = desk.host.now() + 100 * demo::millisecond;
+  desk.host.others = [&] {
+    desk.host.pass(demo::millisecond);
+    return true;
+  };
+  CHECK(desk.run(arguments) == 130);
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() == "node 6, 1000h:00: cancelled\n");
+  CHECK(desk.was_sent("606#8000100021000008"));
+}
+
+TEST_CASE("demo master: the abort of a cancelled transfer still finds its way to a bus that is busy") {
+  Desk desk;
+  Arguments arguments = to_read("0x1000", "0", "u32");
+  arguments.node = "6";
+  desk.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, 20});  // boot-up, request and abort wait
+  desk.host.interrupted_at = desk.host.now() + 2 * demo::millisecond;
+  CHECK(desk.run(arguments) == 130);
+  CHECK(desk.frames == std::vector<std::string>{"77F#00", "606#4000100000000000", "606#8000100021000008"});
+}
+
+TEST_CASE("demo master: the progress goes to standard error, in lines or as a bar that ends with its last state") {
+  Desk desk;
+  const File file;
+  Arguments arguments = to_read("0x2200", "0", "");
+  arguments.file = file.name;
+  desk.form = Progress::Form::lines;
+  CHECK(desk.run(arguments) == 0);
+  CHECK(desk.err.str().find("]  25 %  18669 of 73728 bytes\n") != std::string::npos);
+  CHECK(desk.err.str().find("] 100 %  73728 of 73728 bytes\n") != std::string::npos);
+  desk.form = Progress::Form::bar;
+  desk.host.others = [&] {  // each sub-block takes its time
+    desk.clock.node().process();
+    desk.host.pass(10 * demo::millisecond);
+    return true;
+  };
+  CHECK(desk.run(arguments) == 0);
+  CHECK(desk.err.str().find("\r[") == 0);
+  const std::string last = "\r[##############################] 100 %  73728 of 73728 bytes, ";
+  CHECK(desk.err.str().rfind('\r') == desk.err.str().rfind(last));
+  CHECK(desk.err.str().back() == '\n');
+}
+#endif

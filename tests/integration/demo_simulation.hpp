@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file demo_simulation.hpp
+/// A virtual bus and a virtual time for the demo's device and master.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "host/host.hpp"
+#include "virtual_bus.hpp"
+#include "virtual_clock.hpp"
+
+namespace test {
+
+class SimulatedHost : public demo::Host {
+ public:
+  demo::Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
+  demo::Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  demo::Timer device_timer() override { return {&co::VirtualTimerDriver, &device_timer_}; }
+  demo::Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
+  std::string bus_fault() override { return fault; }
+  demo::Micros now() override { return clock_.elapsed(); }  // the clock of the nodes ticks in microseconds
+  void wait(demo::Micros time) override {
+    if (!others || !others()) {
+      pass(time);
+    }
+  }
+  void pass(demo::Micros time) { clock_.advance(time); }
+  bool interrupted() override { return now() >= interrupted_at; }
+
+  co::VirtualBus bus;
+  demo::Micros interrupted_at = UINT64_MAX;
+  std::string fault;
+  /// What happens beside the program while that waits; false: nothing. May be empty.
+  std::function<bool()> others;
+
+ private:
+  co::VirtualClock clock_{0xFFFFFF00};  // wraps soon
+  co::VirtualTimer device_timer_{clock_};
+  co::VirtualTimer master_timer_{clock_};
+  co::VirtualBus::Port& device_ = bus.attach({"node"});
+  co::VirtualBus::Port& master_ = bus.attach({"master"});
+};
+
+}  // namespace test

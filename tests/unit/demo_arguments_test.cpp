@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_cfg.h"
+
+#if USE_CSDO  // which the demo's master needs
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "linux_master/arguments.hpp"
+
+namespace {
+
+using demo::Arguments;
+using demo::Bytes;
+using demo::Prepared;
+
+Arguments to_read() {
+  Arguments arguments;
+  arguments.node = "5";
+  arguments.index = "0x2100";
+  return arguments;
+}
+
+Arguments to_write(const char* type, const char* value) {
+  Arguments arguments = to_read();
+  arguments.write = true;
+  arguments.type = type;
+  arguments.value = value;
+  return arguments;
+}
+
+std::string fault_of(const Arguments& arguments) { return demo::prepare(arguments).fault; }
+
+/// A file that lives as long as the test case.
+class File {
+ public:
+  explicit File(const std::string& content) { std::ofstream(name, std::ios::binary) << content; }
+  ~File() { std::remove(name.c_str()); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  const std::string name = (std::filesystem::temp_directory_path() / "lexican_demo_arguments_test").string();
+};
+
+}  // namespace
+
+TEST_CASE("demo arguments: node and index are enough to read") {
+  const Prepared prepared = demo::prepare(to_read());
+  CHECK(prepared.fault == "");
+  CHECK_FALSE(prepared.request.write);
+  CHECK(prepared.request.node == 5);
+  CHECK(prepared.request.own_id == 127);
+  CHECK(prepared.request.index == 0x2100);
+  CHECK(prepared.request.sub == 0);
+  CHECK_FALSE(prepared.request.type.has_value());
+  CHECK(prepared.request.timeout == 1000);
+  CHECK(prepared.request.capacity == 16777216);
+}
+
+TEST_CASE("demo arguments: numbers are decimal or hexadecimal, and within their limits") {
+  Arguments arguments = to_read();
+  arguments.node = "0x7F";
+  arguments.own_id = "1";
+  arguments.index = "65535";
+  arguments.sub = "255";
+  arguments.timeout = "0";
+  arguments.max = "4294967295";
+  const Prepared prepared = demo::prepare(arguments);
+  CHECK(prepared.fault == "");
+  CHECK(prepared.request.node == 127);
+  CHECK(prepared.request.own_id == 1);
+  CHECK(prepared.request.index == 0xFFFF);
+  CHECK(prepared.request.sub == 0xFF);
+  CHECK(prepared.request.timeout == 0);
+  CHECK(prepared.request.capacity == 4294967295);
+}
+
+TEST_CASE("demo arguments: numbers outside their limits are named") {
+  const auto with = [](std::string Arguments::*member, const char* text) {
+    Arguments arguments = to_read();
+    arguments.*member = text;
+    return fault_of(arguments);
+  };
+  CHECK(with(&Arguments::node, "0") == "--node: '0' is no number in 1...127");
+  CHECK(with(&Arguments::node, "128") == "--node: '128' is no number in 1...127");
+  CHECK(with(&Arguments::node, "5x") == "--node: '5x' is no number in 1...127");
+  CHECK(with(&Arguments::own_id, "128") == "--own-id: '128' is no number in 1...127");
+  CHECK(with(&Arguments::index, "0x10000") == "--index: '0x10000' is no number in 0...65535");
+  CHECK(with(&Arguments::index, "2100h") == "--index: '2100h' is no number in 0...65535");
+  CHECK(with(&Arguments::sub, "256") == "--sub: '256' is no number in 0...255");
+  CHECK(with(&Arguments::sub, "-1") == "--sub: '-1' is no number in 0...255");
+  CHECK(with(&Arguments::timeout, "4294967296") == "--timeout: '4294967296' is no number in 0...4294967295");
+  CHECK(with(&Arguments::max, "0") == "--max: '0' is no number in 1...4294967295");
+}
+
+TEST_CASE("demo arguments: the master takes a node-ID that the node does not have") {
+  Arguments arguments = to_read();
+  arguments.node = "127";
+  CHECK(demo::prepare(arguments).request.own_id == 126);
+  arguments.own_id = "127";
+  CHECK(fault_of(arguments) == "--own-id: the node to talk to has this node-ID");
+}
+
+TEST_CASE("demo arguments: a value is converted as its type says") {
+  CHECK(demo::prepare(to_write("u16", "1000")).request.data == Bytes{0xE8, 0x03});
+  CHECK(demo::prepare(to_write("string", "abc")).request.data == Bytes{'a', 'b', 'c'});
+  CHECK(fault_of(to_write("u8", "300")) == "300 is out of range, 0...255");
+  CHECK(fault_of(to_write("u12", "1")).find("--type: 'u12' is none of u8, ") == 0);
+}
+
+TEST_CASE("demo arguments: write needs exactly one value, its type, and at least one byte") {
+  CHECK(fault_of(to_write("", "1")) == "write needs the --type of the value");
+  CHECK(fault_of(to_write("string", "")) == "nothing to write: an SDO transfer carries at least one byte");
+  Arguments arguments = to_write("string", "abc");
+  arguments.file = "name";
+  CHECK(fault_of(arguments) == "write needs a value, or a --file, and not both");
+  arguments.file.clear();
+  arguments.value.reset();
+  CHECK(fault_of(arguments) == "write needs a value, or a --file, and not both");
+}
+
+TEST_CASE("demo arguments: a file is written byte by byte, whatever it holds") {
+  const std::string content("\0\r\n\xFF\x1A", 5);
+  const File file(content);
+  Arguments arguments = to_read();
+  arguments.write = true;
+  arguments.file = file.name;
+  const Prepared prepared = demo::prepare(arguments);
+  CHECK(prepared.fault == "");
+  CHECK(prepared.request.data == Bytes(content.begin(), content.end()));
+}
+
+TEST_CASE("demo arguments: a file that cannot be read, is empty, or is said to hold a number is refused") {
+  const File file("");
+  Arguments arguments = to_read();
+  arguments.write = true;
+  arguments.file = file.name;
+  CHECK(fault_of(arguments) == "nothing to write: an SDO transfer carries at least one byte");
+  arguments.file += ".missing";
+  CHECK(fault_of(arguments) == "cannot read '" + arguments.file + "': No such file or directory");
+  arguments.type = "u8";
+  CHECK(fault_of(arguments) == "--type: a file holds bytes, no u8");
+}
+
+TEST_CASE("demo arguments: a number is read into little room, anything else into as much as is allowed") {
+  Arguments arguments = to_read();
+  arguments.max = "1000";
+  CHECK(demo::prepare(arguments).request.capacity == 1000);
+  arguments.type = "string";
+  CHECK(demo::prepare(arguments).request.capacity == 1000);
+  arguments.type = "u64";
+  CHECK(demo::prepare(arguments).request.capacity == CO_CSDO_BLOCK - 1);  // no block transfer for a number
+}
+#endif
