@@ -26,12 +26,7 @@ class Machine {
  public:
   constexpr Machine(const Row<Event, Service> (&table)[rows], Service otherwise) : run_{otherwise}, number_{} {
     for (size_t n = 0; n < rows; ++n) {
-      run_[n + 1] = table[n].run;
-      for (size_t state = 0; state < states; ++state) {
-        if ((table[n].states >> state & 1U) != 0) {
-          number_[state][static_cast<size_t>(table[n].on)] = static_cast<uint8_t>(n + 1);
-        }
-      }
+      enter(table[n], static_cast<uint8_t>(n + 1));
     }
   }
 
@@ -40,6 +35,15 @@ class Machine {
   }
 
  private:
+  constexpr void enter(const Row<Event, Service>& row, uint8_t number) {
+    run_[number] = row.run;
+    for (size_t state = 0; state < states; ++state) {
+      if ((row.states >> state & 1U) != 0) {
+        number_[state][static_cast<size_t>(row.on)] = number;
+      }
+    }
+  }
+
   Service run_[rows + 1];
   uint8_t number_[states][events];
 };

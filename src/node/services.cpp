@@ -65,13 +65,13 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   const routes::Range range = routes::candidates(node, id);
   for (uint16_t n = range.first; n < range.last; ++n) {
     const uint16_t owner = node.Routes.Owner[n];
-    const Service& service = table[routes::service_of(owner)];
-    if (node.Routes.Id[n] == id && event::is_allowed(node, service.allowed)) {
-      claimed = true;
-      served |= serve(node, frame, owner);
-      if (node.Routes.Owner[n] != owner) {  // the callback of a client has configured it anew
-        break;
-      }
+    if (node.Routes.Id[n] != id || !event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
+      continue;
+    }
+    claimed = true;
+    served |= serve(node, frame, owner);
+    if (node.Routes.Owner[n] != owner) {  // the callback of a client has configured it anew
+      break;
     }
   }
   if (claimed && !served) {

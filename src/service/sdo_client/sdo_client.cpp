@@ -146,8 +146,9 @@ bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
 
 // Segments of a block look like anything; the state tells them.
 Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
-  const bool in_block = state_of(client) == State::block_upload ||
-                        (state_of(client) == State::block_upload_end && is_last_segment_again(client, frame));
+  const bool in_block =
+      USE_SDO_BLOCK != 0 && (state_of(client) == State::block_upload ||
+                             (state_of(client) == State::block_upload_end && is_last_segment_again(client, frame)));
   const uint8_t command = frame.Data[0];
   return in_block && command != wire::abort_command ? Response::block_segment : wire::response_of(command);
 }
@@ -297,6 +298,18 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
   return start(*client, timeout);
 }
 
+// A segment of each client. False: none was sent.
+bool send_round(CO_NODE& node) {
+  bool any_sent = false;
+  for (CO_CSDO& client : node.CSdo) {
+    if (send_segment(client)) {
+      any_sent = true;
+      await(client);
+    }
+  }
+  return any_sent;
+}
+
 void send_segments(CO_CSDO& client) {
   while (send_segment(client)) {
   }
@@ -393,15 +406,7 @@ void on_mode(CO_NODE& node) {
 
 // In turns, a segment each.
 void on_free(CO_NODE& node) {
-  bool any_sent = USE_SDO_BLOCK != 0;
-  while (any_sent) {
-    any_sent = false;
-    for (CO_CSDO& client : node.CSdo) {
-      if (send_segment(client)) {
-        any_sent = true;
-        await(client);
-      }
-    }
+  while (USE_SDO_BLOCK != 0 && send_round(node)) {
   }
 }
 

@@ -55,8 +55,9 @@ constexpr auto machine =
 
 // Segments of a block look like anything; the state tells them.
 Request request_in(const CO_SDO& channel, const CO_IF_FRM& frame) {
-  const bool in_block = state_of(channel) == State::block_download ||
-                        (state_of(channel) == State::block_download_end && is_last_segment_again(channel, frame));
+  const bool in_block =
+      USE_SDO_BLOCK != 0 && (state_of(channel) == State::block_download ||
+                             (state_of(channel) == State::block_download_end && is_last_segment_again(channel, frame)));
   const uint8_t command = frame.Data[0];
   return in_block && command != wire::abort_command ? Request::block_segment : wire::request_of(command);
 }
@@ -107,6 +108,15 @@ bool go_on(CO_SDO& channel) {
     sent = send_segment(channel, abort);
   }
   return !is_concluded(channel, channel.Key, abort) && sent;
+}
+
+// A segment of each channel. False: none was sent.
+bool send_round(CO_NODE& node) {
+  bool any_sent = false;
+  for (CO_SDO& channel : node.Sdo) {
+    any_sent |= state_of(channel) == State::block_upload && go_on(channel);
+  }
+  return any_sent;
 }
 
 uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise) {
@@ -185,12 +195,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 // In turns, a segment each.
 void on_free(CO_NODE& node) {
-  bool any_sent = USE_SDO_BLOCK != 0;
-  while (any_sent) {
-    any_sent = false;
-    for (CO_SDO& channel : node.Sdo) {
-      any_sent |= state_of(channel) == State::block_upload && go_on(channel);
-    }
+  while (USE_SDO_BLOCK != 0 && send_round(node)) {
   }
 }
 

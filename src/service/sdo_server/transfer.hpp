@@ -113,7 +113,8 @@ void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer);
 
 [[nodiscard]] inline uint8_t* buffer_of(const CO_SDO& channel) {
   const CO_NODE& node = *channel.Node;
-  return node.SdoBuf == nullptr ? nullptr : node.SdoBuf + CO_SDO_BUF_BYTE * (&channel - node.Sdo);
+  constexpr size_t size = size_t{CO_SDO_BUF_SEG} * wire::segment_bytes;
+  return node.SdoBuf == nullptr ? nullptr : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
 }
 
 // Sends the next segment of a block upload. False: there is none, the controller does not take it, or abort is set.
