@@ -100,7 +100,8 @@ struct CO_OBJ_T;
 /// a whole; a longer one is read and written in pieces like a stream, and knows the start of an access by the call with
 /// length 0. A value of up to 8 bytes is written when all of it has arrived. A stream is written as it arrives: a
 /// transfer that is aborted leaves what it has written. Values of 2 to 8 bytes are numbers in the byte order of the
-/// CPU; streams are bytes in the order of the bus.
+/// CPU; streams are bytes in the order of the bus. A block upload may have to go back, which only a Reset function can:
+/// a value of more than CO_SDO_BUF_BYTE bytes is refused (0504 0001h), and clients read it in segments.
 /// \{
 
 /// Length of the object in bytes. \a width is the length that the access has in mind, 0 if unknown: a type whose
@@ -138,7 +139,7 @@ typedef struct CO_OBJ_TYPE_T {
 /// a block transfer; a block download of up to CO_SDO_BUF_BYTE bytes is written after its CRC and length were found
 /// right, in one piece. A longer one streams: what was written may still be taken back by End. After a lost frame of a
 /// block upload Reset may go back to any position that was already read. CODict… and COObj… functions of the
-/// application call neither Begin nor End.
+/// application call neither Begin nor End, and an entry that CODictInit() has moved is told no End.
 /// \{
 
 /// What Size answers to width 0 while the length of an upload is not known. As soon as a Read has reached the end, and

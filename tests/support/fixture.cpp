@@ -25,6 +25,11 @@ void FakeCan::refuse_nth(std::uint64_t number, std::int16_t with) {
   refusal = with;
 }
 
+void FakeCan::accept_next(std::uint64_t number) {
+  refuse_nth(number + 1);
+  refuse_to = std::numeric_limits<std::uint64_t>::max();
+}
+
 // The stack's side of the fixture: what it calls.
 struct Fixture::Drivers {
   static Fixture& of(void* ctx) { return *static_cast<Fixture*>(ctx); }
@@ -51,11 +56,9 @@ struct Fixture::Drivers {
     ++can.attempts;
     if (can.attempts >= can.refuse_from && can.attempts < can.refuse_to) {
       can.has_refused = true;
-      self.downloads_.answer(*frm);
       return can.refusal;
     }
-    note_violation(self, *frm);
-    self.downloads_.answer(*frm);
+    note_violations(self, *frm);
     can.sent.push_back({*frm, self.now_});
     return sizeof(CO_IF_FRM);
   }
@@ -86,13 +89,24 @@ struct Fixture::Drivers {
                                      [&](const CO_SDO& server) { return server.TxId == frm.Identifier; });
   }
 
+  static void note_violations(Fixture& self, const CO_IF_FRM& frm) {
+    SdoObserver* const channel = self.channel(&CO_SDO::TxId, frm.Identifier);
+    const bool sending = channel != nullptr && channel->is_sending();
+    note(self, frm, fault_of_frame(self, frm, sending));
+    note(self, frm, channel == nullptr ? "" : channel->taken(frm));
+    self.segments_ += sending ? 1 : 0;
+  }
+
   // Heartbeats that had to wait may tell a state that is no more.
-  static void note_violation(Fixture& self, const CO_IF_FRM& frm) {
-    const bool waited = self.can.has_refused && frm.Identifier >= 0x700;
-    std::string fault = waited ? "" : fault_of(frm, self.node.NodeId, self.node.Nmt.Mode, is_sdo(self, frm));
+  static std::string fault_of_frame(const Fixture& self, const CO_IF_FRM& frm, bool sending) {
     if (!self.can.on_bus) {
-      fault = "sent while off the bus";
+      return "sent while off the bus";
     }
+    const bool waited = self.can.has_refused && frm.Identifier >= 0x700;
+    return waited ? "" : fault_of(frm, self.node.NodeId, self.node.Nmt.Mode, is_sdo(self, frm), sending);
+  }
+
+  static void note(Fixture& self, const CO_IF_FRM& frm, const std::string& fault) {
     if (!fault.empty()) {
       self.violations_.push_back(notation(frm) + ": " + fault);
     }
@@ -145,7 +159,7 @@ void Fixture::init() {
   spec.TmrNum = setup_.timers_;
   spec.TmrFreq = setup_.rate_;
   spec.Drv = nullptr;
-  spec.SdoBuf = sdo_buffer_.data();
+  spec.SdoBuf = setup_.sdo_buffer_ ? sdo_buffer_.data() : nullptr;
   CONodeInitEx(&node, &spec, &ext_);
 }
 
@@ -168,7 +182,9 @@ void Fixture::rx(const CO_IF_FRM& frm, Where at) {
     ADD_FAIL_CHECK_AT(at.file, at.line, "not looked at before rx(): " << notation(can.sent.front().frm));
     trace();
   }
-  downloads_.request(frm);
+  if (SdoObserver* const asked = channel(&CO_SDO::RxId, frm.Identifier); asked != nullptr) {
+    asked->request(frm);
+  }
   call(
       [&] {
         {
@@ -181,7 +197,7 @@ void Fixture::rx(const CO_IF_FRM& frm, Where at) {
 }
 
 void Fixture::init_again(Where at) {
-  downloads_.reset();
+  channels_ = {};
   call([this] { init(); }, at);
 }
 
@@ -193,10 +209,11 @@ void Fixture::loop(Where at) {
 void Fixture::process_frames() {
   for (unsigned calls = 0; calls < patience; ++calls) {
     const std::size_t sent = can.sent.size();
+    const std::size_t segments = segments_;
     const std::size_t waiting = node.TxQueue.Num;
     CONodeProcess(&node);
     const OutsideStack outside;
-    if (can.sent.size() - sent > waiting + frames_per_call_) {
+    if (can.sent.size() - sent > waiting + frames_per_call_ + segments_ - segments) {
       violations_.push_back(std::to_string(can.sent.size() - sent) + " frames in one call");
     }
     if (can.to_node.empty() && (node.TxQueue.Num == 0 || can.sent.size() == sent)) {

@@ -12,6 +12,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -24,11 +25,13 @@
 #include <string_view>
 #include <vector>
 
+#include "block_client.hpp"
 #include "callbacks.hpp"
 #include "co_core.h"
 #include "heap_watch.hpp"
 #include "invariants.hpp"
 #include "notation.hpp"
+#include "sdo_observer.hpp"
 
 template <>
 struct doctest::StringMaker<std::vector<std::string>> {
@@ -44,14 +47,7 @@ struct doctest::StringMaker<std::vector<std::string>> {
 namespace test {
 
 using namespace std::chrono_literals;
-using Bytes = std::vector<std::uint8_t>;
 using Time = std::chrono::microseconds;
-
-/// The line of a test that a failure is reported for.
-struct Where {
-  const char* file;
-  int line;
-};
 
 /// How the loop of the application waits for time to pass.
 enum class Wake {
@@ -59,6 +55,8 @@ enum class Wake {
   deadline,    ///< it sleeps as long as CONodeNextDeadline() says; the driver has no alarm
   every_tick,  ///< it polls at each tick of the clock
 };
+
+inline constexpr std::uint32_t mebibyte = 1U << 20;
 
 /// The variables behind the dictionary of a fixture. Index and value are listed at Setup::dictionary().
 struct Objects {
@@ -109,7 +107,9 @@ class Setup {
   Setup& stay_in_init();                  ///< CONodeStart() is left to the test
   Setup& with(CO_OBJ entry);              ///< adds an entry to the dictionary, or replaces it
   Setup& without(std::uint16_t index, std::uint8_t sub);
-  Setup& only_small();  ///< without the domains of more than 15 bytes: fast, for sweeps
+  Setup& only_small();          ///< without the domains of more than 15 bytes: fast, for sweeps
+  Setup& with_mebibyte();       ///< a domain of that size, which is not watched
+  Setup& without_sdo_buffer();  ///< CO_NODE_SPEC.SdoBuf is null
   Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
   Setup& before_init(std::function<void(Objects&)> change);
 
@@ -120,7 +120,8 @@ class Setup {
   /// 1200h, 1201h and 1202h (rw, invalid) where the configuration has that many servers;
   /// 200wh (rw) a number of w bytes, 2020h BOOLEAN, 2024h REAL32, 2028h REAL64, 2026h TIME_OF_DAY;
   /// 2030h write-only, 2031h read-only, 2032h without any right, 2033h only sub 1, 2034h relative to the node-ID;
-  /// 2100h:n domain of n bytes (0…9, 14, 15), 2101h of 889, 2102h of 70000 bytes; byte i holds i + 1 modulo 256;
+  /// 2100h:n domain of n bytes (0…9, 14, 15), 2101h of 889, 2102h of 70000, 2103h of 888, 2104h of 890 bytes, and 2105h
+  /// with_mebibyte(); byte i holds i + 1 modulo 256;
   /// 2110h VISIBLE_STRING of 16, 2111h OCTET_STRING of 10, 2112h UNICODE_STRING of 8 bytes.
   std::vector<CO_OBJ> dictionary(Objects& objects) const;
 
@@ -133,6 +134,8 @@ class Setup {
   std::uint16_t tx_queue_ = 0;
   bool start_ = true;
   bool large_domains_ = true;
+  bool mebibyte_ = false;
+  bool sdo_buffer_ = true;
   std::map<std::uint32_t, CO_OBJ> with_;
   std::vector<std::uint32_t> without_;
   std::function<bool(const void*, std::uint32_t)> may_write_;
@@ -164,7 +167,8 @@ struct FakeCan {
 
   void refuse_next(std::uint64_t number, std::int16_t with = 0);
   void refuse_nth(std::uint64_t number, std::int16_t with = 0);  ///< counted from now, 1 = the next
-  void refuse_all() { refuse_next(1000000); }
+  void refuse_all() { accept_next(0); }
+  void accept_next(std::uint64_t number);  ///< and no more
   void accept_all() { refuse_to = 0; }
 };
 
@@ -208,10 +212,17 @@ class Fixture {
   std::uint32_t download(std::uint16_t index, std::uint8_t sub, const Bytes& data, bool announced = true,
                          Where at = {__builtin_FILE(), __builtin_LINE()});
 
+  /// The same by block transfer (block_client.hpp).
+  BlockResult block_upload(std::uint16_t index, std::uint8_t sub, const BlockOptions& options = {},
+                           Where at = {__builtin_FILE(), __builtin_LINE()});
+  BlockResult block_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, const BlockOptions& options = {},
+                             Where at = {__builtin_FILE(), __builtin_LINE()});
+
   /// The longest time that the server waits for a client. It counts in eighths, each rounded up to ticks.
   Time sdo_time_out() const { return std::chrono::milliseconds{CO_SDO_TIMEOUT} + 8 * Time{1000000 / setup_.rate_ + 1}; }
 
   void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, from now on
+  /// Segments of block uploads are not counted.
   void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
   /// Memory behind an entry of a type of the test.
   void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size, bool stream = false);
@@ -240,6 +251,8 @@ class Fixture {
   void run_until(std::uint64_t end, Where at);
   std::uint64_t next_wake() const;
   void check_properties(Where at);
+  SdoObserver* channel(std::uint32_t CO_SDO::*id, std::uint32_t identifier);
+  void observe_channels();
   void check_memory(Where at);
   std::vector<const CO_TMR_MEM*> armed() const;
   std::vector<std::string> timer_faults() const;
@@ -253,13 +266,14 @@ class Fixture {
   Bytes sdo_buffer_;
   CO_NODE_EXT ext_{};
   MemoryWatch memory_;
-  DownloadObserver downloads_;
+  std::array<SdoObserver, CO_SSDO_N> channels_;
   std::uint64_t now_ = 0;
   std::uint64_t began_ = 0;
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t alarm_ = never;
   std::uint64_t heap_before_ = 0;
   unsigned frames_per_call_ = 1;
+  std::size_t segments_ = 0;  // of block uploads, sent
   std::vector<std::string> violations_;
 };
 

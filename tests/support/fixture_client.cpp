@@ -31,7 +31,8 @@ Bytes Fixture::upload(std::uint16_t index, std::uint8_t sub, Where at) {
   if ((answer.Data[0] & 0xE3U) == 0x43U) {
     return Bytes(answer.Data + 4, answer.Data + 8 - ((answer.Data[0] >> 2) & 3U));
   }
-  if (answer.Data[0] != 0x41) {
+  const bool is_announced = answer.Data[0] == 0x41;
+  if (!is_announced && answer.Data[0] != 0x40) {
     return {};
   }
   const std::uint32_t announced = CO_GET_LONG(&answer, 4);
@@ -45,7 +46,7 @@ Bytes Fixture::upload(std::uint16_t index, std::uint8_t sub, Where at) {
     data.insert(data.end(), answer.Data + 1, answer.Data + 8 - ((answer.Data[0] >> 1) & 7U));
     toggle ^= 0x10U;
   } while ((answer.Data[0] & 1U) == 0);
-  return data.size() == announced ? data : Bytes{};
+  return !is_announced || data.size() == announced ? data : Bytes{};
 }
 
 std::uint32_t Fixture::download(std::uint16_t index, std::uint8_t sub, const Bytes& data, bool announced, Where at) {
@@ -70,6 +71,15 @@ std::uint32_t Fixture::download(std::uint16_t index, std::uint8_t sub, const Byt
     toggle ^= 0x10U;
   }
   return abort;
+}
+
+BlockResult Fixture::block_upload(std::uint16_t index, std::uint8_t sub, const BlockOptions& options, Where at) {
+  return BlockClient(*this, options, at).upload(index, sub);
+}
+
+BlockResult Fixture::block_download(std::uint16_t index, std::uint8_t sub, const Bytes& data,
+                                    const BlockOptions& options, Where at) {
+  return BlockClient(*this, options, at).download(index, sub, data);
 }
 
 }  // namespace test

@@ -31,19 +31,42 @@ void Fixture::check_properties(Where at) {
     ADD_FAIL_CHECK_AT(at.file, at.line, violation);
   }
   violations_.clear();
+  observe_channels();
   check_memory(at);
   for (const std::string& fault : timer_faults()) {
     ADD_FAIL_CHECK_AT(at.file, at.line, fault);
   }
 }
 
+// Null while the node does not serve it.
+SdoObserver* Fixture::channel(std::uint32_t CO_SDO::*id, std::uint32_t identifier) {
+  const bool served = node.Nmt.Mode == CO_PREOP || node.Nmt.Mode == CO_OPERATIONAL;
+  const auto is_it = [&](const CO_SDO& one) { return one.*id == identifier; };
+  const auto found = std::find_if(std::begin(node.Sdo), std::end(node.Sdo), is_it);
+  return served && found != std::end(node.Sdo) ? &channels_[static_cast<std::size_t>(found - node.Sdo)] : nullptr;
+}
+
+void Fixture::observe_channels() {
+  for (std::size_t n = 0; n < channels_.size(); ++n) {
+    std::vector<CO_IF_FRM> waiting;
+    std::copy_if(node.TxQueue.Frame, node.TxQueue.Frame + node.TxQueue.Num, std::back_inserter(waiting),
+                 [&](const CO_IF_FRM& frm) { return frm.Identifier == node.Sdo[n].TxId; });
+    channels_[n].waiting(waiting);
+  }
+}
+
 void Fixture::check_memory(Where at) {
-  const std::set<std::uint32_t> streaming = downloads_.streaming();
-  std::set<std::uint32_t> allowed = downloads_.take_completed();
+  Changeable may;
+  for (std::size_t n = 0; n < channels_.size(); ++n) {
+    channels_[n].take_changeable(may);
+    if (node.Sdo[n].State == 0) {
+      channels_[n].close();
+    }
+  }
   for (const std::uint32_t dev : memory_.changed()) {
-    const bool right =
-        allowed.count(dev) > 0 || (memory_.is_stream(dev) && streaming.count(dev) > 0) || memory_.shares(dev, allowed);
-    if (!right || (memory_.is_read_only(dev) && !memory_.shares(dev, allowed))) {
+    const bool streams = memory_.is_stream(dev) && may.streaming.count(dev) > 0;
+    const bool right = may.completed.count(dev) > 0 || streams || memory_.shares(dev, may.completed);
+    if (!right || (memory_.is_read_only(dev) && !memory_.shares(dev, may.completed))) {
       ADD_FAIL_CHECK_AT(at.file, at.line,
                         "object changed without a legal download: index " << CO_GET_IDX(dev) << " sub-index "
                                                                           << unsigned{CO_GET_SUB(dev)});
@@ -60,6 +83,18 @@ std::vector<const CO_TMR_MEM*> members(const CO_TMR_MEM* list, std::size_t bound
     all.push_back(list);
   }
   return all;
+}
+
+// Timers of SDO clients that are armed, each at most once.
+template <class Count>
+std::ptrdiff_t armed_of_clients([[maybe_unused]] const CO_NODE& node, [[maybe_unused]] const Count& number_of) {
+  std::ptrdiff_t armed = 0;
+#if USE_CSDO
+  for (const CO_CSDO& client : node.CSdo) {
+    armed += std::min<std::ptrdiff_t>(number_of(client.Tmr), 1);
+  }
+#endif
+  return armed;
 }
 
 bool is_open(const CO_NODE& node) {
@@ -79,8 +114,8 @@ std::vector<const CO_TMR_MEM*> Fixture::armed() const {
 
 unsigned Fixture::armed_timers() const { return static_cast<unsigned>(armed().size()); }
 
-// Each timer of the application's pool is armed or free; of the stack there are the heartbeat's and one for all SDO
-// servers, each while its owner has a use for it.
+// Each timer of the application's pool is armed or free; of the stack there are the heartbeat's, one for all SDO
+// servers and one of each SDO client, while its owner has a use for it.
 std::vector<std::string> Fixture::timer_faults() const {
   if (node.Dict.Node == nullptr) {
     return {};  // the initialisation has failed before there were services
@@ -93,12 +128,13 @@ std::vector<std::string> Fixture::timer_faults() const {
   const auto number_of = [&](const CO_TMR_MEM& one) { return std::count(all.begin(), all.end(), &one); };
   const auto heartbeat = number_of(node.HbProdTmr);
   const auto sdo = number_of(node.SdoTmr);
-  const auto application = all.size() - static_cast<std::size_t>(heartbeat + sdo);
+  const auto clients = armed_of_clients(node, number_of);
+  const auto application = all.size() - static_cast<std::size_t>(heartbeat + sdo + clients);
   const CO_MODE mode = node.Nmt.Mode;
   expect(heartbeat <= 1 && sdo <= 1, "a timer is armed twice");
   expect(application + members(node.Tmr.Free, setup_.timers_).size() == setup_.timers_, "a timer of the pool is lost");
   expect(heartbeat == 0 || (mode != CO_INVALID && mode != CO_INIT), "heartbeat timer armed without a heartbeat");
-  expect(sdo == 0 || mode == CO_PREOP || mode == CO_OPERATIONAL, "SDO timer armed while SDO is not allowed");
+  expect(sdo + clients == 0 || mode == CO_PREOP || mode == CO_OPERATIONAL, "SDO timer armed while SDO is not allowed");
   expect(sdo == 1 || !is_open(node) || CO_SDO_TIMEOUT == 0, "a transfer is open and nothing watches it");
   return faults;
 }

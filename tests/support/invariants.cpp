@@ -38,9 +38,34 @@ std::string fault_of_segment(const CO_IF_FRM& frm) {
   return zero_from(frm, 1 + length) ? "" : "bytes beyond the data not 0";
 }
 
-std::string fault_of_sdo(const CO_IF_FRM& frm) {
+// [301:7.2.4.3.9, 7.2.4.3.10, 7.2.4.3.11] The CRC is always offered.
+std::string fault_of_block_download(const CO_IF_FRM& frm) {
+  const std::uint8_t blksize = frm.Data[frm.Data[0] == 0xA2 ? 2 : 4];
+  const bool is_blksize = blksize >= 1 && blksize <= 127;
+  switch (frm.Data[0]) {
+    case 0xA4: return is_blksize && zero_from(frm, 5) ? "" : "no block size, or reserved bytes not 0";
+    case 0xA2: return is_blksize && frm.Data[1] <= 127 && zero_from(frm, 3) ? "" : "no block size or sequence number";
+    case 0xA1: return zero_from(frm, 1) ? "" : "reserved bytes not 0";
+    default: return "no answer of an SDO server";
+  }
+}
+
+// [301:7.2.4.3.12, 7.2.4.3.15]
+std::string fault_of_block_upload(const CO_IF_FRM& frm) {
+  switch (frm.Data[0] & 0xE3U) {
+    case 0xC0: return frm.Data[0] == 0xC4 && zero_from(frm, 4) ? "" : "reserved bits or bytes not 0";
+    case 0xC2: return frm.Data[0] == 0xC6 ? "" : "reserved bits not 0";
+    case 0xC1: return zero_from(frm, 3) ? "" : "reserved bytes not 0";
+    default: return "no answer of an SDO server";
+  }
+}
+
+std::string fault_of_sdo(const CO_IF_FRM& frm, bool sending) {
   if (frm.DLC != 8) {
     return "DLC not 8";
+  }
+  if (sending && frm.Data[0] != 0x80) {
+    return (frm.Data[0] & 0x7FU) != 0 ? "" : "a segment without a number";
   }
   switch (frm.Data[0] >> 5) {
     case 0: return fault_of_segment(frm);
@@ -48,6 +73,8 @@ std::string fault_of_sdo(const CO_IF_FRM& frm) {
     case 2: return fault_of_upload_answer(frm);
     case 3: return frm.Data[0] == 0x60 && zero_from(frm, 4) ? "" : "reserved bits or bytes not 0";
     case 4: return frm.Data[0] == 0x80 && little_endian(frm.Data + 4) != 0 ? "" : "abort without a code";
+    case 5: return fault_of_block_download(frm);
+    case 6: return fault_of_block_upload(frm);
     default: return "no answer of an SDO server";
   }
 }
@@ -68,7 +95,7 @@ std::string fault_of_error_control(const CO_IF_FRM& frm, CO_MODE mode) {
 
 }  // namespace
 
-std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo) {
+std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo, bool sending) {
   if (frm.Identifier == 0) {
     return "an NMT command, which only the master may send";
   }
@@ -77,7 +104,7 @@ std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, b
   }
   if (sdo) {
     const bool allowed = mode == CO_PREOP || mode == CO_OPERATIONAL;
-    return allowed ? fault_of_sdo(frm) : "SDO in a state that forbids it";
+    return allowed ? fault_of_sdo(frm, sending) : "SDO in a state that forbids it";
   }
   return frm.Identifier == 0x700U + node_id ? fault_of_error_control(frm, mode) : "";
 }
@@ -91,6 +118,8 @@ void MemoryWatch::add(std::uint32_t key, const void* memory, std::size_t size, b
 }
 
 namespace {
+
+constexpr std::size_t largest_watched = 100000;  // more would take too long after every frame
 
 struct Width {
   const CO_OBJ_TYPE* type;
@@ -131,7 +160,9 @@ void MemoryWatch::add(CO_OBJ& entry) {
     add(entry.Key, behind<void>(entry), width->bytes, false);
   } else if (entry.Type == CO_TDOMAIN) {
     const auto* domain = behind<CO_OBJ_DOM>(entry);
-    add(entry.Key, domain->Start, domain->Size, true);
+    if (domain->Size <= largest_watched) {
+      add(entry.Key, domain->Start, domain->Size, true);
+    }
   } else if (entry.Type == CO_TSTRING) {
     const auto* text = reinterpret_cast<const char*>(behind<CO_OBJ_STR>(entry)->Start);
     add(entry.Key, text, std::strlen(text) + 1, true);
@@ -187,73 +218,6 @@ bool MemoryWatch::shares(std::uint32_t dev, const std::set<std::uint32_t>& allow
     const Region* twin = find(other);
     return twin != nullptr && region != nullptr && twin->memory == region->memory;
   });
-}
-
-void DownloadObserver::request(const CO_IF_FRM& frm) {
-  request_.reset();
-  if (frm.DLC < 8) {
-    return;
-  }
-  const std::uint32_t dev = CO_DEV(frm.Data[1] | (frm.Data[2] << 8), frm.Data[3]);
-  request_ = Request{frm.Data[0], dev, frm.Identifier};
-}
-
-void DownloadObserver::initiated(const Request& request) {
-  if ((request.command & 0x02U) != 0) {
-    completed_.insert(request.dev);
-  } else {
-    open_[request.id] = request.dev;
-  }
-}
-
-void DownloadObserver::segment_taken(const Request& request) {
-  const auto open = open_.find(request.id);
-  if (open == open_.end() || (request.command & 0x01U) == 0) {
-    return;
-  }
-  completed_.insert(open->second);
-  open_.erase(open);
-}
-
-void DownloadObserver::answer(const CO_IF_FRM& frm) {
-  if (!request_) {
-    return;
-  }
-  const Request request = *request_;
-  request_.reset();
-  const unsigned asked = request.command >> 5;
-  const unsigned answered = frm.Data[0] >> 5;
-  if (answered == 4) {
-    const auto open = open_.find(request.id);
-    if (open != open_.end()) {
-      ended_.insert(open->second);
-      open_.erase(open);
-    }
-  } else if (asked == 1 && answered == 3) {
-    initiated(request);
-  } else if (asked == 0 && answered == 1) {
-    segment_taken(request);
-  }
-}
-
-std::set<std::uint32_t> DownloadObserver::take_completed() {
-  std::set<std::uint32_t> taken;
-  taken.swap(completed_);
-  ended_.clear();
-  return taken;
-}
-
-std::set<std::uint32_t> DownloadObserver::streaming() const {
-  std::set<std::uint32_t> devs = ended_;
-  for (const auto& [id, dev] : open_) {
-    devs.insert(dev);
-  }
-  return devs;
-}
-
-void DownloadObserver::reset() {
-  request_.reset();
-  open_.clear();
 }
 
 }  // namespace test

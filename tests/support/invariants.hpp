@@ -6,8 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,13 +15,13 @@
 namespace test {
 
 /// Empty if a node with \a node_id may send \a frm in \a mode, else what is wrong with it. \a sdo: the frame is one of
-/// an SDO server.
-std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo);
+/// an SDO server, \a sending: in a block upload, after its start.
+std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo, bool sending = false);
 
 /// The bytes behind the entries of a dictionary.
 class MemoryWatch {
  public:
-  void add(CO_OBJ& entry);
+  void add(CO_OBJ& entry);  ///< domains of more than 100000 bytes are left out
   void add(std::uint32_t key, const void* memory, std::size_t size, bool stream);
   void release(std::uint32_t dev);  ///< changes of this entry are of no interest any more
   void remember();
@@ -44,31 +42,6 @@ class MemoryWatch {
   };
   const Region* find(std::uint32_t dev) const;
   std::vector<Region> regions_;
-};
-
-/// Follows the downloads on the bus, and so knows what they may change.
-class DownloadObserver {
- public:
-  void request(const CO_IF_FRM& frm);
-  void answer(const CO_IF_FRM& frm);
-  /// Takes the entries whose download was confirmed since the last call.
-  std::set<std::uint32_t> take_completed();
-  /// Entries with an open download, or with one that ended since the last call of take_completed().
-  std::set<std::uint32_t> streaming() const;
-  void reset();
-
- private:
-  struct Request {
-    std::uint8_t command;
-    std::uint32_t dev;
-    std::uint32_t id;
-  };
-  void initiated(const Request& request);
-  void segment_taken(const Request& request);
-  std::optional<Request> request_;
-  std::map<std::uint32_t, std::uint32_t> open_;  ///< entry by CAN-ID of the request
-  std::set<std::uint32_t> completed_;
-  std::set<std::uint32_t> ended_;
 };
 
 }  // namespace test

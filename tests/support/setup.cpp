@@ -18,6 +18,8 @@ Setup& Setup::stay_in_init() { return start_ = false, *this; }
 Setup& Setup::with(CO_OBJ entry) { return with_[CO_GET_DEV(entry.Key)] = entry, *this; }
 Setup& Setup::without(std::uint16_t index, std::uint8_t sub) { return without_.push_back(CO_DEV(index, sub)), *this; }
 Setup& Setup::only_small() { return large_domains_ = false, *this; }
+Setup& Setup::with_mebibyte() { return mebibyte_ = true, *this; }
+Setup& Setup::without_sdo_buffer() { return sdo_buffer_ = false, *this; }
 Setup& Setup::writable(std::function<bool(const void*, std::uint32_t)> may_write) {
   return may_write_ = std::move(may_write), *this;
 }
@@ -97,14 +99,17 @@ CO_OBJ_DOM* make_domain(Objects& o, std::uint32_t size) {
   return &o.domain[size];
 }
 
-void add_streams(Table& table, Objects& o, bool large) {
+void add_large_domains(Table& table, Objects& o) {
+  table.push_back(entry(0x2101, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 889)));
+  table.push_back(entry(0x2102, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 70000)));
+  table.push_back(entry(0x2103, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 888)));
+  table.push_back(entry(0x2104, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 890)));
+}
+
+void add_streams(Table& table, Objects& o) {
   static constexpr std::uint8_t sizes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 14, 15};
   for (const std::uint8_t size : sizes) {
     table.push_back(entry(0x2100, size, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, size)));
-  }
-  if (large) {
-    table.push_back(entry(0x2101, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 889)));
-    table.push_back(entry(0x2102, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 70000)));
   }
   table.push_back(entry(0x2110, 0, CO_OBJ_____RW, CO_TVISIBLE_STRING, &o.text));
   table.push_back(entry(0x2111, 0, CO_OBJ_____RW, CO_TOCTET_STRING, &o.octets));
@@ -119,7 +124,13 @@ std::vector<CO_OBJ> Setup::dictionary(Objects& objects) const {
   add_communication(table, objects);
   add_servers(table, objects);
   add_numbers(table, objects);
-  add_streams(table, objects, large_domains_);
+  add_streams(table, objects);
+  if (large_domains_) {
+    add_large_domains(table, objects);
+  }
+  if (mebibyte_) {
+    table.push_back(entry(0x2105, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(objects, mebibyte)));
+  }
   std::map<std::uint32_t, CO_OBJ> sorted;
   for (const CO_OBJ& obj : table) {
     sorted[CO_GET_DEV(obj.Key)] = obj;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fixture must notice in block transfers, and that its client believes nothing.
+#include "support/block_states.hpp"
+
+#if USE_SDO_BLOCK
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("fixture: the CRC bit by bit [D14]") {
+  CHECK(crc_by_bits({'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x31C3);
+  CHECK(crc_by_bits({}) == 0);
+  CHECK(crc_by_bits({0, 0, 0, 0}) == 0);
+  CHECK(crc_by_bits({1}) == 0x1021);
+}
+
+TEST_CASE("fixture: frames of block transfers that a server may send") {
+  for (const char* text : {"581#A41234567F000000", "581#A412345601000000", "581#A2007F0000000000",
+                           "581#A27F010000000000", "581#A100000000000000", "581#C612345611223344",
+                           "581#C412345600000000", "581#C1AABB0000000000", "581#DDAABB0000000000"}) {
+    CAPTURE(std::string(text));
+    CHECK(fault_of(frame(text), 1, CO_PREOP, true) == "");
+    CHECK(fault_of(frame(text), 1, CO_STOP, true) != "");
+  }
+  for (const char* text : {"581#0111223344556677", "581#7F11223344556677", "581#8111223344556677",
+                           "581#FF00000000000000", "581#8012345601000405"}) {
+    CHECK(fault_of(frame(text), 1, CO_PREOP, true, true) == "");
+  }
+}
+
+TEST_CASE("fixture: frames of block transfers that a server must not send") {
+  for (const char* text :
+       {"581#A01234567F000000", "581#A412345600000000", "581#A412345680000000", "581#A41234567F010000",
+        "581#A200000000000000", "581#A27F800000000000", "581#A2807F0000000000", "581#A27F7F0100000000",
+        "581#A101000000000000", "581#C012345600000000", "581#C212345611223344", "581#C412345601000000",
+        "581#C1AABB0100000000", "581#C312345600000000", "581#DFAABB0000000000", "581#A300000000000000"}) {
+    CAPTURE(std::string(text));
+    CHECK(fault_of(frame(text), 1, CO_PREOP, true) != "");
+  }
+  CHECK(fault_of(frame("581#0011223344556677"), 1, CO_PREOP, true, true) != "");
+  CHECK(fault_of(frame("581#01112233445566"), 1, CO_PREOP, true, true) != "");
+}
+
+// The observer
+// ---------------------------------------------------------------------------------------------------------
+
+// A channel in a block upload of four segments a block, after its start.
+SdoObserver uploading() {
+  SdoObserver channel;
+  channel.request(frame("601#A412345604000000"));
+  CHECK(channel.taken(frame("581#C612345611223344")) == "");
+  CHECK_FALSE(channel.is_sending());
+  channel.request(frame("601#A300000000000000"));
+  CHECK(channel.is_sending());
+  return channel;
+}
+
+TEST_CASE("fixture: the order of the segments of a block upload") {
+  SdoObserver channel = uploading();
+  CHECK(channel.taken(frame("581#0100000000000000")) == "");
+  CHECK(channel.taken(frame("581#0200000000000000")) == "");
+  CHECK(channel.taken(frame("581#0200000000000000")) != "");
+  CHECK(channel.taken(frame("581#0400000000000000")) != "");
+  CHECK(channel.taken(frame("581#0300000000000000")) == "");
+  CHECK(channel.taken(frame("581#0400000000000000")) == "");
+  CHECK(channel.taken(frame("581#0500000000000000")) != "");
+}
+
+TEST_CASE("fixture: after an acknowledge numbers begin with 1 again, after the last segment there is none") {
+  SdoObserver channel = uploading();
+  CHECK(channel.taken(frame("581#0100000000000000")) == "");
+  channel.request(frame("601#A201020000000000"));
+  CHECK(channel.taken(frame("581#0200000000000000")) != "");
+  CHECK(channel.taken(frame("581#8155000000000000")) == "");
+  CHECK(channel.taken(frame("581#0200000000000000")) != "");
+  channel.request(frame("601#A201020000000000"));
+  CHECK_FALSE(channel.is_sending());
+  CHECK(channel.taken(frame("581#D900000000000000")) == "");
+}
+
+TEST_CASE("fixture: bytes of the last segment that the end declares unused must be 0") {
+  SdoObserver channel = uploading();
+  CHECK(channel.taken(frame("581#8155550000000000")) == "");
+  channel.request(frame("601#A201020000000000"));
+  CHECK(channel.taken(frame("581#D900000000000000")) != "");
+}
+
+Changeable may_change(SdoObserver& channel) {
+  Changeable may;
+  channel.take_changeable(may);
+  return may;
+}
+
+constexpr std::uint32_t dev = CO_DEV(0x3412, 0x56);
+
+// A channel in a block download that has been accepted.
+SdoObserver downloading() {
+  SdoObserver channel;
+  channel.request(frame("601#C612345611223344"));
+  CHECK(channel.taken(frame("581#A41234567F000000")) == "");
+  return channel;
+}
+
+TEST_CASE("fixture: a block download may change its object when its end is confirmed") {
+  SdoObserver channel = downloading();
+  channel.request(frame("601#8111223344000000"));
+  channel.taken(frame("581#A2017E0000000000"));
+  channel.request(frame("601#CD00000000000000"));
+  CHECK(may_change(channel).completed.empty());
+  channel.taken(frame("581#A100000000000000"));
+  CHECK(may_change(channel).completed == std::set<std::uint32_t>{dev});
+  CHECK(may_change(channel).completed.empty());
+}
+
+TEST_CASE("fixture: a block download that is aborted at its end may change nothing") {
+  SdoObserver channel = downloading();
+  channel.request(frame("601#8111223344000000"));
+  channel.taken(frame("581#A2017E0000000000"));
+  channel.request(frame("601#CD00000000000000"));
+  channel.taken(frame("581#8012345604000405"));
+  const Changeable may = may_change(channel);
+  CHECK(may.completed.empty());
+  CHECK(may.streaming.empty());
+}
+
+TEST_CASE("fixture: a block download streams when the buffer is full and more is to come") {
+  SdoObserver channel = downloading();
+  for (unsigned n = 1; n <= CO_SDO_BUF_SEG; ++n) {
+    CHECK(may_change(channel).streaming.empty());
+    channel.request(CO_IF_FRM{0x601, {static_cast<std::uint8_t>(n)}, 8});
+  }
+  CHECK(may_change(channel).streaming == std::set<std::uint32_t>{dev});
+  SdoObserver exact = downloading();
+  for (unsigned n = 1; n <= CO_SDO_BUF_SEG; ++n) {
+    exact.request(CO_IF_FRM{0x601, {static_cast<std::uint8_t>(n | (n == CO_SDO_BUF_SEG ? 0x80U : 0U))}, 8});
+  }
+  CHECK(may_change(exact).streaming.empty());
+}
+
+TEST_CASE("fixture: segments out of order and from the queue are counted as what they are") {
+  SdoObserver channel = downloading();
+  for (unsigned n = 2; n <= 127; ++n) {
+    channel.request(CO_IF_FRM{0x601, {static_cast<std::uint8_t>(n)}, 8});
+  }
+  CHECK(may_change(channel).streaming.empty());
+  channel.waiting({frame("581#A2007F0000000000")});
+  channel.request(frame("601#8111223344000000"));
+  CHECK(channel.taken(frame("581#A2007F0000000000")) == "");
+  channel.waiting({frame("581#A2017E0000000000")});
+  channel.request(frame("601#CD00000000000000"));
+  channel.waiting({frame("581#A2017E0000000000"), frame("581#A100000000000000")});
+  CHECK(may_change(channel).completed == std::set<std::uint32_t>{dev});
+  CHECK(channel.taken(frame("581#A2017E0000000000")) == "");
+  CHECK(channel.taken(frame("581#A100000000000000")) == "");
+  CHECK(may_change(channel).completed.empty());
+}
+
+// The client
+// -----------------------------------------------------------------------------------------------------------
+
+TEST_CASE("fixture: an object that changes in a block download before its end fails" * doctest::should_fail()) {
+  Fixture node;
+  node.ask("601#C604200004000000", "581#A40420007F000000");
+  node.call([&] { node.objects.u32 = 1; });
+}
+
+TEST_CASE("fixture: the block client reports a server that aborts, and one that is silent") {
+  Fixture node;
+  CHECK(node.block_upload(0x1004, 0).abort == 0x06020000);
+  CHECK(node.block_download(0x1000, 0, {1, 2, 3, 4}).abort == 0x06010002);
+  node.rx("000#0201");
+  const BlockResult upload = node.block_upload(0x2104, 0);
+  CHECK(upload.abort == 0x05040000);
+  CHECK(upload.by_client);
+  CHECK(node.block_download(0x2104, 0, counting(890)).abort == 0x05040000);
+}
+
+TEST_CASE("fixture: the block client counts frames, and loses those that it is told to lose") {
+  Fixture node;
+  const BlockResult result = node.block_download(0x2100, 15, counting(15));
+  CHECK(result.requests == 5);
+  CHECK(result.answers == 3);
+  BlockOptions options;
+  options.lost_requests = {1, 2, 3};
+  const BlockResult again = node.block_download(0x2100, 15, counting(15, 9), options);
+  CHECK(again.abort == 0);
+  CHECK(again.requests == 8);
+  CHECK(node.objects.memory[15] == counting(15, 9));
+}
+
+TEST_CASE("fixture: every state of a block transfer is one of an open transfer") {
+  for (const BlockState& state : block_states()) {
+    CAPTURE(state.name);
+    Fixture node;
+    state.enter(node);
+    CHECK(node->Sdo[0].Obj != nullptr);
+    let_go_on(node);
+    node.frames();
+  }
+}
+
+}  // namespace
+
+#endif

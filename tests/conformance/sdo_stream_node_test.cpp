@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types that see the whole transfer (CO_OBJ_TYPE_EX), and what Begin and End may do to the node. [Q9]
+#include <algorithm>
+
+#include "support/block_frames.hpp"
+#include "support/logged_stream.hpp"
+
+namespace {
+
+using namespace test;
+
+struct Stream : LoggedStream, Fixture {
+  explicit Stream(Setup setup = {}) : Fixture(setup.only_small().with(extended(0x3000))) { data = counting(9); }
+};
+
+long ends(const Log& log) {
+  return std::count_if(log.begin(), log.end(), [](const std::string& call) { return call[0] == 'e'; });
+}
+
+const auto stop = [](CO_OBJ*, CO_NODE* node) {
+  CONmtSetMode(&node->Nmt, CO_STOP);
+  return CO_ERR_NONE;
+};
+const auto stop_node = [](CO_OBJ*, CO_NODE* node) {
+  CONodeStop(node);
+  return CO_ERR_NONE;
+};
+const auto reset_node = [](CO_OBJ*, CO_NODE* node) {
+  CONmtReset(&node->Nmt, CO_RESET_NODE);
+  return CO_ERR_NONE;
+};
+
+TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End, and no answer [Q9] [N8]") {
+  for (const char* request : {"601#2100300014000000", "601#4000300000000000", "601#2B00300011220000"}) {
+    CAPTURE(std::string(request));
+    Stream node;
+    node.on_begin = stop;
+    node.rx(request);
+    node.silent();
+    CHECK(ends(node.log) == 1);
+    CHECK(node.log.back().substr(0, 3) == "end");
+    node.rx("000#8001");
+    node.on_begin = nullptr;
+    node.data = counting(9);
+    node.ask("601#4000300000000000", "581#4100300009000000");
+  }
+}
+
+TEST_CASE("SDO stream types: a Begin that stops the node is followed by one End, and no answer [Q9]") {
+  Stream node;
+  node.on_begin = stop_node;
+  node.rx("601#2100300014000000");
+  node.silent();
+  CHECK(ends(node.log) == 1);
+  CHECK(node.mode() == CO_INVALID);
+}
+
+TEST_CASE("SDO stream types: an End that resets the node is answered first [Q3] [Q9]") {
+  Stream node;
+  node.frames_per_call(2);
+  node.on_end = reset_node;
+  node.rx("601#2B00300011220000");
+  node.tx({"581#6000300000000000", "701#00"});
+  CHECK(ends(node.log) == 1);
+}
+
+TEST_CASE("SDO stream types: an End that stops SDO or the node is not answered, and comes once [Q9] [N8]") {
+  for (const auto& action : {std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop), {stop_node}}) {
+    Stream node;
+    node.on_end = action;
+    node.ask("601#2100300002000000", "581#6000300000000000");
+    node.rx("601#0B01020000000000");
+    node.silent();
+    CHECK(ends(node.log) == 1);
+  }
+}
+
+TEST_CASE("SDO stream types: Begin and End may use the dictionary, the same object too [Q9]") {
+  Stream node;
+  node.may_change(0x2001, 0);
+  const auto use = [](CO_OBJ*, CO_NODE* stack) {
+    std::uint32_t word = 0;
+    CHECK(CODictRdLong(&stack->Dict, CO_DEV(0x1000, 0), &word) == CO_ERR_NONE);
+    CHECK(CODictWrByte(&stack->Dict, CO_DEV(0x2001, 0), 0x77) == CO_ERR_NONE);
+    CHECK(CODictRdLong(&stack->Dict, CO_DEV(0x3000, 0), &word) == CO_ERR_NONE);
+    return CO_ERR_NONE;
+  };
+  node.on_begin = use;
+  node.on_end = use;
+  CHECK(node.download(0x3000, 0, counting(20)) == 0);
+  CHECK(node.data == counting(20));
+  CHECK(ends(node.log) == 1);
+}
+
+#if CO_SSDO_N >= 2
+
+Setup two_channels() {
+  return Setup().before_init([](Objects& o) {
+    o.sdo2_rx = 0x690;
+    o.sdo2_tx = 0x6A0;
+  });
+}
+
+TEST_CASE("SDO stream types: the second channel is refused with 0800 0022h before Begin") {
+  Stream node(two_channels());
+  node.ask("601#4000300000000000", "581#4100300009000000");
+  node.take_log();
+  for (const char* request : {"690#4000300000000000", "690#2100300014000000", "690#2B00300011220000",
+                              "690#A40030007F000000", "690#C600300014000000"}) {
+    if (!USE_SDO_BLOCK && (request[4] == 'A' || request[4] == 'C')) continue;
+    CAPTURE(std::string(request));
+    node.ask(request, "6A0#8000300022000008");
+  }
+  CHECK(node.log.empty());
+  node.ask("601#6000000000000000", "581#0001020304050607");
+  node.ask("601#7000000000000000", "581#1B08090000000000");
+  CHECK(node.take_log() == Log{"read 7", "read 2", "end up 0"});
+  node.ask("690#2B00300011220000", "6A0#6000300000000000");
+}
+
+TEST_CASE("SDO stream types: End when the COB-IDs of the channel change [D16]") {
+  Stream node(two_channels());
+  node.ask("690#2100300014000000", "6A0#6000300000000000");
+  node.take_log();
+  node.ask("601#2301120190060080", "581#6001120100000000");
+  CHECK(node.take_log() == Log{"end down 08000022"});
+}
+
+TEST_CASE("SDO stream types: End at the end of a channel, not of another one") {
+  Stream node(two_channels());
+  node.ask("690#2100300014000000", "6A0#6000300000000000");
+  node.take_log();
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+  node.rx("601#8000300000000008");
+  CHECK(node.log.empty());
+  node.rx("690#8000300000000008");
+  CHECK(node.take_log() == Log{"end down 08000000"});
+}
+
+#endif
+
+}  // namespace

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file sdo_observer.hpp
+/// Follows a channel of an SDO server on the bus. It knows what the client may have changed, and the order of the
+/// segments of a block upload.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "co_core.h"
+
+namespace test {
+
+/// Entries, as CO_DEV(), that may have changed.
+struct Changeable {
+  std::set<std::uint32_t> completed;  ///< their download was confirmed
+  std::set<std::uint32_t> streaming;  ///< parts of them: their download goes on, or was aborted
+};
+
+class SdoObserver {
+ public:
+  void request(const CO_IF_FRM& frm);  ///< the client has sent it
+  /// The controller has taken it from the server. Empty if it may be sent now, else what is wrong.
+  std::string taken(const CO_IF_FRM& frm);
+  void waiting(const std::vector<CO_IF_FRM>& frames);  ///< of the server, in the transmit queue at this moment
+  /// The next frame of the server may be a segment of a block upload.
+  bool is_sending() const { return phase_ == Phase::sending && !ending_; }
+  /// Adds what may have changed since the last call.
+  void take_changeable(Changeable& all);
+  void close();  ///< the server is idle
+
+ private:
+  enum class Phase {
+    closed,
+    downloading,  // in segments
+    receiving,    // a sub-block of a download
+    received,     // all sub-blocks, but not the end
+    offered,      // a block upload
+    sending,      // a block upload, until its end is sent
+  };
+  struct Request {
+    std::uint8_t command;
+    std::uint32_t dev;
+    std::uint8_t blksize;
+  };
+  bool forget_waiting(const CO_IF_FRM& frm);
+  void answer(const CO_IF_FRM& frm);
+  void answer_to(const Request& request, std::uint8_t answer);
+  void open(Phase phase, std::uint32_t dev);
+  void receive(const CO_IF_FRM& frm);
+  bool may_have_written() const;
+  void acknowledge(std::uint8_t ackseq, std::uint8_t blksize);
+  std::string fault_of_segment(const CO_IF_FRM& frm);
+  std::string fault_of_end(const CO_IF_FRM& frm);
+
+  Phase phase_ = Phase::closed;
+  std::optional<Request> request_;
+  std::vector<CO_IF_FRM> waiting_;  // answers that are known, and not sent yet
+  std::uint32_t dev_ = 0;           // of the open transfer
+  std::uint32_t segments_ = 0;      // of a block download, taken in order
+  unsigned next_ = 1;               // sequence number
+  bool last_ = false;               // the last segment has been received or sent
+  bool ending_ = false;             // the client has all segments of a block upload
+  std::uint8_t blksize_ = 0;
+  std::array<std::uint8_t, 8> last_segment_{};
+  Changeable changeable_;
+};
+
+}  // namespace test
