@@ -11,6 +11,7 @@
 #include "service/nmt/nmt.hpp"
 #include "wire/can_error.hpp"
 #include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
 
 namespace co::node {
 namespace {
@@ -224,7 +225,7 @@ void CONodeProcess(CO_NODE* node) {
   if (node->Nmt.Mode == CO_INVALID) {
     return;
   }
-  CO_IF_FRM frame = {};
+  CO_IF_FRM frame = wire::empty_frame(0, 0);
   if (port::can_read(*node, frame) <= 0) {
     return;
   }

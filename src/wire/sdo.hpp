@@ -2,10 +2,9 @@
 // SDO frames. [301:7.2.4.3]
 #pragma once
 
-#include "co_if_can.h"
 #include "co_obj.h"
 #include "co_sdo.h"
-#include "wire/bytes.hpp"
+#include "wire/frame.hpp"
 
 namespace co::wire {
 
@@ -73,12 +72,8 @@ constexpr Response response_of(uint8_t command) {
 inline constexpr uint8_t toggle_bit = 0x10;
 constexpr uint8_t toggle(const CO_IF_FRM& frame) { return frame.Data[0] & toggle_bit; }
 
-// The bytes of a frame in two words, which lie aligned.
-static_assert(offsetof(CO_IF_FRM, Data) % sizeof(uint32_t) == 0);
-inline uint32_t get_low(const CO_IF_FRM& frame) { return get_aligned(frame.Data); }
-inline uint32_t get_high(const CO_IF_FRM& frame) { return get_aligned(frame.Data + 4); }
-inline void put_low(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data, value); }
-inline void put_high(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data + 4, value); }
+// An SDO frame whose unused bytes are 0. [301:7.2.4.3]
+inline CO_IF_FRM empty_frame(uint32_t identifier) { return empty_frame(identifier, sdo_dlc); }
 
 // Multiplexer: index in bytes 1 and 2, sub-index in byte 3; as a key without flags.
 constexpr uint32_t multiplexer_of(uint32_t low) { return ((low << 8) & 0xFFFF0000U) | ((low >> 16) & 0xFF00U); }
@@ -100,7 +95,7 @@ constexpr bool is_last_segment(uint8_t command) { return (command & 0x01) != 0; 
 
 inline constexpr uint8_t abort_command = 0x80;
 inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, uint32_t code) {
-  CO_IF_FRM frame = {identifier, {}, sdo_dlc};
+  CO_IF_FRM frame = empty_frame(identifier);
   put_head(frame, abort_command, key);
   put_high(frame, code);
   return frame;

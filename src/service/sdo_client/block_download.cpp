@@ -35,7 +35,7 @@ bool send_segment(CO_CSDO& client) {
   const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
   const uint32_t left = client.Size - position;
   const bool last = left <= wire::segment_bytes;
-  CO_IF_FRM frame = {client.TxId, {}, wire::sdo_dlc};
+  CO_IF_FRM frame = wire::empty_frame(client.TxId);
   frame.Data[0] = wire::block_segment(static_cast<uint8_t>(client.Seq + 1), last);
   __builtin_memcpy(frame.Data + 1, client.Buf + position, last ? left : wire::segment_bytes);
   if (!transmit::offer(*client.Node, frame)) {

@@ -167,7 +167,7 @@ bool remind(CO_SDO& channel) {
     close(channel, CO_SDO_ERR_LEN_HIGH);
     return false;
   }
-  CO_IF_FRM frame = {channel.TxId, {}, wire::sdo_dlc};
+  CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   if (has(channel, heard)) {
     end_block(channel, frame);
   } else if (channel.AckSize != 0) {

@@ -67,7 +67,7 @@ bool send_segment(CO_SDO& channel, uint32_t& abort) {
   }
   const uint32_t n = smaller(wire::segment_bytes, position < channel.Read ? channel.Read - position : 0);
   const bool last = position + n == channel.Size;
-  CO_IF_FRM frame = {channel.TxId, {}, wire::sdo_dlc};
+  CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   frame.Data[0] = wire::block_segment(static_cast<uint8_t>(channel.Seq + 1), last);
   __builtin_memcpy(frame.Data + 1, buffer_of(channel) + channel.Fill - (channel.Read - position), n);
   if (!transmit::offer(node, frame)) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames, their bytes as two words, which lie aligned.
+#pragma once
+
+#include <stddef.h>
+
+#include "co_if_can.h"
+#include "wire/bytes.hpp"
+
+namespace co::wire {
+
+static_assert(offsetof(CO_IF_FRM, Data) % sizeof(uint32_t) == 0);
+inline uint32_t get_low(const CO_IF_FRM& frame) { return get_aligned(frame.Data); }
+inline uint32_t get_high(const CO_IF_FRM& frame) { return get_aligned(frame.Data + 4); }
+inline void put_low(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data, value); }
+inline void put_high(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data + 4, value); }
+
+// All bytes are 0.
+inline CO_IF_FRM empty_frame(uint32_t identifier, uint8_t dlc) {
+  CO_IF_FRM frame;
+  frame.Identifier = identifier;
+  put_low(frame, 0);
+  put_high(frame, 0);
+  frame.DLC = dlc;
+  return frame;
+}
+
+}  // namespace co::wire
