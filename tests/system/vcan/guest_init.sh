@@ -1,7 +1,7 @@
 #!/bin/busybox sh
 # SPDX-License-Identifier: Apache-2.0
 # /init of the guest: vcan0, then the test.
-export PATH=/bin:/applets HOME=/tmp
+export PATH=/bin:/usr/bin:/applets HOME=/tmp
 /bin/busybox mkdir -p /applets
 /bin/busybox --install -s /applets
 

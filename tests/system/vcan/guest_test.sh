@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=dash
-# Runs in the guest: can-utils against the demo node. Bytes as CiA 301 prints them, in candump's notation.
+# Runs in the guest: can-utils, python-can and the demo master against the demo node. Bytes as CiA 301 prints them, in
+# candump's notation.
 
 node=lexican-demo-node
+master=lexican-demo-master
 heartbeat=705 request=605 response=585  # of node-ID 5
 cases=0
 
@@ -15,13 +17,16 @@ verdict() {  # STATUS NAME DETAIL
   fi
 }
 
+listeners() { grep -ci " $1 " /proc/net/can/rcvlist_sff; }  # CAN-ID
+
 # Data frames of one CAN-ID are recorded from listen until expect. Nothing is lost between the two, however slow the
-# machine is: listen returns when the kernel knows the listener.
+# machine is: listen returns when the kernel knows the listener, which has room for the frames of a long transfer.
 listen() {  # CAN-ID NUMBER [MILLISECONDS]
-  candump -L "vcan0,$1:C00007FF" -n "$2" -T "${3:-5000}" >/tmp/heard &
+  others=$(listeners "$1")
+  candump -L "vcan0,$1:C00007FF" -r 8000000 -n "$2" -T "${3:-5000}" >/tmp/heard &
   listener=$!
   tries=500
-  until grep -qi " $1 " /proc/net/can/rcvlist_sff || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+  until [ "$(listeners "$1")" -gt "$others" ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
 }
 
 # Compares what was heard since listen: the frames without time and interface, in one line.
@@ -76,13 +81,52 @@ period() {  # NAME MINIMUM MAXIMUM (ms), of the heartbeat
   verdict $? "$1" "$between ms between two"
 }
 
+# The master succeeds, and prints this and nothing else.
+says() {  # NAME OUTPUT ARGUMENT...
+  name=$1 expected=$2
+  shift 2
+  got=$($master --node 5 "$@" 2>/tmp/said)
+  status=$?
+  [ $status -eq 0 ] && [ "$got" = "$expected" ]
+  verdict $? "$name" "expected '$expected', got '$got', status $status $(cat /tmp/said)"
+}
+
+# The master prints nothing, says why in words, and ends with this status.
+refuses() {  # NAME STATUS WORDS ARGUMENT...
+  name=$1 expected="$2 $3"
+  shift 3
+  got=$($master "$@" 2>/tmp/said)
+  got="$? $got$(cat /tmp/said)"
+  [ "$got" = "$expected" ]
+  verdict $? "$name" "expected '$expected', got '$got'"
+}
+
+# Ctrl-C when a quarter of the picture has been transferred. The last frame of the master is the abort.
+interrupted() {  # NAME ARGUMENT...
+  name=$1
+  shift
+  listen $request 1000000 1000
+  : >/tmp/said
+  $master --node 5 --index 0x2200 --progress "$@" 2>/tmp/said &
+  process=$!
+  tries=500
+  until grep -q " 25 %" /tmp/said || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+  kill -INT $process
+  wait $process
+  status=$?
+  wait "$listener"
+  got="$status $(tail -n 1 /tmp/said) $(tail -n 1 /tmp/heard | cut -d ' ' -f 3)"
+  [ "$got" = "130 node 5, 2200h:00: cancelled $request#8000220021000008" ]
+  verdict $? "$name" "got '$got'"
+}
+
 listen 123 1
 cansend vcan0 123#DEADBEEF
 expect "vcan0 carries a frame" 123#DEADBEEF
 
 listen $heartbeat 2
 $node --can vcan0 --node-id 5 --serve >/tmp/trace 2>&1 &
-process=$!
+server=$!
 expect "boot-up, then heartbeats: pre-operational" "$heartbeat#00 $heartbeat#7F"
 period "a heartbeat each second" 800 1200
 
@@ -140,8 +184,61 @@ cangen vcan0 -g 0 -p 10 -n 20000
 reboot "a flood of 20000 random frames is survived" 8105
 sdo "and the node answers" 4018100200000000 431810020CC10000
 
-kill -TERM $process
-wait $process
+python3 /raw_block.py vcan0 5 >/tmp/raw_block 2>&1
+status=$?
+cat /tmp/raw_block
+cases=$((cases + $(grep -cE "^(not )?ok " /tmp/raw_block)))
+verdict $status "raw block transfers: all of them" "$(tail -n 1 /tmp/raw_block)"
+
+says "master: a number without a type" 0x0000C10C --index 0x1018 --sub 2 read
+says "master: a number of its type" 49420 --index 0x1018 --sub 2 --type u32 read
+says "master: a string" "Lexican demo clock" --index 0x1008 --type string read
+says "master: a number written" "" --index 0x2100 --sub 1 --type u8 write 17
+says "master: and read back" 17 --index 0x2100 --sub 1 --type u8 read
+says "master: a string written" "" --index 0x2201 --type string write "Grand Central Terminal"
+says "master: and read back" "Grand Central Terminal" --index 0x2201 --type string read
+says "master: a string of 30 bytes, in a block" "" --index 0x2201 --type string write "A station with a very long name"
+says "master: and read back" "A station with a very long name" --index 0x2201 --type string read
+echo "From a file" >/tmp/station
+says "master: a short object written from standard input" "" --index 0x2201 --file - write </tmp/station
+says "master: and read to standard output" "From a file" --index 0x2201 --file - read
+
+refuses "master: an abort of the node in words" 1 \
+  "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist" --node 5 --index 0x2FFF read
+refuses "master: an abort of the application in words" 1 \
+  "node 5, 2100h:01: aborted with 0609 0030h invalid value" --node 5 --index 0x2100 --sub 1 --type u8 write 24
+refuses "master: an object longer than told" 1 \
+  "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 1000 bytes" \
+  --node 5 --index 0x2200 --max 1000 read
+listen 609 2
+refuses "master: no such node" 1 "node 9, 1000h:00: no answer" --node 9 --timeout 200 --index 0x1000 --type u32 read
+expect "master: the time-out is told" "609#4000100000000000 609#8000100000000405"
+refuses "master: a missing interface" 2 \
+  "CAN interface 'vcan9': no such interface (a virtual one: ip link add dev NAME type vcan)" \
+  --can vcan9 --node 5 --index 0x1000 read
+
+says "master: the picture as it is" "" --index 0x2200 --file /tmp/picture_before read
+dd if=/dev/urandom of=/tmp/picture bs="$(wc -c </tmp/picture_before)" count=1 2>/dev/null
+listen $response 1
+says "master: the picture written from a file" "" --index 0x2200 --progress --file /tmp/picture write
+expect "master: by block download" "$response#A4002200*"
+got=$(grep -oE "[0-9]+ %" /tmp/said | tr '\n' ' ')
+[ "$got" = "25 % 50 % 75 % 100 % " ]
+verdict $? "master: progress in quarters" "got '$got'"
+listen $response 1
+says "master: the picture read into a file" "" --index 0x2200 --file /tmp/picture_back read
+expect "master: by block upload" "$response#C6002200*"
+cmp /tmp/picture /tmp/picture_back
+verdict $? "master: every byte is back" "$(ls -l /tmp/picture /tmp/picture_back)"
+
+interrupted "master: SIGINT ends a download with 08000021h and status 130" --file /tmp/picture write
+interrupted "master: SIGINT ends an upload with 08000021h and status 130" --file /tmp/picture_half read
+[ ! -e /tmp/picture_half ]
+verdict $? "master: no file is left of it" "$(ls -l /tmp/picture_half)"
+says "master: the node goes on" "From a file" --index 0x2201 --type string read
+
+kill -TERM $server
+wait $server
 verdict $? "SIGTERM ends the node with status 0" "status $?"
 
 # Without arguments the demo takes vcan0 by itself.
