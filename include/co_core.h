@@ -141,6 +141,7 @@ typedef struct CO_NODE_T {
   uint8_t Busy;     ///< a frame is being processed
   uint8_t Pending;  ///< what is to be done when it has been answered
   uint8_t Paused;   ///< a block transfer waits for the controller
+  uint16_t Turn;    ///< whose turn it is then
   const CO_NODE_EXT* Ext;
   CO_ROUTES Routes;
   CO_TX_QUEUE TxQueue;

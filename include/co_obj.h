@@ -164,7 +164,7 @@ typedef CO_ERR (*CO_OBJ_END_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, 
 
 typedef struct CO_OBJ_TYPE_EX_T {
   CO_OBJ_TYPE Type;         ///< Type.Reset: COObjTypeExReset
-  CO_OBJ_RESET_FUNC Reset;  ///< sets the position, may be null
+  CO_OBJ_RESET_FUNC Reset;  ///< sets the position; null: long objects are not given to block uploads
   CO_OBJ_BEGIN_FUNC Begin;  ///< may be null
   CO_OBJ_END_FUNC End;      ///< may be null
 } CO_OBJ_TYPE_EX;

@@ -19,6 +19,11 @@ namespace co::obj {
   const bool is_extended = obj.Type->Reset == COObjTypeExReset;
   return is_extended ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type) : nullptr;
 }
+// Can the position be set?
+[[nodiscard]] inline bool can_seek(const CO_OBJ& obj) {
+  const CO_OBJ_TYPE_EX* const type = extended(obj);
+  return type == nullptr ? is_stream(obj) : type->Reset != nullptr;
+}
 [[nodiscard]] CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size);
 [[nodiscard]] CO_ERR end(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t abort);
 

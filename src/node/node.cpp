@@ -134,7 +134,9 @@ void event::settle(CO_NODE& node) {
     if ((pending & (reset_node | reset_communication)) != 0) {
       node::settle_reset(node, pending);
     } else {
+      node.Busy = 1;
       services::configure(node);
+      node.Busy = 0;
       routes::publish(node);
     }
   }
@@ -215,7 +217,7 @@ CO_ERR CONodeGetErr(CO_NODE* node) {
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INVALID || node->Busy != 0) {
+  if (node->Nmt.Mode == CO_INVALID || node->Busy != 0 || node->Nmt.Changing != 0) {
     return;
   }
   transmit::flush(*node);

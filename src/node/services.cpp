@@ -16,12 +16,12 @@ namespace co {
 namespace {
 
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr, nullptr, nullptr},
-    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free,
+    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr, nullptr, 0, nullptr},
+    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free, CO_SSDO_N,
      sdo_server::configure},
-    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode, nullptr, 0, nullptr},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free,
+    {CO_SDO_ALLOWED, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free, CO_CSDO_N,
      sdo_client::configure},
 #endif
 };
@@ -39,6 +39,25 @@ void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
   }
 }
 
+constexpr uint16_t count_streams() {
+  uint16_t all = 0;
+  for (const Service& service : table) {
+    all = static_cast<uint16_t>(all + service.streams);
+  }
+  return all;
+}
+constexpr uint16_t streams = count_streams();
+
+bool go_on(CO_NODE& node, uint16_t stream) {
+  for (const Service& service : table) {
+    if (stream < service.streams) {
+      return service.on_free(node, stream);
+    }
+    stream = static_cast<uint16_t>(stream - service.streams);
+  }
+  return false;
+}
+
 // No service of the node is asked by a remote frame. False: malformed.
 bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
   const bool is_data = (frame.Identifier & CO_IF_FRM_RTR) == 0;
@@ -53,9 +72,18 @@ void init(CO_NODE& node) { run(node, &Service::init); }
 
 void configure(CO_NODE& node) { run(node, &Service::configure); }
 
+// In turns, a frame each. Whom the controller refuses is the first the next time.
 void on_free(CO_NODE& node) {
+  uint16_t idle = 0;
   node.Paused = 0;
-  run(node, &Service::on_free);
+  while (idle < streams) {
+    const bool sent = go_on(node, node.Turn);
+    if (node.Paused != 0) {
+      return;
+    }
+    idle = sent ? 0 : static_cast<uint16_t>(idle + 1);
+    node.Turn = static_cast<uint16_t>(node.Turn + 1 < streams ? node.Turn + 1 : 0);
+  }
 }
 
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -63,7 +91,7 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   bool served = false;
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
   const routes::Range range = routes::candidates(node, id);
-  for (uint16_t n = range.first; n < range.last; ++n) {
+  for (uint16_t n = range.first; n < range.last && n < node.Routes.Start[17]; ++n) {
     const uint16_t owner = node.Routes.Owner[n];
     if (node.Routes.Id[n] != id || !event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
       continue;
@@ -90,6 +118,7 @@ void enter(CO_NODE& node, CO_MODE mode) {
   run(node, &Service::on_mode);
   if (mode == CO_INVALID) {
     transmit::clear(node);
+    node.Paused = 0;
     port::can_close(node);
   }
 }

@@ -36,6 +36,13 @@ void await(CO_CSDO& client) {
 
 // Must be last: the callback may start the next transfer.
 void finish(CO_CSDO& client, uint32_t code) {
+  if (state_of(client) == State::own_served) {
+    set_state(client, State::own_ended);
+    client.Ticks = code;
+  }
+  if (state_of(client) == State::own_ended) {
+    return;
+  }
   const uint32_t key = client.Key;
   tmr::stop(client.Node->Tmr, client.Tmr);
   set_state(client, State::idle);
@@ -44,7 +51,7 @@ void finish(CO_CSDO& client, uint32_t code) {
 }
 
 void abort_transfer(CO_CSDO& client, uint32_t code) {
-  if (state_of(client) != State::own && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
+  if (client.TxId != wire::no_frame && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
     transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
   }
   finish(client, code);
@@ -67,12 +74,14 @@ void listen_on(CO_CSDO& client) {
 // What type functions ask for waits until the access is over; a change of the NMT state has ended it already.
 void take_turn(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
+  const uint8_t busy = node.Busy;
   node.Busy = 1;
+  set_state(client, State::own_served);
   const uint32_t code = access_own(client);
-  if (state_of(client) == State::own) {
-    finish(client, code);
-  }
-  node.Busy = 0;
+  const bool is_over = state_of(client) == State::own_ended;
+  set_state(client, State::own);
+  finish(client, is_over ? client.Ticks : code);
+  node.Busy = busy;
   event::settle(node);
 }
 
@@ -218,14 +227,16 @@ void take_configuration(CO_CSDO& client, const Configuration& found) {
 
 // True: something has changed. The callback of a transfer that ends may have configured the client already.
 bool configure_client(CO_CSDO& client) {
-  const Configuration found = read_configuration(*client.Node, number_of(client));
-  if (!is_configured(client, found) && client.State == CO_CSDO_STATE_BUSY) {
-    abort_transfer(client, CO_SDO_ERR_TOS_STATE);
-  }
-  if (is_configured(client, found)) {
+  if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
     return false;
   }
-  take_configuration(client, found);
+  if (client.State == CO_CSDO_STATE_BUSY) {
+    abort_transfer(client, CO_SDO_ERR_TOS_STATE);
+  }
+  if (client.State == CO_CSDO_STATE_BUSY) {
+    return false;
+  }
+  take_configuration(client, read_configuration(*client.Node, number_of(client)));
   return true;
 }
 
@@ -296,18 +307,6 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
   client->Call = callback;
   client->Flags = flags;
   return start(*client, timeout);
-}
-
-// A segment of each client. False: none was sent.
-bool send_round(CO_NODE& node) {
-  bool any_sent = false;
-  for (CO_CSDO& client : node.CSdo) {
-    if (send_segment(client)) {
-      any_sent = true;
-      await(client);
-    }
-  }
-  return any_sent;
 }
 
 void send_segments(CO_CSDO& client) {
@@ -406,10 +405,13 @@ void on_mode(CO_NODE& node) {
   }
 }
 
-// In turns, a segment each.
-void on_free(CO_NODE& node) {
-  while (USE_SDO_BLOCK != 0 && send_round(node)) {
+bool on_free(CO_NODE& node, uint16_t number) {
+  CO_CSDO& client = node.CSdo[number];
+  const bool sent = USE_SDO_BLOCK != 0 && send_segment(client);
+  if (sent) {
+    await(client);
   }
+  return sent;
 }
 
 }  // namespace co::sdo_client

@@ -12,7 +12,9 @@ namespace co::sdo_client {
 // What the client waits for.
 enum class State : uint8_t {
   idle,
-  own,  // its turn: the object is one of the own dictionary
+  own,         // its turn: the object is one of the own dictionary
+  own_served,  // a type function may be running: the callback comes afterwards
+  own_ended,   // the same, and the access is over: Ticks holds the code
   download_initiated,
   download,
   upload_initiated,

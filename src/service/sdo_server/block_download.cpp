@@ -73,6 +73,14 @@ bool is_repeated(const CO_SDO& channel, uint8_t number) {
   return number > 1 && channel.AckSize != 0 && !has(channel, heard);
 }
 
+// The last segment of some objects looks like their end.
+bool is_right_end(const CO_SDO& channel, const CO_IF_FRM& frame) {
+  const uint32_t n = channel.Fill - wire::unused_in_block(frame.Data[0]);
+  return wire::request_of(frame.Data[0]) == wire::Request::end_block_download &&
+         (!has(channel, sized) || channel.Num + n == channel.Size) &&
+         (!has(channel, crc) || wire::crc16(channel.Crc, buffer_of(channel), n) == wire::get_u16(frame.Data + 1));
+}
+
 }  // namespace
 
 uint32_t initiate_block_download(Step& step) {
@@ -135,7 +143,7 @@ uint32_t download_block_segment(Step& step) {
 bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
   const uint8_t* const stored = buffer_of(channel) + channel.Fill - wire::segment_bytes;
   return frame.Data[0] == wire::block_segment(channel.AckSeq, true) &&
-         __builtin_memcmp(frame.Data + 1, stored, wire::segment_bytes) == 0;
+         __builtin_memcmp(frame.Data + 1, stored, wire::segment_bytes) == 0 && !is_right_end(channel, frame);
 }
 
 uint32_t end_block_download(Step& step) {

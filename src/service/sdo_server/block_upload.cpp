@@ -16,9 +16,9 @@ bool is_in_buffer(const CO_SDO& channel, uint32_t position) {
   return position < channel.Read && channel.Read - position <= channel.Fill;
 }
 
-// A type without Reset() cannot go back: its object has to fit into the buffer.
+// What cannot be read again has to fit into the buffer.
 bool can_go_back(const CO_SDO& channel) {
-  return obj::is_stream(*channel.Obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
+  return obj::can_seek(*channel.Obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
 }
 
 // The CRC covers each byte once, also if the client has lost it.

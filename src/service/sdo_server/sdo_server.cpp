@@ -130,16 +130,8 @@ bool go_on(CO_SDO& channel) {
     const Serving serving(channel);
     sent = send_segment(channel, abort);
   }
+  watch(*channel.Node);
   return !is_concluded(channel, channel.Key, abort) && sent;
-}
-
-// A segment of each channel. False: none was sent.
-bool send_round(CO_NODE& node) {
-  bool any_sent = false;
-  for (CO_SDO& channel : node.Sdo) {
-    any_sent |= state_of(channel) == State::block_upload && go_on(channel);
-  }
-  return any_sent;
 }
 
 uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise) {
@@ -198,10 +190,9 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   return well_formed;
 }
 
-// In turns, a segment each.
-void on_free(CO_NODE& node) {
-  while (USE_SDO_BLOCK != 0 && send_round(node)) {
-  }
+bool on_free(CO_NODE& node, uint16_t number) {
+  CO_SDO& channel = node.Sdo[number];
+  return USE_SDO_BLOCK != 0 && state_of(channel) == State::block_upload && go_on(channel);
 }
 
 void on_mode(CO_NODE& node) {

@@ -18,8 +18,8 @@ void init(CO_NODE& node);
 // Transfers end, without an abort, when SDO is no longer allowed. [301:7.3.2.2.4]
 void on_mode(CO_NODE& node);
 
-// The controller may take frames again: block uploads go on.
-void on_free(CO_NODE& node);
+// The controller may take frames again: a block upload goes on by a segment. True: it was sent.
+[[nodiscard]] bool on_free(CO_NODE& node, uint16_t number);
 
 // Takes the COB-IDs from the dictionary again; a channel whose identifiers have changed drops its transfer.
 void configure(CO_NODE& node);
