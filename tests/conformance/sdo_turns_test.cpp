@@ -41,9 +41,10 @@ TEST_CASE("SDO block upload: channels take turns, however few frames the control
     CAPTURE(n);
     CHECK(ids[n] != ids[n - 1]);
   }
-  node.can.accept_all();
+  node.can.refuse_all();
   node.rx("601#8000000000000008");
   node.rx("640#8000000000000008");
+  node.can.accept_all();
 }
 #endif
 
