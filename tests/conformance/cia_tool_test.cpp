@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The SDO cases of CiA's conformance test tool, in its order and with its preparation, for a device without block
-// transfer. The other cases of the tool for these services carry their numbers in the names of the tests beside this.
+// The SDO cases of CiA's conformance test tool, in its order and with its preparation. The other cases of the tool for
+// these services carry their numbers in the names of the tests beside this.
 #include "support/fixture.hpp"
 
 namespace {
@@ -56,8 +56,60 @@ TEST_CASE("CiA tool: SDO, segmented transfers [SDO 14]-[SDO 18]") {
   node.ask("601#7000000000000000", "581#8008100000000305");
 }
 
-TEST_CASE("CiA tool: SDO, block transfers are refused as long as there are none [SDO 19]-[SDO 27]") {
+#if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
+
+TEST_CASE("CiA tool: SDO, block upload of four bytes without CRC [SDO 19]") {
   Fixture node;
+  prepare(node);
+  node.ask("601#A000100014000000", "581#C600100004000000");
+  node.ask("601#A300000000000000", "581#8191010F00000000");
+  node.ask("601#A201140000000000", "581#CD00000000000000");
+  node.rx("601#A100000000000000");
+  node.silent();
+}
+
+TEST_CASE(
+    "CiA tool: SDO, block download without and with CRC, which is 0 for the value 0 [SDO 20] [SDO 21] [SDO 24] [SDO "
+    "25]") {
+  for (const char* const initiate : {"601#C217100002000000", "601#C617100002000000"}) {
+    Fixture node;
+    prepare(node);
+    node.ask(initiate, "581#A41710007F000000");
+    node.ask("601#8100000000000000", "581#A2017E0000000000");
+    node.ask("601#D500000000000000", "581#A100000000000000");
+    node.ask("601#4017100000000000", "581#4B17100000000000");
+  }
+}
+
+// The string is "Lexican test node".
+TEST_CASE("CiA tool: SDO, block upload of a string without and with CRC [SDO 22] [SDO 23]") {
+  const std::string ends[] = {"581#D100000000000000", "581#D1C9780000000000"};
+  for (const bool crc : {false, true}) {
+    Fixture node;
+    prepare(node);
+    node.ask(crc ? "601#A408100014000000" : "601#A008100014000000", "581#C608100011000000");
+    node.rx("601#A300000000000000");
+    node.tx({"581#014C65786963616E", "581#022074657374206E", "581#836F646500000000"});
+    node.ask("601#A203140000000000", ends[crc ? 1 : 0]);
+    node.rx("601#A100000000000000");
+    node.silent();
+  }
+}
+
+TEST_CASE("CiA tool: SDO, a block of 128 segments, and 128 segments acknowledged [SDO 26] [SDO 27]") {
+  Fixture node;
+  prepare(node);
+  node.ask("601#A008100080000000", "581#8008100002000405");
+  node.ask("601#A008100014000000", "581#C608100011000000");
+  node.rx("601#A300000000000000");
+  node.tx({"581#014C65786963616E", "581#022074657374206E", "581#836F646500000000"});
+  node.ask("601#A280140000000000", "581#8008100003000405");
+}
+
+#endif
+
+TEST_CASE("CiA tool: SDO, a device without block transfer says so [SDO 19]-[SDO 27]") {
+  Fixture node(Setup().without_sdo_buffer());
   prepare(node);
   node.ask("601#A000100014000000", "581#8000100001000405");
   node.ask("601#C217100002000000", "581#8017100001000405");

@@ -107,9 +107,15 @@ TEST_CASE("SDO block upload: it is watched, whatever its type does to the NMT st
   CHECK(stream.log.back().substr(0, 3) == "end");
 }
 
+}  // namespace
+
 #endif
 
 #if USE_CSDO
+
+namespace {
+
+using namespace test;
 
 TEST_CASE("SDO client, own node: a type function that cancels the access is not left by its buffer") {
   LoggedStream stream;
@@ -128,6 +134,6 @@ TEST_CASE("SDO client, own node: a type function that cancels the access is not 
   CHECK(stream.data == counted(40));
 }
 
-#endif
-
 }  // namespace
+
+#endif

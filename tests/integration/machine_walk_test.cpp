@@ -6,22 +6,29 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <iterator>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "support/network.hpp"
 #include "support/notation.hpp"
+#include "support/sdo_server_model.hpp"
 
 namespace {
 
 using namespace std::chrono_literals;
+using test::Bytes;
 using test::Device;
 using test::Line;
+using test::SdoBytes;
+using test::SdoObject;
+using test::SdoServerModel;
 using test::Texts;
 using test::World;
-using Bytes = std::vector<std::uint8_t>;
 
 struct Bench {
   explicit Bench(std::uint16_t heartbeat_ms = 0) : device(world.add_device(line, {5, heartbeat_ms, 14})) {
@@ -92,147 +99,123 @@ void walk_nmt(Bench& bench, State before, const CO_IF_FRM& command) {
 
 // SDO server with one object, 2010h:00, a domain of 14 bytes. [301:7.2.4.3]
 
-class Server {
- public:
-  // Bytes 1…7 of all requests: the multiplexer and a size of 14, or seven bytes of data.
-  static constexpr std::uint8_t payload[7] = {0x10, 0x20, 0x00, 0x0E, 0x00, 0x00, 0x00};
-
-  // The answer to a request; empty: none.
-  std::string answer(std::uint8_t command) {
-    if (command < 0x20) {
-      return take_segment(command);
-    }
-    if (command < 0x30) {
-      return begin_download(command);
-    }
-    if (command == 0x40) {
-      open_ = Open::upload;
-      toggle_ = 0;
-      done_ = 0;
-      return "585#411020000E000000";
-    }
-    if (command == 0x60 || command == 0x70) {
-      return give_segment(command);
-    }
-    if (command >= 0x80 && command < 0xA0) {
-      open_ = Open::none;
-      return "";
-    }
-    return abort("01000405");
+// Bytes 1…7 of a request: the multiplexer and a size of 14, or seven bytes of data. Blocks of an upload have one
+// segment, each is acknowledged; the CRC at the end of a download is that of two segments.
+SdoBytes request(std::uint8_t command) {
+  SdoBytes bytes = {command, 0x10, 0x20, 0x00, 0x0E, 0x00, 0x00, 0x00};
+  if (command == 0xA0 || command == 0xA4) {
+    bytes[4] = 1;
+  } else if (command == 0xA2) {
+    bytes[1] = bytes[2] = 1;
+  } else if ((command & 0xE3U) == 0xC1) {
+    static const std::uint16_t crc =
+        test::crc_16({0x10, 0x20, 0x00, 0x0E, 0x00, 0x00, 0x00, 0x10, 0x20, 0x00, 0x0E, 0x00, 0x00, 0x00});
+    bytes[1] = static_cast<std::uint8_t>(crc);
+    bytes[2] = static_cast<std::uint8_t>(crc >> 8);
   }
+  return bytes;
+}
 
-  const Bytes& bytes() const { return bytes_; }
-  bool is_open() const { return open_ != Open::none; }
-
- private:
-  enum class Open { none, download, upload };
-
-  // All requests name the object of the transfer, so all aborts do.
-  std::string abort(const char* code) {
-    open_ = Open::none;
-    return std::string("585#80102000") + code;
-  }
-
-  std::string begin_download(std::uint8_t command) {
-    open_ = Open::none;
-    const bool has_size = (command & 1) != 0;
-    if ((command & 2) == 0) {
-      open_ = Open::download;
-      sized_ = has_size;
-      toggle_ = 0;
-      done_ = 0;
-    } else if (!has_size) {
-      return abort("10000706");
-    } else {
-      std::copy_n(payload + 3, 4 - ((command >> 2) & 3), bytes_.begin());
-    }
-    return "585#6010200000000000";
-  }
-
-  std::string take_segment(std::uint8_t command) {
-    if (open_ != Open::download) {
-      return abort("01000405");
-    }
-    if ((command & 0x10) != toggle_) {
-      return abort("00000305");
-    }
-    const std::size_t n = 7u - ((command >> 1) & 7u);
-    if (done_ + n > bytes_.size()) {
-      return abort("12000706");
-    }
-    std::copy_n(payload, n, bytes_.begin() + static_cast<std::ptrdiff_t>(done_));
-    done_ += n;
-    if ((command & 1) != 0) {
-      if (sized_ && done_ < bytes_.size()) {
-        return abort("13000706");
-      }
-      open_ = Open::none;
-    }
-    const bool was_set = toggle_ != 0;
-    toggle_ ^= 0x10;
-    return was_set ? "585#3000000000000000" : "585#2000000000000000";
-  }
-
-  std::string give_segment(std::uint8_t command) {
-    if (open_ != Open::upload) {
-      return abort("01000405");
-    }
-    if ((command & 0x10) != toggle_) {
-      return abort("00000305");
-    }
-    const bool last = done_ == 7;
-    CO_IF_FRM frame{0x585, {static_cast<std::uint8_t>(toggle_ | (last ? 1 : 0))}, 8};
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(done_), 7, frame.Data + 1);
-    done_ += 7;
-    toggle_ ^= 0x10;
-    open_ = last ? Open::none : open_;
-    return test::notation(frame);
-  }
-
-  Open open_ = Open::none;
-  bool sized_ = false;
-  std::uint8_t toggle_ = 0;
-  std::size_t done_ = 0;
-  Bytes bytes_ = Bytes(14);
-};
-
-CO_IF_FRM request(std::uint8_t command) {
-  CO_IF_FRM frame{0x605, {command}, 8};
-  std::copy(std::begin(Server::payload), std::end(Server::payload), frame.Data + 1);
+CO_IF_FRM frame_of(std::uint32_t identifier, const SdoBytes& bytes) {
+  CO_IF_FRM frame{identifier, {}, 8};
+  std::copy(bytes.begin(), bytes.end(), frame.Data);
   return frame;
 }
 
-void step(Bench& bench, Server& server, std::uint8_t command) {
-  const std::string expected = server.answer(command);
-  REQUIRE(bench.ask(request(command)) == (expected.empty() ? Texts{} : Texts{expected}));
-  REQUIRE(bench.device.domain_bytes == server.bytes());
-}
+// The server of the device beside the model.
+struct Pair {
+  Texts answers_of_model(const SdoBytes& bytes) {
+    Texts texts;
+    for (const SdoBytes& answer : model.answers(bytes)) {
+      texts.push_back(test::notation(frame_of(0x585, answer)));
+    }
+    return texts;
+  }
+  void step(std::uint8_t command) {
+    const SdoBytes bytes = request(command);
+    CAPTURE(int{command});
+    REQUIRE(bench.ask(frame_of(0x605, bytes)) == answers_of_model(bytes));
+    REQUIRE(bench.device.domain_bytes == model.objects()[0].value);
+  }
+  void walk(const Bytes& way) {
+    for (const std::uint8_t command : way) {
+      step(command);
+    }
+  }
+  // Nothing arrives for some eighths of the time-out.
+  void be_silent(std::size_t slices) {
+    for (; slices > 0; --slices) {
+      const std::optional<SdoBytes> said = model.slice();
+      bench.world.pass(std::chrono::milliseconds{CO_SDO_TIMEOUT / 8});
+      REQUIRE(bench.line.take_texts() == (said ? Texts{test::notation(frame_of(0x585, *said))} : Texts{}));
+    }
+  }
+  // A segment that nobody has asked for tells whether a transfer is open: without one, the abort names its own bytes.
+  void check_idle() {
+    REQUIRE(bench.ask("605#60AABBCC00000000") == Texts{"585#80AABBCC01000405"});
+    REQUIRE(bench.ask("605#00AABBCC00000000") == Texts{"585#80AABBCC01000405"});
+  }
 
-// A segment that nobody has asked for tells whether a transfer is open: without one, the abort names its own bytes.
-void check_idle(Bench& bench) {
-  REQUIRE(bench.ask("605#60AABBCC00000000") == Texts{"585#80AABBCC01000405"});
-  REQUIRE(bench.ask("605#00AABBCC00000000") == Texts{"585#80AABBCC01000405"});
-}
+  Bench bench;
+  SdoServerModel model{{{0x2010, 0, true, true, SdoObject::Kind::domain, 14, Bytes(14)}},
+                       USE_SDO_BLOCK != 0 ? CO_SDO_BUF_SEG : 0};
+};
 
 // Ways into each state of the server.
 const std::vector<Bytes> ways = {
-    {},                  // idle
-    {0x21},              // download, size indicated: toggle 0
-    {0x21, 0x00},        //   toggle 1
-    {0x21, 0x00, 0x11},  //   ended
-    {0x20},              // download, no size: toggle 0
-    {0x20, 0x00},        //   toggle 1
-    {0x20, 0x00, 0x10},  //   full, toggle 0
-    {0x40},              // upload: toggle 0
-    {0x40, 0x60},        //   toggle 1
-    {0x40, 0x60, 0x70},  //   ended
-    {0x40, 0x70},        // aborted
+    {},                        // idle
+    {0x21},                    // download, size indicated: toggle 0
+    {0x21, 0x00},              //   toggle 1
+    {0x21, 0x00, 0x11},        //   ended
+    {0x20},                    // download, no size: toggle 0
+    {0x20, 0x00},              //   toggle 1
+    {0x20, 0x00, 0x10},        //   full, toggle 0
+    {0x40},                    // upload: toggle 0
+    {0x40, 0x60},              //   toggle 1
+    {0x40, 0x60, 0x70},        //   ended
+    {0x40, 0x70},              // aborted
+    {0xC6},                    // block download, size and CRC: segment 1
+    {0xC6, 0x01},              //   segment 2
+    {0xC6, 0x02},              //   segment 1, a gap
+    {0xC6, 0x01, 0x83},        //   segment 1 of a block after the first
+    {0xC6, 0x01, 0x02, 0x03},  //   too many bytes
+    {0xC6, 0x01, 0x82},        //   wait end
+    {0xC6, 0x01, 0x82, 0x82},  //   the same
+    {0xC6, 0x01, 0x82, 0xC1},  //   ended
+    {0xC0},                    // block download, neither: segment 1
+    {0xC0, 0x81},              //   wait end
+    {0xC0, 0x01, 0x02},        //   full, segment 3
+    {0xC0, 0x01, 0x02, 0x83},  //   wait end
+    {0xA4},                    // block upload: wait start
+    {0xA4, 0xA3},              //   wait acknowledge
+    {0xA4, 0xA3, 0xA2},        //   of the last block
+    {0xA4, 0xA3, 0xA2, 0xA2},  //   wait end
+    {0xA0, 0xA3, 0xA2, 0xA2},  //   without CRC
 };
 
-void walk(Bench& bench, Server& server, const Bytes& way) {
-  for (const std::uint8_t command : way) {
-    step(bench, server, command);
+// Requests that go on with what one of the ways has begun.
+constexpr std::uint8_t usual[] = {0x00, 0x10, 0x01, 0x11, 0x0D, 0x1D, 0x20, 0x21, 0x23, 0x40, 0x60, 0x70, 0x80,
+                                  0x02, 0x03, 0x81, 0x82, 0xC0, 0xC6, 0xC1, 0xDD, 0xA0, 0xA4, 0xA3, 0xA2, 0xA1};
+
+class Chance {
+ public:
+  explicit Chance(unsigned seed) : random_(seed) {}
+  std::size_t below(std::size_t limit) { return random_() % limit; }
+  std::uint8_t command() {
+    return below(8) == 0 ? static_cast<std::uint8_t>(random_()) : usual[below(std::size(usual))];
   }
+
+ private:
+  std::mt19937 random_;
+};
+
+// The large walk (tests/run --lane sdo_walk) goes through all bytes where otherwise the usual ones have to do.
+bool is_large() { return std::getenv("LEXICAN_SDO_WALK") != nullptr; }
+
+Bytes walked_bytes() {
+  Bytes bytes(256);
+  std::iota(bytes.begin(), bytes.end(), std::uint8_t{0});
+  return is_large() ? bytes : Bytes(std::begin(usual), std::end(usual));
 }
 
 }  // namespace
@@ -282,7 +265,7 @@ TEST_CASE("machine walk: a node in Initialisation hears no NMT command and no SD
   Device& device = world.add_device(line, {5, 1, 14, true, false, false});
   for (unsigned byte = 0; byte < 256; ++byte) {
     line.say(CO_IF_FRM{0, {static_cast<std::uint8_t>(byte), 5}, 2});
-    line.say(request(static_cast<std::uint8_t>(byte)));
+    line.say(frame_of(0x605, request(static_cast<std::uint8_t>(byte))));
     world.pass(1ms);
   }
   CHECK(line.take_texts().empty());
@@ -297,60 +280,82 @@ TEST_CASE("machine walk: SDO, each first byte in each state has its one reaction
     for (unsigned byte = 0; byte < 256; ++byte) {
       CAPTURE(way);
       CAPTURE(byte);
-      Bench bench;
-      Server server;
-      walk(bench, server, ways[way]);
-      step(bench, server, static_cast<std::uint8_t>(byte));
-      if (!server.is_open()) {
-        check_idle(bench);
+      Pair pair;
+      pair.walk(ways[way]);
+      pair.step(static_cast<std::uint8_t>(byte));
+      if (pair.model.is_in_block()) {
+        pair.step(0x80);
       }
-      REQUIRE(bench.ask("605#2B00200034120000") == Texts{"585#6000200000000000"});  // a known request ends anything
-      REQUIRE(bench.device.value == 0x1234);
-      check_idle(bench);
+      if (!pair.model.is_open()) {
+        pair.check_idle();
+      }
+      REQUIRE(pair.bench.ask("605#2B00200034120000") ==
+              Texts{"585#6000200000000000"});  // a known request ends anything
+      REQUIRE(pair.bench.device.value == 0x1234);
+      pair.check_idle();
     }
   }
 }
 
-TEST_CASE("machine walk: SDO, all pairs of first bytes one after the other [T7]") {
-  Bench bench;
-  Server server;
+TEST_CASE("machine walk: SDO, all pairs of first bytes from idle [T7]") {
+  Pair pair;
   for (unsigned first = 0; first < 256; ++first) {
     for (unsigned second = 0; second < 256; ++second) {
       CAPTURE(first);
       CAPTURE(second);
-      step(bench, server, static_cast<std::uint8_t>(first));
-      step(bench, server, static_cast<std::uint8_t>(second));
+      pair.walk({static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(second), 0x80});
     }
   }
 }
 
-TEST_CASE("machine walk: SDO, a long random walk that prefers what leads on [T7]") {
-  constexpr std::uint8_t usual[] = {0x00, 0x10, 0x01, 0x11, 0x0D, 0x1D, 0x20, 0x21, 0x23, 0x40, 0x60, 0x70, 0x80};
-  Bench bench;
-  Server server;
-  std::mt19937 random(301);
-  for (unsigned n = 0; n < 50000; ++n) {
+TEST_CASE("machine walk: SDO, pairs of first bytes from every state, all of them in the large walk [T7]") {
+  const Bytes bytes = walked_bytes();
+  Pair pair;
+  for (const Bytes& way : ways) {
+    for (const std::uint8_t first : bytes) {
+      for (const std::uint8_t second : bytes) {
+        pair.walk(way);
+        pair.walk({first, second, 0x80});
+      }
+    }
+  }
+}
+
+TEST_CASE("machine walk: SDO, triples of first bytes from idle, all of them in the large walk [T7]") {
+  const Bytes bytes = walked_bytes();
+  Pair pair;
+  for (const std::uint8_t first : bytes) {
+    for (const std::uint8_t second : bytes) {
+      for (const std::uint8_t third : bytes) {
+        pair.walk({first, second, third, 0x80});
+      }
+    }
+  }
+}
+
+TEST_CASE("machine walk: SDO, a long walk of chance with silences that prefers what leads on [T7]") {
+  Chance chance(301);
+  Pair pair;
+  const unsigned steps = is_large() ? 20000000 : 100000;
+  for (unsigned n = 0; n < steps; ++n) {
     CAPTURE(n);
-    const bool any = random() % 8 == 0;
-    step(bench, server, any ? static_cast<std::uint8_t>(random()) : usual[random() % std::size(usual)]);
+    pair.step(chance.command());
+    pair.be_silent(chance.below(64) == 0 ? 1 + chance.below(9) : 0);
   }
 }
 
 TEST_CASE("machine walk: SDO, requests of another length than 8 change nothing in any state [D1]") {
   for (const Bytes& way : ways) {
     for (const std::uint8_t dlc : Bytes{0, 1, 2, 3, 4, 5, 6, 7}) {
-      Bench bench;
-      Server server;
-      walk(bench, server, way);
+      Pair pair;
+      pair.walk(way);
       for (unsigned byte = 0; byte < 256; ++byte) {
-        CO_IF_FRM frame = request(static_cast<std::uint8_t>(byte));
+        CO_IF_FRM frame = frame_of(0x605, request(static_cast<std::uint8_t>(byte)));
         frame.DLC = dlc;
-        REQUIRE(bench.ask(frame).empty());
+        REQUIRE(pair.bench.ask(frame).empty());
       }
-      CHECK(bench.device.counters().Malformed == 256);
-      for (const std::uint8_t next : Bytes{0x00, 0x10, 0x60}) {
-        step(bench, server, next);
-      }
+      CHECK(pair.bench.device.counters().Malformed == 256);
+      pair.walk({0x82, 0x00, 0x10, 0x60});
     }
   }
 }
@@ -360,22 +365,19 @@ TEST_CASE("machine walk: SDO across NMT, a transfer lives on in Operational and 
   for (const Bytes& way : ways) {
     for (const char* const command : commands) {
       CAPTURE(command);
-      Bench bench;
-      Server server;
-      walk(bench, server, way);
+      Pair pair;
+      pair.walk(way);
       const Reaction expected = reaction(State::pre_operational, test::frame(command));
-      CHECK(bench.ask(command) == (expected.boots ? Texts{"705#00"} : Texts{}));
+      CHECK(pair.bench.ask(command) == (expected.boots ? Texts{"705#00"} : Texts{}));
       for (unsigned byte = 0; expected.state == State::stopped && byte < 256; ++byte) {
-        REQUIRE(bench.ask(request(static_cast<std::uint8_t>(byte))).empty());
+        REQUIRE(pair.bench.ask(frame_of(0x605, request(static_cast<std::uint8_t>(byte)))).empty());
       }
-      CHECK(bench.ask("000#0105").empty());
+      CHECK(pair.bench.ask("000#0105").empty());
       if (expected.state == State::stopped || expected.boots) {
-        check_idle(bench);
-      } else {
-        for (const std::uint8_t next : Bytes{0x00, 0x10, 0x60}) {
-          step(bench, server, next);
-        }
+        pair.model.close();
+        pair.check_idle();
       }
+      pair.walk({0x82, 0xC1, 0xA2, 0x00, 0x10, 0x60});
     }
   }
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases with other ways to compile: -O3, link-time optimisation, unsigned char, asserts on"
+about="all doctest cases with other compiler options (-O3, link-time optimisation …) and other SDO configurations"
 packages=("${build_packages[@]}")
 
 lane() {
@@ -8,9 +8,15 @@ lane() {
   configuration unsigned-char "-O2 -funsigned-char"
   configuration short-enums "-O2 -fshort-enums"
   configuration asserts "-O0 -UNDEBUG"
+  # The smallest buffers, the most channels, clients without block transfer.
+  configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
+  configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
+  configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
+  configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
 }
 
-configuration() {  # NAME FLAGS
-  build_tree "configuration-$1" -DLEXICAN_WARNINGS_AS_ERRORS=ON -DCMAKE_C_FLAGS="$2" -DCMAKE_CXX_FLAGS="$2" || return
+configuration() {  # NAME FLAGS [PRESET]
+  build_tree "configuration-$1" -DLEXICAN_WARNINGS_AS_ERRORS=ON -DLEXICAN_PRESET="${3:-full}" -DCMAKE_C_FLAGS="$2" \
+    -DCMAKE_CXX_FLAGS="$2" || return
   run_doctest "$1" "$build/configuration-$1/tests/lexican_tests"
 }

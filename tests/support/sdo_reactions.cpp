@@ -3,8 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace test {
 namespace {
@@ -32,9 +34,22 @@ Words parts_of(const std::string& text, char separator) {
 // A row of the table: what it says of each object's multiplexers is filled in later.
 struct Row {
   Words commands;
-  Words answer;
+  std::string answer;
   Words afterwards;
 };
+
+// "21" or "20-2F"
+std::pair<unsigned, unsigned> range_of(const std::string& text) {
+  const unsigned long first = std::stoul(text, nullptr, 16);
+  const unsigned long last = text.size() > 2 ? std::stoul(text.substr(3), nullptr, 16) : first;
+  REQUIRE((first <= last && last <= 0xFF));
+  return {static_cast<unsigned>(first), static_cast<unsigned>(last)};
+}
+
+std::string hex(unsigned byte) {
+  static constexpr char digits[] = "0123456789ABCDEF";
+  return {digits[byte >> 4], digits[byte & 15U]};
+}
 
 class Reader {
  public:
@@ -79,15 +94,40 @@ class Reader {
   void read_part(const std::string& line, const Words& words) {
     if (words[0] == "enter") {
       const Words sides = parts_of(line.substr(line.find("enter") + 5), '>');
-      states.back().enter.emplace_back("601#" + bytes(words_of(sides.at(0))), "581#" + bytes(words_of(sides.at(1))));
-      states.back().transfer = object_->transfer;
+      REQUIRE(sides.size() == 2);
+      add_exchange(frames("601#", sides[0]), frames("581#", sides[1]));
     } else if (words[0] == "initiates") {
       rows_.insert(rows_.end(), object_->initiates.begin(), object_->initiates.end());
     } else {
       const Words parts = parts_of(line, ':');
       REQUIRE(parts.size() == 3);
-      (in_state_ ? rows_ : object_->initiates).push_back({words_of(parts[0]), words_of(parts[1]), words_of(parts[2])});
+      (in_state_ ? rows_ : object_->initiates).push_back({words_of(parts[0]), parts[1], words_of(parts[2])});
     }
+  }
+
+  // The last of several requests is answered.
+  void add_exchange(const Words& requests, const Words& answers) {
+    for (const std::string& request : requests) {
+      states.back().enter.push_back({request, {}});
+    }
+    states.back().enter.back().answers = answers;
+    states.back().transfer = object_->transfer;
+  }
+
+  Words frames(const std::string& identifier, const std::string& text) const {
+    Words all;
+    for (const std::string& part : parts_of(text, '|')) {
+      const Words words = words_of(part);
+      if (words.at(0) == "-") {
+        continue;
+      }
+      const std::string rest = bytes(Words(words.begin() + 1, words.end()));
+      const auto [first, last] = range_of(words[0]);
+      for (unsigned n = first; n <= last; ++n) {
+        all.push_back(identifier + hex(n) + rest);
+      }
+    }
+    return all;
   }
 
   std::string bytes(const Words& words) const {
@@ -110,17 +150,19 @@ class Reader {
   }
 
   SdoReaction reaction(const Row& row) const {
+    const auto says = [&](const char* word) {
+      return std::find(row.afterwards.begin(), row.afterwards.end(), word) != row.afterwards.end();
+    };
     const bool ends = row.afterwards.at(0) == "ends";
     const std::string about = multiplexer(row.afterwards.at(ends ? 1 : 0));
-    SdoReaction result;
-    result.open = ends ? "" : about;
-    result.written = row.afterwards.back() == "writes" ? about : "";
-    if (row.answer.at(0) == "abort") {
-      result.answer = "581#80" + about + little_endian(row.answer.at(1));
-    } else if (row.answer.at(0) != "-") {
-      result.answer = "581#" + bytes(row.answer);
-    }
-    return result;
+    const Words answer = words_of(row.answer);
+    const bool aborts = answer.at(0) == "abort";
+    return {aborts ? Words{abort(about, answer.at(1))} : frames("581#", row.answer), ends ? "" : about,
+            says("writes") ? about : "", says("block")};
+  }
+
+  static std::string abort(const std::string& about, const std::string& code) {
+    return "581#80" + about + little_endian(code);
   }
 
   void apply(const Row& row) {
@@ -132,9 +174,8 @@ class Reader {
         }
         continue;
       }
-      const std::size_t first = std::stoul(command, nullptr, 16);
-      const std::size_t last = command.size() > 2 ? std::stoul(command.substr(3), nullptr, 16) : first;
-      for (std::size_t n = first; n <= last; ++n) {
+      const auto [first, last] = range_of(command);
+      for (unsigned n = first; n <= last; ++n) {
         reactions.at(n).push_back(reaction(row));
       }
     }
@@ -156,6 +197,26 @@ class Reader {
 
 }  // namespace
 
-std::vector<SdoState> sdo_states(std::string_view table) { return Reader(table).states; }
+namespace {
+
+void take_block_transfer_out(std::vector<SdoState>& states) {
+  const auto is_block = [](const SdoState& state) { return state.name.find(": block") != std::string::npos; };
+  states.erase(std::remove_if(states.begin(), states.end(), is_block), states.end());
+  for (SdoState& state : states) {
+    for (const unsigned command : {0xA0U, 0xA4U, 0xC0U, 0xC2U, 0xC4U, 0xC6U}) {
+      state.reactions[command] = {{{"581#80" + state.request + "01000405"}, "", "", false}};
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<SdoState> sdo_states(std::string_view table, bool block) {
+  std::vector<SdoState> states = Reader(table).states;
+  if (!block) {
+    take_block_transfer_out(states);
+  }
+  return states;
+}
 
 }  // namespace test

@@ -170,7 +170,7 @@ TEST_CASE("dictionary: a fault of an entry is named, with its key") {
       {{CO_KEY(0x0000, 1, CO_OBJ_D___R_), CO_TUNSIGNED8, 1}, CO_DICT_RESERVED_INDEX},
       {{CO_KEY(0x0005, 0, CO_OBJ_____R_), CO_TUNSIGNED8, &variable}, CO_DICT_RESERVED_INDEX},
       {{CO_KEY(0x4000, 0, CO_OBJ_____R_), nullptr, &variable}, CO_DICT_NO_TYPE},
-      {{CO_KEY(0x127F, 1, CO_OBJ_____R_), CO_TSDO_ID, &variable}, CO_DICT_NOT_CONFIGURED},
+      {{CO_KEY(0x12FF, 1, CO_OBJ_____R_), CO_TSDO_ID, &variable}, CO_DICT_NOT_CONFIGURED},
       {{CO_KEY(0x4000, 0, CO_OBJ_____R_), CO_TUNSIGNED32, nullptr}, CO_DICT_NO_DATA},
       {{CO_KEY(0x4000, 0, CO_OBJ_____R_), CO_TUNSIGNED24, nullptr}, CO_DICT_NO_DATA},
       {{CO_KEY(0x4000, 0, CO_OBJ_____R_), CO_TBOOLEAN, nullptr}, CO_DICT_NO_DATA},

@@ -46,9 +46,10 @@ TEST_CASE("transmit queue: frames of one identifier keep their order [Q4]") {
   CHECK(released(node) == Frames{"180#11", "180#12", "181#01", "181#02", "181#03"});
 }
 
-// What is left for the application: an answer of each SDO server and a heartbeat need not wait for its frames.
+// What is left for the application: a frame of each SDO server and client and a heartbeat need not wait for its frames.
 unsigned places_for_application(unsigned length) {
-  const unsigned kept = std::min(length / 2, CO_SSDO_N + 1U);
+  const unsigned clients = USE_CSDO != 0 ? CO_CSDO_N : 0U;
+  const unsigned kept = std::min(length / 2, 1U + CO_SSDO_N + clients);
   return length - kept;
 }
 

@@ -116,7 +116,7 @@ uint32_t download_block_segment(Step& step) {
   const bool in_order = number == channel.Seq + 1;
   const bool repeated = ends && is_repeated(channel, number);
   step.silent = true;
-  if (number == 0 || state_of(channel) != State::block_download) {
+  if (number == 0 || number > channel.BlkSize || state_of(channel) != State::block_download) {
     return no_abort;
   }
   set(channel, heard);

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO transfers between a client and a server of ours: two faults at every pair of positions, and three. [T11]
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <random>
+
+#include "support/sdo_pair_faults.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using test::all_faults;
+using test::both_directions;
+using test::Direction;
+using test::FaultyTransfer;
+using test::frame_faults;
+using test::FrameFault;
+using test::SdoPair;
+using test::Strikes;
+
+// Pairs of the first \a kinds faults. What the first one does to a transfer decides how many frames there are for the
+// second.
+class Pairs {
+ public:
+  Pairs(std::uint32_t bytes, bool block, std::size_t kinds) : pair_({bytes, block}), kinds_(kinds) {}
+
+  // Every \a stride-th position for the first fault, and for the second one.
+  void run(Direction direction, std::uint32_t stride = 1) {
+    const std::uint32_t frames = pair_.count_frames(direction);
+    for (std::uint32_t position = 1; position <= frames; position += stride) {
+      for (std::size_t kind = 0; kind < kinds_; ++kind) {
+        CAPTURE(position);
+        CAPTURE(kind);
+        run_second(direction, {{frame_faults[kind], position}}, stride);
+      }
+    }
+  }
+
+ private:
+  void run_second(Direction direction, const Strikes& first, std::uint32_t stride) {
+    const FaultyTransfer alone = test::disturb(pair_, direction, first);
+    REQUIRE(alone.all_struck);
+    for (std::uint32_t position = first[0].position + 1; position <= alone.frames; position += stride) {
+      for (std::size_t kind = 0; kind < kinds_; ++kind) {
+        CAPTURE(position);
+        CAPTURE(kind);
+        REQUIRE(test::disturb(pair_, direction, {first[0], {frame_faults[kind], position}}).all_struck);
+      }
+    }
+  }
+
+  SdoPair pair_;
+  std::size_t kinds_;
+};
+
+// As many as \a rounds, in transfers of up to 300 frames.
+void run_triples(unsigned rounds, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
+  SdoPair pair({2000});
+  for (unsigned round = 0; round < rounds; ++round) {
+    const std::uint32_t bytes = 29 + below(2000 - 29);
+    Strikes strikes;
+    for (unsigned n = 0; n < 3; ++n) {
+      strikes.push_back({frame_faults[below(std::size(frame_faults))], 1 + below(bytes / 7 + 9)});
+    }
+    CAPTURE(round);
+    pair.server.resize(SdoPair::object, bytes);
+    test::disturb(pair, below(2) == 0 ? Direction::upload : Direction::download, strikes);
+  }
+}
+
+constexpr std::size_t all_kinds = std::size(frame_faults);
+constexpr std::size_t first_kinds = 3;  // lost, doubled, swapped
+
+}  // namespace
+
+TEST_CASE("SDO faults: every pair of faults in short transfers gives the right data or a report [T11]") {
+  for (const std::uint32_t bytes : {1u, 7u, 8u, 28u, 29u}) {
+    for (const Direction direction : both_directions) {
+      CAPTURE(bytes);
+      Pairs(bytes, true, all_kinds).run(direction);
+    }
+  }
+}
+
+TEST_CASE("SDO faults: every pair of frames of 32 segments lost, doubled or swapped [T11]") {
+  for (const Direction direction : both_directions) {
+    Pairs(32 * 7, true, all_faults() ? all_kinds : first_kinds).run(direction);
+  }
+}
+
+TEST_CASE("SDO faults: every pair of faults in 12 (LEXICAN_SDO_FAULTS=all: 32) segments without blocks [T11]") {
+  for (const Direction direction : both_directions) {
+    Pairs((all_faults() ? 32 : 12) * 7, false, all_faults() ? all_kinds : first_kinds).run(direction);
+  }
+}
+
+TEST_CASE("SDO faults: three at random (LEXICAN_SDO_FAULTS=all: more often) [T11]") {
+  run_triples(all_faults() ? 200000 : 2000, 301);
+}
+
+TEST_CASE("SDO faults: pairs of faults in three blocks (LEXICAN_SDO_FAULTS=all: every pair) [T11]") {
+  for (const Direction direction : both_directions) {
+    Pairs(2000, true, all_faults() ? all_kinds : first_kinds).run(direction, all_faults() ? 1 : 23);
+  }
+}
+
+#endif

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO transfers between a client and a server of ours whose controllers do not take every frame: no answer is lost, and
+// nothing else that the nodes have to say. [T12] [Q4] [D20]
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <string>
+
+#include "support/sdo_pair.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace std::chrono_literals;
+using co::VirtualBus;
+using test::both_directions;
+using test::Direction;
+using test::Milliseconds;
+using test::SdoDevice;
+using test::SdoPair;
+using test::SdoPairOptions;
+using Fault = VirtualBus::Fault;
+
+constexpr std::uint16_t heartbeat_ms = 10;
+constexpr std::uint32_t answer_of_client = 0x580 + SdoPair::client_id;
+constexpr std::uint32_t second_answer_of_server = 0x1C0 + SdoPair::server_id;
+constexpr bool has_second_channel = CO_SSDO_N >= 2;
+constexpr std::uint32_t heartbeat_of_client = 0x700 + SdoPair::client_id;
+constexpr std::uint32_t heartbeat_of_server = 0x700 + SdoPair::server_id;
+
+// A pair of which one side's controller gives trouble, and the frames on its bus by identifier.
+class Bench {
+ public:
+  Bench(const SdoPairOptions& options, bool client) : pair_(options), side_(client ? pair_.client : pair_.server) {
+    if (has_second_channel) {
+      pair_.server.open_second_channel();
+      pair_.world.settle();
+    }
+    pair_.line.bus.set_trace([this](const VirtualBus::Traffic& traffic) { ++on_bus_[traffic.frame.Identifier]; });
+  }
+
+  // Frames that this side offers in an undisturbed transfer and the questions beside it.
+  std::uint32_t count_offers(Direction direction) {
+    std::uint32_t offers = 0;
+    pair_.line.bus.add_rule({Fault::refuse, [&](const VirtualBus::Traffic& traffic) {
+                               offers += is_of_side(traffic) ? 1U : 0U;
+                               return false;
+                             }});
+    CHECK(run(direction, 0ms) == 0);
+    pair_.line.bus.clear_rules();
+    return offers;
+  }
+
+  // Refuses \a times offers from number \a first on. Each may cost a millisecond.
+  void refuse(Direction direction, Fault fault, std::uint32_t first, std::uint32_t times) {
+    CAPTURE(first);
+    CAPTURE(times);
+    const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
+    pair_.line.bus.add_rule({fault, match, first, times});
+    REQUIRE(run(direction, Milliseconds{times + 1}) == 0);
+    pair_.line.bus.clear_rules();
+    check_others(times < heartbeat_ms);
+    REQUIRE(CONodeGetErr(side_.node()) == (fault == Fault::error ? CO_ERR_IF_CAN_SEND : CO_ERR_NONE));
+  }
+
+  // Refuses all offers for \a time, from number \a first on.
+  void refuse_for(Direction direction, std::uint32_t first, Milliseconds time) {
+    std::uint32_t seen = 0;
+    VirtualBus::Time end{0};
+    const auto match = [&](const VirtualBus::Traffic& traffic) {
+      const bool counts = is_of_side(traffic);
+      if (counts && ++seen == first) {
+        end = traffic.time + time;
+      }
+      return counts && traffic.time < end;
+    };
+    pair_.line.bus.add_rule({Fault::refuse, match, 1, VirtualBus::always});
+    REQUIRE(run(direction, time + 1ms) == 0);
+    pair_.line.bus.clear_rules();
+    check_others(time < Milliseconds{heartbeat_ms});
+  }
+
+  // Refuses so many of the offers of both sides.
+  void refuse_at_random(Direction direction, std::uint32_t percent) {
+    const auto match = [&](const VirtualBus::Traffic& traffic) {
+      return traffic.sender != &pair_.line.master && random_() % 100 < percent;
+    };
+    pair_.line.bus.add_rule({Fault::refuse, match, 1, VirtualBus::always});
+    REQUIRE(run(direction, 900ms) == 0);
+    pair_.line.bus.clear_rules();
+    check_others();
+  }
+
+  // Behind frame \a position the bus carries nothing for \a time. Returns the code of the transfer.
+  std::uint32_t hold_bus(Direction direction, std::uint32_t position, Milliseconds time) {
+    std::uint32_t seen = 0;
+    pair_.line.bus.add_rule({Fault::none, [&](const VirtualBus::Traffic&) {
+                               if (++seen == position) {
+                                 pair_.line.bus.hold();
+                               }
+                               return false;
+                             }});
+    begin(direction);
+    pair_.world.pass(time);
+    pair_.line.bus.release();
+    pair_.line.bus.clear_rules();
+    const std::uint32_t code = pair_.finish(time + 1250ms);
+    check_others();
+    return code;
+  }
+
+  // The offer is the last one for \a time: the controller is in bus-off, and hears nothing either.
+  void go_bus_off(Direction direction, std::uint32_t offer, Milliseconds time) {
+    const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
+    pair_.line.bus.add_rule({Fault::bus_off, match, offer});
+    begin(direction);
+    pair_.world.pass(time);
+    side_.port().recover();
+    pair_.finish(time + 2500ms);
+    pair_.line.bus.clear_rules();
+    check_next();
+  }
+
+  // The same offers as with refuse(), but frames may be lost. Returns the code of the transfer.
+  std::uint32_t squeeze(Direction direction, std::uint32_t first, std::uint32_t times) {
+    const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
+    pair_.line.bus.add_rule({Fault::refuse, match, first, times});
+    const std::uint32_t code = run(direction, 2500ms);
+    pair_.line.bus.clear_rules();
+    check_next();
+    return code;
+  }
+
+  // A server in the middle of a block that has not heard the client's abort takes an initiate for a segment: the client
+  // has to give up that transfer, too.
+  void check_next() {
+    pair_.run(Direction::upload, SdoPair::value, 1000ms, 1000ms);
+    pair_.check_next();
+  }
+
+ private:
+  bool is_of_side(const VirtualBus::Traffic& traffic) const { return traffic.sender == &side_.port(); }
+
+  // While the transfer runs, both nodes are asked something else, too.
+  void begin(Direction direction) {
+    on_bus_.clear();
+    heartbeats_before_ = heartbeats_due();
+    pair_.start(direction);
+    pair_.line.say("601#4000100000000000");
+    pair_.line.say("245#4000100000000000");
+    pair_.world.settle();
+  }
+
+  std::uint32_t run(Direction direction, Milliseconds limit) {
+    begin(direction);
+    const std::uint32_t code = pair_.finish(limit);
+    pair_.world.pass(limit);  // the other answers
+    return code;
+  }
+
+  std::uint64_t heartbeats_due() const {
+    return static_cast<std::uint64_t>(pair_.world.clock.time() / Milliseconds{heartbeat_ms});
+  }
+
+  // No answer is lost, and no heartbeat but those that a newer one replaces while they wait.
+  void check_others(bool all_heartbeats = false) {
+    REQUIRE(on_bus_[answer_of_client] == 1);
+    REQUIRE(on_bus_[second_answer_of_server] == (has_second_channel ? 1 : 0));
+    REQUIRE(pair_.client.counters().Dropped == 0);
+    REQUIRE(pair_.server.counters().Dropped == 0);
+    const std::uint64_t due = heartbeats_due() - heartbeats_before_;
+    pair_.world.pass(10 * Milliseconds{heartbeat_ms});
+    for (const std::uint32_t heartbeat : {heartbeat_of_client, heartbeat_of_server}) {
+      REQUIRE(on_bus_[heartbeat] >= (all_heartbeats ? due : 0) + 10);
+      REQUIRE(on_bus_[heartbeat] <= due + 10);
+    }
+  }
+
+  SdoPair pair_;
+  SdoDevice& side_;
+  std::map<std::uint32_t, unsigned> on_bus_;
+  std::uint64_t heartbeats_before_ = 0;
+  std::mt19937 random_{12};
+};
+
+// An expedited transfer, one of 8 segments, and one of a block of 32.
+constexpr SdoPairOptions transfers[] = {{4, true, heartbeat_ms}, {50, false, heartbeat_ms}, {224, true, heartbeat_ms}};
+
+// Calls \a test with each transfer, either side that has trouble, and the number of its offers.
+template <class Test>
+void with_all_benches(std::uint16_t tx_queue, const Test& test) {
+  for (SdoPairOptions options : transfers) {
+    options.tx_queue = tx_queue;
+    for (const bool client : {true, false}) {
+      Bench bench(options, client);
+      for (const Direction direction : both_directions) {
+        CAPTURE(options.bytes);
+        CAPTURE(client);
+        test(bench, direction, bench.count_offers(direction));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("SDO send failure: a transfer is done, and nothing lost, whichever frames the driver refuses [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (const Fault fault : {Fault::refuse, Fault::error}) {
+      for (const std::uint32_t times : {1u, 2u, 3u, 10u, 60u}) {
+        for (std::uint32_t first = 1; first <= offers; ++first) {
+          bench.refuse(direction, fault, first, times);
+        }
+      }
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the controller is full for a while [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (const Milliseconds time : {1ms, 6ms, 9ms, 100ms}) {
+      for (std::uint32_t first = 1; first <= offers; ++first) {
+        CAPTURE(first);
+        CAPTURE(time.count());
+        bench.refuse_for(direction, first, time);
+      }
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: a transfer is done, and nothing lost, if the drivers of both refuse at random [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t) {
+    for (const std::uint32_t percent : {10u, 50u, 90u}) {
+      CAPTURE(percent);
+      bench.refuse_at_random(direction, percent);
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the bus stands still for a while [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (const Milliseconds time : {1ms, 30ms, 200ms}) {
+      for (std::uint32_t position = 1; position <= 2 * offers; ++position) {
+        CAPTURE(position);
+        CAPTURE(time.count());
+        REQUIRE(bench.hold_bus(direction, position, time) == 0);
+      }
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: a transfer is done or reported when the bus stands still until time-outs come [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (const Milliseconds time : {400ms, 900ms, 1300ms, 2500ms}) {
+      for (std::uint32_t position = 1; position <= 2 * offers; ++position) {
+        CAPTURE(position);
+        CAPTURE(time.count());
+        bench.hold_bus(direction, position, time);
+        bench.check_next();
+      }
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: a transfer is done or reported when a controller is in bus-off for a while [T12]") {
+  with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (const Milliseconds time : {10ms, 300ms, 1500ms}) {
+      for (std::uint32_t offer = 1; offer <= offers; ++offer) {
+        CAPTURE(offer);
+        CAPTURE(time.count());
+        bench.go_bus_off(direction, offer, time);
+      }
+    }
+  });
+}
+
+// Own answers of client and server, one more, and a heartbeat: three frames of a node can wait at the same time.
+TEST_CASE("SDO send failure: three places in the transmit queue are enough, nothing is lost [T12] [Q4]") {
+  with_all_benches(3, [](Bench& bench, Direction direction, std::uint32_t offers) {
+    for (std::uint32_t first = 1; first <= offers; ++first) {
+      CAPTURE(first);
+      bench.refuse_for(direction, first, 9ms);
+      bench.refuse_for(direction, first, 100ms);
+    }
+  });
+}
+
+TEST_CASE("SDO send failure: with fewer places a transfer is done or reported [T12] [Q4]") {
+  for (std::uint16_t tx_queue = 1; tx_queue <= 2; ++tx_queue) {
+    CAPTURE(tx_queue);
+    unsigned done = 0;
+    with_all_benches(tx_queue, [&](Bench& bench, Direction direction, std::uint32_t offers) {
+      for (const std::uint32_t times : {1u, 3u, 60u}) {
+        for (std::uint32_t first = 1; first <= offers; ++first) {
+          done += bench.squeeze(direction, first, times) == 0 ? 1U : 0U;
+        }
+      }
+    });
+    CHECK(done > 0);
+  }
+}
+
+#endif

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+about="SDO transfers with every pair of faults, every frame of 65536 bytes, and 200000 triples, gcc -O2, half an hour"
+packages=("${build_packages[@]}")
+
+# The second build has a server with blocks of 8 segments.
+lane() {
+  build_preset release || return
+  suffer blocks-of-127 "$build/release/tests/lexican_tests"
+  local small=-DCO_SDO_BUF_SEG=8
+  build_preset release sdo-faults -DCMAKE_C_FLAGS=$small -DCMAKE_CXX_FLAGS=$small || return
+  suffer blocks-of-8 "$build/sdo-faults/tests/lexican_tests" -tce='*65536*,*three blocks*'
+}
+
+suffer() {  # NAME PROGRAM [ARGUMENT...]
+  local name=$1
+  shift
+  LEXICAN_SDO_FAULTS=all run_doctest "sdo_faults-$name" "$@" -tc='SDO faults:*'
+  skipped=0 excused=0  # the other cases belong to the lane gcc
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file sdo_pair.hpp
+/// SDO transfers between nodes of ours on a virtual bus: devices with clients, and a bench of two of them that checks
+/// for every transfer what must hold whatever happens on the bus.
+///
+///     test::SdoPair pair({2000});
+///     pair.line.bus.add_rule({co::VirtualBus::Fault::drop, {}, 7});
+///     pair.run(test::Direction::upload, pair.object, 1000ms, 3000ms);  // right data, or an abort code, within 3 s
+///
+/// Context: one thread.
+#pragma once
+
+#include "network.hpp"
+
+#if USE_CSDO
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace test {
+
+using Bytes = std::vector<std::uint8_t>;
+
+enum class Direction { upload, download };
+inline constexpr Direction both_directions[] = {Direction::upload, Direction::download};
+
+/// Neither constant nor periodic in 7, and different for each seed.
+Bytes noise(std::uint32_t size, std::uint32_t seed);
+
+class SdoDevice;
+
+/// An SDO client of a device, and the memory of its present or last request, between guards.
+class Seat {
+ public:
+  Seat(SdoDevice& device, unsigned number) : device_(device), number_(number) {}
+
+  CO_ERR upload(std::uint32_t key, std::uint32_t size, Milliseconds time_out);
+  CO_ERR download(std::uint32_t key, const Bytes& data, Milliseconds time_out);
+  bool is_over() const { return callbacks == 1; }
+  Bytes data() const;  ///< as many bytes as COCSdoGetNum() has told
+
+  unsigned callbacks = 1;        ///< since the request
+  std::uint32_t code = 0;        ///< of the callback
+  std::uint32_t num = 0;         ///< COCSdoGetNum() in the callback
+  std::uint64_t tick = 0;        ///< of the clock in the callback
+  std::function<void()> on_end;  ///< called in the callback
+
+ private:
+  static void note(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  void end(std::uint32_t key, std::uint32_t abort_code);
+  CO_CSDO* open(std::uint32_t key, const Bytes& data);
+
+  SdoDevice& device_;
+  unsigned number_;
+  std::uint32_t key_ = 0;
+  Bytes memory_;  // guard, buffer, guard
+  Bytes sent_;    // of a download: must not change
+};
+
+struct SdoDeviceOptions {
+  std::uint8_t node_id;
+  std::array<std::uint32_t, 3> bytes = {16, 16, 16};  ///< of 2010h, 2011h, 2012h
+  bool block = true;                                  ///< CO_NODE_SPEC.SdoBuf is given
+  std::uint16_t heartbeat_ms = 0;
+  std::uint16_t tx_queue = 0;  ///< frames in memory of its own; 0: those in the node
+};
+
+/// A node with 1000h, 1001h, 1017h, 1018h, 1200h, 1201h and 1280h, 1281h, 1282h (rw, not valid; if configured), 2001h
+/// UNSIGNED64 and 2010h, 2011h, 2012h DOMAIN (all rw). It is started.
+class SdoDevice {
+ public:
+  SdoDevice(World& world, Line& line, const SdoDeviceOptions& options);
+  ~SdoDevice();
+  SdoDevice(const SdoDevice&) = delete;
+  SdoDevice& operator=(const SdoDevice&) = delete;
+
+  /// The client talks to node \a server, to its default channel (0) or to its second one (1).
+  void connect(unsigned client, std::uint8_t server, unsigned channel = 0);
+  /// 1201h: the second channel.
+  void open_second_channel();
+  void close_second_channel();
+  /// Initialises and starts the node, after a CONodeStop().
+  void power_up();
+
+  Bytes read(std::uint32_t key) const;  ///< the application reads 2001h, 2010h, …
+  void fill(std::uint32_t key, const Bytes& data);
+  void resize(std::uint32_t key, std::uint32_t bytes);
+
+  CO_NODE* operator->() { return &device_.node; }
+  CO_NODE* node() { return &device_.node; }
+  World& world() { return world_; }
+  /// Neither a timer nor a frame waits.
+  bool is_at_rest() const { return device_.due_at() == UINT64_MAX; }
+  co::VirtualBus::Port& port() { return device_.port; }
+  CO_NODE_COUNTERS counters() const { return device_.counters(); }
+
+  std::vector<Seat> seats;  ///< of the clients
+
+ private:
+  struct Connection {
+    std::uint32_t request = 0x80000000;
+    std::uint32_t response = 0x80000000;
+    std::uint8_t server = 0;
+  };
+  Device& make_device(Line& line);
+  void add_communication();
+  void add_application();
+
+  World& world_;
+  SdoDeviceOptions options_;
+  std::uint8_t error_register_ = 0;
+  std::uint16_t heartbeat_;
+  std::uint64_t value_ = 0;
+  Connection second_server_;
+  std::array<Connection, CO_CSDO_N> connections_;
+  std::array<Bytes, 3> memory_;
+  std::array<CO_OBJ_DOM, 3> domains_{};
+  std::vector<CO_OBJ> table_;
+  std::vector<CO_IF_FRM> queue_;
+  CO_NODE_EXT ext_{};
+  Device& device_;
+};
+
+/// The transfers of one client, and the objects of its server.
+class Exchange {
+ public:
+  Exchange(SdoDevice& client, unsigned seat, SdoDevice& server) : client_(client), number_(seat), server_(server) {}
+
+  /// Starts a transfer of data that differ from those of the one before. \a time_out: of the client, for each answer.
+  void start(Direction direction, std::uint32_t key, Milliseconds time_out);
+  /// What a transfer that is over has done wrong. Empty: it has the right data on both sides, or an abort code.
+  std::string wrong() const;
+  Seat& seat() const { return client_.seats[number_]; }
+
+ private:
+  SdoDevice& client_;
+  unsigned number_;
+  SdoDevice& server_;
+  std::uint32_t seed_ = 0;
+  std::uint32_t key_ = 0;
+  Bytes data_;
+};
+
+struct SdoPairOptions {
+  std::uint32_t bytes = 16;        ///< of the object
+  bool block = true;               ///< the server has a buffer for block transfers
+  std::uint16_t heartbeat_ms = 0;  ///< of both
+  std::uint16_t tx_queue = 0;      ///< of both; 0: as configured
+  std::uint32_t ticks_per_second = 1000;
+  bool second_channel = false;  ///< the server's is 1201h, not 1200h
+};
+
+/// A client, node 1, and a server, node 5. Transfers are those of client 0.
+class SdoPair {
+ public:
+  static constexpr std::uint8_t client_id = 1;
+  static constexpr std::uint8_t server_id = 5;
+  static constexpr std::uint32_t object = CO_DEV(0x2010, 0);        ///< of SdoPairOptions::bytes
+  static constexpr std::uint32_t short_object = CO_DEV(0x2011, 0);  ///< 36 bytes: a block
+  static constexpr std::uint32_t value = CO_DEV(0x2001, 0);         ///< 8 bytes: segments
+
+  explicit SdoPair(const SdoPairOptions& options);
+
+  void start(Direction direction, std::uint32_t key = object, Milliseconds time_out = Milliseconds{1000});
+  /// Lets time pass until it is over, checks what it has left behind, and returns its code. One that takes longer than
+  /// \a limit ends the test case; 0: no time may pass.
+  std::uint32_t finish(Milliseconds limit);
+  /// Both.
+  std::uint32_t run(Direction direction, std::uint32_t key = object, Milliseconds time_out = Milliseconds{1000},
+                    Milliseconds limit = Milliseconds{0});
+  std::string wrong() const { return exchange_.wrong(); }
+  /// The next transfers, in both directions, are done.
+  void check_next(Milliseconds limit = Milliseconds{0});
+  /// Neither waits for anything, now or at least after \a within.
+  bool comes_to_rest(Milliseconds within);
+  /// Frames of an undisturbed transfer.
+  std::uint32_t count_frames(Direction direction, std::uint32_t key = object);
+
+  Seat& seat() const { return exchange_.seat(); }
+
+  World world;
+  Line& line;
+  SdoDevice server;
+  SdoDevice client;
+
+ private:
+  Exchange exchange_{client, 0, server};
+  std::uint64_t began_ = 0;
+};
+
+}  // namespace test
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file sdo_server_model.hpp
+/// An SDO server beside that of the stack: it knows the protocol of the standard and nothing of the stack. Sweeps,
+/// walks and fuzz targets hold the stack against it. [301:7.2.4.3]
+///
+///     SdoServerModel model({{0x2000, 0, true, true, SdoObject::Kind::number, 1, {7}}}, CO_SDO_BUF_SEG);
+///     model.answer({0x40, 0x00, 0x20, 0x00});            // 4F 00 20 00 07 00 00 00
+///
+/// Owner: the test. One model is one channel with a dictionary of its own.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace test {
+
+using Bytes = std::vector<std::uint8_t>;
+using SdoBytes = std::array<std::uint8_t, 8>;
+using SdoKey = std::array<std::uint8_t, 3>;  ///< multiplexer as in a frame
+
+/// CRC-16-CCITT from 0, bit by bit. [301:7.2.4.3.16] [D14]
+std::uint16_t crc_16(const Bytes& data);
+
+/// What an object looks like from the network.
+struct SdoObject {
+  enum class Kind { number, boolean, domain, octets, text, characters };
+  std::uint16_t index;
+  std::uint8_t sub;
+  bool readable;
+  bool writable;
+  Kind kind;
+  std::uint32_t capacity;
+  Bytes value;
+
+  bool is_stream() const { return kind != Kind::number && kind != Kind::boolean; }
+  Bytes shown() const;  ///< what an upload gives
+  void set(const Bytes& bytes);
+};
+
+class SdoServerModel {
+ public:
+  /// \a buffer: segments that a block download collects before the object gets them, 1…127; 0: no block transfer.
+  SdoServerModel(std::vector<SdoObject> objects, unsigned buffer) : objects_(std::move(objects)), buffer_(buffer) {}
+
+  /// A request of eight bytes arrives. Nothing: it is not answered.
+  std::optional<SdoBytes> answer(const SdoBytes& request);
+  /// The next segment of a block upload, which is thereby sent. Nothing: there is none now.
+  std::optional<SdoBytes> segment();
+  /// Both, while the controller takes every frame.
+  std::vector<SdoBytes> answers(const SdoBytes& request);
+  /// An eighth of the time-out passes. What the server then says by itself.
+  std::optional<SdoBytes> slice();
+  /// The NMT state ends what is open. [N8]
+  void close() { state_ = State::idle; }
+
+  const std::vector<SdoObject>& objects() const { return objects_; }
+  bool is_open() const { return state_ != State::idle; }
+  bool is_in_block() const { return state_ == State::block_download; }  ///< all but 80h are segments
+  const SdoKey& key() const { return key_; }                            ///< of the open transfer
+
+  /// A request that goes on with what is open, for inputs that get far; \a shorter: with the least that ends a step.
+  /// Segments carry no data yet.
+  SdoBytes continued(bool shorter) const;
+
+ private:
+  enum class State {
+    idle,
+    download,
+    upload,
+    block_download,
+    block_download_end,
+    block_upload_ready,
+    block_upload,
+    block_upload_end
+  };
+  using Answer = std::optional<SdoBytes>;
+
+  Answer answer_by_command(const SdoBytes& request);
+  Answer answer_to_receiver(const SdoBytes& request);
+  Answer answer_to_sender(const SdoBytes& request);
+  SdoBytes refuse(const SdoBytes& request, std::uint32_t code);
+  SdoBytes abort(std::uint32_t code);
+  SdoBytes head(unsigned command) const;
+  SdoBytes head_with_size(unsigned command) const;
+
+  SdoObject* find(const SdoBytes& request);
+  bool has_index(const SdoBytes& request) const;
+  std::uint32_t fault_of_access(const SdoBytes& request, bool upload);
+  std::uint32_t fault_of_length(std::size_t length) const;
+  std::uint32_t fault_of_total(std::size_t length) const;
+  std::uint32_t fault_of_value() const;
+  std::uint32_t take_size(const SdoBytes& request, bool announced);
+
+  Answer initiate_upload(const SdoBytes& request);
+  Answer initiate_download(const SdoBytes& request);
+  Answer expedited(const SdoBytes& request);
+  Answer take(const SdoBytes& request);
+  Answer give(const SdoBytes& request);
+
+  Answer initiate_block_download(const SdoBytes& request);
+  Answer take_in_block(const SdoBytes& request);
+  void collect(const SdoBytes& request);
+  Answer end_block(bool all);
+  Answer end_block_download(const SdoBytes& request);
+  bool is_right_end(const SdoBytes& request) const;
+  std::size_t unused_at_end() const;
+
+  Answer initiate_block_upload(const SdoBytes& request);
+  Answer start(const SdoBytes& request);
+  Answer acknowledged(const SdoBytes& request);
+  Answer end_block_upload(const SdoBytes& request);
+
+  std::vector<SdoObject> objects_;
+  std::size_t buffer_;
+  State state_ = State::idle;
+  SdoObject* object_ = nullptr;
+  SdoKey key_{};
+  unsigned idle_ = 0;  // slices without a frame
+  std::uint8_t toggle_ = 0;
+  bool sized_ = false;
+  std::size_t size_ = 0;  // bytes that a download will have, or may have
+  Bytes data_;            // received, or to be sent
+  std::size_t done_ = 0;  // bytes given to the client and acknowledged, or to the object
+  bool has_crc_ = false;
+  std::size_t blksize_ = 0;
+  std::size_t seq_ = 0;            // last segment of the block that was taken or sent
+  bool heard_ = false;             // a segment of the block has come
+  bool has_acknowledged_ = false;  // a block
+  bool last_sent_ = false;
+  std::uint32_t fault_ = 0;  // of a segment, told at the end of the block
+  SdoBytes last_segment_{};
+  SdoBytes reminder_{};  // last answer of a block download
+};
+
+}  // namespace test
