@@ -54,6 +54,10 @@ static int16_t CanSend(CO_IF_FRM* frm) {
   if (Fakes.CanBroken) {
     return -1;
   }
+  if (SentTaken == SentNum) {
+    SentTaken = 0;
+    SentNum = 0;
+  }
   if (SentNum == sizeof(Sent) / sizeof(Sent[0])) {
     return 0;
   }

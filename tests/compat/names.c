@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "co_core.h"
+#include "co_csdo.h" /* co_core.h leaves it out where USE_CSDO is 0 */
 #include "co_ver.h"
 #include "unity.h"
 
@@ -188,6 +189,10 @@ static void test_structures_have_their_tags(void) {
   TEST_ASSERT_EQUAL(sizeof(CO_MODE), sizeof(enum CO_MODE_T));
   TEST_ASSERT_EQUAL(sizeof(CO_NMT_RESET), sizeof(enum CO_NMT_RESET_T));
   TEST_ASSERT_EQUAL(sizeof(CO_ERR), sizeof(enum CO_ERR_T));
+  TEST_ASSERT_EQUAL(sizeof(CO_CSDO), sizeof(struct CO_CSDO_T));
+  TEST_ASSERT_EQUAL(sizeof(CO_CSDO_STATE), sizeof(enum CO_CSDO_STATE_T));
+  TEST_ASSERT_EQUAL(sizeof(CO_OBJ_TYPE_EX), sizeof(struct CO_OBJ_TYPE_EX_T));
+  TEST_ASSERT_EQUAL(sizeof(CO_OBJ_TRANSFER), sizeof(enum CO_OBJ_TRANSFER_T));
 }
 
 static void test_modes_and_resets_have_their_numbers(void) {
@@ -201,6 +206,28 @@ static void test_modes_and_resets_have_their_numbers(void) {
   TEST_ASSERT_EQUAL(1, CO_RESET_NODE);
   TEST_ASSERT_EQUAL(2, CO_RESET_COM);
   TEST_ASSERT_EQUAL(3, CO_RESET_NUM);
+}
+
+static void test_sdo_clients_and_transfers_have_their_numbers(void) {
+  TEST_ASSERT_EQUAL(0, CO_CSDO_STATE_INVALID);
+  TEST_ASSERT_EQUAL(1, CO_CSDO_STATE_IDLE);
+  TEST_ASSERT_EQUAL(2, CO_CSDO_STATE_BUSY);
+  TEST_ASSERT_EQUAL(0, CO_OBJ_UPLOAD);
+  TEST_ASSERT_EQUAL(1, CO_OBJ_DOWNLOAD);
+  TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, CO_OBJ_SIZE_UNKNOWN);
+}
+
+static void test_an_extended_type_begins_with_a_type(void) {
+  CO_OBJ_TYPE_EX extended;
+  CO_OBJ_RESET_FUNC reset = COObjTypeExReset;
+  CO_OBJ_BEGIN_FUNC begin = NULL;
+  CO_OBJ_END_FUNC end = NULL;
+  extended.Type.Reset = reset;
+  extended.Reset = NULL;
+  extended.Begin = begin;
+  extended.End = end;
+  TEST_ASSERT_EQUAL_PTR(&extended, &extended.Type);
+  TEST_ASSERT_TRUE(extended.Type.Reset == COObjTypeExReset);
 }
 
 static void test_heartbeat_codes_are_those_of_the_standard(void) {
@@ -261,6 +288,17 @@ static void test_sdo_abort_codes_have_their_numbers(void) {
   TEST_ASSERT_EQUAL_HEX32(0x08000022, CO_SDO_ERR_TOS_STATE);
 }
 
+static void test_sdo_abort_codes_of_later_editions_have_their_numbers(void) {
+  TEST_ASSERT_EQUAL_HEX32(0x06040047, CO_SDO_ERR_INTERNAL);
+  TEST_ASSERT_EQUAL_HEX32(0x06090031, CO_SDO_ERR_RANGE_HIGH);
+  TEST_ASSERT_EQUAL_HEX32(0x06090032, CO_SDO_ERR_RANGE_LOW);
+  TEST_ASSERT_EQUAL_HEX32(0x06090036, CO_SDO_ERR_RANGE_LIMITS);
+  TEST_ASSERT_EQUAL_HEX32(0x060A0023, CO_SDO_ERR_NO_CONNECT);
+  TEST_ASSERT_EQUAL_HEX32(0x08000021, CO_SDO_ERR_TOS_LOCAL);
+  TEST_ASSERT_EQUAL_HEX32(0x08000023, CO_SDO_ERR_NO_OD);
+  TEST_ASSERT_EQUAL_HEX32(0x08000024, CO_SDO_ERR_NO_DATA);
+}
+
 static void test_the_version_is_that_of_the_headers(void) {
   CO_VerInit();
   TEST_ASSERT_EQUAL(CO_VER_MAJOR, COVerMajor());
@@ -271,6 +309,17 @@ static void test_the_version_is_that_of_the_headers(void) {
 
 static void test_sizes_of_the_sdo_buffer_belong_together(void) {
   TEST_ASSERT_EQUAL(CO_SDO_BUF_SEG * 7, CO_SDO_BUF_BYTE);
+}
+
+/* Also in a configuration that makes no use of them. */
+static void test_the_configuration_has_all_its_names(void) {
+  const long values[] = {CO_SSDO_N,     USE_CSDO,       CO_CSDO_N,     USE_SDO_BLOCK,
+                         CO_CSDO_BLOCK, CO_SDO_TIMEOUT, CO_TX_QUEUE_N, CO_SDO_BUF_SEG};
+  const long largest[] = {128, 1, 100, 1, 256, 60000, 1000, 127};
+  for (size_t i = 0; i < sizeof(values) / sizeof(values[0]); i++) {
+    TEST_ASSERT_GREATER_OR_EQUAL(0, values[i]);
+    TEST_ASSERT_LESS_OR_EQUAL(largest[i], values[i]);
+  }
 }
 
 int main(void) {
@@ -285,11 +334,15 @@ int main(void) {
   RUN_TEST(test_argument_checks_let_good_arguments_pass);
   RUN_TEST(test_structures_have_their_tags);
   RUN_TEST(test_modes_and_resets_have_their_numbers);
+  RUN_TEST(test_sdo_clients_and_transfers_have_their_numbers);
+  RUN_TEST(test_an_extended_type_begins_with_a_type);
   RUN_TEST(test_heartbeat_codes_are_those_of_the_standard);
   RUN_TEST(test_allowed_services_have_their_bits);
   RUN_TEST(test_timer_units_and_parameter_flags_have_their_numbers);
   RUN_TEST(test_sdo_abort_codes_have_their_numbers);
+  RUN_TEST(test_sdo_abort_codes_of_later_editions_have_their_numbers);
   RUN_TEST(test_the_version_is_that_of_the_headers);
   RUN_TEST(test_sizes_of_the_sdo_buffer_belong_together);
+  RUN_TEST(test_the_configuration_has_all_its_names);
   return UNITY_END();
 }

@@ -10,6 +10,7 @@ std::uint32_t number;
 float ratio;
 CO_OBJ_DOM domain;
 const CO_OBJ_TYPE type = {};
+constexpr CO_OBJ_TYPE_EX extended_type = {{nullptr, nullptr, nullptr, nullptr, COObjTypeExReset}, {}, {}, {}};
 
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x0007, 0, CO_OBJ____P_W), CO_TUNSIGNED32, 0},
@@ -17,11 +18,15 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
     {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(0x600)},
     {CO_KEY(0x1200, 2, CO_OBJ__N__R_), CO_TSDO_ID, (CO_DATA)(&number)},
+    {CO_KEY(0x1280, 1, CO_OBJ_D___R_), CO_TSDO_ID, (CO_DATA)(0x605)},
+    {CO_KEY(0x1280, 2, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&number)},
+    {CO_KEY(0x1280, 3, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&byte)},
     {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&domain)},
     {CO_KEY(0x2000, 1, CO_OBJ_____RW), CO_TBOOLEAN, (CO_DATA)(&byte)},
     {CO_KEY(0x2000, 2, CO_OBJ_____RW), CO_TREAL32, (CO_DATA)(&ratio)},
     {CO_KEY(0x2100, 1, CO_OBJ__N__RW), CO_TUNSIGNED32, (CO_DATA)(&number)},
     {CO_KEY(0x2100, 2, CO_OBJ_D___RW), &type, (CO_DATA)(&function)},
+    {CO_KEY(0x2100, 3, CO_OBJ_____RW), &extended_type.Type, (CO_DATA)(&byte)},
     CO_OBJ_DICT_ENDMARK,
 };
 CO_OD_CHECK(od);
@@ -31,6 +36,8 @@ void scope() {
   CO_OD_CHECK(inner);
   static_cast<void>(inner);
 }
+
+bool has_client(CO_NODE& node) { return COCSdoFind(&node, 0) == &node.CSdo[0]; }
 
 CO_OBJ* find() { return co::entry<od, 0x2100, 1>(); }
 

@@ -36,12 +36,13 @@ class Input {
 };
 
 /// Ends the program, which is a finding.
-inline void require(bool holds, const std::string& promise) {
+inline void require(bool holds, const char* promise) {
   if (!holds) {
-    std::fprintf(stderr, "BROKEN: %s\n", promise.c_str());
+    std::fprintf(stderr, "BROKEN: %s\n", promise);
     std::abort();
   }
 }
+inline void require(bool holds, const std::string& promise) { require(holds, promise.c_str()); }
 
 }  // namespace fuzz
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole node in a hostile world: frames, time and calls of chance, a controller that refuses, callbacks and type
-// functions that call the stack again, a table that changes. Whatever happens, the properties of invariants.hpp and
-// those of check() hold, and a reset brings back a node that answers.
+// functions that call the stack again, SDO clients with servers of chance, a table that changes. Whatever happens, the
+// properties of invariants.hpp and those of check() hold, and a reset brings back a node that answers.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -15,10 +15,13 @@
 
 #include "co_core.h"
 #include "fuzz/fuzz.hpp"
+#include "fuzz/node_objects.hpp"
 #include "support/invariants.hpp"
 
 namespace {
 
+using fuzz::Memory;
+using fuzz::Objects;
 using fuzz::require;
 
 constexpr std::uint8_t first_node_id = 5;
@@ -26,132 +29,12 @@ constexpr std::uint16_t own_timers = 6;
 constexpr std::uint32_t frequency = 1000;                                // ticks per second
 constexpr std::uint32_t patience = 20 + 8 * ((CO_SDO_TIMEOUT + 7) / 8);  // ticks, longer than the time-out
 constexpr unsigned max_depth = 3;                                        // of calls out of calls
+constexpr unsigned longest_block = 127;                                  // segments
 
 enum class TimerDriver { clock, clock_without_alarm, cyclic, delta };
 
 class Bench;
 Bench* bench = nullptr;  // the one that the callbacks belong to
-
-// Memory that ends where its object ends, so that the address sanitizer sees the first byte beyond.
-using Memory = std::unique_ptr<std::uint8_t[]>;
-
-struct Objects {
-  std::uint8_t error_register = 0;
-  std::uint16_t heartbeat = 0;
-  std::uint32_t cob_id[4] = {0x600, 0x580, 0x685, 0x586};
-  std::uint8_t u8 = 1;
-  std::uint16_t u16 = 2;
-  std::uint32_t u24 = 3;
-  std::uint32_t u32 = 4;
-  std::uint64_t u40 = 5;
-  std::uint64_t u56 = 6;
-  std::uint64_t u64 = 7;
-  std::int32_t s24 = -1;
-  float real32 = 1.0F;
-  double real64 = 1.0;
-  CO_TIME_OF_DAY time_of_day{};
-  std::uint8_t boolean = 0;
-  std::uint8_t no_access = 0;
-  Memory domain_memory = std::make_unique<std::uint8_t[]>(30);
-  Memory small_memory = std::make_unique<std::uint8_t[]>(3);
-  Memory text_memory = std::make_unique<std::uint8_t[]>(12);
-  Memory octets_memory = std::make_unique<std::uint8_t[]>(9);
-  Memory unicode_memory = std::make_unique<std::uint8_t[]>(16);
-  CO_OBJ_DOM domain{0, 30, domain_memory.get()};
-  CO_OBJ_DOM small_domain{0, 3, small_memory.get()};
-  CO_OBJ_STR_RW text{0, 0, 12, text_memory.get()};
-  CO_OBJ_STR_RW octets{0, 9, 9, octets_memory.get()};
-  CO_OBJ_STR_RW unicode{0, 16, 16, unicode_memory.get()};
-  CO_OBJ_STR_RW nothing{0, 0, 0, nullptr};
-  CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("hello device")};
-};
-
-// Types of an application that refuses, answers any length, and calls the stack from within.
-// ---------------------------
-
-constexpr std::uint32_t long_value = 20;
-
-CO_ERR mood();
-CO_ERR answer_of(CO_OBJ* obj, CO_NODE* node) {
-  const CO_ERR err = mood();
-  if (err != CO_ERR_NONE) {
-    COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
-  }
-  return err;
-}
-
-std::uint32_t size_of_short(CO_OBJ*, CO_NODE*, std::uint32_t) {
-  mood();
-  return 4;
-}
-std::uint32_t size_of_long(CO_OBJ*, CO_NODE*, std::uint32_t width) {
-  mood();
-  return width != 0 && width < long_value ? width : long_value;
-}
-std::uint32_t size_of_chance(CO_OBJ*, CO_NODE*, std::uint32_t);
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return answer_of(obj, node); }
-CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-  require(size <= long_value, "a type function is asked for no more than its size");
-  std::memset(buffer, 0x22, size);
-  return answer_of(obj, node);
-}
-CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-  require(size <= long_value, "a type function is given no more than its size");
-  std::uint8_t copy[long_value];
-  std::memcpy(copy, buffer, size);
-  return answer_of(obj, node);
-}
-CO_ERR reset(CO_OBJ* obj, CO_NODE* node, std::uint32_t) { return answer_of(obj, node); }
-
-constexpr CO_OBJ_TYPE short_value_type = {size_of_short, init, read, write, nullptr};
-constexpr CO_OBJ_TYPE long_value_type = {size_of_long, nullptr, read, write, nullptr};
-constexpr CO_OBJ_TYPE stream_type = {size_of_long, nullptr, read, write, reset};
-constexpr CO_OBJ_TYPE moody_type = {size_of_chance, nullptr, read, write, nullptr};
-constexpr CO_OBJ_TYPE moody_stream_type = {size_of_chance, init, read, write, reset};
-constexpr CO_OBJ_TYPE empty_type = {nullptr, nullptr, nullptr, nullptr, nullptr};
-
-std::vector<CO_OBJ> dictionary(Objects& o) {
-  return {
-      {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x191)},
-      {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&o.error_register)},
-      {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&o.name)},
-      {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&o.heartbeat)},
-      {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(5)},
-      {CO_KEY(0x1200, 1, CO_OBJ__N__RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[0])},
-      {CO_KEY(0x1200, 2, CO_OBJ__N__RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[1])},
-      {CO_KEY(0x1201, 1, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[2])},
-      {CO_KEY(0x1201, 2, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.cob_id[3])},
-      {CO_KEY(0x1202, 1, CO_OBJ_DN__RW), CO_TSDO_ID, (CO_DATA)(CO_SDO_ID_OFF)},
-      {CO_KEY(0x1202, 2, CO_OBJ_DN__RW), CO_TSDO_ID, (CO_DATA)(CO_SDO_ID_OFF)},
-      {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&o.u8)},
-      {CO_KEY(0x2000, 1, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&o.u16)},
-      {CO_KEY(0x2000, 2, CO_OBJ__N__RW), CO_TUNSIGNED24, (CO_DATA)(&o.u24)},
-      {CO_KEY(0x2000, 3, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&o.u32)},
-      {CO_KEY(0x2000, 4, CO_OBJ_____RW), CO_TUNSIGNED40, (CO_DATA)(&o.u40)},
-      {CO_KEY(0x2000, 5, CO_OBJ_____RW), CO_TUNSIGNED56, (CO_DATA)(&o.u56)},
-      {CO_KEY(0x2000, 6, CO_OBJ_____RW), CO_TUNSIGNED64, (CO_DATA)(&o.u64)},
-      {CO_KEY(0x2000, 7, CO_OBJ_____RW), CO_TSIGNED24, (CO_DATA)(&o.s24)},
-      {CO_KEY(0x2000, 8, CO_OBJ_____RW), CO_TREAL32, (CO_DATA)(&o.real32)},
-      {CO_KEY(0x2000, 9, CO_OBJ_____RW), CO_TREAL64, (CO_DATA)(&o.real64)},
-      {CO_KEY(0x2000, 10, CO_OBJ_____RW), CO_TTIME_OF_DAY, (CO_DATA)(&o.time_of_day)},
-      {CO_KEY(0x2000, 11, CO_OBJ_____RW), CO_TBOOLEAN, (CO_DATA)(&o.boolean)},
-      {CO_KEY(0x2000, 12, CO_OBJ_______), CO_TUNSIGNED8, (CO_DATA)(&o.no_access)},
-      {CO_KEY(0x2000, 13, CO_OBJ_D___RW), CO_TUNSIGNED32, (CO_DATA)(7)},
-      {CO_KEY(0x2100, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.domain)},
-      {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.small_domain)},
-      {CO_KEY(0x2100, 2, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&o.text)},
-      {CO_KEY(0x2100, 3, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.octets)},
-      {CO_KEY(0x2100, 4, CO_OBJ_____RW), CO_TUNICODE_STRING, (CO_DATA)(&o.unicode)},
-      {CO_KEY(0x2100, 5, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.nothing)},
-      {CO_KEY(0x2200, 0, CO_OBJ_____RW), &short_value_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 1, CO_OBJ_____RW), &stream_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 2, CO_OBJ_____RW), &long_value_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 3, CO_OBJ_____RW), &moody_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 4, CO_OBJ_____RW), &moody_stream_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 5, CO_OBJ_____RW), &empty_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 6, CO_OBJ_D___RW), CO_TUNSIGNED64, (CO_DATA)(7)},
-  };
-}
 
 // Drivers.
 // -------------------------------------------------------------------------------------------------------------
@@ -173,12 +56,19 @@ struct Bus {
   CO_IF_FRM last{};
 };
 
+// A request of an SDO client; its buffer is gone when the callback has come.
+struct Request {
+  bool is_open = false;
+  std::uint32_t key = 0;
+  Memory buffer;
+};
+
 class Bench {
  public:
   explicit Bench(fuzz::Input input) : input_(input) {
     bench = this;
     choose_configuration(input_.byte());
-    table_ = dictionary(objects_);
+    table_ = fuzz::dictionary(objects_);
     end_of_table_ = table_.size();
     std::memset(static_cast<void*>(&node_), 0xA5, sizeof node_);  // nothing may rely on memory being zero
     init();
@@ -236,12 +126,14 @@ class Bench {
       ext_.Timer = timer_driver_ == TimerDriver::clock ? &clock_with_alarm : &clock_alone;
     }
     drivers_.Timer = timer_driver_ == TimerDriver::delta ? &delta : &cyclic;
+    sdo_buffer_ = (bits & 64U) != 0 ? std::make_unique<std::uint8_t[]>(CO_SSDO_N * CO_SDO_BUF_BYTE) : nullptr;
   }
 
   void init() {
     const auto length = static_cast<std::uint16_t>(table_.size());
     const CO_NODE_SPEC spec{first_node_id, 250000,     table_.data(), length,    nullptr,
-                            timers_,       own_timers, frequency,     &drivers_, nullptr};
+                            timers_,       own_timers, frequency,     &drivers_, sdo_buffer_.get()};
+    forget_requests();
     ++depth_;  // type functions call the stack
     CONodeInitEx(&node_, &spec, &ext_);
     --depth_;
@@ -249,6 +141,14 @@ class Bench {
       id = -1;
     }
     watch();
+  }
+
+  // An initialisation forgets everything.
+  void forget_requests() {
+    fuzz::source = {};
+    for (Request& request : requests_) {
+      request = {};
+    }
   }
 
   void watch() {
@@ -270,7 +170,7 @@ class Bench {
   }
 
   CO_IF_FRM any_frame(std::uint8_t kind) {
-    constexpr std::uint32_t identifiers[] = {0x605, 0x685, 0x000, 0x606, 0x705, 0x000, 0x605, 0x605};
+    constexpr std::uint32_t identifiers[] = {0x605, 0x685, 0x000, 0x587, 0x705, 0x588, 0x605, 0x605};
     CO_IF_FRM frame{};
     frame.Identifier = (kind & 0x18U) == 0x18U ? input_.number() : identifiers[kind & 7U];
     frame.DLC = (kind & 0x60U) == 0x60U ? input_.byte() : frame.Identifier == 0 ? 2 : 8;
@@ -285,8 +185,9 @@ class Bench {
 
   // Chance alone would rarely find the objects.
   static void name_object(CO_IF_FRM& frame) {
-    constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008, 0x1017, 0x1200, 0x1201, 0x1202};
-    const std::uint16_t index = indices[frame.Data[1] & 7U];
+    constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008, 0x1017, 0x1200,
+                                         0x1201, 0x1202, 0x1280, 0x1281, 0x2100};
+    const std::uint16_t index = indices[frame.Data[1] % std::size(indices)];
     CO_SET_WORD(&frame, index, 1);
     frame.Data[3] &= 15U;
   }
@@ -306,7 +207,8 @@ class Bench {
     if (meddled_) {
       return;
     }
-    require(bus_.sent - sent <= waiting + CO_SSDO_N, "a frame is answered once by each server");
+    constexpr unsigned channels = CO_SSDO_N + CO_CSDO_N;
+    require(bus_.sent - sent <= waiting + channels * (1U + longest_block), "a frame has a bounded number of answers");
     for (const std::uint32_t dev : memory_.changed()) {
       require(!memory_.is_read_only(dev), "what is read-only does not change");
       const bool may = std::find(may_change.begin(), may_change.end(), dev) != may_change.end();
@@ -333,6 +235,7 @@ class Bench {
         &Bench::read_buffer,    &Bench::report_event, &Bench::move_stream,  &Bench::use_value,
         &Bench::abort_transfer, &Bench::long_time,    &Bench::change_table, &Bench::change_length,
         &Bench::set_node_id,    &Bench::take_error,   &Bench::init_again,   &Bench::time_out,
+        &Bench::request,        &Bench::cancel,       &Bench::set_client,   &Bench::send_segments,
     };
     ++depth_;
     meddled_ = true;
@@ -400,6 +303,73 @@ class Bench {
   void set_node_id() { CONmtSetNodeId(&node_.Nmt, input_.byte()); }
   void take_error() { CONodeGetErr(&node_); }
 
+  // SDO clients ------------------------------------------------------------
+
+  void request() {
+    constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008};
+    const std::uint32_t number = input_.below(std::size(requests_));
+    const std::uint32_t key = CO_DEV(indices[input_.below(std::size(indices))], input_.below(16));
+    const std::uint32_t timeout = input_.byte();
+    const std::uint8_t kind = input_.byte();
+    const std::uint32_t size = (kind & 0x7FU) * ((kind & 3U) == 3U ? 16U : 1U);
+    Memory buffer = std::make_unique<std::uint8_t[]>(size);
+    const auto start = (kind & 0x80U) != 0 ? COCSdoRequestUpload : COCSdoRequestDownload;
+    const CO_ERR err =
+        start(COCSdoFind(&node_, static_cast<std::uint8_t>(number)), key, buffer.get(), size, on_end, timeout);
+    if (err == CO_ERR_NONE) {
+      require(!requests_[number].is_open, "a client has one transfer at a time");
+      requests_[number] = {true, key, std::move(buffer)};
+    }
+  }
+
+  void cancel() { cancel_client(input_.below(std::size(requests_))); }
+
+  void cancel_client(std::uint32_t number) {
+    if (node_.Nmt.Mode == CO_INVALID && node_.CSdo[number].Node == nullptr) {
+      return;  // never initialised
+    }
+    const bool was_open = requests_[number].is_open;
+    const unsigned before = ends_;
+    const CO_ERR err = COCSdoCancel(&node_.CSdo[number]);
+    require((err == CO_ERR_NONE) == was_open, "what is open can be cancelled");
+    require(!was_open || ends_ > before, "the callback comes before COCSdoCancel() returns");
+  }
+
+  // The identifiers, or the node-ID of the server, which may be the own one.
+  void set_client() {
+    const std::uint32_t index = 0x1280 + input_.below(2);
+    const std::uint32_t sub = 1 + input_.below(3);
+    if (sub == 3) {
+      CODictWrByte(&node_.Dict, CO_DEV(index, sub), static_cast<std::uint8_t>(4 + input_.below(5)));
+    } else {
+      const std::uint32_t flags = input_.flag() ? CO_SDO_ID_OFF : 0U;
+      CODictWrLong(&node_.Dict, CO_DEV(index, sub), flags | (sub == 1 ? 0x604U : 0x586U) + input_.below(4));
+    }
+  }
+
+  static void on_end(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t) {
+    ++bench->ends_;
+    Request& request = bench->requests_[csdo - bench->node_.CSdo];
+    require(std::exchange(request.is_open, false), "a request has one callback");
+    require(CO_DEV(index, sub) == request.key, "a callback names the object");
+    request.buffer.reset();
+    bench->meddle();
+  }
+
+  // A client of chance would hardly ever fill a buffer.
+  void send_segments() {
+    if (!is_outermost()) {
+      return;
+    }
+    const std::uint8_t first = input_.byte();
+    const std::uint8_t last = input_.byte() & 0x7FU;
+    for (unsigned n = first & 0x7FU; n <= last; ++n) {
+      bus_.to_node.assign(
+          1, CO_IF_FRM{0x605, {static_cast<std::uint8_t>(n | (n == last ? first & 0x80U : 0U)), first}, 8});
+      CONodeProcess(&node_);
+    }
+  }
+
   // Not allowed within type functions.
   void change_table() {
     if (!is_outermost()) {
@@ -410,6 +380,7 @@ class Bench {
     takes ? take_entry(place) : restore_table();
     const auto length = static_cast<std::uint16_t>(table_.size());
     require(CODictInit(&node_.Dict, &node_, table_.data(), length) == CO_ERR_NONE, "the changed table is taken");
+    fuzz::source.has_moved = true;
     watch();
   }
   void take_entry(std::size_t place) {
@@ -419,7 +390,7 @@ class Bench {
     --end_of_table_;
   }
   void restore_table() {
-    const std::vector<CO_OBJ> all = dictionary(objects_);
+    const std::vector<CO_OBJ> all = fuzz::dictionary(objects_);
     std::copy(all.begin(), all.end(), table_.begin());  // the table stays where it is
     end_of_table_ = all.size();
   }
@@ -480,19 +451,25 @@ class Bench {
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
     require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");
-    require(timers_in_lists() <= own_timers + 2U, "no timer is in two lists");
+    require(timers_in_lists() <= most_timers, "no timer is in two lists");
     for (const CO_SDO& server : node_.Sdo) {
       require(server.State == 0 || server.Obj != nullptr, "an open transfer has an object");
+    }
+    for (std::size_t n = 0; n < std::size(requests_) && node_.Nmt.Mode != CO_INVALID; ++n) {
+      const bool is_busy = node_.CSdo[n].State == CO_CSDO_STATE_BUSY;
+      require(is_busy == requests_[n].is_open, "a client is busy from the request to the callback");
     }
     const CO_NODE_COUNTERS counters = CONodeGetCounters(&node_);
     require(counters.Unclaimed <= counters.Received, "only what was received was unclaimed");
     require(counters.Malformed <= counters.Received, "a malformed frame is counted once");
   }
 
+  static constexpr unsigned most_timers = own_timers + 2U + CO_CSDO_N;  // heartbeat, servers, clients
+
   unsigned timers_in_lists() const {
     unsigned number = 0;
     for (const CO_TMR_MEM* list : {node_.Tmr.Use, node_.Tmr.Due, node_.Tmr.Run}) {
-      for (; list != nullptr && number <= own_timers + 2U; list = list->Next) {
+      for (; list != nullptr && number <= most_timers; list = list->Next) {
         ++number;
       }
     }
@@ -502,6 +479,9 @@ class Bench {
   // The input is used up, so that no callback does anything any more.
   void recover() {
     bus_.refusals = 0;
+    for (std::uint32_t n = 0; n < std::size(requests_); ++n) {
+      cancel_client(n);
+    }
     forget_transfers();
     restore_table();
     objects_.cob_id[0] = 0x600;
@@ -556,12 +536,22 @@ class Bench {
                        [&](const CO_SDO& server) { return server.TxId == frame.Identifier; });
   }
 
+  // A segment of a block upload looks like anything.
+  std::string fault_of(const CO_IF_FRM& frame) const {
+    const CO_MODE mode = mode_of(frame);
+    const bool may_be_segment = std::any_of(std::begin(node_.Sdo), std::end(node_.Sdo), [&](const CO_SDO& server) {
+      return server.TxId == frame.Identifier && server.State != 0;
+    });
+    const std::string fault = test::fault_of(frame, node_.NodeId, mode, is_answer(frame));
+    return fault.empty() || !may_be_segment ? fault : test::fault_of(frame, node_.NodeId, mode, true, true);
+  }
+
   std::int16_t take(const CO_IF_FRM& frame) {
     if (bus_.refusals > 0) {
       --bus_.refusals;
       return input_.flag() ? std::int16_t{-1} : std::int16_t{0};
     }
-    const std::string fault = test::fault_of(frame, node_.NodeId, mode_of(frame), is_answer(frame));
+    const std::string fault = fault_of(frame);
     require(fault.empty(), fault);
     require(bus_.is_on, "nothing is sent while off the bus");
     ++bus_.sent;
@@ -650,6 +640,9 @@ class Bench {
   std::vector<CO_OBJ> table_;
   std::size_t end_of_table_ = 0;
   test::MemoryWatch memory_;
+  Request requests_[2];
+  unsigned ends_ = 0;  // callbacks of SDO clients
+  Memory sdo_buffer_;
   std::int16_t timer_ids_[8] = {};
   CO_TMR_MEM timers_[own_timers] = {};
   CO_IF_FRM queue_[3] = {};
@@ -658,15 +651,11 @@ class Bench {
   CO_NODE node_;
 };
 
-CO_ERR mood() { return bench->mood(); }
-
-// A type that answers another size each time: 1…20.
-std::uint32_t size_of_chance(CO_OBJ*, CO_NODE*, std::uint32_t) {
-  bench->meddle();
-  return 1 + bench->chance(long_value);
-}
-
 }  // namespace
+
+void fuzz::meddle() { bench->meddle(); }
+CO_ERR fuzz::mood() { return bench->mood(); }
+std::uint32_t fuzz::chance(std::uint32_t limit) { return bench->chance(limit); }
 
 extern "C" {
 

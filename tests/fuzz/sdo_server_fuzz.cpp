@@ -1,259 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of chance to an SDO server, beside a model that knows the protocol of the standard and nothing of the stack:
-// every answer and all data must be the same. [301:7.2.4.3]
+// Requests of chance to an SDO server, silences and a controller that refuses, beside a model that knows the protocol
+// of the standard and nothing of the stack: every answer and all data must be the same. [301:7.2.4.3]
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <iterator>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "co_core.h"
 #include "fuzz/fuzz.hpp"
-#include "support/invariants.hpp"
+#include "support/sdo_server_model.hpp"
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-using Frame = std::array<std::uint8_t, 8>;
+using test::Bytes;
+using test::SdoBytes;
+using test::SdoObject;
+using test::SdoServerModel;
 
 constexpr std::uint8_t node_id = 5;
+constexpr std::uint32_t large_size = 2000;           // more than two buffers
+constexpr std::uint32_t slice = CO_SDO_TIMEOUT / 8;  // of the time-out, in ticks of 1 ms
+constexpr unsigned always = std::numeric_limits<unsigned>::max();
 
-// What an object looks like from the network.
-struct Object {
-  enum class Kind { number, boolean, domain, octets, text, characters };
-  std::uint16_t index;
-  std::uint8_t sub;
-  bool readable;
-  bool writable;
-  Kind kind;
-  std::uint32_t capacity;
-  Bytes value;
-
-  bool is_stream() const { return kind != Kind::number && kind != Kind::boolean; }
-
-  // A text ends at its first NUL. A transfer that was cut off within a character leaves only whole ones.
-  Bytes shown() const {
-    auto end = kind == Kind::text ? std::find(value.begin(), value.end(), 0) : value.end();
-    end -= kind == Kind::characters ? static_cast<std::ptrdiff_t>(value.size() % 2) : 0;
-    return Bytes(value.begin(), end);
-  }
-  void set(const Bytes& bytes) {
-    if (kind == Kind::domain) {
-      std::copy(bytes.begin(), bytes.end(), value.begin());
-    } else {
-      value = bytes;
-    }
-  }
-};
-
-// The server of the standard.
-// ------------------------------------------------------------------------------------------
-
-class Model {
- public:
-  explicit Model(std::vector<Object> objects) : objects_(std::move(objects)) {}
-
-  // Nothing: the request is not answered.
-  std::optional<Frame> answer(const Frame& request) {
-    const unsigned specifier = request[0] >> 5;
-    if ((request[0] & reserved[specifier]) != 0) {
-      return refuse(request, 0x05040001);
-    }
-    switch (specifier) {
-      case 0: return state_ == State::download ? take(request) : refuse(request, 0x05040001);
-      case 1:
-      case 2: return initiate(request);
-      case 3: return state_ == State::upload ? give(request) : refuse(request, 0x05040001);
-      case 4: state_ = State::idle; return std::nullopt;
-      default: return refuse(request, 0x05040001);
-    }
-  }
-
-  const std::vector<Object>& objects() const { return objects_; }
-
-  // A request that goes on with what is open, for inputs that get far.
-  Frame continued(bool shorter) const {
-    if (state_ != State::download) {
-      return {static_cast<std::uint8_t>(0x60 | toggle_)};
-    }
-    const std::size_t left = size_ - data_.size();
-    const std::size_t length = std::min<std::size_t>(7, left > 0 && shorter ? left - 1 : left);
-    const unsigned last = length == left || shorter ? 1 : 0;
-    return {static_cast<std::uint8_t>(toggle_ | ((7 - length) << 1) | last)};
-  }
-
- private:
-  enum class State { idle, download, upload };
-  static constexpr std::uint8_t reserved[8] = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x00, 0x00, 0x00};
-
-  static Frame abort(const std::uint8_t* key, std::uint32_t code) {
-    return {0x80,
-            key[0],
-            key[1],
-            key[2],
-            static_cast<std::uint8_t>(code),
-            static_cast<std::uint8_t>(code >> 8),
-            static_cast<std::uint8_t>(code >> 16),
-            static_cast<std::uint8_t>(code >> 24)};
-  }
-
-  // Ends what is open; the abort names that, or else what the request names.
-  Frame refuse(const Frame& request, std::uint32_t code) {
-    const bool within = state_ != State::idle;
-    state_ = State::idle;
-    return abort(within ? key_.data() : &request[1], code);
-  }
-
-  bool has_index(std::uint16_t index) const {
-    return std::any_of(objects_.begin(), objects_.end(), [=](const Object& object) { return object.index == index; });
-  }
-
-  std::optional<Frame> initiate(const Frame& request) {
-    state_ = State::idle;
-    std::copy_n(request.begin() + 1, 3, key_.begin());
-    const auto index = static_cast<std::uint16_t>(request[1] | (request[2] << 8));
-    const bool upload = request[0] == 0x40;
-    const auto found = std::find_if(objects_.begin(), objects_.end(), [&](const Object& object) {
-      return object.index == index && object.sub == request[3];
-    });
-    if (found == objects_.end()) {
-      return refuse(request, has_index(index) ? 0x06090011 : 0x06020000);
-    }
-    object_ = &*found;
-    if (!(upload ? object_->readable : object_->writable)) {
-      const bool none = !object_->readable && !object_->writable;
-      return refuse(request, none ? 0x06010000 : upload ? 0x06010001 : 0x06010002);
-    }
-    toggle_ = 0;
-    data_.clear();
-    return upload ? begin_upload() : begin_download(request);
-  }
-
-  Frame head(unsigned command) const { return {static_cast<std::uint8_t>(command), key_[0], key_[1], key_[2]}; }
-
-  Frame begin_upload() {
-    data_ = object_->shown();
-    done_ = 0;
-    const std::size_t size = data_.size();
-    if (size >= 1 && size <= 4) {
-      Frame frame = head(0x43 | static_cast<unsigned>((4 - size) << 2));
-      std::copy(data_.begin(), data_.end(), frame.begin() + 4);
-      return frame;
-    }
-    state_ = State::upload;
-    Frame frame = head(0x41);
-    frame[4] = static_cast<std::uint8_t>(size);
-    return frame;
-  }
-
-  // 0: a download may have this length.
-  std::uint32_t fault_of_length(std::size_t length) const {
-    const bool half_character = object_->kind == Object::Kind::characters && length % 2 != 0;
-    if (length > object_->capacity || half_character) {
-      return 0x06070012;
-    }
-    return length < object_->capacity && !object_->is_stream() ? 0x06070013 : 0;
-  }
-
-  std::uint32_t fault_of_value() const {
-    return object_->kind == Object::Kind::boolean && data_[0] > 1 ? 0x06090030 : 0;
-  }
-
-  Frame begin_download(const Frame& request) {
-    sized_ = (request[0] & 0x01) != 0;
-    if ((request[0] & 0x02) != 0) {
-      return expedited(request);
-    }
-    size_ = object_->capacity;
-    if (sized_) {
-      size_ = request[4] | (std::uint32_t{request[5]} << 8) | (std::uint32_t{request[6]} << 16) |
-              (std::uint32_t{request[7]} << 24);
-      if (const std::uint32_t fault = fault_of_length(size_); fault != 0) {
-        return refuse(request, fault);
-      }
-    }
-    if (object_->is_stream()) {
-      object_->set({});
-    }
-    state_ = State::download;
-    return head(0x60);
-  }
-
-  Frame expedited(const Frame& request) {
-    const std::uint32_t length = sized_ ? 4U - ((request[0] >> 2) & 3U) : object_->capacity;
-    if (length > 4) {
-      return refuse(request, 0x06070010);
-    }
-    if (const std::uint32_t fault = fault_of_length(length); fault != 0) {
-      return refuse(request, fault);
-    }
-    data_.assign(request.begin() + 4, request.begin() + 4 + length);
-    if (const std::uint32_t fault = fault_of_value(); fault != 0) {
-      return refuse(request, fault);
-    }
-    object_->set(data_);
-    return head(0x60);
-  }
-
-  Frame take(const Frame& request) {
-    const std::uint8_t toggle = request[0] & 0x10;
-    const std::size_t length = 7U - ((request[0] >> 1) & 7U);
-    if (toggle != toggle_) {
-      return refuse(request, 0x05030000);
-    }
-    if (data_.size() + length > size_) {
-      return refuse(request, 0x06070012);
-    }
-    data_.insert(data_.end(), request.begin() + 1, request.begin() + 1 + static_cast<std::ptrdiff_t>(length));
-    if (object_->is_stream()) {
-      object_->set(data_);
-    }
-    toggle_ ^= 0x10;
-    const std::uint32_t fault = (request[0] & 0x01) != 0 ? end_download() : 0;
-    return fault != 0 ? refuse(request, fault) : Frame{static_cast<std::uint8_t>(0x20 | toggle)};
-  }
-
-  std::uint32_t end_download() {
-    const std::uint32_t too_short = data_.size() < size_ ? 0x06070013 : 0;
-    if (const std::uint32_t fault = sized_ ? too_short : fault_of_length(data_.size()); fault != 0) {
-      return fault;
-    }
-    if (const std::uint32_t fault = fault_of_value(); fault != 0) {
-      return fault;
-    }
-    object_->set(data_);
-    state_ = State::idle;
-    return 0;
-  }
-
-  Frame give(const Frame& request) {
-    const std::uint8_t toggle = request[0] & 0x10;
-    if (toggle != toggle_) {
-      return refuse(request, 0x05030000);
-    }
-    const std::size_t length = std::min<std::size_t>(7, data_.size() - done_);
-    const bool last = done_ + length == data_.size();
-    Frame frame = {static_cast<std::uint8_t>(toggle | ((7 - length) << 1) | (last ? 1U : 0U))};
-    std::copy_n(data_.begin() + static_cast<std::ptrdiff_t>(done_), length, frame.begin() + 1);
-    done_ += length;
-    toggle_ ^= 0x10;
-    state_ = last ? State::idle : State::upload;
-    return frame;
-  }
-
-  std::vector<Object> objects_;
-  State state_ = State::idle;
-  Object* object_ = nullptr;
-  std::array<std::uint8_t, 3> key_{};  // of the object, as in the frame
-  std::uint8_t toggle_ = 0;
-  bool sized_ = false;
-  std::uint32_t size_ = 0;  // bytes that a download will have, or may have
-  std::size_t done_ = 0;    // bytes of an upload
-  Bytes data_;
-};
+CO_IF_FRM frame_of(std::uint32_t identifier, const SdoBytes& bytes) {
+  CO_IF_FRM frame{identifier, {}, 8};
+  std::copy(bytes.begin(), bytes.end(), frame.Data);
+  return frame;
+}
 
 // The server under test.
 // -----------------------------------------------------------------------------------------------
@@ -265,8 +45,9 @@ class Device {
     ext_.Can = &can;
     ext_.Timer = &timer;
     ext_.CanCtx = this;
+    ext_.TimerCtx = this;
     constexpr std::uint16_t entries = std::extent_v<decltype(table_)>;
-    CO_NODE_SPEC spec{node_id, 250000, table_, entries, nullptr, nullptr, 0, 1000, nullptr, nullptr};
+    CO_NODE_SPEC spec{node_id, 250000, table_, entries, nullptr, nullptr, 0, 1000, nullptr, buffer_.get()};
     CONodeInitEx(&node_, &spec, &ext_);
     fuzz::require(CONodeGetErr(&node_) == CO_ERR_NONE, "the node starts");
     CONodeStart(&node_);
@@ -276,16 +57,21 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  std::vector<CO_IF_FRM> ask(const CO_IF_FRM& request) {
-    received_ = request;
-    sent_.clear();
-    CONodeProcess(&node_);
-    return sent_;
+  void receive(const CO_IF_FRM& request) { received_ = request; }
+  void process() { CONodeProcess(&node_); }
+  void pass(std::uint32_t ticks) {
+    now_ += ticks;
+    COTmrService(&node_.Tmr);
+    COTmrProcess(&node_.Tmr);
   }
+  // What has been sent since the last call.
+  std::vector<CO_IF_FRM> take_sent() { return std::exchange(sent_, {}); }
+
+  unsigned accepts = always;  // frames that the controller still takes
 
   // The objects as they are before any download.
-  static std::vector<Object> objects() {
-    using Kind = Object::Kind;
+  static std::vector<SdoObject> objects() {
+    using Kind = SdoObject::Kind;
     const char* const text = "a text that is long";
     return {
         {0x1001, 0, true, false, Kind::number, 1, {0}},
@@ -306,10 +92,11 @@ class Device {
         {0x2001, 3, true, true, Kind::characters, 8, {0x41, 0x00, 0xAC, 0x20}},
         {0x2001, 4, true, true, Kind::octets, 3, {1}},
         {0x2001, 5, true, false, Kind::text, 0, Bytes(text, text + std::strlen(text))},
+        {0x2001, 6, true, true, Kind::domain, large_size, Bytes(large_size)},
     };
   }
 
-  // The bytes that the variables show now, in the order of objects().
+  // The bytes that the variables show now, in the order of objects(), but for the last two.
   std::vector<Bytes> values() const {
     std::vector<Bytes> all = {Bytes{error_register_}, Bytes{9, 0, 0, 0}};
     all.insert(all.end(), {number(u8_, 1), number(u16_, 2), number(u24_, 3), number(u64_, 8)});
@@ -329,6 +116,8 @@ class Device {
     return u24_ <= 0xFFFFFF && u40_ <= 0xFFFFFFFFFF && has_sign;
   }
 
+  bool holds(const Bytes& large) const { return std::equal(large.begin(), large.end(), large_memory_); }
+
  private:
   static Bytes number(std::uint64_t value, unsigned width) {
     Bytes bytes;
@@ -341,7 +130,7 @@ class Device {
   static Device& of(void* ctx) { return *static_cast<Device*>(ctx); }
   static void nothing(void*) {}
   static void no_number(void*, std::uint32_t) {}
-  static std::uint32_t no_time(void*) { return 0; }
+  static std::uint32_t time(void* ctx) { return of(ctx).now_; }
   static std::int16_t read(void* ctx, CO_IF_FRM* frame) {
     std::optional<CO_IF_FRM>& received = of(ctx).received_;
     if (!received) {
@@ -352,11 +141,16 @@ class Device {
     return sizeof *frame;
   }
   static std::int16_t send(void* ctx, const CO_IF_FRM* frame) {
-    of(ctx).sent_.push_back(*frame);
+    Device& device = of(ctx);
+    if (device.accepts == 0) {
+      return 0;
+    }
+    device.accepts -= device.accepts == always ? 0 : 1;
+    device.sent_.push_back(*frame);
     return sizeof *frame;
   }
   static constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, read, send, nothing, nothing, nullptr};
-  static constexpr CO_IF_TIMER_DRV_EX timer = {no_number, no_time, nullptr};
+  static constexpr CO_IF_TIMER_DRV_EX timer = {no_number, time, nullptr};
 
   std::uint8_t error_register_ = 0;
   std::uint8_t u8_ = 1;
@@ -374,13 +168,15 @@ class Device {
   std::uint8_t octets_memory_[9] = {};
   std::uint16_t unicode_memory_[4] = {0x0041, 0x20AC};
   std::uint8_t small_memory_[3] = {1};
+  std::uint8_t large_memory_[large_size] = {};
   CO_OBJ_DOM domain_{0, 30, domain_memory_};
   CO_OBJ_STR_RW text_{0, 5, 12, text_memory_};
   CO_OBJ_STR_RW octets_{0, 9, 9, octets_memory_};
   CO_OBJ_STR_RW unicode_{0, 4, 8, reinterpret_cast<std::uint8_t*>(unicode_memory_)};
   CO_OBJ_STR_RW small_{0, 1, 3, small_memory_};
+  CO_OBJ_DOM large_{0, large_size, large_memory_};
   CO_OBJ_STR name_{0, reinterpret_cast<const std::uint8_t*>("a text that is long")};
-  CO_OBJ table_[18] = {
+  CO_OBJ table_[19] = {
       {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register_)},
       {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(9)},
       {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&u8_)},
@@ -399,9 +195,13 @@ class Device {
       {CO_KEY(0x2001, 3, CO_OBJ_____RW), CO_TUNICODE_STRING, (CO_DATA)(&unicode_)},
       {CO_KEY(0x2001, 4, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&small_)},
       {CO_KEY(0x2001, 5, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&name_)},
+      {CO_KEY(0x2001, 6, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&large_)},
   };
   std::optional<CO_IF_FRM> received_;
   std::vector<CO_IF_FRM> sent_;
+  std::uint32_t now_ = 0xFFFFF000;  // wraps soon
+  // Memory of its own, so that the address sanitizer sees the first byte beyond.
+  std::unique_ptr<std::uint8_t[]> buffer_ = std::make_unique<std::uint8_t[]>(CO_SSDO_N * CO_SDO_BUF_BYTE);
   CO_NODE_EXT ext_{};
   CO_NODE node_{};
 };
@@ -414,72 +214,159 @@ class Client {
   explicit Client(fuzz::Input input) : input_(input) {}
 
   void run() {
-    while (!input_.is_empty()) {
-      step();
-    }
-  }
-
- private:
-  Frame random_bytes() {
-    Frame frame;
-    std::generate(frame.begin(), frame.end(), [this] { return input_.byte(); });
-    return frame;
-  }
-
-  Frame initiate() {
-    constexpr std::uint8_t commands[] = {0x40, 0x21, 0x20, 0x2F, 0x2B, 0x27, 0x23, 0x22};
-    Frame frame{};
-    frame[0] = commands[input_.below(std::size(commands))];
-    const Object& object = model_.objects()[input_.below(model_.objects().size())];
-    frame[1] = static_cast<std::uint8_t>(object.index);
-    frame[2] = static_cast<std::uint8_t>(object.index >> 8);
-    frame[3] = object.sub;
-    const bool exact = frame[0] == 0x21 && input_.flag();
-    frame[4] = exact ? static_cast<std::uint8_t>(object.capacity) : input_.byte();
-    if (frame[0] != 0x21) {
-      std::generate(frame.begin() + 5, frame.end(), [this] { return input_.byte(); });
-    }
-    return frame;
-  }
-
-  Frame segment(bool shorter) {
-    Frame frame = model_.continued(shorter);
-    if (frame[0] < 0x20) {
-      std::generate(frame.begin() + 1, frame.end(), [this] { return input_.byte(); });
-    }
-    return frame;
-  }
-
-  Frame any_request(std::uint8_t kind) {
-    switch (kind & 7U) {
-      case 0: return random_bytes();
-      case 1: return segment(true);
-      case 2:
-      case 3: return initiate();
-      default: return segment(false);
-    }
-  }
-
-  // Length codes of more than 8 mean 8 bytes [ISO 11898-1]; shorter frames are no requests.
-  void step() {
-    const std::uint8_t kind = input_.byte();
-    const auto length = static_cast<std::uint8_t>((kind & 0xF0U) == 0xF0U ? input_.below(16) : 8);
-    const Frame bytes = any_request(kind);
-    CO_IF_FRM request{0x600U + node_id, {}, length};
-    std::copy(bytes.begin(), bytes.end(), request.Data);
-    const std::vector<CO_IF_FRM> answers = device_.ask(request);
-    const std::optional<Frame> expected = length < 8 ? std::nullopt : model_.answer(bytes);
-    fuzz::require(answers.size() == (expected ? 1U : 0U), "one answer, or none");
-    if (expected) {
-      check(answers[0], *expected);
+    for (unsigned n = 1; !input_.is_empty(); ++n) {
+      step(input_.byte());
+      if (n % steps_between_looks == 0) {
+        check_objects();
+      }
     }
     check_objects();
   }
 
-  static void check(const CO_IF_FRM& answer, const Frame& expected) {
-    fuzz::require(test::fault_of(answer, node_id, CO_PREOP, true).empty(), "the answer has the form of an SDO");
-    fuzz::require(answer.Identifier == 0x580U + node_id, "the answer has the identifier of the server");
-    fuzz::require(std::equal(expected.begin(), expected.end(), answer.Data), "the answer is that of the standard");
+ private:
+  static constexpr std::size_t longest_queue = CO_TX_QUEUE_N - 2;
+  static constexpr unsigned steps_between_looks = 16;  // at all objects, which takes longer than the steps
+
+  void fill(SdoBytes& bytes, std::size_t first) {
+    std::generate(bytes.begin() + static_cast<std::ptrdiff_t>(first), bytes.end(), [this] { return input_.byte(); });
+  }
+
+  SdoBytes initiate() {
+    constexpr std::uint8_t commands[] = {0x40, 0x21, 0x20, 0x2F, 0x2B, 0x27, 0x23, 0x22,
+                                         0xC0, 0xC2, 0xC4, 0xC6, 0xC6, 0xA0, 0xA4, 0xA4};
+    const SdoObject& object = model_.objects()[input_.below(model_.objects().size())];
+    const auto low = static_cast<std::uint8_t>(object.index);
+    const auto high = static_cast<std::uint8_t>(object.index >> 8);
+    SdoBytes bytes = {commands[input_.below(std::size(commands))], low, high, object.sub};
+    const bool tells_size = bytes[0] == 0x21 || bytes[0] == 0xC2 || bytes[0] == 0xC6;
+    if (tells_size) {
+      const std::uint32_t size = input_.flag() ? object.capacity : input_.byte();
+      bytes[4] = static_cast<std::uint8_t>(size);
+      bytes[5] = static_cast<std::uint8_t>(size >> 8);
+    } else {
+      fill(bytes, 4);
+    }
+    return bytes;
+  }
+
+  SdoBytes continued(bool shorter) {
+    SdoBytes bytes = model_.continued(shorter);
+    if (bytes[0] < 0x20 || model_.is_in_block()) {
+      fill(bytes, 1);
+    }
+    return bytes;
+  }
+
+  void step(std::uint8_t kind) {
+    switch (kind & 0x1FU) {
+      case 0:
+      case 1: {
+        SdoBytes bytes{};
+        fill(bytes, 0);
+        ask(bytes);
+        break;
+      }
+      case 2:
+      case 3:
+      case 4:
+      case 5: ask(initiate()); break;
+      case 6:
+      case 7: ask(continued(true)); break;
+      case 8: ask(initiate(), static_cast<std::uint8_t>(input_.below(16))); break;
+      case 9: be_silent(1 + input_.below(9)); break;
+      case 10: be_silent(2); break;
+      case 11: refuse(input_.below(16)); break;
+      case 12: refuse(always); break;
+      case 13: repeat(); break;
+      case 14: acknowledge(); break;
+      case 15: ask({static_cast<std::uint8_t>(0x80U | (input_.byte() & 0x7FU))}); break;
+      case 16:
+      case 17: go_on(input_.below(160)); break;
+      default: ask(continued(false)); break;
+    }
+  }
+
+  // Many segments of a block, all with the same bytes.
+  void go_on(unsigned number) {
+    const std::uint8_t data = input_.byte();
+    for (; number > 0 && model_.is_in_block(); --number) {
+      SdoBytes bytes = model_.continued(false);
+      std::fill(bytes.begin() + 1, bytes.end(), data);
+      ask(bytes);
+    }
+  }
+
+  void repeat() { ask(latest_); }
+
+  void acknowledge() { ask({0xA2, input_.byte(), input_.byte()}); }
+
+  // Length codes of more than 8 mean 8 bytes [ISO 11898-1]; shorter frames are no requests.
+  void ask(const SdoBytes& bytes, std::uint8_t length = 8) {
+    latest_ = bytes;
+    CO_IF_FRM request = frame_of(0x600U + node_id, bytes);
+    request.DLC = length;
+    expect_waiting();
+    device_.receive(request);
+    device_.process();
+    if (length >= 8) {
+      expect(model_.answer(bytes));
+    }
+    check_sent();
+  }
+
+  void be_silent(std::uint32_t slices) {
+    for (; slices > 0; --slices) {
+      device_.pass(slice);
+      expect(model_.slice());
+      check_sent();
+    }
+  }
+
+  void refuse(unsigned after) {
+    device_.accepts = after;
+    accepts_ = after;
+    expect_waiting();
+    device_.process();
+    check_sent();
+  }
+
+  // What is to be sent waits while the controller takes nothing; segments are made only when it does.
+  void expect(const std::optional<SdoBytes>& answer) {
+    if (answer) {
+      waiting_.push_back(*answer);
+    }
+    expect_waiting();
+  }
+
+  void expect_waiting() {
+    while (accepts_ > 0) {
+      std::optional<SdoBytes> next;
+      if (waiting_.empty()) {
+        next = model_.segment();
+      } else {
+        next = waiting_.front();
+        waiting_.pop_front();
+      }
+      if (!next) {
+        return;
+      }
+      expected_.push_back(*next);
+      accepts_ -= accepts_ == always ? 0 : 1;
+    }
+  }
+
+  void check_sent() {
+    const std::vector<CO_IF_FRM> sent = device_.take_sent();
+    fuzz::require(sent.size() == expected_.size(), "as many frames as the standard says");
+    for (std::size_t n = 0; n < sent.size(); ++n) {
+      const bool is_answer = sent[n].Identifier == 0x580U + node_id && sent[n].DLC == 8;
+      const bool same = std::equal(expected_[n].begin(), expected_[n].end(), sent[n].Data);
+      fuzz::require(is_answer && same, "a frame is that of the standard");
+    }
+    expected_.clear();
+    if (waiting_.size() >= longest_queue) {
+      refuse(always);
+    }
   }
 
   void check_objects() const {
@@ -487,12 +374,17 @@ class Client {
     for (std::size_t n = 0; n < values.size(); ++n) {
       fuzz::require(values[n] == model_.objects()[n].value, "an object has the value that was downloaded");
     }
+    fuzz::require(device_.holds(model_.objects().back().value), "a domain has the bytes that were downloaded");
     fuzz::require(device_.is_extended(), "a variable that is wider than its value has its sign");
   }
 
   fuzz::Input input_;
-  Model model_{Device::objects()};
+  SdoServerModel model_{Device::objects(), CO_SDO_BUF_SEG};
   Device device_;
+  SdoBytes latest_{};
+  unsigned accepts_ = always;       // frames that the controller still takes
+  std::deque<SdoBytes> waiting_;    // answers for which there was no place
+  std::vector<SdoBytes> expected_;  // frames that the device must have sent
 };
 
 }  // namespace

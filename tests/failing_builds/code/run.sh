@@ -17,7 +17,7 @@ fail() {
 
 # Without position independence a table of addresses is read-only for nm, too.
 "$@" "$level" -fno-pie -c "$here/tables.cpp" -o "$object"
-for table in table_const table_constexpr; do
+for table in table_const table_constexpr table_of_functions; do
   nm "$object" | grep -q " R $table\$" || fail tables.cpp "$table is not read-only"
 done
 if readelf -SW "$object" | grep -Eq '\.(init_array|ctors)'; then

@@ -25,6 +25,10 @@ extern Group group;
 extern const CO_OBJ table_const[];
 extern const CO_OBJ table_constexpr[];
 
+std::uint32_t size(CO_OBJ*, CO_NODE*, std::uint32_t);
+extern const CO_OBJ_TYPE_EX table_of_functions;
+const CO_OBJ_TYPE_EX table_of_functions = {{size, nullptr, nullptr, nullptr, COObjTypeExReset}, {}, {}, {}};
+
 // clang-format off
 #define ENTRIES                                                                \
   {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(1)},            \
@@ -45,7 +49,8 @@ extern const CO_OBJ table_constexpr[];
   {CO_KEY(0x3000, 1, CO_OBJ_____R_), &own, (CO_DATA)function},                 \
   {CO_KEY(0x3000, 2, CO_OBJ_____R_), &own, (CO_DATA)(&variadic)},              \
   {CO_KEY(0x3000, 3, CO_OBJ_____R_), &own, (CO_DATA)&quiet},                   \
-  {CO_KEY(0x3000, 4, CO_OBJ_____R_), &own, (CO_DATA)nullptr}
+  {CO_KEY(0x3000, 4, CO_OBJ_____R_), &own, (CO_DATA)nullptr},                  \
+  {CO_KEY(0x3000, 5, CO_OBJ_____R_), &table_of_functions.Type, (CO_DATA)(&byte)}
 
 const CO_OBJ table_const[] = {ENTRIES, CO_OBJ_DICT_ENDMARK};
 constexpr CO_OBJ table_constexpr[] = {ENTRIES, CO_OBJ_DICT_ENDMARK};

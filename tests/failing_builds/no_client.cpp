@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: no member named 'CSdo'
+// expect: 'COCSdoFind'
+// Without SDO clients a node has no memory for them, and nothing looks for one.
+#define USE_CSDO 0
+#include "co_core.h"
+
+CO_NODE node;
+
+const void* first() { return &node.CSdo[0]; }
+const void* found() { return COCSdoFind(&node, 0); }
