@@ -133,7 +133,7 @@ void event::settle(CO_NODE& node) {
     node.Pending = 0;
     if ((pending & (reset_node | reset_communication)) != 0) {
       node::settle_reset(node, pending);
-    } else {
+    } else if (node.Nmt.Mode != CO_INVALID) {
       node.Busy = 1;
       services::configure(node);
       node.Busy = 0;

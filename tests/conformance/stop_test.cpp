@@ -79,6 +79,18 @@ TEST_CASE("stop: when the node enters Initialisation in CONodeInit(), it stays i
   check_stopped(node);
 }
 
+TEST_CASE("stop: a COB-ID that is written afterwards configures nothing in a node that was never initialised") {
+  Fixture node;
+  node.call([&] { CONodeStop(&node.node); });
+  callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
+    if (mode == CO_INIT) CONodeStop(&node.node);
+  };
+  node.init_again();
+  CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1201, 1), 0x80000640) ==
+        (CO_SSDO_N > 1 ? CO_ERR_NONE : CO_ERR_OBJ_NOT_FOUND));
+  check_stopped(node);
+}
+
 TEST_CASE("stop: when the start is announced, the boot-up message is the last frame") {
   Fixture node(Setup().stay_in_init());
   callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
