@@ -221,7 +221,7 @@ void CONodeProcess(CO_NODE* node) {
     return;
   }
   transmit::flush(*node);
-  if (node->Paused != 0) {
+  if (USE_SDO_BLOCK != 0 && node->Paused != 0) {
     node::go_on(*node);
   }
   if (node->Nmt.Mode == CO_INVALID) {

@@ -109,7 +109,7 @@ TEST_CASE("CiA tool: SDO, a block of 128 segments, and 128 segments acknowledged
 #endif
 
 TEST_CASE("CiA tool: SDO, a device without block transfer says so [SDO 19]-[SDO 27]") {
-  Fixture node(Setup().without_sdo_buffer());
+  Fixture node(USE_SDO_BLOCK != 0 ? Setup().without_sdo_buffer() : Setup());
   prepare(node);
   node.ask("601#A000100014000000", "581#8000100001000405");
   node.ask("601#C217100002000000", "581#8017100001000405");

@@ -109,10 +109,10 @@ class Sweep : public Fixture {
   }
   void enter() {
     fill(objects);
-    for (const auto& [request, answers] : state.enter) {
-      rx(request);
+    for (const auto& step : state.enter) {
+      rx(step.request);
       const Frames sent = frames();
-      CHECK_MESSAGE(sent == answers, state.name, ": cannot be entered, ", request, " is answered ", sent);
+      CHECK_MESSAGE(sent == step.answers, state.name, ": cannot be entered, ", step.request, " is answered ", sent);
     }
   }
   // A transfer that is open is aborted when its time is over, at the latest, with its multiplexer. [D18]

@@ -22,6 +22,7 @@ namespace {
 
 using fuzz::Bytes;
 using fuzz::dev_of;
+using fuzz::Frames;
 using fuzz::pattern;
 using fuzz::Peer;
 using fuzz::Request;
@@ -213,8 +214,8 @@ class Bench {
     require(!was_open || callbacks_ > before, "the callback comes before COCSdoCancel() returns");
   }
 
-  // Bit 31 of 1280h:1; the identifiers stay. [301:7.5.2.34] Within a callback it takes effect later. What waits for the
-  // controller under an identifier that is no more, NMT stop does not find.
+  // Bit 31 of 1280h:1; the identifiers stay. [301:7.5.2.34] Within a callback it takes effect later. Not while frames
+  // wait: NMT stop does not find those of an identifier that is no more.
   void configure(Peer& peer) {
     if (refuses_) {
       return;
@@ -276,20 +277,17 @@ class Bench {
 
   // The bus --------------------------------------------------------------------
 
-  template <class Queue>
-  void lose(Queue& queue) {
+  static void lose(Frames& queue) {
     if (!queue.empty()) {
       queue.pop_front();
     }
   }
-  template <class Queue>
-  void repeat(Queue& queue) {
+  static void repeat(Frames& queue) {
     if (!queue.empty()) {
       queue.push_front(queue.front());
     }
   }
-  template <class Queue>
-  void swap(Queue& queue) {
+  static void swap(Frames& queue) {
     if (queue.size() > 1) {
       std::swap(queue[0], queue[1]);
     }

@@ -33,14 +33,16 @@ inline Bytes pattern(std::size_t size, std::uint8_t seed) {
   return bytes;
 }
 
+using Frames = std::deque<SdoBytes>;
+
 /// A request of the application; its buffer is gone when the callback has come.
 struct Request {
   bool is_open = false;
   bool is_upload = false;
   SdoKey key{};
   std::uint32_t timeout = 0;
-  std::unique_ptr<std::uint8_t[]> buffer;  // ends where its memory ends, for the address sanitizer
-  Bytes data;                              // of a download
+  std::unique_ptr<std::uint8_t[]> buffer;  ///< ends where its memory ends, for the address sanitizer
+  Bytes data;                              ///< of a download
 
   bool keeps_data() const { return std::equal(data.begin(), data.end(), buffer.get()); }
 };
@@ -74,11 +76,11 @@ struct Peer {
   Request request;
   SdoClientModel model{CO_CSDO_BLOCK};
   SdoServerModel server;
-  std::deque<SdoBytes> waiting{};  // requests for which the controller had no place
-  std::deque<SdoBytes> to_server{};
-  std::deque<SdoBytes> to_client{};
+  Frames waiting{};  ///< requests for which the controller had no place
+  Frames to_server{};
+  Frames to_client{};
   bool is_configured = true;
-  bool is_tampered = false;  // the client has heard what its server has not said in this transfer
+  bool is_tampered = false;  ///< the client has heard what its server has not said in this transfer
 };
 
 }  // namespace fuzz

@@ -171,7 +171,7 @@ TEST_CASE("demo master: what is wrong with the bus is told beside") {
   CHECK(desk.err.str() == "node 5, 1000h:00: no answer\nCAN interface 'can0' is down\n");
 }
 
-TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by block transfer") {
+TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by block transfer if there is one") {
   Desk desk;
   const File file;
   const std::string content = picture(demo::picture_size);
@@ -180,12 +180,12 @@ TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by 
   write.write = true;
   write.file = file.name;
   CHECK(desk.run(write) == 0);
-  CHECK(desk.was_sent("605#C600220000200100"));
+  CHECK(desk.was_sent(USE_SDO_BLOCK != 0 ? "605#C600220000200100" : "605#2100220000200100"));
   file.put("something else");
   Arguments read = to_read("0x2200", "0", "");
   read.file = file.name;
   CHECK(desk.run(read) == 0);
-  CHECK(desk.was_sent("605#A40022007F1C0000"));
+  CHECK(desk.was_sent(USE_SDO_BLOCK != 0 ? "605#A40022007F1C0000" : "605#4000220000000000"));
   CHECK(desk.out.str() == "");
   CHECK(desk.err.str() == "");
   CHECK((file.content() == content));
@@ -249,7 +249,9 @@ TEST_CASE("demo master: the progress goes to standard error, in lines or as a ba
   arguments.file = file.name;
   desk.form = Progress::Form::lines;
   CHECK(desk.run(arguments) == 0);
+#if USE_SDO_BLOCK  // it counts whole sub-blocks
   CHECK(desk.err.str().find("]  25 %  18669 of 73728 bytes\n") != std::string::npos);
+#endif
   CHECK(desk.err.str().find("] 100 %  73728 of 73728 bytes\n") != std::string::npos);
   desk.form = Progress::Form::bar;
   desk.host.others = [&] {  // each sub-block takes its time

@@ -109,7 +109,11 @@ uint32_t block_segment_uploaded(Step& step) {
   if (abort != no_abort || !ends) {
     return abort;
   }
-  in_order&& last ? end_last_block(client, step.request) : end_block(client, step.request);
+  if (in_order && last) {
+    end_last_block(client, step.request);
+  } else {
+    end_block(client, step.request);
+  }
   step.silent = false;
   return no_abort;
 }

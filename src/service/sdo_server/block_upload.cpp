@@ -38,6 +38,7 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
     return CO_SDO_ERR_TOS_STATE;
   }
   uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
+  __builtin_memset(buffer_of(channel), 0, n);  // what a type does not fill is not old data
   const uint32_t abort = get(channel, position, buffer_of(channel), n);
   channel.Read = position + n;
   channel.Fill = static_cast<uint16_t>(n);
@@ -124,8 +125,6 @@ uint32_t initiate_block_upload(Step& step) {
   channel.Fill = 0;
   channel.Seq = 0;
   channel.BlkSize = blksize;
-  __builtin_memset(buffer_of(channel), 0,
-                   smaller(CO_SDO_BUF_BYTE, channel.Size));  // what a type leaves is not old data
   answer_size(channel, wire::initiate_block(channel.Size != CO_OBJ_SIZE_UNKNOWN), step.answer);
   set_state(channel, State::block_upload_ready);
   return no_abort;

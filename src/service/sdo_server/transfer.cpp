@@ -50,7 +50,7 @@ CO_ERR seek_piece(CO_SDO& channel, uint32_t position) {
   return own || position != channel.Read ? obj::seek(*channel.Obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
-// A type that did not know its size may know it after a read, which then was the last and has filled only a part.
+// A type that did not know its size may know it after a read, which may have filled only a part.
 uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
   if (channel.Size != CO_OBJ_SIZE_UNKNOWN) {
     return no_abort;
@@ -59,11 +59,11 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
   if (size == CO_OBJ_SIZE_UNKNOWN) {
     return no_abort;
   }
-  if (size < position || size - position > n) {
+  if (size < position) {
     return CO_SDO_ERR_INTERNAL;
   }
   channel.Size = size;
-  n = size - position;
+  n = n < size - position ? n : size - position;
   return no_abort;
 }
 
