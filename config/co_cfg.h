@@ -45,7 +45,8 @@
 #endif
 
 /// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended
-/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. No cost.
+/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. With 0 a block
+/// download is not asked for what is missing when its client falls silent, either. No cost.
 #ifndef CO_SDO_TIMEOUT
 #define CO_SDO_TIMEOUT 2000
 #endif

@@ -7,8 +7,8 @@
 /// 600h and 580h of a table written for CANopen-Stack get the node-ID of sub 3 added: as complete identifiers they
 /// would belong to node-ID 0, which no node has. The entries are read again at every request.
 ///
-/// If sub 3 is the own node-ID, the request reads or writes the own dictionary with the rights of the network; nothing
-/// is sent.
+/// If sub 3 is the own node-ID, the request reads or writes the own dictionary with the rights of the network, in one
+/// piece of any length; nothing is sent. The COB-IDs have to be valid there, too.
 ///
 /// How the data are carried is the stack's choice: expedited up to 4 bytes; from CO_CSDO_BLOCK bytes on by block
 /// transfer, and segmented if the server refuses that; else segmented.
@@ -17,8 +17,8 @@
 /// timed out, was cancelled, or when the NMT state no longer allows SDO. Numbers are not converted: the buffer holds
 /// the bytes in the order of the bus (little endian).
 ///
-/// Context: the loop. Callbacks run in CONodeProcess(), COTmrProcess(), COCSdoCancel(), and in the functions that
-/// change the NMT state.
+/// Context: the loop. Callbacks run in CONodeProcess(), COTmrProcess(), COCSdoCancel(), in the functions that change
+/// the NMT state, and in writes to 1280h… that change the COB-IDs of a busy client, whose server then gets an abort.
 #ifndef CO_CSDO_H_
 #define CO_CSDO_H_
 
@@ -69,7 +69,7 @@ typedef struct CO_CSDO_T {
   uint32_t Num;    ///< bytes transferred; those of the present block not before it is acknowledged
   uint32_t Total;  ///< bytes that the transfer will have; 0: not known
   uint32_t Key;    ///< CO_DEV() of the object
-  uint32_t Ticks;  ///< time-out; 0: none
+  uint32_t Ticks;  ///< time-out; 0: none. The result of an access to the own dictionary that was ended
   CO_TMR_MEM Tmr;
 } CO_CSDO;
 
@@ -78,11 +78,11 @@ typedef struct CO_CSDO_T {
 CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num);
 
 /// Reads the object \a key (CO_DEV()) of the server into \a buf, which must live until the callback and may be larger
-/// than the object: COCSdoGetNum() tells how much was read. \a timeout in ms for each answer of the server, 0 waits for
-/// ever; what the timer driver cannot count is taken as the longest time it can.
-/// CO_ERR_NONE: started, \a callback will come. Else it will not: CO_ERR_BAD_ARG: \a csdo, \a buf or \a callback is
-/// null, or \a size is 0; CO_ERR_SDO_OFF: the client is not configured, or the NMT state does not allow SDO;
-/// CO_ERR_SDO_BUSY: a transfer is going on; CO_ERR_IF_CAN_SEND: the request found no place in the transmit queue.
+/// than the object: COCSdoGetNum() tells how much was read. \a timeout in ms for each answer of the server (in a
+/// block upload up to a quarter more), 0 waits for ever; what the timer driver cannot count is taken as the longest
+/// time it can. CO_ERR_NONE: started, \a callback will come. Else it will not: CO_ERR_BAD_ARG: \a csdo, \a buf or \a
+/// callback is null, or \a size is 0; CO_ERR_SDO_OFF: the client is not configured, or the NMT state does not allow
+/// SDO; CO_ERR_SDO_BUSY: a transfer is going on; CO_ERR_IF_CAN_SEND: the request found no place in the transmit queue.
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                            uint32_t timeout);
 
@@ -90,7 +90,8 @@ CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t s
 CO_ERR COCSdoRequestDownload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
                              uint32_t timeout);
 
-/// Ends the transfer: the server gets an abort 0800 0021h, the callback comes with that code before this returns.
+/// Ends the transfer: the server gets an abort 0800 0021h, the callback comes with that code before this returns; or,
+/// in a type function of an access to the own dictionary, behind that access.
 /// CO_ERR_BAD_ARG: \a csdo is null; CO_ERR_SDO_OFF: no transfer is going on.
 CO_ERR COCSdoCancel(CO_CSDO* csdo);
 

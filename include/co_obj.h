@@ -143,8 +143,8 @@ typedef struct CO_OBJ_TYPE_T {
 /// \{
 
 /// What Size answers to width 0 while the length of an upload is not known. As soon as a Read has reached the end, and
-/// has therefore filled less than its buffer or nothing, Size must answer the number of bytes that all Reads have
-/// filled.
+/// has therefore filled less than its buffer or nothing, Size must answer the length of the object; it may do so
+/// earlier.
 #define CO_OBJ_SIZE_UNKNOWN 0xFFFFFFFFu
 
 typedef enum CO_OBJ_TRANSFER_T {

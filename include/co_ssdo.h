@@ -34,7 +34,7 @@ typedef struct CO_SDO_T {
   uint32_t Key;      ///< CO_DEV() of the open transfer
   uint32_t Size;     ///< bytes that the transfer will have, or may have at most
   uint32_t Num;      ///< bytes transferred so far; block upload: bytes acknowledged
-  uint32_t Read;     ///< block upload: position behind what was read last
+  uint32_t Read;     ///< position behind what was read or written last
   uint32_t Summed;   ///< block upload: bytes that Crc covers
 } CO_SDO;
 
