@@ -16,12 +16,12 @@ namespace co {
 namespace {
 
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, nmt::init, nmt::on_frame, nullptr, nullptr, 0, nullptr},
-    {CO_SDO_ALLOWED, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free, CO_SSDO_N,
+    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, nullptr, nullptr, nullptr},
+    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free,
      sdo_server::configure},
-    {CO_NMT_ALLOWED, nullptr, nullptr, heartbeat::on_mode, nullptr, 0, nullptr},
+    {CO_NMT_ALLOWED, 0, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free, CO_CSDO_N,
+    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free,
      sdo_client::configure},
 #endif
 };

@@ -7,12 +7,12 @@
 namespace co {
 
 struct Service {
-  uint8_t allowed;  // CO_…_ALLOWED bit that its frames need
+  uint8_t allowed;   // CO_…_ALLOWED bit that its frames need
+  uint16_t streams;  // for on_free: who may send so, numbers from 0
   void (*init)(CO_NODE& node);
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // false: malformed
   void (*on_mode)(CO_NODE& node);
   bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may now succeed. True: it has
-  uint16_t streams;                                 // for on_free: who may send so, numbers from 0
   void (*configure)(CO_NODE& node);                 // COB-IDs have changed
 };
 

@@ -154,6 +154,15 @@ constexpr uint8_t block_segment(uint8_t number, bool last) {
   return static_cast<uint8_t>(number | (last ? 0x80U : 0U));
 }
 
+inline bool is_equal(const uint8_t* a, const uint8_t* b, uint32_t n) {
+  while (n != 0 && *a == *b) {
+    ++a;
+    ++b;
+    --n;
+  }
+  return n == 0;
+}
+
 // CRC-16-CCITT over the data, from 0. [301:7.2.4.3.16]
 constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
   uint32_t sum = crc;

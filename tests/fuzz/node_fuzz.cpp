@@ -343,7 +343,7 @@ class Bench {
       CODictWrByte(&node_.Dict, CO_DEV(index, sub), static_cast<std::uint8_t>(4 + input_.below(5)));
     } else {
       const std::uint32_t flags = input_.flag() ? CO_SDO_ID_OFF : 0U;
-      CODictWrLong(&node_.Dict, CO_DEV(index, sub), flags | (sub == 1 ? 0x604U : 0x586U) + input_.below(4));
+      CODictWrLong(&node_.Dict, CO_DEV(index, sub), flags | ((sub == 1 ? 0x604U : 0x586U) + input_.below(4)));
     }
   }
 

@@ -122,7 +122,7 @@ bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const uint32_t room = client.Size - client.Num;
   const uint32_t n = room < wire::segment_bytes ? room : wire::segment_bytes;
   return frame.Data[0] == wire::block_segment(client.AckSeq, true) &&
-         __builtin_memcmp(frame.Data + 1, client.Buf + client.Num, n) == 0 && !is_right_end(client, frame);
+         wire::is_equal(frame.Data + 1, client.Buf + client.Num, n) && !is_right_end(client, frame);
 }
 
 uint32_t block_upload_ended(Step& step) {

@@ -143,7 +143,7 @@ uint32_t download_block_segment(Step& step) {
 bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
   const uint8_t* const stored = buffer_of(channel) + channel.Fill - wire::segment_bytes;
   return frame.Data[0] == wire::block_segment(channel.AckSeq, true) &&
-         __builtin_memcmp(frame.Data + 1, stored, wire::segment_bytes) == 0 && !is_right_end(channel, frame);
+         wire::is_equal(frame.Data + 1, stored, wire::segment_bytes) && !is_right_end(channel, frame);
 }
 
 uint32_t end_block_download(Step& step) {
