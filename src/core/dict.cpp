@@ -3,6 +3,7 @@
 
 #include "co_core.h"
 #include "core/obj.hpp"
+#include "wire/cob_id.hpp"
 
 namespace co::dict {
 namespace {
@@ -144,6 +145,14 @@ CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
 
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
   return access(&dict, key, &value, sizeof value, obj::read);
+}
+
+uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise) {
+  uint32_t value = 0;
+  if (read_u32(dict, key, value) != CO_ERR_NONE) {
+    value = otherwise;
+  }
+  return wire::is_usable(value) ? value : wire::cob_invalid;
 }
 
 CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value) {

@@ -17,6 +17,8 @@ namespace co::dict {
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
 
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
+// The COB-ID of an object, or what it is without an entry; wire::cob_invalid if it cannot be used.
+[[nodiscard]] uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise);
 [[nodiscard]] CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value);
 
 }  // namespace co::dict

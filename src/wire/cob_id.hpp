@@ -41,6 +41,11 @@ constexpr bool is_default_sdo_rx(uint32_t id) { return id >= 0x601 && id <= 0x67
 // The CAN-ID fits the frame format that bit 29 names.
 constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }
 
+// Can an object have frames under this COB-ID? The identifier 000h belongs to NMT, whatever a table says.
+constexpr bool is_usable(uint32_t cob_id) {
+  return (cob_id & cob_invalid) == 0 && fits_format(cob_id) && (cob_id & extended_ids) != 0;
+}
+
 // No identifier of a frame at all.
 inline constexpr uint32_t no_frame = UINT32_MAX;
 
@@ -60,6 +65,7 @@ static_assert(is_restricted(0x581) && is_restricted(0x5FF) && !is_restricted(0x6
 static_assert(is_restricted(0x67F) && !is_restricted(0x680) && is_restricted(0x6E0) && !is_restricted(0x700));
 static_assert(is_restricted(0x701) && is_restricted(0x7FF) && !is_restricted(0x800));
 static_assert(frame_id(0x20000123) == 0x80000123 && frame_id(0xC0000601) == 0x601);
+static_assert(is_usable(0x00000001) && !is_usable(0x20000000) && !is_usable(0x80000001) && !is_usable(0x00000800));
 static_assert(!fits_format(0x00000800) && fits_format(0x20000800));
 
 }  // namespace co::wire

@@ -46,10 +46,10 @@ enum class Response : uint8_t {
 };
 inline constexpr uint8_t command_count = 13;
 
-// Bits of each that are 0, else the command is unknown; the rest of an abort does not matter.
+// Bits of each that are 0, else the command is unknown. A server takes any abort for one: it never answers to it.
 using ReservedBits = uint8_t[11];
 inline constexpr ReservedBits request_reserved = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x18, 0x1C, 0x1C, 0x1C, 0x18, 0x02};
-inline constexpr ReservedBits response_reserved = {0x00, 0x0F, 0x10, 0x1F, 0x00, 0x18, 0x1C, 0x1C, 0xFF, 0x18, 0x02};
+inline constexpr ReservedBits response_reserved = {0x00, 0x0F, 0x10, 0x1F, 0x1F, 0x18, 0x1C, 0x1C, 0xFF, 0x18, 0x02};
 
 constexpr uint8_t number_of_command(uint8_t command, const ReservedBits& reserved) {
   constexpr unsigned unknown = 11;
@@ -187,6 +187,7 @@ static_assert(request_of(0xE0) == Request::unknown && request_of(0xFF) == Reques
 static_assert(response_of(0x30) == Response::download_segment && response_of(0x31) == Response::unknown);
 static_assert(response_of(0x4F) == Response::initiate_upload && response_of(0x50) == Response::unknown);
 static_assert(response_of(0x60) == Response::initiate_download && response_of(0x61) == Response::unknown);
+static_assert(response_of(0x80) == Response::abort && response_of(0x81) == Response::unknown);
 static_assert(response_of(0xA0) == Response::initiate_block_download && response_of(0xA3) == Response::unknown);
 static_assert(response_of(0xC2) == Response::initiate_block_upload && response_of(0xDD) == Response::end_block_upload);
 static_assert(expedited_upload_response(4) == 0x43 && expedited_upload_response(3) == 0x47);

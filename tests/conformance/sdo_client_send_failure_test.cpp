@@ -204,6 +204,41 @@ TEST_CASE("SDO client: the server aborts a paused block download: no segment com
   check_asks(node);
 }
 
+TEST_CASE("SDO client: while a block is being sent, the server's repeated answer to the initiate changes nothing") {
+  SdoClient node;
+  pause(node);
+  node.rx("585#A400200504000000");
+  node.silent();
+  node.goes_on();
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.tx({"605#030F101112131415", "605#04161718191A1B1C", "605#051D1E1F20212223", "605#8624252627280000"});
+  node.rx("585#A2067F0000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
+TEST_CASE("SDO client: while a block is being sent, a repeated acknowledge of the block before changes nothing") {
+  SdoClient node;
+  node.start_download(0x2000, 5, counted(40));
+  node.tx("605#C600200528000000");
+  node.rx("585#A400200504000000");
+  node.tx({"605#0101020304050607", "605#0208090A0B0C0D0E", "605#030F101112131415", "605#04161718191A1B1C"});
+  node.can.refuse_all();
+  node.rx("585#A204040000000000");
+  node.rx("585#A204040000000000");
+  node.silent();
+  node.goes_on();
+  node.can.accept_all();
+  for (int i = 0; i < 10; ++i) node.loop();
+  node.tx({"605#011D1E1F20212223", "605#8224252627280000"});
+  node.rx("585#A202040000000000");
+  node.tx("605#C9C38B0000000000");
+  node.rx("585#A100000000000000");
+  node.has_written();
+}
+
 TEST_CASE("SDO client: NMT stop ends a paused block download, what waits in the queue is withdrawn [N8]") {
   SdoClient node;
   pause(node);

@@ -37,7 +37,7 @@ void add_segmented_upload(States& all) {
                  "00200504000000",
                  {{"40-41 44-45 48-49 4C-4D", {ask0}, goes_on_code},
                   {"42-43 46-47 4A-4B 4E-4F", {}, done},
-                  {"80-9F", {}, 0x00000004},
+                  {"80", {}, 0x00000004},
                   unknown}});
   all.push_back({"upload: first segment asked, 14 announced",
                  true,
@@ -48,7 +48,7 @@ void add_segmented_upload(States& all) {
                  {{"00 02 04 06 08 0A 0C 0E", {ask1}, goes_on_code},
                   abort("01 03 05 07 09 0B 0D 0F", CO_SDO_ERR_LEN_SMALL),
                   abort("10-1F", CO_SDO_ERR_TBIT),
-                  {"80-9F", {}, 0x07060504},
+                  {"80", {}, 0x07060504},
                   unknown}});
   all.push_back({"upload: second segment asked, 14 announced",
                  true,
@@ -60,7 +60,7 @@ void add_segmented_upload(States& all) {
                   {"11", {}, done},
                   abort("13 15 17 19 1B 1D 1F", CO_SDO_ERR_LEN_SMALL),
                   abort("00-0F", CO_SDO_ERR_TBIT),
-                  {"80-9F", {}, 0x0E0D0C0B},
+                  {"80", {}, 0x0E0D0C0B},
                   unknown}});
   all.push_back({"upload: second segment asked, 8 announced",
                  true,
@@ -73,7 +73,7 @@ void add_segmented_upload(States& all) {
                   {"1D", {}, done},
                   abort("1F", CO_SDO_ERR_LEN_SMALL),
                   abort("00-0F", CO_SDO_ERR_TBIT),
-                  {"80-9F", {}, 0x0E0D0C0B},
+                  {"80", {}, 0x0E0D0C0B},
                   unknown}});
   all.push_back({"upload: second segment asked, nothing announced, buffer of 8",
                  true,
@@ -85,7 +85,7 @@ void add_segmented_upload(States& all) {
                   {"1C 1E", {ask0}, goes_on_code},
                   {"1D 1F", {}, done},
                   abort("00-0F", CO_SDO_ERR_TBIT),
-                  {"80-9F", {}, 0x0E0D0C0B},
+                  {"80", {}, 0x0E0D0C0B},
                   unknown}});
 }
 
@@ -98,28 +98,28 @@ void add_segmented_download(States& all) {
                  "605#2300200501020304",
                  {},
                  "00200504000000",
-                 {{"60", {}, done}, {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"60", {}, done}, {"80", {}, 0x00000004}, unknown}});
   all.push_back({"download: initiate sent",
                  false,
                  14,
                  "605#210020050E000000",
                  {},
                  "00200504000000",
-                 {{"60", {segment0}, goes_on_code}, {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"60", {segment0}, goes_on_code}, {"80", {}, 0x00000004}, unknown}});
   all.push_back({"download: first segment sent",
                  false,
                  14,
                  "605#210020050E000000",
                  {{"585#6000200500000000", {segment0}}},
                  "00000004000000",
-                 {{"20", {segment1}, goes_on_code}, abort("30", CO_SDO_ERR_TBIT), {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"20", {segment1}, goes_on_code}, abort("30", CO_SDO_ERR_TBIT), {"80", {}, 0x00000004}, unknown}});
   all.push_back({"download: last segment sent",
                  false,
                  14,
                  "605#210020050E000000",
                  {{"585#6000200500000000", {segment0}}, {"585#2000000000000000", {segment1}}},
                  "00000004000000",
-                 {{"30", {}, done}, abort("20", CO_SDO_ERR_TBIT), {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"30", {}, done}, abort("20", CO_SDO_ERR_TBIT), {"80", {}, 0x00000004}, unknown}});
 }
 
 #if USE_SDO_BLOCK
@@ -160,7 +160,7 @@ void add_block_upload_initiate(States& all) {
                  {{"C0 C2 C4 C6", {start}, goes_on_code},
                   {"40-41 44-45 48-49 4C-4D", {ask0}, goes_on_code},
                   {"42-43 46-47 4A-4B 4E-4F", {}, done},
-                  {"80-9F", {}, 0x00000004},
+                  {"80", {}, 0x00000004},
                   unknown}});
   all.push_back({"block upload: initiate sent, the server aborts with 0504 0001h",
                  true,
@@ -173,7 +173,7 @@ void add_block_upload_initiate(States& all) {
                   {"40 44 48 4C", {ask0}, goes_on_code},
                   abort("41 45 49 4D", CO_SDO_ERR_MEM),
                   {"42-43 46-47 4A-4B 4E-4F", {}, done},
-                  {"80-9F", {"605#4000200500000000"}, goes_on_code},
+                  {"80", {"605#4000200500000000"}, goes_on_code},
                   unknown}});
 }
 
@@ -224,7 +224,7 @@ void add_block_upload(States& all) {
                  segment(0x83).substr(6),
                  {{"C1 C5 C9 CD D1 D5 D9 DD", {"605#A100000000000000"}, done},
                   {"83", {}, goes_on_code},
-                  {"80-82 84-9F", {}, 0x15141312},
+                  {"80", {}, 0x15141312},
                   unknown}});
 }
 
@@ -242,35 +242,36 @@ void add_block_download(States& all) {
                  request,
                  {},
                  "00200504000000",
-                 {{"A0 A4", four, goes_on_code}, {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"A0 A4", four, goes_on_code}, {"80", {}, 0x00000004}, unknown}});
   all.push_back({"block download: initiate sent, the server aborts with 0504 0001h",
                  false,
                  40,
                  request,
                  {},
                  "00200501000405",
-                 {{"A0 A4", {four[0]}, goes_on_code}, {"80-9F", {"605#2100200528000000"}, goes_on_code}, unknown}});
+                 {{"A0 A4", {four[0]}, goes_on_code}, {"80", {"605#2100200528000000"}, goes_on_code}, unknown}});
   all.push_back({"block download: first sub-block sent",
                  false,
                  40,
                  request,
                  {initiated},
                  "04020004000000",
-                 {{"A2", two, goes_on_code}, {"80-9F", {}, 0x00000004}, unknown}});
-  all.push_back({"block download: last sub-block sent",
-                 false,
-                 40,
-                 request,
-                 {initiated, acknowledged},
-                 "02010004000000",
-                 {{"A2", {"605#C900000000000000"}, goes_on_code}, {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"A2", two, goes_on_code}, {"A0 A4", {}, goes_on_code}, {"80", {}, 0x00000004}, unknown}});
+  all.push_back(
+      {"block download: last sub-block sent",
+       false,
+       40,
+       request,
+       {initiated, acknowledged},
+       "02010004000000",
+       {{"A2", {"605#C900000000000000"}, goes_on_code}, {"A0 A4", {}, goes_on_code}, {"80", {}, 0x00000004}, unknown}});
   all.push_back({"block download: end sent",
                  false,
                  40,
                  request,
                  {initiated, acknowledged, {"585#A202010000000000", {"605#C900000000000000"}}},
                  "00000004000000",
-                 {{"A1", {}, done}, {"80-9F", {}, 0x00000004}, unknown}});
+                 {{"A1", {}, done}, {"80", {}, 0x00000004}, unknown}});
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <set>
 
 namespace test {
 namespace {
@@ -17,6 +18,13 @@ constexpr std::uint32_t value_key = CO_DEV(0x2001, 0);
 constexpr std::uint32_t first_domain = 0x2010;
 
 bool is_guard(std::uint8_t byte) { return byte == guard_byte; }
+
+// Success, or a code that CiA 301 names: not data that were read as one. [301:7.2.4.3.17]
+bool is_result(std::uint32_t code) {
+  static const std::set<std::uint32_t> groups = {0x0503, 0x0504, 0x0601, 0x0602, 0x0604,
+                                                 0x0606, 0x0607, 0x0609, 0x060A, 0x0800};
+  return code == 0 || (groups.count(code >> 16) != 0 && (code & 0xFFFF) <= 0x47);
+}
 
 CO_OBJ entry(std::uint32_t index, std::uint8_t sub, std::uint32_t flags, const CO_OBJ_TYPE* type, CO_DATA data) {
   return {CO_KEY(index, sub, flags), type, data};
@@ -79,10 +87,10 @@ void Seat::note(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint3
 void Seat::end(std::uint32_t key, std::uint32_t abort_code) {
   ++callbacks;
   code = abort_code;
-  num =
-      COCSdoGetNum(&device_->CSdo[number_]);  // a segment that comes late may be read as an abort: any code is a report
+  num = COCSdoGetNum(&device_->CSdo[number_]);
   tick = device_.world().clock.elapsed();
   CHECK(callbacks == 1);
+  CHECK(is_result(code));
   CHECK(key == key_);
   CHECK(num <= memory_.size() - 2 * guard);
   CHECK(std::all_of(memory_.begin(), memory_.begin() + guard, is_guard));

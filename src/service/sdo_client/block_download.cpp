@@ -22,6 +22,12 @@ void count_acknowledged(CO_CSDO& client, uint32_t segments) {
   client.Num += n;
 }
 
+// A server that has waited for the segments of this block acknowledges those of the last one again.
+bool is_of_block_before(const CO_CSDO& client) {
+  const bool is_whole = client.Seq == client.BlkSize || has(client, last_sent);
+  return client.Num != 0 && !is_whole;
+}
+
 uint32_t unused_in_last(uint32_t size) {
   return (wire::segment_bytes - size % wire::segment_bytes) % wire::segment_bytes;
 }
@@ -52,6 +58,9 @@ uint32_t block_download_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t blksize = step.response.Data[4];
   step.silent = true;
+  if (state_of(client) == State::block_download) {  // repeated by a server that has waited for the segments
+    return no_abort;
+  }
   if (!wire::is_blksize(blksize)) {
     return CO_SDO_ERR_BLK_SIZE;
   }
@@ -68,7 +77,8 @@ uint32_t block_acknowledged(Step& step) {
   const uint8_t ackseq = step.response.Data[1];
   const uint8_t blksize = step.response.Data[2];
   if (ackseq > client.Seq) {
-    return CO_SDO_ERR_SEQ_NUM;
+    step.silent = is_of_block_before(client);
+    return step.silent ? no_abort : CO_SDO_ERR_SEQ_NUM;
   }
   if (!wire::is_blksize(blksize)) {
     return CO_SDO_ERR_BLK_SIZE;

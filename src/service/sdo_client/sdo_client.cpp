@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_client/sdo_client.hpp"
 
-#include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/machine.hpp"
-#include "core/routes.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
@@ -48,13 +46,6 @@ void finish(CO_CSDO& client, uint32_t code) {
   set_state(client, State::idle);
   client.State = CO_CSDO_STATE_IDLE;
   client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);
-}
-
-void abort_transfer(CO_CSDO& client, uint32_t code) {
-  if (client.TxId != wire::no_frame && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
-    transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
-  }
-  finish(client, code);
 }
 
 // A server that has stopped in the middle of a block may have lost the acknowledge, or the client its last segment.
@@ -131,7 +122,8 @@ constexpr Row<Response, Service> rows[] = {
     {in(State::download_initiated, State::download, State::upload_initiated, State::upload), Response::abort, aborted},
 
 #if USE_SDO_BLOCK
-    {in(State::block_download_initiated), Response::initiate_block_download, block_download_accepted},
+    {in(State::block_download_initiated, State::block_download), Response::initiate_block_download,
+     block_download_accepted},
     {in(State::block_download), Response::acknowledge_block, block_acknowledged},
     {in(State::block_download_end), Response::end_block_download, block_download_confirmed},
 
@@ -160,90 +152,6 @@ Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
                              (state_of(client) == State::block_upload_end && is_last_segment_again(client, frame)));
   const uint8_t command = frame.Data[0];
   return in_block && command != wire::abort_command ? Response::block_segment : wire::response_of(command);
-}
-
-bool is_usable(uint32_t cob_id) {
-  return (cob_id & wire::cob_invalid) == 0 && wire::fits_format(cob_id) && (cob_id & wire::extended_ids) != 0;
-}
-
-uint32_t cob_id(CO_NODE& node, uint16_t number, uint8_t sub) {
-  uint32_t value = 0;
-  const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(0x1280U + number, sub), value);
-  return err == CO_ERR_NONE && is_usable(value) ? value : wire::cob_invalid;
-}
-
-struct Configuration {
-  uint32_t tx_id;
-  uint32_t rx_id;
-  uint8_t node_id;
-  CO_CSDO_STATE state;  // idle: there is a server
-};
-
-bool are_bases(uint32_t tx, uint32_t rx) {
-  return tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
-}
-
-// The own dictionary needs no identifiers.
-Configuration read_configuration(CO_NODE& node, uint16_t number) {
-  constexpr uint8_t last_node_id = 127;
-  Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
-  const uint32_t tx = cob_id(node, number, 1);
-  const uint32_t rx = cob_id(node, number, 2);
-  if (CODictRdByte(&node.Dict, CO_DEV(0x1280U + number, 3), &found.node_id) != CO_ERR_NONE) {
-    found.node_id = 0;
-  }
-  const uint8_t relative = are_bases(tx, rx) ? found.node_id : 0;
-  const bool has_id = relative != 0 || !are_bases(tx, rx);
-  if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {
-    return found;
-  }
-  found.state = CO_CSDO_STATE_IDLE;
-  if (found.node_id != node.NodeId) {
-    found.tx_id = wire::frame_id(tx + relative);
-    found.rx_id = wire::frame_id(rx + relative);
-  }
-  return found;
-}
-
-bool is_configured(const CO_CSDO& client, const Configuration& as) {
-  const bool is_off = client.State == CO_CSDO_STATE_INVALID;
-  return client.TxId == as.tx_id && client.RxId == as.rx_id && client.NodeId == as.node_id &&
-         is_off == (as.state == CO_CSDO_STATE_INVALID);
-}
-
-uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client - client.Node->CSdo); }
-
-void take_configuration(CO_CSDO& client, const Configuration& found) {
-  CO_NODE& node = *client.Node;
-  client.TxId = found.tx_id;
-  client.RxId = found.rx_id;
-  client.NodeId = found.node_id;
-  client.State = found.state;
-  routes::remove(node, service, number_of(client));
-  if (found.rx_id != wire::no_frame) {
-    routes::add(node, found.rx_id, service, number_of(client));
-  }
-}
-
-// True: something has changed. The callback of a transfer that ends may have configured the client already.
-bool configure_client(CO_CSDO& client) {
-  if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
-    return false;
-  }
-  if (client.State == CO_CSDO_STATE_BUSY) {
-    abort_transfer(client, CO_SDO_ERR_TOS_STATE);
-  }
-  if (client.State == CO_CSDO_STATE_BUSY) {
-    return false;
-  }
-  take_configuration(client, read_configuration(*client.Node, number_of(client)));
-  return true;
-}
-
-void refresh(CO_CSDO& client) {
-  if (client.State != CO_CSDO_STATE_BUSY && configure_client(client)) {
-    routes::publish(*client.Node);
-  }
 }
 
 CO_ERR send_initiate(CO_CSDO& client) {
@@ -339,6 +247,13 @@ void send_segments(CO_CSDO& client) {
 
 }  // namespace
 
+void abort_transfer(CO_CSDO& client, uint32_t code) {
+  if (client.TxId != wire::no_frame && event::is_allowed(*client.Node, CO_SDO_ALLOWED)) {
+    transmit::send(*client.Node, wire::abort_frame(client.TxId, client.Key, code));
+  }
+  finish(client, code);
+}
+
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
   const bool upload = has(client, is_upload);
   const bool block = USE_SDO_BLOCK != 0 && by_block && client.Size >= CO_CSDO_BLOCK;
@@ -375,12 +290,6 @@ void init(CO_NODE& node) {
     client.TxId = wire::no_frame;
   }
   configure(node);
-}
-
-void configure(CO_NODE& node) {
-  for (CO_CSDO& client : node.CSdo) {
-    configure_client(client);
-  }
 }
 
 // An idle client hears what others, on the same COB-IDs, are answered, and what comes late.

@@ -66,6 +66,12 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 [[nodiscard]] uint32_t block_segment_uploaded(Step& step);
 [[nodiscard]] uint32_t block_upload_ended(Step& step);
 
+// Takes the configuration anew, unless a transfer is going on.
+void refresh(CO_CSDO& client);
+
+// Ends the transfer, and tells the server where it may. Must be last: the callback may start the next transfer.
+void abort_transfer(CO_CSDO& client, uint32_t code);
+
 // The first request of a transfer. by_block: if it is long enough.
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 

@@ -130,27 +130,23 @@ bool go_on(CO_SDO& channel) {
     const Serving serving(channel);
     sent = send_segment(channel, abort);
   }
-  watch(*channel.Node);
+  if (state_of(channel) != State::idle) {
+    watch(*channel.Node);
+  }
   return !is_concluded(channel, channel.Key, abort) && sent;
 }
 
-uint32_t cob_id(CO_NODE& node, uint32_t number, uint8_t sub, uint32_t otherwise) {
-  uint32_t value = otherwise;
-  const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(0x1200U + number, sub), value);
-  return err == CO_ERR_NONE ? value : otherwise;
-}
-
-// The identifier 000h belongs to NMT, whatever a table says.
-bool is_usable(uint32_t cob_id) {
-  return (cob_id & wire::cob_invalid) == 0 && wire::fits_format(cob_id) && (cob_id & wire::extended_ids) != 0;
+// Without an entry the default server has the COB-IDs that every node reserves for it. [301:7.3.5]
+uint32_t cob_id(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
+  return dict::read_cob_id(node.Dict, CO_DEV(0x1200U + number, sub),
+                           number == 0 ? base + node.NodeId : wire::cob_invalid);
 }
 
 void configure_channel(CO_NODE& node, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
-  const bool is_default = number == 0;
-  const uint32_t rx = cob_id(node, number, 1, is_default ? wire::CobId::sdo_rx + node.NodeId : wire::cob_invalid);
-  const uint32_t tx = cob_id(node, number, 2, is_default ? wire::CobId::sdo_tx + node.NodeId : wire::cob_invalid);
-  const bool valid = is_usable(rx) && is_usable(tx);
+  const uint32_t rx = cob_id(node, number, 1, wire::CobId::sdo_rx);
+  const uint32_t tx = cob_id(node, number, 2, wire::CobId::sdo_tx);
+  const bool valid = rx != wire::cob_invalid && tx != wire::cob_invalid;
   const uint32_t rx_id = valid ? wire::frame_id(rx) : wire::no_frame;
   const uint32_t tx_id = valid ? wire::frame_id(tx) : wire::no_frame;
   if (channel.RxId == rx_id && channel.TxId == tx_id) {

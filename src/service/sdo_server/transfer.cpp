@@ -79,6 +79,15 @@ uint32_t begin(CO_SDO& channel, uint32_t size) {
   return no_abort;
 }
 
+uint32_t choose_access(Step& step, bool fits_one_frame) {
+  CO_SDO& channel = step.channel;
+  const bool stream = obj::is_stream(*channel.Obj);
+  if (fits_one_frame || (!stream && channel.Size <= sizeof channel.Value)) {
+    set(channel, whole);
+  }
+  return stream && access::is_taken(step.node, *channel.Obj, &channel) ? CO_SDO_ERR_TOS_STATE : no_abort;
+}
+
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
   access::serve(node, &obj);
@@ -138,15 +147,6 @@ uint32_t open(Step& step, CO_OBJ_TRANSFER transfer) {
   channel.Toggle = 0;
   channel.Flags = static_cast<uint8_t>(busy | (transfer == CO_OBJ_DOWNLOAD ? download : 0));
   return access::open(step.node, channel.Key, transfer, channel.Obj);
-}
-
-uint32_t choose_access(Step& step, bool fits_one_frame) {
-  CO_SDO& channel = step.channel;
-  const bool stream = obj::is_stream(*channel.Obj);
-  if (fits_one_frame || (!stream && channel.Size <= sizeof channel.Value)) {
-    set(channel, whole);
-  }
-  return stream && access::is_taken(step.node, *channel.Obj, &channel) ? CO_SDO_ERR_TOS_STATE : no_abort;
 }
 
 uint32_t begin_upload(Step& step, bool fits_one_frame) {

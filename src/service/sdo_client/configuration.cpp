@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The SDO client parameter: COB-IDs and the node-ID of the server. [301:7.5.2.34]
+#include "core/dict.hpp"
+#include "core/routes.hpp"
+#include "service/sdo_client/transfer.hpp"
+#include "wire/cob_id.hpp"
+
+#if USE_CSDO
+
+namespace co::sdo_client {
+namespace {
+
+struct Configuration {
+  uint32_t tx_id;
+  uint32_t rx_id;
+  uint8_t node_id;
+  CO_CSDO_STATE state;  // idle: there is a server
+};
+
+bool are_bases(uint32_t tx, uint32_t rx) {
+  return tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
+}
+
+// The own dictionary needs no identifiers.
+Configuration read_configuration(CO_NODE& node, uint16_t number) {
+  constexpr uint8_t last_node_id = 127;
+  Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
+  const uint32_t tx = dict::read_cob_id(node.Dict, CO_DEV(0x1280U + number, 1), wire::cob_invalid);
+  const uint32_t rx = dict::read_cob_id(node.Dict, CO_DEV(0x1280U + number, 2), wire::cob_invalid);
+  if (CODictRdByte(&node.Dict, CO_DEV(0x1280U + number, 3), &found.node_id) != CO_ERR_NONE) {
+    found.node_id = 0;
+  }
+  const uint8_t relative = are_bases(tx, rx) ? found.node_id : 0;
+  const bool has_id = relative != 0 || !are_bases(tx, rx);
+  if (tx == wire::cob_invalid || rx == wire::cob_invalid || !has_id || relative > last_node_id) {
+    return found;
+  }
+  found.state = CO_CSDO_STATE_IDLE;
+  if (found.node_id != node.NodeId) {
+    found.tx_id = wire::frame_id(tx + relative);
+    found.rx_id = wire::frame_id(rx + relative);
+  }
+  return found;
+}
+
+bool is_configured(const CO_CSDO& client, const Configuration& as) {
+  const bool is_off = client.State == CO_CSDO_STATE_INVALID;
+  return client.TxId == as.tx_id && client.RxId == as.rx_id && client.NodeId == as.node_id &&
+         is_off == (as.state == CO_CSDO_STATE_INVALID);
+}
+
+uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client - client.Node->CSdo); }
+
+void take_configuration(CO_CSDO& client, const Configuration& found) {
+  CO_NODE& node = *client.Node;
+  client.TxId = found.tx_id;
+  client.RxId = found.rx_id;
+  client.NodeId = found.node_id;
+  client.State = found.state;
+  routes::remove(node, service, number_of(client));
+  if (found.rx_id != wire::no_frame) {
+    routes::add(node, found.rx_id, service, number_of(client));
+  }
+}
+
+// True: something has changed. The callback of a transfer that ends may have configured the client already.
+bool configure_client(CO_CSDO& client) {
+  if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
+    return false;
+  }
+  if (client.State == CO_CSDO_STATE_BUSY) {
+    abort_transfer(client, CO_SDO_ERR_TOS_STATE);
+  }
+  if (client.State == CO_CSDO_STATE_BUSY) {
+    return false;
+  }
+  take_configuration(client, read_configuration(*client.Node, number_of(client)));
+  return true;
+}
+
+}  // namespace
+
+void configure(CO_NODE& node) {
+  for (CO_CSDO& client : node.CSdo) {
+    configure_client(client);
+  }
+}
+
+void refresh(CO_CSDO& client) {
+  if (client.State != CO_CSDO_STATE_BUSY && configure_client(client)) {
+    routes::publish(*client.Node);
+  }
+}
+
+}  // namespace co::sdo_client
+
+#endif
