@@ -67,8 +67,9 @@ typedef struct CO_IF_CAN_DRV_EX_T {
   int16_t (*Send)(void* ctx, const CO_IF_FRM* frm);
   void (*Reset)(void* ctx);
   void (*Close)(void* ctx);
-  /// May be null. The identifiers (with flags) that the node wants to receive, ascending, the caller's for the time of
-  /// the call; called before Enable and after every change. A driver may let more through.
+  /// May be null. The identifiers (with CO_IF_FRM_EXT) that the node wants to receive, in data and in remote frames,
+  /// ascending, one as often as the node has a use for it, the caller's for the time of the call; called before Enable
+  /// and after every change. A driver may let more through.
   void (*Filter)(void* ctx, const uint32_t* ids, uint16_t num);
 } CO_IF_CAN_DRV_EX;
 

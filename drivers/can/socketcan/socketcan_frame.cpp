@@ -27,9 +27,10 @@ bool has_data(std::uint32_t identifier) { return (identifier & CAN_RTR_FLAG) == 
 
 bool is_11_bit(std::uint32_t identifier) { return (identifier & (CAN_EFF_FLAG | CAN_ERR_FLAG)) == 0; }
 
+// Data and remote frames.
 can_filter exactly(std::uint32_t identifier) {
   const canid_t mask = is_11_bit(identifier) ? CAN_SFF_MASK : CAN_EFF_MASK;
-  return {identifier, CAN_EFF_FLAG | CAN_RTR_FLAG | mask};
+  return {identifier, CAN_EFF_FLAG | mask};
 }
 
 constexpr can_filter everything = {0, 0};

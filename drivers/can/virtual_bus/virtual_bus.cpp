@@ -360,7 +360,7 @@ bool VirtualBus::Port::hears(const Port& sender) const {
 
 bool VirtualBus::Port::accepts(const CO_IF_FRM& frame) const {
   return is_error(frame) || !filtered_ || !options_.filter ||
-         std::binary_search(accepted_.begin(), accepted_.end(), frame.Identifier);
+         std::binary_search(accepted_.begin(), accepted_.end(), frame.Identifier & ~CO_IF_FRM_RTR);
 }
 
 void VirtualBus::Port::receive(const CO_IF_FRM& frame) {
