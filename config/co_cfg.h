@@ -54,6 +54,104 @@
 #error "CO_SDO_TIMEOUT: 0...60000 ms"
 #endif
 
+/// PDOs (1400h…, 1800h…): 0…512 of each. Each RPDO costs 74 and each TPDO 76 bytes of RAM (32-bit CPU).
+#ifndef CO_RPDO_N
+#define CO_RPDO_N 4
+#endif
+#ifndef CO_TPDO_N
+#define CO_TPDO_N 4
+#endif
+#if CO_RPDO_N < 0 || CO_RPDO_N > 512 || CO_TPDO_N < 0 || CO_TPDO_N > 512
+#error "CO_RPDO_N, CO_TPDO_N: 0...512 PDOs"
+#endif
+
+/// Mapping of single bits: 0 or 1. 1: BOOLEAN takes one bit of a PDO, and up to 64 objects fit into one; each PDO costs
+/// 168 bytes of RAM more.
+#ifndef USE_PDO_BITS
+#define USE_PDO_BITS 0
+#endif
+
+/// Remote requests for TPDOs, and their transmission types 252 and 253: 0 or 1. Each TPDO costs 6 bytes of RAM more.
+#ifndef USE_PDO_RTR
+#define USE_PDO_RTR 1
+#endif
+
+/// Event-driven TPDOs (types 254 and 255) are sent when the node enters Operational: 0 or 1. No cost.
+#ifndef CO_TPDO_ON_START
+#define CO_TPDO_ON_START 0
+#endif
+
+/// CAN-IDs that CiA 301 reserves (7.3.5) for other services may be given to PDO, SYNC, TIME, EMCY and SDO: 0 or 1. 1 is
+/// for a device whose network is planned without the standard. No cost.
+#ifndef CO_RESTRICTED_IDS
+#define CO_RESTRICTED_IDS 0
+#endif
+
+/// SYNC, consumer and producer (1005h, 1006h, 1007h, 1019h): 0 or 1. Without it there are no synchronous PDOs.
+#ifndef USE_SYNC
+#define USE_SYNC 1
+#endif
+
+/// TIME, consumer and producer (1012h), and a running clock: 0 or 1. 1 costs 68 bytes of RAM (32-bit CPU) and 1.3 KB of
+/// flash (Cortex-M0+, -Os).
+#ifndef USE_TIME
+#define USE_TIME 0
+#endif
+
+/// EMCY producer, error register and history (1001h, 1003h, 1014h, 1015h): 0 or 1.
+#ifndef USE_EMCY
+#define USE_EMCY 1
+#endif
+
+/// Errors that the application can have at a time (COEmcySet()): 1…256. Eight cost a byte of RAM.
+#ifndef CO_EMCY_N
+#define CO_EMCY_N 32
+#endif
+#if CO_EMCY_N < 1 || CO_EMCY_N > 256
+#error "CO_EMCY_N: 1...256 errors"
+#endif
+
+/// EMCY messages that can wait for the inhibit time (1015h), or for the transmit queue: 1…255. Each costs 8 bytes of
+/// RAM.
+#ifndef CO_EMCY_QUEUE_N
+#define CO_EMCY_QUEUE_N 4
+#endif
+#if CO_EMCY_QUEUE_N < 1 || CO_EMCY_QUEUE_N > 255
+#error "CO_EMCY_QUEUE_N: 1...255 messages"
+#endif
+
+/// EMCY consumer: the highest sub-index, which is a node-ID, that 1028h may have, 0…127. Each costs 6 bytes of RAM.
+#ifndef CO_EMCY_CONS_N
+#define CO_EMCY_CONS_N 0
+#endif
+#if CO_EMCY_CONS_N < 0 || CO_EMCY_CONS_N > 127
+#error "CO_EMCY_CONS_N: 0...127 nodes"
+#endif
+
+/// Heartbeat consumers: the highest sub-index that 1016h may have, 0…127. Each costs 18 bytes of RAM, besides
+/// its entry.
+#ifndef CO_HBCONS_N
+#define CO_HBCONS_N 8
+#endif
+#if CO_HBCONS_N < 0 || CO_HBCONS_N > 127
+#error "CO_HBCONS_N: 0...127 heartbeat consumers"
+#endif
+
+/// Node guarding and life guarding (100Ch, 100Dh): 0 or 1.
+#ifndef USE_GUARDING
+#define USE_GUARDING 1
+#endif
+
+/// Commands of the NMT master (CONmtCommand()): 0 or 1.
+#ifndef USE_NMT_MASTER
+#define USE_NMT_MASTER 0
+#endif
+
+/// Status LEDs of CiA 303-3: 0 or 1. 1 costs 36 bytes of RAM (32-bit CPU) and 1 KB of flash (Cortex-M0+, -Os).
+#ifndef USE_LED
+#define USE_LED 0
+#endif
+
 /// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
 /// bring more memory.
 #ifndef CO_TX_QUEUE_N

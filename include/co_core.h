@@ -23,19 +23,46 @@
 #include "co_string.h"
 #include "co_time_of_day.h"
 
+#include "co_emcy_cons.h"
+#include "co_emcy_hist.h"
+#include "co_emcy_id.h"
+#include "co_error_behaviour.h"
+#include "co_hb_cons.h"
 #include "co_hb_prod.h"
+#include "co_nmt_startup.h"
 #include "co_para.h"
+#include "co_pdo_event.h"
+#include "co_pdo_id.h"
+#include "co_pdo_inhibit.h"
+#include "co_pdo_map.h"
+#include "co_pdo_num.h"
+#include "co_pdo_start.h"
+#include "co_pdo_type.h"
 #include "co_sdo_id.h"
+#include "co_sync_count.h"
+#include "co_sync_cycle.h"
+#include "co_sync_id.h"
 
 #if USE_CSDO
 #include "co_csdo.h"
 #endif
 #include "co_dict.h"
+#include "co_emcy.h"
 #include "co_if.h"
+#if USE_LED
+#include "co_led.h"
+#endif
 #include "co_nmt.h"
+#include "co_pdo.h"
 #include "co_ring.h"
 #include "co_sdo.h"
 #include "co_ssdo.h"
+#include "co_sync.h"
+#if USE_TIME
+#include "co_time.h"
+#include "co_time_clock.h"
+#include "co_time_id.h"
+#endif
 #include "co_tmr.h"
 
 #include "co_err.h"
@@ -45,15 +72,13 @@
 extern "C" {
 #endif
 
-struct CO_EMCY_TBL_T;
-
 /// What a node is made of. Filled by position or member by member; used only during CONodeInit().
 typedef struct CO_NODE_SPEC_T {
   uint8_t NodeId;                  ///< 1…127
   uint32_t Baudrate;               ///< bit/s
   struct CO_OBJ_T* Dict;           ///< the dictionary; may be const (cast it), must live as long as the node
   uint16_t DictLen;                ///< length of that array
-  struct CO_EMCY_TBL_T* EmcyCode;  ///< emergency codes of the application, may be null
+  struct CO_EMCY_TBL_T* EmcyCode;  ///< errors of the application (co_emcy.h), may be null
   struct CO_TMR_MEM_T* TmrMem;     ///< timers for the application; the stack needs none of them
   uint16_t TmrNum;                 ///< length of that array, may be 0
   uint32_t TmrFreq;                ///< ticks of the timer driver per second
@@ -76,7 +101,7 @@ typedef struct CO_NODE_COUNTERS_T {
   uint32_t Unclaimed;                    ///< of these: for nobody here, or for a service that the NMT state forbids
   uint32_t Malformed;                    ///< of these: for us, but of a wrong length or kind; ignored
   uint32_t Sent;                         ///< frames that the driver took
-  uint32_t Dropped;                      ///< frames that found the transmit queue full, or that a reset threw away
+  uint32_t Dropped;                      ///< frames that found a queue full, or that a reset or NMT state threw away
   uint32_t SdoAborts;                    ///< SDO transfers that the server aborted
   uint32_t TimerExhausted;               ///< COTmrCreate() without a free timer
   uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< what CONodeCanEvent() was told
@@ -99,20 +124,28 @@ typedef struct CO_NODE_EXT_T {
   /// May \a size bytes at \a address be written? Null: yes. Asked before a basic type stores a value; for tables and
   /// variables that the linker has put into read-only memory. false: refused with CO_ERR_OBJ_ACC.
   bool (*Writable)(void* user, const void* address, uint32_t size);
-  void* User;  ///< for the functions above, and for CONodeGetUser()
+  void* User;  ///< for the functions above and below, and for CONodeGetUser()
+  /// Held while mapped objects are copied (co_pdo.h); both or none. Calls do not nest.
+  void (*OdLock)(void* user);
+  void (*OdUnlock)(void* user);
+  uint16_t EmcyNum;  ///< errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
 } CO_NODE_EXT;
 
 /// \cond internal
-#if USE_CSDO
-#define CO_ROUTE_N (1 + CO_SSDO_N + CO_CSDO_N)
+// NMT, error control, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs
+#define CO_ROUTE_N                                                                                  \
+  (2 + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + \
+   (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
+#if CO_ROUTE_N > 255
+typedef uint16_t CO_ROUTE_NUM;
 #else
-#define CO_ROUTE_N (1 + CO_SSDO_N)
+typedef uint8_t CO_ROUTE_NUM;
 #endif
 
 typedef struct CO_ROUTES_T {   ///< who gets the frames of an identifier
   uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
   uint16_t Owner[CO_ROUTE_N];  ///< service in bits 15…12, number of its instance in bits 11…0
-  uint8_t Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
+  CO_ROUTE_NUM Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
 } CO_ROUTES;
 
 typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by priority
@@ -123,17 +156,35 @@ typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by pri
 } CO_TX_QUEUE;
 /// \endcond
 
-/// A node. The application uses the members up to NodeId as handles (&node.Dict, &node.Nmt, &node.Tmr, …), reads NodeId
-/// and Baudrate, and touches nothing else.
+/// A node. The application uses the members up to NodeId as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …),
+/// reads NodeId and Baudrate, and touches nothing else.
 typedef struct CO_NODE_T {
   CO_DICT Dict;
   CO_IF If;
+#if USE_EMCY
+  CO_EMCY Emcy;
+#endif
   CO_NMT Nmt;
   CO_TMR Tmr;
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
 #if USE_CSDO
   CO_CSDO CSdo[CO_CSDO_N];
+#endif
+#if CO_RPDO_N > 0
+  CO_RPDO RPdo[CO_RPDO_N];
+#endif
+#if CO_TPDO_N > 0
+  CO_TPDO TPdo[CO_TPDO_N];
+#endif
+#if USE_SYNC
+  CO_SYNC Sync;
+#endif
+#if USE_TIME
+  CO_TIME Time;
+#endif
+#if USE_LED
+  CO_LED Led;
 #endif
   enum CO_ERR_T Error;
   uint32_t Baudrate;
@@ -151,6 +202,21 @@ typedef struct CO_NODE_T {
   CO_TMR_MEM SdoTmr;
   CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
   uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
+  uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
+  uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
+  uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
+  uint16_t RPdoLast;
+  uint16_t TPdoFirst;  ///< of the synchronous TPDOs, by CO_TPDO.Next
+  uint8_t WindowOver;  ///< the synchronous window is over
+#if USE_GUARDING
+  uint8_t GuardToggle;  ///< bit 7 of the next answer
+  uint8_t GuardLost;    ///< the NMT master is missing
+  CO_TMR_MEM GuardTmr;
+#endif
+#if CO_HBCONS_N > 0
+  CO_TMR_MEM HbConsTmr;             ///< of all consumers
+  CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< by sub-index
+#endif
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;

@@ -17,6 +17,9 @@
 /// timed out, was cancelled, or when the NMT state no longer allows SDO. Numbers are not converted: the buffer holds
 /// the bytes in the order of the bus (little endian).
 ///
+/// Clients with the same COB-ID of the answers cannot tell whose answer a frame is, if they wait for the same object:
+/// each takes it. A callback must not start a request of another such client for the same object.
+///
 /// Context: the loop. Callbacks run in CONodeProcess(), COTmrProcess(), COCSdoCancel(), in the functions that change
 /// the NMT state, and in writes to 1280h… that change the COB-IDs of a busy client, whose server then gets an abort.
 #ifndef CO_CSDO_H_

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nmt.h
-/// Network management of the node: the NMT slave and its heartbeat. [301:7.3.2, 7.2.8]
+/// Network management: the NMT slave, error control (heartbeat, guarding, nodes that are monitored), commands of an NMT
+/// master. [301:7.3.2, 7.2.8]
+///
+/// Node guarding (USE_GUARDING): a remote frame with 700h + node-ID is answered while no heartbeat is produced (1017h
+/// is 0 or missing). With the first one life guarding starts, unless 100Ch (guard time in ms) or 100Dh (life time
+/// factor) is 0 or missing, or their product is more than the timer can hold: without a further one for that long the
+/// NMT master is missing. Both are plain objects (CO_TUNSIGNED16, CO_TUNSIGNED8), read at each remote frame.
+/// A data frame with 700h + node-ID, which only this node may send, is reported with EMCY 8150h, and counted as
+/// malformed.
 ///
 /// Context: the loop. Called from a type function or callback while a received frame is processed, a reset takes
 /// effect when the answer to that frame has been sent.
 #ifndef CO_NMT_H_
 #define CO_NMT_H_
 
+#include "co_cfg.h"
 #include "co_err.h"
 #include "co_if.h"
 #include "co_types.h"
@@ -50,12 +59,13 @@ typedef struct CO_NMT_T {
   CO_MODE Next;      ///< mode to be entered; Mode unless Changing
   uint8_t Allowed;   ///< CO_…_ALLOWED bits of the present mode
   uint8_t Changing;  ///< CONmtModeChange() is running
+  uint8_t Booting;   ///< the node has not been in Pre-operational since it was initialised
 } CO_NMT;
 
 /// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is
-/// initialised by the same code as in CONodeInit(). Ends with boot-up and Pre-operational, except in CO_INIT, where
-/// the node waits for CONodeStart(). Timers of the application go on. \a type other than CO_RESET_NODE and
-/// CO_RESET_COM, and a node in CO_INVALID, are ignored.
+/// initialised by the same code as in CONodeInit(). Ends with boot-up and Pre-operational (or Operational, see
+/// co_nmt_startup.h), except in CO_INIT, where the node waits for CONodeStart(). Timers of the application go on. \a
+/// type other than CO_RESET_NODE and CO_RESET_COM, and a node in CO_INVALID, are ignored.
 void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
 
 /// Changes the NMT state, as a command of the NMT master would. A node in CO_INVALID, and modes other than CO_PREOP,
@@ -78,6 +88,33 @@ CO_MODE CONmtModeDecode(uint8_t code);
 /// Mode as state byte of a heartbeat; 255 for CO_INVALID and out of range.
 uint8_t CONmtModeEncode(CO_MODE mode);
 
+#if CO_HBCONS_N > 0
+/// How many times a heartbeat of the node \a nodeId was missed since the last call: once each period, at most 255.
+/// -1: the node is not monitored (1016h, co_hb_cons.h), or \a nmt is null (after CONodeFatalError()).
+int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId);
+
+/// The state that the last heartbeat of the node \a nodeId has told. CO_INVALID: a reserved one, none was heard, the
+/// node is not monitored, or \a nmt is null (after CONodeFatalError()).
+CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId);
+#endif
+
+#if USE_NMT_MASTER
+/// Command specifiers of the NMT master. [301:7.2.8.2.1]
+typedef enum CO_NMT_COMMAND_T {
+  CO_NMT_COMMAND_START = 1,         ///< enter Operational
+  CO_NMT_COMMAND_STOP = 2,          ///< enter Stopped
+  CO_NMT_COMMAND_PREOP = 128,       ///< enter Pre-operational
+  CO_NMT_COMMAND_RESET_NODE = 129,  ///< reset node
+  CO_NMT_COMMAND_RESET_COM = 130    ///< reset communication
+} CO_NMT_COMMAND;
+
+/// Commands the node \a nodeId (1…127), or all nodes with 0. This node does what it commands itself, in place of a
+/// message or, with 0, after it, as by CONmtSetMode() and CONmtReset().
+/// CO_ERR_BAD_ARG: \a nmt is null, no such command, \a nodeId above 127; CO_ERR_NMT_MODE: in CO_INIT and CO_INVALID;
+/// CO_ERR_IF_CAN_SEND: the transmit queue is full, nothing was done.
+CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId);
+#endif
+
 /// \name Callbacks of the application
 /// Ordinary functions to be defined by the application; the defaults do nothing. Define them in an object file or an
 /// object library of the program: linkers ignore a definition in a static library that nothing else needs.
@@ -87,8 +124,19 @@ uint8_t CONmtModeEncode(CO_MODE mode);
 /// CONodeStop(), that is entered in place of \a mode, after it was called for that one, too.
 void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
 
-/// After a reset that the NMT master commanded: the stack is reset and in Pre-operational.
+/// After a reset that the NMT master commanded: the stack is reset and in Pre-operational (or Operational, see
+/// co_nmt_startup.h).
 void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
+
+/// The monitored node \a nodeId has sent no heartbeat for its time (1016h), again after each further period.
+void CONmtHbConsEvent(CO_NMT* nmt, uint8_t nodeId);
+
+/// The monitored node \a nodeId tells another state than before (CONmtLastHbState() still gives that), is back after it
+/// was missing, or has sent a boot-up message (CO_INIT). CO_INVALID: a reserved state.
+void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
+
+/// Life guarding: the NMT master is missing (\a occurred), or is back.
+void CONmtLifeGuardEvent(CO_NMT* nmt, bool occurred);
 /// \}
 
 #ifdef __cplusplus

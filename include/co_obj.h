@@ -48,7 +48,7 @@ struct CO_OBJ_T;
 #define CO_OBJ______W 0x01u  ///< W: the network may write, and the object may be mapped into an RPDO
 #define CO_OBJ_____R_ 0x02u  ///< R: the network may read, and the object may be mapped into a TPDO
 #define CO_OBJ____P__ 0x04u  ///< P: may be mapped into a PDO
-#define CO_OBJ___A___ 0x08u  ///< A: a change of the value triggers the TPDOs that map it (no PDO service yet)
+#define CO_OBJ___A___ 0x08u  ///< A: a change of the value triggers the TPDOs that map it
 #define CO_OBJ__N____ 0x40u  ///< N: relative to the node-ID (basic integers): added on read, taken off on write
 #define CO_OBJ_D_____ 0x80u  ///< D: the value itself lies in Data; the table must be in RAM if it is written
 

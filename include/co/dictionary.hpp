@@ -27,15 +27,32 @@
 
 #include "co/rules.hpp"
 #include "co_domain.h"
+#include "co_emcy_cons.h"
+#include "co_emcy_hist.h"
+#include "co_emcy_id.h"
+#include "co_error_behaviour.h"
+#include "co_hb_cons.h"
 #include "co_hb_prod.h"
 #include "co_integer16.h"
 #include "co_integer32.h"
 #include "co_integer64.h"
 #include "co_integer8.h"
+#include "co_nmt_startup.h"
 #include "co_obj.h"
+#include "co_pdo_event.h"
+#include "co_pdo_id.h"
+#include "co_pdo_inhibit.h"
+#include "co_pdo_map.h"
+#include "co_pdo_num.h"
+#include "co_pdo_start.h"
+#include "co_pdo_type.h"
 #include "co_real.h"
 #include "co_sdo_id.h"
 #include "co_string.h"
+#include "co_sync_count.h"
+#include "co_sync_cycle.h"
+#include "co_sync_id.h"
+#include "co_time_id.h"
 #include "co_time_of_day.h"
 
 /// Proves that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults. For namespace
@@ -112,21 +129,48 @@ inline constexpr Type types[] = {
     {&COTOctetString, rules::variable, Value::bytes, 0},
     {&COTUnicodeString, rules::variable, Value::bytes, 0},
     {&COTDomain, rules::variable, Value::bytes, 0},
+    {&COTEmcyHist, rules::emcy_history_number, Value::unsigned_integer, 1},
+    {&COTEmcyHist, rules::emcy_history, Value::unsigned_integer, 4},
+    {&COTEmcyId, rules::emcy_cob_id, Value::unsigned_integer, 4},
+    {&COTEmcyCons, rules::emcy_consumer, Value::unsigned_integer, 4},
+    {&COTErrorBehaviour, rules::error_behaviour, Value::unsigned_integer, 1},
+    {&COTNmtHbCons, rules::heartbeat_consumers, Value::unsigned_integer, 1},
+    {&COTNmtHbCons, rules::heartbeat_consumer, Value::unsigned_integer, 4},
+    {&COTNmtStartup, rules::nmt_startup, Value::unsigned_integer, 4},
     {&COTNmtHbProd, rules::heartbeat_producer, Value::unsigned_integer, 2},
     {&COTSdoId, rules::sdo_cob_id, Value::unsigned_integer, 4},
+    {&COTPdoId, rules::pdo_cob_id, Value::unsigned_integer, 4},
+    {&COTPdoType, rules::pdo_type, Value::unsigned_integer, 1},
+    {&COTPdoInhibit, rules::pdo_inhibit, Value::unsigned_integer, 2},
+    {&COTPdoEvent, rules::pdo_event, Value::unsigned_integer, 2},
+    {&COTPdoStart, rules::pdo_start, Value::unsigned_integer, 1},
+    {&COTPdoNum, rules::pdo_number, Value::unsigned_integer, 1},
+    {&COTPdoMap, rules::pdo_mapping, Value::unsigned_integer, 4},
+#if USE_SYNC
+    {&COTSyncId, rules::sync_cob_id, Value::unsigned_integer, 4},
+    {&COTSyncCycle, rules::sync_cycle, Value::unsigned_integer, 4},
+    {&COTSyncCount, rules::sync_counter, Value::unsigned_integer, 1},
+#endif
+    {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},
 };
 
 /// Where the compiler must reckon with symbols at address 0 (-fno-delete-null-pointer-checks, sanitizers of gcc), it
 /// knows only that an address is equal to itself. That is enough: what it does not know to be equal is not.
 constexpr bool is_same(const CO_OBJ_TYPE* a, const CO_OBJ_TYPE* b) { return __builtin_constant_p(a == b) && a == b; }
 
-constexpr Type type_of(const CO_OBJ_TYPE* type) {
+/// The row of an entry's type: the one for its place, where a type has a row for each of several.
+constexpr Type type_of(const CO_OBJ& entry) {
+  Type found{entry.Type, rules::variable, Value::of_application, 0};
   for (const Type& known : types) {
-    if (is_same(known.type, type)) {
-      return known;
+    if (!is_same(known.type, entry.Type)) {
+      continue;
+    }
+    found = known;
+    if (rules::is_place(known.rule, entry.Key)) {
+      break;
     }
   }
-  return {type, rules::variable, Value::of_application, 0};
+  return found;
 }
 
 /// What Data was initialised with. Only an expression that names the table itself lets the compiler tell: reading a
@@ -159,7 +203,7 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   const Content data = content<Od>(position);
   const bool has_data = data != Content::null;
   const CO_DICT_FAULT fault = rules::check_entry(previous, entry.Key, !is_same(entry.Type, nullptr), has_data);
-  const Type type = type_of(entry.Type);
+  const Type type = type_of(entry);
   if (fault != CO_DICT_OK || type.value == Value::of_application) {
     return fault;
   }

@@ -212,7 +212,7 @@ constexpr bool can_hold(const Type& type) {
 }
 
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>
-inline constexpr Type type_at = type_of(co::entry<Od, Index, Sub>()->Type);
+inline constexpr Type type_at = type_of(*co::entry<Od, Index, Sub>());
 
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>
 using Natural = decltype(natural<type_at<Od, Index, Sub>.value, type_at<Od, Index, Sub>.width>());

@@ -38,7 +38,25 @@ struct Instances {
 inline constexpr Instances instances[] = {
     {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [301:7.5.2.33]
     {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [301:7.5.2.34]
+    {0x1400, 0x15FF, 6, CO_RPDO_N},                      // RPDOs [301:7.5.2.35]
+    {0x1600, 0x17FF, 64, CO_RPDO_N},                     // their mapping [301:7.5.2.36]
+    {0x1800, 0x19FF, 6, CO_TPDO_N},                      // TPDOs [301:7.5.2.37]
+    {0x1A00, 0x1BFF, 64, CO_TPDO_N},                     // their mapping [301:7.5.2.38]
 };
+
+/// Arrays whose last sub-index is configured.
+constexpr bool is_in_array(std::uint32_t key) {
+  constexpr struct {
+    std::uint16_t index;
+    std::uint8_t last_sub;
+  } arrays[] = {{0x1016, CO_HBCONS_N}, {0x1028, CO_EMCY_CONS_N}};
+  for (const auto& array : arrays) {
+    if (index_of(key) == array.index && sub_of(key) > array.last_sub) {
+      return false;
+    }
+  }
+  return true;
+}
 
 constexpr bool is_configured(std::uint32_t key) {
   const std::uint16_t index = index_of(key);
@@ -47,7 +65,7 @@ constexpr bool is_configured(std::uint32_t key) {
       return index - service.first < service.configured;
     }
   }
-  return true;
+  return is_in_array(key);
 }
 
 /// The rules that hold whatever the type is. \a previous: the key of the entry before it, 0 for the first.
@@ -64,7 +82,7 @@ constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, b
   return is_configured(key) ? CO_DICT_OK : CO_DICT_NOT_CONFIGURED;
 }
 
-/// What a type asks of its entries. 8 bytes of flash where it is used at run time.
+/// What a type asks of its entries. 10 bytes of flash where it is used at run time.
 struct Rule {
   std::uint16_t first_index;
   std::uint16_t last_index;
@@ -72,10 +90,11 @@ struct Rule {
   std::uint8_t last_sub;
   std::uint8_t direct_width;  // bytes that a value takes in Data; 0: flag D is not allowed
   bool node_id_relative;      // flag N is allowed
+  bool of_pdo;                // the indices of RPDOs are named, those of TPDOs lie 400h above
 };
 
 constexpr Rule anywhere(std::uint8_t direct_width, bool node_id_relative) {
-  return {0x0001, 0xFFFF, 0x00, 0xFF, direct_width, node_id_relative};
+  return {0x0001, 0xFFFF, 0x00, 0xFF, direct_width, node_id_relative, false};
 }
 
 /// \a width: bytes of the variable, not of the value on the bus (UNSIGNED24 lies in four).
@@ -83,12 +102,36 @@ constexpr Rule integer(std::uint8_t width) { return anywhere(width, true); }
 
 inline constexpr Rule boolean = anywhere(1, false);
 inline constexpr Rule variable = anywhere(0, false);  // reals, times, strings, domains
-inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false};
-inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true};
+inline constexpr Rule heartbeat_consumers{0x1016, 0x1016, 0, 0, 1, false, false};
+inline constexpr Rule heartbeat_consumer{0x1016, 0x1016, 1, CO_HBCONS_N, 0, false, false};
+inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false, false};
+inline constexpr Rule error_behaviour{0x1029, 0x1029, 0, 254, 1, false, false};
+inline constexpr Rule nmt_startup{0x1F80, 0x1F80, 0, 0, 4, false, false};
+inline constexpr Rule emcy_history_number{0x1003, 0x1003, 0, 0, 1, false, false};
+inline constexpr Rule emcy_history{0x1003, 0x1003, 1, 254, 0, false, false};
+inline constexpr Rule emcy_cob_id{0x1014, 0x1014, 0, 0, 4, true, false};
+inline constexpr Rule emcy_consumer{0x1028, 0x1028, 1, 127, 4, false, false};
+inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
+inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
+inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
+inline constexpr Rule sync_cycle{0x1006, 0x1007, 0, 0, 4, false, false};
+inline constexpr Rule sync_counter{0x1019, 0x1019, 0, 0, 1, false, false};
+inline constexpr Rule pdo_cob_id{0x1400, 0x15FF, 1, 1, 4, true, true};
+inline constexpr Rule pdo_type{0x1400, 0x15FF, 2, 2, 1, false, true};
+inline constexpr Rule pdo_inhibit{0x1400, 0x15FF, 3, 3, 2, false, true};
+inline constexpr Rule pdo_event{0x1400, 0x15FF, 5, 5, 2, false, true};
+inline constexpr Rule pdo_start{0x1800, 0x19FF, 6, 6, 1, false, false};
+inline constexpr Rule pdo_number{0x1600, 0x17FF, 0, 0, 1, false, true};
+inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
+
+constexpr bool is_index(const Rule& rule, std::uint16_t index) {
+  return index >= rule.first_index && index <= rule.last_index;
+}
 
 constexpr bool is_place(const Rule& rule, std::uint32_t key) {
-  return index_of(key) >= rule.first_index && index_of(key) <= rule.last_index && sub_of(key) >= rule.first_sub &&
-         sub_of(key) <= rule.last_sub;
+  constexpr std::uint16_t from_rpdo_to_tpdo = 0x0400;
+  const bool of_tpdo = rule.of_pdo && is_index(rule, static_cast<std::uint16_t>(index_of(key) - from_rpdo_to_tpdo));
+  return (is_index(rule, index_of(key)) || of_tpdo) && sub_of(key) >= rule.first_sub && sub_of(key) <= rule.last_sub;
 }
 
 constexpr bool may_be_direct(const Rule& rule) {

@@ -18,11 +18,49 @@ enum Pending : uint8_t {
   reset_communication = 0x02,
   commanded = 0x04,  // the reset was commanded by the NMT master
   configure_sdo = 0x08,
+  remap = 0x10,  // CODictInit() has numbered the entries anew
 };
 void defer(CO_NODE& node, uint8_t what);
 
 // A reset asked for while the node is being initialised or started is part of that.
-inline void forget_resets(CO_NODE& node) { node.Pending &= configure_sdo; }
+inline void forget_resets(CO_NODE& node) { node.Pending &= configure_sdo | remap; }
+
+// What can go wrong on the bus: an EMCY message with its code, and the bits of the error register. [301:7.2.7]
+enum class Fault : uint8_t {
+  overrun,      // 8110h
+  passive,      // 8120h
+  heartbeat,    // 8130h, a node is missing
+  life_guard,   // 8130h, the NMT master is missing
+  recovered,    // 8140h, from bus-off
+  collision,    // 8150h, somebody has our CAN-ID
+  pdo_short,    // 8210h
+  pdo_long,     // 8220h
+  sync_length,  // 8240h
+  pdo_timeout,  // 8250h
+  count
+};
+
+// A fault has come, or gone. Whoever says that it has come says that it has gone, or forgets it: each counts. detail:
+// third of the manufacturer's bytes, a node-ID or the number of a PDO.
+void raise(CO_NODE& node, Fault fault, uint8_t detail);
+void resolve(CO_NODE& node, Fault fault, uint8_t detail);
+// The same as resolve, without a message: the service does not care any more.
+void forget(CO_NODE& node, Fault fault);
+
+// The node has lost the network: bus-off, a node that it monitors, or the NMT master. [301:7.5.2.32]
+void lose_communication(CO_NODE& node);
+
+// What the CAN controller has reported.
+void report_can(CO_NODE& node, CO_CAN_EVENT what);
+
+// A SYNC of the network, or of this node, which produces it. counter: 0 if it has none. [301:7.2.5]
+void sync(CO_NODE& node, uint8_t counter);
+
+// The time after a SYNC in which synchronous PDOs may be sent is over. [301:7.5.2.7]
+void end_sync_window(CO_NODE& node);
+
+// The application or the network has changed an object whose TPDOs are event-driven (flag A).
+void change_object(CO_NODE& node, const CO_OBJ& obj);
 
 // Does what waits, unless a frame is being processed or the mode is being changed.
 void settle(CO_NODE& node);

@@ -17,19 +17,11 @@ constexpr CO_IF_CAN_DRV_EX no_can = {nothing, no_rate, no_frame, not_sent, nothi
 constexpr CO_IF_TIMER_DRV_EX no_timer = {no_rate, no_time, nullptr};
 
 constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIMER_DRV_EX* timer) {
-  return {sizeof(CO_NODE_EXT),
-          can,
-          nullptr,
-          timer,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr,
-          0,
-          nullptr,
-          nullptr,
-          nullptr,
-          nullptr};
+  CO_NODE_EXT ext = {};
+  ext.Size = sizeof ext;
+  ext.Can = can;
+  ext.Timer = timer;
+  return ext;
 }
 
 }  // namespace

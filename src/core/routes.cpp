@@ -2,22 +2,25 @@
 #include "core/routes.hpp"
 
 #include "core/port.hpp"
+#include "wire/cob_id.hpp"
 
 namespace co::routes {
 namespace {
 
 constexpr uint8_t end = 17;
 
-static_assert(CO_ROUTE_N <= UINT8_MAX, "routes are counted in 8 bits");
-
-constexpr uint16_t owner(uint8_t service, uint16_t number) {
+constexpr uint16_t owner(Service service, uint16_t number) {
   return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);
 }
 
 void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
   for (unsigned n = class_of(identifier) + 1U; n <= end; ++n) {
-    routes.Start[n] = static_cast<uint8_t>(routes.Start[n] + by);
+    routes.Start[n] = static_cast<CO_ROUTE_NUM>(routes.Start[n] + by);
   }
+}
+
+bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uint16_t owner) {
+  return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
 }
 
 void move(CO_ROUTES& routes, unsigned to, unsigned from) {
@@ -29,18 +32,19 @@ void move(CO_ROUTES& routes, unsigned to, unsigned from) {
 
 void clear(CO_NODE& node) { node.Routes = {}; }
 
-void add(CO_NODE& node, uint32_t identifier, uint8_t service, uint16_t number) {
+void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
   CO_ROUTES& routes = node.Routes;
+  const uint16_t whose = owner(service, number);
   unsigned place = routes.Start[end];
-  for (; place > 0 && routes.Id[place - 1] > identifier; --place) {
+  for (; place > 0 && is_behind(routes, place - 1, identifier, whose); --place) {
     move(routes, place, place - 1);
   }
   routes.Id[place] = identifier;
-  routes.Owner[place] = owner(service, number);
+  routes.Owner[place] = whose;
   shift_starts(routes, identifier, +1);
 }
 
-void remove(CO_NODE& node, uint8_t service, uint16_t number) {
+void remove(CO_NODE& node, Service service, uint16_t number) {
   CO_ROUTES& routes = node.Routes;
   const unsigned num = routes.Start[end];
   unsigned place = 0;
@@ -54,6 +58,23 @@ void remove(CO_NODE& node, uint8_t service, uint16_t number) {
   for (; place + 1 < num; ++place) {
     move(routes, place, place + 1);
   }
+}
+
+void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+  remove(node, service, number);
+  if (identifier != wire::no_frame) {
+    add(node, identifier, service, number);
+  }
+}
+
+uint16_t next(const CO_NODE& node, uint16_t place, uint32_t identifier, uint16_t owner) {
+  if (!is_at(node, place, identifier) || node.Routes.Owner[place] != owner) {
+    place = find(node, identifier);
+  }
+  while (is_at(node, place, identifier) && node.Routes.Owner[place] <= owner) {
+    ++place;
+  }
+  return place;
 }
 
 void publish(const CO_NODE& node) {

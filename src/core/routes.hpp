@@ -7,13 +7,46 @@
 
 namespace co::routes {
 
+// Whose a route is: the rows of the table of node/services.cpp that get frames, in its order.
+enum class Service : uint8_t {
+  nmt,
+  sdo_server,
+#if USE_CSDO
+  sdo_client,
+#endif
+  error_control,
+#if CO_HBCONS_N > 0
+  heartbeat_consumer,
+#endif
+#if USE_SYNC
+  sync,
+#endif
+#if USE_TIME
+  time,
+#endif
+#if CO_RPDO_N > 0
+  rpdo,
+#endif
+#if CO_TPDO_N > 0
+  tpdo,
+#endif
+#if CO_EMCY_CONS_N > 0
+  emcy_consumer,
+#endif
+  count
+};
+
 void clear(CO_NODE& node);
 
-// Adds a route; identifier as in a frame (CO_IF_FRM_EXT included). Routes of equal identifiers lie side by side.
-void add(CO_NODE& node, uint32_t identifier, uint8_t service, uint16_t number);
+// Adds a route; identifier as in a frame (CO_IF_FRM_EXT included). Routes of equal identifiers lie side by side, by
+// owner.
+void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
 // Removes the route of a service's instance, if there is one.
-void remove(CO_NODE& node, uint8_t service, uint16_t number);
+void remove(CO_NODE& node, Service service, uint16_t number);
+
+// Lets the instance have this route alone; wire::no_frame: none.
+void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
 // Gives the identifiers to a driver that filters.
 void publish(const CO_NODE& node);
@@ -24,15 +57,31 @@ void publish(const CO_NODE& node);
   return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
 }
 
-// The routes [first, last) that an identifier may be among.
-struct Range {
-  uint16_t first;
-  uint16_t last;
-};
-[[nodiscard]] inline Range candidates(const CO_NODE& node, uint32_t identifier) {
+// Where the routes of an identifier begin; the number of routes if it has none.
+[[nodiscard]] inline uint16_t find(const CO_NODE& node, uint32_t identifier) {
+  constexpr unsigned short_search = 4;
+  const CO_ROUTES& routes = node.Routes;
   const uint8_t fc = class_of(identifier);
-  return {node.Routes.Start[fc], node.Routes.Start[fc + 1]};
+  unsigned first = routes.Start[fc];
+  unsigned last = routes.Start[fc + 1];
+  while (last - first > short_search) {
+    const unsigned middle = (first + last) / 2;
+    (routes.Id[middle] < identifier ? first : last) = middle;
+  }
+  while (first < last && routes.Id[first] < identifier) {
+    ++first;
+  }
+  return static_cast<uint16_t>(first);
 }
+
+// Is the route at this place one of the identifier?
+[[nodiscard]] inline bool is_at(const CO_NODE& node, uint16_t place, uint32_t identifier) {
+  constexpr uint8_t end = 17;
+  return place < node.Routes.Start[end] && node.Routes.Id[place] == identifier;
+}
+
+// The place behind the owner at this place, who may have changed the routes while it was served.
+[[nodiscard]] uint16_t next(const CO_NODE& node, uint16_t place, uint32_t identifier, uint16_t owner);
 
 [[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }

@@ -156,12 +156,12 @@ void release(CO_TMR& t, CO_TMR_MEM& timer) {
   }
 }
 
-// A cyclic timer that has elapsed is armed for its next expiry after now; those that were missed are skipped.
-void rearm(CO_TMR& t, CO_TMR_MEM& timer) {
+// A timer that has elapsed is armed for its next expiry after now; those that were missed are skipped.
+void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
   const uint32_t late_by = synchronise(t);
   const uint32_t passed = t.Clock + late_by - timer.Delta;
-  const uint32_t since = passed < timer.Cycle ? passed : passed % timer.Cycle;
-  insert(t, timer, timer.Cycle - since, late_by);
+  const uint32_t since = passed < cycle ? passed : passed % cycle;
+  insert(t, timer, cycle - since, late_by);
 }
 
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
@@ -186,7 +186,7 @@ bool run_next(CO_TMR& t) {
     func = timer.Func;
     para = timer.Para;
     if (timer.Cycle != 0) {
-      rearm(t, timer);
+      rearm(t, timer, timer.Cycle);
     } else {
       release(t, timer);
     }
@@ -246,12 +246,27 @@ void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO
   arm(timers, timer, start, cycle, func, para);
 }
 
+void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks) {
+  const Lock lock(timers);
+  remove(timers, timer);
+  rearm(timers, timer, ticks);
+}
+
 void stop(CO_TMR& timers, CO_TMR_MEM& timer) {
   const Lock lock(timers);
   remove(timers, timer);
 }
 
 bool is_running(const CO_TMR_MEM& timer) { return timer.State != idle; }
+
+uint32_t now(CO_TMR& timers) {
+  if (port::has_clock(*timers.Node)) {
+    return port::now(*timers.Node);
+  }
+  const Lock lock(timers);
+  const uint32_t late_by = synchronise(timers);
+  return timers.Clock + late_by;
+}
 
 uint32_t next_deadline(CO_TMR& timers) {
   const Lock lock(timers);

@@ -15,10 +15,17 @@ namespace co::tmr {
 // both 0.
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
 
+// For the action of a timer that runs once: once more, some ticks after it has elapsed; where that is over, at the next
+// multiple of them.
+void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
+
 // Stops a timer that is part of its owner; a stopped one stays stopped.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
 
 [[nodiscard]] bool is_running(const CO_TMR_MEM& timer);
+
+// A clock of ticks, starting anywhere, wrapping at 2^32. With a driver that has none, it goes while a timer runs.
+[[nodiscard]] uint32_t now(CO_TMR& timers);
 
 // Ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: none.
 [[nodiscard]] uint32_t next_deadline(CO_TMR& timers);

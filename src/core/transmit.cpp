@@ -61,21 +61,20 @@ bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
   return try_now(node, frame) || enqueue(node, frame, places);
 }
 
-// The rest is kept for the node's own frames: one of each SDO server and client and a heartbeat, but at most half the
-// queue.
+// The rest is kept for the node's own frames: one of each SDO server and client, an EMCY message and a heartbeat, but
+// at most half the queue.
 uint16_t places_for_application(const CO_TX_QUEUE& queue) {
-  constexpr uint16_t own = CO_ROUTE_N;
+  constexpr uint16_t own = 2 + CO_SSDO_N + (USE_CSDO != 0 ? CO_CSDO_N : 0);
   const auto half = static_cast<uint16_t>(queue.Len / 2);
   return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
 }
 
-CO_IF_FRM* find_waiting(CO_TX_QUEUE& queue, uint32_t identifier) {
-  for (uint16_t n = queue.Fixed; n < queue.Num; ++n) {
-    if (queue.Frame[n].Identifier == identifier) {
-      return &queue.Frame[n];
-    }
+bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
+  CO_IF_FRM* const waiting = find_waiting(node, frame.Identifier);
+  if (waiting != nullptr) {
+    *waiting = frame;
   }
-  return nullptr;
+  return waiting != nullptr;
 }
 
 }  // namespace
@@ -111,14 +110,25 @@ void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame) {
   ++queue.Fixed;
 }
 
-void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
+CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
   flush(node);
-  CO_IF_FRM* const waiting = find_waiting(node.TxQueue, frame.Identifier);
-  if (waiting != nullptr) {
-    *waiting = frame;
-  } else {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  for (uint16_t n = queue.Fixed; n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      return &queue.Frame[n];
+    }
+  }
+  return nullptr;
+}
+
+void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!replace(node, frame)) {
     send(node, frame);
   }
+}
+
+bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame) {
+  return replace(node, frame) || send_for_application(node, frame);
 }
 
 bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -131,6 +141,11 @@ void flush(CO_NODE& node) {
   while (is_waiting(node) && may_send_next(node) && try_send(node, node.TxQueue.Frame[0])) {
     remove_first(node.TxQueue);
   }
+}
+
+bool is_full(CO_NODE& node) {
+  flush(node);
+  return node.TxQueue.Num == node.TxQueue.Len;
 }
 
 void withdraw(CO_NODE& node, uint32_t identifier) {

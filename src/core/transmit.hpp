@@ -15,6 +15,9 @@ bool send(CO_NODE& node, const CO_IF_FRM& frame);
 // The same for a frame of the application, which leaves some places in the queue to the node's own.
 bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame);
 
+// The same for a PDO; an older one of it that still waits is replaced.
+bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame);
+
 // Sends the boot-up message, which everything else waits for.
 void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
 
@@ -22,11 +25,18 @@ void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
 // replaced, except the boot-up message.
 void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 
+// The frame of an identifier that still waits after those were offered to the driver; null: there is none, or it is the
+// boot-up message.
+[[nodiscard]] CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier);
+
 // Sends a frame now or not at all: for those that can be made again. False: see Service::on_free.
 [[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
 
 // Offers the frames that wait to the driver.
 void flush(CO_NODE& node);
+
+// Would send() lose a frame now?
+[[nodiscard]] bool is_full(CO_NODE& node);
 
 // What waits goes out before anything that follows, the boot-up message included.
 void fix(CO_NODE& node);

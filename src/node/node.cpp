@@ -62,6 +62,9 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
     return;
   }
   node.Busy = 1;
+  if ((pending & event::reset_node) != 0) {
+    services::forget_application(node);
+  }
   reset(node, commanded);
   node.Busy = 0;
   event::forget_resets(node);
@@ -88,6 +91,10 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.SdoBuf = spec.SdoBuf;
   node.If = {&node, spec.Drv != nullptr ? spec.Drv : const_cast<CO_IF_DRV*>(&port::no_plain_drivers)};
   node.Nmt.Node = &node;
+#if USE_EMCY
+  node.Emcy.Node = &node;
+  node.Emcy.Root = spec.EmcyCode;
+#endif
 }
 
 // Block transfers that have found the controller full.
@@ -135,6 +142,9 @@ void event::settle(CO_NODE& node) {
       node::settle_reset(node, pending);
     } else if (node.Nmt.Mode != CO_INVALID) {
       node.Busy = 1;
+      if ((pending & remap) != 0) {
+        services::remap(node);
+      }
       services::configure(node);
       node.Busy = 0;
       routes::publish(node);
@@ -250,6 +260,7 @@ void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
   if (event < CO_CAN_EVENT_NUM) {
     count(node->Count.CanEvents[event]);
+    event::report_can(*node, event);
     CONodeCanChange(node, event);
   }
 }

@@ -6,30 +6,60 @@
 #include "core/port.hpp"
 #include "core/routes.hpp"
 #include "core/transmit.hpp"
+#include "service/emcy/emcy.hpp"
+#include "service/guarding/guarding.hpp"
 #include "service/heartbeat/heartbeat.hpp"
+#include "service/led/led.hpp"
 #include "service/nmt/nmt.hpp"
+#include "service/pdo/pdo.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
+#include "service/sync/sync.hpp"
+#include "service/time/time.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co {
 namespace {
 
+// Those that get frames come first, in the order of routes::Service.
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, nullptr, nullptr, nullptr},
-    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, sdo_server::on_mode, sdo_server::on_free,
-     sdo_server::configure},
-    {CO_NMT_ALLOWED, 0, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, nullptr, nmt::on_mode, nullptr, nullptr},
+    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, nullptr, sdo_server::on_mode,
+     sdo_server::on_free, sdo_server::configure},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, sdo_client::on_mode, sdo_client::on_free,
-     sdo_client::configure},
+    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, nullptr, sdo_client::on_mode,
+     sdo_client::on_free, sdo_client::configure},
+#endif
+    {CO_NMT_ALLOWED, 0, guarding::init, guarding::on_frame, guarding::on_remote, guarding::on_mode, nullptr, nullptr},
+#if CO_HBCONS_N > 0
+    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, nullptr, heartbeat::on_mode_consumer, nullptr, nullptr},
+#endif
+#if USE_SYNC
+    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, nullptr, sync::on_mode, nullptr, nullptr},
+#endif
+#if USE_TIME
+    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, nullptr, time::on_mode, nullptr, nullptr},
+#endif
+#if CO_RPDO_N > 0
+    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, nullptr, pdo::on_mode_rpdos, nullptr, nullptr},
+#endif
+#if CO_TPDO_N > 0
+    {CO_PDO_ALLOWED, 0, pdo::init_tpdos, nullptr, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
+#endif
+#if CO_EMCY_CONS_N > 0
+    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, nullptr, nullptr, nullptr, nullptr},
+#endif
+
+    {CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+#if USE_EMCY
+    {CO_EMCY_ALLOWED, 0, emcy::init, nullptr, nullptr, emcy::on_mode, nullptr, nullptr},
+#endif
+#if USE_LED
+    {CO_NMT_ALLOWED, 0, led::init, nullptr, nullptr, led::on_mode, nullptr, nullptr},
 #endif
 };
 
-static_assert(table[nmt::service].init == nmt::init && table[sdo_server::service].init == sdo_server::init);
-#if USE_CSDO
-static_assert(table[sdo_client::service].init == sdo_client::init);
-#endif
+static_assert(sizeof table / sizeof *table > static_cast<size_t>(routes::Service::count));
 
 void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
   for (const Service& service : table) {
@@ -58,10 +88,14 @@ bool go_on(CO_NODE& node, uint16_t stream) {
   return false;
 }
 
-// No service of the node is asked by a remote frame. False: malformed.
+// False: malformed.
 bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
-  const bool is_data = (frame.Identifier & CO_IF_FRM_RTR) == 0;
-  return is_data && table[routes::service_of(owner)].on_frame(node, frame, routes::number_of(owner));
+  const Service& service = table[routes::service_of(owner)];
+  const uint16_t number = routes::number_of(owner);
+  if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
+    return service.on_remote != nullptr && service.on_remote(node, number);
+  }
+  return service.on_frame != nullptr && service.on_frame(node, frame, number);
 }
 
 }  // namespace
@@ -70,7 +104,18 @@ namespace services {
 
 void init(CO_NODE& node) { run(node, &Service::init); }
 
+#if USE_EMCY
+void forget_application(CO_NODE& node) { emcy::forget_application(node); }
+#else
+void forget_application(CO_NODE&) {}
+#endif
+
 void configure(CO_NODE& node) { run(node, &Service::configure); }
+
+void remap(CO_NODE& node) {
+  pdo::remap_rpdos(node);
+  pdo::remap_tpdos(node);
+}
 
 // In turns, a frame each. Whom the controller refuses is the first the next time.
 void on_free(CO_NODE& node) {
@@ -90,17 +135,14 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
   bool claimed = false;
   bool served = false;
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
-  const routes::Range range = routes::candidates(node, id);
-  for (uint16_t n = range.first; n < range.last && n < node.Routes.Start[17]; ++n) {
-    const uint16_t owner = node.Routes.Owner[n];
-    if (node.Routes.Id[n] != id || !event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
-      continue;
+  uint16_t place = routes::find(node, id);
+  while (routes::is_at(node, place, id)) {
+    const uint16_t owner = node.Routes.Owner[place];
+    if (event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
+      claimed = true;
+      served |= serve(node, frame, owner);
     }
-    claimed = true;
-    served |= serve(node, frame, owner);
-    if (node.Routes.Owner[n] != owner) {  // the callback of a client has configured it anew
-      break;
-    }
+    place = routes::next(node, place, id, owner);
   }
   if (claimed && !served) {
     count(node.Count.Malformed);
@@ -109,6 +151,62 @@ bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 }  // namespace services
+
+void event::raise([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint8_t detail) {
+#if USE_EMCY
+  emcy::raise(node, fault, detail);
+#endif
+#if USE_LED
+  led::raise(node, fault);
+#endif
+}
+
+void event::resolve([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault, [[maybe_unused]] uint8_t detail) {
+#if USE_EMCY
+  emcy::resolve(node, fault, detail);
+#endif
+#if USE_LED
+  led::resolve(node, fault);
+#endif
+}
+
+void event::forget([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault) {
+#if USE_EMCY
+  emcy::forget(node, fault);
+#endif
+#if USE_LED
+  led::resolve(node, fault);
+#endif
+}
+
+void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
+
+// A bus-off is over when messages can be sent again.
+void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
+  if (what == CO_CAN_BUS_OFF) {
+    pdo::flush(node);
+#if USE_TIME
+    time::flush(node);
+#endif
+    lose_communication(node);
+  }
+#if USE_EMCY
+  emcy::report_can(node, what);
+#endif
+#if USE_LED
+  led::report_can(node, what);
+#endif
+}
+
+// TPDOs hold the values from before the RPDOs of the same SYNC. [301:7.2.2.3]
+void event::sync(CO_NODE& node, uint8_t counter) {
+  pdo::sample(node, counter);
+  pdo::apply(node);
+}
+
+void event::end_sync_window(CO_NODE& node) { pdo::end_window(node); }
+
+void event::change_object(CO_NODE& node, const CO_OBJ& obj) { pdo::change_object(node, obj); }
 
 namespace {
 

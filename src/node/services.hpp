@@ -11,6 +11,7 @@ struct Service {
   uint16_t streams;  // for on_free: who may send so, numbers from 0
   void (*init)(CO_NODE& node);
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // false: malformed
+  bool (*on_remote)(CO_NODE& node, uint16_t number);  // a remote frame. False: malformed
   void (*on_mode)(CO_NODE& node);
   bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may now succeed. True: it has
   void (*configure)(CO_NODE& node);                 // COB-IDs have changed
@@ -20,11 +21,17 @@ namespace services {
 
 void init(CO_NODE& node);
 
+// The application starts anew: what it has told the services is no more.
+void forget_application(CO_NODE& node);
+
 // Gives a frame to the services whose route it has. False: none wants it, or may have it.
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
 
 // Takes COB-IDs from the dictionary again.
 void configure(CO_NODE& node);
+
+// Finds mapped objects again.
+void remap(CO_NODE& node);
 
 // Lets those go on that have found the controller full.
 void on_free(CO_NODE& node);

@@ -9,6 +9,7 @@
 #include "co_integer8.h"
 #include "co_real.h"
 #include "core/dict.hpp"
+#include "core/events.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
 #include "wire/bytes.hpp"
@@ -76,6 +77,11 @@ void store_variable(void* to, T value, [[maybe_unused]] uint8_t storage) {
   }
 }
 
+template <class T>
+T load_place(const CO_OBJ& obj, const void* place, uint8_t storage) {
+  return CO_IS_DIRECT(obj.Key) != 0 ? static_cast<T>(uintptr_t{obj.Data}) : load_variable<T>(place, storage);
+}
+
 // The significant bytes of a number in the byte order of the CPU.
 template <class T>
 uint8_t* significant(T& number, uint8_t bytes) {
@@ -107,14 +113,14 @@ CO_ERR read(CO_OBJ& obj, const CO_NODE& node, void* buffer, uint32_t size, const
   if (size != format.bytes || place == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  T value = CO_IS_DIRECT(obj.Key) != 0 ? static_cast<T>(uintptr_t{obj.Data}) : load_variable<T>(place, format.storage);
+  T value = load_place<T>(obj, place, format.storage);
   value = static_cast<T>(value + node_id_of<T>(obj, node, format));
   copy_bytes(static_cast<uint8_t*>(buffer), significant(value, format.bytes), format.bytes);
   return CO_ERR_NONE;
 }
 
 template <class T>
-CO_ERR write(CO_OBJ& obj, const CO_NODE& node, const void* buffer, uint32_t size, const Format& format) {
+CO_ERR write(CO_OBJ& obj, CO_NODE& node, const void* buffer, uint32_t size, const Format& format) {
   void* const place = place_of(obj);
   if (size != format.bytes || place == nullptr) {
     return CO_ERR_BAD_ARG;
@@ -125,10 +131,14 @@ CO_ERR write(CO_OBJ& obj, const CO_NODE& node, const void* buffer, uint32_t size
   T value = 0;
   copy_bytes(significant(value, format.bytes), static_cast<const uint8_t*>(buffer), format.bytes);
   value = extend(static_cast<T>(value - node_id_of<T>(obj, node, format)), format);
+  const T before = load_place<T>(obj, place, format.storage);
   if (CO_IS_DIRECT(obj.Key) != 0) {
     obj.Data = static_cast<uintptr_t>(value);
   } else {
     store_variable<T>(place, value, format.storage);
+  }
+  if (CO_IS_ASYNC(obj.Key) != 0 && load_place<T>(obj, place, format.storage) != before) {
+    event::change_object(node, obj);
   }
   return CO_ERR_NONE;
 }

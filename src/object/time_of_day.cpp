@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// On the bus: a 48-bit number, milliseconds in the low 28 bits, days in the high 16. [301:7.1.6.5]
 #include "co_time_of_day.h"
 
 #include "core/dict.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
-#include "wire/bytes.hpp"
+#include "wire/time.hpp"
 
 namespace {
 
-constexpr uint32_t bytes = 6;
-constexpr uint32_t ms_bits = 0x0FFFFFFF;
+constexpr uint32_t bytes = co::wire::time_bytes;
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return co::data_of<CO_TIME_OF_DAY>(*obj) == nullptr ? 0 : bytes; }
 
@@ -22,9 +20,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   auto* const to = static_cast<uint8_t*>(buffer);
-  co::wire::put_u32(to, time->Ms & ms_bits);
-  to[4] = static_cast<uint8_t>(time->Days);
-  to[5] = static_cast<uint8_t>(time->Days >> 8);
+  co::wire::put_time(to, *time);
   co::wire::swap_host(to, bytes);
   return CO_ERR_NONE;
 }
@@ -40,8 +36,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint8_t from[bytes];
   __builtin_memcpy(from, buffer, bytes);
   co::wire::swap_host(from, bytes);
-  time->Ms = co::wire::get_u32(from) & ms_bits;
-  time->Days = static_cast<uint16_t>(from[4] | (from[5] << 8));
+  *time = co::wire::get_time(from);
   return CO_ERR_NONE;
 }
 

@@ -4,6 +4,7 @@
 
 #include "co_core.h"
 #include "co_csdo.h" /* co_core.h leaves it out where USE_CSDO is 0 */
+#include "co_time.h" /* co_core.h leaves it out where USE_TIME is 0 */
 #include "co_ver.h"
 #include "unity.h"
 
@@ -89,6 +90,9 @@ static void test_cob_ids_say_whether_they_are_valid(void) {
   TEST_ASSERT_EQUAL_HEX32(0x40000601, CO_COBID_SDO_STD(1, 1, 0x601));
   TEST_ASSERT_EQUAL_HEX32(0x00000601, CO_COBID_SDO_STD(1, 0, 0xFE01));
   TEST_ASSERT_EQUAL_HEX32(0x32345678, CO_COBID_SDO_EXT(1, 0, 0x12345678));
+  TEST_ASSERT_EQUAL_HEX32(0x80000100, CO_COBID_TIME_STD(1, 0, 0x100));
+  TEST_ASSERT_EQUAL_HEX32(0x40000100, CO_COBID_TIME_STD(0, 1, 0xF100));
+  TEST_ASSERT_EQUAL_HEX32(0xF2345678, CO_COBID_TIME_EXT(1, 1, 0x12345678));
   TEST_ASSERT_EQUAL_HEX32(0x600, CO_COBID_SDO_REQUEST());
   TEST_ASSERT_EQUAL_HEX32(0x580, CO_COBID_SDO_RESPONSE());
   TEST_ASSERT_EQUAL_HEX32(0x80000000, CO_SDO_ID_OFF);

@@ -34,14 +34,14 @@ TEST_CASE("boot-up: everything else is held until it has been sent [N4]") {
 TEST_CASE("boot-up: a frame of the application with a higher priority does not overtake it [N4]") {
   Fixture node(Setup().stay_in_init());
   node.can.refuse_all();
-  CO_IF_FRM frm = frame("081#00");
+  CO_IF_FRM frm = frame("091#00");
   node.call([&] {
     CONodeStart(&node.node);
     CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM));
   });
   node.can.accept_all();
   node.loop();
-  node.tx({"701#00", "081#00"});
+  node.tx({"701#00", "091#00"});
 }
 
 TEST_CASE("boot-up: a frame that the application sends in Initialisation is held until it has been sent [N4]") {
@@ -49,7 +49,7 @@ TEST_CASE("boot-up: a frame that the application sends in Initialisation is held
     CAPTURE(busy);
     Fixture node(Setup().stay_in_init());
     CO_IF_FRM low = frame("7FF#01");
-    CO_IF_FRM high = frame("081#02");
+    CO_IF_FRM high = frame("091#02");
     node.call([&] {
       CHECK(COIfCanSend(&node->If, &low) == sizeof(CO_IF_FRM));
       CHECK(COIfCanSend(&node->If, &high) == sizeof(CO_IF_FRM));
@@ -60,12 +60,12 @@ TEST_CASE("boot-up: a frame that the application sends in Initialisation is held
     if (busy) node.can.refuse_next(2);
     node.call([&] { CONodeStart(&node.node); });
     for (int i = 0; i < 3; ++i) node.loop();
-    node.tx({"701#00", "081#02", "7FF#01"});
+    node.tx({"701#00", "091#02", "7FF#01"});
   }
 }
 
 CO_ERR send_in_init(CO_OBJ*, CO_NODE* node) {
-  CO_IF_FRM frm = {0x081, {0x03}, 1};
+  CO_IF_FRM frm = {0x091, {0x03}, 1};
   COIfCanSend(&node->If, &frm);
   return CO_ERR_NONE;
 }
@@ -78,11 +78,11 @@ TEST_CASE("boot-up: a frame that an object type sends while a reset initialises 
     node.silent();
     node.call([&] { CONodeStart(&node.node); });
     node.loop();
-    node.tx({"701#00", "081#03"});
+    node.tx({"701#00", "091#03"});
     node.frames_per_call(2);
     node.rx(reset);
     node.loop();
-    node.tx({"701#00", "081#03"});
+    node.tx({"701#00", "091#03"});
   }
 }
 

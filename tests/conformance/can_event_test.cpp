@@ -12,7 +12,7 @@ using Events = std::vector<CO_CAN_EVENT>;
 
 // What the application is told of an error frame.
 Events events_of(const char* text) {
-  Fixture node;
+  Fixture node(Setup().without(0x1014, 0));  // no EMCY
   Events events;
   callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT event) { events.push_back(event); };
   node.rx(text);
@@ -54,7 +54,7 @@ TEST_CASE("CAN events: details of other classes, and warnings, are none") {
 
 TEST_CASE("CAN events: the counters of all events saturate [Q10]") {
   constexpr std::uint32_t most = std::numeric_limits<std::uint32_t>::max();
-  Fixture node;
+  Fixture node(Setup().without(0x1014, 0));  // no EMCY
   for (std::uint32_t& number : node->Count.CanEvents) number = most - 1;
   unsigned told = 0;
   callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++told; };

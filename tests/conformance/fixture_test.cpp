@@ -149,6 +149,43 @@ TEST_CASE("fixture: an NMT command by the node fails" * doctest::should_fail()) 
   node.tx("000#0100");
 }
 
+TEST_CASE("fixture: a toggle bit in a heartbeat fails" * doctest::should_fail()) {
+  Fixture node;
+  CO_IF_FRM frm = frame("701#FF");
+  node.call([&] { COIfCanSend(&node->If, &frm); });
+  node.tx("701#FF");
+}
+
+TEST_CASE("fixture: locking objects twice fails" * doctest::should_fail()) {
+  Fixture node;
+  node.call([&] {
+    node->Ext->OdLock(node->Ext->User);
+    node->Ext->OdLock(node->Ext->User);
+    node->Ext->OdUnlock(node->Ext->User);
+  });
+}
+
+TEST_CASE("fixture: unlocking objects that are not locked fails" * doctest::should_fail()) {
+  Fixture node;
+  node.call([&] { node->Ext->OdUnlock(node->Ext->User); });
+}
+
+TEST_CASE("fixture: leaving objects locked fails" * doctest::should_fail()) {
+  Fixture node;
+  node.call([&] { node->Ext->OdLock(node->Ext->User); });
+}
+
+TEST_CASE("fixture: sending while objects are locked fails" * doctest::should_fail()) {
+  Fixture node;
+  CO_IF_FRM frm = frame("7FF#");
+  node.call([&] {
+    node->Ext->OdLock(node->Ext->User);
+    COIfCanSend(&node->If, &frm);
+    node->Ext->OdUnlock(node->Ext->User);
+  });
+  node.tx("7FF#");
+}
+
 TEST_CASE("fixture: a timer that is neither armed nor free fails" * doctest::should_fail()) {
   Fixture node;
   node.call([&] { node->Tmr.Free = node->Tmr.Free->Next; });

@@ -18,9 +18,9 @@ TEST_CASE("frames: a remote frame on an identifier of the node is malformed, els
   CHECK(node.counters().Malformed == before.Malformed + 2);
   CHECK(passed_on.empty());
   node.rx("123#R");
-  node.rx("701#R1");
+  node.rx("702#R1");
   CHECK(node.counters().Unclaimed == before.Unclaimed + 2);
-  CHECK(passed_on == std::vector<std::string>{"123#R", "701#R"});
+  CHECK(passed_on == std::vector<std::string>{"123#R", "702#R"});
   node.silent();
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("frames: what is served is not passed on") {
 }
 
 TEST_CASE("frames: every identifier, only those of the node are answered") {
-  Fixture node(Setup().only_small().node_id(0x35));
+  Fixture node(Setup().only_small().node_id(0x35).without(0x1014, 0));  // no EMCY at 735h
   unsigned answered = 0;
   for (unsigned id = 0x001; id < 0x800; ++id) {
     CO_IF_FRM frm = frame("001#4000100000000000");
@@ -91,7 +91,7 @@ TEST_CASE("frames: every identifier, only those of the node are answered") {
 }
 
 TEST_CASE("frames: error frames of SocketCAN become events of the controller") {
-  Fixture node;
+  Fixture node(Setup().without(0x1014, 0));  // no EMCY
   std::vector<CO_CAN_EVENT> events;
   unsigned passed_on = 0;
   callbacks().can_change = [&](CO_NODE* of, CO_CAN_EVENT event) {
@@ -145,6 +145,7 @@ TEST_CASE("frames: all counters saturate [Q10]") {
   node.rx("601#40");
   node.ask("601#4004100000000000", "581#8004100000000206");
   node.call([&] { CONodeCanEvent(&node.node, CO_CAN_PASSIVE); });
+  node.tx("081#2081110000000000");
   node.call([&] {
     for (int i = 0; i < 20; ++i)
       COTmrCreate(

@@ -115,7 +115,7 @@ TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset: it is par
       node.tx("701#00");
       CHECK(script.inits == 1);
       CHECK(node.mode() == CO_PREOP);
-      CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601});
+      CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x701});
       check_serves(node);
     }
   }
@@ -183,14 +183,14 @@ TEST_CASE("re-entrancy: a write resets the node, the controller is busy: answers
     node.rx("601#2101300008000000");
     node.rx("601#0001020304050607");
     node.rx("601#1D08000000000000");
-    send(node, "081#01");
+    send(node, "091#01");
     node.after(100ms);
     node.rx("601#4000100000000000");
     node.silent();
     node.can.accept_all();
     node.loop();
     node.tx({"581#8001300013000706", "581#6001300000000000", "581#2000000000000000", "581#3000000000000000", "701#00",
-             "081#01", "581#4300100091010F00", "701#7F"});
+             "091#01", "581#4300100091010F00", "701#7F"});
   }
 }
 

@@ -263,9 +263,9 @@ TEST_CASE("SDO channels: two channels at the same request identifier are both se
 
 TEST_CASE("SDO channels: the filter names what is received, and follows changes") {
   Fixture node(channels());
-  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x690, 0x691});
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x690, 0x691, 0x701});
   node.ask("601#2301120190060080", "581#6001120100000000");
-  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x691});
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x691, 0x701});
 }
 
 #endif

@@ -31,7 +31,7 @@ void check_not_configured(SdoClient& node) {
 
 void check_off(SdoClient& node) {
   CHECK(node.csdo()->State == CO_CSDO_STATE_INVALID);
-  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601});
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x701});
   check_not_configured(node);
 }
 
@@ -281,6 +281,7 @@ TEST_CASE("SDO client: the receive filter names the answers of all clients") {
   std::vector<std::uint32_t> expected = {0x000};
   for (unsigned n = 0; n < CO_CSDO_N && n < 3; ++n) expected.push_back(0x585 + n);
   expected.push_back(0x601);
+  expected.push_back(0x701);
   CHECK(node.can.filter == expected);
 }
 

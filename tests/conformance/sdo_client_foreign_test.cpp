@@ -132,6 +132,65 @@ TEST_CASE("SDO client: the answer that comes after a cancel does not disturb the
   node.has_written();
 }
 
+#if USE_SDO_BLOCK
+
+void check_ignores_others(SdoClient& node) {
+  for (const char* other : others) {
+    std::vector<std::string> answers = initiate_answers(other);
+    answers.push_back("585#80" + std::string(other) + "00000008");
+    for (const std::string& answer : answers) {
+      CAPTURE(answer);
+      node.rx(answer);
+      node.silent();
+      node.goes_on();
+    }
+  }
+}
+
+TEST_CASE("SDO client: aborts for another object do not make a block upload fall back, the right one does [C1]") {
+  for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, 29);
+    node.tx("605#A40020057F1C0000");
+    check_ignores_others(node);
+    node.rx(refusal);
+    node.tx("605#4000200500000000");
+    check_ignores_others(node);
+    node.rx("585#4100200508000000");
+    node.tx("605#6000000000000000");
+    node.rx("585#0001020304050607");
+    node.tx("605#7000000000000000");
+    node.rx("585#1D08000000000000");
+    node.has_read(counted(8));
+  }
+}
+
+TEST_CASE("SDO client: aborts for another object do not make a block download fall back, the right one does [C1]") {
+  for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
+    SdoClient node;
+    node.start_download(0x2000, 5, counted(29));
+    node.tx("605#C60020051D000000");
+    check_ignores_others(node);
+    node.rx(refusal);
+    node.tx("605#210020051D000000");
+    check_ignores_others(node);
+    node.rx("585#6000200500000000");
+    node.tx("605#0001020304050607");
+    node.rx("585#2000000000000000");
+    node.tx("605#1008090A0B0C0D0E");
+    node.rx("585#3000000000000000");
+    node.tx("605#000F101112131415");
+    node.rx("585#2000000000000000");
+    node.tx("605#10161718191A1B1C");
+    node.rx("585#3000000000000000");
+    node.tx("605#0D1D000000000000");
+    node.rx("585#2000000000000000");
+    node.has_written();
+  }
+}
+
+#endif
+
 #if CO_CSDO_N >= 2
 
 TEST_CASE("SDO client: the answer of one server does not reach the client of another") {

@@ -266,12 +266,12 @@ TEST_CASE("SDO client, own node: requests are refused where the network would no
 TEST_CASE("SDO client, own node: a full transmit queue does not matter") {
   Local node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();
-  CO_IF_FRM urgent = frame("081#01");
+  CO_IF_FRM urgent = frame("091#01");
   node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
   CHECK(node.read(0x2004, 0, 4).code == 0);
   node.can.accept_all();
   node.loop();
-  node.tx("081#01");
+  node.tx("091#01");
 }
 
 TEST_CASE("SDO client, own node: frames at the identifiers of the client change nothing") {

@@ -19,7 +19,7 @@ void check_asks(SdoClient& node) {
 TEST_CASE("SDO client: a request that finds the transmit queue full is refused: CO_ERR_IF_CAN_SEND, no callback") {
   SdoClient node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();
-  CO_IF_FRM urgent = frame("081#01");
+  CO_IF_FRM urgent = frame("091#01");
   node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
   for (const std::uint32_t size : {4U, 28U, 1000U}) {
     CAPTURE(size);
@@ -32,7 +32,7 @@ TEST_CASE("SDO client: a request that finds the transmit queue full is refused: 
   CHECK(node.ends.empty());
   node.can.accept_all();
   node.loop();
-  node.tx("081#01");
+  node.tx("091#01");
   check_asks(node);
 }
 
@@ -282,7 +282,7 @@ TEST_CASE(
   node.start_upload(0x2000, 5, 28, 100);
   node.tx("605#4000200500000000");
   node.can.refuse_all();
-  CO_IF_FRM urgent = frame("081#01");
+  CO_IF_FRM urgent = frame("091#01");
   node.call([&] { REQUIRE(COIfCanSend(&node->If, &urgent) == sizeof(CO_IF_FRM)); });
   node.rx("585#4100200508000000");
   node.can.accept_all();

@@ -13,7 +13,7 @@ TEST_CASE("SDO COB-ID: 1200h with the identifier 000h switches the default serve
     node.rx("601#4000100000000000");
     node.rx("000#4000100000000000");
     node.silent();
-    CHECK(node.can.filter == std::vector<std::uint32_t>{0x000});
+    CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x701});
     node.rx("000#0101");
     CHECK(node.mode() == CO_OPERATIONAL);
   }
@@ -41,7 +41,7 @@ void check_second_off(Fixture& node) {
   node.rx("000#4000100000000000");
   node.rx("00000000#4000100000000000");
   node.silent();
-  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601});
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x701});
   check_default_serves(node);
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("SDO COB-ID: an identifier above 7FFh without bit 29 in the table disa
       node.rx(request);
     }
     node.silent();
-    CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x691});
+    CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x691, 0x701});
     check_default_serves(node);
     node.ask("691#4000100000000000", "6A1#4300100091010F00");
     node.rx("000#0101");

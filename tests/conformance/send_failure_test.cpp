@@ -60,8 +60,8 @@ TEST_CASE("send failure: waiting frames go out by priority, equal ones in order 
   node.rx("000#0101");
   node.after(10ms);
   node.rx("601#4000100000000000");
-  CO_IF_FRM urgent = frame("081#0102030405060708");
-  CO_IF_FRM late = frame("081#1112131415161718");
+  CO_IF_FRM urgent = frame("091#0102030405060708");
+  CO_IF_FRM late = frame("091#1112131415161718");
   CO_IF_FRM last = frame("7FF#");
   node.call([&] {
     COIfCanSend(&node->If, &last);
@@ -71,7 +71,7 @@ TEST_CASE("send failure: waiting frames go out by priority, equal ones in order 
   node.silent();
   node.can.accept_all();
   node.loop();
-  node.tx({"081#0102030405060708", "081#1112131415161718", "581#4300100091010F00", "701#05", "7FF#"});
+  node.tx({"091#0102030405060708", "091#1112131415161718", "581#4300100091010F00", "701#05", "7FF#"});
 }
 
 TEST_CASE("send failure: a new frame does not overtake waiting ones of the same identifier [Q4]") {
@@ -104,7 +104,7 @@ TEST_CASE("send failure: a full queue refuses frames of the application and coun
 }
 
 TEST_CASE("send failure: a full queue delays an SDO answer and does not lose it [Q4] [T12]") {
-  for (const std::string waiting : {"081#01", "7FF#01"}) {
+  for (const std::string waiting : {"091#01", "7FF#01"}) {
     CAPTURE(waiting);
     Fixture node(Setup().tx_queue(2));
     node.can.refuse_all();
@@ -126,7 +126,7 @@ TEST_CASE("send failure: the boot-up takes the last place of a full queue and is
     CAPTURE(length);
     Fixture node(Setup().tx_queue(static_cast<std::uint16_t>(length)).stay_in_init());
     node.can.refuse_all();
-    CO_IF_FRM frm = frame("081#01");
+    CO_IF_FRM frm = frame("091#01");
     std::size_t taken = 0;
     node.call([&] {
       while (COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)) ++taken;
@@ -134,7 +134,7 @@ TEST_CASE("send failure: the boot-up takes the last place of a full queue and is
     node.call([&] { CONodeStart(&node.node); });
     node.can.accept_all();
     node.loop();
-    std::vector<std::string> expected(std::min<std::size_t>(taken, length - 1U) + 1U, "081#01");
+    std::vector<std::string> expected(std::min<std::size_t>(taken, length - 1U) + 1U, "091#01");
     expected[0] = "701#00";
     CHECK(node.frames() == expected);
     CHECK(node.counters().Dropped == 1 + (taken == length ? 1U : 0U));

@@ -41,7 +41,7 @@ struct Bench {
 
   std::ostringstream out;
   SimulatedHost host;
-  demo::View view{out, demo::clock_object_names(), {}};
+  demo::View view{out, demo::clock_object_names(), {}, demo::clock_mappings()};
   demo::Clock clock{node_id, host.device_can(), host.device_timer(),
                     [this](bool received, const CO_IF_FRM& frame) { view.frame(host.now(), received, frame); }};
   demo::Master master{host, clock, node_id};
@@ -59,7 +59,7 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   demo::summarise(result, bench.clock.node().counters(), bench.view);
   INFO(bench.trace());
-  CHECK(result.steps == 15);
+  CHECK(result.steps == 19);
   CHECK(result.failed.empty());
   CHECK_FALSE(result.interrupted);
   CHECK(bench.shows("705  00                       boot-up"));
@@ -79,7 +79,13 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
   CHECK(bench.shows("ok  73728 bytes read, all as written"));
   CHECK(bench.shows("000  01 05                    NMT start, node 5"));
   CHECK(bench.shows("705  05                       heartbeat: operational"));
-  CHECK(bench.shows("15 of 15 steps in 5.0 s, all as expected"));
+  CHECK(bench.shows("185  0C 23 00                 TPDO1 hour = 12, minute = 35, second = 0"));
+  CHECK(bench.shows("205  0C 00 00                 RPDO1 hour = 12, minute = 0, second = 0"));
+  CHECK(bench.shows("085  00 63 81 01 18 00 00 00  EMCY 6300h data set, error register 81h"));
+  CHECK(bench.shows("ok  EMCY 6300h, and 0000h when the time is right again"));
+  CHECK(bench.shows("node    080                           SYNC"));
+  CHECK(bench.shows("ok  3 of 3 SYNC messages, each followed by TPDO1"));
+  CHECK(bench.shows("19 of 19 steps in 7.0 s, all as expected"));
 }
 
 TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
@@ -92,7 +98,7 @@ TEST_CASE("demo: no line of the trace is longer than 120 characters, and long tr
     longest = std::max(longest, line.size());
   }
   CHECK(longest <= 120);
-  CHECK(count < 150);
+  CHECK(count < 200);
   CHECK(bench.shows("more frames like these"));
 }
 
@@ -104,7 +110,7 @@ TEST_CASE("demo: a step that goes wrong is reported, and the tour goes on") {
   bench.host.bus.add_rule({VirtualBus::Fault::drop, is_last_name_segment});
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
-  CHECK(result.steps == 15);
+  CHECK(result.steps == 19);
   REQUIRE(result.failed.size() == 1);
   CHECK(result.failed[0] == "Its name has more than 4 bytes: segmented SDO");
   CHECK(bench.shows("FAILED  the device name: no answer"));
@@ -167,7 +173,7 @@ TEST_CASE("demo: an interruption ends the tour") {
   CHECK(result.interrupted);
   CHECK(result.steps == 10);
   CHECK(result.failed.empty());
-  CHECK(bench.shows("interrupted: 10 of 15 steps"));
+  CHECK(bench.shows("interrupted: 10 of 19 steps"));
 }
 
 TEST_CASE("demo: the master waits for a state that comes after its command, not for one heard before") {
@@ -221,6 +227,52 @@ TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0030h")
   CHECK(bench.sdo.download(0x2100, 3, {60}).code == 0x06090030);
   CHECK(same(demo::Clock::time(), 0, 0, 0));
   CHECK(bench.sdo.upload(0x2100, 1).data == Bytes{0});
+}
+
+TEST_CASE("demo: TPDO1 tells the time when it changes, in Operational, 100 ms after the last one at the soonest") {
+  Bench bench;
+  bench.start();
+  bench.after(second);
+  CHECK_FALSE(bench.shows("TPDO1"));
+  REQUIRE(bench.master.command(demo::Nmt::start));
+  std::vector<Micros> sent;
+  bench.host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
+    if (traffic.frame.Identifier == 0x185) {
+      sent.push_back(bench.host.now());
+    }
+  });
+  bench.after(3 * second);
+  REQUIRE(sent.size() == 3);
+  CHECK(sent[2] - sent[1] == second);
+  REQUIRE(bench.master.send({0x205, {7, 8, 9}, 3}));
+  bench.after(second / 2);
+  REQUIRE(sent.size() == 4);
+  CHECK(sent[3] - sent[2] >= second / 10);
+  CHECK(same(demo::Clock::time(), 7, 8, 9));
+}
+
+TEST_CASE("demo: each figure that no clock shows is an emergency of its own, until it is right") {
+  Bench bench;
+  bench.start();
+  REQUIRE(bench.master.command(demo::Nmt::start));
+  bench.after(second / 2);
+  std::vector<std::string> emergencies;
+  bench.host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
+    if (traffic.frame.Identifier == 0x085) {
+      emergencies.push_back(test::notation(traffic.frame));
+    }
+  });
+  REQUIRE(bench.master.send({0x205, {24, 60, 12}, 3}));
+  bench.after(demo::millisecond);
+  CHECK(emergencies == std::vector<std::string>{"085#0063810118000000", "085#006381023C000000"});
+  CHECK(same(demo::Clock::time(), 0, 0, 12));
+  CHECK(bench.sdo.upload(0x1001, 0).data == Bytes{0x81});
+  CHECK(bench.sdo.upload(0x1003, 0).data == Bytes{2});
+  CHECK(bench.sdo.upload(0x1003, 1).data == Bytes{0x00, 0x63, 0x02, 0x3C});
+  emergencies.clear();
+  REQUIRE(bench.sdo.download(0x2100, 1, {23}).done());
+  REQUIRE(bench.sdo.download(0x2100, 2, {59}).done());
+  CHECK(emergencies == std::vector<std::string>{"085#0000810000000000", "085#0000000000000000"});
 }
 
 TEST_CASE("demo: the station name can be written and read; one that is too long is refused") {

@@ -53,11 +53,11 @@ CO_ERR write_own(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
 constexpr CO_OBJ_TYPE own_u16 = {size_of<std::uint16_t>, nullptr, read_own, write_own, nullptr};
 constexpr CO_OBJ_TYPE own_u32 = {size_of<std::uint32_t>, nullptr, read_own, write_own, nullptr};
 
-constexpr std::uint8_t no_error = 0;
+std::uint8_t error_register = 0;
 
 const CO_OBJ shared_table[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0},
-    {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, &no_error},
+    {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, &error_register},
     {CO_KEY(0x1017, 0, CO_OBJ_D___R_), CO_THB_PROD, 100},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0},

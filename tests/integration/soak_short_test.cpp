@@ -52,7 +52,7 @@ class Ledger {
   void hear(const CO_IF_FRM& frame) {
     const bool error = (frame.Identifier & CO_IF_FRM_ERROR) != 0;
     const std::uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
-    if (!error && filter_ && frame.Identifier != 0 && frame.Identifier != request_) {
+    if (!error && filter_ && id != 0 && id != request_ && id != error_control_) {
       return;
     }
     ++received;
@@ -62,6 +62,8 @@ class Ledger {
       hear_nmt(frame);
     } else if (id == request_ && state != State::stopped) {
       hear_sdo(frame);
+    } else if (id == error_control_) {
+      hear_error_control(frame);
     } else {
       ++unclaimed;
     }
@@ -106,6 +108,12 @@ class Ledger {
     answers.insert(answers.end(), more.begin(), more.end());
   }
 
+  // A node with a heartbeat is not guarded; nobody else has its identifier. [H5]
+  void hear_error_control(const CO_IF_FRM& frame) {
+    const bool guards = USE_GUARDING != 0 && frame.Identifier != error_control_;
+    ++(guards ? claimed : malformed);
+  }
+
   // [N8]
   void stop() {
     state = State::stopped;
@@ -113,6 +121,7 @@ class Ledger {
   }
 
   std::uint32_t request_;
+  std::uint32_t error_control_ = request_ + 0x100;
   std::uint8_t node_id_;
   bool filter_;
   SdoServerModel server_{objects(), USE_SDO_BLOCK != 0 ? CO_SDO_BUF_SEG : 0};

@@ -195,8 +195,8 @@ TEST_CASE("nodes on a virtual bus: foreign frames end at the receive filter that
   Line line(clock);
   Device five(line.bus, clock, 5);
   CHECK(five.port.filtered());
-  CHECK(five.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605});
-  for (const char* foreign : {"606#4000200000000000", "705#7F", "585#6000200000000000", "00000605#4000200000000000"}) {
+  CHECK(five.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x705});
+  for (const char* foreign : {"606#4000200000000000", "706#7F", "585#6000200000000000", "00000605#4000200000000000"}) {
     line.say(foreign);
   }
   CHECK(five.port.waiting() == 0);

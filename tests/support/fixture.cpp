@@ -53,6 +53,9 @@ struct Fixture::Drivers {
     const OutsideStack outside;
     Fixture& self = of(ctx);
     FakeCan& can = self.can;
+    if (self.od_locked_) {
+      note(self, *frm, "sent while objects are locked");
+    }
     ++can.attempts;
     if (can.attempts >= can.refuse_from && can.attempts < can.refuse_to) {
       can.has_refused = true;
@@ -83,8 +86,31 @@ struct Fixture::Drivers {
     return !may_write || may_write(address, size);
   }
 
+  static void od_lock(void* ctx) {
+    const OutsideStack outside;
+    Fixture& self = of(ctx);
+    if (self.od_locked_) {
+      self.violations_.emplace_back("OdLock is nested");
+    }
+    self.od_locked_ = true;
+    if (callbacks().od_lock) {
+      callbacks().od_lock();
+    }
+  }
+  static void od_unlock(void* ctx) {
+    const OutsideStack outside;
+    Fixture& self = of(ctx);
+    if (!self.od_locked_) {
+      self.violations_.emplace_back("OdUnlock without OdLock");
+    }
+    self.od_locked_ = false;
+    if (callbacks().od_unlock) {
+      callbacks().od_unlock();
+    }
+  }
+
   static bool is_sdo(const Fixture& self, const CO_IF_FRM& frm) {
-    const bool by_default = frm.Identifier >= 0x580 && frm.Identifier <= 0x5FF;
+    const bool by_default = frm.Identifier > 0x580 && frm.Identifier <= 0x5FF;
     return by_default || std::any_of(std::begin(self.node.Sdo), std::end(self.node.Sdo),
                                      [&](const CO_SDO& server) { return server.TxId == frm.Identifier; });
   }
@@ -97,13 +123,24 @@ struct Fixture::Drivers {
     self.segments_ += sending ? 1 : 0;
   }
 
+  // Answers to node guarding have a toggle bit, heartbeats have none.
+  static CO_IF_FRM without_toggle(const Fixture& self, CO_IF_FRM frm) {
+    if (self.guarded_ && self.objects.heartbeat == 0 && frm.Identifier == 0x700U + self.node.NodeId) {
+      frm.Data[0] &= 0x7F;
+    }
+    return frm;
+  }
+
   // Heartbeats that had to wait may tell a state that is no more.
   static std::string fault_of_frame(const Fixture& self, const CO_IF_FRM& frm, bool sending) {
     if (!self.can.on_bus) {
       return "sent while off the bus";
     }
     const bool waited = self.can.has_refused && frm.Identifier >= 0x700;
-    return waited ? "" : fault_of(frm, self.node.NodeId, self.node.Nmt.Mode, is_sdo(self, frm), sending);
+    const bool command = self.setup_.nmt_master_ && frm.Identifier == 0 && frm.DLC == 2;
+    return waited || command
+               ? ""
+               : fault_of(without_toggle(self, frm), self.node.NodeId, self.node.Nmt.Mode, is_sdo(self, frm), sending);
   }
 
   static void note(Fixture& self, const CO_IF_FRM& frm, const std::string& fault) {
@@ -134,6 +171,7 @@ Fixture::Fixture(Setup setup)
   for (CO_OBJ& obj : dictionary_) {
     memory_.add(obj);
   }
+  may_change(0x1001, 0);  // the node itself writes it
   call([this] { init(); });
   if (setup_.start_) {
     call([this] { CONodeStart(&node); });
@@ -149,12 +187,15 @@ void Fixture::init() {
   ext_.TxQueue = tx_queue_.empty() ? nullptr : tx_queue_.data();
   ext_.TxQueueLen = setup_.tx_queue_;
   ext_.Writable = setup_.may_write_ ? Drivers::writable : nullptr;
+  ext_.OdLock = Drivers::od_lock;
+  ext_.OdUnlock = Drivers::od_unlock;
+  ext_.EmcyNum = static_cast<std::uint16_t>(setup_.emergencies_.size());
   CO_NODE_SPEC spec;
   spec.NodeId = setup_.node_id_;
   spec.Baudrate = 250000;
   spec.Dict = dictionary_.data();
   spec.DictLen = static_cast<std::uint16_t>(dictionary_.size());
-  spec.EmcyCode = nullptr;
+  spec.EmcyCode = setup_.emergencies_.empty() ? nullptr : setup_.emergencies_.data();
   spec.TmrMem = timers_.empty() ? nullptr : timers_.data();
   spec.TmrNum = setup_.timers_;
   spec.TmrFreq = setup_.rate_;
@@ -185,6 +226,7 @@ void Fixture::rx(const CO_IF_FRM& frm, Where at) {
   if (SdoObserver* const asked = channel(&CO_SDO::RxId, frm.Identifier); asked != nullptr) {
     asked->request(frm);
   }
+  guarded_ |= (frm.Identifier & CO_IF_FRM_RTR) != 0;
   call(
       [&] {
         {

@@ -105,7 +105,10 @@ class Setup {
   Setup& timers(std::uint16_t number);
   Setup& tx_queue(std::uint16_t frames);  ///< own memory instead of the node's CO_TX_QUEUE_N frames
   Setup& stay_in_init();                  ///< CONodeStart() is left to the test
-  Setup& with(CO_OBJ entry);              ///< adds an entry to the dictionary, or replaces it
+  Setup& nmt_master();                    ///< the node may send NMT commands
+  /// CO_NODE_SPEC.EmcyCode, and its length as CO_NODE_EXT.EmcyNum.
+  Setup& emergencies(std::vector<CO_EMCY_TBL> table);
+  Setup& with(CO_OBJ entry);  ///< adds an entry to the dictionary, or replaces it
   Setup& without(std::uint16_t index, std::uint8_t sub);
   Setup& only_small();          ///< without the domains of more than 15 bytes: fast, for sweeps
   Setup& with_mebibyte();       ///< a domain of that size, which is not watched
@@ -132,7 +135,9 @@ class Setup {
   Wake wake_ = Wake::alarm;
   std::uint16_t timers_ = 8;
   std::uint16_t tx_queue_ = 0;
+  std::vector<CO_EMCY_TBL> emergencies_;
   bool start_ = true;
+  bool nmt_master_ = false;
   bool large_domains_ = true;
   bool mebibyte_ = false;
   bool sdo_buffer_ = true;
@@ -273,6 +278,8 @@ class Fixture {
   std::uint64_t alarm_ = never;
   std::uint64_t heap_before_ = 0;
   unsigned frames_per_call_ = 1;
+  bool od_locked_ = false;    // CO_NODE_EXT.OdLock has been called
+  bool guarded_ = false;      // by a remote frame: the answers have a toggle bit
   std::size_t segments_ = 0;  // of block uploads, sent
   std::vector<std::string> violations_;
 };

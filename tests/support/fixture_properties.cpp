@@ -31,6 +31,9 @@ void Fixture::check_properties(Where at) {
     ADD_FAIL_CHECK_AT(at.file, at.line, violation);
   }
   violations_.clear();
+  if (od_locked_) {
+    ADD_FAIL_CHECK_AT(at.file, at.line, "objects are left locked");
+  }
   observe_channels();
   check_memory(at);
   for (const std::string& fault : timer_faults()) {
@@ -106,7 +109,7 @@ bool is_open(const CO_NODE& node) {
 std::vector<const CO_TMR_MEM*> Fixture::armed() const {
   std::vector<const CO_TMR_MEM*> all;
   for (const CO_TMR_MEM* list : {node.Tmr.Use, node.Tmr.Due, node.Tmr.Run}) {
-    const auto part = members(list, setup_.timers_ + 2U);
+    const auto part = members(list, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));  // those of the stack are in it
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -114,8 +117,8 @@ std::vector<const CO_TMR_MEM*> Fixture::armed() const {
 
 unsigned Fixture::armed_timers() const { return static_cast<unsigned>(armed().size()); }
 
-// Each timer of the application's pool is armed or free; of the stack there are the heartbeat's, one for all SDO
-// servers and one of each SDO client, while its owner has a use for it.
+// Each timer of the application's pool is armed or free; those of the stack belong to their owners, and are armed while
+// these have a use for them.
 std::vector<std::string> Fixture::timer_faults() const {
   if (node.Dict.Node == nullptr) {
     return {};  // the initialisation has failed before there were services
@@ -129,9 +132,13 @@ std::vector<std::string> Fixture::timer_faults() const {
   const auto heartbeat = number_of(node.HbProdTmr);
   const auto sdo = number_of(node.SdoTmr);
   const auto clients = armed_of_clients(node, number_of);
-  const auto application = all.size() - static_cast<std::size_t>(heartbeat + sdo + clients);
+  const auto is_of_pool = [&](const CO_TMR_MEM* one) {
+    return std::any_of(timers_.begin(), timers_.end(), [=](const CO_TMR_MEM& mem) { return &mem == one; });
+  };
+  const auto application = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), is_of_pool));
+  const bool twice = std::any_of(all.begin(), all.end(), [&](const CO_TMR_MEM* one) { return number_of(*one) > 1; });
   const CO_MODE mode = node.Nmt.Mode;
-  expect(heartbeat <= 1 && sdo <= 1, "a timer is armed twice");
+  expect(!twice, "a timer is armed twice");
   expect(application + members(node.Tmr.Free, setup_.timers_).size() == setup_.timers_, "a timer of the pool is lost");
   expect(heartbeat == 0 || (mode != CO_INVALID && mode != CO_INIT), "heartbeat timer armed without a heartbeat");
   expect(sdo + clients == 0 || mode == CO_PREOP || mode == CO_OPERATIONAL, "SDO timer armed while SDO is not allowed");

@@ -93,6 +93,18 @@ std::string fault_of_error_control(const CO_IF_FRM& frm, CO_MODE mode) {
   return right ? "" : "heartbeat tells another state";
 }
 
+// [301:7.2.7.3.1] [E1] [E3]
+std::string fault_of_emergency(const CO_IF_FRM& frm, CO_MODE mode) {
+  if (mode != CO_PREOP && mode != CO_OPERATIONAL) {
+    return "EMCY in a state that forbids it";
+  }
+  if (frm.DLC != 8) {
+    return "DLC not 8";
+  }
+  const std::uint8_t reg = frm.Data[2];
+  return reg == 0 || (reg & 0x41U) == 0x01 ? "" : "error register without generic error, or with reserved bit";
+}
+
 }  // namespace
 
 std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo, bool sending) {
@@ -105,6 +117,9 @@ std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, b
   if (sdo) {
     const bool allowed = mode == CO_PREOP || mode == CO_OPERATIONAL;
     return allowed ? fault_of_sdo(frm, sending) : "SDO in a state that forbids it";
+  }
+  if (frm.Identifier == 0x080U + node_id) {
+    return fault_of_emergency(frm, mode);
   }
   return frm.Identifier == 0x700U + node_id ? fault_of_error_control(frm, mode) : "";
 }
@@ -128,12 +143,30 @@ struct Width {
 
 const Width* width_of(const CO_OBJ_TYPE* type) {
   static const Width widths[] = {
-      {CO_TUNSIGNED8, 1},  {CO_TBOOLEAN, 1},    {CO_TUNSIGNED16, 2},
-      {CO_TUNSIGNED24, 4}, {CO_TSIGNED24, 4},   {CO_TUNSIGNED32, 4},
-      {CO_TUNSIGNED40, 8}, {CO_TUNSIGNED48, 8}, {CO_TUNSIGNED56, 8},
-      {CO_TSIGNED40, 8},   {CO_TSIGNED48, 8},   {CO_TSIGNED56, 8},
-      {CO_TUNSIGNED64, 8}, {CO_TREAL32, 4},     {CO_TREAL64, 8},
-      {CO_THB_PROD, 2},    {CO_TSDO_ID, 4},     {CO_TTIME_OF_DAY, sizeof(CO_TIME_OF_DAY)},
+    {CO_TUNSIGNED8, 1},
+    {CO_TBOOLEAN, 1},
+    {CO_TUNSIGNED16, 2},
+    {CO_TUNSIGNED24, 4},
+    {CO_TSIGNED24, 4},
+    {CO_TUNSIGNED32, 4},
+    {CO_TUNSIGNED40, 8},
+    {CO_TUNSIGNED48, 8},
+    {CO_TUNSIGNED56, 8},
+    {CO_TSIGNED40, 8},
+    {CO_TSIGNED48, 8},
+    {CO_TSIGNED56, 8},
+    {CO_TUNSIGNED64, 8},
+    {CO_TREAL32, 4},
+    {CO_TREAL64, 8},
+    {CO_THB_PROD, 2},
+    {CO_TSDO_ID, 4},
+    {CO_TTIME_OF_DAY, sizeof(CO_TIME_OF_DAY)},
+#if USE_EMCY
+    {CO_TEMCY_ID, 4},
+#endif
+#if CO_EMCY_CONS_N > 0
+    {CO_TEMCY_CONS, 4},
+#endif
   };
   const auto* found =
       std::find_if(std::begin(widths), std::end(widths), [=](const Width& w) { return w.type == type; });

@@ -15,6 +15,8 @@ Setup& Setup::wake(Wake how) { return wake_ = how, *this; }
 Setup& Setup::timers(std::uint16_t number) { return timers_ = number, *this; }
 Setup& Setup::tx_queue(std::uint16_t frames) { return tx_queue_ = frames, *this; }
 Setup& Setup::stay_in_init() { return start_ = false, *this; }
+Setup& Setup::emergencies(std::vector<CO_EMCY_TBL> table) { return emergencies_ = std::move(table), *this; }
+Setup& Setup::nmt_master() { return nmt_master_ = true, *this; }
 Setup& Setup::with(CO_OBJ entry) { return with_[CO_GET_DEV(entry.Key)] = entry, *this; }
 Setup& Setup::without(std::uint16_t index, std::uint8_t sub) { return without_.push_back(CO_DEV(index, sub)), *this; }
 Setup& Setup::only_small() { return large_domains_ = false, *this; }

@@ -19,13 +19,18 @@ struct Route {
 // The routes of an identifier as the node finds them.
 std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
   std::vector<Route> all;
-  const co::routes::Range range = co::routes::candidates(node, id);
-  for (std::uint16_t n = range.first; n < range.last; ++n) {
-    if (node.Routes.Id[n] == id) {
-      all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
-    }
+  for (std::uint16_t n = co::routes::find(node, id); co::routes::is_at(node, n, id); ++n) {
+    all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
   }
   return all;
+}
+
+void add(CO_NODE& node, std::uint32_t id, unsigned service, std::uint16_t number) {
+  co::routes::add(node, id, static_cast<co::routes::Service>(service), number);
+}
+
+void remove(CO_NODE& node, unsigned service, std::uint16_t number) {
+  co::routes::remove(node, static_cast<co::routes::Service>(service), number);
 }
 
 unsigned number_of_routes(const CO_NODE& node) { return node.Routes.Start[17]; }
@@ -45,8 +50,8 @@ TEST_CASE("routes: an empty table knows nobody") {
 
 TEST_CASE("routes: 11-bit and 29-bit identifiers of the same number are different") {
   CO_NODE& node = empty_node();
-  co::routes::add(node, 0x123, 1, 0);
-  co::routes::add(node, 0x80000123, 2, 5);
+  add(node, 0x123, 1, 0);
+  add(node, 0x80000123, 2, 5);
   REQUIRE(found(node, 0x123).size() == 1);
   CHECK(found(node, 0x123)[0].service == 1);
   REQUIRE(found(node, 0x80000123).size() == 1);
@@ -55,24 +60,14 @@ TEST_CASE("routes: 11-bit and 29-bit identifiers of the same number are differen
   CHECK(found(node, 0x122).empty());
 }
 
-TEST_CASE("routes: a foreign identifier is compared with those of its own function code only") {
-  CO_NODE& node = empty_node();
-  co::routes::add(node, 0x000, 1, 0);
-  co::routes::add(node, 0x601, 2, 0);
-  const co::routes::Range foreign = co::routes::candidates(node, 0x181);
-  CHECK(foreign.first == foreign.last);
-  const co::routes::Range same = co::routes::candidates(node, 0x602);
-  CHECK(same.last - same.first == 1);
-}
-
 TEST_CASE("routes: what is not there cannot be removed") {
   CO_NODE& node = empty_node();
-  co::routes::add(node, 0x601, 2, 0);
-  co::routes::remove(node, 2, 1);
-  co::routes::remove(node, 1, 0);
+  add(node, 0x601, 2, 0);
+  remove(node, 2, 1);
+  remove(node, 1, 0);
   CHECK(number_of_routes(node) == 1);
-  co::routes::remove(node, 2, 0);
-  co::routes::remove(node, 2, 0);
+  remove(node, 2, 0);
+  remove(node, 2, 0);
   CHECK(number_of_routes(node) == 0);
 }
 
@@ -85,11 +80,11 @@ TEST_CASE("routes: sorted whatever was added and removed, and equal identifiers 
     for (std::uint16_t step = 0; step < 40; ++step) {
       if (model.size() < CO_ROUTE_N && random() % 2 == 0) {
         const Route route{ids[random() % 9], static_cast<std::uint8_t>(random() % 3), step};
-        co::routes::add(node, route.id, route.service, route.number);
+        add(node, route.id, route.service, route.number);
         model.push_back(route);
       } else if (!model.empty()) {
         const auto victim = model.begin() + static_cast<std::ptrdiff_t>(random() % model.size());
-        co::routes::remove(node, victim->service, victim->number);
+        remove(node, victim->service, victim->number);
         model.erase(victim);
       }
       REQUIRE(number_of_routes(node) == model.size());
@@ -102,9 +97,33 @@ TEST_CASE("routes: sorted whatever was added and removed, and equal identifiers 
   }
 }
 
+TEST_CASE("routes: those of an identifier are served in the order of their owners, each once, whatever they change") {
+  CO_NODE& node = empty_node();
+  add(node, 0x601, 2, 7);
+  add(node, 0x601, 1, 3);
+  add(node, 0x601, 1, 1);
+  std::uint16_t place = co::routes::find(node, 0x601);
+  const std::uint16_t first = node.Routes.Owner[place];
+  CHECK(co::routes::number_of(first) == 1);
+  remove(node, 1, 1);
+  add(node, 0x500, 0, 0);
+  add(node, 0x501, 0, 1);
+  add(node, 0x601, 1, 1);
+  place = co::routes::next(node, place, 0x601, first);
+  REQUIRE(co::routes::is_at(node, place, 0x601));
+  const std::uint16_t second = node.Routes.Owner[place];
+  CHECK(co::routes::number_of(second) == 3);
+  remove(node, 0, 0);
+  remove(node, 1, 3);
+  place = co::routes::next(node, place, 0x601, second);
+  REQUIRE(co::routes::is_at(node, place, 0x601));
+  CHECK(co::routes::number_of(node.Routes.Owner[place]) == 7);
+  CHECK_FALSE(co::routes::is_at(node, co::routes::next(node, place, 0x601, node.Routes.Owner[place]), 0x601));
+}
+
 TEST_CASE("routes: a driver that filters is told what to let through before it goes on the bus") {
   Fixture node(Setup().stay_in_init().node_id(9));
-  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x609});
+  CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x609, 0x709});
   CHECK(node.can.filter_off_bus);
 }
 

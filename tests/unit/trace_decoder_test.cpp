@@ -104,10 +104,45 @@ TEST_CASE("trace: every abort code of CiA 301 has a meaning of its own [301 SDO 
   }
 }
 
+TEST_CASE("trace: PDOs are named by their CAN-ID [301:7.3.3]") {
+  CHECK(meaning("181#1122") == "TPDO1");
+  CHECK(meaning("201#") == "RPDO1");
+  CHECK(meaning("2FF#11") == "TPDO2");
+  CHECK(meaning("305#11") == "RPDO2");
+  CHECK(meaning("385#11") == "TPDO3");
+  CHECK(meaning("405#11") == "RPDO3");
+  CHECK(meaning("485#11") == "TPDO4");
+  CHECK(meaning("57F#11") == "RPDO4");
+}
+
+TEST_CASE("trace: a PDO whose mapping is known shows its objects [301:7.2.2]") {
+  const demo::trace::Mappings mappings = {{0x180, {{0x2100, 1, 1}, {0x1017, 0, 2}, {0x1234, 5, 4}}}};
+  demo::trace::Decoder decoder(names, mappings);
+  const auto hears = [&](const char* frame) { return decoder.decode(test::frame(frame)).text; };
+  CHECK(hears("185#0CE80378563412") == "TPDO1 hour = 12, heartbeat time = 1000, 1234h:05 = 12345678h");
+  CHECK(hears("185#0C") == "TPDO1 hour = 12, heartbeat time = 0, 1234h:05 = 00000000h");
+  CHECK(hears("205#0C") == "RPDO1");
+}
+
+TEST_CASE("trace: SYNC, TIME and EMCY messages [301:7.2.5, 7.2.6, 7.2.7]") {
+  CHECK(meaning("080#") == "SYNC");
+  CHECK(meaning("080#F0") == "SYNC, counter 240");
+  CHECK(meaning("100#952CB3F2313D") == "TIME 12:34:56.789, day 15665");
+  CHECK(meaning("081#0063810118000000") == "EMCY 6300h data set, error register 81h");
+  CHECK(meaning("0FF#3081110000050000") == "EMCY 8130h heartbeat or life guarding missing, error register 11h");
+  CHECK(meaning("081#0000000000000000") == "EMCY 0000h no error any more, error register 00h");
+  CHECK(meaning("081#2331050000000000") == "EMCY 3123h voltage, error register 05h");
+  CHECK(meaning("081#00A0010000000000") == "EMCY A000h unknown error code, error register 01h");
+}
+
 TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
-  CHECK(meaning("181#1122334455667788") == "unknown 181#1122334455667788");
-  CHECK(meaning("080#") == "unknown 080#");
-  CHECK(meaning("000#01") == "unknown 000#01");  // NMT has two bytes
+  CHECK(meaning("780#1122334455667788") == "unknown 780#1122334455667788");
+  CHECK(meaning("180#11") == "unknown 180#11");  // a PDO of node 0
+  CHECK(meaning("500#11") == "unknown 500#11");
+  CHECK(meaning("080#0102") == "unknown 080#0102");                      // SYNC has a byte at most
+  CHECK(meaning("081#00000000000000") == "unknown 081#00000000000000");  // EMCY has eight
+  CHECK(meaning("100#0000000000") == "unknown 100#0000000000");          // TIME has six
+  CHECK(meaning("000#01") == "unknown 000#01");                          // NMT has two bytes
   CHECK(meaning("000#010500") == "unknown 000#010500");
   CHECK(meaning("701#0000") == "unknown 701#0000");  // a heartbeat has one
   CHECK(meaning("700#05") == "unknown 700#05");      // of node 0

@@ -30,13 +30,13 @@ TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits,
 TEST_CASE("transmit identifier: above 7FFh without flag it waits with the priority of a 29-bit frame [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
-  // 081h is 02040000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
-  for (const std::uint32_t id : {0x7FFU, 0x082U, 0x02040000U, 0x081U, 0x02080000U, 0x0203FFFFU, 0x800U}) {
+  // 091h is 02440000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
+  for (const std::uint32_t id : {0x7FFU, 0x092U, 0x02440000U, 0x091U, 0x02480000U, 0x0243FFFFU, 0x800U}) {
     send(node, id);
   }
   node.can.accept_all();
   node.loop();
-  node.tx({"00000800#01", "0203FFFF#01", "081#01", "02040000#01", "082#01", "02080000#01", "7FF#01"});
+  node.tx({"00000800#01", "0243FFFF#01", "091#01", "02440000#01", "092#01", "02480000#01", "7FF#01"});
 }
 
 }  // namespace

@@ -31,12 +31,12 @@ TEST_CASE("transmit queue: a frame goes straight to a driver that takes it") {
 TEST_CASE("transmit queue: priority is that of the bus, identifiers of 11 before those of 29 bits [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
-  for (const char* text : {"7FF#01", "081#02", "1FFFFFFF#03", "02040000#04", "0203FFFF#05", "080#06", "00000001#07"}) {
+  for (const char* text : {"7FF#01", "091#02", "1FFFFFFF#03", "02440000#04", "0243FFFF#05", "080#06", "00000001#07"}) {
     send(node, text);
   }
-  // 081h is 02040000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
+  // 091h is 02440000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
   CHECK(released(node) ==
-        Frames{"00000001#07", "080#06", "0203FFFF#05", "081#02", "02040000#04", "7FF#01", "1FFFFFFF#03"});
+        Frames{"00000001#07", "080#06", "0243FFFF#05", "091#02", "02440000#04", "7FF#01", "1FFFFFFF#03"});
 }
 
 TEST_CASE("transmit queue: frames of one identifier keep their order [Q4]") {
@@ -49,7 +49,7 @@ TEST_CASE("transmit queue: frames of one identifier keep their order [Q4]") {
 // What is left for the application: a frame of each SDO server and client and a heartbeat need not wait for its frames.
 unsigned places_for_application(unsigned length) {
   const unsigned clients = USE_CSDO != 0 ? CO_CSDO_N : 0U;
-  const unsigned kept = std::min(length / 2, 1U + CO_SSDO_N + clients);
+  const unsigned kept = std::min(length / 2, 2U + CO_SSDO_N + clients);
   return length - kept;
 }
 

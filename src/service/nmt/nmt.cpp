@@ -63,7 +63,7 @@ constexpr auto machine = make_machine<CO_MODE, CO_MODE_NUM, static_cast<size_t>(
 
 uint8_t allowed_in(CO_MODE mode) { return permissions[mode]; }
 
-void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), service, 0); }
+void init(CO_NODE& node) { routes::add(node, static_cast<uint32_t>(wire::CobId::nmt), routes::Service::nmt, 0); }
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::nmt_dlc) {

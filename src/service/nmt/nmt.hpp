@@ -6,9 +6,6 @@
 
 namespace co::nmt {
 
-// Number of the service in the table of node/services.cpp, for its route.
-inline constexpr uint8_t service = 0;
-
 // What may be communicated in a mode. [301:7.3.2.2.4]
 [[nodiscard]] uint8_t allowed_in(CO_MODE mode);
 
@@ -16,6 +13,12 @@ void init(CO_NODE& node);
 
 // False: malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+// Self-start by 1F80h.
+void on_mode(CO_NODE& node);
+
+// What 1029h:1 asks for.
+void lose_communication(CO_NODE& node);
 
 // From CO_INIT to Pre-operational, by the boot-up message.
 void boot(CO_NODE& node);

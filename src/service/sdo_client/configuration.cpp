@@ -57,10 +57,7 @@ void take_configuration(CO_CSDO& client, const Configuration& found) {
   client.RxId = found.rx_id;
   client.NodeId = found.node_id;
   client.State = found.state;
-  routes::remove(node, service, number_of(client));
-  if (found.rx_id != wire::no_frame) {
-    routes::add(node, found.rx_id, service, number_of(client));
-  }
+  routes::change(node, found.rx_id, routes::Service::sdo_client, number_of(client));
 }
 
 // True: something has changed. The callback of a transfer that ends may have configured the client already.

@@ -6,9 +6,6 @@
 
 namespace co::sdo_client {
 
-// Number of the service in the table of node/services.cpp, for the routes of its clients.
-inline constexpr uint8_t service = 3;
-
 // Takes the COB-IDs from the dictionary; no transfer is going on.
 void init(CO_NODE& node);
 

@@ -155,10 +155,7 @@ void configure_channel(CO_NODE& node, uint16_t number) {
   close(channel, CO_SDO_ERR_TOS_STATE);
   channel.RxId = rx_id;
   channel.TxId = tx_id;
-  routes::remove(node, service, number);
-  if (valid) {
-    routes::add(node, rx_id, service, number);
-  }
+  routes::change(node, rx_id, routes::Service::sdo_server, number);
 }
 
 }  // namespace

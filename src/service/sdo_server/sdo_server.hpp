@@ -6,9 +6,6 @@
 
 namespace co::sdo_server {
 
-// Number of the service in the table of node/services.cpp, for the routes of its channels.
-inline constexpr uint8_t service = 1;
-
 // Ends all transfers and takes the COB-IDs from the dictionary.
 void init(CO_NODE& node);
 

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_emcy.h
+/// Emergencies: EMCY producer with error register (1001h) and history (1003h), and EMCY consumer (1028h). [301:7.2.7]
+///
+/// Errors are those of the application (COEmcySet()) and those that the stack finds itself: lost frames (8110h), error
+/// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use (8150h),
+/// PDO too short (8210h) or too long (8220h), SYNC of another length (8240h), PDO missing (8250h).
+///
+/// Each error that comes is entered in 1003h, sets its bit and the generic one in 1001h, and is sent: code, 1001h as of
+/// that moment, five bytes. Each that goes is sent as code 0000h with what is left in 1001h. Errors that come while the
+/// NMT state does not allow EMCY, or while 1014h is missing or not valid, are not sent, then or later.
+///
+/// Errors of the stack have 0 in the first two of the five bytes, and a node-ID or the number of a PDO, or 0, in the
+/// third. 8110h and 8150h stay until they have not come again for one second, and are sent once in that time. At
+/// bus-off nothing can be sent: when the node is back, it sends 8140h, and 0000h at once.
+///
+/// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so that a new value holds from the
+/// next message on. Messages that wait for it, or for the transmit queue, lie in a queue of CO_EMCY_QUEUE_N. In a full
+/// one the newest takes the place of the one before it, which is counted as dropped: what came first is kept, and the
+/// last message always tells the present state.
+///
+/// 1001h is written when it changes, by the Write function of its entry: its variable must be in RAM. With the value in
+/// the entry itself (flag D) it is left alone, as such a table may be in read-only memory.
+///
+/// Resets: "reset node" takes back all errors and empties 1003h. "Reset communication" takes back those of the stack;
+/// those of the application stay, as the application goes on, and so does 1003h. Nothing is sent for that.
+///
+/// Context: the loop. Null pointers: CONodeFatalError(), unless said otherwise.
+#ifndef CO_EMCY_H_
+#define CO_EMCY_H_
+
+#include "co_cfg.h"
+#include "co_tmr.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// \name Values for 1014h and 1028h
+/// \a valid: 1 = the EMCY exists, \a id: CAN-ID
+/// \{
+#define CO_EMCY_COBID_OFF 0x80000000u  ///< bit 31: the EMCY does not exist
+#define CO_EMCY_COBID_EXT 0x20000000u  ///< bit 29: 29-bit CAN-ID
+#define CO_EMCY_COBID_MASK 0x1FFFFFFFu
+#define CO_COBID_EMCY_STD(valid, id) ((((uint32_t)(id)) & 0x7FFu) | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+#define CO_COBID_EMCY_EXT(valid, id) \
+  ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// \}
+
+/// \name Bits of the error register (1001h), for CO_EMCY_TBL.Reg. [301:7.5.2.2]
+/// \{
+#define CO_EMCY_REG_GENERAL 0       ///< generic error: set with each of the others
+#define CO_EMCY_REG_CURRENT 1       ///< current
+#define CO_EMCY_REG_VOLTAGE 2       ///< voltage
+#define CO_EMCY_REG_TEMP 3          ///< temperature
+#define CO_EMCY_REG_COM 4           ///< communication
+#define CO_EMCY_REG_PROFILE 5       ///< device profile
+#define CO_EMCY_REG_MANUFACTURER 7  ///< manufacturer
+#define CO_EMCY_REG_NUM 8
+/// \}
+
+/// \name Error codes. [301:7.2.7.1 table 26]
+/// \{
+#define CO_EMCY_CODE_NO_ERR 0x0000u
+#define CO_EMCY_CODE_GEN_ERR 0x1000u
+#define CO_EMCY_CODE_CUR_ERR 0x2000u
+#define CO_EMCY_CODE_CUR_INPUT_ERR 0x2100u
+#define CO_EMCY_CODE_CUR_INTERN_ERR 0x2200u
+#define CO_EMCY_CODE_CUR_OUTPUT_ERR 0x2300u
+#define CO_EMCY_CODE_VOL_ERR 0x3000u
+#define CO_EMCY_CODE_VOL_INPUT_ERR 0x3100u
+#define CO_EMCY_CODE_VOL_INTERN_ERR 0x3200u
+#define CO_EMCY_CODE_VOL_OUTPUT_ERR 0x3300u
+#define CO_EMCY_CODE_TEMP_ERR 0x4000u
+#define CO_EMCY_CODE_TEMP_AMBIENT_ERR 0x4100u
+#define CO_EMCY_CODE_TEMP_DEVICE_ERR 0x4200u
+#define CO_EMCY_CODE_HW_ERR 0x5000u
+#define CO_EMCY_CODE_SW_ERR 0x6000u
+#define CO_EMCY_CODE_SW_INTERNAL_ERR 0x6100u
+#define CO_EMCY_CODE_SW_USER_ERR 0x6200u
+#define CO_EMCY_CODE_SW_DATASET_ERR 0x6300u
+#define CO_EMCY_CODE_ADD_MODULES_ERR 0x7000u
+#define CO_EMCY_CODE_MON_ERR 0x8000u
+#define CO_EMCY_CODE_MON_COM_ERR 0x8100u
+#define CO_EMCY_CODE_MON_COM_OVERRUN_ERR 0x8110u
+#define CO_EMCY_CODE_MON_COM_PASSIVE_ERR 0x8120u
+#define CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR 0x8130u
+#define CO_EMCY_CODE_MON_COM_RECOVER_ERR 0x8140u
+#define CO_EMCY_CODE_MON_COM_COLLISION_ERR 0x8150u
+#define CO_EMCY_CODE_MON_PROT_ERR 0x8200u
+#define CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR 0x8210u
+#define CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR 0x8220u
+#define CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR 0x8240u
+#define CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR 0x8250u
+#define CO_EMCY_CODE_EXT_ERR 0x9000u
+#define CO_EMCY_CODE_ADD_FUNC_ERR 0xF000u
+#define CO_EMCY_CODE_DEV_ERR 0xFF00u
+/// \}
+
+struct CO_NODE_T;
+
+/// An error that the application can have; a table of them is CO_NODE_SPEC.EmcyCode, and its identifier is its place
+/// there. The table has CO_EMCY_N of them, or as many as CO_NODE_EXT.EmcyNum says.
+typedef struct CO_EMCY_TBL_T {
+  uint8_t Reg;    ///< CO_EMCY_REG_…; with another number the error sets the generic bit only
+  uint16_t Code;  ///< CO_EMCY_CODE_…, or of a device profile
+} CO_EMCY_TBL;
+
+/// What the manufacturer adds to an error.
+typedef struct CO_EMCY_USR_T {
+  uint16_t Hist;    ///< bits 31…16 in 1003h. CiA's conformance test wants the first two bytes of Emcy there
+  uint8_t Emcy[5];  ///< the five bytes of the message
+} CO_EMCY_USR;
+
+/// Bytes that hold a bit for each error of the application.
+#define CO_EMCY_STORAGE (1 + (CO_EMCY_N - 1) / 8)
+
+/// \cond internal
+#define CO_EMCY_FAULT_N 10  // kinds of errors that the stack finds
+
+typedef struct CO_EMCY_HIST_T {  // 1003h is a ring
+  uint8_t Max;                   // entries that it has
+  uint8_t Num;                   // of these in use
+  uint8_t Off;                   // sub-index of the newest
+} CO_EMCY_HIST;
+
+typedef struct CO_EMCY_MSG_T {
+  uint16_t Code;
+  uint8_t Reg;
+  uint8_t Msef[5];
+} CO_EMCY_MSG;
+/// \endcond
+
+/// Emergencies of a node: &node.Emcy. The application touches nothing of it.
+typedef struct CO_EMCY_T {
+  struct CO_NODE_T* Node;
+  const CO_EMCY_TBL* Root;  ///< CO_NODE_SPEC.EmcyCode
+  CO_TMR_MEM Tmr;           ///< until the next message may be sent
+  CO_TMR_MEM Hold[2];       ///< until 8110h and 8150h are over
+  CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
+  uint8_t Waiting;                  ///< messages in it, oldest first
+  CO_EMCY_HIST Hist;                ///< 1003h
+  uint16_t Fault[CO_EMCY_FAULT_N];  ///< how many there are of each error of the stack
+  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
+} CO_EMCY;
+
+/// The application has found error \a err (its place in CO_NODE_SPEC.EmcyCode); \a usr may be null: all 0. While the
+/// error is there, further calls do nothing.
+/// Node errors: CO_ERR_EMCY_BAD_ROOT: CO_NODE_SPEC.EmcyCode is null; CO_ERR_BAD_ARG: no such error; what 1001h or 1003h
+/// answered that could not be written.
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr);
+
+/// Error \a err is gone. One that was not there: nothing happens. Node error CO_ERR_BAD_ARG: no such error.
+void COEmcyClr(CO_EMCY* emcy, uint8_t err);
+
+/// 1: the application has error \a err, 0: not, -1: no such error, or \a emcy is null or of no node.
+int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err);
+
+/// Errors that the application has; -1: \a emcy is null.
+int16_t COEmcyCnt(CO_EMCY* emcy);
+
+/// All errors of the application are gone; each is sent as in COEmcyClr() if \a silent is 0. Those of the stack stay.
+void COEmcyReset(CO_EMCY* emcy, uint8_t silent);
+
+/// Empties 1003h, as writing 0 to its sub-index 0 does.
+void COEmcyHistReset(CO_EMCY* emcy);
+
+/// \name Callbacks of the application
+/// Ordinary functions to be defined by the application (see co_nmt.h); the defaults do nothing.
+/// \{
+
+/// An EMCY message of node \a nodeId, which 1028h names: error code (0: an error is gone), its error register, and the
+/// manufacturer's five bytes. Only in NMT states that allow EMCY.
+void COEmcyReceived(struct CO_NODE_T* node, uint8_t nodeId, uint16_t code, uint8_t reg, const uint8_t msef[5]);
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

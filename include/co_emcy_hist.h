@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_emcy_hist.h
+/// 1003h, pre-defined error field. [301:7.5.2.4] Sub-index 0: number of errors in the history, Data: a uint8_t, which
+/// is not used, or flag D; 0 may be written, which empties it, anything else is refused (0609 0030h). Sub-indices 1…254
+/// without a gap: the errors, 1 is the newest; code in bits 15…0, information of the manufacturer in bits 31…16. Data:
+/// a uint32_t each, not flag D. They are a ring: read them through the dictionary. One that is not in use answers
+/// CO_ERR_OBJ_NO_DATA (0800 0024h); none can be written (0601 0002h).
+#ifndef CO_EMCY_HIST_H_
+#define CO_EMCY_HIST_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTEmcyHist;
+
+#define CO_TEMCY_HIST ((const CO_OBJ_TYPE*)&COTEmcyHist)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_error_behaviour.h
+/// 1029h, error behaviour. [301:7.5.2.32] Data: a uint8_t, or the value itself (flag D).
+///
+/// Sub 1 says what the node does when it loses the network: bus-off, a missing heartbeat of a node that it monitors, or
+/// a missing NMT master (life guarding). 0: it leaves Operational for Pre-operational; 1: nothing; 2: it enters
+/// Stopped. Without the object it is 0. It happens once for each loss.
+/// Other sub-indices are the application's, who acts upon them. All other values are refused (0609 0030h).
+#ifndef CO_ERROR_BEHAVIOUR_H_
+#define CO_ERROR_BEHAVIOUR_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CO_ERROR_BEHAVIOUR_PREOP 0u  ///< from Operational to Pre-operational
+#define CO_ERROR_BEHAVIOUR_NONE 1u   ///< no change of the NMT state
+#define CO_ERROR_BEHAVIOUR_STOP 2u   ///< to Stopped
+
+extern const CO_OBJ_TYPE COTErrorBehaviour;
+
+#define CO_TERROR_BEHAVIOUR ((const CO_OBJ_TYPE*)&COTErrorBehaviour)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_pdo_inhibit.h
+/// 1800h…, sub 3: inhibit time. [301:7.5.2.37] Data: a uint16_t in units of 100 µs, or the value itself (flag D); 0:
+/// none. Two transmissions of an event-driven TPDO are never closer. A change while the PDO exists is refused
+/// (0609 0030h). With a plain CO_TUNSIGNED16 in its place a change is taken when the PDO is switched on. An RPDO
+/// (1400h…) may have the entry, and does not use it.
+#ifndef CO_PDO_INHIBIT_H_
+#define CO_PDO_INHIBIT_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTPdoInhibit;
+
+#define CO_TPDO_INHIBIT ((const CO_OBJ_TYPE*)&COTPdoInhibit)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

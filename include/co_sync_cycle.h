@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_sync_cycle.h
+/// 1006h, communication cycle period: the period of SYNC in µs, 0: no SYNC is produced. [301:7.5.2.6] And 1007h,
+/// synchronous window length: µs after a SYNC in which synchronous PDOs are sent and taken, 0: always. [301:7.5.2.7]
+/// Data: a uint32_t, or the value itself (flag D). A time that the timer cannot hold is refused (0609 0030h). A write
+/// takes effect at once; with a plain CO_TUNSIGNED32 in its place, at the next reset.
+#ifndef CO_SYNC_CYCLE_H_
+#define CO_SYNC_CYCLE_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTSyncCycle;
+
+#define CO_TSYNC_CYCLE ((const CO_OBJ_TYPE*)&COTSyncCycle)
+#define CO_TSYNC_WINDOW ((const CO_OBJ_TYPE*)&COTSyncCycle)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

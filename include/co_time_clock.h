@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_time_clock.h
+/// The node's clock (co_time.h) as an object of data type TIME_OF_DAY: reading tells the time, 0 until it was set;
+/// writing sets it. A day or more is refused (0609 0030h). 6 bytes, which may be mapped into PDOs. Data: none, 0.
+///
+///     {CO_KEY(0x2101, 0, CO_OBJ____PRW), CO_TTIME_CLOCK, 0}
+#ifndef CO_TIME_CLOCK_H_
+#define CO_TIME_CLOCK_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTTimeClock;
+
+#define CO_TTIME_CLOCK ((const CO_OBJ_TYPE*)&COTTimeClock)
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// EMCY consumer: 1028h names the COB-ID of each node at its node-ID. [301:7.5.2.30]
+#include "service/emcy/emcy.hpp"
+
+#if CO_EMCY_CONS_N > 0
+
+#include "core/dict.hpp"
+#include "core/routes.hpp"
+#include "object/cob_id.hpp"
+#include "wire/cob_id.hpp"
+#include "wire/emcy.hpp"
+
+namespace co::emcy {
+namespace {
+
+constexpr uint32_t key(uint8_t node_id) { return CO_DEV(0x1028, node_id); }
+
+void listen(CO_NODE& node, uint8_t node_id) {
+  const uint32_t cob_id = dict::read_cob_id(node.Dict, key(node_id), wire::cob_invalid);
+  const uint32_t identifier = cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
+  routes::change(node, identifier, routes::Service::emcy_consumer, node_id);
+}
+
+bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) { return cob_id::may_replace(before, value); }
+
+CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::emcy_consumer); }
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
+  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
+    listen(*node, CO_GET_SUB(obj->Key));
+    routes::publish(*node);
+  }
+  return err;
+}
+
+}  // namespace
+
+void init_consumer(CO_NODE& node) {
+  for (uint8_t node_id = 1; node_id <= CO_EMCY_CONS_N; ++node_id) {
+    listen(node, node_id);
+  }
+}
+
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  if (frame.DLC != wire::emcy_dlc) {
+    return false;
+  }
+  COEmcyReceived(&node, static_cast<uint8_t>(number), wire::emcy_code(frame), wire::emcy_register(frame),
+                 wire::emcy_bytes(frame));
+  return true;
+}
+
+}  // namespace co::emcy
+
+extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::cob_id::size, co::emcy::init_entry, co::cob_id::read, co::emcy::write,
+                                            nullptr};
+
+#endif

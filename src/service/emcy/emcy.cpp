@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/emcy/emcy.hpp"
+
+#if USE_EMCY
+
+#include "core/count.hpp"
+#include "core/dict.hpp"
+#include "core/obj.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "wire/cob_id.hpp"
+#include "wire/emcy.hpp"
+
+namespace co::emcy {
+namespace {
+
+using event::Fault;
+
+constexpr uint32_t key_register = CO_DEV(0x1001, 0);
+constexpr uint32_t key_cob_id = CO_DEV(0x1014, 0);
+constexpr uint32_t key_inhibit = CO_DEV(0x1015, 0);
+
+constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
+constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
+
+constexpr uint16_t codes[CO_EMCY_FAULT_N] = {
+    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,      CO_EMCY_CODE_MON_COM_PASSIVE_ERR,  CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
+    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,    CO_EMCY_CODE_MON_COM_RECOVER_ERR,  CO_EMCY_CODE_MON_COM_COLLISION_ERR,
+    CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,     CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR, CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR,
+    CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR,
+};
+static_assert(static_cast<uint8_t>(Fault::count) == CO_EMCY_FAULT_N);
+
+constexpr uint16_t code_of(Fault fault) { return codes[static_cast<uint8_t>(fault)]; }
+static_assert(code_of(Fault::overrun) == 0x8110 && code_of(Fault::life_guard) == 0x8130);
+static_assert(code_of(Fault::recovered) == 0x8140 && code_of(Fault::pdo_timeout) == 0x8250);
+
+uint16_t& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
+
+// Errors of the application -------------------------------------------------------------------------------------------
+
+constexpr uint8_t mask(uint16_t err) { return static_cast<uint8_t>(1U << (err % 8)); }
+
+bool is_set(const CO_EMCY& emcy, uint16_t err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
+
+void set(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] | mask(err)); }
+
+void clear(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] & ~mask(err)); }
+
+uint16_t table_length(const CO_EMCY& emcy) {
+  const uint16_t given = emcy.Node->Ext->EmcyNum;
+  return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
+}
+
+// Else the node has an error.
+bool is_known(const CO_EMCY& emcy, uint8_t err) {
+  if (emcy.Root == nullptr) {
+    emcy.Node->Error = CO_ERR_EMCY_BAD_ROOT;
+    return false;
+  }
+  if (err >= table_length(emcy)) {
+    emcy.Node->Error = CO_ERR_BAD_ARG;
+    return false;
+  }
+  return true;
+}
+
+// Error register ------------------------------------------------------------------------------------------------------
+
+constexpr uint8_t bits_of(uint8_t reg) {
+  constexpr unsigned reserved = 1U << 6;
+  const unsigned bit = reg < CO_EMCY_REG_NUM ? 1U << reg : 0U;
+  return static_cast<uint8_t>(generic | (bit & ~reserved));
+}
+
+uint8_t register_of(const CO_EMCY& emcy) {
+  uint8_t bits = 0;
+  for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
+    if (is_set(emcy, err)) {
+      bits = static_cast<uint8_t>(bits | bits_of(emcy.Root[err].Reg));
+    }
+  }
+  for (const uint16_t number : emcy.Fault) {
+    bits = static_cast<uint8_t>(bits | (number != 0 ? communication : 0U));
+  }
+  return bits;
+}
+
+// Shows it in 1001h. A value in the entry itself may lie in read-only memory.
+uint8_t update_register(CO_NODE& node) {
+  const uint8_t bits = register_of(node.Emcy);
+  CO_OBJ* const obj = dict::find(node.Dict, key_register);
+  uint8_t value = bits;
+  if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0 || obj::read(*obj, node, &value, sizeof value) != CO_ERR_NONE ||
+      value == bits) {
+    return bits;
+  }
+  value = bits;
+  const CO_ERR err = obj::write(*obj, node, &value, sizeof value);
+  node.Error = err != CO_ERR_NONE ? err : node.Error;
+  return bits;
+}
+
+// Messages ------------------------------------------------------------------------------------------------------------
+
+uint32_t cob_id(CO_NODE& node) { return dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid); }
+
+// 0 ticks are a time that the timer cannot hold.
+void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
+  tmr::start(node.Tmr, timer, ticks != 0 ? ticks : UINT32_MAX, 0, func, &node);
+}
+
+void discard_waiting(CO_EMCY& emcy) {
+  for (; emcy.Waiting != 0; --emcy.Waiting) {
+    count(emcy.Node->Count.Dropped);
+  }
+}
+
+CO_EMCY_MSG take_first(CO_EMCY& emcy) {
+  const CO_EMCY_MSG first = emcy.Queue[0];
+  --emcy.Waiting;
+  for (uint8_t n = 0; n < emcy.Waiting; ++n) {
+    emcy.Queue[n] = emcy.Queue[n + 1];
+  }
+  return first;
+}
+
+// Until the inhibit time, or the next attempt where the transmit queue is full.
+void send_waiting(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  CO_EMCY& emcy = node.Emcy;
+  while (emcy.Waiting != 0) {
+    const uint32_t id = cob_id(node);
+    if (id == wire::cob_invalid) {
+      discard_waiting(emcy);
+      return;
+    }
+    if (transmit::is_full(node)) {
+      start(node, emcy.Tmr, tmr::ticks(node.Tmr, 1, CO_TMR_UNIT_1MS), send_waiting);
+      return;
+    }
+    transmit::send(node, wire::emcy(wire::frame_id(id), take_first(emcy)));
+    uint16_t inhibit = 0;
+    if (dict::read_u16(node.Dict, key_inhibit, inhibit) == CO_ERR_NONE && inhibit != 0) {
+      start(node, emcy.Tmr, tmr::ticks(node.Tmr, inhibit, CO_TMR_UNIT_100US), send_waiting);
+      return;
+    }
+  }
+}
+
+// In a full queue the newest takes the place of the last, so that the last always tells the present state.
+void post(CO_NODE& node, const CO_EMCY_MSG& msg) {
+  CO_EMCY& emcy = node.Emcy;
+  if (!event::is_allowed(node, CO_EMCY_ALLOWED) || cob_id(node) == wire::cob_invalid) {
+    return;
+  }
+  if (emcy.Waiting == CO_EMCY_QUEUE_N) {
+    count(node.Count.Dropped);
+    --emcy.Waiting;
+  }
+  emcy.Queue[emcy.Waiting++] = msg;
+  if (!tmr::is_running(emcy.Tmr)) {
+    send_waiting(&node);
+  }
+}
+
+void report_gone(CO_NODE& node, uint8_t detail) {
+  post(node, {CO_EMCY_CODE_NO_ERR, update_register(node), {0, 0, detail, 0, 0}});
+}
+
+void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
+  const uint8_t* const msef = usr.Emcy;
+  add_to_history(node, code | (static_cast<uint32_t>(usr.Hist) << 16));
+  post(node, {code, update_register(node), {msef[0], msef[1], msef[2], msef[3], msef[4]}});
+}
+
+// The first two of the five bytes are those of 1003h. [E11]
+void report_fault(CO_NODE& node, Fault fault, uint8_t detail) {
+  report_error(node, code_of(fault), {0, {0, 0, detail, 0, 0}});
+}
+
+// Faults that may come with every frame -------------------------------------------------------------------------------
+
+template <Fault fault>
+void let_go(void* node) {
+  emcy::resolve(*static_cast<CO_NODE*>(node), fault, 0);
+}
+
+// Such a fault is over when it has not come again for a second. False: it is of another kind.
+bool hold(CO_NODE& node, Fault fault) {
+  switch (fault) {
+    case Fault::overrun: start(node, node.Emcy.Hold[0], node.Tmr.Freq, let_go<Fault::overrun>); return true;
+    case Fault::collision: start(node, node.Emcy.Hold[1], node.Tmr.Freq, let_go<Fault::collision>); return true;
+    default: return false;
+  }
+}
+
+// The controller ------------------------------------------------------------------------------------------------------
+
+// Nothing can be sent; 8140h follows when the node is back. [301:7.2.7.1]
+void begin_bus_off(CO_NODE& node) {
+  number_of(node, Fault::recovered) = 1;
+  update_register(node);
+}
+
+// The error passive state that came before a bus-off is over with it.
+void recover(CO_NODE& node) {
+  if (number_of(node, Fault::recovered) != 0) {
+    report_fault(node, Fault::recovered, 0);
+    emcy::forget(node, Fault::passive);
+    emcy::resolve(node, Fault::recovered, 0);
+  } else {
+    emcy::resolve(node, Fault::passive, 0);
+  }
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  for (uint16_t& number : node.Emcy.Fault) {
+    number = 0;
+  }
+  init_history(node);
+  update_register(node);
+  if (node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
+    node.Error = CO_ERR_CFG_1014_0;
+  }
+}
+
+void on_mode(CO_NODE& node) {
+  if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
+    return;
+  }
+  withdraw(node, cob_id(node));
+  if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
+    tmr::stop(node.Tmr, node.Emcy.Tmr);
+    for (CO_TMR_MEM& timer : node.Emcy.Hold) {
+      tmr::stop(node.Tmr, timer);
+    }
+  }
+}
+
+void raise(CO_NODE& node, Fault fault, uint8_t detail) {
+  uint16_t& number = number_of(node, fault);
+  if (hold(node, fault) && number != 0) {
+    return;
+  }
+  ++number;
+  report_fault(node, fault, detail);
+}
+
+void resolve(CO_NODE& node, Fault fault, uint8_t detail) {
+  if (number_of(node, fault) != 0) {
+    --number_of(node, fault);
+    report_gone(node, detail);
+  }
+}
+
+void forget(CO_NODE& node, Fault fault) {
+  if (number_of(node, fault) != 0) {
+    --number_of(node, fault);
+    update_register(node);
+  }
+}
+
+void report_can(CO_NODE& node, CO_CAN_EVENT what) {
+  if (node.Nmt.Mode == CO_INVALID) {
+    return;
+  }
+  switch (what) {
+    case CO_CAN_OVERRUN: emcy::raise(node, Fault::overrun, 0); break;
+    case CO_CAN_BUS_OFF: begin_bus_off(node); break;
+    case CO_CAN_RECOVERED: recover(node); break;
+    case CO_CAN_PASSIVE:
+      if (number_of(node, Fault::passive) == 0) {
+        emcy::raise(node, Fault::passive, 0);
+      }
+      break;
+    default: break;
+  }
+}
+
+void forget_application(CO_NODE& node) {
+  for (uint8_t& bits : node.Emcy.Err) {
+    bits = 0;
+  }
+  clear_history(node);
+}
+
+void withdraw(CO_NODE& node, uint32_t cob_id) {
+  discard_waiting(node.Emcy);
+  if (cob_id != wire::cob_invalid) {
+    transmit::withdraw(node, wire::frame_id(cob_id));
+  }
+}
+
+}  // namespace co::emcy
+
+using namespace co;
+
+extern "C" {
+
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) {
+  ASSERT_PTR_FATAL(emcy);
+  ASSERT_PTR_FATAL(emcy->Node);
+  if (!emcy::is_known(*emcy, err) || emcy::is_set(*emcy, err)) {
+    return;
+  }
+  emcy::set(*emcy, err);
+  emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : CO_EMCY_USR{});
+}
+
+void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
+  ASSERT_PTR_FATAL(emcy);
+  ASSERT_PTR_FATAL(emcy->Node);
+  if (emcy::is_known(*emcy, err) && emcy::is_set(*emcy, err)) {
+    emcy::clear(*emcy, err);
+    emcy::report_gone(*emcy->Node, 0);
+  }
+}
+
+int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) {
+  ASSERT_PTR_ERR(emcy, -1);
+  ASSERT_PTR_ERR(emcy->Node, -1);
+  if (err >= emcy::table_length(*emcy)) {
+    return -1;
+  }
+  return emcy::is_set(*emcy, err) ? 1 : 0;
+}
+
+int16_t COEmcyCnt(CO_EMCY* emcy) {
+  ASSERT_PTR_ERR(emcy, -1);
+  int16_t number = 0;
+  for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
+    number = static_cast<int16_t>(number + (emcy::is_set(*emcy, err) ? 1 : 0));
+  }
+  return number;
+}
+
+void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
+  ASSERT_PTR_FATAL(emcy);
+  ASSERT_PTR_FATAL(emcy->Node);
+  for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
+    if (!emcy::is_set(*emcy, err)) {
+      continue;
+    }
+    emcy::clear(*emcy, err);
+    if (silent == 0) {
+      emcy::report_gone(*emcy->Node, 0);
+    }
+  }
+  emcy::update_register(*emcy->Node);
+}
+
+void COEmcyHistReset(CO_EMCY* emcy) {
+  ASSERT_PTR_FATAL(emcy);
+  ASSERT_PTR_FATAL(emcy->Node);
+  emcy::clear_history(*emcy->Node);
+}
+
+}  // extern "C"
+
+#endif

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1003h, pre-defined error field. [301:7.5.2.4] Its entries are a ring, so that a new error moves none.
+#include "service/emcy/emcy.hpp"
+
+#if USE_EMCY
+
+#include "core/dict.hpp"
+
+namespace co::emcy {
+namespace {
+
+constexpr uint16_t index = 0x1003;
+
+// Sub-index of the entry that the network sees at this one, of those in use.
+uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
+  const unsigned newest = history.Off >= sub ? history.Off : history.Off + history.Max;
+  return static_cast<uint8_t>(newest + 1U - sub);
+}
+
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return CO_GET_SUB(obj->Key) == 0 ? 1 : 4; }
+
+CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
+  if (CO_GET_SUB(obj->Key) != 0) {
+    return dict::check_type(*obj, *node, rules::emcy_history);
+  }
+  const CO_ERR err = dict::check_type(*obj, *node, rules::emcy_history_number);
+  const bool has_entries = dict::find(node->Dict, CO_DEV(index, 1)) != nullptr;
+  return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
+}
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const CO_EMCY_HIST& history = node->Emcy.Hist;
+  const uint8_t sub = CO_GET_SUB(obj->Key);
+  if (size != COTEmcyHist.Size(obj, node, size)) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (sub == 0) {
+    *static_cast<uint8_t*>(buffer) = history.Num;
+    return CO_ERR_NONE;
+  }
+  CO_OBJ* const place = sub > history.Num ? nullptr : dict::find(node->Dict, CO_DEV(index, place_of(history, sub)));
+  return place == nullptr ? CO_ERR_OBJ_NO_DATA : CO_TUNSIGNED32->Read(place, node, buffer, size);
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (CO_GET_SUB(obj->Key) != 0) {
+    COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_WR);
+    return CO_ERR_TYPE_WR;
+  }
+  if (size != 1) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (*static_cast<const uint8_t*>(buffer) != 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  clear_history(*node);
+  return CO_ERR_NONE;
+}
+
+}  // namespace
+
+void init_history(CO_NODE& node) {
+  CO_EMCY_HIST& history = node.Emcy.Hist;
+  uint8_t entries = 0;
+  for (const CO_OBJ* obj = nullptr;; ++entries) {
+    obj = dict::find(node.Dict, CO_DEV(index, entries + 1U));
+    if (obj == nullptr || obj->Type != CO_TEMCY_HIST) {
+      break;
+    }
+  }
+  if (entries != history.Max) {
+    history = {entries, 0, 0};
+  }
+}
+
+void add_to_history(CO_NODE& node, uint32_t entry) {
+  CO_EMCY_HIST& history = node.Emcy.Hist;
+  if (history.Max == 0) {
+    return;
+  }
+  history.Off = history.Off < history.Max ? static_cast<uint8_t>(history.Off + 1U) : uint8_t{1};
+  CO_OBJ* const place = dict::find(node.Dict, CO_DEV(index, history.Off));
+  const CO_ERR err =
+      place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
+  if (err != CO_ERR_NONE) {
+    node.Error = err;
+  }
+  history.Num = history.Num < history.Max ? static_cast<uint8_t>(history.Num + 1U) : history.Max;
+}
+
+void clear_history(CO_NODE& node) { node.Emcy.Hist.Num = 0; }
+
+}  // namespace co::emcy
+
+extern "C" const CO_OBJ_TYPE COTEmcyHist = {co::emcy::size, co::emcy::init_entry, co::emcy::read, co::emcy::write,
+                                            nullptr};
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1014h, COB-ID EMCY. [301:7.5.2.17]
+#include "service/emcy/emcy.hpp"
+
+#if USE_EMCY
+
+#include "core/dict.hpp"
+#include "object/cob_id.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co::emcy {
+namespace {
+
+constexpr uint32_t reserved = 1U << 30;
+
+bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
+
+// A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
+bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+  const bool is_usable = cob_id::is_free(value) && (value & reserved) == 0;
+  return value == before || (is_usable && !(is_valid(before) && is_valid(value)));
+}
+
+CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::emcy_cob_id); }
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const uint32_t before = dict::read_cob_id(node->Dict, obj->Key, wire::cob_invalid);
+  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
+  if (err == CO_ERR_NONE && dict::read_cob_id(node->Dict, obj->Key, wire::cob_invalid) == wire::cob_invalid) {
+    withdraw(*node, before);
+  }
+  return err;
+}
+
+}  // namespace
+}  // namespace co::emcy
+
+extern "C" const CO_OBJ_TYPE COTEmcyId = {co::cob_id::size, co::emcy::init_entry, co::cob_id::read, co::emcy::write,
+                                          nullptr};
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/guarding/guarding.hpp"
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "wire/nmt.hpp"
+
+namespace co::guarding {
+#if USE_GUARDING
+namespace {
+
+// Ticks; 0: no life guarding. [301:7.5.2.11, 7.5.2.12]
+uint32_t life_time(CO_NODE& node) {
+  uint16_t guard_time = 0;  // ms
+  uint8_t factor = 0;
+  const bool exists = CODictRdWord(&node.Dict, CO_DEV(0x100C, 0), &guard_time) == CO_ERR_NONE &&
+                      CODictRdByte(&node.Dict, CO_DEV(0x100D, 0), &factor) == CO_ERR_NONE;
+  return exists ? tmr::ticks(node.Tmr, uint32_t{guard_time} * factor, CO_TMR_UNIT_1MS) : 0;
+}
+
+// The heartbeat wins: while its timer runs there is no guarding. [301:7.2.8.2.2.1]
+bool is_replaced_by_heartbeat(const CO_NODE& node) { return tmr::is_running(node.HbProdTmr); }
+
+void lose_master(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  if (is_replaced_by_heartbeat(node)) {
+    return;
+  }
+  node.GuardLost = 1;
+  event::raise(node, event::Fault::life_guard, 0);
+  event::lose_communication(node);
+  CONmtLifeGuardEvent(&node.Nmt, true);
+}
+
+void find_master(CO_NODE& node) {
+  if (node.GuardLost == 0) {
+    return;
+  }
+  node.GuardLost = 0;
+  event::resolve(node, event::Fault::life_guard, 0);
+  CONmtLifeGuardEvent(&node.Nmt, false);
+}
+
+void restart_life(CO_NODE& node, uint32_t ticks) {
+  if (ticks == 0) {
+    tmr::stop(node.Tmr, node.GuardTmr);
+  } else {
+    tmr::start(node.Tmr, node.GuardTmr, ticks, 0, lose_master, &node);
+  }
+}
+
+// An answer that still waits is the answer to this request, too: the toggle bit must not skip a value on the bus.
+void answer(CO_NODE& node) {
+  CO_IF_FRM* const waiting = transmit::find_waiting(node, wire::CobId::error_control + node.NodeId);
+  const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::toggle : node.GuardToggle;
+  const CO_IF_FRM frame = wire::error_control(node.NodeId, node.Nmt.Mode, toggle);
+  if (waiting != nullptr) {
+    *waiting = frame;
+  } else if (transmit::send(node, frame)) {
+    node.GuardToggle ^= wire::toggle;
+  }
+}
+
+}  // namespace
+
+bool on_remote(CO_NODE& node, uint16_t) {
+  const bool guarded = !is_replaced_by_heartbeat(node);
+  if (guarded) {
+    answer(node);
+  }
+  restart_life(node, guarded ? life_time(node) : 0);
+  find_master(node);
+  return true;
+}
+
+void on_mode(CO_NODE& node) {
+  if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
+    tmr::stop(node.Tmr, node.GuardTmr);
+  }
+}
+
+#else
+
+bool on_remote(CO_NODE&, uint16_t) { return false; }
+void on_mode(CO_NODE&) {}
+
+#endif
+
+void init(CO_NODE& node) {
+  routes::add(node, wire::CobId::error_control + node.NodeId, routes::Service::error_control, 0);
+#if USE_GUARDING
+  node.GuardToggle = 0;
+  node.GuardLost = 0;
+#endif
+}
+
+bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
+  event::raise(node, event::Fault::collision, node.NodeId);
+  return false;
+}
+
+}  // namespace co::guarding

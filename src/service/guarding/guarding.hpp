@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Node guarding and life guarding of this node; its own error control identifier. [301:7.2.8.2.2]
+#pragma once
+
+#include "co_core.h"
+
+namespace co::guarding {
+
+// The route of the own error control frames; the toggle bit starts at 0.
+void init(CO_NODE& node);
+
+// Somebody else has sent an error control frame of this node.
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+// The NMT master guards.
+[[nodiscard]] bool on_remote(CO_NODE& node, uint16_t number);
+
+// Life guarding ends where error control is not allowed.
+void on_mode(CO_NODE& node);
+
+}  // namespace co::guarding

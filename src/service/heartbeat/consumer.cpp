@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heartbeat consumer: 1016h. [301:7.2.8.3.2.2, 7.5.2.19] A heartbeat only notes its time; one timer for all consumers
+// elapses when the first of them could be missing, and looks who is.
+#include "co_hb_cons.h"
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "object/place.hpp"
+#include "service/heartbeat/heartbeat.hpp"
+#include "wire/nmt.hpp"
+
+#if CO_HBCONS_N > 0
+
+namespace co::heartbeat {
+namespace {
+
+// CO_HBCONS.Tmr while it holds no state byte.
+constexpr int16_t unheard = -1;
+constexpr int16_t missing = -2;
+
+constexpr bool is_active(uint16_t ms, uint8_t node_id) { return ms != 0 && node_id >= 1 && node_id <= 127; }
+
+// Has the node been heard since the entry was configured?
+bool is_watching(const CO_HB_WATCH& watch) { return watch.Period != 0 && watch.Cons->Tmr != unheard; }
+
+// The entry that monitors a node.
+CO_HB_WATCH* find(CO_NODE& node, uint8_t node_id) {
+  for (CO_HB_WATCH& watch : node.HbCons) {
+    if (watch.Period != 0 && watch.Cons->NodeId == node_id) {
+      return &watch;
+    }
+  }
+  return nullptr;
+}
+
+void check(void* node_pointer);
+
+// Ticks until the node is missing, at least 1.
+uint32_t ticks_left(const CO_HB_WATCH& watch, uint32_t now) {
+  const uint32_t passed = now - watch.Seen;
+  return passed < watch.Period ? watch.Period - passed : 1;
+}
+
+// The timer elapses with the first of the times that run.
+void plan(CO_NODE& node) {
+  const uint32_t now = tmr::now(node.Tmr);
+  uint32_t next = 0;
+  for (const CO_HB_WATCH& watch : node.HbCons) {
+    const uint32_t left = is_watching(watch) ? ticks_left(watch, now) : next;
+    next = next == 0 || left < next ? left : next;
+  }
+  if (next == 0) {
+    tmr::stop(node.Tmr, node.HbConsTmr);
+  } else {
+    tmr::start(node.Tmr, node.HbConsTmr, next, 0, check, &node);
+  }
+}
+
+void miss(CO_NODE& node, CO_HBCONS& cons) {
+  const uint8_t node_id = cons.NodeId;
+  cons.Event = static_cast<uint8_t>(cons.Event + (cons.Event < UINT8_MAX ? 1 : 0));
+  if (cons.Tmr != missing) {
+    cons.Tmr = missing;
+    event::raise(node, event::Fault::heartbeat, node_id);
+    event::lose_communication(node);
+  }
+  CONmtHbConsEvent(&node.Nmt, node_id);
+}
+
+// Callbacks may change everything: what is next is only planned when all have returned.
+void check(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  const uint32_t now = tmr::now(node.Tmr);
+  for (CO_HB_WATCH& watch : node.HbCons) {
+    const uint32_t passed = now - watch.Seen;
+    if (is_watching(watch) && passed >= watch.Period) {
+      watch.Seen = now - passed % watch.Period;
+      miss(node, *watch.Cons);
+    }
+  }
+  plan(node);
+}
+
+void hear(CO_NODE& node, CO_HBCONS& cons, int16_t state) {
+  const int16_t before = cons.Tmr;
+  cons.Tmr = state;
+  if (before == unheard) {
+    plan(node);
+  } else if (before == missing) {
+    event::resolve(node, event::Fault::heartbeat, cons.NodeId);
+  }
+  const CO_MODE mode = CONmtModeDecode(static_cast<uint8_t>(state));
+  CONmtHbConsChange(&node.Nmt, cons.NodeId, mode);
+  if (cons.Tmr == state) {  // the callback has not changed the entry
+    cons.State = mode;
+  }
+}
+
+void stop(CO_NODE& node, CO_HB_WATCH& watch) {
+  if (is_watching(watch) && watch.Cons->Tmr == missing) {
+    event::forget(node, event::Fault::heartbeat);
+  }
+  watch.Period = 0;
+}
+
+// Lets the entry monitor the node, of which nothing has been heard so far.
+CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
+  const bool active = is_active(ms, node_id);
+  const uint32_t period = active ? tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS) : 0;
+  const CO_HB_WATCH* const other = active ? find(node, node_id) : nullptr;
+  if (other != nullptr && other != &watch) {
+    return CO_ERR_OBJ_INCOMPATIBLE;
+  }
+  if (active && period == 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  stop(node, watch);
+  watch.Period = period;
+  *watch.Cons = {&node, nullptr, CO_INVALID, unheard, ms, node_id, 0};
+  const auto sub = static_cast<uint16_t>(&watch - node.HbCons + 1);
+  const uint32_t identifier = active ? wire::CobId::error_control + node_id : wire::no_frame;
+  routes::change(node, identifier, routes::Service::heartbeat_consumer, sub);
+  return CO_ERR_NONE;
+}
+
+CO_ERR change(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
+  const CO_HBCONS& cons = *watch.Cons;
+  if (cons.Time == ms && cons.NodeId == node_id && is_active(ms, node_id) == (watch.Period != 0)) {
+    return CO_ERR_NONE;
+  }
+  const CO_ERR err = start(node, watch, ms, node_id);
+  if (err == CO_ERR_NONE) {
+    plan(node);
+    routes::publish(node);
+  }
+  return err;
+}
+
+CO_ERR change(CO_NODE& node, const CO_HBCONS& cons, uint16_t ms, uint8_t node_id) {
+  for (CO_HB_WATCH& watch : node.HbCons) {
+    if (watch.Cons == &cons) {
+      return change(node, watch, ms, node_id);
+    }
+  }
+  return CO_ERR_BAD_ARG;
+}
+
+// 1016h. Sub 0 is an UNSIGNED8, the others are UNSIGNED32: time in bits 0…15, node-ID in bits 16…23.
+
+bool is_entry(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) != 0; }
+
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
+  return is_entry(*obj) ? sizeof(uint32_t) : CO_TUNSIGNED8->Size(obj, node, width);
+}
+
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
+  const bool entry = is_entry(*obj);
+  const CO_ERR err = dict::check_type(*obj, *node, entry ? rules::heartbeat_consumer : rules::heartbeat_consumers);
+  if (!entry || err != CO_ERR_NONE) {
+    return err;
+  }
+  CO_HB_WATCH& watch = node->HbCons[CO_GET_SUB(obj->Key) - 1];
+  CO_HBCONS& cons = *data_of<CO_HBCONS>(*obj);
+  cons.Node = node;
+  watch = {&cons, 0, 0};
+  return start(*node, watch, cons.Time, cons.NodeId);
+}
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (!is_entry(*obj)) {
+    return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+  }
+  const CO_HBCONS* const cons = data_of<CO_HBCONS>(*obj);
+  if (cons == nullptr || size != sizeof(uint32_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const uint32_t value = cons->Time | (uint32_t{cons->NodeId} << 16);
+  __builtin_memcpy(buffer, &value, sizeof value);
+  return CO_ERR_NONE;
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (!is_entry(*obj)) {
+    return CO_TUNSIGNED8->Write(obj, node, buffer, size);
+  }
+  const CO_HBCONS* const cons = data_of<CO_HBCONS>(*obj);
+  uint32_t value = 0;
+  if (cons == nullptr || size != sizeof value) {
+    return CO_ERR_BAD_ARG;
+  }
+  __builtin_memcpy(&value, buffer, sizeof value);
+  return change(*node, *cons, static_cast<uint16_t>(value), static_cast<uint8_t>(value >> 16));
+}
+
+}  // namespace
+
+void on_mode_consumer(CO_NODE& node) {
+  if (event::is_allowed(node, CO_NMT_ALLOWED)) {
+    return;
+  }
+  for (CO_HB_WATCH& watch : node.HbCons) {
+    stop(node, watch);
+  }
+  tmr::stop(node.Tmr, node.HbConsTmr);
+}
+
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  if (frame.DLC != wire::error_control_dlc) {
+    return false;
+  }
+  CO_HB_WATCH& watch = node.HbCons[number - 1];
+  const int16_t state = wire::state_of(frame);
+  watch.Seen = tmr::now(node.Tmr);
+  if (state != watch.Cons->Tmr || state == wire::heartbeat_state(CO_INIT)) {
+    hear(node, *watch.Cons, state);
+  }
+  return true;
+}
+
+}  // namespace co::heartbeat
+
+using namespace co;
+
+extern "C" {
+
+const CO_OBJ_TYPE COTNmtHbCons = {heartbeat::size, heartbeat::init, heartbeat::read, heartbeat::write, nullptr};
+
+CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) {
+  ASSERT_PTR_ERR(hbc, CO_ERR_BAD_ARG);
+  ASSERT_PTR_ERR(hbc->Node, CO_ERR_BAD_ARG);
+  return heartbeat::change(*hbc->Node, *hbc, time, nodeid);
+}
+
+int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) {
+  ASSERT_PTR_FATAL_ERR(nmt, -1);
+  ASSERT_PTR_FATAL_ERR(nmt->Node, -1);
+  const CO_HB_WATCH* const watch = heartbeat::find(*nmt->Node, nodeId);
+  if (watch == nullptr) {
+    return -1;
+  }
+  const uint8_t events = watch->Cons->Event;
+  watch->Cons->Event = 0;
+  return events;
+}
+
+CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId) {
+  ASSERT_PTR_FATAL_ERR(nmt, CO_INVALID);
+  ASSERT_PTR_FATAL_ERR(nmt->Node, CO_INVALID);
+  const CO_HB_WATCH* const watch = heartbeat::find(*nmt->Node, nodeId);
+  return watch == nullptr ? CO_INVALID : watch->Cons->State;
+}
+
+}  // extern "C"
+
+#endif

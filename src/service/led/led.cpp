@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/led/led.hpp"
+
+#include "core/timer.hpp"
+
+#if USE_LED
+
+namespace co::led {
+namespace {
+
+constexpr uint16_t step = 50;         // ms, the shortest phase
+constexpr uint16_t all_over = 24000;  // ms, a multiple of every period
+
+// A number of flashes, each a phase long and followed by one that is dark, at the begin of a period.
+struct Pattern {
+  uint8_t phase;    // ms
+  uint8_t flashes;  // in a period
+  uint8_t period;   // phases
+};
+
+constexpr Pattern off = {200, 0, 1};
+constexpr Pattern on = {200, 1, 1};
+constexpr Pattern blinking = {200, 1, 2};
+constexpr Pattern flickering = {50, 1, 2};
+constexpr Pattern flashing(uint8_t flashes) { return {200, flashes, static_cast<uint8_t>(2 * flashes + 4)}; }
+
+constexpr bool is_steady(const Pattern& pattern) { return pattern.period == 1; }
+
+// late: phases by which the pattern begins later.
+bool is_lit(const Pattern& pattern, uint32_t ms, uint8_t late) {
+  const uint32_t phase = (ms / pattern.phase + pattern.period - late) % pattern.period;
+  return phase % 2 == 0 && phase < 2U * pattern.flashes;
+}
+
+// The first row that applies is shown.
+struct Row {
+  uint8_t what;
+  Pattern pattern;
+};
+
+constexpr Row run_rows[] = {{CO_LED_LSS, flickering}, {CO_LED_DOWNLOAD, flashing(3)}};
+constexpr Row error_rows[] = {
+    {CO_LED_BUS_OFF, on},          {CO_LED_LSS, flickering},      {CO_LED_PDO, flashing(4)}, {CO_LED_SYNC, flashing(3)},
+    {CO_LED_CONTROL, flashing(2)}, {CO_LED_WARNING, flashing(1)}, {CO_LED_CONFIG, blinking},
+};
+constexpr Pattern by_mode[CO_MODE_NUM] = {off, off, blinking, on, flashing(1)};
+
+template <size_t rows>
+Pattern find(const Row (&table)[rows], uint8_t what, const Pattern& otherwise) {
+  for (const Row& row : table) {
+    if ((row.what & what) != 0) {
+      return row.pattern;
+    }
+  }
+  return otherwise;
+}
+
+Pattern run_of(const CO_LED_STATE& state) {
+  return find(run_rows, state.What, state.Mode < CO_MODE_NUM ? by_mode[state.Mode] : off);
+}
+
+Pattern error_of(const CO_LED_STATE& state) { return find(error_rows, state.What, off); }
+
+uint8_t leds_at(const CO_LED_STATE& state, uint32_t ms) {
+  const bool green = is_lit(run_of(state), ms, 0);
+  const bool red = is_lit(error_of(state), ms, 1);
+  return static_cast<uint8_t>((green ? CO_LED_RUN : 0) | (red ? CO_LED_ERR : 0));
+}
+
+CO_LED_STATE state_of(const CO_NODE& node) {
+  const CO_LED& led = node.Led;
+  const unsigned faults =
+      (led.Control != 0 ? CO_LED_CONTROL : 0) | (led.Pdo != 0 ? CO_LED_PDO : 0) | (led.Sync != 0 ? CO_LED_SYNC : 0);
+  return {node.Nmt.Mode, static_cast<uint8_t>(faults | led.Can | led.Set)};
+}
+
+void show(CO_NODE& node, uint8_t leds) {
+  if (node.Led.Shown != leds) {
+    node.Led.Shown = leds;
+    COLedChange(&node, leds);
+  }
+}
+
+void tick(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  CO_LED& led = node.Led;
+  led.Phase = static_cast<uint16_t>((led.Phase + step) % all_over);
+  show(node, leds_at(state_of(node), led.Phase));
+}
+
+// Runs while there is something to be changed.
+void run_timer(CO_NODE& node, bool runs) {
+  CO_LED& led = node.Led;
+  const uint32_t ticks = tmr::ticks(node.Tmr, step, CO_TMR_UNIT_1MS);
+  if (!runs || ticks == 0) {
+    tmr::stop(node.Tmr, led.Tmr);
+  } else if (!tmr::is_running(led.Tmr)) {
+    led.Phase = 0;
+    tmr::start(node.Tmr, led.Tmr, 0, ticks, tick, &node);
+  }
+}
+
+void update(CO_NODE& node) {
+  if (node.Led.On == 0) {
+    return;
+  }
+  const CO_LED_STATE state = state_of(node);
+  run_timer(node, !is_steady(run_of(state)) || !is_steady(error_of(state)));
+  show(node, leds_at(state, node.Led.Phase));
+}
+
+void stop(CO_NODE& node) {
+  run_timer(node, false);
+  if (node.Led.On != 0) {
+    node.Led.On = 0;
+    show(node, 0);
+  }
+}
+
+uint16_t* counter_of(CO_LED& led, event::Fault fault) {
+  switch (fault) {
+    case event::Fault::heartbeat:
+    case event::Fault::life_guard: return &led.Control;
+    case event::Fault::sync_length: return &led.Sync;
+    case event::Fault::pdo_timeout: return &led.Pdo;
+    default: return nullptr;
+  }
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  CO_LED& led = node.Led;
+  led.Control = led.Pdo = led.Sync = 0;
+  led.Can = 0;
+  update(node);
+}
+
+void on_mode(CO_NODE& node) { node.Nmt.Mode == CO_INVALID ? stop(node) : update(node); }
+
+void report_can(CO_NODE& node, CO_CAN_EVENT what) {
+  switch (what) {
+    case CO_CAN_PASSIVE: node.Led.Can |= CO_LED_WARNING; break;
+    case CO_CAN_BUS_OFF: node.Led.Can |= CO_LED_BUS_OFF; break;
+    case CO_CAN_RECOVERED: node.Led.Can = 0; break;
+    default: return;
+  }
+  update(node);
+}
+
+void raise(CO_NODE& node, event::Fault fault) {
+  uint16_t* const counter = counter_of(node.Led, fault);
+  if (counter != nullptr) {
+    ++*counter;
+    update(node);
+  }
+}
+
+void resolve(CO_NODE& node, event::Fault fault) {
+  uint16_t* const counter = counter_of(node.Led, fault);
+  if (counter != nullptr && *counter != 0) {
+    --*counter;
+    update(node);
+  }
+}
+
+}  // namespace co::led
+
+using namespace co;
+
+extern "C" {
+
+uint8_t COLedPattern(const CO_LED_STATE* state, uint32_t ms) {
+  ASSERT_PTR_ERR(state, 0);
+  return led::leds_at(*state, ms);
+}
+
+void COLedStart(CO_NODE* node) {
+  constexpr uint8_t never = 0xFF;
+  ASSERT_PTR_FATAL(node);
+  if (node->Nmt.Mode == CO_INVALID || node->Led.On != 0) {
+    return;
+  }
+  node->Led.On = 1;
+  node->Led.Shown = never;
+  led::update(*node);
+}
+
+void COLedSet(CO_NODE* node, uint8_t what, bool on) {
+  ASSERT_PTR_FATAL(node);
+  CO_LED& led = node->Led;
+  led.Set = static_cast<uint8_t>(on ? led.Set | what : led.Set & ~what);
+  led::update(*node);
+}
+
+}  // extern "C"
+
+#endif

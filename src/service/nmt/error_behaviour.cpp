@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1029h: what the node does when it has lost the network. [301:7.5.2.32]
+#include "co_error_behaviour.h"
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "service/nmt/nmt.hpp"
+
+namespace co::nmt {
+namespace {
+
+uint8_t communication_error(CO_NODE& node) {
+  uint8_t behaviour = CO_ERROR_BEHAVIOUR_PREOP;
+  const CO_ERR err = CODictRdByte(&node.Dict, CO_DEV(0x1029, 1), &behaviour);
+  return err == CO_ERR_NONE ? behaviour : CO_ERROR_BEHAVIOUR_PREOP;
+}
+
+}  // namespace
+
+void lose_communication(CO_NODE& node) {
+  if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
+    return;
+  }
+  const uint8_t behaviour = communication_error(node);
+  if (behaviour == CO_ERROR_BEHAVIOUR_STOP) {
+    event::change_mode(node, CO_STOP);
+  } else if (behaviour != CO_ERROR_BEHAVIOUR_NONE && node.Nmt.Mode == CO_OPERATIONAL) {
+    event::change_mode(node, CO_PREOP);
+  }
+}
+
+}  // namespace co::nmt
+
+namespace {
+
+using namespace co;
+
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED8->Size(obj, node, width); }
+
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::error_behaviour); }
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size == sizeof(uint8_t) && *static_cast<const uint8_t*>(buffer) > CO_ERROR_BEHAVIOUR_STOP) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  return CO_TUNSIGNED8->Write(obj, node, buffer, size);
+}
+
+}  // namespace
+
+extern "C" const CO_OBJ_TYPE COTErrorBehaviour = {size, init, read, write, nullptr};

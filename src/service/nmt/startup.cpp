@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1F80h: self-start. [302-2]
+#include "co_nmt_startup.h"
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "service/nmt/nmt.hpp"
+
+namespace co::nmt {
+namespace {
+
+bool starts_itself(CO_NODE& node) {
+  uint32_t startup = 0;
+  return dict::read_u32(node.Dict, CO_DEV(0x1F80, 0), startup) == CO_ERR_NONE && (startup & CO_NMT_STARTUP_STAY) == 0;
+}
+
+}  // namespace
+
+// The first mode after Initialisation decides: if it is not Pre-operational, the application wants another.
+void on_mode(CO_NODE& node) {
+  CO_NMT& nmt = node.Nmt;
+  const bool first = nmt.Booting != 0;
+  nmt.Booting = nmt.Mode == CO_INIT ? 1 : 0;
+  if (first && nmt.Mode == CO_PREOP && starts_itself(node)) {
+    event::change_mode(node, CO_OPERATIONAL);
+  }
+}
+
+}  // namespace co::nmt
+
+namespace {
+
+using namespace co;
+
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
+
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::nmt_startup); }
+
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return CO_TUNSIGNED32->Read(obj, node, buffer, size);
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  uint32_t before = 0;
+  const CO_ERR err = read(obj, node, &before, size);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+  uint32_t value = 0;
+  __builtin_memcpy(&value, buffer, sizeof value);
+  if (((value ^ before) & ~uint32_t{CO_NMT_STARTUP_STAY}) != 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  return CO_TUNSIGNED32->Write(obj, node, buffer, size);
+}
+
+}  // namespace
+
+extern "C" const CO_OBJ_TYPE COTNmtStartup = {size, init, read, write, nullptr};

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
+#include "core/dict.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "object/cob_id.hpp"
+#include "service/pdo/configuration.hpp"
+#include "wire/cob_id.hpp"
+
+namespace {
+
+using namespace co;
+using pdo::Direction;
+
+constexpr uint32_t changeable_flags = CO_TPDO_COBID_OFF | CO_TPDO_COBID_REMOTE;
+
+bool is_tpdo(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) >= pdo::first_tpdo; }
+Direction direction_of(const CO_OBJ& obj) { return is_tpdo(obj) ? Direction::transmit : Direction::receive; }
+uint16_t number_of(const CO_OBJ& obj) { return CO_GET_IDX(obj.Key) & 0x01FFU; }
+uint16_t communication_of(const CO_OBJ& obj) {
+  return static_cast<uint16_t>((is_tpdo(obj) ? pdo::first_tpdo : pdo::first_rpdo) + number_of(obj));
+}
+
+// Of a PDO without the COB-ID in the dictionary it cannot be said.
+bool exists(CO_NODE& node, const CO_OBJ& obj) {
+  uint32_t cob_id = 0;
+  const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(communication_of(obj), 1), cob_id);
+  return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
+}
+
+void configure([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {
+#if CO_TPDO_N > 0
+  if (is_tpdo(obj)) {
+    pdo::configure_tpdo(node, number_of(obj));
+    routes::publish(node);
+    return;
+  }
+#endif
+#if CO_RPDO_N > 0
+  if (!is_tpdo(obj)) {
+    pdo::configure_rpdo(node, number_of(obj));
+    routes::publish(node);
+  }
+#endif
+}
+
+template <const CO_OBJ_TYPE& number>
+uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
+  return number.Size(obj, node, width);
+}
+
+template <const CO_OBJ_TYPE& number>
+CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return number.Read(obj, node, buffer, size);
+}
+
+template <const rules::Rule& rule>
+CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
+  return dict::check_type(*obj, *node, rule);
+}
+
+// The value before a write. False: it is not of this length, or cannot be read.
+template <class T>
+bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t size, T& before) {
+  return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
+}
+
+template <class T>
+T value_in(const void* buffer) {
+  T value;
+  __builtin_memcpy(&value, buffer, sizeof value);
+  return value;
+}
+
+// Sub 1 --------------------------------------------------------------------------------------------------------------
+
+// Bit 30 has no meaning for an RPDO.
+bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
+  const bool asked = USE_PDO_RTR == 0 && is_tpdo(obj) && ((value & changeable_flags) == 0);
+  const bool same = ((before ^ value) & ~CO_TPDO_COBID_REMOTE) == 0;
+  return !asked && (same || cob_id::may_replace(before, value));
+}
+
+CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint32_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const auto value = value_in<uint32_t>(buffer);
+  const bool is_new = !exists(*node, *obj) && (value & wire::cob_invalid) == 0;
+  CO_PDO_MAP map;
+  if (is_new && pdo::resolve(*node, direction_of(*obj), communication_of(*obj), map) != CO_ERR_NONE) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  uint32_t before = 0;
+  CO_ERR err = cob_id::read(obj, node, &before, size);
+  if (err == CO_ERR_NONE) {
+    err = cob_id::write(*obj, *node, buffer, size, may_replace);
+  }
+  if (err == CO_ERR_NONE && value != before) {
+    configure(*node, *obj);
+  }
+  return err;
+}
+
+// Sub 2 --------------------------------------------------------------------------------------------------------------
+
+CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  uint8_t before = 0;
+  if (!read_before(*obj, *node, COTInt8, size, before)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const auto value = value_in<uint8_t>(buffer);
+  if (!pdo::is_type(direction_of(*obj), value)) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  const CO_ERR err = COTInt8.Write(obj, node, buffer, size);
+  if (err == CO_ERR_NONE && value != before) {
+    configure(*node, *obj);
+  }
+  return err;
+}
+
+// Sub 3 and 6 --------------------------------------------------------------------------------------------------------
+
+template <class T, const CO_OBJ_TYPE& number, T highest>
+CO_ERR write_fixed(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  T before = 0;
+  if (!read_before(*obj, *node, number, size, before)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const T value = value_in<T>(buffer);
+  const bool changes = value != before && exists(*node, *obj);
+  return changes || value > highest ? CO_ERR_OBJ_RANGE : number.Write(obj, node, buffer, size);
+}
+
+// Sub 5 --------------------------------------------------------------------------------------------------------------
+
+CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint16_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const auto value = value_in<uint16_t>(buffer);
+  [[maybe_unused]] const uint32_t ticks = pdo::ticks(*node, value, CO_TMR_UNIT_1MS);
+  if (value != 0 && ticks == 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  const CO_ERR err = COTInt16.Write(obj, node, buffer, size);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+#if CO_TPDO_N > 0
+  if (is_tpdo(*obj)) {
+    pdo::change_event_time(*node, number_of(*obj), ticks);
+  }
+#endif
+#if CO_RPDO_N > 0
+  if (!is_tpdo(*obj)) {
+    pdo::change_deadline(*node, number_of(*obj), ticks);
+  }
+#endif
+  return CO_ERR_NONE;
+}
+
+// Mapping ------------------------------------------------------------------------------------------------------------
+
+CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint8_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (exists(*node, *obj)) {
+    return CO_ERR_OBJ_ACC;
+  }
+  CO_PDO_MAP map;
+  const CO_ERR err = pdo::resolve(*node, direction_of(*obj), CO_GET_IDX(obj->Key), value_in<uint8_t>(buffer), map);
+  uint8_t none = 0;
+  const CO_ERR stored = COTInt8.Write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
+  return err != CO_ERR_NONE ? err : stored;
+}
+
+CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint32_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  uint8_t num = 0;
+  const CO_ERR known = CODictRdByte(&node->Dict, CO_DEV(CO_GET_IDX(obj->Key), 0), &num);
+  if (exists(*node, *obj) || known != CO_ERR_NONE || num != 0) {
+    return CO_ERR_OBJ_ACC;
+  }
+  const auto value = value_in<uint32_t>(buffer);
+  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value);
+  return err == CO_ERR_NONE ? COTInt32.Write(obj, node, buffer, size) : err;
+}
+
+}  // namespace
+
+extern "C" {
+
+const CO_OBJ_TYPE COTPdoId = {cob_id::size, init<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
+const CO_OBJ_TYPE COTPdoType = {size<COTInt8>, init<rules::pdo_type>, read<COTInt8>, write_type, nullptr};
+const CO_OBJ_TYPE COTPdoInhibit = {size<COTInt16>, init<rules::pdo_inhibit>, read<COTInt16>,
+                                   write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};
+const CO_OBJ_TYPE COTPdoEvent = {size<COTInt16>, init<rules::pdo_event>, read<COTInt16>, write_event, nullptr};
+const CO_OBJ_TYPE COTPdoStart = {size<COTInt8>, init<rules::pdo_start>, read<COTInt8>,
+                                 write_fixed<uint8_t, COTInt8, pdo::last_synchronous_type>, nullptr};
+const CO_OBJ_TYPE COTPdoNum = {size<COTInt8>, init<rules::pdo_number>, read<COTInt8>, write_number, nullptr};
+const CO_OBJ_TYPE COTPdoMap = {size<COTInt32>, init<rules::pdo_mapping>, read<COTInt32>, write_mapping, nullptr};
+
+}  // extern "C"

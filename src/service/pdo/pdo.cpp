@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/pdo/pdo.hpp"
+
+// What is left of PDOs that are not configured.
+
+namespace co::pdo {
+
+#if CO_RPDO_N == 0
+void apply(CO_NODE&) {}
+void remap_rpdos(CO_NODE&) {}
+bool was_received(CO_NODE&, uint16_t) { return false; }
+bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
+#endif
+
+#if CO_TPDO_N == 0
+void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
+void end_window(CO_NODE& node) { node.WindowOver = 1; }
+void flush(CO_NODE&) {}
+void change_object(CO_NODE&, const CO_OBJ&) {}
+void settle_touched(CO_NODE&) {}
+void remap_tpdos(CO_NODE&) {}
+CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
+bool trigger_object(CO_NODE&, const CO_OBJ&) { return false; }
+bool was_sent(CO_NODE&, uint16_t) { return false; }
+bool was_sent(CO_NODE&, const CO_OBJ&) { return false; }
+#endif
+
+}  // namespace co::pdo
+
+using namespace co;
+
+extern "C" {
+
+void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
+  ASSERT_PTR_FATAL(tpdo);
+  ASSERT_PTR_FATAL(tpdo->Node);
+  const CO_ERR err = COTPdoRequest(tpdo->Node, num);
+  if (err != CO_ERR_NONE) {
+    tpdo->Node->Error = err;
+  }
+}
+
+void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
+  ASSERT_PTR_FATAL(tpdo);
+  ASSERT_PTR_FATAL(tpdo->Node);
+  if (obj == nullptr || CO_IS_PDOMAP(obj->Key) == 0 || !pdo::trigger_object(*tpdo->Node, *obj)) {
+    tpdo->Node->Error = CO_ERR_TPDO_OBJ_TRIGGER;
+  }
+}
+
+CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  return num < CO_TPDO_N ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
+}
+
+bool CORPdoWasReceived(CO_NODE* node, uint16_t num) {
+  return node != nullptr && num < CO_RPDO_N && pdo::was_received(*node, num);
+}
+
+bool COTPdoWasSent(CO_NODE* node, uint16_t num) {
+  return node != nullptr && num < CO_TPDO_N && pdo::was_sent(*node, num);
+}
+
+bool CORPdoObjWasReceived(CO_NODE* node, const CO_OBJ* obj) {
+  return node != nullptr && obj != nullptr && pdo::was_received(*node, *obj);
+}
+
+bool COTPdoObjWasSent(CO_NODE* node, const CO_OBJ* obj) {
+  return node != nullptr && obj != nullptr && pdo::was_sent(*node, *obj);
+}
+
+}  // extern "C"

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/sync/sync.hpp"
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "object/cob_id.hpp"
+#include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
+
+#if USE_SYNC
+
+namespace co::sync {
+namespace {
+
+using event::Fault;
+
+constexpr uint32_t microseconds = 1000000;
+constexpr uint16_t cycle_index = 0x1006;
+constexpr uint8_t lowest_overflow = 2;
+constexpr uint8_t highest_overflow = 240;
+constexpr uint32_t producer = CO_SYNC_COBID_ON;
+
+uint32_t read(CO_NODE& node, uint16_t index) {
+  uint32_t value = 0;
+  return dict::read_u32(node.Dict, CO_DEV(index, 0), value) == CO_ERR_NONE ? value : 0;
+}
+
+uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr, time, microseconds); }
+
+void end_window(void* node_pointer) { event::end_sync_window(*static_cast<CO_NODE*>(node_pointer)); }
+
+void take(CO_NODE& node, uint8_t counter) {
+  if (node.Sync.Window != 0) {
+    tmr::start(node.Tmr, node.Sync.WindowTmr, node.Sync.Window, 0, end_window, &node);
+  }
+  event::sync(node, counter);
+}
+
+// What callbacks ask for waits until the SYNC has been taken.
+void produce(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  CO_SYNC& sync = node.Sync;
+  const bool counted = sync.Overflow != 0;
+  sync.Counter = static_cast<uint8_t>(!counted || sync.Counter >= sync.Overflow ? 0 : sync.Counter);
+  sync.Counter = static_cast<uint8_t>(sync.Counter + (counted ? 1 : 0));
+  CO_IF_FRM frame = wire::empty_frame(sync.Identifier, counted ? 1 : 0);
+  frame.Data[0] = sync.Counter;
+  const uint8_t busy = node.Busy;
+  node.Busy = 1;
+  transmit::send_latest(node, frame);
+  take(node, sync.Counter);
+  node.Busy = busy;
+  event::settle(node);
+}
+
+// The first SYNC comes after a period. The counter goes on where only the period has changed.
+void run_producer(CO_NODE& node) {
+  CO_SYNC& sync = node.Sync;
+  const uint32_t period = ticks(node, read(node, cycle_index));
+  if (sync.Produces == 0 || period == 0 || !event::is_allowed(node, CO_SYNC_ALLOWED)) {
+    tmr::stop(node.Tmr, sync.Tmr);
+    return;
+  }
+  tmr::start(node.Tmr, sync.Tmr, 0, period, produce, &node);
+}
+
+// Reported until a SYNC has the right length.
+void check_length(CO_NODE& node, bool right) {
+  CO_SYNC& sync = node.Sync;
+  if (!right && sync.Wrong == 0) {
+    sync.Wrong = 1;
+    event::raise(node, Fault::sync_length, 0);
+  } else if (right && sync.Wrong != 0) {
+    sync.Wrong = 0;
+    event::resolve(node, Fault::sync_length, 0);
+  }
+}
+
+void configure(CO_NODE& node) {
+  CO_SYNC& sync = node.Sync;
+  const uint32_t cob_id = read(node, 0x1005) & ~wire::cob_invalid;
+  const bool usable = wire::is_usable(cob_id);
+  sync.Identifier = usable ? wire::frame_id(cob_id) : wire::no_frame;
+  sync.Produces = usable && (cob_id & producer) != 0 ? 1 : 0;
+  routes::change(node, sync.Identifier, routes::Service::sync, 0);
+  run_producer(node);
+}
+
+// Objects ------------------------------------------------------------------------------------------------------------
+
+template <const rules::Rule& rule>
+CO_ERR init_object(CO_OBJ* obj, CO_NODE* node) {
+  return dict::check_type(*obj, *node, rule);
+}
+
+uint32_t size_long(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
+CO_ERR read_long(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return CO_TUNSIGNED32->Read(obj, node, buffer, size);
+}
+
+// A producer keeps its CAN-ID; it may become a consumer.
+bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+  constexpr uint32_t own_bits = ~(producer | wire::cob_invalid);
+  const bool same = ((before ^ value) & own_bits) == 0;
+  return same || ((before & producer) == 0 && cob_id::is_free(value));
+}
+
+CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const CO_ERR err = size == sizeof(uint32_t) ? cob_id::write(*obj, *node, buffer, size, may_replace) : CO_ERR_BAD_ARG;
+  if (err == CO_ERR_NONE) {
+    configure(*node);
+    routes::publish(*node);
+  }
+  return err;
+}
+
+CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  uint32_t value = 0;
+  if (size != sizeof value) {
+    return CO_ERR_BAD_ARG;
+  }
+  __builtin_memcpy(&value, buffer, sizeof value);
+  const uint32_t time = ticks(*node, value);
+  if (value != 0 && time == 0) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  const CO_ERR err = CO_TUNSIGNED32->Write(obj, node, buffer, size);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+  if (CO_GET_IDX(obj->Key) == cycle_index) {
+    run_producer(*node);
+  } else {
+    node->Sync.Window = time;
+  }
+  return CO_ERR_NONE;
+}
+
+uint32_t size_byte(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED8->Size(obj, node, width); }
+CO_ERR read_byte(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  return CO_TUNSIGNED8->Read(obj, node, buffer, size);
+}
+
+CO_ERR write_counter(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != sizeof(uint8_t)) {
+    return CO_ERR_BAD_ARG;
+  }
+  const uint8_t value = *static_cast<const uint8_t*>(buffer);
+  if (value != 0 && (value < lowest_overflow || value > highest_overflow)) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  if (value != node->Sync.Overflow && read(*node, cycle_index) != 0) {
+    return CO_ERR_OBJ_STATE;
+  }
+  const CO_ERR err = CO_TUNSIGNED8->Write(obj, node, buffer, size);
+  if (err == CO_ERR_NONE && value != node->Sync.Overflow) {
+    node->Sync.Overflow = value;
+    node->Sync.Counter = 0;
+  }
+  return err;
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  CO_SYNC& sync = node.Sync;
+  uint8_t overflow = 0;
+  sync.Counter = 0;
+  sync.Wrong = 0;
+  sync.Window = ticks(node, read(node, 0x1007));
+  sync.Overflow = CODictRdByte(&node.Dict, CO_DEV(0x1019, 0), &overflow) == CO_ERR_NONE ? overflow : 0;
+  tmr::stop(node.Tmr, sync.WindowTmr);
+  configure(node);
+}
+
+void on_mode(CO_NODE& node) {
+  if (!event::is_allowed(node, CO_SYNC_ALLOWED)) {
+    tmr::stop(node.Tmr, node.Sync.Tmr);
+    tmr::stop(node.Tmr, node.Sync.WindowTmr);
+    transmit::withdraw(node, node.Sync.Identifier);
+    node.Sync.Counter = 0;
+  } else if (!tmr::is_running(node.Sync.Tmr)) {
+    run_producer(node);
+  }
+}
+
+// A producer hears nobody else. [301:7.2.5.1]
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
+  if (node.Sync.Produces != 0) {
+    return false;
+  }
+  const bool right = frame.DLC == (node.Sync.Overflow != 0 ? 1 : 0);
+  check_length(node, right);
+  take(node, right ? frame.Data[0] : static_cast<uint8_t>(0));
+  return right;
+}
+
+}  // namespace co::sync
+
+extern "C" {
+
+const CO_OBJ_TYPE COTSyncId = {co::cob_id::size, co::sync::init_object<co::rules::sync_cob_id>, co::cob_id::read,
+                               co::sync::write_id, nullptr};
+const CO_OBJ_TYPE COTSyncCycle = {co::sync::size_long, co::sync::init_object<co::rules::sync_cycle>,
+                                  co::sync::read_long, co::sync::write_cycle, nullptr};
+const CO_OBJ_TYPE COTSyncCount = {co::sync::size_byte, co::sync::init_object<co::rules::sync_counter>,
+                                  co::sync::read_byte, co::sync::write_counter, nullptr};
+
+}  // extern "C"
+
+#endif

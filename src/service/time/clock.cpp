@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock. It is a time of the past and the ticks of that moment; what has passed since is counted in seconds, which
+// are a whole number of ticks.
+#include "core/timer.hpp"
+#include "service/time/time.hpp"
+#include "wire/time.hpp"
+
+#if USE_TIME
+
+namespace co::time {
+namespace {
+
+CO_TIME_OF_DAY later(const CO_TIME_OF_DAY& time, uint32_t days, uint32_t ms) {
+  CO_TIME_OF_DAY sum = {time.Ms + ms, static_cast<uint16_t>(time.Days + days)};
+  if (sum.Ms >= wire::ms_per_day) {
+    sum.Ms -= wire::ms_per_day;
+    ++sum.Days;
+  }
+  return sum;
+}
+
+// Up to now, but for a part of a second. Returns the ticks of that part.
+uint32_t carry_on(CO_NODE& node) {
+  constexpr uint32_t seconds_per_day = wire::ms_per_day / 1000;
+  CO_TIME& time = node.Time;
+  const uint32_t passed = tmr::now(node.Tmr) - time.Tick;
+  const uint32_t seconds = passed / node.Tmr.Freq;
+  const uint32_t ticks = seconds * node.Tmr.Freq;
+  time.Past = later(time.Past, seconds / seconds_per_day, seconds % seconds_per_day * 1000);
+  time.Tick += ticks;
+  return passed - ticks;
+}
+
+void carry_on(void* node_pointer) { carry_on(*static_cast<CO_NODE*>(node_pointer)); }
+
+// Of less than a second. Digit by digit, because 1000 times the ticks may be more than 32 bits.
+uint32_t ms_of(uint32_t ticks, uint32_t freq) {
+  uint32_t ms = 0;
+  for (uint8_t digit = 0; digit < 3; ++digit) {
+    ticks *= 10;
+    ms = ms * 10 + ticks / freq;
+    ticks %= freq;
+  }
+  return ms;
+}
+
+}  // namespace
+
+bool is_set(const CO_NODE& node) { return tmr::is_running(node.Time.Tmr); }
+
+CO_TIME_OF_DAY read_clock(CO_NODE& node) {
+  if (!is_set(node)) {
+    return {0, 0};
+  }
+  const uint32_t ticks = carry_on(node);
+  return later(node.Time.Past, 0, ms_of(ticks, node.Tmr.Freq));
+}
+
+CO_ERR set_clock(CO_NODE& node, const CO_TIME_OF_DAY& time) {
+  const uint32_t second = node.Tmr.Freq;
+  if (!wire::is_time_of_day(time)) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (node.Nmt.Mode == CO_INVALID) {
+    return CO_ERR_NMT_MODE;
+  }
+  if (second == 0) {
+    return CO_ERR_TMR_CREATE;
+  }
+  tmr::start(node.Tmr, node.Time.Tmr, 0, second, carry_on, &node);
+  node.Time.Past = time;
+  node.Time.Tick = tmr::now(node.Tmr);
+  return CO_ERR_NONE;
+}
+
+void stop_clock(CO_NODE& node) { tmr::stop(node.Tmr, node.Time.Tmr); }
+
+}  // namespace co::time
+
+using namespace co;
+
+extern "C" {
+
+CO_ERR COTimeSet(CO_NODE* node, const CO_TIME_OF_DAY* time) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  ASSERT_PTR_ERR(time, CO_ERR_BAD_ARG);
+  return time::set_clock(*node, *time);
+}
+
+CO_ERR COTimeGet(CO_NODE* node, CO_TIME_OF_DAY* time) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  ASSERT_PTR_ERR(time, CO_ERR_BAD_ARG);
+  *time = time::read_clock(*node);
+  return time::is_set(*node) ? CO_ERR_NONE : CO_ERR_OBJ_NO_DATA;
+}
+
+}  // extern "C"
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1012h, and the clock as an object.
+#include "core/dict.hpp"
+#include "core/routes.hpp"
+#include "object/cob_id.hpp"
+#include "service/time/time.hpp"
+#include "wire/time.hpp"
+
+#if USE_TIME
+
+namespace {
+
+using namespace co;
+
+// COB-ID TIME. [301:7.5.2.15]
+
+CO_ERR init_id(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::time_cob_id); }
+
+bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
+  constexpr uint32_t exists = CO_TIME_COBID_CONSUME | CO_TIME_COBID_PRODUCE;
+  if ((before & exists) != 0) {
+    return ((before ^ value) & ~exists) == 0;
+  }
+  return value == before || cob_id::is_free(value);
+}
+
+CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
+  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
+    time::init(*node);
+    routes::publish(*node);
+  }
+  return err;
+}
+
+// The clock lies nowhere: what is read and written are the bytes of the message.
+
+uint32_t size(CO_OBJ*, CO_NODE*, uint32_t) { return wire::time_bytes; }
+
+CO_ERR read(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != wire::time_bytes) {
+    return CO_ERR_BAD_ARG;
+  }
+  auto* const to = static_cast<uint8_t*>(buffer);
+  wire::put_time(to, time::read_clock(*node));
+  wire::swap_host(to, wire::time_bytes);
+  return CO_ERR_NONE;
+}
+
+CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size != wire::time_bytes) {
+    return CO_ERR_BAD_ARG;
+  }
+  uint8_t from[wire::time_bytes];
+  __builtin_memcpy(from, buffer, sizeof from);
+  wire::swap_host(from, sizeof from);
+  const CO_TIME_OF_DAY time = wire::get_time(from);
+  return wire::is_time_of_day(time) ? time::set_clock(*node, time) : CO_ERR_OBJ_RANGE;
+}
+
+}  // namespace
+
+extern "C" {
+
+const CO_OBJ_TYPE COTTimeId = {cob_id::size, init_id, cob_id::read, write_id, nullptr};
+const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
+
+}  // extern "C"
+
+#endif

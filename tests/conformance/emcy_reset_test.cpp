@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the resets leave of emergencies. [301:7.3.2.2.1]
+#include "support/emcy_fixture.hpp"
+
+#if USE_EMCY
+
+namespace {
+
+using namespace test;
+using co::event::Fault;
+
+// Errors of both kinds, and messages that wait.
+void disturb(EmcyNode& node) {
+  node.set(current);
+  node.set(hot);
+  node.raise(Fault::heartbeat, 3);
+  node.raise(Fault::overrun);
+  node.can_event(CO_CAN_PASSIVE);
+  node.trace();
+  CHECK(node.error_register() == 0x1B);
+}
+
+TEST_CASE(
+    "EMCY: reset node takes back all errors without a message, and empties 1003h [N6] [EMCY 02] [EMCY 03] [T14]") {
+  for (const std::uint16_t inhibit : {std::uint16_t{0}, std::uint16_t{100}}) {
+    CAPTURE(inhibit);
+    const EmcyNode fresh(Setup().emergencies(errors_of_device()), inhibit);
+    EmcyNode node(Setup().emergencies(errors_of_device()), inhibit);
+    disturb(node);
+    node.rx("000#8101");
+    node.tx("701#00");
+    CHECK(node.error_register() == 0);
+    CHECK(node.errors().empty());
+    CHECK(COEmcyCnt(&node->Emcy) == 0);
+    CHECK(node.difference(fresh) == "");
+    node.after(10s);
+    node.silent();
+    node.set(current);
+    node.tx("081#0020030000000000");
+    CHECK(node.errors() == std::vector<std::uint32_t>{0x2000});
+  }
+}
+
+TEST_CASE("EMCY: reset communication takes back the errors of the stack; those of the application stay [D46] [N6]") {
+  EmcyNode node;
+  disturb(node);
+  const std::vector<std::uint32_t> errors = node.errors();
+  CHECK(errors == std::vector<std::uint32_t>{0x8120, 0x8110, 0x8130, 0x4000});
+  node.rx("000#8201");
+  node.tx("701#00");
+  CHECK(node.error_register() == 0x0B);
+  CHECK(COEmcyCnt(&node->Emcy) == 2);
+  CHECK(node.errors() == errors);
+  node.after(10s);
+  node.silent();
+  CHECK(node.armed_timers() == 0);
+  node.ask("601#4001100000000000", "581#4F0110000B000000");
+  node.set(current);
+  node.silent();
+  node.clr(current);
+  node.tx("081#0000090000000000");
+  node.clr(hot);
+  node.tx("081#0000000000000000");
+  node.resolve(Fault::heartbeat, 3);
+  node.can_event(CO_CAN_RECOVERED);
+  node.silent();
+}
+
+TEST_CASE("EMCY: messages that wait for the inhibit time do not survive a reset, and it begins anew [T14] [N4]") {
+  for (const std::string reset : {"000#8101", "000#8201"}) {
+    CAPTURE(reset);
+    EmcyNode node(Setup().emergencies(errors_of_device()), 10000);
+    node.set(current);
+    node.tx("081#0020030000000000");
+    node.set(hot);
+    node.set(no_disk);
+    node.rx(reset);
+    node.tx("701#00");
+    CHECK(node.counters().Dropped == 2);
+    CHECK(node.armed_timers() == 0);
+    node.set(general);
+    node.tx(reset == "000#8101" ? "081#0010010000000000" : "081#00108B0000000000");
+    node.after(10s);
+    node.silent();
+  }
+}
+
+TEST_CASE("EMCY: a reset that the application asks for is no different") {
+  EmcyNode node;
+  disturb(node);
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.tx("701#00");
+  CHECK(node.error_register() == 0x0B);
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
+  node.tx("701#00");
+  CHECK(node.error_register() == 0);
+  CHECK(node.errors().empty());
+}
+
+TEST_CASE("EMCY: after CONodeInit nothing is left, whatever was before") {
+  EmcyNode node;
+  disturb(node);
+  node.call([&] { CONodeStop(&node.node); });
+  node.set(no_disk);
+  node.silent();
+  node.init_again();
+  CHECK(node.error_register() == 0);
+  CHECK(COEmcyCnt(&node->Emcy) == 0);
+  CHECK(node.errors().empty());
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  node.after(10s);
+  node.silent();
+}
+
+TEST_CASE("EMCY: an error that the application finds in CONmtResetRequest is sent after the boot-up [N4]") {
+  EmcyNode node;
+  callbacks().reset_request = [&](CO_NMT*, CO_NMT_RESET) { COEmcySet(&node->Emcy, hot, nullptr); };
+  node.rx("000#8101");
+  node.tx({"701#00", "081#0040090000000000"});
+}
+
+TEST_CASE("EMCY: a history that has got another length is empty after the next reset") {
+  EmcyNode node;
+  disturb(node);
+  node.find(0x1003, 4)->Type = CO_TUNSIGNED32;
+  node.rx("000#8201");
+  node.tx("701#00");
+  std::uint8_t number = 0xFF;
+  CHECK(CODictRdByte(&node->Dict, CO_DEV(0x1003, 0), &number) == CO_ERR_NONE);
+  CHECK(number == 0);
+  node.set(no_disk);
+  node.tx("081#00FF8B0000000000");
+  node.ask("601#4003100100000000", "581#4303100100FF0000");
+}
+
+TEST_CASE("EMCY: calls after an initialisation that failed are harmless") {
+  EmcyNode node(
+      Setup().emergencies(errors_of_device()).with({CO_KEY(0x1FFF, 0, CO_OBJ_____R_), nullptr, 0}).stay_in_init());
+  CHECK(node.error() == CO_ERR_DICT_INIT);
+  node.set(current);
+  CHECK(COEmcyGet(&node->Emcy, current) == 1);
+  node.clr(current);
+  node.call([&] { COEmcyReset(&node->Emcy, 0); });
+  node.call([&] { COEmcyHistReset(&node->Emcy); });
+  node.can_event(CO_CAN_OVERRUN);
+  node.silent();
+  CHECK(callbacks().fatal_errors == 0);
+}
+
+}  // namespace
+
+#endif

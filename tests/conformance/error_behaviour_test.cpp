@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1029h, error behaviour: what the node does when it has lost the network. [301:7.5.2.32]
+#include "support/monitor.hpp"
+
+namespace {
+
+using namespace test;
+
+constexpr CO_CAN_EVENT bus_off = CO_CAN_BUS_OFF;
+
+struct Behaviour {
+  explicit Behaviour(std::uint8_t communication, Setup setup = {})
+      : value(communication),
+        node(setup.with({CO_KEY(0x1029, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 2})
+                 .with({CO_KEY(0x1029, 1, CO_OBJ_____RW), CO_TERROR_BEHAVIOUR, &value})
+                 .with({CO_KEY(0x1029, 2, CO_OBJ_D___RW), CO_TERROR_BEHAVIOUR, 0})) {}
+  std::uint8_t value;
+  Fixture node;
+};
+
+void lose(Fixture& node) {
+  node.call([&] { CONodeCanEvent(&node.node, bus_off); });
+  node.trace();
+}
+
+// The state after bus-off.
+CO_MODE after_bus_off(std::uint8_t behaviour, const char* state) {
+  Behaviour device(behaviour);
+  device.node.rx(state);
+  lose(device.node);
+  return device.node.mode();
+}
+
+TEST_CASE("1029h: from every state, with every value [B1] [B2] [State 03]") {
+  constexpr const char* preop = "000#8001";
+  constexpr const char* operational = "000#0101";
+  constexpr const char* stop = "000#0201";
+  CHECK(after_bus_off(0, preop) == CO_PREOP);
+  CHECK(after_bus_off(0, operational) == CO_PREOP);
+  CHECK(after_bus_off(0, stop) == CO_STOP);
+  CHECK(after_bus_off(1, preop) == CO_PREOP);
+  CHECK(after_bus_off(1, operational) == CO_OPERATIONAL);
+  CHECK(after_bus_off(1, stop) == CO_STOP);
+  CHECK(after_bus_off(2, preop) == CO_STOP);
+  CHECK(after_bus_off(2, operational) == CO_STOP);
+  CHECK(after_bus_off(2, stop) == CO_STOP);
+}
+
+TEST_CASE("1029h: without the object, and with a value of the table that is none, as 0 [B1]") {
+  Fixture node;
+  node.rx("000#0101");
+  lose(node);
+  CHECK(node.mode() == CO_PREOP);
+  CHECK(after_bus_off(3, "000#0101") == CO_PREOP);
+  CHECK(after_bus_off(255, "000#0101") == CO_PREOP);
+}
+
+TEST_CASE("1029h: a node that initialises or is stopped keeps its state [B1]") {
+  for (std::uint8_t behaviour = 0; behaviour < 3; ++behaviour) {
+    Behaviour device(behaviour, Setup().stay_in_init());
+    lose(device.node);
+    CHECK(device.node.mode() == CO_INIT);
+    device.node.call([&] { CONodeStop(&device.node.node); });
+    lose(device.node);
+    CHECK(device.node.mode() == CO_INVALID);
+  }
+}
+
+TEST_CASE("1029h: every value of every sub-index: 0, 1 and 2 are accepted [B1] [B2]") {
+  Behaviour device(0, Setup().only_small());
+  Fixture& node = device.node;
+  for (const char sub : {'1', '2'}) {
+    for (unsigned value = 0; value < 256; ++value) {
+      CAPTURE(value);
+      CO_IF_FRM request = frame(std::string("601#2F29100") + sub + "00000000");
+      request.Data[4] = static_cast<std::uint8_t>(value);
+      node.rx(request);
+      node.tx(std::string(value < 3 ? "581#6029100" : "581#8029100") + sub + (value < 3 ? "00000000" : "30000906"));
+      node.ask(std::string("601#4029100") + sub + "00000000", std::string("581#4F29100") + sub +
+                                                                  (value == 0   ? "00"
+                                                                   : value == 1 ? "01"
+                                                                                : "02") +
+                                                                  "000000");
+    }
+  }
+}
+
+TEST_CASE("1029h: a written value counts for the next loss") {
+  Behaviour device(0);
+  Fixture& node = device.node;
+  node.rx("000#0101");
+  node.ask("601#2F29100101000000", "581#6029100100000000");
+  lose(node);
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.ask("601#2F29100102000000", "581#6029100100000000");
+  lose(node);
+  CHECK(node.mode() == CO_STOP);
+}
+
+TEST_CASE("1029h: the other classes are the application's [B2]") {
+  Behaviour device(1);
+  device.node.ask("601#2F29100202000000", "581#6029100200000000");
+  device.node.rx("000#0101");
+  lose(device.node);
+  CHECK(device.node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("1029h: the application may choose another state in CONmtModeChange [Q9]") {
+  Behaviour device(0);
+  Fixture& node = device.node;
+  node.rx("000#0101");
+  callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == CO_PREOP) CONmtSetMode(nmt, CO_OPERATIONAL);
+  };
+  lose(node);
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("1029h: only there, and one byte") {
+  Behaviour device(0);
+  device.node.ask("601#2B29100100000000", "581#8029100112000706");
+  std::uint16_t two = 0x0505;
+  CHECK(COObjWrValue(device.node.find(0x1029, 1), &device.node.node, &two, sizeof two) == CO_ERR_BAD_ARG);
+  Fixture wrong(Setup().with({CO_KEY(0x102A, 1, CO_OBJ_D___RW), CO_TERROR_BEHAVIOUR, 0}).stay_in_init());
+  CHECK(wrong.error() == CO_ERR_DICT_INIT);
+  CHECK(CODictGetFault(&wrong->Dict, nullptr) == CO_DICT_WRONG_PLACE);
+}
+
+#if CO_HBCONS_N > 0
+
+TEST_CASE("1029h: heartbeats of two nodes missing: a reaction each, none while they stay away [B2]") {
+  Monitor node({{5, 100}, {6, 150}});
+  node.rx("000#0101");
+  node.rx("705#05");
+  node.rx("706#05");
+  node.record.clear();
+  node.after(100ms);
+  node.told("mode PREOP, 5 missing");
+  node.emergency("081#3081110000050000");
+  node.rx("000#0101");
+  node.after(50ms);
+  node.told("mode OPERATIONAL, mode PREOP, 6 missing");
+  node.emergency("081#3081110000060000");
+  node.rx("000#0101");
+  node.record.clear();
+  node.after(1000ms);
+  CHECK(node.mode() == CO_OPERATIONAL);
+  CHECK(node.record.size() == 10 + 6);
+  node.record.clear();
+  node.silent();
+}
+
+TEST_CASE("1029h: a missing heartbeat is reported before the node is stopped [B1] [N9]") {
+  Monitor node({{5, 100}}, Setup().with({CO_KEY(0x1029, 1, CO_OBJ_D___R_), CO_TERROR_BEHAVIOUR, 2}));
+  node.rx("705#05");
+  node.after(100ms);
+  node.emergency("081#3081110000050000");
+  node.told("5 OPERATIONAL, mode STOP, 5 missing");
+}
+
+#endif
+
+}  // namespace

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heartbeat consumer: times of several nodes, clocks, late loops, and drivers without a clock. [301:7.2.8.3.2.2]
+#include <chrono>
+#include <string>
+
+#include "support/monitor.hpp"
+#include "support/plain_drivers.hpp"
+
+#if CO_HBCONS_N > 0
+
+namespace {
+
+using namespace test;
+
+constexpr const char* five_missing = "081#3081110000050000";
+
+TEST_CASE("heartbeat consumer: several nodes, each with its time") {
+  Monitor node({{5, 100}, {6, 250}, {127, 70}});
+  node.rx("705#05");
+  node.rx("706#05");
+  node.rx("77F#05");
+  node.told("5 OPERATIONAL, 6 OPERATIONAL, 127 OPERATIONAL");
+  node.after(70ms);
+  node.told("127 missing");
+  node.emergency("081#30811100007F0000");
+  node.after(30ms);
+  node.told("5 missing");
+  node.emergency(five_missing);
+  node.after(150ms);
+  node.told("127 missing, 5 missing, 127 missing, 6 missing");
+  node.emergency("081#3081110000060000");
+  node.rx("706#05");
+  node.emergency("081#0000110000060000");
+  node.rx("705#05");
+  node.emergency("081#0000110000050000");
+  node.rx("77F#05");
+  node.emergency("081#00000000007F0000");
+  node.told("6 OPERATIONAL, 5 OPERATIONAL, 127 OPERATIONAL");
+}
+
+TEST_CASE("heartbeat consumer: a new node with a shorter time is not waited for too long") {
+  Monitor node({{5, 1000}, {6, 10}});
+  node.rx("705#05");
+  node.after(100ms);
+  node.rx("706#05");
+  node.told("5 OPERATIONAL, 6 OPERATIONAL");
+  node.after(9ms);
+  node.told("");
+  node.after(1ms);
+  node.told("6 missing");
+  node.emergency("081#3081110000060000");
+  node.after(890ms);
+  node.record.erase(node.record.begin(), node.record.begin() + 88);
+  node.told("5 missing, 6 missing");  // at 1000 ms both
+  node.emergency(five_missing);
+}
+
+TEST_CASE("heartbeat consumer: a late loop tells a missing node once, and keeps the phase of the periods [Q8]") {
+  Monitor node({{5, 100}});
+  node.rx("705#05");
+  node.jump(1050ms);
+  node.told("5 OPERATIONAL, 5 missing");
+  node.emergency(five_missing);
+  CHECK(CONmtGetHbEvents(&node->Nmt, 5) == 1);
+  node.after(49ms);
+  node.told("");
+  node.after(1ms);
+  node.told("5 missing");
+}
+
+TEST_CASE("heartbeat consumer: a heartbeat that is processed before the late timer counts [Q8]") {
+  Monitor node({{5, 100}});
+  node.rx("705#05");
+  node.elapse_only(120ms);
+  node.can.to_node.push_back(frame("705#05"));
+  node.call([&] {
+    CONodeProcess(&node.node);
+    COTmrProcess(&node->Tmr);
+  });
+  node.told("5 OPERATIONAL");
+  node.after(99ms);
+  node.told("");
+}
+
+TEST_CASE("heartbeat consumer: times of 1 ms and of 65535 ms") {
+  Monitor node({{5, 1}, {6, 65535}});
+  node.rx("706#05");
+  node.after(65534ms);
+  node.rx("705#05");
+  node.told("6 OPERATIONAL, 5 OPERATIONAL");
+  node.after(1ms);
+  node.told("5 missing, 6 missing");
+#if USE_EMCY
+  node.tx({five_missing, "081#3081110000060000"});
+#endif
+}
+
+TEST_CASE("heartbeat consumer: the same at every start of the clock and at every rate of it [T15]") {
+  for (const std::uint32_t rate : {1000U, 1000000U}) {
+    std::vector<std::string> first;
+    for (const std::uint32_t start : clock_starts) {
+      Monitor node({{5, 100}, {6, 130}}, Setup().clock(start).rate(rate));
+      std::vector<std::string> trace;
+      const auto note = [&](const std::string& what) {
+        const std::uint64_t us = node.now() * 1000000 / rate;
+        trace.push_back(std::to_string(us) + " " + what);
+      };
+      callbacks().heartbeat_event = [&](CO_NMT*, std::uint8_t id) { note("missing " + std::to_string(id)); };
+      callbacks().heartbeat_change = [&](CO_NMT*, std::uint8_t id, CO_MODE) { note("changed " + std::to_string(id)); };
+      for (int round = 0; round < 30; ++round) {
+        node.rx(round % 3 == 0 ? "706#05" : "705#05");
+        node.after(std::chrono::milliseconds{20 + 13 * (round % 9)});
+        for (const std::string& frm : node.trace()) note(frm);
+      }
+      first = first.empty() ? trace : first;
+      CHECK(trace == first);
+    }
+    CHECK(first.size() > 20);
+  }
+}
+
+TEST_CASE("heartbeat consumer: it needs no timer of the application's pool, nor an alarm of the driver") {
+  for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
+    Monitor node({{5, 100}}, Setup().timers(0).wake(wake));
+    node.rx("705#05");
+    node.after(99ms);
+    node.told("5 OPERATIONAL");
+    node.after(1ms);
+    node.told("5 missing");
+    node.emergency(five_missing);
+    CHECK(node.error() == CO_ERR_NONE);
+  }
+}
+
+// A heartbeat of node 5 at the driver without context.
+bool beat_waits = false;
+std::int16_t read_beat(CO_IF_FRM* frm) {
+  if (!beat_waits) return 0;
+  beat_waits = false;
+  *frm = CO_IF_FRM{0x705, {0x05}, 1};
+  return sizeof *frm;
+}
+
+TEST_CASE("heartbeat consumer: drivers without context, whose timer has no clock, cyclic and tickless") {
+  for (const bool cyclic : {true, false}) {
+    CAPTURE(cyclic);
+    CO_HBCONS entry{nullptr, nullptr, (CO_MODE)0, 0, 100, 5, 0};
+    PlainNode device(cyclic, {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, &entry});
+    CO_IF_CAN_DRV can = *device.drivers.Can;
+    can.Read = read_beat;
+    device.drivers.Can = &can;
+    const auto beat = [&] {
+      beat_waits = true;
+      CONodeProcess(&device.node);
+    };
+    device.ticks(1000);
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 0);
+    for (int round = 0; round < 50; ++round) {
+      beat();
+      device.ticks(99);
+    }
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 0);
+    device.tick();
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 1);
+    device.ticks(1000);
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 10);
+    device.ticks(50);
+    beat();
+    device.ticks(99);
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 0);
+    device.tick();
+    CHECK(CONmtGetHbEvents(&device.node.Nmt, 5) == 1);
+    CONodeStop(&device.node);
+  }
+}
+
+}  // namespace
+
+#endif

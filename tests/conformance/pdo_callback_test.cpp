@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// COPdoTransmit(), which may call the API. [Q9]
+#include "support/pdo_commands.hpp"
+
+#if CO_TPDO_N > 1 && CO_RPDO_N > 1
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("PDO callback: COPdoTransmit sees each TPDO and may change it") {
+  SyncNode node(asynchronous());
+  node.start();
+  std::vector<std::string> seen;
+  callbacks().pdo_transmit = [&](CO_IF_FRM* frm) {
+    seen.push_back(notation(*frm));
+    CO_SET_BYTE(frm, 0xEE, 0);
+    CO_SET_BYTE(frm, 0xFF, 1);
+    CO_SET_DLC(frm, 2);
+  };
+  node.trigger(0);
+  node.trigger(1);
+  node.tx({"181#EEFF", "281#EEFF"});
+  CHECK(seen == std::vector<std::string>{"181#31", "281#41"});
+}
+
+TEST_CASE("PDO callback: COPdoTransmit may trigger other TPDOs [Q9]") {
+  SyncNode node(asynchronous());
+  node.start();
+  callbacks().pdo_transmit = [&](CO_IF_FRM* frm) {
+    if (CO_GET_ID(frm) == 0x181) COTPdoTrigPdo(node->TPdo, 1);
+  };
+  node.trigger(0);
+  std::vector<std::string> sent = node.frames();
+  std::sort(sent.begin(), sent.end());
+  CHECK(sent == std::vector<std::string>{"181#31", "281#41"});
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that triggers the PDO that is being sent ends [Q9]") {
+  SyncTable table = asynchronous();
+  table.tpdo[0].inhibit = 100;
+  SyncNode node(table);
+  node.start();
+  unsigned depth = 0;
+  unsigned deepest = 0;
+  unsigned calls = 0;
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+    deepest = std::max(deepest, ++depth);
+    if (++calls < 100) COTPdoTrigPdo(node->TPdo, 0);
+    --depth;
+  };
+  node.trigger(0);
+  CHECK(deepest <= 2);
+  node.after(100ms);
+  CHECK(node.frames().size() <= 12);
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that changes an object of the PDO (flag A) does not recurse without end [Q9]") {
+  SyncTable table;
+  table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x22110108}).inhibit = 100;
+  SyncNode node(table);
+  node.start();
+  unsigned calls = 0;
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+    if (++calls < 100) CODictWrByte(&node->Dict, CO_DEV(0x2211, 1), static_cast<std::uint8_t>(calls));
+  };
+  node.trigger(0);
+  CHECK(calls <= 2);
+  node.frames();
+  node.after(100ms);
+  CHECK(node.frames().size() <= 12);
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that leaves Operational: this PDO and all others end there [Q9] [N3]") {
+  for (const std::string& what : commands) {
+    CAPTURE(what);
+    SyncTable table = asynchronous();
+    table.tpdo[0].event = 100;
+    table.tpdo[0].inhibit = 50;
+    SyncNode node(table);
+    node.start();
+    callbacks().pdo_transmit = [&](CO_IF_FRM*) { command(node, what); };
+    node.trigger(0);
+    CHECK(pdos(node.frames()) == 0);
+    check_left(node);
+  }
+}
+
+TEST_CASE("PDO callback: the same in the event timer's turn [Q9] [N3]") {
+  for (const std::string& what : commands) {
+    CAPTURE(what);
+    SyncTable table = asynchronous();
+    table.tpdo[0].event = 100;
+    SyncNode node(table);
+    node.start();
+    callbacks().pdo_transmit = [&](CO_IF_FRM*) { command(node, what); };
+    node.after(100ms);
+    CHECK(pdos(node.frames()) == 0);
+    check_left(node);
+  }
+}
+
+TEST_CASE("PDO callback: the same at a SYNC, of which the rest is not sent either [Q9] [N3]") {
+  for (const std::string& what : commands) {
+    if (what.compare(0, 5, "reset") == 0) {
+      continue;  // a reset waits until the SYNC has been taken
+    }
+    CAPTURE(what);
+    SyncNode node(table_of(1));
+    node.start();
+    unsigned calls = 0;
+    callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+      ++calls;
+      command(node, what);
+    };
+    node.rx("080#");
+    CHECK(pdos(node.frames()) == 0);
+    CHECK(calls == 1);
+    check_left(node);
+  }
+}
+
+TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a SYNC comes after all of it [Q9]") {
+  SyncNode node(table_of(1));
+  node.start();
+  node.rx("201#55");
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) { command(node, "reset communication"); };
+  node.rx("080#");
+  node.tx({"181#31", "281#41", "701#00"});
+  CHECK(node.u8[0] == 0x55);
+  check_left(node);
+}
+
+TEST_CASE("PDO callback: the same at a SYNC of its own [Q9] [Y9]") {
+  SyncTable table = table_of(1);
+  table.sync_id = 0x40000080;
+  table.cycle = 10000;
+  SyncNode node(table);
+  node.start();
+  node.rx("201#55");
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) { command(node, "reset communication"); };
+  node.after(10ms);
+  node.tx({"080#", "181#31", "281#41", "701#00"});
+  CHECK(node.u8[0] == 0x55);
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that switches the PDO off [Q9]") {
+  SyncTable table = asynchronous();
+  table.tpdo[0].event = 100;
+  SyncNode node(table);
+  node.start();
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) { CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0xC0000181); };
+  node.may_change(0x1800, 1);
+  node.trigger(0);
+  CHECK(pdos(node.frames()) == 0);
+  CHECK(node.armed_timers() == 0);
+  check_left(node);
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that gives the PDO another identifier: nothing is sent under the old one [Q9]") {
+  SyncNode node(asynchronous());
+  node.may_change(0x1800, 1);
+  node.start();
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+    CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0xC0000191);
+    CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0x40000191);
+  };
+  CHECK(node.request(0) == CO_ERR_TPDO_COM_OBJ);
+  node.silent();
+  callbacks().pdo_transmit = nullptr;
+  node.trigger(0);
+  node.tx("191#31");
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that makes the PDO anew in the event timer's turn leaves one timer [Q9] [D38]") {
+  for (const std::uint16_t inhibit : std::initializer_list<std::uint16_t>{0, 20, 200}) {
+    SyncTable table = asynchronous();
+    table.tpdo[0].event = 10;
+    table.tpdo[0].inhibit = inhibit;
+    SyncNode node(table);
+    node.may_change(0x1800, 1);
+    node.start();
+    unsigned calls = 0;
+    callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+      ++calls;
+      CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0xC0000181);
+      CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0x40000181);
+    };
+    node.after(100ms);
+    CHECK(calls >= 5);
+    CHECK(calls <= 10);
+    CHECK(node.armed_timers() == 1);
+    callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+      CONmtSetMode(&node->Nmt, CO_PREOP);
+      CONmtSetMode(&node->Nmt, CO_OPERATIONAL);
+    };
+    node.after(100ms);
+    CHECK(node.armed_timers() == 1);
+    node.frames();
+  }
+}
+
+TEST_CASE("PDO callback: COPdoTransmit that switches PDOs at a SYNC off and on ends, and sends the others [Q9]") {
+  SyncNode node(table_of(1));
+  node.may_change(0x1800, 1);
+  node.may_change(0x1801, 1);
+  node.start();
+  unsigned calls = 0;
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) {
+    REQUIRE(++calls < 100);
+    CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0xC0000181);
+    CODictWrLong(&node->Dict, CO_DEV(0x1801, 1), 0xC0000281);
+    CODictWrLong(&node->Dict, CO_DEV(0x1801, 1), 0x40000281);
+    CODictWrLong(&node->Dict, CO_DEV(0x1800, 1), 0x40000181);
+  };
+  node.rx("080#");
+  node.frames();
+  callbacks().pdo_transmit = nullptr;
+  node.rx("080#");
+  node.tx({"181#31", "281#41"});
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1400h:1 and 1800h:1, the COB-ID of a PDO. [301:7.5.2.35, 7.5.2.37]
+#include "support/pdo_fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+/// RPDO 0 on 201h writes 2201h:1, TPDO 0 on 181h holds 2202h:1; both exist.
+PdoTable both_on() {
+  PdoTable table;
+  table.rpdo[0].on(0x201, 255, {0x22010108});
+  table.tpdo[0].on(0x40000181, 254, {0x22020110});
+  return table;
+}
+
+/// The same, with bit 31 set in both.
+PdoTable both_off() {
+  PdoTable table = both_on();
+  table.rpdo[0].cob_id |= 0x80000000;
+  table.tpdo[0].cob_id |= 0x80000000;
+  return table;
+}
+
+constexpr std::uint32_t abort_range = 0x06090030;
+
+bool is_accepted(const PdoNode& node, std::uint32_t id) {
+  const std::vector<std::uint32_t>& filter = node.can.filter;
+  return std::find(filter.begin(), filter.end(), id) != filter.end();
+}
+
+TEST_CASE("PDO COB-ID: 1400h:1 and 1800h:1 of every PDO are read [P1] [PDO 01] [PDO 02]") {
+  PdoNode node;
+  node.ask("601#4000140100000000", "581#4300140101020080");
+  node.ask("601#4000180100000000", "581#43001801810100C0");
+  for (unsigned n = 0; n < fixture_rpdos; ++n) {
+    CHECK(node.get(static_cast<std::uint16_t>(0x1400 + n), 1) == 0x80000201 + n * 0x100);
+  }
+  for (unsigned n = 0; n < fixture_tpdos; ++n) {
+    CHECK(node.get(static_cast<std::uint16_t>(0x1800 + n), 1) == 0xC0000181 + n * 0x100);
+  }
+}
+
+TEST_CASE("PDO COB-ID: it is 4 bytes long [D5]") {
+  PdoNode node;
+  CHECK(node.set(0x1400, 1, 2, 0x0201) == 0x06070013);
+  CHECK(node.set(0x1800, 1, 1, 0x81) == 0x06070013);
+  CHECK(node.download(0x1400, 1, Bytes(5)) == 0x06070012);
+  CHECK(node.rpdo[0].cob_id == 0x80000201);
+}
+
+TEST_CASE("PDO COB-ID: a PDO that is switched on in Pre-operational works in Operational [P1]") {
+  PdoNode node(both_off());
+  node.ask("601#2300140101020000", "581#6000140100000000");
+  node.ask("601#2300180181010040", "581#6000180100000000");
+  node.rx("201#2A");
+  node.silent();
+  CHECK(node.u8[0] == 0x11);
+  node.start();
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x2A);
+  node.trigger(0);
+  node.tx("181#1112");
+}
+
+TEST_CASE(
+    "PDO COB-ID: a PDO that is switched on in Operational works at once, and one switched off stops at once [P1]") {
+  PdoNode node(both_off());
+  node.start();
+  CHECK_FALSE(is_accepted(node, 0x201));
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x11);
+  for (int times = 0; times < 3; ++times) {
+    node.ask("601#2300140101020000", "581#6000140100000000");
+    node.rx("201#2B");
+    CHECK(node.u8[0] == 0x2B);
+    CHECK(is_accepted(node, 0x201));
+    node.ask("601#2300140101020080", "581#6000140100000000");
+    node.rx("201#2C");
+    CHECK(node.u8[0] == 0x2B);
+    CHECK_FALSE(is_accepted(node, 0x201));
+
+    node.ask("601#2300180181010040", "581#6000180100000000");
+    node.trigger(0);
+    node.tx("181#1112");
+    node.ask("601#23001801810100C0", "581#6000180100000000");
+    node.trigger(0);
+    node.silent();
+  }
+}
+
+TEST_CASE("PDO COB-ID: a PDO works on the identifier that it was switched on with, and on no other [P1]") {
+  PdoNode node(both_off());
+  node.start();
+  CHECK(node.set(0x1400, 1, 4, 0x80000333) == 0);
+  CHECK(node.set(0x1400, 1, 4, 0x333) == 0);
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x11);
+  node.rx("333#2B");
+  CHECK(node.u8[0] == 0x2B);
+  CHECK(node.set(0x1800, 1, 4, 0x40000480) == 0);
+  node.trigger(0);
+  node.tx("480#1112");
+}
+
+TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the RPDO exists: 0609 0030h [P2]") {
+  PdoNode node(both_on());
+  node.start();
+  node.ask("601#2300140102020000", "581#8000140130000906");
+  for (unsigned bit = 0; bit < 30; ++bit) {
+    CAPTURE(bit);
+    CHECK(node.set(0x1400, 1, 4, 0x201U ^ 1U << bit) == abort_range);
+  }
+  CHECK(node.get(0x1400, 1) == 0x201);
+  node.rx("202#2A");
+  CHECK(node.u8[0] == 0x11);
+  node.rx("201#2B");
+  CHECK(node.u8[0] == 0x2B);
+}
+
+TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the TPDO exists: 0609 0030h [P2]") {
+  PdoNode node(both_on());
+  node.start();
+  node.ask("601#2300180182010040", "581#8000180130000906");
+  for (unsigned bit = 0; bit < 30; ++bit) {
+    CAPTURE(bit);
+    CHECK(node.set(0x1800, 1, 4, 0x40000181U ^ 1U << bit) == abort_range);
+  }
+  CHECK(node.get(0x1800, 1) == 0x40000181);
+  node.trigger(0);
+  node.tx("181#1112");
+}
+
+TEST_CASE("PDO COB-ID: the value that is there may be written while the PDO exists [P3]") {
+  PdoNode node(both_on());
+  node.start();
+  node.ask("601#2300140101020000", "581#6000140100000000");
+  node.ask("601#2300180181010040", "581#6000180100000000");
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x2A);
+  node.trigger(0);
+  node.tx("181#1112");
+}
+
+TEST_CASE("PDO COB-ID: bit 31 may be set together with another identifier [P3]") {
+  PdoNode node(both_on());
+  node.start();
+  node.ask("601#2300140134020080", "581#6000140100000000");
+  node.ask("601#4000140100000000", "581#4300140134020080");
+  node.ask("601#23001801FFFFFFFF", "581#6000180100000000");
+  node.ask("601#4000180100000000", "581#43001801FFFFFFFF");
+  node.rx("201#2A");
+  node.rx("234#2A");
+  CHECK(node.u8[0] == 0x11);
+  node.trigger(0);
+  node.silent();
+}
+
+TEST_CASE("PDO COB-ID: bits 11 to 28 without bit 29 are refused where the PDO shall exist: 0609 0030h [P4]") {
+  PdoNode node(both_off());
+  node.ask("601#2300140101120000", "581#8000140130000906");
+  for (unsigned bit = 11; bit < 29; ++bit) {
+    CAPTURE(bit);
+    CHECK(node.set(0x1400, 1, 4, 0x201U | 1U << bit) == abort_range);
+    CHECK(node.set(0x1800, 1, 4, 0x40000181U | 1U << bit) == abort_range);
+  }
+  CHECK(node.get(0x1400, 1) == 0x80000201);
+  CHECK(node.get(0x1800, 1) == 0xC0000181);
+}
+
+TEST_CASE("PDO COB-ID: an RPDO with bit 29 receives 29-bit frames only [P1] [P4]") {
+  PdoNode node(both_off());
+  node.start();
+  node.ask("601#2300140145230120", "581#6000140100000000");
+  for (const char* foreign : {"345#2A", "00010345#2A", "10012345#2A", "201#2A"}) {
+    node.rx(foreign);
+  }
+  CHECK(node.u8[0] == 0x11);
+  node.rx("00012345#2B");
+  CHECK(node.u8[0] == 0x2B);
+}
+
+TEST_CASE("PDO COB-ID: a 29-bit identifier below 800h is not the 11-bit one of the same value [P1] [P4]") {
+  PdoTable table = both_off();
+  table.rpdo[0].cob_id = 0x20000201;
+  PdoNode node(table);
+  node.start();
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x11);
+  node.rx("00000201#2B");
+  CHECK(node.u8[0] == 0x2B);
+  CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
+  CHECK(node.set(0x1400, 1, 4, 0x201) == 0);
+  node.rx("00000201#2C");
+  CHECK(node.u8[0] == 0x2B);
+  node.rx("201#2D");
+  CHECK(node.u8[0] == 0x2D);
+}
+
+TEST_CASE("PDO COB-ID: a TPDO with bit 29 sends 29-bit frames [P1] [P4]") {
+  PdoNode node(both_off());
+  node.start();
+  node.ask("601#23001801FFFFFF7F", "581#6000180100000000");
+  node.trigger(0);
+  node.tx("1FFFFFFF#1112");
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  node.ask("601#2300180181010060", "581#6000180100000000");
+  node.trigger(0);
+  node.tx("00000181#1112");
+}
+
+TEST_CASE("PDO COB-ID: bit 30 means nothing in an RPDO, and reads back [P4]") {
+  PdoNode node(both_off());
+  node.start();
+  node.ask("601#2300140101020040", "581#6000140100000000");
+  node.ask("601#4000140100000000", "581#4300140101020040");
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x2A);
+  node.ask("601#2300140101020000", "581#6000140100000000");
+  node.rx("201#2B");
+  CHECK(node.u8[0] == 0x2B);
+  node.ask("601#2300140102020040", "581#8000140130000906");
+}
+
+#if USE_PDO_RTR
+
+TEST_CASE("PDO COB-ID: bit 30 of a TPDO may be changed while it exists, and takes effect at once [P2]") {
+  PdoNode node(both_on());
+  node.start();
+  for (int times = 0; times < 3; ++times) {
+    node.rx("181#R");
+    node.silent();
+    node.ask("601#2300180181010000", "581#6000180100000000");
+    node.ask("601#4000180100000000", "581#4300180181010000");
+    CHECK(is_accepted(node, 0x181));
+    node.rx("181#R");
+    node.tx("181#1112");
+    node.ask("601#2300180181010040", "581#6000180100000000");
+    CHECK_FALSE(is_accepted(node, 0x181));
+  }
+}
+
+TEST_CASE("PDO COB-ID: without bit 30 a TPDO answers remote requests, with it none [P4] [X11] [X13]") {
+  PdoNode node(both_off());
+  node.start();
+  CHECK(node.set(0x1800, 1, 4, 0x181) == 0);
+  node.rx("181#R");
+  node.tx("181#1112");
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  node.rx("181#R");
+  node.silent();
+  CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
+  node.rx("181#R");
+  node.silent();
+}
+
+#else
+
+TEST_CASE("PDO COB-ID: a node that knows no remote requests refuses a TPDO without bit 30: 0609 0030h [P4]") {
+  PdoNode node(both_off());
+  CHECK(node.set(0x1800, 1, 4, 0x181) == abort_range);
+  CHECK(node.get(0x1800, 1) == 0xC0000181);
+  CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
+  CHECK(node.set(0x1800, 1, 4, 0x181) == abort_range);
+}
+
+#endif
+
+TEST_CASE("PDO COB-ID: a PDO without mapping cannot be switched on: 0609 0030h [P6]") {
+  PdoNode node;
+  node.start();
+  node.ask("601#2300140101020000", "581#8000140130000906");
+  node.ask("601#2300180181010040", "581#8000180130000906");
+  CHECK(node.get(0x1400, 1) == 0x80000201);
+  CHECK(node.get(0x1800, 1) == 0xC0000181);
+  node.rx("201#2A");
+  node.trigger(0);
+  node.silent();
+}
+
+TEST_CASE("PDO COB-ID: a PDO whose mapping was taken away cannot be switched on again: 0609 0030h [P6]") {
+  PdoNode node(both_on());
+  CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
+  CHECK(node.set(0x1600, 0, 1, 0) == 0);
+  CHECK(node.set(0x1400, 1, 4, 0x201) == abort_range);
+  CHECK(node.set(0x1600, 0, 1, 1) == 0);
+  CHECK(node.set(0x1400, 1, 4, 0x201) == 0);
+}
+
+TEST_CASE("PDO COB-ID: a TPDO that does not exist is not sent, under no identifier [D36]") {
+  PdoNode node(both_off());
+  node.start();
+  node.trigger(0);
+  CHECK(node.error() == CO_ERR_TPDO_COM_OBJ);
+  CHECK(node.request(0) == CO_ERR_TPDO_COM_OBJ);
+  node.silent();
+}
+
+TEST_CASE("PDO COB-ID: PDOs that no entry describes do not exist, and nothing is sent at 000h [D36]") {
+  PdoNode node({}, [](Setup& setup) {
+    for (std::uint8_t sub = 0; sub <= CO_PDO_MAP_N; ++sub) {
+      setup.without(0x1400, sub).without(0x1800, sub).without(0x1600, sub).without(0x1A00, sub);
+    }
+  });
+  CHECK(node.error() == CO_ERR_NONE);
+  node.start();
+  node.trigger(0);
+  CHECK(node.error() == CO_ERR_TPDO_COM_OBJ);
+  node.rx("000#2A");
+  node.rx("201#2A");
+  node.rx("00000000#2A");
+  node.silent();
+}
+
+TEST_CASE("PDO COB-ID: the entry may hold the value itself [P1]") {
+  PdoNode node(both_on(), [](Setup& setup) {
+    setup.with({CO_KEY(0x1400, 1, CO_OBJ_DN__RW), CO_TPDO_ID, 0x80000300});
+    setup.with({CO_KEY(0x1800, 1, CO_OBJ_DN__R_), CO_TPDO_ID, CO_COBID_TPDO_DEFAULT(0)});
+  });
+  node.start();
+  CHECK(node.get(0x1400, 1) == 0x80000301);
+  CHECK(node.get(0x1800, 1) == 0x40000181);
+  node.trigger(0);
+  node.tx("181#1112");
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0x06010002);
+  CHECK(node.set(0x1400, 1, 4, 0x301) == 0);
+  node.rx("301#2A");
+  CHECK(node.u8[0] == 0x2A);
+}
+
+TEST_CASE("PDO COB-ID: after a reset communication the configuration is that of the dictionary again") {
+  PdoNode node(both_on());
+  node.start();
+  node.rpdo[0].cob_id = 0x234;
+  node.tpdo[0].cob_id = 0x40000567;
+  node.rx("201#2A");
+  CHECK(node.u8[0] == 0x2A);
+  node.rx("000#8201");
+  node.tx("701#00");
+  node.start();
+  node.rx("201#2B");
+  CHECK(node.u8[0] == 0x2A);
+  node.rx("234#2C");
+  CHECK(node.u8[0] == 0x2C);
+  node.trigger(0);
+  node.tx("567#1112");
+  CHECK(is_accepted(node, 0x234));
+  CHECK_FALSE(is_accepted(node, 0x201));
+}
+
+TEST_CASE("PDO COB-ID: the rules hold for the application as well [P2] [P6]") {
+  PdoNode node(both_on());
+  node.may_change(0x1400, 1);
+  const auto write = [&](std::uint32_t value) {
+    CO_ERR err = CO_ERR_NONE;
+    node.call([&] { err = CODictWrLong(&node->Dict, CO_DEV(0x1400, 1), value); });
+    return err;
+  };
+  CHECK(write(0x202) == CO_ERR_OBJ_RANGE);
+  CHECK(write(0x80000202) == CO_ERR_NONE);
+  CHECK(write(0x101) == CO_ERR_OBJ_RANGE);
+  CHECK(write(0x202) == CO_ERR_NONE);
+  node.start();
+  node.rx("202#2A");
+  CHECK(node.u8[0] == 0x2A);
+}
+
+#if CO_RPDO_N >= 4
+
+TEST_CASE("PDO COB-ID: RPDOs with one identifier all get its frames, until they are switched off") {
+  PdoTable table;
+  for (unsigned n = 0; n < 4; ++n) {
+    table.rpdo[n].on(0x222, 255, {0x22010008U | (n + 1) << 8});
+  }
+  PdoNode node(table);
+  node.start();
+  node.rx("222#A1");
+  for (unsigned n = 0; n < 4; ++n) {
+    CHECK(node.u8[n] == 0xA1);
+  }
+  CHECK(node.set(0x1402, 1, 4, 0x80000222) == 0);
+  node.rx("222#A2");
+  CHECK(node.u8[0] == 0xA2);
+  CHECK(node.u8[1] == 0xA2);
+  CHECK(node.u8[2] == 0xA1);
+  CHECK(node.u8[3] == 0xA2);
+  CHECK(is_accepted(node, 0x222));
+}
+
+#endif
+
+}  // namespace

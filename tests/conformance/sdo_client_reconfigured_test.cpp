@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// SDO client: callbacks that write the client's own COB-IDs and go on with them. [301:7.5.2.34]
+#include <algorithm>
+
+#include "support/sdo_client_fixture.hpp"
+
+#if USE_CSDO
+
+namespace {
+
+using namespace test;
+
+// Client 0 waits for an answer at 585h.
+class Waiting : public SdoClient {
+ public:
+  Waiting() {
+    may_change(0x1280, 1);
+    may_change(0x1280, 2);
+    start_upload(0x2000, 5, 28);
+    tx("605#4000200500000000");
+  }
+  void switch_off(std::uint8_t sub) { CHECK(CODictWrLong(&node.Dict, CO_DEV(0x1280, sub), 0x80000000) == CO_ERR_NONE); }
+  void write(std::uint8_t sub, std::uint32_t cob_id) {
+    switch_off(sub);  // a valid CAN-ID is not changed
+    CHECK(CODictWrLong(&node.Dict, CO_DEV(0x1280, sub), cob_id) == CO_ERR_NONE);
+  }
+  void move_to(std::uint32_t tx_id, std::uint32_t rx_id) {
+    write(1, tx_id);
+    write(2, rx_id);
+  }
+};
+
+// The transfer under way is answered under 586h, and not under 585h.
+void check_is_answered_at_586(SdoClient& node) {
+  node.goes_on();
+  node.rx("585#4F00200511000000");
+  node.goes_on();
+  node.rx("586#4F00200522000000");
+  node.has_read({0x22});
+  node.silent();
+}
+
+// What ends the transfer, and what is sent for that.
+struct End {
+  const char* what;
+  void (*happens)(Waiting& node);
+  std::vector<std::string> sent;
+  std::uint32_t code;
+};
+
+const std::vector<End>& all_ends() {
+  static const std::vector<End> all = {
+      {"written over the network",
+       [](Waiting& node) { node.rx("601#2380120100000080"); },
+       {"581#6080120100000000", "605#8000200522000008"},
+       CO_SDO_ERR_TOS_STATE},
+      {"written by the application",
+       [](Waiting& node) { node.call([&] { node.switch_off(2); }); },
+       {"605#8000200522000008"},
+       CO_SDO_ERR_TOS_STATE},
+      {"time-out", [](Waiting& node) { node.after(1000ms); }, {"605#8000200500000405"}, CO_SDO_ERR_TIMEOUT},
+      {"abort of the server", [](Waiting& node) { node.rx("585#8000200520000008"); }, {}, CO_SDO_ERR_TOS},
+      {"cancelled", [](Waiting& node) { node.cancel(); }, {"605#8000200521000008"}, CO_SDO_ERR_TOS_LOCAL},
+  };
+  return all;
+}
+
+TEST_CASE("SDO client: the callback writes the client's COB-IDs: what was written last holds, however it came there") {
+  for (const End& end : all_ends()) {
+    CAPTURE(std::string(end.what));
+    Waiting node;
+    node.on_end = [&](const ClientEnd&) { node.move_to(0x606, 0x586); };
+    end.happens(node);
+    CHECK(node.frames() == end.sent);
+    node.ended(end.code);
+    node.on_end = nullptr;
+    CHECK(node.csdo()->State == CO_CSDO_STATE_IDLE);
+    CHECK(std::count(node.can.filter.begin(), node.can.filter.end(), 0x586U) == (CO_CSDO_N >= 2 ? 2 : 1));
+    node.start_upload(0x2000, 5, 4);
+    node.tx("606#4000200500000000");
+    check_is_answered_at_586(node);
+  }
+}
+
+TEST_CASE(
+    "SDO client: the callback writes the client's COB-IDs and starts a request: it goes out there, none is lost") {
+  for (const End& end : all_ends()) {
+    CAPTURE(std::string(end.what));
+    Waiting node;
+    node.on_end = [&](const ClientEnd&) {
+      node.on_end = nullptr;
+      node.move_to(0x606, 0x586);
+      CHECK(node.try_upload(0x2000, 5, 4) == CO_ERR_NONE);
+    };
+    end.happens(node);
+    std::vector<std::string> sent = end.sent;
+    sent.emplace_back("606#4000200500000000");
+    CHECK(node.frames() == sent);
+    node.ended(end.code);
+    CHECK(node.is_watched());
+    check_is_answered_at_586(node);
+  }
+}
+
+TEST_CASE("SDO client: a request that the callback starts under new COB-IDs has its time-out, at those") {
+  Waiting node;
+  node.on_end = [&](const ClientEnd&) {
+    node.on_end = nullptr;
+    node.move_to(0x606, 0x586);
+    CHECK(node.try_download(0x2001, 0, counted(5), 100) == CO_ERR_NONE);
+  };
+  node.rx("601#2380120100000080");
+  node.tx({"581#6080120100000000", "605#8000200522000008", "606#2101200005000000"});
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  node.after(100ms);
+  node.tx("606#8001200000000405");
+  node.ended(CO_SDO_ERR_TIMEOUT);
+}
+
+TEST_CASE("SDO client: the callback starts a request and then writes the COB-IDs: that transfer is told, too") {
+  Waiting node;
+  node.on_end = [&](const ClientEnd&) {
+    node.on_end = [&](const ClientEnd&) { node.on_end = nullptr; };
+    node.write(1, 0x605);
+    CHECK(node.try_upload(0x2001, 0, 4) == CO_ERR_NONE);
+    node.move_to(0x606, 0x586);
+  };
+  node.rx("601#2380120100000080");
+  node.tx({"581#6080120100000000", "605#8000200522000008", "605#4001200000000000", "605#8001200022000008"});
+  REQUIRE(node.ends.size() == 2);
+  for (const std::uint16_t index : {std::uint16_t{0x2000}, std::uint16_t{0x2001}}) {
+    CHECK(node.ends.front().index == index);
+    CHECK(node.ends.front().code == CO_SDO_ERR_TOS_STATE);
+    node.ends.pop_front();
+  }
+  node.start_upload(0x2000, 5, 4);
+  node.tx("606#4000200500000000");
+  check_is_answered_at_586(node);
+}
+
+TEST_CASE("SDO client: transfers that end with their COB-IDs again and again have a callback each, without recursion") {
+  Waiting node;
+  unsigned ended = 0;
+  unsigned depth = 0;
+  node.on_end = [&](const ClientEnd& end) {
+    CHECK(end.code == CO_SDO_ERR_TOS_STATE);
+    CHECK(++depth == 1);
+    if (++ended < 50) {
+      node.write(1, 0x605);
+      CHECK(node.try_upload(0x2000, 5, 4) == CO_ERR_NONE);
+      node.write(1, 0x606);
+    }
+    --depth;
+  };
+  node.rx("601#2380120100000080");
+  CHECK(ended == 50);
+  CHECK(node.ends.size() == 50);
+  node.ends.clear();
+  const std::vector<std::string> sent = node.frames();
+  CHECK(sent.size() == 1 + 50 + 49);
+  for (std::size_t n = 1; n < sent.size(); ++n) {
+    CHECK(sent[n] == (n % 2 == 1 ? "605#8000200522000008" : "605#4000200500000000"));
+  }
+  CHECK(node.csdo()->State == CO_CSDO_STATE_IDLE);
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("SDO client: without new COB-IDs the callback of a client that is switched off can start nothing") {
+  Waiting node;
+  CO_ERR err = CO_ERR_NONE;
+  node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };
+  node.rx("601#2380120100000080");
+  CHECK(err == CO_ERR_SDO_OFF);
+  node.tx({"581#6080120100000000", "605#8000200522000008"});
+  node.ended(CO_SDO_ERR_TOS_STATE);
+  CHECK(node.csdo()->State == CO_CSDO_STATE_INVALID);
+}
+
+#if CO_CSDO_N >= 2
+
+TEST_CASE("SDO client: the callback of one client switches another off: each transfer is aborted and told once") {
+  Waiting node;
+  node.may_change(0x1281, 1);
+  node.start_upload(0x2001, 0, 4, 1000, 1);
+  node.tx("606#4001200000000000");
+  node.on_end = [&](const ClientEnd&) {
+    node.on_end = nullptr;
+    CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1281, 1), 0x80000606) == CO_ERR_NONE);
+  };
+  node.rx("601#2380120100000080");
+  node.tx({"581#6080120100000000", "605#8000200522000008", "606#8001200022000008"});
+  node.ended(CO_SDO_ERR_TOS_STATE, 0);
+  node.ended(CO_SDO_ERR_TOS_STATE, 1);
+  CHECK(node.armed_timers() == 0);
+}
+
+#endif
+
+}  // namespace
+
+#endif

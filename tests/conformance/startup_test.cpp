@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1F80h, NMT startup: does the node enter Operational by itself? [302-2] [U1]
+#include "support/fixture.hpp"
+
+namespace {
+
+using namespace test;
+
+struct Startup {
+  explicit Startup(std::uint32_t startup, Setup setup = {})
+      : value(startup), node(setup.with({CO_KEY(0x1F80, 0, CO_OBJ_____RW), CO_TNMT_STARTUP, &value})) {}
+  std::uint32_t value;
+  Fixture node;
+};
+
+TEST_CASE("self-start: bit 2 of 1F80h = 0: Operational after boot-up; 1, or no object: Pre-operational [U1]") {
+  CHECK(Startup(0).node.mode() == CO_OPERATIONAL);
+  CHECK(Startup(4).node.mode() == CO_PREOP);
+  CHECK(Fixture().mode() == CO_PREOP);
+  CHECK(Startup(0xFFFFFFFB).node.mode() == CO_OPERATIONAL);
+  CHECK(Startup(0xFFFFFFFF).node.mode() == CO_PREOP);
+}
+
+TEST_CASE("self-start: boot-up message, then the state of the heartbeat is Operational [U1] [N4]") {
+  Startup device(0, Setup().stay_in_init().heartbeat(100));
+  Fixture& node = device.node;
+  std::vector<CO_MODE> modes;
+  callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) { modes.push_back(mode); };
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  CHECK(modes == std::vector<CO_MODE>{CO_PREOP, CO_OPERATIONAL});
+  node.after(200ms);
+  node.tx({"701#05", "701#05"});
+}
+
+TEST_CASE("self-start: once: the NMT master's enter pre-operational and stop are obeyed [U1]") {
+  Startup device(0);
+  Fixture& node = device.node;
+  node.rx("000#8001");
+  CHECK(node.mode() == CO_PREOP);
+  node.rx("000#0201");
+  node.rx("000#8001");
+  CHECK(node.mode() == CO_PREOP);
+  node.after(10000ms);
+  CHECK(node.mode() == CO_PREOP);
+}
+
+TEST_CASE("self-start: after every reset, with the value of that moment [U1]") {
+  Startup device(0);
+  Fixture& node = device.node;
+  for (const char* reset : {"000#8101", "000#8201"}) {
+    CAPTURE(reset);
+    node.rx(reset);
+    node.tx("701#00");
+    CHECK(node.mode() == CO_OPERATIONAL);
+    node.ask("601#23801F0004000000", "581#60801F0000000000");
+    CHECK(node.mode() == CO_OPERATIONAL);
+    node.rx(reset);
+    node.tx("701#00");
+    CHECK(node.mode() == CO_PREOP);
+    node.ask("601#23801F0000000000", "581#60801F0000000000");
+    CHECK(node.mode() == CO_PREOP);
+  }
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
+  node.tx("701#00");
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("self-start: the application is told of a commanded reset when the node is in Operational") {
+  Startup device(0);
+  Fixture& node = device.node;
+  CO_MODE told = CO_INVALID;
+  callbacks().reset_request = [&](CO_NMT* nmt, CO_NMT_RESET) { told = CONmtGetMode(nmt); };
+  node.rx("000#8201");
+  node.tx("701#00");
+  CHECK(told == CO_OPERATIONAL);
+}
+
+TEST_CASE("self-start: not before CONodeStart, also after a reset while initialising") {
+  Startup device(0, Setup().stay_in_init());
+  Fixture& node = device.node;
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.after(1000ms);
+  node.silent();
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("self-start: firmware that sets a mode after CONodeStart, or in its place, gets that mode") {
+  for (const CO_MODE wanted : {CO_PREOP, CO_OPERATIONAL, CO_STOP}) {
+    for (const bool start : {true, false}) {
+      CAPTURE(wanted);
+      CAPTURE(start);
+      Startup device(0, Setup().stay_in_init());
+      Fixture& node = device.node;
+      node.call([&] {
+        if (start) CONodeStart(&node.node);
+        CONmtSetMode(&node->Nmt, wanted);
+      });
+      node.tx("701#00");
+      CHECK(node.mode() == wanted);
+      CHECK(node.error() == CO_ERR_NONE);
+    }
+  }
+}
+
+// CONmtModeChange() asks for another mode when it is told of one.
+CO_MODE started(CO_MODE when, CO_MODE ask_for) {
+  Startup device(0, Setup().stay_in_init());
+  Fixture& node = device.node;
+  callbacks().mode_change = [=](CO_NMT* nmt, CO_MODE mode) {
+    if (mode == when) ask_for == CO_INVALID ? CONodeStop(nmt->Node) : CONmtSetMode(nmt, ask_for);
+  };
+  node.call([&] { CONodeStart(&node.node); });
+  node.trace();
+  return node.mode();
+}
+
+TEST_CASE("self-start: what the application asks for in CONmtModeChange wins [Q9]") {
+  CHECK(started(CO_PREOP, CO_STOP) == CO_STOP);
+  CHECK(started(CO_PREOP, CO_OPERATIONAL) == CO_OPERATIONAL);
+  CHECK(started(CO_OPERATIONAL, CO_PREOP) == CO_PREOP);
+  CHECK(started(CO_OPERATIONAL, CO_STOP) == CO_STOP);
+  CHECK(started(CO_PREOP, CO_INVALID) == CO_INVALID);
+  CHECK(started(CO_OPERATIONAL, CO_INVALID) == CO_INVALID);
+}
+
+TEST_CASE("self-start: a stopped node starts itself again after CONodeInit and CONodeStart") {
+  Startup device(0);
+  Fixture& node = device.node;
+  node.call([&] { CONodeStop(&node.node); });
+  node.init_again();
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("701#00");
+  CHECK(node.mode() == CO_OPERATIONAL);
+}
+
+TEST_CASE("self-start: 1F80h may be a plain UNSIGNED32, or lie in the dictionary") {
+  Fixture plain(Setup().with({CO_KEY(0x1F80, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0}));
+  CHECK(plain.mode() == CO_OPERATIONAL);
+  Fixture direct(Setup().with({CO_KEY(0x1F80, 0, CO_OBJ_D___RW), CO_TNMT_STARTUP, 0}));
+  CHECK(direct.mode() == CO_OPERATIONAL);
+  direct.ask("601#23801F0004000000", "581#60801F0000000000");
+  direct.ask("601#40801F0000000000", "581#43801F0004000000");
+  direct.rx("000#8201");
+  direct.tx("701#00");
+  CHECK(direct.mode() == CO_PREOP);
+}
+
+TEST_CASE("1F80h: bit 2 may be changed, every other bit only be what it is [U1]") {
+  for (const std::uint32_t before : {0x00000000U, 0x0000000BU, 0xFFFFFFFBU}) {
+    Startup device(before);
+    Fixture& node = device.node;
+    for (unsigned bit = 0; bit < 32; ++bit) {
+      CAPTURE(bit);
+      const std::uint32_t value = device.value ^ (std::uint32_t{1} << bit);
+      CO_IF_FRM request = frame("601#23801F0000000000");
+      CO_SET_LONG(&request, value, 4);
+      node.rx(request);
+      node.tx(bit == 2 ? "581#60801F0000000000" : "581#80801F0030000906");
+      CHECK(device.value == (before ^ (bit >= 2 ? 4U : 0U)));
+    }
+  }
+}
+
+TEST_CASE("1F80h: only there, and with four bytes") {
+  Startup device(4);
+  device.node.ask("601#2F801F0000000000", "581#80801F0013000706");
+  Fixture wrong(Setup().with({CO_KEY(0x1F81, 0, CO_OBJ_D___RW), CO_TNMT_STARTUP, 0}).stay_in_init());
+  CHECK(wrong.error() == CO_ERR_DICT_INIT);
+  CHECK(CODictGetFault(&wrong->Dict, nullptr) == CO_DICT_WRONG_PLACE);
+}
+
+}  // namespace

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// SYNC producer: 1005h bit 30, 1006h, 1019h. [301:7.2.5, 7.5.2.5-6, 7.5.2.22]
+#include "support/sync_fixture.hpp"
+
+#if USE_SYNC
+
+namespace {
+
+using namespace test;
+
+SyncTable producer(std::uint32_t cycle_us, std::uint8_t counter = 0) {
+  SyncTable table;
+  table.sync_id = 0x40000080;
+  table.cycle = cycle_us;
+  table.counter = counter;
+  return table;
+}
+
+// So many SYNCs of 10 ms each, with the numbers that they have.
+std::vector<std::string> numbers(SyncNode& node, unsigned syncs) {
+  std::vector<std::string> all;
+  for (unsigned n = 0; n < syncs; ++n) {
+    node.after(10ms);
+    for (const std::string& text : node.frames()) all.push_back(text);
+  }
+  return all;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST_CASE("SYNC producer: every period from the boot-up on, in Pre-operational and Operational [Y4] [Y8] [SYNC 02]") {
+  SyncNode node(producer(100000));
+  node.after(350ms);
+  node.tx_at(100ms, "080#");
+  node.tx_at(200ms, "080#");
+  node.tx_at(300ms, "080#");
+  node.silent();
+  node.rx("000#0101");
+  node.after(100ms);
+  node.tx_at(50ms, "080#");
+  node.rx("000#8001");
+  node.after(100ms);
+  node.tx_at(50ms, "080#");
+}
+
+TEST_CASE("SYNC producer: none in Stopped, from the command on, and a whole period after it [Y8] [State 04]") {
+  SyncNode node(producer(10000));
+  node.after(25ms);
+  CHECK(node.frames().size() == 2);
+  node.rx("000#0201");
+  CHECK(node.armed_timers() == 0);
+  node.after(1000ms);
+  node.silent();
+  node.rx("000#8001");
+  node.after(25ms);
+  node.tx_at(10ms, "080#");
+  node.tx_at(20ms, "080#");
+  node.silent();
+}
+
+TEST_CASE("SYNC producer: a SYNC that waits for the controller is withdrawn by a stop [Y8]") {
+  SyncNode node(producer(10000));
+  node.can.refuse_all();
+  node.after(10ms);
+  node.rx("000#0201");
+  node.can.accept_all();
+  node.loop();
+  node.silent();
+}
+
+TEST_CASE("SYNC producer: 1006h = 0 or no bit 30 means none [Y4] [SYNC 04]") {
+  SyncNode without_period(producer(0));
+  without_period.after(10000ms);
+  without_period.silent();
+  SyncTable table = producer(10000);
+  table.sync_id = 0x80;
+  SyncNode consumer(table);
+  consumer.after(10000ms);
+  consumer.silent();
+  CHECK(consumer.armed_timers() == 0);
+}
+
+TEST_CASE("SYNC producer: writing 1006h starts, changes and ends it at once [Y4] [D49]") {
+  SyncNode node(producer(0));
+  CHECK(node.set(0x1006, 0, 4, 50000) == 0);
+  node.after(120ms);
+  node.tx_at(50ms, "080#");
+  node.tx_at(100ms, "080#");
+  CHECK(node.set(0x1006, 0, 4, 20000) == 0);
+  node.after(50ms);
+  node.tx_at(20ms, "080#");
+  node.tx_at(40ms, "080#");
+  CHECK(node.set(0x1006, 0, 4, 0) == 0);
+  node.after(10000ms);
+  node.silent();
+  CHECK(node.set(0x1006, 0, 4, 0) == 0);
+  CHECK(node.set(0x1006, 0, 4, 30000) == 0);
+  node.after(30ms);
+  node.tx("080#");
+  CHECK(node.error() == CO_ERR_NONE);
+}
+
+TEST_CASE("SYNC producer: bit 30 starts and ends it at once [Y1] [D21]") {
+  SyncTable table = producer(10000);
+  table.sync_id = 0x80;
+  SyncNode node(table);
+  CHECK(node.set(0x1005, 0, 4, 0x40000080) == 0);
+  node.after(20ms);
+  node.tx({"080#", "080#"});
+  CHECK(node.get(0x1005, 0) == 0x40000080);
+  CHECK(node.set(0x1005, 0, 4, 0x80) == 0);
+  node.after(1000ms);
+  node.silent();
+}
+
+TEST_CASE("SYNC producer: it survives both resets [D21] [SYNC 08]") {
+  for (const char* command : {"000#8101", "000#8201"}) {
+    SyncNode node(producer(10000, 5));
+    CHECK(numbers(node, 3) == Texts{"080#01", "080#02", "080#03"});
+    node.rx(command);
+    node.tx("701#00");
+    CHECK(numbers(node, 7) == Texts{"080#01", "080#02", "080#03", "080#04", "080#05", "080#01", "080#02"});
+  }
+}
+
+TEST_CASE("SYNC producer: 1019h = n counts from 1 to n; 0 means no data [Y5] [SYNC 06] [SYNC 07]") {
+  SyncNode node(producer(0));
+  CHECK(node.set(0x1019, 0, 1, 5) == 0);
+  CHECK(node.set(0x1006, 0, 4, 10000) == 0);
+  CHECK(numbers(node, 7) == Texts{"080#01", "080#02", "080#03", "080#04", "080#05", "080#01", "080#02"});
+  CHECK(node.set(0x1006, 0, 4, 0) == 0);
+  CHECK(node.set(0x1019, 0, 1, 0) == 0);
+  CHECK(node.set(0x1006, 0, 4, 10000) == 0);
+  CHECK(numbers(node, 2) == Texts{"080#", "080#"});
+}
+
+TEST_CASE("SYNC producer: after a write to 1019h it begins at 1 [Y5] [N6]") {
+  SyncNode node(producer(10000, 10));
+  CHECK(numbers(node, 3) == Texts{"080#01", "080#02", "080#03"});
+  CHECK(node.set(0x1006, 0, 4, 0) == 0);
+  CHECK(node.set(0x1019, 0, 1, 20) == 0);
+  CHECK(node.set(0x1006, 0, 4, 10000) == 0);
+  CHECK(numbers(node, 2) == Texts{"080#01", "080#02"});
+}
+
+TEST_CASE("SYNC producer: 2 and 240, the lowest and the highest overflow value [Y5]") {
+  for (const std::uint8_t overflow : std::initializer_list<std::uint8_t>{2, 240}) {
+    SyncNode node(producer(10000, overflow));
+    const Texts all = numbers(node, 2U * overflow);
+    REQUIRE(all.size() == 2U * overflow);
+    for (unsigned n = 0; n < all.size(); ++n) {
+      CHECK(all[n] == notation(CO_IF_FRM{0x80, {static_cast<std::uint8_t>(n % overflow + 1)}, 1}));
+    }
+  }
+}
+
+TEST_CASE("SYNC producer: the counter restarts at 1 after Stopped, and goes on through Pre-operational [Y6]") {
+  SyncNode node(producer(10000, 10));
+  CHECK(numbers(node, 2) == Texts{"080#01", "080#02"});
+  node.rx("000#0101");
+  CHECK(numbers(node, 1) == Texts{"080#03"});
+  node.rx("000#8001");
+  CHECK(numbers(node, 1) == Texts{"080#04"});
+  for (const char* command : {"000#8001", "000#0101"}) {
+    node.rx("000#0201");
+    node.rx(command);
+    CHECK(numbers(node, 2) == Texts{"080#01", "080#02"});
+  }
+}
+
+TEST_CASE("SYNC producer: the period 1 us to the longest; a timer rounds up and does not end [Y4]") {
+  SyncNode node(producer(0));
+  CHECK(node.set(0x1006, 0, 4, 1) == 0);
+  node.after(3ms);
+  CHECK(node.frames().size() == 3);
+  CHECK(node.set(0x1006, 0, 4, 0xFFFFFFFF) == 0);
+  node.after(4294967ms);
+  node.silent();
+  node.after(1ms);
+  node.tx("080#");
+}
+
+TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [N13]") {
+  SyncNode node(producer(10000), [](Setup& setup) { setup.clock(0xFFFFFF00U); });
+  const std::uint64_t begin = node.now();
+  for (unsigned second = 1; second <= 1000; ++second) {
+    node.after(1000ms);
+    REQUIRE(node.can.sent.size() == 100);
+    CHECK(node.can.sent.back().tick == begin + 1000U * second);
+    node.frames();
+  }
+}
+
+TEST_CASE("SYNC producer: a late loop sends one SYNC and keeps the phase [Q8]") {
+  SyncNode node(producer(10000));
+  node.jump(1003ms);
+  node.tx("080#");
+  node.after(10ms);
+  node.tx_at(7ms, "080#");
+}
+
+TEST_CASE("SYNC producer: bits 0 to 29 are frozen while bit 30 is set: 0609 0030h [Y1]") {
+  SyncNode node(producer(0));
+  for (unsigned bit = 0; bit < 30; ++bit) {
+    CAPTURE(bit);
+    CHECK(node.set(0x1005, 0, 4, 0x40000080U ^ 1U << bit) == 0x06090030);
+    CHECK(node.set(0x1005, 0, 4, 0x80U ^ 1U << bit) == 0x06090030);
+  }
+  CHECK(node.get(0x1005, 0) == 0x40000080);
+  CHECK(node.set(0x1005, 0, 4, 0x40000080) == 0);
+  CHECK(node.set(0x1005, 0, 4, 0x80) == 0);
+  CHECK(node.set(0x1005, 0, 4, 0x40000090) == 0);
+}
+
+#if CO_TPDO_N > 0 && CO_RPDO_N > 0
+
+TEST_CASE("SYNC producer: it takes its own SYNC, which goes out before its PDOs [Y9]") {
+  SyncTable table = producer(100000);
+  table.tpdo[0].on(0x40000181, 1, {0x22010108});
+  table.rpdo[0].on(0x201, 1, {0x22010108});
+  SyncNode node(table);
+  node.start();
+  node.rx("201#42");
+  node.after(100ms);
+  node.tx({"080#", "181#11"});
+  CHECK(node.u8[0] == 0x42);
+  node.after(100ms);
+  node.tx({"080#", "181#42"});
+}
+
+TEST_CASE("SYNC producer: its own PDOs count with the number of its SYNC [Y9] [X14]") {
+  SyncTable table = producer(10000, 4);
+  table.tpdo[0].on(0x40000181, 2, {0x22010108}).start = 3;
+  SyncNode node(table);
+  node.start();
+  CHECK(numbers(node, 8) == Texts{"080#01", "080#02", "080#03", "080#04", "181#11", "080#01", "080#02", "181#11",
+                                  "080#03", "080#04", "181#11"});
+}
+
+TEST_CASE("SYNC producer: a SYNC of somebody else is ignored and counted, not reported [Y10]") {
+  SyncTable table = producer(100000);
+  table.tpdo[0].on(0x40000181, 1, {0x22010108});
+  table.rpdo[0].on(0x201, 1, {0x22010108});
+  SyncNode node(table);
+  node.start();
+  node.rx("201#42");
+  node.rx("080#");
+  node.rx("080#01");
+  node.silent();
+  CHECK(node.u8[0] == 0x11);
+  CHECK(node.counters().Malformed == 2);
+  CHECK(node.counters().Unclaimed == 0);
+  CHECK(node.objects.error_register == 0);
+}
+
+TEST_CASE("SYNC producer: the window is that of its own SYNC [X4] [Y9]") {
+  SyncTable table = producer(100000);
+  table.window = 10000;
+  table.rpdo[0].on(0x201, 1, {0x22010108});
+  SyncNode node(table);
+  node.start();
+  node.after(105ms);
+  node.tx("080#");
+  node.rx("201#42");
+  node.after(10ms);
+  node.rx("201#43");
+  node.after(100ms);
+  node.tx("080#");
+  CHECK(node.u8[0] == 0x42);
+}
+
+#endif
+
+TEST_CASE("SYNC producer: with a 29-bit identifier") {
+  SyncTable table = producer(10000);
+  table.sync_id = 0x60000000U | 0x12345678U;
+  SyncNode node(table);
+  node.after(10ms);
+  node.tx("12345678#");
+}
+
+TEST_CASE("SYNC producer: a plain number in the place of 1006h takes effect with the next reset") {
+  std::uint32_t period = 0;
+  SyncNode node(producer(0), [&](Setup& setup) {
+    setup.with({CO_KEY(0x1006, 0, CO_OBJ_____RW), CO_TUNSIGNED32, CO_DATA(&period)});
+  });
+  CHECK(node.set(0x1006, 0, 4, 10000) == 0);
+  node.after(100ms);
+  node.silent();
+  node.rx("000#8201");
+  node.tx("701#00");
+  node.after(10ms);
+  node.tx("080#");
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_NOT_CONFIGURED, co::Index<'1', '4', '0', '4'>, co::Sub<'0', '1'>
+// An RPDO beyond CO_RPDO_N.
+#define CO_RPDO_N 4
+#define CO_TPDO_N 5
+#include "co/dictionary.hpp"
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x1403, 1, CO_OBJ_D___R_), CO_TPDO_ID, (CO_DATA)(0x501)},
+    {CO_KEY(0x1404, 1, CO_OBJ_D___R_), CO_TPDO_ID, (CO_DATA)(0x201)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);
