@@ -56,12 +56,14 @@ Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears
   extension_.CanCtx = &tap_;
   extension_.Timer = setup.timer.driver;
   extension_.TimerCtx = setup.timer.context;
+  extension_.EmcyNum = setup.errors.number;
 
   CO_NODE_SPEC spec{};
   spec.NodeId = setup.node_id;
   spec.Baudrate = 0;  // the interface has its own, set by the system
   spec.Dict = setup.dictionary.first;
   spec.DictLen = setup.dictionary.length;
+  spec.EmcyCode = setup.errors.first;
   spec.TmrMem = timer_;
   spec.TmrNum = static_cast<std::uint16_t>(std::size(timer_));
   spec.TmrFreq = ticks_per_second;

@@ -17,6 +17,12 @@ struct Table {
   std::uint16_t length;
 };
 
+/// Errors that a device can have, in the form in which CO_NODE_SPEC takes them.
+struct Errors {
+  CO_EMCY_TBL* first;
+  std::uint16_t number;
+};
+
 class Node {
  public:
   /// Called for every frame that the node takes from the bus (received) or puts on it.
@@ -29,6 +35,7 @@ class Node {
     Table dictionary;
     Observer observer = {};
     bool hears_all = false;  // the observer gets the frames that are not for this node, too
+    Errors errors = {};
   };
 
   static constexpr std::uint32_t ticks_per_second = second;

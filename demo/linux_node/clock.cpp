@@ -8,8 +8,7 @@
 namespace demo {
 namespace {
 
-void tick(void* time) {
-  auto& now = *static_cast<TimeOfDay*>(time);
+void advance(TimeOfDay& now) {
   if (++now.second < 60) {
     return;
   }
@@ -21,10 +20,16 @@ void tick(void* time) {
   now.hour = static_cast<std::uint8_t>((now.hour + 1) % 24);
 }
 
+// TPDO1 is sent where the NMT state and its transmission type allow it.
+void tick(void* node) {
+  advance(clock_time);
+  COTPdoRequest(static_cast<CO_NODE*>(node), 0);
+}
+
 }  // namespace
 
 Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer)
-    : node_({node_id, can, timer, clock_dictionary(), std::move(observer)}) {}
+    : node_({node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors()}) {}
 
 bool Clock::start() {
   CO_NODE& node = node_.stack();
@@ -32,7 +37,7 @@ bool Clock::start() {
     return false;
   }
   clock_time = {};
-  if (COTmrCreate(&node.Tmr, Node::ticks_per_second, Node::ticks_per_second, tick, &clock_time) < 0) {
+  if (COTmrCreate(&node.Tmr, Node::ticks_per_second, Node::ticks_per_second, tick, &node) < 0) {
     return false;
   }
   CONodeStart(&node);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file clock.hpp
-/// The demo device: a clock whose time of day, texts and picture can be read and written over CANopen.
+/// The demo device: a clock whose time of day, texts and picture can be read and written over CANopen. TPDO1 tells the
+/// time when it changes, RPDO1 sets it; a time that no clock shows is an emergency.
 ///
 /// A dictionary names its variables by address, so a program has one clock.
 #pragma once
@@ -28,6 +29,8 @@ struct TimeOfDay {
 
 /// Names of the objects of the clock, for the trace.
 const trace::Names& clock_object_names();
+/// What its PDOs hold.
+trace::Mappings clock_mappings();
 
 /// The clock as a CANopen node. Starts at 00:00:00.
 class Clock {

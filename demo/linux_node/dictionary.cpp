@@ -14,6 +14,12 @@ namespace {
 
 // --- A type of our own: a figure of the time of day. It stores and reads as UNSIGNED8 does, but knows its limit.
 
+CO_EMCY_TBL errors[] = {
+    {CO_EMCY_REG_MANUFACTURER, CO_EMCY_CODE_SW_DATASET_ERR},  // hour
+    {CO_EMCY_REG_MANUFACTURER, CO_EMCY_CODE_SW_DATASET_ERR},  // minute
+    {CO_EMCY_REG_MANUFACTURER, CO_EMCY_CODE_SW_DATASET_ERR},  // second
+};
+
 std::uint32_t figure_size(CO_OBJ* obj, CO_NODE* node, std::uint32_t width) {
   return CO_TUNSIGNED8->Size(obj, node, width);
 }
@@ -23,11 +29,16 @@ CO_ERR figure_read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size)
 }
 
 CO_ERR figure_write(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
-  const std::uint8_t limit = (CO_GET_SUB(obj->Key) == 1) ? 23 : 59;
-  if (*static_cast<const std::uint8_t*>(buffer) > limit) {
+  const std::uint8_t sub = CO_GET_SUB(obj->Key);
+  const std::uint8_t figure = *static_cast<const std::uint8_t*>(buffer);
+  const auto error = static_cast<std::uint8_t>(sub - 1);
+  if (figure > (sub == 1 ? 23 : 59)) {
+    const CO_EMCY_USR about = {static_cast<std::uint16_t>(sub | figure << 8), {sub, figure}};
+    COEmcySet(&node->Emcy, error, &about);
     COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_RANGE);
     return CO_ERR_TYPE_WR;
   }
+  COEmcyClr(&node->Emcy, error);
   return CO_TUNSIGNED8->Write(obj, node, buffer, size);
 }
 
@@ -38,6 +49,14 @@ constexpr const CO_OBJ_TYPE* CO_TFIGURE = &figure_type;
 
 std::uint8_t error_register = 0;
 std::uint16_t heartbeat_time = 1000;  // ms
+std::uint8_t history_number = 0;
+std::uint32_t history[4] = {};
+std::uint32_t sync_id = CO_COBID_SYNC_STD(0, 0x80);
+std::uint32_t sync_cycle = 0;            // µs
+std::uint8_t rpdo_type = 255;            // event-driven
+std::uint8_t tpdo_type = 255;            // event-driven: the time has changed
+std::uint16_t tpdo_inhibit_time = 1000;  // x 100 µs
+std::uint16_t tpdo_event_time = 0;       // ms
 
 const std::uint8_t hardware_version_text[] = "host";
 const std::uint8_t software_version_text[] = {'0' + CO_VER_MAJOR, '.', '0' + CO_VER_MINOR, '.', '0' + CO_VER_BUILD, 0};
@@ -58,10 +77,17 @@ CO_OBJ_STR_RW station = {0, 0, sizeof station_memory, station_memory};
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // no device profile
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
+    {CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, (CO_DATA)(&history_number)},
+    {CO_KEY(0x1003, 1, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&history[0])},
+    {CO_KEY(0x1003, 2, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&history[1])},
+    {CO_KEY(0x1003, 3, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&history[2])},
+    {CO_KEY(0x1003, 4, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)(&history[3])},
+    {CO_KEY(0x1005, 0, CO_OBJ_____RW), CO_TSYNC_ID, (CO_DATA)(&sync_id)},
+    {CO_KEY(0x1006, 0, CO_OBJ_____RW), CO_TSYNC_CYCLE, (CO_DATA)(&sync_cycle)},
     {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&device_name)},
     {CO_KEY(0x1009, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&hardware_version)},
     {CO_KEY(0x100A, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&software_version)},
-    {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)(0x80)},
+    {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(4)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // no vendor-ID of CiA
@@ -71,10 +97,26 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1200, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(2)},
     {CO_KEY(0x1200, 1, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(CO_COBID_SDO_REQUEST())},
     {CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TSDO_ID, (CO_DATA)(CO_COBID_SDO_RESPONSE())},
+    {CO_KEY(0x1400, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(2)},
+    {CO_KEY(0x1400, 1, CO_OBJ_DN__R_), CO_TPDO_ID, (CO_DATA)(CO_COBID_RPDO_DEFAULT(0))},
+    {CO_KEY(0x1400, 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)(&rpdo_type)},
+    {CO_KEY(0x1600, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)(3)},
+    {CO_KEY(0x1600, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 1, 8))},
+    {CO_KEY(0x1600, 2, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 2, 8))},
+    {CO_KEY(0x1600, 3, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 3, 8))},
+    {CO_KEY(0x1800, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(5)},
+    {CO_KEY(0x1800, 1, CO_OBJ_DN__R_), CO_TPDO_ID, (CO_DATA)(CO_COBID_TPDO_DEFAULT(0))},
+    {CO_KEY(0x1800, 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)(&tpdo_type)},
+    {CO_KEY(0x1800, 3, CO_OBJ_____RW), CO_TPDO_INHIBIT, (CO_DATA)(&tpdo_inhibit_time)},
+    {CO_KEY(0x1800, 5, CO_OBJ_____RW), CO_TPDO_EVENT, (CO_DATA)(&tpdo_event_time)},
+    {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)(3)},
+    {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 1, 8))},
+    {CO_KEY(0x1A00, 2, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 2, 8))},
+    {CO_KEY(0x1A00, 3, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2100, 3, 8))},
     {CO_KEY(0x2100, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(3)},
-    {CO_KEY(0x2100, 1, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.hour)},
-    {CO_KEY(0x2100, 2, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.minute)},
-    {CO_KEY(0x2100, 3, CO_OBJ____PRW), CO_TFIGURE, (CO_DATA)(&clock_time.second)},
+    {CO_KEY(0x2100, 1, CO_OBJ___APRW), CO_TFIGURE, (CO_DATA)(&clock_time.hour)},
+    {CO_KEY(0x2100, 2, CO_OBJ___APRW), CO_TFIGURE, (CO_DATA)(&clock_time.minute)},
+    {CO_KEY(0x2100, 3, CO_OBJ___APRW), CO_TFIGURE, (CO_DATA)(&clock_time.second)},
     {CO_KEY(0x2200, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&picture)},
     {CO_KEY(0x2201, 0, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&station)},
 };
@@ -84,11 +126,22 @@ CO_OD_CHECK(od);
 
 Table clock_dictionary() { return {const_cast<CO_OBJ*>(od), static_cast<std::uint16_t>(std::size(od))}; }
 
+Errors clock_errors() { return {errors, static_cast<std::uint16_t>(std::size(errors))}; }
+
+trace::Mappings clock_mappings() {
+  const std::vector<trace::Mapped> time = {{0x2100, 1, 1}, {0x2100, 2, 1}, {0x2100, 3, 1}};
+  return {{0x180, time}, {0x200, time}};
+}
+
 const trace::Names& clock_object_names() {
   using trace::Form;
   static const trace::Names names = {
       {0x1000, 0, "device type", Form::hex},
       {0x1001, 0, "error register", Form::hex},
+      {0x1003, 0, "errors in the history", Form::decimal},
+      {0x1003, 1, "last error", Form::hex},
+      {0x1005, 0, "COB-ID SYNC", Form::hex},
+      {0x1006, 0, "SYNC period in us", Form::decimal},
       {0x1008, 0, "device name", Form::characters},
       {0x1009, 0, "hardware version", Form::characters},
       {0x100A, 0, "software version", Form::characters},
@@ -102,6 +155,7 @@ const trace::Names& clock_object_names() {
       {0x1200, 0, "SDO server, highest sub-index", Form::decimal},
       {0x1200, 1, "COB-ID of SDO requests", Form::hex},
       {0x1200, 2, "COB-ID of SDO responses", Form::hex},
+      {0x1800, 2, "transmission type of TPDO1", Form::decimal},
       {0x2100, 0, "time, highest sub-index", Form::decimal},
       {0x2100, 1, "hour", Form::decimal},
       {0x2100, 2, "minute", Form::decimal},

@@ -11,7 +11,9 @@ namespace demo {
 /// The time of day, which the dictionary refers to.
 extern TimeOfDay clock_time;
 
-/// The dictionary.
 Table clock_dictionary();
+
+/// Hour, minute and second that no clock shows.
+Errors clock_errors();
 
 }  // namespace demo

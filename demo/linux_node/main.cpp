@@ -105,7 +105,7 @@ int run(const Options& options) {
     return exit_usage;
   }
   Host& host = *bus.host;
-  View view(std::cout, clock_object_names(), style_for(options));
+  View view(std::cout, clock_object_names(), style_for(options), clock_mappings());
   view.line("Bus:  " + bus.about);
   view.line(text("Node: the demo clock, node-ID %u%s\n", options.node_id, options.serve ? "; Ctrl-C ends it" : ""));
   view.columns();

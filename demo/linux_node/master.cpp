@@ -23,13 +23,22 @@ void Master::note(bool received, const CO_IF_FRM& frame) {
   if (received && frame.Identifier == 0x700u + node_id_ && frame.DLC == 1) {
     heard_.push_back(static_cast<State>(frame.Data[0]));
   }
+  if (received && frame.Identifier < 0x580) {
+    frames_.push_back(frame);
+  }
 }
 
-bool Master::command(Nmt command) {
+void Master::forget() {
   heard_.clear();
-  CO_IF_FRM frame{0x000, {static_cast<std::uint8_t>(command), node_id_}, 2};
+  frames_.clear();
+}
+
+bool Master::send(CO_IF_FRM frame) {
+  forget();
   return COIfCanSend(&node_.stack().If, &frame) > 0;
 }
+
+bool Master::command(Nmt command) { return send({0x000, {static_cast<std::uint8_t>(command), node_id_}, 2}); }
 
 bool Master::has_heard(State state) {
   while (!heard_.empty()) {
@@ -40,6 +49,23 @@ bool Master::has_heard(State state) {
     }
   }
   return false;
+}
+
+std::optional<CO_IF_FRM> Master::take_frame(std::uint32_t identifier) {
+  while (!frames_.empty()) {
+    const CO_IF_FRM next = frames_.front();
+    frames_.pop_front();
+    if (next.Identifier == identifier) {
+      return next;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<CO_IF_FRM> Master::await_frame(std::uint32_t identifier, Micros timeout) {
+  std::optional<CO_IF_FRM> frame;
+  loop_.run_until([&] { return (frame = take_frame(identifier)).has_value(); }, timeout);
+  return frame;
 }
 
 bool Master::await_state(State state, Micros timeout) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "client/sdo_client.hpp"
 #include "host/loop.hpp"
@@ -25,8 +26,14 @@ class Master {
   Master(Host& host, Clock& device, std::uint8_t node_id);
 
   bool command(Nmt command);
+  /// Sends a frame as it is; false: the bus does not take it.
+  bool send(CO_IF_FRM frame);
   /// Waits for a boot-up or heartbeat message with this state, which may have come since the last command.
   bool await_state(State state, Micros timeout);
+  /// Waits for the next frame of an identifier, which may have come since the last command or frame that was sent.
+  std::optional<CO_IF_FRM> await_frame(std::uint32_t identifier, Micros timeout);
+  /// What has come so far is no longer waited for.
+  void forget();
 
   SdoClient& sdo() { return sdo_; }
   Loop& loop() { return loop_; }
@@ -35,9 +42,11 @@ class Master {
  private:
   void note(bool received, const CO_IF_FRM& frame);
   bool has_heard(State state);
+  std::optional<CO_IF_FRM> take_frame(std::uint32_t identifier);
 
   std::uint8_t node_id_;
-  std::deque<State> heard_;  // states of the node that nobody has waited for yet
+  std::deque<State> heard_;       // states of the node that nobody has waited for yet
+  std::deque<CO_IF_FRM> frames_;  // PDO, SYNC and EMCY messages likewise
   ClientDictionary dictionary_;
   Node node_;
   Loop loop_;

@@ -7,28 +7,15 @@
 
 #include "client/progress.hpp"
 #include "client/sdo_client.hpp"
+#include "linux_node/tour_steps.hpp"
 #include "trace/decode.hpp"
 #include "trace/text.hpp"
 
 namespace demo {
 namespace {
 
-struct Finding {
-  bool good;
-  std::string text;
-};
-
-struct Tour {
-  Clock& clock;
-  Master& master;
-  View& view;
-  SdoClient& sdo = master.sdo();
-  Micros set_at = 0;  // when the clock was set
-};
-
 constexpr Micros heartbeat_timeout = 3 * second;
 constexpr TimeOfDay set_time = {12, 34, 57};  // the minute changes while we look
-constexpr std::uint32_t day = 24 * 60 * 60;   // s
 
 Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
 
@@ -52,10 +39,6 @@ std::uint32_t number(const Bytes& data) {
     result |= static_cast<std::uint32_t>(data[i]) << (8 * i);
   }
   return result;
-}
-
-Finding failure(const char* what, const Transfer& transfer) {
-  return {false, std::string(what) + ": " + transfer.outcome()};
 }
 
 /// The transfer has to end with this abort code.
@@ -105,6 +88,7 @@ Finding set_clock(Tour& tour) {
       return failure("setting the clock", transfer);
     }
   }
+  tour.set_to = set_time;
   tour.set_at = tour.master.loop().now();
   return {true, text("the clock is set to %02u:%02u:%02u", set_time.hour, set_time.minute, set_time.second)};
 }
@@ -185,10 +169,10 @@ Finding read_clock(Tour& tour) {
     figure[sub - 1] = number(transfer.data);
   }
   const auto passed = static_cast<std::uint32_t>((tour.master.loop().now() - tour.set_at) / second);
-  const std::uint32_t set = (set_time.hour * 60u + set_time.minute) * 60u + set_time.second;
+  const std::uint32_t set = seconds_of(tour.set_to);
   const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
   // The clock was set somewhere within one of its seconds.
-  const bool right = (shown + day - set - passed) % day <= 1;
+  const bool right = (shown + seconds_per_day - set - passed) % seconds_per_day <= 1;
   return {right, text("%02u:%02u:%02u, %u s after it was set", figure[0], figure[1], figure[2], passed)};
 }
 
@@ -216,6 +200,10 @@ constexpr Step steps[] = {
     {"A picture for the clock, 192 x 128: block download", "block download", send_picture},
     {"And back, every byte compared: block upload", "block upload", fetch_picture},
     {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
+    {"TPDO1 tells the time, each second", "event-driven TPDO", hear_time},
+    {"Set the clock by RPDO1: TPDO1 tells it, when its inhibit time is over", "RPDO", set_clock_by_pdo},
+    {"A time that no clock shows: an emergency, until it is right again", "EMCY", set_nonsense_by_pdo},
+    {"The node produces SYNC, and sends TPDO1 with each of them", "SYNC, synchronous TPDO", produce_sync},
     {"Stop the node: SDO is silent now", "NMT stop", stop},
     {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational},
     {"Meanwhile the clock has run", "a cyclic timer", read_clock},

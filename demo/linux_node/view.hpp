@@ -5,6 +5,7 @@
 
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/progress.hpp"
@@ -22,7 +23,8 @@ class View {
     const char* others = "master";  // who sends what the node receives
   };
 
-  View(std::ostream& out, const trace::Names& names, Style style) : out_(out), decoder_(names), style_(style) {}
+  View(std::ostream& out, const trace::Names& names, Style style, trace::Mappings mappings = {})
+      : out_(out), decoder_(names, std::move(mappings)), style_(style) {}
 
   /// The titles of the columns.
   void columns();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "trace/network_services.hpp"
 #include "trace/text.hpp"
 
 namespace demo::trace {
@@ -257,7 +258,11 @@ Meaning Decoder::decode(const CO_IF_FRM& frame) {
   if (is_request(frame)) {
     return sdo(Sender::client, frame);
   }
-  return is_response(frame) ? sdo(Sender::server, frame) : Meaning{"unknown " + candump(frame), Place::outside};
+  if (is_response(frame)) {
+    return sdo(Sender::server, frame);
+  }
+  const std::optional<std::string> service = decode_network_service(frame, names_, mappings_);
+  return {service.value_or("unknown " + candump(frame)), Place::outside};
 }
 
 Meaning Decoder::sdo(Sender from, const CO_IF_FRM& frame) {

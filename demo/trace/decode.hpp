@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file decode.hpp
-/// CAN frames in the words of CiA 301: NMT, heartbeat and SDO of the pre-defined connection set. [301:7.3.3]
+/// CAN frames in the words of CiA 301, of the pre-defined connection set. [301:7.3.3]
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "co_if_can.h"
@@ -26,6 +28,16 @@ struct ObjectName {
 /// What the objects of the node are called; any order.
 using Names = std::vector<ObjectName>;
 
+/// An object in a PDO.
+struct Mapped {
+  std::uint16_t index;
+  std::uint8_t sub;
+  std::uint8_t bytes;  // 1…4
+};
+
+/// What PDOs hold, by their CAN-ID less the node-ID: 180h, 200h, …
+using Mappings = std::map<std::uint16_t, std::vector<Mapped>>;
+
 /// The place of a frame in an SDO transfer.
 enum class Place {
   outside,  // of any
@@ -41,7 +53,7 @@ struct Meaning {
 class Decoder {
  public:
   /// \a names must outlive the decoder.
-  explicit Decoder(const Names& names) : names_(names) {}
+  explicit Decoder(const Names& names, Mappings mappings = {}) : names_(names), mappings_(std::move(mappings)) {}
 
   /// What \a frame means. A frame of no known service is shown in the notation of candump: "123#DEADBEEF".
   /// Frames have to come in the order of the bus: what a segment of a block transfer is, the frames before it tell.
@@ -51,6 +63,7 @@ class Decoder {
   Meaning sdo(Sender from, const CO_IF_FRM& frame);
 
   const Names& names_;
+  Mappings mappings_;
   std::array<BlockTransfer, 128> transfers_{};  // with the server of that node-ID
 };
 

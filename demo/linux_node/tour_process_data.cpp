@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <vector>
+
+#include "linux_node/tour_steps.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+namespace {
+
+constexpr TimeOfDay noon = {12, 0, 0};
+
+TimeOfDay time_in(const CO_IF_FRM& pdo) { return {pdo.Data[0], pdo.Data[1], pdo.Data[2]}; }
+std::string words(const TimeOfDay& time) { return text("%02u:%02u:%02u", time.hour, time.minute, time.second); }
+
+bool send_time(Tour& tour, const TimeOfDay& time) {
+  return tour.master.send({0x200u + tour.master.node_id(), {time.hour, time.minute, time.second}, 3});
+}
+
+std::optional<CO_IF_FRM> await_time(Tour& tour, Micros timeout) {
+  return tour.master.await_frame(0x180u + tour.master.node_id(), timeout);
+}
+
+/// The code of the next EMCY message; nothing if none comes.
+std::optional<std::uint16_t> await_emcy(Tour& tour) {
+  const auto message = tour.master.await_frame(0x080u + tour.master.node_id(), second);
+  return message ? std::optional(CO_GET_WORD(&*message, 0)) : std::nullopt;
+}
+
+/// Bytes of a number of 32 bits.
+Bytes bytes_of(std::uint32_t number) {
+  return {static_cast<std::uint8_t>(number), static_cast<std::uint8_t>(number >> 8),
+          static_cast<std::uint8_t>(number >> 16), static_cast<std::uint8_t>(number >> 24)};
+}
+
+struct Setting {
+  std::uint16_t index;
+  std::uint8_t sub;
+  Bytes value;
+};
+
+Transfer apply(Tour& tour, const std::vector<Setting>& settings) {
+  Transfer last;
+  for (const Setting& setting : settings) {
+    last = tour.sdo.download(setting.index, setting.sub, setting.value);
+    if (!last.done()) {
+      break;
+    }
+  }
+  return last;
+}
+
+/// How many SYNC messages are followed by TPDO1.
+unsigned count_synchronous(Tour& tour, unsigned messages) {
+  unsigned right = 0;
+  for (unsigned n = 0; n < messages; ++n) {
+    const bool came = tour.master.await_frame(0x080, second).has_value() && await_time(tour, second / 10).has_value();
+    right += came ? 1u : 0u;
+  }
+  return right;
+}
+
+}  // namespace
+
+Finding hear_time(Tour& tour) {
+  tour.master.forget();
+  const auto first = await_time(tour, 2 * second);
+  const auto next = await_time(tour, 2 * second);
+  if (!first || !next) {
+    return {false, "no TPDO1 comes"};
+  }
+  const bool good = seconds_of(time_in(*next)) == (seconds_of(time_in(*first)) + 1) % seconds_per_day;
+  return {good, words(time_in(*first)) + ", then " + words(time_in(*next))};
+}
+
+Finding set_clock_by_pdo(Tour& tour) {
+  if (!send_time(tour, noon)) {
+    return {false, "the bus takes no frames"};
+  }
+  tour.set_to = noon;
+  tour.set_at = tour.master.loop().now();
+  const auto answer = await_time(tour, 2 * second);
+  if (!answer) {
+    return {false, "no TPDO1 comes"};
+  }
+  const bool good = seconds_of(time_in(*answer)) - seconds_of(noon) <= 1;
+  return {good, "TPDO1 tells " + words(time_in(*answer))};
+}
+
+Finding set_nonsense_by_pdo(Tour& tour) {
+  const bool sent = send_time(tour, {24, 0, 0});
+  const auto raised = sent ? await_emcy(tour) : std::nullopt;
+  const bool sent_again = send_time(tour, noon);
+  const auto gone = sent_again ? await_emcy(tour) : std::nullopt;
+  tour.set_at = tour.master.loop().now();
+  const bool good = raised == CO_EMCY_CODE_SW_DATASET_ERR && gone == CO_EMCY_CODE_NO_ERR;
+  return {good, good ? "EMCY 6300h, and 0000h when the time is right again" : "not the EMCY messages that should come"};
+}
+
+Finding produce_sync(Tour& tour) {
+  constexpr unsigned messages = 3;
+  const std::uint32_t id = CO_COBID_SYNC_STD(0, 0x80);
+  const Transfer on = apply(tour, {{0x1800, 2, {1}},
+                                   {0x1006, 0, bytes_of(std::uint32_t{second / 4})},
+                                   {0x1005, 0, bytes_of(id | CO_SYNC_COBID_ON)}});
+  if (!on.done()) {
+    return failure("switching SYNC on", on);
+  }
+  tour.master.forget();
+  const unsigned right = count_synchronous(tour, messages);
+  const Transfer off = apply(tour, {{0x1005, 0, bytes_of(id)}, {0x1006, 0, bytes_of(0u)}, {0x1800, 2, {255}}});
+  if (!off.done()) {
+    return failure("switching SYNC off", off);
+  }
+  return {right == messages, text("%u of %u SYNC messages, each followed by TPDO1", right, messages)};
+}
+
+}  // namespace demo

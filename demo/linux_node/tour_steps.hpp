@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file tour_steps.hpp
+/// What the steps of the tour have in common, and those of them that are about process data.
+#pragma once
+
+#include <string>
+
+#include "client/sdo_client.hpp"
+#include "linux_node/master.hpp"
+#include "linux_node/view.hpp"
+
+namespace demo {
+
+struct Finding {
+  bool good;
+  std::string text;
+};
+
+struct Tour {
+  Clock& clock;
+  Master& master;
+  View& view;
+  SdoClient& sdo = master.sdo();
+  TimeOfDay set_to = {};  // the clock
+  Micros set_at = 0;      // when
+};
+
+constexpr std::uint32_t seconds_per_day = 24 * 60 * 60;
+
+/// Since midnight.
+constexpr std::uint32_t seconds_of(const TimeOfDay& time) {
+  return (time.hour * 60u + time.minute) * 60u + time.second;
+}
+
+inline Finding failure(const char* what, const Transfer& transfer) {
+  return {false, std::string(what) + ": " + transfer.outcome()};
+}
+
+/// The node is in Operational: TPDO1 tells the time.
+Finding hear_time(Tour& tour);
+
+/// RPDO1 sets it.
+Finding set_clock_by_pdo(Tour& tour);
+
+/// RPDO1 sets it to what no clock shows.
+Finding set_nonsense_by_pdo(Tour& tour);
+
+/// The node produces SYNC for a while, with a synchronous TPDO1.
+Finding produce_sync(Tour& tour);
+
+}  // namespace demo
