@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Start-up, clock, and what QEMU is asked for by semihosting.
+#include "machine.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "operations.hpp"
+
+extern "C" {
+
+// Of the linker script.
+extern std::uint32_t data_source[], data_begin[], data_end[], bss_begin[], bss_end[], stack_top[];
+extern void (*initialisers_begin[])();
+extern void (*initialisers_end[])();
+
+[[noreturn]] void reset();
+[[noreturn]] void fault();
+}
+
+namespace bench {
+namespace {
+
+// Operations of semihosting.
+constexpr std::uint32_t write_text = 0x04;
+constexpr std::uint32_t exit_extended = 0x20;
+constexpr std::uint32_t application_exit = 0x20026;
+
+volatile std::uint32_t& at(std::uint32_t address) { return *reinterpret_cast<volatile std::uint32_t*>(address); }
+
+void ask_host(std::uint32_t operation, const void* argument) {
+  register std::uint32_t r0 asm("r0") = operation;
+  register const void* r1 asm("r1") = argument;
+  asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
+}
+
+constexpr std::uint32_t probe_instructions = 1000;
+constexpr std::uint32_t probe_ticks = 25600;  // 2^10 ns each, 40 ns a tick
+
+template <unsigned instructions>
+__attribute__((noinline)) void run_probe() {
+  asm volatile(".rept %c0\nnop\n.endr\n" : : "i"(instructions));
+}
+
+template <unsigned instructions>
+std::uint32_t ticks_of_probe() {
+  const std::uint32_t begin = clock_of_machine();
+  run_probe<instructions>();
+  return ticks_between(begin, clock_of_machine());
+}
+
+// Where a Cortex-M0+ faults, so does this machine then.
+void trap_unaligned_access() {
+#if __ARM_ARCH == 6
+  at(0xE000ED14u) = at(0xE000ED14u) | 1u << 3;
+#endif
+}
+
+}  // namespace
+
+void start_clock() {
+  at(0xE000E014u) = 0x00FFFFFFu;
+  at(0xE000E018u) = 0;
+  at(0xE000E010u) = 5;  // enabled, clock of the CPU
+}
+
+void check_clock() {
+  const std::uint32_t ticks = ticks_of_probe<probe_instructions>() - ticks_of_probe<0>();
+  constexpr std::uint32_t tolerance = probe_ticks / 200;  // what the compiler has moved between two readings
+  if (ticks + tolerance < probe_ticks || ticks > probe_ticks + tolerance) {
+    fail("clock", "1000 instructions do not take 25600 ticks: qemu-system-arm -icount shift=10");
+  }
+}
+
+std::uint32_t tenths_of(std::uint64_t ticks, std::uint32_t operations) {
+  const std::uint64_t all = std::uint64_t{probe_ticks} * operations;
+  return static_cast<std::uint32_t>((ticks * probe_instructions * 10 + all / 2) / all);
+}
+
+void print(const char* text) { ask_host(write_text, text); }
+
+void print(std::uint32_t number) {
+  char digits[11] = {};
+  char* first = std::end(digits) - 1;
+  do {
+    *--first = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number != 0);
+  print(first);
+}
+
+void fail(const char* where, const char* what) {
+  print(where);
+  print(": ");
+  print(what);
+  print("\n");
+  leave(1);
+}
+
+void leave(int status) {
+  const std::uint32_t argument[] = {application_exit, static_cast<std::uint32_t>(status)};
+  ask_host(exit_extended, argument);
+  for (;;) {
+  }
+}
+
+}  // namespace bench
+
+extern "C" {
+
+void reset() {
+  std::copy(data_source, data_source + (data_end - data_begin), data_begin);
+  std::fill(bss_begin, bss_end, 0u);
+  bench::trap_unaligned_access();
+  std::for_each(initialisers_begin, initialisers_end, [](void (*run)()) { run(); });
+  bench::run_all();
+  bench::leave(0);
+}
+
+void fault() { bench::fail("processor", "fault"); }
+
+using Vector = void (*)();
+
+__attribute__((section(".vectors"), used))
+const Vector vectors[16] = {reinterpret_cast<Vector>(stack_top), reset, fault, fault, fault, fault, fault};
+}

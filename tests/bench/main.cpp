@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints, for each operation of a configuration, how many instructions it takes.
+#include "co_cfg.h"
+#include "machine.hpp"
+#include "operations.hpp"
+
+namespace bench {
+namespace {
+
+void measure_usual_node() {
+  measure_dictionary();
+  measure_network();
+  measure_sdo();
+  measure_rpdos();
+  measure_tpdos();
+  measure_sync();
+  measure_timers();
+}
+
+}  // namespace
+
+// The configuration decides.
+void run_all() {
+  start_clock();
+  check_clock();
+  CO_RPDO_N > 4 ? measure_many_pdos() : measure_usual_node();
+}
+
+}  // namespace bench
