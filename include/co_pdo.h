@@ -13,6 +13,10 @@
 ///     functions and callbacks of this file are called by the stack without it, except the Read and Write functions of
 ///     types.
 ///
+/// A TPDO that the SYNC, a timer or a remote request asks for, and that cannot be read, is not sent: the node's error
+/// tells what the type has answered. One that still waits for the controller is replaced by a younger one, which is not
+/// counted as dropped.
+///
 /// Context: the loop.
 #ifndef CO_PDO_H_
 #define CO_PDO_H_
@@ -106,8 +110,8 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 /// An event for TPDO \a num, 0…CO_TPDO_N-1. [301:7.2.2.5] It is sent now, or as soon as its inhibit time has passed, or
 /// with the next SYNC (type 0), with the values of then: CO_ERR_NONE. Else nothing is sent, now or later:
 /// CO_ERR_TPDO_NUM_TRIGGER: no such number; CO_ERR_NMT_MODE: the node is not in Operational; CO_ERR_TPDO_COM_OBJ: the
-/// PDO does not exist; CO_ERR_TPDO_EVENT: its type (1…240, 252, 253) knows no events; CO_ERR_OBJ_READ: an object could
-/// not be read; CO_ERR_IF_CAN_SEND: the transmit queue is full. CO_ERR_BAD_ARG: \a node is null.
+/// PDO does not exist; CO_ERR_TPDO_EVENT: its type (1…240, 252, 253) knows no events; what the type of an object
+/// answers that could not be read; CO_ERR_IF_CAN_SEND: the transmit queue is full. CO_ERR_BAD_ARG: \a node is null.
 CO_ERR COTPdoRequest(struct CO_NODE_T* node, uint16_t num);
 
 /// \name What has passed

@@ -3,9 +3,9 @@
 /// SYNC, consumer and producer. [301:7.2.5] Configured by 1005h, 1006h, 1007h and 1019h; there is nothing to call.
 ///
 /// At a SYNC the synchronous TPDOs are sampled and sent, then the synchronous RPDOs that have come since the last one
-/// are written. A producer takes its own SYNC for itself, and ignores those of others, which it counts as malformed. A
-/// SYNC of another length than 1019h says is reported with 8240h; without a counter, where one is expected, it counts
-/// for the TPDOs without a SYNC start value only.
+/// are written. A producer takes its own SYNC for itself, and ignores those of others (also while 1006h is 0 and it
+/// produces none), which it counts as malformed. A SYNC of another length than 1019h says is reported with 8240h;
+/// without a counter, where one is expected, it counts for the TPDOs without a SYNC start value only.
 #ifndef CO_SYNC_H_
 #define CO_SYNC_H_
 

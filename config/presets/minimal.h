@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file presets/minimal.h
-/// The smallest node: one SDO server without block transfer, no SDO client, a PDO in each direction, EMCY, little memory.
+/// The smallest node: one SDO server without block transfer, no SDO client, a PDO in each direction, EMCY, little
+/// memory.
 #ifndef CO_PRESET_MINIMAL_H_
 #define CO_PRESET_MINIMAL_H_
 

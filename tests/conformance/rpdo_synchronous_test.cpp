@@ -212,6 +212,27 @@ TEST_CASE("synchronous RPDO: without a window, and after it has been written 0, 
   CHECK(node.u8[0] == 0x42);
 }
 
+TEST_CASE("synchronous RPDO: a window that is over is open again when 1007h is written 0, and after Stopped [X4]") {
+  for (const bool stop : {false, true}) {
+    CAPTURE(stop);
+    SyncTable table = with_type(1);
+    table.window = 20000;
+    SyncNode node(table);
+    node.start();
+    node.rx("080#");
+    node.after(30ms);
+    if (stop) {
+      node.rx("000#0201");
+      node.rx("000#0101");
+    } else {
+      CHECK(node.set(0x1007, 0, 4, 0) == 0);
+    }
+    node.rx("201#42");
+    node.rx("080#");
+    CHECK(node.u8[0] == 0x42);
+  }
+}
+
 }  // namespace
 
 #endif

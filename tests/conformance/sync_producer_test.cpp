@@ -113,6 +113,14 @@ TEST_CASE("SYNC producer: bit 30 starts and ends it at once [Y1] [D21]") {
   node.silent();
 }
 
+TEST_CASE("SYNC producer: the same value written to 1005h changes nothing, the period goes on") {
+  SyncNode node(producer(10000));
+  node.after(7ms);
+  CHECK(node.set(0x1005, 0, 4, 0x40000080) == 0);
+  node.after(3ms);
+  node.tx("080#");
+}
+
 TEST_CASE("SYNC producer: it survives both resets [D21] [SYNC 08]") {
   for (const char* command : {"000#8101", "000#8201"}) {
     SyncNode node(producer(10000, 5));

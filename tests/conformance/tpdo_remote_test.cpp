@@ -175,6 +175,7 @@ TEST_CASE("remote TPDO: an object that cannot be read at the SYNC: nothing is se
     node.silent();
     node.rx("181#R");
     node.silent();
+    CHECK(CONodeGetErr(&node.node) == CO_ERR_OBJ_READ);
     answer = CO_ERR_NONE;
     node.rx("080#");
     node.frames();

@@ -34,7 +34,11 @@ void set(CO_RPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map
 void clear(CO_RPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags & ~flag); }
 
 uint16_t number_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo); }
-uint8_t detail(const CO_RPDO& pdo) { return static_cast<uint8_t>(number_of(pdo) + 1); }
+// The number of the PDO, from 1; 255 for all above.
+uint8_t detail(const CO_RPDO& pdo) {
+  const unsigned number = number_of(pdo) + 1U;
+  return static_cast<uint8_t>(number < UINT8_MAX ? number : UINT8_MAX);
+}
 
 // Each fault is reported once, until it is gone.
 void report(CO_RPDO& pdo, Flag flag, Fault fault) {

@@ -40,9 +40,13 @@ bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO
 
 // What Read functions change of the PDO itself is part of it.
 CO_ERR fill(CO_TPDO& pdo, CO_IF_FRM& frame) {
-  const Lock lock(*pdo.Node);
-  const CO_ERR err = read(*pdo.Node, pdo.Map, frame);
+  CO_NODE& node = *pdo.Node;
+  const Lock lock(node);
+  const CO_ERR err = read(node, pdo.Map, frame);
   clear(pdo, touched);
+  if (err != CO_ERR_NONE) {
+    node.Error = err;
+  }
   return err;
 }
 

@@ -18,6 +18,7 @@ namespace {
 using event::Fault;
 
 constexpr uint32_t microseconds = 1000000;
+constexpr uint16_t id_index = 0x1005;
 constexpr uint16_t cycle_index = 0x1006;
 constexpr uint8_t lowest_overflow = 2;
 constexpr uint8_t highest_overflow = 240;
@@ -31,6 +32,11 @@ uint32_t read(CO_NODE& node, uint16_t index) {
 uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr, time, microseconds); }
 
 void end_window(void* node_pointer) { event::end_sync_window(*static_cast<CO_NODE*>(node_pointer)); }
+
+void open_window(CO_NODE& node) {
+  tmr::stop(node.Tmr, node.Sync.WindowTmr);
+  node.WindowOver = 0;
+}
 
 void take(CO_NODE& node, uint8_t counter) {
   if (node.Sync.Window != 0) {
@@ -81,7 +87,7 @@ void check_length(CO_NODE& node, bool right) {
 
 void configure(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
-  const uint32_t cob_id = read(node, 0x1005) & ~wire::cob_invalid;
+  const uint32_t cob_id = read(node, id_index) & ~wire::cob_invalid;
   const bool usable = wire::is_usable(cob_id);
   sync.Identifier = usable ? wire::frame_id(cob_id) : wire::no_frame;
   sync.Produces = usable && (cob_id & producer) != 0 ? 1 : 0;
@@ -109,8 +115,9 @@ bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
 }
 
 CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  const uint32_t before = read(*node, id_index);
   const CO_ERR err = size == sizeof(uint32_t) ? cob_id::write(*obj, *node, buffer, size, may_replace) : CO_ERR_BAD_ARG;
-  if (err == CO_ERR_NONE) {
+  if (err == CO_ERR_NONE && read(*node, id_index) != before) {
     configure(*node);
     routes::publish(*node);
   }
@@ -135,6 +142,7 @@ CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     run_producer(*node);
   } else {
     node->Sync.Window = time;
+    open_window(*node);
   }
   return CO_ERR_NONE;
 }
@@ -172,14 +180,14 @@ void init(CO_NODE& node) {
   sync.Wrong = 0;
   sync.Window = ticks(node, read(node, 0x1007));
   sync.Overflow = CODictRdByte(&node.Dict, CO_DEV(0x1019, 0), &overflow) == CO_ERR_NONE ? overflow : 0;
-  tmr::stop(node.Tmr, sync.WindowTmr);
+  open_window(node);
   configure(node);
 }
 
 void on_mode(CO_NODE& node) {
   if (!event::is_allowed(node, CO_SYNC_ALLOWED)) {
     tmr::stop(node.Tmr, node.Sync.Tmr);
-    tmr::stop(node.Tmr, node.Sync.WindowTmr);
+    open_window(node);
     transmit::withdraw(node, node.Sync.Identifier);
     node.Sync.Counter = 0;
   } else if (!tmr::is_running(node.Sync.Tmr)) {
