@@ -121,7 +121,8 @@ void try_all(const char* command, bool busy) {
       node.can.accept_all();
       node.loop();
       node.tx("701#00");
-      CHECK(life(node) == life_of_fresh(node));
+      const std::vector<std::string> expected = life_of_fresh(node);
+      CHECK(life(node) == expected);
     }
   }
 }
@@ -154,7 +155,8 @@ TEST_CASE("PDO reset: a stop, wherever it comes, leaves no timer and no frame; C
         node.init_again();
         node.call([&] { CONodeStart(&node.node); });
         node.tx("701#00");
-        CHECK(life(node) == life_of_fresh(node));
+        const std::vector<std::string> expected = life_of_fresh(node);
+        CHECK(life(node) == expected);
         node.frames();
       }
     }

@@ -391,6 +391,9 @@ class Moved : public Fixture {
     table_.assign(node.Dict.Root, node.Dict.Root + node.Dict.Num);
     call([this] { CHECK(CODictInit(&node.Dict, &node, table_.data(), node.Dict.Num) == CO_ERR_NONE); });
   }
+  ~Moved() { CONodeStop(&node); }  // before its table is gone
+  Moved(const Moved&) = delete;
+  Moved& operator=(const Moved&) = delete;
 
  private:
   std::vector<CO_OBJ> table_;
