@@ -32,10 +32,11 @@ library() {
 
 has_objects() { [ "$("$1" --defined-only "$2" 2>/dev/null | grep -c ' [TtWw] ')" -gt 20 ]; }
 
-# Undefined in one object and defined in none. Weak ones are defaults that the application replaces.
+# Undefined in one object and defined in none. Weak ones are defaults that the application replaces, or functions that it
+# may define and need not.
 needs_only_allowed() {
   local needed
-  needed=$(comm -23 <("$1" --undefined-only -f posix "$2" 2>/dev/null | symbol_names) \
+  needed=$(comm -23 <("$1" --undefined-only -f posix "$2" 2>/dev/null | grep -v ' [vw] *$' | symbol_names) \
     <("$1" --defined-only -f posix "$2" 2>/dev/null | symbol_names) | grep -vxE "$allowed")
   [ -z "$needed" ] || { echo "$needed"; return 1; }
 }

@@ -231,7 +231,7 @@ void on_mode(CO_NODE& node) {
   if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
-  withdraw(node, cob_id(node));
+  withdraw(node, transmit::is_waiting(node) ? cob_id(node) : wire::cob_invalid);
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
     tmr::stop(node.Tmr, node.Emcy.Tmr);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {

@@ -71,12 +71,20 @@ CO_ERR locate(CO_NODE& node, Direction direction, uint32_t mapping, CO_OBJ*& obj
   return is_mappable(*obj, direction) ? check_length(node, *obj, mapping & 0xFFU) : CO_ERR_OBJ_MAP_TYPE;
 }
 
+const CO_OBJ_TYPE* number_of_bits(uint8_t bits) {
+  switch (bits) {
+    case 8: return &COTInt8;
+    case 16: return &COTInt16;
+    case 32: return &COTInt32;
+    default: return nullptr;
+  }
+}
+
 // Is the value nothing but the bytes of its variable? What a change has to be noticed of (flag A) is written by its
 // type.
 bool is_plain(const CO_NODE& node, CO_OBJ& obj, Direction direction, uint8_t bits) {
   constexpr uint32_t none = CO_OBJ_D_____ | CO_OBJ__N____;
-  constexpr const CO_OBJ_TYPE* numbers[] = {nullptr, &COTInt8, &COTInt16, nullptr, &COTInt32};
-  const CO_OBJ_TYPE* const number = bits <= 32 && bits % 8 == 0 ? numbers[bits / 8] : nullptr;
+  const CO_OBJ_TYPE* const number = number_of_bits(bits);
   if (!wire::host_is_little_endian || number == nullptr || (obj.Key & none) != 0) {
     return false;
   }
