@@ -73,6 +73,16 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
   }
 }
 
+void reconfigure(CO_NODE& node, bool entries_have_moved) {
+  node.Busy = 1;
+  if (entries_have_moved) {
+    services::remap(node);
+  }
+  services::configure(node);
+  node.Busy = 0;
+  routes::publish(node);
+}
+
 bool has_drivers(const CO_NODE& node) {
   const bool can = node.Ext->Can != nullptr || node.If.Drv->Can != nullptr;
   const bool timer = node.Ext->Timer != nullptr || node.If.Drv->Timer != nullptr;
@@ -141,13 +151,7 @@ void event::settle(CO_NODE& node) {
     if ((pending & (reset_node | reset_communication)) != 0) {
       node::settle_reset(node, pending);
     } else if (node.Nmt.Mode != CO_INVALID) {
-      node.Busy = 1;
-      if ((pending & remap) != 0) {
-        services::remap(node);
-      }
-      services::configure(node);
-      node.Busy = 0;
-      routes::publish(node);
+      node::reconfigure(node, (pending & remap) != 0);
     }
   }
 }

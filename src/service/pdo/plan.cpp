@@ -8,10 +8,8 @@
 #include "wire/bytes.hpp"
 
 // Only an application that defines them has them; see co_pdo.h.
-extern "C" {
-void CORpdoWriteData(CO_IF_FRM* frm, uint8_t pos, uint8_t size, CO_OBJ* obj) __attribute__((weak));
-void COTpdoReadData(CO_IF_FRM* frm, uint8_t pos, uint8_t size, CO_OBJ* obj) __attribute__((weak));
-}
+#pragma weak CORpdoWriteData
+#pragma weak COTpdoReadData
 
 namespace co::pdo {
 namespace {

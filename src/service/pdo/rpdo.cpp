@@ -144,7 +144,7 @@ bool is_kept_from(const CO_NODE& node, const CO_RPDO& pdo) { return has(pdo, syn
 void configure_rpdo(CO_NODE& node, uint16_t number) {
   CO_RPDO& pdo = node.RPdo[number];
   const auto kept = static_cast<uint8_t>(pdo.Map.Flags & queued);
-  Parameters parameters;
+  Parameters parameters = {};
   resolve_all(pdo);
   tmr::stop(node.Tmr, pdo.Tmr);
   configure(node, Direction::receive, static_cast<uint16_t>(first_rpdo + number), parameters, pdo.Map);

@@ -71,12 +71,8 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
 // The objects as they are now.
 CO_ERR send_now(CO_TPDO& pdo) {
   CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, pdo.Map.Length);
-  CO_ERR err = fill(pdo, frame);
-  if (err == CO_ERR_NONE) {
-    err = send(pdo, frame);
-  }
-  settle_touched(*pdo.Node);
-  return err;
+  const CO_ERR err = fill(pdo, frame);
+  return err == CO_ERR_NONE ? send(pdo, frame) : err;
 }
 
 void on_time(void* pdo_pointer);
@@ -127,6 +123,7 @@ void on_time(void* pdo_pointer) {
   } else {
     (void)send_event(pdo, true);
   }
+  settle_touched(*pdo.Node);
 }
 
 // An event inside the inhibit time is kept. [301:7.2.2.6]
@@ -147,6 +144,15 @@ CO_ERR trigger(CO_TPDO& pdo) {
   }
   set(pdo, pending);
   return CO_ERR_NONE;
+}
+
+void send_touched(CO_TPDO& pdo) {
+  if (has(pdo, touched)) {
+    clear(pdo, touched);
+    if (is_operational(*pdo.Node)) {
+      (void)trigger(pdo);
+    }
+  }
 }
 
 // What remote requests are answered with until the next SYNC.
@@ -276,7 +282,7 @@ bool is_remote(const Parameters& parameters) {
 
 void configure_tpdo(CO_NODE& node, uint16_t number) {
   CO_TPDO& pdo = node.TPdo[number];
-  Parameters parameters;
+  Parameters parameters = {};
   end(node, pdo);
   configure(node, Direction::transmit, static_cast<uint16_t>(first_tpdo + number), parameters, pdo.Map);
   pdo.Identifier = wire::frame_id(parameters.cob_id);
@@ -324,6 +330,7 @@ void on_mode_tpdos(CO_NODE& node) {
   for (CO_TPDO& pdo : node.TPdo) {
     operational ? begin(pdo) : end(node, pdo);
   }
+  settle_touched(node);
 }
 
 // [301:7.2.2.5.3]
@@ -336,6 +343,7 @@ bool on_remote(CO_NODE& node, uint16_t number) {
   } else if (has(pdo, sampled)) {
     (void)send_kept(pdo);
   }
+  settle_touched(node);
   return true;
 }
 
@@ -367,17 +375,13 @@ void change_object(CO_NODE& node, const CO_OBJ& obj) {
   settle_touched(node);
 }
 
+// What Read functions change meanwhile is sent, too; what is changed by that waits for the next event.
 void settle_touched(CO_NODE& node) {
-  if (node.Touched == 0 || node.OdLocked != 0) {
-    return;
-  }
-  node.Touched = 0;
-  for (CO_TPDO& pdo : node.TPdo) {
-    if (has(pdo, touched)) {
-      clear(pdo, touched);
-      if (is_operational(node)) {
-        (void)trigger(pdo);
-      }
+  constexpr unsigned rounds = 2;
+  for (unsigned round = 0; round < rounds && node.Touched != 0 && node.OdLocked == 0; ++round) {
+    node.Touched = 0;
+    for (CO_TPDO& pdo : node.TPdo) {
+      send_touched(pdo);
     }
   }
 }
@@ -387,7 +391,9 @@ CO_ERR request(CO_NODE& node, uint16_t number) {
   if (!is_operational(node)) {
     return CO_ERR_NMT_MODE;
   }
-  return exists(pdo) ? trigger(pdo) : CO_ERR_TPDO_COM_OBJ;
+  const CO_ERR err = exists(pdo) ? trigger(pdo) : CO_ERR_TPDO_COM_OBJ;
+  settle_touched(node);
+  return err;
 }
 
 bool trigger_object(CO_NODE& node, const CO_OBJ& obj) {
