@@ -171,7 +171,7 @@ struct Step {
 bool is_whole(const Step& step) { return !maps_bits || ((step.position | step.bits) & 7U) == 0; }
 uint8_t* first_byte(CO_IF_FRM& frame, const Step& step) { return frame.Data + step.position / 8; }
 
-bool get_bit(const CO_IF_FRM& frame, unsigned bit) { return (frame.Data[bit / 8] >> (bit % 8) & 1U) != 0; }
+bool get_bit(const uint8_t* data, unsigned bit) { return (data[bit / 8] & (1U << (bit % 8))) != 0; }
 void put_bit(CO_IF_FRM& frame, unsigned bit, bool value) {
   frame.Data[bit / 8] = static_cast<uint8_t>(frame.Data[bit / 8] | (value ? 1U << (bit % 8) : 0U));
 }
@@ -180,12 +180,12 @@ void put_bit(CO_IF_FRM& frame, unsigned bit, bool value) {
 void extract(const CO_IF_FRM& frame, const Step& step, uint8_t* value) {
   for (unsigned bit = 0; bit < step.bits; ++bit) {
     value[bit / 8] =
-        static_cast<uint8_t>(value[bit / 8] | (get_bit(frame, step.position + bit) ? 1U << (bit % 8) : 0U));
+        static_cast<uint8_t>(value[bit / 8] | (get_bit(frame.Data, step.position + bit) ? 1U << (bit % 8) : 0U));
   }
 }
 void place(CO_IF_FRM& frame, const Step& step, const uint8_t* value) {
   for (unsigned bit = 0; bit < step.bits; ++bit) {
-    put_bit(frame, step.position + bit, (value[bit / 8] >> (bit % 8) & 1U) != 0);
+    put_bit(frame, step.position + bit, get_bit(value, bit));
   }
 }
 
