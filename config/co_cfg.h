@@ -54,7 +54,7 @@
 #error "CO_SDO_TIMEOUT: 0...60000 ms"
 #endif
 
-/// PDOs (1400h…, 1800h…): 0…512 of each. Each RPDO costs 74 and each TPDO 76 bytes of RAM (32-bit CPU).
+/// PDOs (1400h…, 1800h…): 0…512 of each. Each RPDO costs 78 and each TPDO 80 bytes of RAM (32-bit CPU).
 #ifndef CO_RPDO_N
 #define CO_RPDO_N 4
 #endif
@@ -66,7 +66,7 @@
 #endif
 
 /// Mapping of single bits: 0 or 1. 1: BOOLEAN takes one bit of a PDO, and up to 64 objects fit into one; each PDO costs
-/// 168 bytes of RAM more.
+/// 176 bytes of RAM more.
 #ifndef USE_PDO_BITS
 #define USE_PDO_BITS 0
 #endif
