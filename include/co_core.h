@@ -142,10 +142,10 @@ typedef uint16_t CO_ROUTE_NUM;
 typedef uint8_t CO_ROUTE_NUM;
 #endif
 
-typedef struct CO_ROUTES_T {   ///< who gets the frames of an identifier
-  uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
-  uint16_t Owner[CO_ROUTE_N];  ///< service in bits 15…12, number of its instance in bits 11…0
+typedef struct CO_ROUTES_T {  ///< who gets the frames of an identifier
   CO_ROUTE_NUM Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
+  uint16_t Owner[CO_ROUTE_N];  ///< service in bits 15…12, number of its instance in bits 11…0
+  uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
 } CO_ROUTES;
 
 typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by priority
@@ -156,20 +156,41 @@ typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by pri
 } CO_TX_QUEUE;
 /// \endcond
 
-/// A node. The application uses the members up to NodeId as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …),
-/// reads NodeId and Baudrate, and touches nothing else.
+/// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
+/// Baudrate, and touches nothing else. What is used most lies in front, where small CPUs reach it in one instruction.
 typedef struct CO_NODE_T {
-  CO_DICT Dict;
-  CO_IF If;
-#if USE_EMCY
-  CO_EMCY Emcy;
-#endif
+  uint8_t NodeId;
+  uint8_t Busy;        ///< a frame is being processed
+  uint8_t Pending;     ///< what is to be done when it has been answered
+  uint8_t Paused;      ///< a block transfer waits for the controller
+  uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
+  uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
+  uint8_t WindowOver;  ///< the synchronous window is over
   CO_NMT Nmt;
+  uint16_t Turn;       ///< whose turn it is when a block transfer may go on
+  uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
+  uint16_t RPdoLast;
+  uint16_t TPdoFirst;  ///< of the synchronous TPDOs, by CO_TPDO.Next
+  const CO_NODE_EXT* Ext;
+  CO_TX_QUEUE TxQueue;
+  CO_IF If;
+  CO_OBJ* Served;  ///< object of the SDO transfer being served; null: none
+  enum CO_ERR_T Error;
+  CO_DICT Dict;
   CO_TMR Tmr;
+  CO_ROUTES Routes;
+  CO_NODE_COUNTERS Count;
+  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for Served
+  uint32_t Baudrate;
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
+  CO_TMR_MEM SdoTmr;
+  CO_TMR_MEM HbProdTmr;
 #if USE_CSDO
   CO_CSDO CSdo[CO_CSDO_N];
+#endif
+#if USE_EMCY
+  CO_EMCY Emcy;
 #endif
 #if CO_RPDO_N > 0
   CO_RPDO RPdo[CO_RPDO_N];
@@ -186,28 +207,6 @@ typedef struct CO_NODE_T {
 #if USE_LED
   CO_LED Led;
 #endif
-  enum CO_ERR_T Error;
-  uint32_t Baudrate;
-  uint8_t NodeId;
-  uint8_t Busy;     ///< a frame is being processed
-  uint8_t Pending;  ///< what is to be done when it has been answered
-  uint8_t Paused;   ///< a block transfer waits for the controller
-  uint16_t Turn;    ///< whose turn it is then
-  const CO_NODE_EXT* Ext;
-  CO_ROUTES Routes;
-  CO_TX_QUEUE TxQueue;
-  CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
-  CO_NODE_COUNTERS Count;
-  CO_TMR_MEM HbProdTmr;
-  CO_TMR_MEM SdoTmr;
-  CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
-  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
-  uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
-  uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
-  uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
-  uint16_t RPdoLast;
-  uint16_t TPdoFirst;  ///< of the synchronous TPDOs, by CO_TPDO.Next
-  uint8_t WindowOver;  ///< the synchronous window is over
 #if USE_GUARDING
   uint8_t GuardToggle;  ///< bit 7 of the next answer
   uint8_t GuardLost;    ///< the NMT master is missing
@@ -217,6 +216,7 @@ typedef struct CO_NODE_T {
   CO_TMR_MEM HbConsTmr;             ///< of all consumers
   CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< by sub-index
 #endif
+  CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;

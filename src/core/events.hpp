@@ -63,6 +63,11 @@ void end_sync_window(CO_NODE& node);
 void change_object(CO_NODE& node, const CO_OBJ& obj);
 
 // Does what waits, unless a frame is being processed or the mode is being changed.
-void settle(CO_NODE& node);
+void settle_pending(CO_NODE& node);
+inline void settle(CO_NODE& node) {
+  if (node.Pending != 0) {
+    settle_pending(node);
+  }
+}
 
 }  // namespace co::event

@@ -45,22 +45,6 @@ void init(CO_NODE& node) {
   can_init(node);
 }
 
-void lock(CO_NODE& node) {
-  if (node.Ext->Lock != nullptr) {
-    node.Ext->Lock(node.Ext->User);
-  } else {
-    COTmrLock();
-  }
-}
-
-void unlock(CO_NODE& node) {
-  if (node.Ext->Unlock != nullptr) {
-    node.Ext->Unlock(node.Ext->User);
-  } else {
-    COTmrUnlock();
-  }
-}
-
 void alarm(const CO_NODE& node, uint32_t ticks, bool stopped) {
   if (has_clock(node)) {
     if (node.Ext->Timer->Alarm != nullptr) {
@@ -99,15 +83,6 @@ bool can_wants_filter(const CO_NODE& node) { return node.Ext->Can != nullptr && 
 
 void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num) {
   node.Ext->Can->Filter(node.Ext->CanCtx, ids, num);
-}
-
-int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
-  const int16_t result =
-      node.Ext->Can != nullptr ? node.Ext->Can->Read(node.Ext->CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
-  if (result < 0) {
-    node.Error = CO_ERR_IF_CAN_READ;
-  }
-  return result;
 }
 
 bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {

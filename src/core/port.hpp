@@ -18,8 +18,8 @@ extern const CO_NODE_EXT no_drivers;
 
 void init(CO_NODE& node);
 
-void lock(CO_NODE& node);
-void unlock(CO_NODE& node);
+inline void lock(CO_NODE& node) { node.Ext->Lock != nullptr ? node.Ext->Lock(node.Ext->User) : COTmrLock(); }
+inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlock(node.Ext->User) : COTmrUnlock(); }
 
 // Timer drivers with a context have a clock; the others count down and tell what is left.
 [[nodiscard]] inline bool has_clock(const CO_NODE& node) { return node.Ext->Timer != nullptr; }
@@ -37,7 +37,14 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 [[nodiscard]] bool can_wants_filter(const CO_NODE& node);
 
 // As the driver: sizeof(CO_IF_FRM), 0, < 0. A negative result sets the node's error.
-[[nodiscard]] int16_t can_read(CO_NODE& node, CO_IF_FRM& frame);
+[[nodiscard]] inline int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  const int16_t result = ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
+  if (result < 0) {
+    node.Error = CO_ERR_IF_CAN_READ;
+  }
+  return result;
+}
 [[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
 
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);

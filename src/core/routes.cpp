@@ -67,14 +67,14 @@ void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number
   }
 }
 
-uint16_t next(const CO_NODE& node, uint16_t place, uint32_t identifier, uint16_t owner) {
+unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner) {
   if (!is_at(node, place, identifier) || node.Routes.Owner[place] != owner) {
     place = find(node, identifier);
   }
   while (is_at(node, place, identifier) && node.Routes.Owner[place] <= owner) {
     ++place;
   }
-  return place;
+  return is_at(node, place, identifier) ? place : nowhere;
 }
 
 void publish(const CO_NODE& node) {

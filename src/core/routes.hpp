@@ -3,6 +3,8 @@
 // it, so that a foreign frame is known after one or two comparisons.
 #pragma once
 
+#include <limits.h>
+
 #include "co_core.h"
 
 namespace co::routes {
@@ -57,8 +59,16 @@ void publish(const CO_NODE& node);
   return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
 }
 
-// Where the routes of an identifier begin; the number of routes if it has none.
-[[nodiscard]] inline uint16_t find(const CO_NODE& node, uint32_t identifier) {
+inline constexpr unsigned nowhere = UINT_MAX;
+
+// Is the route at this place one of the identifier?
+[[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned place, uint32_t identifier) {
+  constexpr uint8_t end = 17;
+  return place < node.Routes.Start[end] && node.Routes.Id[place] == identifier;
+}
+
+// The first place of the routes of an identifier, or nowhere.
+[[nodiscard]] inline unsigned find(const CO_NODE& node, uint32_t identifier) {
   constexpr unsigned short_search = 4;
   const CO_ROUTES& routes = node.Routes;
   const uint8_t fc = class_of(identifier);
@@ -66,22 +76,22 @@ void publish(const CO_NODE& node);
   unsigned last = routes.Start[fc + 1];
   while (last - first > short_search) {
     const unsigned middle = (first + last) / 2;
-    (routes.Id[middle] < identifier ? first : last) = middle;
+    if (routes.Id[middle] < identifier) {
+      first = middle + 1;
+    } else {
+      last = middle + 1;
+    }
   }
-  while (first < last && routes.Id[first] < identifier) {
-    ++first;
+  for (; first < last && routes.Id[first] <= identifier; ++first) {
+    if (routes.Id[first] == identifier) {
+      return first;
+    }
   }
-  return static_cast<uint16_t>(first);
+  return nowhere;
 }
 
-// Is the route at this place one of the identifier?
-[[nodiscard]] inline bool is_at(const CO_NODE& node, uint16_t place, uint32_t identifier) {
-  constexpr uint8_t end = 17;
-  return place < node.Routes.Start[end] && node.Routes.Id[place] == identifier;
-}
-
-// The place behind the owner at this place, who may have changed the routes while it was served.
-[[nodiscard]] uint16_t next(const CO_NODE& node, uint16_t place, uint32_t identifier, uint16_t owner);
+// The place behind the owner at this place, who may have changed the routes while it was served; or nowhere.
+[[nodiscard]] unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner);
 
 [[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }
 [[nodiscard]] constexpr uint16_t number_of(uint16_t owner) { return owner & 0x0FFFU; }

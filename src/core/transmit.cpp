@@ -53,7 +53,9 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
 }
 
 bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
-  flush(node);
+  if (is_waiting(node)) {
+    flush(node);
+  }
   return !is_waiting(node) && may_send_next(node) && try_send(node, frame);
 }
 
@@ -70,6 +72,9 @@ uint16_t places_for_application(const CO_TX_QUEUE& queue) {
 }
 
 bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!is_waiting(node)) {
+    return false;
+  }
   CO_IF_FRM* const waiting = find_waiting(node, frame.Identifier);
   if (waiting != nullptr) {
     *waiting = frame;

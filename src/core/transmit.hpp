@@ -32,9 +32,6 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 // Sends a frame now or not at all: for those that can be made again. False: see Service::on_free.
 [[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
 
-// Offers the frames that wait to the driver.
-void flush(CO_NODE& node);
-
 // Would send() lose a frame now?
 [[nodiscard]] bool is_full(CO_NODE& node);
 
@@ -48,5 +45,8 @@ void clear(CO_NODE& node);
 void withdraw(CO_NODE& node, uint32_t identifier);
 
 [[nodiscard]] inline bool is_waiting(const CO_NODE& node) { return node.TxQueue.Num != 0; }
+
+// Offers the frames that wait to the driver.
+void flush(CO_NODE& node);
 
 }  // namespace co::transmit

@@ -107,12 +107,16 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 #endif
 }
 
-// Block transfers that have found the controller full.
-void go_on(CO_NODE& node) {
-  node.Busy = 1;
-  services::on_free(node);
-  node.Busy = 0;
-  event::settle(node);
+// What has found the controller full: frames, then block transfers. False: the node was stopped.
+[[nodiscard]] bool go_on(CO_NODE& node) {
+  transmit::flush(node);
+  if (USE_SDO_BLOCK != 0 && node.Paused != 0) {
+    node.Busy = 1;
+    services::on_free(node);
+    node.Busy = 0;
+    event::settle(node);
+  }
+  return node.Nmt.Mode != CO_INVALID;
 }
 
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -124,13 +128,16 @@ void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
-  if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-    report_error(node, frame);
-    return;
+  if (frame.Identifier > wire::base_ids || frame.DLC > sizeof frame.Data) {
+    if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
+      report_error(node, frame);
+      return;
+    }
+    frame.Identifier = wire::normalised(frame.Identifier);
+    frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
   }
-  frame.Identifier = wire::normalised(frame.Identifier);
-  frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
-  if (services::dispatch(node, frame)) {
+  const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
+  if (place != routes::nowhere && services::dispatch(node, frame, place)) {
     return;
   }
   count(node.Count.Unclaimed);
@@ -144,7 +151,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
 
 namespace co {
 
-void event::settle(CO_NODE& node) {
+void event::settle_pending(CO_NODE& node) {
   while (node.Pending != 0 && node.Busy == 0 && node.Nmt.Changing == 0) {
     const uint8_t pending = node.Pending;
     node.Pending = 0;
@@ -234,11 +241,7 @@ void CONodeProcess(CO_NODE* node) {
   if (node->Nmt.Mode == CO_INVALID || node->Busy != 0 || node->Nmt.Changing != 0) {
     return;
   }
-  transmit::flush(*node);
-  if (USE_SDO_BLOCK != 0 && node->Paused != 0) {
-    node::go_on(*node);
-  }
-  if (node->Nmt.Mode == CO_INVALID) {
+  if ((transmit::is_waiting(*node) || node->Paused != 0) && !node::go_on(*node)) {
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(0, 0);

@@ -21,33 +21,36 @@
 namespace co {
 namespace {
 
+bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
+bool no_remote(CO_NODE&, uint16_t) { return false; }
+
 // Those that get frames come first, in the order of routes::Service.
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, nullptr, nmt::on_mode, nullptr, nullptr},
-    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, nullptr, sdo_server::on_mode,
+    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_remote, nmt::on_mode, nullptr, nullptr},
+    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_remote, sdo_server::on_mode,
      sdo_server::on_free, sdo_server::configure},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, nullptr, sdo_client::on_mode,
+    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, no_remote, sdo_client::on_mode,
      sdo_client::on_free, sdo_client::configure},
 #endif
     {CO_NMT_ALLOWED, 0, guarding::init, guarding::on_frame, guarding::on_remote, guarding::on_mode, nullptr, nullptr},
 #if CO_HBCONS_N > 0
-    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, nullptr, heartbeat::on_mode_consumer, nullptr, nullptr},
+    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, no_remote, heartbeat::on_mode_consumer, nullptr, nullptr},
 #endif
 #if USE_SYNC
-    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, nullptr, sync::on_mode, nullptr, nullptr},
+    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, no_remote, sync::on_mode, nullptr, nullptr},
 #endif
 #if USE_TIME
-    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, nullptr, time::on_mode, nullptr, nullptr},
+    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_remote, time::on_mode, nullptr, nullptr},
 #endif
 #if CO_RPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, nullptr, pdo::on_mode_rpdos, nullptr, nullptr},
+    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, no_remote, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
 #if CO_TPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init_tpdos, nullptr, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
+    {CO_PDO_ALLOWED, 0, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
-    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, nullptr, nullptr, nullptr, nullptr},
+    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_remote, nullptr, nullptr, nullptr},
 #endif
 
     {CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
@@ -93,9 +96,9 @@ bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
   const Service& service = table[routes::service_of(owner)];
   const uint16_t number = routes::number_of(owner);
   if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
-    return service.on_remote != nullptr && service.on_remote(node, number);
+    return service.on_remote(node, number);
   }
-  return service.on_frame != nullptr && service.on_frame(node, frame, number);
+  return service.on_frame(node, frame, number);
 }
 
 }  // namespace
@@ -131,19 +134,19 @@ void on_free(CO_NODE& node) {
   }
 }
 
-bool dispatch(CO_NODE& node, const CO_IF_FRM& frame) {
+bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   bool claimed = false;
   bool served = false;
   const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
-  uint16_t place = routes::find(node, id);
-  while (routes::is_at(node, place, id)) {
+  do {
     const uint16_t owner = node.Routes.Owner[place];
+    const bool alone = !routes::is_at(node, place + 1, id);
     if (event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
       claimed = true;
       served |= serve(node, frame, owner);
     }
-    place = routes::next(node, place, id, owner);
-  }
+    place = alone ? routes::nowhere : routes::next(node, place, id, owner);
+  } while (place != routes::nowhere);
   if (claimed && !served) {
     count(node.Count.Malformed);
   }

@@ -24,8 +24,8 @@ void init(CO_NODE& node);
 // The application starts anew: what it has told the services is no more.
 void forget_application(CO_NODE& node);
 
-// Gives a frame to the services whose route it has. False: none wants it, or may have it.
-[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame);
+// Gives a frame to the services whose routes begin at this place. False: none may have it.
+[[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);
 
 // Takes COB-IDs from the dictionary again.
 void configure(CO_NODE& node);

@@ -19,7 +19,7 @@ struct Route {
 // The routes of an identifier as the node finds them.
 std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
   std::vector<Route> all;
-  for (std::uint16_t n = co::routes::find(node, id); co::routes::is_at(node, n, id); ++n) {
+  for (unsigned n = co::routes::find(node, id); co::routes::is_at(node, n, id); ++n) {
     all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
   }
   return all;
@@ -102,7 +102,7 @@ TEST_CASE("routes: those of an identifier are served in the order of their owner
   add(node, 0x601, 2, 7);
   add(node, 0x601, 1, 3);
   add(node, 0x601, 1, 1);
-  std::uint16_t place = co::routes::find(node, 0x601);
+  unsigned place = co::routes::find(node, 0x601);
   const std::uint16_t first = node.Routes.Owner[place];
   CHECK(co::routes::number_of(first) == 1);
   remove(node, 1, 1);
@@ -118,7 +118,7 @@ TEST_CASE("routes: those of an identifier are served in the order of their owner
   place = co::routes::next(node, place, 0x601, second);
   REQUIRE(co::routes::is_at(node, place, 0x601));
   CHECK(co::routes::number_of(node.Routes.Owner[place]) == 7);
-  CHECK_FALSE(co::routes::is_at(node, co::routes::next(node, place, 0x601, node.Routes.Owner[place]), 0x601));
+  CHECK(co::routes::next(node, place, 0x601, node.Routes.Owner[place]) == co::routes::nowhere);
 }
 
 TEST_CASE("routes: a driver that filters is told what to let through before it goes on the bus") {
