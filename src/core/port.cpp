@@ -45,24 +45,6 @@ void init(CO_NODE& node) {
   can_init(node);
 }
 
-void alarm(const CO_NODE& node, uint32_t ticks, bool stopped) {
-  if (has_clock(node)) {
-    if (node.Ext->Timer->Alarm != nullptr) {
-      node.Ext->Timer->Alarm(node.Ext->TimerCtx, ticks);
-    }
-    return;
-  }
-  const CO_IF_TIMER_DRV& driver = *node.If.Drv->Timer;
-  if (ticks == 0) {
-    driver.Stop();
-    return;
-  }
-  driver.Reload(ticks);
-  if (stopped) {
-    driver.Start();
-  }
-}
-
 void can_init(const CO_NODE& node) {
   node.Ext->Can != nullptr ? node.Ext->Can->Init(node.Ext->CanCtx) : node.If.Drv->Can->Init();
 }

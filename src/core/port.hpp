@@ -26,8 +26,26 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 [[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }
 [[nodiscard]] inline uint32_t ticks_left(const CO_NODE& node) { return node.If.Drv->Timer->Delay(); }
 [[nodiscard]] inline bool has_elapsed(const CO_NODE& node) { return node.If.Drv->Timer->Update() != 0; }
-// 0: never. stopped: the driver waits for nothing so far.
-void alarm(const CO_NODE& node, uint32_t ticks, bool stopped);
+// Lets COTmrService() be called some ticks after now, where the loop does not look itself; 0: never.
+inline void set_alarm(const CO_NODE& node, uint32_t ticks) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  if (ext.Timer->Alarm != nullptr) {
+    ext.Timer->Alarm(ext.TimerCtx, ticks);
+  }
+}
+
+// The same for a driver without a clock. stopped: it waits for nothing so far.
+inline void count_down(const CO_NODE& node, uint32_t ticks, bool stopped) {
+  const CO_IF_TIMER_DRV& driver = *node.If.Drv->Timer;
+  if (ticks == 0) {
+    driver.Stop();
+    return;
+  }
+  driver.Reload(ticks);
+  if (stopped) {
+    driver.Start();
+  }
+}
 
 void can_init(const CO_NODE& node);
 void can_enable(const CO_NODE& node, uint32_t baud);

@@ -12,38 +12,42 @@ enum State : uint8_t { idle = 0, armed, due };
 // Keeps the timer interrupt away while it lives.
 class Lock {
  public:
-  explicit Lock(const CO_TMR& timers) : node_(*timers.Node) { port::lock(node_); }
-  ~Lock() { port::unlock(node_); }
+  explicit Lock(const CO_TMR& timers) : timers_(timers) { port::lock(*timers.Node); }
+  [[gnu::always_inline]] ~Lock() { port::unlock(*timers_.Node); }
   Lock(const Lock&) = delete;
   Lock& operator=(const Lock&) = delete;
 
  private:
-  CO_NODE& node_;
+  const CO_TMR& timers_;
 };
 
+// Returns the one before it.
+CO_TMR_MEM* unlink(CO_TMR_LIST& list, const CO_TMR_MEM& timer) {
+  CO_TMR_MEM* before = nullptr;
+  for (CO_TMR_MEM* each = list.First; each != &timer; each = each->Next) {
+    before = each;
+  }
+  (before == nullptr ? list.First : before->Next) = timer.Next;
+  list.Last = list.Last == &timer ? before : list.Last;
+  return before;
+}
+
+// COTmrProcess() looks at the elapsed ones without the lock.
 void append_due(CO_TMR& t, CO_TMR_MEM& timer) {
   timer.State = due;
   timer.Next = nullptr;
-  if (t.Due == nullptr) {
-    __atomic_store_n(&t.Due, &timer, __ATOMIC_RELAXED);
-  } else {
-    t.DueEnd->Next = &timer;
-  }
-  t.DueEnd = &timer;
+  __atomic_store_n(t.Due.First == nullptr ? &t.Due.First : &t.Due.Last->Next, &timer, __ATOMIC_RELAXED);
+  t.Due.Last = &timer;
 }
 
-// Lets the time of the list go on by some ticks; what has elapsed becomes due.
-void advance(CO_TMR& t, uint32_t elapsed) {
-  t.Clock += elapsed;
-  while (t.Use != nullptr && t.Use->Delta <= elapsed) {
-    CO_TMR_MEM& timer = *t.Use;
-    t.Use = timer.Next;
-    elapsed -= timer.Delta;
-    timer.Delta = t.Clock - elapsed;
+// Lets the time go on; what has elapsed becomes due.
+void advance(CO_TMR& t, uint32_t now) {
+  const uint32_t passed = now - t.Clock;
+  t.Clock = now;
+  while (t.Use.First != nullptr && now - t.Use.First->At <= passed) {
+    CO_TMR_MEM& timer = *t.Use.First;
+    t.Use.First = timer.Next;
     append_due(t, timer);
-  }
-  if (t.Use != nullptr) {
-    t.Use->Delta -= elapsed;
   }
 }
 
@@ -54,166 +58,126 @@ uint32_t first_cycle(const CO_TMR_MEM* list) {
   return list == nullptr ? 0 : list->Cycle;
 }
 
-// What to wait for when nothing is armed: while elapsed cyclic timers are still to be run, a driver without a clock
-// has to go on counting, so that they can keep their phase.
-uint32_t idle_time(const CO_TMR& t) {
+// While nothing is armed, but elapsed cyclic timers are still to be run, a driver without a clock has to go on
+// counting, so that they can keep their phase.
+void program(CO_TMR& t, uint32_t now) {
+  const uint32_t next = t.Use.First != nullptr ? t.Use.First->At - now : 0;
   if (port::has_clock(*t.Node)) {
-    return 0;
-  }
-  const uint32_t cycle = first_cycle(t.Due);
-  return cycle != 0 ? cycle : first_cycle(t.Run);
-}
-
-void program(CO_TMR& t) {
-  const uint32_t before = t.Programmed;
-  t.Programmed = t.Use != nullptr ? t.Use->Delta : idle_time(t);
-  port::alarm(*t.Node, t.Programmed, before == 0);
-}
-
-// Brings Clock and the first delta up to now. Returns the ticks by which now is later than that: 1 while a driver
-// without a clock has elapsed and COTmrService() has not come yet.
-uint32_t synchronise(CO_TMR& t) {
-  if (port::has_clock(*t.Node)) {
-    advance(t, port::now(*t.Node) - t.Clock);
-    return 0;
-  }
-  if (t.Programmed == 0) {
-    return 0;
-  }
-  const uint32_t left = port::ticks_left(*t.Node);
-  const uint32_t rest = left == 0 ? 1 : (left < t.Programmed ? left : t.Programmed);
-  advance(t, t.Programmed - rest);
-  t.Programmed = rest;
-  return left == 0 ? 1 : 0;
-}
-
-// Behind all timers that elapse before or with it. A driver that has elapsed is programmed by COTmrService().
-void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t ticks, uint32_t late_by) {
-  ticks = ticks == UINT32_MAX ? ticks : ticks + late_by;
-  CO_TMR_MEM** place = &t.Use;
-  while (*place != nullptr && (*place)->Delta <= ticks) {
-    ticks -= (*place)->Delta;
-    place = &(*place)->Next;
-  }
-  timer.State = armed;
-  timer.Delta = ticks;
-  timer.Next = *place;
-  *place = &timer;
-  if (timer.Next != nullptr) {
-    timer.Next->Delta -= ticks;
-  }
-  if (place == &t.Use && late_by == 0) {
-    program(t);
-  }
-}
-
-bool unlink(CO_TMR_MEM** list, const CO_TMR_MEM& timer) {
-  for (CO_TMR_MEM** place = list; *place != nullptr; place = &(*place)->Next) {
-    if (*place == &timer) {
-      *place = timer.Next;
-      return true;
-    }
-  }
-  return false;
-}
-
-void disarm(CO_TMR& t, CO_TMR_MEM& timer) {
-  const bool first = t.Use == &timer;
-  if (timer.Next != nullptr) {
-    timer.Next->Delta += timer.Delta;
-  }
-  unlink(&t.Use, timer);
-  if (first && synchronise(t) == 0) {
-    program(t);
-  }
-}
-
-void forget_due(CO_TMR& t, const CO_TMR_MEM& timer) {
-  if (unlink(&t.Run, timer) || !unlink(&t.Due, timer) || t.DueEnd != &timer) {
+    port::set_alarm(*t.Node, next);
     return;
   }
-  t.DueEnd = t.Due;
-  while (t.DueEnd != nullptr && t.DueEnd->Next != nullptr) {
-    t.DueEnd = t.DueEnd->Next;
+  const uint32_t wait = next != 0 ? next : first_cycle(t.Due.First);
+  port::count_down(*t.Node, wait, t.Programmed == 0);
+  t.Clock = now + wait;
+  t.Programmed = wait;
+}
+
+// Has a driver without a clock elapsed, and COTmrService() not come yet, which will program it?
+bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now == t.Clock; }
+
+void reprogram(CO_TMR& t, uint32_t now) {
+  if (!is_pending(t, now)) {
+    program(t, now);
+  }
+}
+
+// Now. What has elapsed by a clock becomes due.
+uint32_t synchronise(CO_TMR& t) {
+  if (port::has_clock(*t.Node)) {
+    advance(t, port::now(*t.Node));
+    return t.Clock;
+  }
+  if (t.Programmed == 0) {
+    return t.Clock;
+  }
+  const uint32_t left = port::ticks_left(*t.Node);
+  return t.Clock - (left < t.Programmed ? left : t.Programmed);
+}
+
+// Behind all timers that elapse before or with it; mostly that is the end. A driver that waits for the right time
+// already is left alone.
+void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
+  CO_TMR_MEM** place = &t.Use.First;
+  if (t.Use.First != nullptr && t.Use.Last->At - now <= ticks) {
+    place = &t.Use.Last->Next;
+  } else if (t.Use.First != nullptr) {
+    while ((*place)->At - now <= ticks) {
+      place = &(*place)->Next;
+    }
+  }
+  timer.State = armed;
+  timer.At = now + ticks;
+  timer.Next = *place;
+  *place = &timer;
+  t.Use.Last = timer.Next == nullptr ? &timer : t.Use.Last;
+  if (place == &t.Use.First && timer.At != t.Clock) {
+    reprogram(t, now);
   }
 }
 
 void remove(CO_TMR& t, CO_TMR_MEM& timer) {
-  if (timer.State == armed) {
-    disarm(t, timer);
-  } else if (timer.State == due) {
-    forget_due(t, timer);
+  const uint8_t state = timer.State;
+  if (state == idle) {
+    return;
   }
   timer.State = idle;
+  CO_TMR_MEM* const before = unlink(state == armed ? t.Use : t.Due, timer);
+  if (state == due) {
+    t.RunEnd = t.RunEnd == &timer ? before : t.RunEnd;
+  } else if (before == nullptr) {
+    reprogram(t, synchronise(t));
+  }
 }
 
+// Back to the pool; its id is used up.
 void release(CO_TMR& t, CO_TMR_MEM& timer) {
-  timer.State = idle;
-  if (timer.Pooled != 0) {
-    ++timer.Generation;
-    timer.Next = t.Free;
-    t.Free = &timer;
-  }
+  timer.Id = (timer.Id + t.IdStep) & INT16_MAX;
+  timer.Next = t.Free;
+  t.Free = &timer;
 }
 
 // A timer that has elapsed is armed for its next expiry after now; those that were missed are skipped.
 void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
-  const uint32_t late_by = synchronise(t);
-  const uint32_t passed = t.Clock + late_by - timer.Delta;
-  const uint32_t since = passed < cycle ? passed : passed % cycle;
-  insert(t, timer, cycle - since, late_by);
+  const uint32_t now = synchronise(t);
+  const uint32_t passed = now - timer.At;
+  insert(t, timer, now, cycle - (passed < cycle ? passed : passed % cycle));
 }
 
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
   timer.Func = func;
   timer.Para = para;
   timer.Cycle = cycle;
-  const uint32_t late_by = synchronise(t);
-  insert(t, timer, start == 0 ? cycle : start, late_by);
+  insert(t, timer, synchronise(t), start == 0 ? cycle : start);
 }
 
-// The action of the timer that has elapsed first; false if none is left.
-bool run_next(CO_TMR& t) {
-  CO_TMR_FUNC func = nullptr;
-  void* para = nullptr;
-  {
-    const Lock lock(t);
-    if (t.Run == nullptr) {
-      return false;
-    }
-    CO_TMR_MEM& timer = *t.Run;
-    t.Run = timer.Next;
-    func = timer.Func;
-    para = timer.Para;
-    if (timer.Cycle != 0) {
-      rearm(t, timer, timer.Cycle);
-    } else {
-      release(t, timer);
-    }
+// The timer that has elapsed first, armed again or released, its action still to be run.
+const CO_TMR_MEM& take_due(CO_TMR& t) {
+  const Lock lock(t);
+  CO_TMR_MEM& timer = *t.Due.First;
+  CO_TMR_MEM* const end = t.RunEnd == nullptr ? t.Due.Last : t.RunEnd;
+  t.RunEnd = end == &timer ? nullptr : end;
+  t.Due.First = timer.Next;
+  if (timer.Cycle != 0) {
+    rearm(t, timer, timer.Cycle);
+    return timer;
   }
-  func(para);
-  return true;
-}
-
-// An id holds the number of the timer in the pool in its low bits and the generation above.
-int16_t id_of(const CO_TMR& t, const CO_TMR_MEM& timer) {
-  const uint32_t number = static_cast<uint32_t>(&timer - t.Pool);
-  return static_cast<int16_t>(((static_cast<uint32_t>(timer.Generation) << t.IdBits) | number) & INT16_MAX);
+  timer.State = idle;
+  if (timer.Pooled != 0) {
+    release(t, timer);
+  }
+  return timer;
 }
 
 CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
-  if (id < 0) {
-    return nullptr;
-  }
-  const uint32_t number = static_cast<uint32_t>(id) & ((1U << t.IdBits) - 1U);
+  const uint32_t number = static_cast<uint32_t>(id) & (t.IdStep - 1U);
   if (number >= t.Max) {
     return nullptr;
   }
   CO_TMR_MEM& timer = t.Pool[number];
-  return timer.State != idle && id_of(t, timer) == id ? &timer : nullptr;
+  return timer.State != idle && timer.Id == id ? &timer : nullptr;
 }
 
-CO_TMR_MEM* take(CO_TMR& t) {
+CO_TMR_MEM* take_free(CO_TMR& t) {
   CO_TMR_MEM* const timer = t.Free;
   if (timer != nullptr) {
     t.Free = timer->Next;
@@ -221,12 +185,12 @@ CO_TMR_MEM* take(CO_TMR& t) {
   return timer;
 }
 
-uint8_t bits_for(uint16_t num) {
-  uint8_t bits = 0;
-  while ((1U << bits) < num) {
-    ++bits;
+uint16_t power_of_two(uint16_t num) {
+  unsigned power = 1;
+  while (power < num) {
+    power *= 2;
   }
-  return bits;
+  return static_cast<uint16_t>(power);
 }
 
 }  // namespace
@@ -264,17 +228,16 @@ uint32_t now(CO_TMR& timers) {
     return port::now(*timers.Node);
   }
   const Lock lock(timers);
-  const uint32_t late_by = synchronise(timers);
-  return timers.Clock + late_by;
+  return synchronise(timers);
 }
 
 uint32_t next_deadline(CO_TMR& timers) {
   const Lock lock(timers);
-  const uint32_t late_by = synchronise(timers);
-  if (late_by != 0 || timers.Due != nullptr || timers.Run != nullptr) {
+  const uint32_t now = synchronise(timers);
+  if (timers.Due.First != nullptr || is_pending(timers, now)) {
     return 0;
   }
-  return timers.Use == nullptr ? UINT32_MAX : timers.Use->Delta;
+  return timers.Use.First == nullptr ? UINT32_MAX : timers.Use.First->At - now;
 }
 
 }  // namespace co::tmr
@@ -291,10 +254,11 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
   tmr->Pool = mem;
   tmr->Freq = freq;
   tmr->Max = static_cast<uint16_t>(mem == nullptr ? 0 : (num > INT16_MAX ? INT16_MAX : num));
-  tmr->IdBits = tmr::bits_for(tmr->Max);
+  tmr->IdStep = tmr::power_of_two(tmr->Max);
   for (uint16_t n = tmr->Max; n > 0; --n) {
     CO_TMR_MEM& timer = mem[n - 1];
     timer = {};
+    timer.Id = static_cast<uint16_t>(n - 1U);
     timer.Pooled = 1;
     timer.Next = tmr->Free;
     tmr->Free = &timer;
@@ -327,14 +291,14 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
     return -1;
   }
   const tmr::Lock lock(*tmr);
-  CO_TMR_MEM* const timer = tmr::take(*tmr);
+  CO_TMR_MEM* const timer = tmr::take_free(*tmr);
   if (timer == nullptr) {
     count(tmr->Node->Count.TimerExhausted);
     tmr->Node->Error = CO_ERR_TMR_NO_ACT;
     return -1;
   }
   tmr::arm(*tmr, *timer, startTicks, cycleTicks, func, para);
-  return tmr::id_of(*tmr, *timer);
+  return static_cast<int16_t>(timer->Id);
 }
 
 int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
@@ -353,32 +317,27 @@ int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
 int16_t COTmrService(CO_TMR* tmr) {
   ASSERT_PTR_ERR(tmr, -1);
   ASSERT_PTR_ERR(tmr->Node, -1);
-  uint32_t elapsed = tmr->Programmed;
+  uint32_t now = tmr->Clock;
   if (port::has_clock(*tmr->Node)) {
-    elapsed = port::now(*tmr->Node) - tmr->Clock;
+    now = port::now(*tmr->Node);
   } else if (!port::has_elapsed(*tmr->Node)) {
     return 0;
   }
-  tmr::advance(*tmr, elapsed);
-  tmr::program(*tmr);
-  return tmr->Due != nullptr ? 1 : 0;
+  tmr::advance(*tmr, now);
+  tmr::program(*tmr, now);
+  return tmr->Due.First != nullptr ? 1 : 0;
 }
 
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(tmr->Node);
-  if (__atomic_load_n(&tmr->Due, __ATOMIC_RELAXED) == nullptr && tmr->Run == nullptr) {
+  if (__atomic_load_n(&tmr->Due.First, __ATOMIC_RELAXED) == nullptr) {
     return;
   }
-  {
-    const tmr::Lock lock(*tmr);
-    if (tmr->Run == nullptr) {
-      tmr->Run = tmr->Due;
-      __atomic_store_n(&tmr->Due, nullptr, __ATOMIC_RELAXED);
-    }
-  }
-  while (tmr::run_next(*tmr)) {
-  }
+  do {
+    const CO_TMR_MEM& timer = tmr::take_due(*tmr);
+    timer.Func(timer.Para);
+  } while (tmr->RunEnd != nullptr);
 }
 
 }  // extern "C"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timers. Armed ones wait in a list ordered by time, each with the ticks after the one before it; elapsed ones wait in
-// the order of their expiry, each with the clock of that moment, from which a cyclic one is armed again: its phase
-// does not depend on when it is run.
+// Timers. Armed ones wait in a list ordered by the clock of their expiry, elapsed ones in another in the order in which
+// they have elapsed. A cyclic timer is armed again from its expiry: its phase does not depend on when it is run.
 #pragma once
 
 #include "co_tmr.h"

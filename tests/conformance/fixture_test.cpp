@@ -199,7 +199,10 @@ TEST_CASE("fixture: a timer of the stack that is armed without a use fails" * do
 TEST_CASE("fixture: an open transfer that no timer watches fails" * doctest::should_fail()) {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
-  node.call([&] { node->Tmr.Use = nullptr; });
+  node.call([&] {
+    node->Tmr.Use = {};
+    node->SdoTmr.State = 0;
+  });
   node.rx("601#8008100000000000");
 }
 

@@ -108,7 +108,7 @@ bool is_open(const CO_NODE& node) {
 
 std::vector<const CO_TMR_MEM*> Fixture::armed() const {
   std::vector<const CO_TMR_MEM*> all;
-  for (const CO_TMR_MEM* list : {node.Tmr.Use, node.Tmr.Due, node.Tmr.Run}) {
+  for (const CO_TMR_MEM* list : {node.Tmr.Use.First, node.Tmr.Due.First}) {
     const auto part = members(list, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));  // those of the stack are in it
     all.insert(all.end(), part.begin(), part.end());
   }

@@ -18,6 +18,7 @@ struct Hardware {
   bool stopped;
   unsigned starts;
   unsigned reloads;
+  std::uint32_t shortest;  // it cannot wait for less
   std::string misuse;
 } hardware;
 
@@ -27,7 +28,8 @@ void init(std::uint32_t) {}
 void reload(std::uint32_t ticks) {
   ++hardware.reloads;
   if (ticks == 0) hardware.misuse = "Reload of 0 ticks";
-  hardware.match = (hardware.from_match ? hardware.last_match : hardware.now) + ticks;
+  const std::uint64_t from = hardware.from_match ? hardware.last_match : hardware.now;
+  hardware.match = from + (ticks < hardware.shortest ? hardware.shortest : ticks);
   hardware.armed = true;
   hardware.from_match = false;
 }
@@ -258,6 +260,119 @@ TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks whose next expiry is pendin
   CHECK(runs == Runs{{1, 2 * longest}});
   device.until(2 * longest + 1000);
   CHECK(runs.size() == 1);
+}
+
+TEST_CASE("timer lateness: a driver without a clock is programmed once for each expiry of the only cyclic timer") {
+  Device device(Driver::counter);
+  device.create(0, 10, 1);
+  CHECK(hardware.reloads == 1);
+  device.until(50);
+  CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}, {1, 40}, {1, 50}});
+  CHECK(hardware.reloads == 6);
+}
+
+TEST_CASE("timer lateness: time does not go back when a driver without a clock waits for longer than it was told") {
+  Device device(Driver::counter);
+  hardware.shortest = 3;
+  device.create(0, 10, 1);
+  device.create(11, 0, 2);
+  device.until(12);
+  CHECK(runs == Runs{{1, 10}});
+  device.until(13);
+  CHECK(runs == Runs{{1, 10}, {2, 13}});
+  device.until(32);  // two ticks were lost
+  CHECK(runs == Runs{{1, 10}, {2, 13}, {1, 22}, {1, 32}});
+}
+
+// The same tick by tick, for either kind of driver.
+void walk(Device& device, std::uint64_t tick) {
+  while (hardware.now < tick) jump(device, hardware.now + 1);
+}
+
+TEST_CASE("timer lateness: order across the wrap of the clock at 2^32, with either kind of driver") {
+  constexpr std::uint64_t before_wrap = 0xFFFFFFF0;
+  for (const Driver driver : {Driver::counter, Driver::clock}) {
+    CAPTURE(driver == Driver::clock);
+    Device device(driver);
+    device.create(static_cast<std::uint32_t>(before_wrap), 0, 1);
+    jump(device, before_wrap);
+    device.create(30, 0, 2);
+    device.create(10, 20, 3);
+    device.create(20, 0, 4);
+    const std::int16_t last = device.create(40, 0, 5);
+    CHECK(device.remove(last) == 0);
+    device.create(35, 0, 6);
+    device.create(30, 0, 7);
+    walk(device, before_wrap + 50);
+    const auto at = [=](std::uint64_t ticks) { return before_wrap + ticks; };
+    CHECK(runs ==
+          Runs{{1, at(0)}, {3, at(10)}, {4, at(20)}, {2, at(30)}, {7, at(30)}, {3, at(30)}, {6, at(35)}, {3, at(50)}});
+  }
+}
+
+// What actions do while the interrupt goes on.
+Device* acting;
+std::int16_t victim;
+
+void take_long(void* para) {
+  note(para);
+  for (int tick = 0; tick < 3; ++tick) {
+    ++hardware.now;
+    if (COTmrService(&acting->node.Tmr) < 0) hardware.misuse = "COTmrService has refused";
+  }
+}
+
+void take_long_and_delete(void* para) {
+  take_long(para);
+  CHECK(acting->remove(victim) == 0);
+}
+
+void process_again(void* para) {
+  note(para);
+  acting->process();
+}
+
+std::int16_t create(Device& device, std::uint32_t start, std::uint32_t cycle, CO_TMR_FUNC action, std::uintptr_t n) {
+  acting = &device;
+  return COTmrCreate(&device.node.Tmr, start, cycle, action, reinterpret_cast<void*>(n));
+}
+
+TEST_CASE("timer lateness: what elapses while actions run waits for the next COTmrProcess()") {
+  Device device(Driver::clock);
+  create(device, 1, 1, take_long, 1);
+  device.create(3, 0, 2);
+  jump(device, 1);
+  CHECK(runs == Runs{{1, 1}});
+  device.process();
+  CHECK(runs == Runs{{1, 1}, {1, 4}, {2, 7}});
+}
+
+TEST_CASE("timer lateness: an action deletes the last of the elapsed timers, and later ones elapse meanwhile") {
+  for (const bool alone : {true, false}) {
+    CAPTURE(alone);
+    Device device(Driver::clock);
+    create(device, 1, 0, take_long_and_delete, 1);
+    if (!alone) device.create(1, 0, 2);
+    victim = device.create(1, 0, 3);
+    device.create(2, 0, 4);
+    jump(device, 1);
+    CHECK(runs == (alone ? Runs{{1, 1}} : Runs{{1, 1}, {2, 4}}));
+    device.process();
+    CHECK(runs.size() == (alone ? 2 : 3));
+    CHECK(runs.back() == Run{4, 4});
+  }
+}
+
+TEST_CASE("timer lateness: an action that calls COTmrProcess() runs the others, each once") {
+  for (const Driver driver : {Driver::counter, Driver::clock}) {
+    CAPTURE(driver == Driver::clock);
+    Device device(driver);
+    create(device, 5, 5, process_again, 1);
+    device.create(5, 5, 2);
+    create(device, 5, 0, process_again, 3);
+    walk(device, 10);
+    CHECK(runs == Runs{{1, 5}, {2, 5}, {3, 5}, {1, 10}, {2, 10}});
+  }
 }
 
 }  // namespace
