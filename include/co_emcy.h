@@ -4,7 +4,8 @@
 ///
 /// Errors are those of the application (COEmcySet()) and those that the stack finds itself: lost frames (8110h), error
 /// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use (8150h),
-/// PDO too short (8210h) or too long (8220h), SYNC of another length (8240h), PDO missing (8250h).
+/// PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC of another length (8240h), PDO missing
+/// (8250h).
 ///
 /// Each error that comes is entered in 1003h, sets its bit and the generic one in 1001h, and is sent: code, 1001h as of
 /// that moment, five bytes. Each that goes is sent as code 0000h with what is left in 1001h. Errors that come while the
@@ -91,6 +92,7 @@ extern "C" {
 #define CO_EMCY_CODE_MON_PROT_ERR 0x8200u
 #define CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR 0x8210u
 #define CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR 0x8220u
+#define CO_EMCY_CODE_MON_PROT_DAM_ERR 0x8230u
 #define CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR 0x8240u
 #define CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR 0x8250u
 #define CO_EMCY_CODE_EXT_ERR 0x9000u
@@ -117,7 +119,7 @@ typedef struct CO_EMCY_USR_T {
 #define CO_EMCY_STORAGE (1 + (CO_EMCY_N - 1) / 8)
 
 /// \cond internal
-#define CO_EMCY_FAULT_N 10  // kinds of errors that the stack finds
+#define CO_EMCY_FAULT_N (USE_MPDO ? 11 : 10)  // kinds of errors that the stack finds
 
 typedef struct CO_EMCY_HIST_T {  // 1003h is a ring
   uint8_t Max;                   // entries that it has
@@ -125,24 +127,23 @@ typedef struct CO_EMCY_HIST_T {  // 1003h is a ring
   uint8_t Off;                   // sub-index of the newest
 } CO_EMCY_HIST;
 
-typedef struct CO_EMCY_MSG_T {
-  uint16_t Code;
-  uint8_t Reg;
-  uint8_t Msef[5];
+typedef struct CO_EMCY_MSG_T {  // the bytes of a message, first one lowest
+  uint32_t Low;
+  uint32_t High;
 } CO_EMCY_MSG;
 /// \endcond
 
 /// Emergencies of a node: &node.Emcy. The application touches nothing of it.
 typedef struct CO_EMCY_T {
   struct CO_NODE_T* Node;
-  const CO_EMCY_TBL* Root;  ///< CO_NODE_SPEC.EmcyCode
-  CO_TMR_MEM Tmr;           ///< until the next message may be sent
-  CO_TMR_MEM Hold[2];       ///< until 8110h and 8150h are over
-  CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
-  uint8_t Waiting;                  ///< messages in it, oldest first
+  const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
+  uint8_t Waiting;                  ///< messages in the queue, oldest first
   CO_EMCY_HIST Hist;                ///< 1003h
+  CO_TMR_MEM Tmr;                   ///< until the next message may be sent
   uint16_t Fault[CO_EMCY_FAULT_N];  ///< how many there are of each error of the stack
-  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
+  CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
+  CO_TMR_MEM Hold[2];            ///< until 8110h and 8150h are over
+  uint8_t Err[CO_EMCY_STORAGE];  ///< errors of the application: bit 0 of byte 0 is identifier 0
 } CO_EMCY;
 
 /// The application has found error \a err (its place in CO_NODE_SPEC.EmcyCode); \a usr may be null: all 0. While the

