@@ -66,6 +66,7 @@ typedef struct CO_CSDO_T {
   uint16_t Crc;         ///< of the data so far
   uint32_t RxId;        ///< identifier of the server's frames, as in CO_IF_FRM; FFFF FFFFh: none
   uint32_t TxId;        ///< identifier of the client's frames
+  uint32_t WasTxId;     ///< the one before, under which an abort may still wait for the controller
   CO_CSDO_CALLBACK_T Call;
   uint8_t* Buf;    ///< the caller's
   uint32_t Size;   ///< bytes at Buf

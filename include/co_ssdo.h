@@ -19,23 +19,28 @@ typedef struct CO_SDO_T {
   struct CO_NODE_T* Node;
   uint8_t State;
   uint8_t Flags;
-  uint8_t Toggle;    ///< toggle bit expected next, in place (00h or 10h)
-  uint8_t Idle;      ///< time slices since the last frame of the transfer
-  uint8_t BlkSize;   ///< segments of the present block
-  uint8_t Seq;       ///< last segment of the block that was sent, or received in order
-  uint8_t AckSeq;    ///< block download: last acknowledge
-  uint8_t AckSize;   ///< its block size; 0: none was sent yet
-  uint16_t Crc;      ///< block transfer: of the data so far
-  uint16_t Fill;     ///< block transfer: bytes in the buffer
+  uint8_t Toggle;  ///< toggle bit expected next, in place (00h or 10h)
+  uint8_t Idle;    ///< time slices since the last frame of the transfer
+#if USE_SDO_BLOCK
+  uint8_t BlkSize;  ///< segments of the present block
+  uint8_t Seq;      ///< last segment of the block that was sent, or received in order
+  uint8_t AckSeq;   ///< block download: last acknowledge
+  uint8_t AckSize;  ///< its block size; 0: none was sent yet
+  uint16_t Crc;     ///< block transfer: of the data so far
+  uint16_t Fill;    ///< block transfer: bytes in the buffer
+#endif
   uint8_t Value[8];  ///< a value of up to 8 bytes is collected here, in the byte order of the bus
   CO_OBJ* Obj;       ///< entry of the open transfer; null: none
   uint32_t RxId;     ///< identifier of the client's frames, as in CO_IF_FRM; FFFF FFFFh: the channel is off
   uint32_t TxId;     ///< identifier of the server's frames
+  uint32_t WasTxId;  ///< the one before, under which an answer may still wait for the controller
   uint32_t Key;      ///< CO_DEV() of the open transfer
   uint32_t Size;     ///< bytes that the transfer will have, or may have at most
   uint32_t Num;      ///< bytes transferred so far; block upload: bytes acknowledged
   uint32_t Read;     ///< position behind what was read or written last
-  uint32_t Summed;   ///< block upload: bytes that Crc covers
+#if USE_SDO_BLOCK
+  uint32_t Summed;  ///< block upload: bytes that Crc covers
+#endif
 } CO_SDO;
 
 #ifdef __cplusplus

@@ -6,34 +6,42 @@
 namespace co::access {
 namespace {
 
-bool is_permitted(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
-  const bool has_function = transfer == CO_OBJ_UPLOAD ? obj.Type->Read != nullptr : obj.Type->Write != nullptr;
-  const uint32_t right = transfer == CO_OBJ_UPLOAD ? CO_OBJ_____R_ : CO_OBJ______W;
-  return (obj.Key & right) != 0 && has_function;
+// Why the network may not: the abort code.
+uint32_t refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
+  if ((obj.Key & CO_OBJ_____RW) == 0) {
+    return CO_SDO_ERR_UNSUP;
+  }
+  return transfer == CO_OBJ_UPLOAD ? CO_SDO_ERR_RD : CO_SDO_ERR_WR;
+}
+
+bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
+  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return place < dict.Num * sizeof(CO_OBJ) && CO_GET_DEV(channel.Obj->Key) == channel.Key;
 }
 
 }  // namespace
 
-uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer, CO_OBJ*& obj) {
-  CO_OBJ* const found = CODictFind(&node.Dict, key);
-  if (found == nullptr) {
+uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
+  CO_OBJ* const obj = dict::find(node.Dict, key);
+  if (obj == nullptr) {
     return dict::has_index(node.Dict, key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
   }
-  if (!is_permitted(*found, transfer)) {
-    const uint32_t refused = transfer == CO_OBJ_UPLOAD ? CO_SDO_ERR_RD : CO_SDO_ERR_WR;
-    return (found->Key & CO_OBJ_____RW) == 0 ? CO_SDO_ERR_UNSUP : refused;
+  const CO_OBJ_TYPE& type = *obj->Type;
+  const bool is_permitted = transfer == CO_OBJ_UPLOAD ? CO_IS_READ(obj->Key) != 0 && type.Read != nullptr
+                                                      : CO_IS_WRITE(obj->Key) != 0 && type.Write != nullptr;
+  if (!is_permitted) {
+    return refusal(*obj, transfer);
   }
-  if (found->Type->Size == nullptr) {
-    return CO_SDO_ERR_TOS;
-  }
-  obj = found;
-  serve(node, obj);
-  return no_abort;
+  node.Served = obj;
+  return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
 }
 
-void serve(CO_NODE& node, CO_OBJ* obj) {
-  node.Served = obj;
-  node.UserAbort = no_abort;
+void lose_moved(CO_NODE& node) {
+  for (CO_SDO& channel : node.Sdo) {
+    if (channel.Obj != nullptr && !is_in_place(node.Dict, channel)) {
+      channel.Obj = nullptr;
+    }
+  }
 }
 
 bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
@@ -59,13 +67,8 @@ uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
   return node.UserAbort != no_abort ? node.UserAbort : abort_code(err);
 }
 
-uint32_t read_failed(CO_NODE& node, CO_ERR err) {
-  node.Error = CO_ERR_SDO_READ;
-  return abort_for(node, err);
-}
-
-uint32_t write_failed(CO_NODE& node, CO_ERR err) {
-  node.Error = CO_ERR_SDO_WRITE;
+uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
+  node.Error = transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE;
   return abort_for(node, err);
 }
 

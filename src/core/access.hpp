@@ -8,12 +8,18 @@
 
 namespace co::access {
 
-// The object for a transfer, which its rights and its type allow; COObjTypeUserSDOAbort() then acts for it. Returns an
-// abort code.
-[[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer, CO_OBJ*& obj);
+// The object for a transfer, which its rights and its type allow, takes the place of what was served. Returns an abort
+// code.
+[[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer);
 
 // COObjTypeUserSDOAbort() acts for this object, or none.
-void serve(CO_NODE& node, CO_OBJ* obj);
+inline void serve(CO_NODE& node, CO_OBJ* obj) {
+  node.Served = obj;
+  node.UserAbort = no_abort;
+}
+
+// Transfers of SDO servers whose entries are no longer where they were lose them.
+void lose_moved(CO_NODE& node);
 
 // Does an SDO server channel other than this one have the object open?
 [[nodiscard]] bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
@@ -29,9 +35,8 @@ void serve(CO_NODE& node, CO_OBJ* obj);
 // Can the object be written with this length? Returns an abort code.
 [[nodiscard]] uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
 
-// The abort code for what a type function has returned. The others set the node's error, too.
+// The abort code for what a type function has returned; of a Read or Write function, which is the node's error, too.
 [[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
-[[nodiscard]] uint32_t read_failed(CO_NODE& node, CO_ERR err);
-[[nodiscard]] uint32_t write_failed(CO_NODE& node, CO_ERR err);
+[[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

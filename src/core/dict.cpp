@@ -2,6 +2,7 @@
 #include "core/dict.hpp"
 
 #include "co_core.h"
+#include "core/access.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
 #include "wire/cob_id.hpp"
@@ -187,6 +188,7 @@ CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (cod->Num != 0) {
     dict::prepare_search(*cod);
   }
+  access::lose_moved(*node);
   event::defer(*node, event::remap);
   return err;
 }

@@ -3,22 +3,6 @@
 
 namespace co::obj {
 
-uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width) {
-  return obj.Type->Size == nullptr ? 0 : obj.Type->Size(&obj, &node, width);
-}
-
-CO_ERR read(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
-  return obj.Type->Read == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Read(&obj, &node, buffer, size);
-}
-
-CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
-  return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
-}
-
-CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
-  return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
-}
-
 CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
   const CO_OBJ_TYPE_EX* const type = extended(obj);
   return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);

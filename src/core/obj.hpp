@@ -9,10 +9,18 @@ namespace co::obj {
 // A stream of bytes has a position that Reset() sets; anything else is a value.
 [[nodiscard]] inline bool is_stream(const CO_OBJ& obj) { return obj.Type->Reset != nullptr; }
 
-[[nodiscard]] uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width);
-[[nodiscard]] CO_ERR read(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
-[[nodiscard]] CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
-[[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position);
+[[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width) {
+  return obj.Type->Size == nullptr ? 0 : obj.Type->Size(&obj, &node, width);
+}
+[[nodiscard]] inline CO_ERR read(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  return obj.Type->Read == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Read(&obj, &node, buffer, size);
+}
+[[nodiscard]] inline CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
+}
+[[nodiscard]] inline CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
+  return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
+}
 
 // For types that take part in the whole transfer; others see nothing.
 [[nodiscard]] inline const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj) {

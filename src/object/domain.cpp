@@ -3,6 +3,7 @@
 
 #include "core/port.hpp"
 #include "object/stream.hpp"
+#include "wire/bytes.hpp"
 
 namespace {
 
@@ -27,7 +28,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t n = clip(size, domain->Offset, domain->Size);
-  co::stream::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
+  co::wire::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
   domain->Offset += n;
   return CO_ERR_NONE;
 }
@@ -41,7 +42,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   const uint32_t n = clip(size, domain->Offset, domain->Size);
-  co::stream::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
+  co::wire::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
   domain->Offset += n;
   return CO_ERR_NONE;
 }

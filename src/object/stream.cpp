@@ -10,21 +10,14 @@ namespace co::stream {
 static_assert(offsetof(CO_OBJ_DOM, Offset) == 0 && offsetof(CO_OBJ_STR, Offset) == 0);
 static_assert(offsetof(CO_OBJ_STR_RW, Offset) == 0);
 
-CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) {
-  auto* const offset = data_of<uint32_t>(*obj);
-  if (offset == nullptr) {
-    return CO_ERR_TYPE_RESET;
-  }
-  *offset = position;
-  return CO_ERR_NONE;
-}
+CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) { return seek(*obj, position); }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
   const CO_ERR err = dict::check_type(*obj, *node, rules::variable);
   if (err != CO_ERR_NONE) {
     return err;
   }
-  return reset(obj, node, 0) == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+  return seek(*obj, 0) == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
 }
 
 }  // namespace co::stream

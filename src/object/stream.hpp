@@ -7,13 +7,6 @@
 
 namespace co::stream {
 
-// Bytes from one place to another, any alignment.
-inline void copy(uint8_t* to, const uint8_t* from, uint32_t n) {
-  if (n != 0) {
-    __builtin_memcpy(to, from, n);
-  }
-}
-
 // The bytes of an access of n at position that lie within size.
 constexpr uint32_t clip(uint32_t n, uint32_t position, uint32_t size) {
   const uint32_t left = position < size ? size - position : 0;
@@ -24,6 +17,16 @@ constexpr uint32_t clip(uint32_t n, uint32_t position, uint32_t size) {
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
 
 // Sets the position. Every structure of a stream begins with it.
+[[nodiscard]] inline CO_ERR seek(const CO_OBJ& obj, uint32_t position) {
+  auto* const offset = data_of<uint32_t>(obj);
+  if (offset == nullptr) {
+    return CO_ERR_TYPE_RESET;
+  }
+  *offset = position;
+  return CO_ERR_NONE;
+}
+
+// The same as Reset function.
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
 }  // namespace co::stream

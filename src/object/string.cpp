@@ -30,7 +30,7 @@ CO_ERR text_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   const uint32_t n = clip(size, text->Offset, text_size(obj, node, 0));
-  co::stream::copy(static_cast<uint8_t*>(buffer), text->Start + text->Offset, n);
+  co::wire::copy(static_cast<uint8_t*>(buffer), text->Start + text->Offset, n);
   text->Offset += n;
   return CO_ERR_NONE;
 }

@@ -39,6 +39,31 @@ constexpr void put_u16(uint8_t* p, uint16_t value) {
   p[1] = static_cast<uint8_t>(value >> 8);
 }
 
+// The data of a segment of an SDO transfer. Any alignment; the places do not overlap.
+inline constexpr uint32_t segment_bytes = 7;
+inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from) {
+  to[0] = from[0];
+  to[1] = from[1];
+  to[2] = from[2];
+  to[3] = from[3];
+  to[4] = from[4];
+  to[5] = from[5];
+  to[6] = from[6];
+}
+
+// Any number of bytes, most often those of a segment: cheaper than a call of memcpy for few bytes, and for many that
+// are not aligned.
+[[gnu::noinline]] inline void copy(uint8_t* to, const uint8_t* from, uint32_t n) {
+  for (; n >= segment_bytes; n -= segment_bytes) {
+    copy_segment(to, from);
+    to += segment_bytes;
+    from += segment_bytes;
+  }
+  for (; n != 0; --n) {
+    *to++ = *from++;
+  }
+}
+
 // A number of n bytes from the order of the bus to that of the CPU, or back.
 constexpr void swap_host([[maybe_unused]] uint8_t* p, [[maybe_unused]] uint32_t n) {
   if constexpr (!host_is_little_endian) {

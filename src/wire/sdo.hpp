@@ -4,12 +4,12 @@
 
 #include "co_obj.h"
 #include "co_sdo.h"
+#include "wire/crc.hpp"
 #include "wire/frame.hpp"
 
 namespace co::wire {
 
 inline constexpr uint8_t sdo_dlc = 8;
-inline constexpr uint32_t segment_bytes = 7;
 inline constexpr uint32_t expedited_bytes = 4;
 
 // What a frame of a client asks for, and what a frame of a server answers: in the order of the command specifiers, bits
@@ -83,6 +83,11 @@ constexpr uint32_t head(uint8_t command, uint32_t key) {
   return command | ((key >> 8) & 0x00FFFF00U) | ((key & 0xFF00U) << 16);
 }
 inline void put_head(CO_IF_FRM& frame, uint8_t command, uint32_t key) { put_low(frame, head(command, key)); }
+
+// The answer to an initiate names the same object.
+inline void put_reply(CO_IF_FRM& answer, uint8_t command, const CO_IF_FRM& request) {
+  put_low(answer, (get_low(request) & 0xFFFFFF00U) | command);
+}
 
 // Initiate: 0ssx nnes. e: expedited, s: size indicated, n: bytes of the four that hold no data.
 constexpr bool is_expedited(uint8_t command) { return (command & 0x02) != 0; }
@@ -163,17 +168,6 @@ inline bool is_equal(const uint8_t* a, const uint8_t* b, uint32_t n) {
   return n == 0;
 }
 
-// CRC-16-CCITT over the data, from 0. [301:7.2.4.3.16]
-constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
-  uint32_t sum = crc;
-  for (const uint8_t* const end = data + n; data != end; ++data) {
-    uint32_t x = (sum >> 8) ^ *data;
-    x ^= x >> 4;
-    sum = ((sum << 8) ^ (x << 12) ^ (x << 5) ^ x) & 0xFFFFU;
-  }
-  return static_cast<uint16_t>(sum);
-}
-
 static_assert(request_of(0x2F) == Request::initiate_download && request_of(0x30) == Request::unknown);
 static_assert(request_of(0x40) == Request::initiate_upload && request_of(0x41) == Request::unknown);
 static_assert(request_of(0x70) == Request::upload_segment && request_of(0x61) == Request::unknown);
@@ -200,11 +194,5 @@ static_assert(end_block(3) == 0xCD && unused_in_block(0xDD) == 7 && block_segmen
 static_assert(has_crc(0xA4) && !has_crc(0xC2) && is_block_sized(0xC2) && !is_block_sized(0xC4));
 
 static_assert(head(0x40, 0x10180200) == 0x02101840 && multiplexer_of(0x02101840) == 0x10180200);
-
-namespace vectors {
-inline constexpr uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
-static_assert(crc16(0, digits, sizeof digits) == 0x31C3);
-static_assert(crc16(crc16(0, digits, 4), digits + 4, 5) == 0x31C3);
-}  // namespace vectors
 
 }  // namespace co::wire

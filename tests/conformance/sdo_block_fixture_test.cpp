@@ -9,10 +9,10 @@ namespace {
 using namespace test;
 
 TEST_CASE("fixture: the CRC bit by bit [D14]") {
-  CHECK(crc_by_bits({'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x31C3);
-  CHECK(crc_by_bits({}) == 0);
-  CHECK(crc_by_bits({0, 0, 0, 0}) == 0);
-  CHECK(crc_by_bits({1}) == 0x1021);
+  CHECK(crc_16({'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x31C3);
+  CHECK(crc_16({}) == 0);
+  CHECK(crc_16({0, 0, 0, 0}) == 0);
+  CHECK(crc_16({1}) == 0x1021);
 }
 
 TEST_CASE("fixture: frames of block transfers that a server may send") {

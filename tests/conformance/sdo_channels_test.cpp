@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several SDO servers, and their COB-IDs. [301:7.5.2.33]
 #include "support/fixture.hpp"
+#include "support/restricted_ids.hpp"
 
 #if CO_SSDO_N >= 2
 
@@ -90,10 +91,6 @@ TEST_CASE("SDO channels: a server that makes itself invalid answers that request
 
 TEST_CASE("SDO channels: restricted identifiers are refused, all others taken [D16] [D26]") {
   Fixture node(Setup().only_small());
-  const auto restricted = [](unsigned id) {
-    return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
-           (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || (id >= 0x701 && id <= 0x7FF);
-  };
   for (const unsigned sub : {1U, 2U}) {
     for (unsigned id = 0; id < 0x800; ++id) {
       CAPTURE(sub);
@@ -104,7 +101,7 @@ TEST_CASE("SDO channels: restricted identifiers are refused, all others taken [D
       const std::vector<std::string> sent = node.frames();
       REQUIRE(sent.size() == 1);
       const std::string object = sub == 1 ? "011201" : "011202";
-      CHECK(sent[0] == "581#" + (restricted(id) ? "80" + object + "30000906" : "60" + object + "00000000"));
+      CHECK(sent[0] == "581#" + (is_forbidden(id) ? "80" + object + "30000906" : "60" + object + "00000000"));
       CO_SET_BYTE(&write, 0x80, 7);
       node.rx(write);
       node.frames();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDO client: 1280h written over the network. [301:7.5.2.34]
+#include "support/restricted_ids.hpp"
 #include "support/sdo_client_fixture.hpp"
 
 #if USE_CSDO
@@ -15,13 +16,6 @@ ClientEntries off() {
 }
 
 Setup small() { return Setup().only_small(); }
-
-void check_asks(SdoClient& node, const std::string& tx, const std::string& rx) {
-  node.start_upload(0x2000, 5, 4);
-  node.tx(tx + "#4000200500000000");
-  node.rx(rx + "#4F00200511000000");
-  node.has_read({0x11});
-}
 
 TEST_CASE("SDO client: 1280h made valid over the network is used from then on [D26]") {
   SdoClient node(small(), off());
@@ -72,10 +66,6 @@ TEST_CASE("SDO client: the node-ID of the server, written over the network, comp
 
 // CiA 301 reserves 581h…5FFh and 601h…67Fh for SDO; here they belong to SDO. [301:7.3.5] [D26]
 TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others that are restricted [D26]") {
-  const auto restricted = [](unsigned id) {
-    return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
-           (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || (id >= 0x701 && id <= 0x7FF);
-  };
   const auto of_servers = [](unsigned sub, unsigned id) {
     return sub == 1 ? id >= 0x601 && id <= 0x67F : id >= 0x581 && id <= 0x5FF;
   };
@@ -90,7 +80,7 @@ TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others tha
       const std::vector<std::string> sent = node.frames();
       REQUIRE(sent.size() == 1);
       const std::string object = sub == 1 ? "801201" : "801202";
-      const bool refused = restricted(id) && !of_servers(sub, id);
+      const bool refused = is_forbidden(id) && !of_servers(sub, id);
       CHECK(sent[0] == "581#" + (refused ? "80" + object + "30000906" : "60" + object + "00000000"));
       CO_SET_BYTE(&write, 0x80, 7);
       node.rx(write);
@@ -133,6 +123,24 @@ TEST_CASE("SDO client: a transfer ends with 0800 0022h when its COB-IDs are swit
     CHECK(node.csdo()->State == CO_CSDO_STATE_INVALID);
     node.rx("585#0001020304050607");
     node.after(2000ms);
+    node.silent();
+  }
+}
+
+TEST_CASE("SDO client: NMT stop withdraws an abort that waits under COB-IDs that were switched off [N8]") {
+  for (const Change& change : changes) {
+    CAPTURE(std::string(change.what));
+    SdoClient node;
+    node.start_upload(0x2000, 5, 28);
+    node.tx("605#4000200500000000");
+    node.can.refuse_all();
+    node.rx(change.request);
+    node.ended(CO_SDO_ERR_TOS_STATE);
+    CHECK(node->TxQueue.Num == 2);
+    node.rx("000#0201");
+    CHECK(node->TxQueue.Num == 0);
+    node.can.accept_all();
+    node.loop();
     node.silent();
   }
 }

@@ -14,13 +14,6 @@ ClientEntries first(std::uint32_t tx, std::uint32_t rx, std::uint8_t node_id) {
   return entries;
 }
 
-void check_asks(SdoClient& node, const std::string& tx, const std::string& rx) {
-  node.start_upload(0x2000, 5, 4);
-  node.tx(tx + "#4000200500000000");
-  node.rx(rx + "#4F00200511000000");
-  node.has_read({0x11});
-}
-
 void check_not_configured(SdoClient& node) {
   CHECK(COCSdoFind(&node.node, 0) == nullptr);
   CHECK(node.try_upload(0x2000, 5, 4) == CO_ERR_SDO_OFF);

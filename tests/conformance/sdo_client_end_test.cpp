@@ -10,13 +10,6 @@ using namespace test;
 
 constexpr const char* cancelled = "605#8000200521000008";
 
-void check_asks(SdoClient& node) {
-  node.start_upload(0x2001, 0, 4);
-  node.tx("605#4001200000000000");
-  node.rx("585#4F01200011000000");
-  node.has_read({0x11});
-}
-
 TEST_CASE("SDO client: COCSdoCancel in every state: the server is told, the callback comes before it returns") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);

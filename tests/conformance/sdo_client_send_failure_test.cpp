@@ -9,13 +9,6 @@ namespace {
 
 using namespace test;
 
-void check_asks(SdoClient& node) {
-  node.start_upload(0x2001, 0, 4);
-  node.tx("605#4001200000000000");
-  node.rx("585#4F01200011000000");
-  node.has_read({0x11});
-}
-
 TEST_CASE("SDO client: a request that finds the transmit queue full is refused: CO_ERR_IF_CAN_SEND, no callback") {
   SdoClient node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();

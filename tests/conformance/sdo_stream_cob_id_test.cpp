@@ -155,6 +155,18 @@ TEST_CASE("SDO stream types: End moves the server: what waits for the controller
   check_has_moved(node, "end down 0");
 }
 
+TEST_CASE("SDO stream types: End moves the server: NMT stop withdraws what waits under the old identifier [N8]") {
+  Moving node;
+  node.can.refuse_all();
+  node.rx("690#2F00300011000000");
+  CHECK(node->TxQueue.Num == 1);
+  node.rx("000#0201");
+  CHECK(node->TxQueue.Num == 0);
+  node.can.accept_all();
+  node.loop();
+  node.silent();
+}
+
 }  // namespace
 
 #endif

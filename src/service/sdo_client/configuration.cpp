@@ -2,6 +2,7 @@
 // The SDO client parameter: COB-IDs and the node-ID of the server. [301:7.5.2.34]
 #include "core/dict.hpp"
 #include "core/routes.hpp"
+#include "core/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 #include "wire/cob_id.hpp"
 
@@ -53,7 +54,11 @@ uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client
 
 void take_configuration(CO_CSDO& client, const Configuration& found) {
   CO_NODE& node = *client.Node;
-  client.TxId = found.tx_id;
+  if (client.TxId != found.tx_id) {  // an abort that waits keeps the old one
+    transmit::withdraw(node, client.WasTxId);
+    client.WasTxId = client.TxId;
+    client.TxId = found.tx_id;
+  }
   client.RxId = found.rx_id;
   client.NodeId = found.node_id;
   client.State = found.state;

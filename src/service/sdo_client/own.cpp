@@ -30,7 +30,7 @@ uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
     err = find_end(obj, node, size);
   }
   if (err != CO_ERR_NONE) {
-    return access::read_failed(node, err);
+    return access::failed(node, CO_OBJ_UPLOAD, err);
   }
   if (size > client.Size) {
     return CO_SDO_ERR_MEM;
@@ -59,7 +59,7 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
     err = obj::write(obj, node, from, client.Size);
   }
   client.Num = client.Size;
-  return err == CO_ERR_NONE ? no_abort : access::write_failed(node, err);
+  return err == CO_ERR_NONE ? no_abort : access::failed(node, CO_OBJ_DOWNLOAD, err);
 }
 
 uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
@@ -93,7 +93,7 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   abort = direction == CO_OBJ_UPLOAD ? read_all(client, obj, size) : write_all(client, obj);
   err = obj::end(obj, node, direction, abort);
   const bool refused = abort == no_abort && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
-  return refused ? access::write_failed(node, err) : abort;
+  return refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : abort;
 }
 
 }  // namespace
@@ -101,11 +101,12 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
-  CO_OBJ* obj = nullptr;
-  uint32_t abort = access::open(node, client.Key, direction, obj);
+  access::serve(node, nullptr);
+  uint32_t abort = access::open(node, client.Key, direction);
   if (abort == no_abort) {
-    const bool taken = obj::is_stream(*obj) && access::is_taken(node, *obj, nullptr);
-    abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
+    CO_OBJ& obj = *node.Served;
+    const bool taken = obj::is_stream(obj) && access::is_taken(node, obj, nullptr);
+    abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, obj, direction);
   }
   node.Served = nullptr;
   return abort;

@@ -288,6 +288,7 @@ void init(CO_NODE& node) {
     client.Node = &node;
     client.RxId = wire::no_frame;
     client.TxId = wire::no_frame;
+    client.WasTxId = wire::no_frame;
   }
   configure(node);
 }
@@ -308,6 +309,7 @@ void on_mode(CO_NODE& node) {
   }
   for (CO_CSDO& client : node.CSdo) {
     transmit::withdraw(node, client.TxId);
+    transmit::withdraw(node, client.WasTxId);
     if (client.State == CO_CSDO_STATE_BUSY) {
       finish(client, CO_SDO_ERR_TOS_STATE);
     }

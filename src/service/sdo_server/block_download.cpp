@@ -4,6 +4,8 @@
 #include "core/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
 
+#if USE_SDO_BLOCK
+
 namespace co::sdo_server {
 namespace {
 
@@ -28,20 +30,25 @@ void take(CO_SDO& channel, const CO_IF_FRM& segment) {
     set(channel, too_long);
     return;
   }
-  __builtin_memcpy(buffer_of(channel) + channel.Fill, segment.Data + 1, wire::segment_bytes);
+  wire::copy_segment(buffer_of(channel) + channel.Fill, segment.Data + 1);
   channel.Fill = static_cast<uint16_t>(channel.Fill + wire::segment_bytes);
   ++channel.Seq;
 }
 
 uint32_t hand_over(CO_SDO& channel, uint32_t n) {
-  const uint32_t abort = channel.Num == 0 ? start_writing(channel) : no_abort;
+  const bool opens = channel.Num == 0 && !has(channel, whole);
+  uint32_t abort = opens ? begin_data(channel, *channel.Obj, channel.Value, 0) : no_abort;
   channel.Fill = 0;
-  return abort == no_abort ? put(channel, buffer_of(channel), n) : abort;
+  if (abort == no_abort) {
+    abort = pass(channel, channel.Num, buffer_of(channel), n);
+    channel.Num = channel.Read;
+  }
+  return abort;
 }
 
 // The buffer is full: room for the next block.
 uint32_t empty_buffer(CO_SDO& channel) {
-  if (is_gone(channel)) {
+  if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
   sum(channel, channel.Fill);
@@ -52,11 +59,6 @@ void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
   answer.Data[0] = wire::acknowledge_block;
   answer.Data[1] = channel.AckSeq;
   answer.Data[2] = channel.AckSize;
-}
-
-void put_accept(const CO_SDO& channel, CO_IF_FRM& answer) {
-  wire::put_head(answer, wire::accept_block, channel.Key);
-  answer.Data[4] = channel.BlkSize;
 }
 
 // The client goes on behind the last segment that has arrived in order.
@@ -83,60 +85,45 @@ bool is_right_end(const CO_SDO& channel, const CO_IF_FRM& frame) {
 
 }  // namespace
 
-uint32_t initiate_block_download(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint8_t command = step.request.Data[0];
-  if (buffer_of(channel) == nullptr) {
-    return CO_SDO_ERR_CMD;
-  }
-  uint32_t abort = open(step, CO_OBJ_DOWNLOAD);
-  if (abort == no_abort) {
-    abort = open_download(step, wire::is_block_sized(command));
-  }
-  if (abort != no_abort) {
-    return abort;
-  }
-  if (wire::has_crc(command)) {
+void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  if (wire::has_crc(request.Data[0])) {
     set(channel, crc);
   }
   channel.Crc = 0;
   channel.Fill = 0;
   channel.AckSize = 0;
   begin_block(channel);
-  put_accept(channel, step.answer);
-  set_state(channel, State::block_download);
-  return no_abort;
+  answer.Data[4] = channel.BlkSize;
 }
 
-uint32_t download_block_segment(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint8_t number = wire::seqno(step.request.Data[0]);
-  const bool last = wire::is_last_in_block(step.request.Data[0]);
-  const bool ends = last || number == channel.BlkSize;
-  const bool in_order = number == channel.Seq + 1;
-  const bool repeated = ends && is_repeated(channel, number);
-  step.silent = true;
+uint32_t download_block_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  const uint8_t command = request.Data[0];
+  const uint8_t number = wire::seqno(command);
+  silence(answer);
   if (number == 0 || number > channel.BlkSize || state_of(channel) != State::block_download) {
     return no_abort;
   }
+  const bool in_order = number == channel.Seq + 1;
+  const bool ends = wire::is_last_in_block(command) || number == channel.BlkSize;
+  const bool repeated = ends && is_repeated(channel, number);
   set(channel, heard);
   if (in_order) {
-    take(channel, step.request);
+    take(channel, request);
   }
   if (!ends || repeated) {
     return no_abort;
   }
-  step.silent = false;
+  answer.DLC = wire::sdo_dlc;
   if (has(channel, too_long)) {
     return CO_SDO_ERR_LEN_HIGH;
   }
   uint32_t abort = no_abort;
-  if (in_order && last) {
+  if (in_order && wire::is_last_in_block(command)) {
     set_state(channel, State::block_download_end);
   } else if (channel.Fill == CO_SDO_BUF_BYTE) {
     abort = empty_buffer(channel);
   }
-  end_block(channel, step.answer);
+  end_block(channel, answer);
   return abort;
 }
 
@@ -146,34 +133,33 @@ bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
          wire::is_equal(frame.Data + 1, stored, wire::segment_bytes) && !is_right_end(channel, frame);
 }
 
-uint32_t end_block_download(Step& step) {
-  CO_SDO& channel = step.channel;
-  if (is_gone(channel)) {
+uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  const uint32_t n = channel.Fill - wire::unused_in_block(step.request.Data[0]);
-  uint32_t abort = check_total(step, channel.Num + n);
+  const uint32_t n = channel.Fill - wire::unused_in_block(request.Data[0]);
+  uint32_t abort = check_total(channel, channel.Num + n);
   if (abort != no_abort) {
     return abort;
   }
   sum(channel, n);
-  if (has(channel, crc) && channel.Crc != wire::get_u16(step.request.Data + 1)) {
+  if (has(channel, crc) && channel.Crc != wire::get_u16(request.Data + 1)) {
     return CO_SDO_ERR_CRC;
   }
   abort = hand_over(channel, n);
-  step.answer.Data[0] = wire::confirm_block;
-  return abort == no_abort ? finish_download(step) : abort;
+  answer.Data[0] = wire::confirm_block;
+  return abort == no_abort ? finish_download(channel) : abort;
 }
 
-bool remind(CO_SDO& channel) {
+void remind(CO_SDO& channel) {
   const State state = state_of(channel);
   if (state != State::block_download && state != State::block_download_end) {
-    return true;
+    return;
   }
   if (has(channel, too_long)) {
-    send_abort(channel, channel.Key, CO_SDO_ERR_LEN_HIGH);
+    send_abort(channel, CO_SDO_ERR_LEN_HIGH);
     close(channel, CO_SDO_ERR_LEN_HIGH);
-    return false;
+    return;
   }
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   if (has(channel, heard)) {
@@ -181,10 +167,12 @@ bool remind(CO_SDO& channel) {
   } else if (channel.AckSize != 0) {
     put_acknowledge(channel, frame);
   } else {
-    put_accept(channel, frame);
+    wire::put_head(frame, wire::accept_block, channel.Key);
+    frame.Data[4] = channel.BlkSize;
   }
   transmit::send(*channel.Node, frame);
-  return true;
 }
 
 }  // namespace co::sdo_server
+
+#endif

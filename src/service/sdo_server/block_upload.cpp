@@ -5,21 +5,12 @@
 #include "core/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
 
+#if USE_SDO_BLOCK
+
 namespace co::sdo_server {
 namespace {
 
 constexpr uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
-
-uint32_t segment_position(const CO_SDO& channel) { return channel.Num + channel.Seq * wire::segment_bytes; }
-
-bool is_in_buffer(const CO_SDO& channel, uint32_t position) {
-  return position < channel.Read && channel.Read - position <= channel.Fill;
-}
-
-// What cannot be read again has to fit into the buffer.
-bool can_go_back(const CO_SDO& channel) {
-  return obj::can_seek(*channel.Obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
-}
 
 // The CRC covers each byte once, also if the client has lost it.
 void sum(CO_SDO& channel, uint32_t position) {
@@ -34,49 +25,45 @@ void sum(CO_SDO& channel, uint32_t position) {
 }
 
 uint32_t load(CO_SDO& channel, uint32_t position) {
-  if (is_gone(channel)) {
+  if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
+  const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // what a type does not fill is not old data
-  const uint32_t abort = get(channel, position, buffer_of(channel), n);
-  channel.Read = position + n;
-  channel.Fill = static_cast<uint16_t>(n);
+  const uint32_t abort = pass(channel, position, buffer_of(channel), n);
+  channel.Fill = static_cast<uint16_t>(channel.Read - position);
   if (abort == no_abort) {
     sum(channel, position);
   }
   return abort;
 }
 
-bool has_more(const CO_SDO& channel) {
-  return state_of(channel) == State::block_upload && channel.Seq < channel.BlkSize && !has(channel, last_sent);
-}
-
 }  // namespace
 
 bool send_segment(CO_SDO& channel, uint32_t& abort) {
-  CO_NODE& node = *channel.Node;
-  if (!has_more(channel)) {
+  if (state_of(channel) != State::block_upload || channel.Seq == channel.BlkSize) {
     return false;
   }
-  const uint32_t position = segment_position(channel);
-  if (position < channel.Size && !is_in_buffer(channel, position)) {
+  const uint32_t position = channel.Num + channel.Seq * wire::segment_bytes;
+  uint32_t left = channel.Read - position;  // in the buffer
+  if (left - 1 >= channel.Fill && position < channel.Size) {
     abort = load(channel, position);
-    if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
+    if (abort != no_abort || !event::is_allowed(*channel.Node, CO_SDO_ALLOWED)) {
       return false;
     }
+    left = channel.Read - position;
   }
-  const uint32_t n = smaller(wire::segment_bytes, position < channel.Read ? channel.Read - position : 0);
+  const uint32_t n = smaller(wire::segment_bytes, left);
   const bool last = position + n == channel.Size;
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   frame.Data[0] = wire::block_segment(static_cast<uint8_t>(channel.Seq + 1), last);
-  __builtin_memcpy(frame.Data + 1, buffer_of(channel) + channel.Fill - (channel.Read - position), n);
-  if (!transmit::offer(node, frame)) {
+  wire::copy(frame.Data + 1, buffer_of(channel) + channel.Fill - left, n);
+  if (!transmit::offer(*channel.Node, frame)) {
     return false;
   }
   ++channel.Seq;
-  channel.Idle = 0;
   if (last) {
+    channel.BlkSize = channel.Seq;
     set(channel, last_sent);
   }
   return true;
@@ -93,53 +80,36 @@ uint32_t send_segments(CO_SDO& channel) {
 
 }  // namespace
 
-uint32_t initiate_block_upload(Step& step) {
-  CO_SDO& channel = step.channel;
-  if (buffer_of(channel) == nullptr) {
-    return CO_SDO_ERR_CMD;
-  }
-  uint32_t abort = open_upload(step);
-  if (abort != no_abort) {
-    return abort;
-  }
-  const uint8_t blksize = step.request.Data[4];
-  const uint8_t switch_threshold = step.request.Data[5];
-  if (!wire::is_blksize(blksize)) {
+uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request) {
+  if (!wire::is_blksize(request.Data[4])) {
     return CO_SDO_ERR_BLK_SIZE;
   }
-  if (switch_threshold != 0 && channel.Size <= switch_threshold) {
-    return ordinary_upload(step);
-  }
-  if (!can_go_back(channel)) {
-    return CO_SDO_ERR_CMD;
-  }
-  abort = begin_upload(step, false);
-  if (abort != no_abort) {
-    return abort;
-  }
-  if (wire::has_crc(step.request.Data[0])) {
+  // What cannot be read again has to fit into the buffer.
+  const bool can_go_back =
+      obj::can_seek(obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
+  return can_go_back || !is_worth_block(channel.Size, request) ? no_abort : CO_SDO_ERR_CMD;
+}
+
+void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
+  if (wire::has_crc(request.Data[0])) {
     set(channel, crc);
   }
   channel.Crc = 0;
   channel.Summed = 0;
   channel.Fill = 0;
   channel.Seq = 0;
-  channel.BlkSize = blksize;
-  answer_size(channel, wire::initiate_block(channel.Size != CO_OBJ_SIZE_UNKNOWN), step.answer);
-  set_state(channel, State::block_upload_ready);
-  return no_abort;
+  channel.BlkSize = request.Data[4];
 }
 
-uint32_t start_block_upload(Step& step) {
-  step.silent = true;
-  set_state(step.channel, State::block_upload);
-  return send_segments(step.channel);
+uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+  silence(answer);
+  set_state(channel, State::block_upload);
+  return send_segments(channel);
 }
 
-uint32_t acknowledge_block(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint8_t ackseq = step.request.Data[1];
-  const uint8_t blksize = step.request.Data[2];
+uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  const uint8_t ackseq = request.Data[1];
+  const uint8_t blksize = request.Data[2];
   if (ackseq > channel.Seq) {
     return CO_SDO_ERR_SEQ_NUM;
   }
@@ -148,8 +118,8 @@ uint32_t acknowledge_block(Step& step) {
   }
   const uint32_t acknowledged = ackseq * wire::segment_bytes;
   if (ackseq == channel.Seq && has(channel, last_sent)) {
-    step.answer.Data[0] = wire::end_block(channel.Num + acknowledged - channel.Size);
-    wire::put_u16(step.answer.Data + 1, channel.Crc);
+    answer.Data[0] = wire::end_block(channel.Num + acknowledged - channel.Size);
+    wire::put_u16(answer.Data + 1, channel.Crc);
     set_state(channel, State::block_upload_end);
     return no_abort;
   }
@@ -157,14 +127,15 @@ uint32_t acknowledge_block(Step& step) {
   channel.BlkSize = blksize;
   channel.Seq = 0;
   clear(channel, last_sent);
-  step.silent = true;
+  silence(answer);
   return send_segments(channel);
 }
 
-uint32_t end_block_upload(Step& step) {
-  step.silent = true;
-  close(step.channel, no_abort);
-  return no_abort;
+uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+  silence(answer);
+  return close(channel, no_abort);
 }
 
 }  // namespace co::sdo_server
+
+#endif

@@ -5,89 +5,103 @@ namespace co::sdo_server {
 namespace {
 
 // Bytes that a download can have when the client does not say how many.
-uint32_t capacity(const Step& step) {
-  CO_OBJ& obj = *step.channel.Obj;
-  return obj::size(obj, step.node, obj::is_stream(obj) ? UINT32_MAX : 0);
-}
+uint32_t capacity(CO_NODE& node, CO_OBJ& obj) { return obj::size(obj, node, obj::is_stream(obj) ? UINT32_MAX : 0); }
 
-uint32_t expedited_download(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint8_t command = step.request.Data[0];
-  const uint32_t length = wire::is_size_indicated(command) ? wire::expedited_length(command) : capacity(step);
+uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request) {
+  CO_NODE& node = *channel.Node;
+  const uint8_t command = request.Data[0];
+  const uint32_t length = wire::is_size_indicated(command) ? wire::expedited_length(command) : capacity(node, obj);
   if (length > wire::expedited_bytes) {
     return CO_SDO_ERR_LEN;
   }
-  uint32_t abort = access::check_length(step.node, *channel.Obj, length);
-  if (abort == no_abort) {
-    abort = begin_download(step, length, true);
+  uint32_t abort = access::check_length(node, obj, length);
+  if (abort == no_abort && obj::is_stream(obj)) {
+    abort = begin_stream(channel, obj, length);
   }
   if (abort != no_abort) {
     return abort;
   }
-  __builtin_memcpy(channel.Value, step.request.Data + 4, wire::expedited_bytes);
-  channel.Num = length;
-  return finish_download(step);
+  wire::put_aligned(channel.Value, wire::get_high(request));
+  abort = begin_data(channel, obj, channel.Value, length);
+  return abort == no_abort && has(channel, begun) ? close(channel, no_abort) : abort;
 }
 
-uint32_t segmented_download(Step& step) {
-  const uint32_t abort = open_download(step, wire::is_size_indicated(step.request.Data[0]));
+// Takes the size that the client announces, or the most that the object can have.
+uint32_t take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool announced) {
+  CO_NODE& node = *channel.Node;
+  if (announced) {
+    set(channel, sized);
+    channel.Size = wire::get_high(request);
+    return access::check_length(node, obj, channel.Size);
+  }
+  channel.Size = capacity(node, obj);
+  return channel.Size == 0 && !obj::is_stream(obj) ? access::abort_for(node, CO_ERR_TYPE_WR) : no_abort;
+}
+
+uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
+  const uint8_t command = request.Data[0];
+  const bool announced = by_block ? wire::is_block_sized(command) : wire::is_size_indicated(command);
+  uint32_t abort = take_size(channel, obj, request, announced);
+  if (abort == no_abort && obj::is_stream(obj)) {
+    abort = begin_stream(channel, obj, announced ? channel.Size : CO_OBJ_SIZE_UNKNOWN);
+  }
   if (abort != no_abort) {
     return abort;
   }
-  set_state(step.channel, State::download);
-  return start_writing(step.channel);
+  if (is_value(channel, obj)) {
+    set(channel, whole);
+  }
+  go_on(channel, obj, by_block ? State::block_download : State::download);
+  if (has_block && by_block) {
+    begin_block_download(channel, request, answer);
+    return no_abort;
+  }
+  return has(channel, whole) ? no_abort : begin_data(channel, obj, channel.Value, 0);
+}
+
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
+  const uint32_t abort = open(channel, request, CO_OBJ_DOWNLOAD);
+  if (abort != no_abort) {
+    return abort;
+  }
+  CO_OBJ& obj = *channel.Node->Served;
+  wire::put_reply(answer, by_block ? wire::accept_block : wire::initiate_download_response, request);
+  return !by_block && wire::is_expedited(request.Data[0]) ? expedited_download(channel, obj, request)
+                                                          : longer_download(channel, obj, request, answer, by_block);
 }
 
 }  // namespace
 
-uint32_t initiate_download(Step& step) {
-  const uint32_t abort = open(step, CO_OBJ_DOWNLOAD);
-  if (abort != no_abort) {
-    return abort;
-  }
-  wire::put_head(step.answer, wire::initiate_download_response, step.channel.Key);
-  return wire::is_expedited(step.request.Data[0]) ? expedited_download(step) : segmented_download(step);
+uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  return initiate(channel, request, answer, false);
 }
 
-uint32_t open_download(Step& step, bool announced) {
-  CO_SDO& channel = step.channel;
-  uint32_t abort = no_abort;
-  if (announced) {
-    set(channel, sized);
-    channel.Size = wire::get_high(step.request);
-    abort = access::check_length(step.node, *channel.Obj, channel.Size);
-  } else {
-    channel.Size = capacity(step);
-    const bool failed = channel.Size == 0 && !obj::is_stream(*channel.Obj);
-    abort = failed ? access::abort_for(step.node, CO_ERR_TYPE_WR) : no_abort;
+#if USE_SDO_BLOCK
+uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  if (!has_buffer(channel)) {
+    restart(channel, request);
+    return CO_SDO_ERR_CMD;
   }
-  return abort == no_abort ? begin_download(step, announced ? channel.Size : CO_OBJ_SIZE_UNKNOWN, false) : abort;
+  return initiate(channel, request, answer, true);
 }
+#endif
 
-uint32_t check_total(Step& step, uint32_t total) {
-  const CO_SDO& channel = step.channel;
+uint32_t check_total(CO_SDO& channel, uint32_t total) {
   if (total > channel.Size) {
     return CO_SDO_ERR_LEN_HIGH;
   }
   return has(channel, sized) ? access::compare_length(total, channel.Size)
-                             : access::check_length(step.node, *channel.Obj, total);
+                             : access::check_length(*channel.Node, *channel.Obj, total);
 }
 
-uint32_t finish_download(Step& step) {
-  CO_SDO& channel = step.channel;
-  if (has(channel, whole)) {
-    const CO_ERR err = write_whole(channel, channel.Num);
-    if (err != CO_ERR_NONE) {
-      return access::write_failed(step.node, err);
-    }
-  }
-  return close(channel, no_abort);
+uint32_t finish_download(CO_SDO& channel) {
+  const uint32_t abort = has(channel, whole) ? begin_data(channel, *channel.Obj, channel.Value, channel.Num) : no_abort;
+  return abort == no_abort ? close(channel, no_abort) : abort;
 }
 
-uint32_t download_segment(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint8_t command = step.request.Data[0];
-  uint32_t abort = check_segment(step);
+uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  const uint8_t command = request.Data[0];
+  uint32_t abort = check_segment(channel, request);
   if (abort != no_abort) {
     return abort;
   }
@@ -95,16 +109,16 @@ uint32_t download_segment(Step& step) {
   if (n > channel.Size - channel.Num) {
     return CO_SDO_ERR_LEN_HIGH;
   }
-  uint8_t piece[wire::segment_bytes];
-  __builtin_memcpy(piece, step.request.Data + 1, sizeof piece);
-  abort = put(channel, piece, n);
-  step.answer.Data[0] = wire::download_segment_response(channel.Toggle);
+  CO_IF_FRM segment = request;  // a type function may change what it is given
+  abort = pass(channel, channel.Num, segment.Data + 1, n);
+  channel.Num = channel.Read;
+  answer.Data[0] = wire::download_segment_response(channel.Toggle);
   channel.Toggle ^= wire::toggle_bit;
   if (abort != no_abort || !wire::is_last_segment(command)) {
     return abort;
   }
-  abort = check_total(step, channel.Num);
-  return abort == no_abort ? finish_download(step) : abort;
+  abort = check_total(channel, channel.Num);
+  return abort == no_abort ? finish_download(channel) : abort;
 }
 
 }  // namespace co::sdo_server

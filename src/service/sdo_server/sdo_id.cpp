@@ -19,7 +19,7 @@ bool may_use(const CO_OBJ& obj, uint32_t id) {
   constexpr uint16_t first_client = 0x1280;
   const bool of_client = CO_GET_IDX(obj.Key) >= first_client;
   const bool of_server = CO_GET_SUB(obj.Key) == 1 ? wire::is_default_sdo_rx(id) : wire::is_default_sdo_tx(id);
-  return CO_RESTRICTED_IDS != 0 || !wire::is_restricted(id) || (of_client && of_server);
+  return id != 0 && (CO_RESTRICTED_IDS != 0 || !wire::is_restricted(id) || (of_client && of_server));
 }
 
 bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {

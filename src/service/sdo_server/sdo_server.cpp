@@ -13,15 +13,20 @@
 namespace co::sdo_server {
 namespace {
 
-uint32_t end_by_client(Step& step) {
-  close(step.channel, wire::abort_code_in(step.request));
-  step.silent = true;
+uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  close(channel, wire::abort_code_in(request));
+  silence(answer);
   return no_abort;
 }
 
-uint32_t refuse_command(Step&) { return CO_SDO_ERR_CMD; }
+// The abort names the transfer that it ends; without one, what the request names.
+uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
+  if (state_of(channel) == State::idle) {
+    restart(channel, request);
+  }
+  return CO_SDO_ERR_CMD;
+}
 
-using Service = uint32_t (*)(Step&);
 using wire::Request;
 
 // A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3] Within a
@@ -54,87 +59,63 @@ constexpr auto machine =
     make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_command);
 
 // Segments of a block look like anything; the state tells them.
-Request request_in(const CO_SDO& channel, const CO_IF_FRM& frame) {
-  const bool in_block =
-      USE_SDO_BLOCK != 0 && (state_of(channel) == State::block_download ||
-                             (state_of(channel) == State::block_download_end && is_last_segment_again(channel, frame)));
-  const uint8_t command = frame.Data[0];
-  return in_block && command != wire::abort_command ? Request::block_segment : wire::request_of(command);
+bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
+  const State state = state_of(channel);
+  return has_block && (state == State::block_download || state == State::block_download_end) &&
+         frame.Data[0] != wire::abort_command &&
+         (state == State::block_download || is_last_segment_again(channel, frame));
 }
 
-bool is_initiate(Request request) {
-  return request == Request::initiate_download || request == Request::initiate_upload ||
-         request == Request::initiate_block_download || request == Request::initiate_block_upload;
-}
-
-// A channel is busy while its type functions run: they may change the NMT state.
-class Serving {
- public:
-  explicit Serving(CO_SDO& channel) : channel_(channel) {
-    set(channel_, busy);
-    access::serve(*channel_.Node, channel_.Obj);
-  }
-  ~Serving() {
-    clear(channel_, busy);
-    channel_.Node->Served = nullptr;
-  }
-  Serving(const Serving&) = delete;
-  Serving& operator=(const Serving&) = delete;
-
- private:
-  CO_SDO& channel_;
-};
-
-// What happened is over. Nothing is sent where SDO is no longer allowed. True: so is the transfer.
-bool is_concluded(CO_SDO& channel, uint32_t key, uint32_t abort) {
+// The transfer is over, without an abort where SDO is no longer allowed.
+void give_up(CO_SDO& channel, uint32_t abort) {
   CO_NODE& node = *channel.Node;
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
     on_mode(node);
-    return true;
+    return;
   }
-  if (abort != no_abort) {
-    send_abort(channel, key, abort);
-    close(channel, abort);
-    return true;
-  }
-  return false;
+  send_abort(channel, abort);
+  close(channel, abort);
 }
 
-// Not inlined: a channel by itself lies within reach of short loads.
-[[gnu::noinline]] void serve(CO_SDO& channel, const CO_IF_FRM& frame) {
+// A channel is busy while its type functions run: they may change the NMT state. Not inlined: a channel by itself lies
+// within reach of short loads.
+[[gnu::noinline]] bool serve(CO_SDO& channel, const CO_IF_FRM& frame) {
+  if (frame.DLC != wire::sdo_dlc) {
+    return false;
+  }
   CO_NODE& node = *channel.Node;
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  Step step = {node, channel, frame, answer, false};
-  const Request request = request_in(channel, frame);
-  // An abort names the transfer that it ends; without one, what the request names.
-  const bool within = state_of(channel) != State::idle && !is_initiate(request);
-  const uint32_t key = within ? channel.Key : wire::multiplexer(frame);
-  uint32_t abort = no_abort;
-  {
-    const Serving serving(channel);
-    channel.Idle = 0;
-    abort = machine(state_of(channel), request)(step);
-  }
-  if (state_of(channel) != State::idle) {
-    watch(node);
-  }
-  if (!is_concluded(channel, key, abort) && !step.silent) {
+  const Request request = is_segment(channel, frame) ? Request::block_segment : wire::request_of(frame.Data[0]);
+  channel.Idle = busy;
+  access::serve(node, channel.Obj);
+  const uint32_t abort = machine(state_of(channel), request)(channel, frame, answer);
+  channel.Idle = 0;
+  node.Served = nullptr;
+  if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
+    give_up(channel, abort);
+  } else if (answer.DLC != 0) {
     transmit::send(node, answer);
   }
+  return true;
 }
 
-bool go_on(CO_SDO& channel) {
+#if USE_SDO_BLOCK
+bool send_next(CO_SDO& channel) {
+  CO_NODE& node = *channel.Node;
+  const uint8_t idle = channel.Idle;
   uint32_t abort = no_abort;
-  bool sent = false;
-  {
-    const Serving serving(channel);
-    sent = send_segment(channel, abort);
+  channel.Idle = busy;
+  access::serve(node, channel.Obj);
+  const bool sent = send_segment(channel, abort);
+  channel.Idle = sent ? 0 : idle;
+  node.Served = nullptr;
+  if (abort == no_abort && event::is_allowed(node, CO_SDO_ALLOWED)) {
+    return sent;
   }
-  if (state_of(channel) != State::idle) {
-    watch(*channel.Node);
-  }
-  return !is_concluded(channel, channel.Key, abort) && sent;
+  give_up(channel, abort);
+  return false;
 }
+#endif
 
 // Without an entry the default server has the COB-IDs that every node reserves for it. [301:7.3.5]
 uint32_t cob_id(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
@@ -154,7 +135,11 @@ void configure_channel(CO_NODE& node, uint16_t number) {
   }
   close(channel, CO_SDO_ERR_TOS_STATE);
   channel.RxId = rx_id;
-  channel.TxId = tx_id;
+  if (channel.TxId != tx_id) {  // an answer that waits keeps the old one
+    transmit::withdraw(node, channel.WasTxId);
+    channel.WasTxId = channel.TxId;
+    channel.TxId = tx_id;
+  }
   routes::change(node, rx_id, routes::Service::sdo_server, number);
 }
 
@@ -164,6 +149,9 @@ void init(CO_NODE& node) {
   for (CO_SDO& channel : node.Sdo) {
     channel = {};
     channel.Node = &node;
+    channel.RxId = wire::no_frame;
+    channel.TxId = wire::no_frame;
+    channel.WasTxId = wire::no_frame;
   }
   tmr::stop(node.Tmr, node.SdoTmr);
   configure(node);
@@ -175,17 +163,16 @@ void configure(CO_NODE& node) {
   }
 }
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  const bool well_formed = frame.DLC == wire::sdo_dlc;
-  if (well_formed) {
-    serve(node.Sdo[number], frame);
-  }
-  return well_formed;
-}
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return serve(node.Sdo[number], frame); }
 
-bool on_free(CO_NODE& node, uint16_t number) {
+bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+#if USE_SDO_BLOCK
   CO_SDO& channel = node.Sdo[number];
-  return USE_SDO_BLOCK != 0 && state_of(channel) == State::block_upload && go_on(channel);
+  if (state_of(channel) == State::block_upload) {
+    return send_next(channel);
+  }
+#endif
+  return false;
 }
 
 void on_mode(CO_NODE& node) {
@@ -193,12 +180,13 @@ void on_mode(CO_NODE& node) {
     return;
   }
   for (CO_SDO& channel : node.Sdo) {
-    if (!has(channel, busy)) {
+    if (channel.Idle != busy) {
       close(channel, CO_SDO_ERR_TOS_STATE);
     }
     transmit::withdraw(node, channel.TxId);
+    transmit::withdraw(node, channel.WasTxId);
   }
-  tmr::stop(node.Tmr, node.SdoTmr);
+  rest(node);
 }
 
 }  // namespace co::sdo_server

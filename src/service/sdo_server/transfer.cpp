@@ -14,47 +14,39 @@ constexpr uint8_t reminder_slices = 2;
 
 CO_OBJ_TRANSFER direction(const CO_SDO& channel) { return has(channel, download) ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD; }
 
-// False: the transfer has been ended.
-bool count_slice(CO_SDO& channel) {
-  channel.Idle = has(channel, busy) ? 1 : static_cast<uint8_t>(channel.Idle + 1);
-  if (channel.Idle == slices) {
-    send_abort(channel, channel.Key, CO_SDO_ERR_TIMEOUT);
-    close(channel, CO_SDO_ERR_TIMEOUT);
-    return false;
+void count_slice(CO_SDO& channel) {
+  if (state_of(channel) == State::idle || channel.Idle == busy) {
+    return;
   }
-  return USE_SDO_BLOCK == 0 || channel.Idle % reminder_slices != 0 || remind(channel);
+  ++channel.Idle;
+  if (channel.Idle == slices) {
+    send_abort(channel, CO_SDO_ERR_TIMEOUT);
+    close(channel, CO_SDO_ERR_TIMEOUT);
+  } else if (has_block && channel.Idle % reminder_slices == 0) {
+    remind(channel);
+  }
 }
 
 void on_slice(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  bool any_open = false;
   for (CO_SDO& channel : node.Sdo) {
-    any_open |= state_of(channel) != State::idle && count_slice(channel);
+    count_slice(channel);
   }
-  if (!any_open) {
-    tmr::stop(node.Tmr, node.SdoTmr);
-  }
-}
-
-// Numbers lie in the byte order of the CPU in type functions, and in that of the bus everywhere else here.
-void swap_value(const CO_SDO& channel, uint8_t* value, uint32_t n) {
-  if (!obj::is_stream(*channel.Obj)) {
-    wire::swap_host(value, n);
-  }
+  rest(node);
 }
 
 // The position of our own streams is set before each piece: the application may have used it in between. Types of the
 // application are reset at the beginning, and when an upload goes back.
-CO_ERR seek_piece(CO_SDO& channel, uint32_t position) {
-  const bool own = channel.Obj->Type->Reset == stream::reset;
-  return own || position != channel.Read ? obj::seek(*channel.Obj, *channel.Node, position) : CO_ERR_NONE;
+[[gnu::always_inline]] inline CO_ERR seek_piece(CO_SDO& channel, uint32_t position) {
+  CO_OBJ& obj = *channel.Obj;
+  if (obj.Type->Reset == stream::reset) {
+    return stream::seek(obj, position);
+  }
+  return position != channel.Read ? obj::seek(obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
 // A type that did not know its size may know it after a read, which may have filled only a part.
-uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
-  if (channel.Size != CO_OBJ_SIZE_UNKNOWN) {
-    return no_abort;
-  }
+uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   const uint32_t size = obj::size(*channel.Obj, *channel.Node, 0);
   if (size == CO_OBJ_SIZE_UNKNOWN) {
     return no_abort;
@@ -63,29 +55,13 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position, uint32_t& n) {
     return CO_SDO_ERR_INTERNAL;
   }
   channel.Size = size;
-  n = n < size - position ? n : size - position;
+  channel.Read = channel.Read < size ? channel.Read : size;
   return no_abort;
 }
 
-uint32_t begin(CO_SDO& channel, uint32_t size) {
-  if (obj::extended(*channel.Obj) == nullptr) {
-    return no_abort;
-  }
-  const CO_ERR err = obj::begin(*channel.Obj, *channel.Node, direction(channel), size);
-  if (err != CO_ERR_NONE) {
-    return access::abort_for(*channel.Node, err);
-  }
-  set(channel, begun);
-  return no_abort;
-}
-
-uint32_t choose_access(Step& step, bool fits_one_frame) {
-  CO_SDO& channel = step.channel;
-  const bool stream = obj::is_stream(*channel.Obj);
-  if (fits_one_frame || (!stream && channel.Size <= sizeof channel.Value)) {
-    set(channel, whole);
-  }
-  return stream && access::is_taken(step.node, *channel.Obj, &channel) ? CO_SDO_ERR_TOS_STATE : no_abort;
+[[gnu::always_inline]] inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
+  CO_NODE& node = *channel.Node;
+  return has(channel, download) ? obj::write(obj, node, data, n) : obj::read(obj, node, data, n);
 }
 
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
@@ -93,7 +69,7 @@ uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   access::serve(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
-  const uint32_t abort = refused ? access::write_failed(node, err) : no_abort;
+  const uint32_t abort = refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : no_abort;
   node.Served = nullptr;
   return abort;
 }
@@ -102,20 +78,25 @@ uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
 
 uint32_t close(CO_SDO& channel, uint32_t code) {
   CO_OBJ* const obj = channel.Obj;
-  const bool is_told = has(channel, begun) && !is_gone(channel);
+  const bool is_told = has(channel, begun) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
-  clear(channel, begun);
   return is_told ? tell_end(channel, *obj, code) : no_abort;
 }
 
-void send_abort(CO_SDO& channel, uint32_t key, uint32_t code) {
+void send_abort(CO_SDO& channel, uint32_t code) {
   count(channel.Node->Count.SdoAborts);
-  transmit::send(*channel.Node, wire::abort_frame(channel.TxId, key, code));
+  transmit::send(*channel.Node, wire::abort_frame(channel.TxId, channel.Key, code));
 }
 
 // One timer watches all channels: a transfer ends after eight slices without a frame.
-void watch(CO_NODE& node) {
+void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
+  CO_NODE& node = *channel.Node;
+  channel.Obj = &obj;
+  channel.Num = 0;
+  channel.Read = 0;
+  channel.Toggle = 0;
+  set_state(channel, state);
   if (tmr::is_running(node.SdoTmr)) {
     return;
   }
@@ -125,107 +106,78 @@ void watch(CO_NODE& node) {
   }
 }
 
-bool is_gone(const CO_SDO& channel) {
-  const CO_DICT& dict = channel.Node->Dict;
-  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
-  return place >= dict.Num * sizeof(CO_OBJ) || CO_GET_DEV(channel.Obj->Key) != channel.Key;
-}
-
-uint32_t check_segment(const Step& step) {
-  if (is_gone(step.channel)) {
-    return CO_SDO_ERR_TOS_STATE;
-  }
-  return wire::toggle(step.request) != step.channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
-}
-
-uint32_t open(Step& step, CO_OBJ_TRANSFER transfer) {
-  CO_SDO& channel = step.channel;
-  close(channel, CO_SDO_ERR_TOS_STATE);
-  channel.Key = wire::multiplexer(step.request);
-  channel.Num = 0;
-  channel.Read = 0;
-  channel.Toggle = 0;
-  channel.Flags = static_cast<uint8_t>(busy | (transfer == CO_OBJ_DOWNLOAD ? download : 0));
-  return access::open(step.node, channel.Key, transfer, channel.Obj);
-}
-
-uint32_t begin_upload(Step& step, bool fits_one_frame) {
-  CO_SDO& channel = step.channel;
-  uint32_t abort = choose_access(step, fits_one_frame);
-  if (abort == no_abort) {
-    abort = begin(channel, channel.Size);
-  }
-  if (abort != no_abort) {
-    return abort;
-  }
-  const CO_ERR err = has(channel, whole) ? read_whole(channel, channel.Size)
-                                         : COObjRdBufStart(channel.Obj, channel.Node, channel.Value, 0);
-  return err == CO_ERR_NONE ? no_abort : access::read_failed(step.node, err);
-}
-
-uint32_t begin_download(Step& step, uint32_t size, bool fits_one_frame) {
-  CO_SDO& channel = step.channel;
-  const uint32_t abort = choose_access(step, fits_one_frame);
-  return abort == no_abort ? begin(channel, size) : abort;
-}
-
-uint32_t start_writing(CO_SDO& channel) {
-  if (has(channel, whole)) {
-    return no_abort;
-  }
-  const CO_ERR err = COObjWrBufStart(channel.Obj, channel.Node, channel.Value, 0);
-  return err == CO_ERR_NONE ? no_abort : access::write_failed(*channel.Node, err);
-}
-
-CO_ERR read_whole(CO_SDO& channel, uint32_t n) {
-  CO_ERR err = obj::seek(*channel.Obj, *channel.Node, 0);
-  if (err == CO_ERR_NONE) {
-    err = obj::read(*channel.Obj, *channel.Node, channel.Value, n);
-    swap_value(channel, channel.Value, n);
-  }
-  return err;
-}
-
-CO_ERR write_whole(CO_SDO& channel, uint32_t n) {
-  const CO_ERR err = obj::seek(*channel.Obj, *channel.Node, 0);
-  if (err != CO_ERR_NONE) {
-    return err;
-  }
-  swap_value(channel, channel.Value, n);
-  return obj::write(*channel.Obj, *channel.Node, channel.Value, n);
-}
-
-uint32_t get(CO_SDO& channel, uint32_t position, uint8_t* to, uint32_t& n) {
-  if (has(channel, whole)) {
-    __builtin_memcpy(to, channel.Value + position, n);
-    return no_abort;
-  }
-  if (n == 0) {
-    return no_abort;
-  }
-  CO_ERR err = seek_piece(channel, position);
-  if (err == CO_ERR_NONE) {
-    err = obj::read(*channel.Obj, *channel.Node, to, n);
-  }
-  const uint32_t abort =
-      err == CO_ERR_NONE ? learn_size(channel, position, n) : access::read_failed(*channel.Node, err);
-  channel.Read = position + n;
-  return abort;
-}
-
-uint32_t put(CO_SDO& channel, uint8_t* from, uint32_t n) {
-  CO_ERR err = CO_ERR_NONE;
-  if (has(channel, whole)) {
-    __builtin_memcpy(channel.Value + channel.Num, from, n);
-  } else if (n != 0) {
-    err = seek_piece(channel, channel.Num);
-    if (err == CO_ERR_NONE) {
-      err = obj::write(*channel.Obj, *channel.Node, from, n);
+void rest(CO_NODE& node) {
+  for (const CO_SDO& channel : node.Sdo) {
+    if (state_of(channel) != State::idle) {
+      return;
     }
   }
-  channel.Num += n;
-  channel.Read = channel.Num;
-  return err == CO_ERR_NONE ? no_abort : access::write_failed(*channel.Node, err);
+  tmr::stop(node.Tmr, node.SdoTmr);
+}
+
+void restart(CO_SDO& channel, const CO_IF_FRM& request) {
+  if (state_of(channel) != State::idle) {
+    close(channel, CO_SDO_ERR_TOS_STATE);
+  }
+  channel.Key = wire::multiplexer(request);
+}
+
+uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
+  restart(channel, request);
+  channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
+  return access::open(*channel.Node, channel.Key, transfer);
+}
+
+uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
+  CO_NODE& node = *channel.Node;
+  if (access::is_taken(node, obj, &channel)) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  if (obj::extended(obj) == nullptr) {
+    return no_abort;
+  }
+  const CO_ERR err = obj::begin(obj, node, direction(channel), size);
+  if (err != CO_ERR_NONE) {
+    return access::abort_for(node, err);
+  }
+  set(channel, begun);
+  channel.Obj = &obj;
+  return no_abort;
+}
+
+// Values are numbers in the byte order of the CPU for type functions, and in that of the bus everywhere else here.
+uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
+  const bool swaps = !wire::host_is_little_endian && !obj::is_stream(obj);
+  if (swaps && has(channel, download)) {
+    wire::swap_host(data, n);
+  }
+  CO_ERR err = obj::is_stream(obj) ? obj::seek(obj, *channel.Node, 0) : CO_ERR_NONE;
+  if (err == CO_ERR_NONE) {
+    err = run(channel, obj, data, n);
+  }
+  if (swaps && !has(channel, download)) {
+    wire::swap_host(data, n);
+  }
+  return err == CO_ERR_NONE ? no_abort : access::failed(*channel.Node, direction(channel), err);
+}
+
+uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
+  CO_ERR err = CO_ERR_NONE;
+  if (has(channel, whole)) {
+    uint8_t* const value = channel.Value + position;
+    has(channel, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
+  } else if (n != 0) {
+    err = seek_piece(channel, position);
+    if (err == CO_ERR_NONE) {
+      err = run(channel, *channel.Obj, data, n);
+    }
+  }
+  channel.Read = position + n;
+  if (err != CO_ERR_NONE) {
+    return access::failed(*channel.Node, direction(channel), err);
+  }
+  const bool may_end = channel.Size == CO_OBJ_SIZE_UNKNOWN && !has(channel, download);
+  return may_end ? learn_size(channel, position) : no_abort;
 }
 
 }  // namespace co::sdo_server

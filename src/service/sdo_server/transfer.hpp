@@ -24,23 +24,18 @@ enum class State : uint8_t {
 enum Flag : uint8_t {
   sized = 0x01,      // the size of a download was announced
   whole = 0x02,      // a value: collected in Value, read or written in one piece
-  busy = 0x04,       // a type function may be running: the transfer is closed afterwards only
+  too_long = 0x04,   // block download: more data than the object can have
   download = 0x08,   // direction
   begun = 0x10,      // the type was told of the begin and wants to know the end
   crc = 0x20,        // both sides support the CRC
   heard = 0x40,      // block download: a segment of the block has arrived
   last_sent = 0x80,  // block upload: the last segment of all was sent
-  too_long = 0x80    // block download: more data than the object can have
 };
 
-// What a service of the machine works on: the channel, the request and the answer in the making.
-struct Step {
-  CO_NODE& node;
-  CO_SDO& channel;
-  const CO_IF_FRM& request;
-  CO_IF_FRM& answer;
-  bool silent;  // no answer at all
-};
+inline constexpr bool has_block = USE_SDO_BLOCK != 0;
+
+// CO_SDO.Idle while a type function of the transfer may be running: it is closed afterwards only.
+inline constexpr uint8_t busy = 0xFF;
 
 inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
 inline void set_state(CO_SDO& channel, State state) { channel.State = static_cast<uint8_t>(state); }
@@ -48,74 +43,89 @@ inline bool has(const CO_SDO& channel, Flag flag) { return (channel.Flags & flag
 inline void set(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags | flag); }
 inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags & ~flag); }
 
-// The services of the machine. They return an abort code. [301:7.2.4.3]
-[[nodiscard]] uint32_t initiate_download(Step& step);
-[[nodiscard]] uint32_t download_segment(Step& step);
-[[nodiscard]] uint32_t initiate_upload(Step& step);
-[[nodiscard]] uint32_t upload_segment(Step& step);
-[[nodiscard]] uint32_t initiate_block_download(Step& step);
-[[nodiscard]] uint32_t download_block_segment(Step& step);
-[[nodiscard]] uint32_t end_block_download(Step& step);
-[[nodiscard]] uint32_t initiate_block_upload(Step& step);
-[[nodiscard]] uint32_t start_block_upload(Step& step);
-[[nodiscard]] uint32_t acknowledge_block(Step& step);
-[[nodiscard]] uint32_t end_block_upload(Step& step);
+// No answer at all, unless it gets its length again.
+inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
-// The checks that every transfer begins with: the object and its access right.
-[[nodiscard]] uint32_t open(Step& step, CO_OBJ_TRANSFER transfer);
+// The services of the machine: a request, and the answer in the making. They return an abort code. [301:7.2.4.3]
+using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t download_block_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
-// Lets the time-out watch the open transfers.
-void watch(CO_NODE& node);
+// A new transfer, of the object that the request names; its client has given up the one before.
+void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
-// Has the entry left the table since the transfer began?
-[[nodiscard]] bool is_gone(const CO_SDO& channel);
+// The same, with the checks that every transfer begins with: the object, which is node.Served then, and its access
+// right.
+[[nodiscard]] uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer);
 
-// The checks that every segment begins with.
-[[nodiscard]] uint32_t check_segment(const Step& step);
+// The transfer of the object takes more than this frame: the time-out watches it.
+void go_on(CO_SDO& channel, CO_OBJ& obj, State state);
+
+// No time-out is needed when no transfer is open.
+void rest(CO_NODE& node);
+
+// The checks that every segment begins with. An entry that has left its place is lost.
+[[nodiscard]] inline uint32_t check_segment(const CO_SDO& channel, const CO_IF_FRM& request) {
+  if (channel.Obj == nullptr) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
+  return wire::toggle(request) != channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
+}
 
 // Ends the transfer with an abort code, or no_abort: it is complete. The type is told; what it then answers to a
 // complete download is the result.
 uint32_t close(CO_SDO& channel, uint32_t code);
 
-void send_abort(CO_SDO& channel, uint32_t key, uint32_t code);
+void send_abort(CO_SDO& channel, uint32_t code);
 
-// Decides how the bytes pass and tells the type. A value of up to 8 bytes and whatever fits into one frame passes in
-// one piece, anything else in the pieces that arrive; a stream belongs to one channel at a time.
-[[nodiscard]] uint32_t begin_upload(Step& step, bool fits_one_frame);
-[[nodiscard]] uint32_t begin_download(Step& step, uint32_t size, bool fits_one_frame);
-// Before the first piece of what is not written as a whole.
-[[nodiscard]] uint32_t start_writing(CO_SDO& channel);
+// A stream belongs to one channel at a time, and its type may have to be told.
+[[nodiscard]] uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size);
 
-// Takes the size that the client announces, or the most that the object can have, and begins.
-[[nodiscard]] uint32_t open_download(Step& step, bool announced);
+// Does the object pass as a value, in one piece? Anything else passes in the pieces that arrive.
+[[nodiscard]] inline bool is_value(const CO_SDO& channel, const CO_OBJ& obj) {
+  return !obj::is_stream(obj) && channel.Size <= sizeof channel.Value;
+}
+
 // Can these be all bytes of the download?
-[[nodiscard]] uint32_t check_total(Step& step, uint32_t total);
+[[nodiscard]] uint32_t check_total(CO_SDO& channel, uint32_t total);
 // All bytes are there: hands over a value, and closes.
-[[nodiscard]] uint32_t finish_download(Step& step);
+[[nodiscard]] uint32_t finish_download(CO_SDO& channel);
 
-// Opens the object and takes its size, CO_OBJ_SIZE_UNKNOWN included.
-[[nodiscard]] uint32_t open_upload(Step& step);
-// Answers an upload in one frame, or opens it for segments.
-[[nodiscard]] uint32_t ordinary_upload(Step& step);
-// The answer that tells the size.
-void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer);
-
-// The data in pieces; both return an abort code. put: at position Num, which goes on. get: n becomes smaller where the
-// end of an object of unknown size is found.
-[[nodiscard]] uint32_t put(CO_SDO& channel, uint8_t* from, uint32_t n);
-[[nodiscard]] uint32_t get(CO_SDO& channel, uint32_t position, uint8_t* to, uint32_t& n);
-
-// The object as a whole through its type; values in the byte order of the bus.
-[[nodiscard]] CO_ERR read_whole(CO_SDO& channel, uint32_t n);
-[[nodiscard]] CO_ERR write_whole(CO_SDO& channel, uint32_t n);
+// Read or write in the direction of the transfer; both return an abort code. begin_data: the first bytes of all, or
+// none, which opens a stream. pass: a piece, up to position Read: fewer than n bytes where the end of an object of
+// unknown size is found.
+[[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
+[[nodiscard]] uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
 // Block transfer --------------------------------------------------------------------------------------------------
 
+// Without a buffer there are no block transfers.
+[[nodiscard]] inline bool has_buffer(const CO_SDO& channel) { return channel.Node->SdoBuf != nullptr; }
+
 [[nodiscard]] inline uint8_t* buffer_of(const CO_SDO& channel) {
-  const CO_NODE& node = *channel.Node;
   constexpr size_t size = size_t{CO_SDO_BUF_SEG} * wire::segment_bytes;
-  return node.SdoBuf == nullptr ? nullptr : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
+  const CO_NODE& node = *channel.Node;
+  return CO_SSDO_N == 1 ? node.SdoBuf : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
 }
+
+// May the object be uploaded by block? Returns an abort code.
+[[nodiscard]] uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request);
+// The client may name a size up to which it had rather have no block transfer.
+[[nodiscard]] inline bool is_worth_block(uint32_t size, const CO_IF_FRM& request) {
+  const uint8_t switch_threshold = request.Data[5];
+  return switch_threshold == 0 || size > switch_threshold;
+}
+void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
+void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
 // Sends the next segment of a block upload. False: there is none, the controller does not take it, or abort is set.
 [[nodiscard]] bool send_segment(CO_SDO& channel, uint32_t& abort);
@@ -123,7 +133,7 @@ void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer);
 // Block download: is this the last segment of all once more?
 [[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);
 
-// Block download: tells a client that has fallen silent what has arrived. False: that was an abort.
-[[nodiscard]] bool remind(CO_SDO& channel);
+// Block download: tells a client that has fallen silent what has arrived.
+void remind(CO_SDO& channel);
 
 }  // namespace co::sdo_server

@@ -4,73 +4,87 @@
 namespace co::sdo_server {
 namespace {
 
-void answer_expedited(Step& step) {
-  CO_SDO& channel = step.channel;
-  wire::put_head(step.answer, wire::expedited_upload_response(channel.Size), channel.Key);
-  __builtin_memcpy(step.answer.Data + 4, channel.Value, wire::expedited_bytes);
-  close(channel, no_abort);
+uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  const bool value = is_value(channel, obj);
+  if (value) {
+    set(channel, whole);
+  }
+  const uint32_t abort = begin_data(channel, obj, channel.Value, value ? channel.Size : 0);
+  if (abort != no_abort) {
+    return abort;
+  }
+  const bool sized = channel.Size != CO_OBJ_SIZE_UNKNOWN;
+  wire::put_reply(answer, by_block ? wire::initiate_block(sized) : wire::initiate_upload_response(sized), request);
+  wire::put_high(answer, sized ? channel.Size : 0);
+  go_on(channel, obj, by_block ? State::block_upload_ready : State::upload);
+  if (has_block && by_block) {
+    begin_block_upload(channel, request);
+  }
+  return no_abort;
+}
+
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
+  CO_NODE& node = *channel.Node;
+  uint32_t abort = open(channel, request, CO_OBJ_UPLOAD);
+  if (abort != no_abort) {
+    return abort;
+  }
+  CO_OBJ& obj = *node.Served;
+  const uint32_t size = obj::size(obj, node, 0);
+  channel.Size = size;
+  if (size == 0 && !obj::is_stream(obj)) {
+    return access::abort_for(node, CO_ERR_TYPE_RD);
+  }
+  if (has_block && by_block) {
+    by_block = is_worth_block(size, request);
+    abort = check_block_upload(channel, obj, request);
+  }
+  if (abort == no_abort && obj::is_stream(obj)) {
+    abort = begin_stream(channel, obj, size);
+  }
+  if (abort != no_abort) {
+    return abort;
+  }
+  if (by_block || size - 1 >= wire::expedited_bytes) {
+    return longer_upload(channel, obj, by_block, request, answer);
+  }
+  wire::put_reply(answer, wire::expedited_upload_response(size), request);
+  abort = begin_data(channel, obj, answer.Data + 4, size);
+  return abort == no_abort && has(channel, begun) ? close(channel, no_abort) : abort;
 }
 
 }  // namespace
 
-void answer_size(const CO_SDO& channel, uint8_t command, CO_IF_FRM& answer) {
-  wire::put_head(answer, command, channel.Key);
-  wire::put_high(answer, channel.Size == CO_OBJ_SIZE_UNKNOWN ? 0 : channel.Size);
+uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  return initiate(channel, request, answer, false);
 }
 
-uint32_t open_upload(Step& step) {
-  CO_SDO& channel = step.channel;
-  const uint32_t abort = open(step, CO_OBJ_UPLOAD);
+#if USE_SDO_BLOCK
+uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  if (!has_buffer(channel)) {
+    restart(channel, request);
+    return CO_SDO_ERR_CMD;
+  }
+  return initiate(channel, request, answer, true);
+}
+#endif
+
+uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  uint32_t abort = check_segment(channel, request);
   if (abort != no_abort) {
     return abort;
   }
-  channel.Size = obj::size(*channel.Obj, step.node, 0);
-  const bool failed = channel.Size == 0 && !obj::is_stream(*channel.Obj);
-  return failed ? access::abort_for(step.node, CO_ERR_TYPE_RD) : no_abort;
-}
-
-uint32_t ordinary_upload(Step& step) {
-  CO_SDO& channel = step.channel;
-  const bool expedited = channel.Size != 0 && channel.Size <= wire::expedited_bytes;
-  __builtin_memset(channel.Value, 0, wire::expedited_bytes);
-  const uint32_t abort = begin_upload(step, expedited);
+  const uint32_t position = channel.Num;
+  const uint32_t left = channel.Size - position;
+  abort = pass(channel, position, answer.Data + 1, left < wire::segment_bytes ? left : wire::segment_bytes);
   if (abort != no_abort) {
     return abort;
   }
-  if (expedited) {
-    answer_expedited(step);
-  } else {
-    answer_size(channel, wire::initiate_upload_response(channel.Size != CO_OBJ_SIZE_UNKNOWN), step.answer);
-    set_state(channel, State::upload);
-  }
-  return no_abort;
-}
-
-uint32_t initiate_upload(Step& step) {
-  const uint32_t abort = open_upload(step);
-  return abort == no_abort ? ordinary_upload(step) : abort;
-}
-
-uint32_t upload_segment(Step& step) {
-  CO_SDO& channel = step.channel;
-  uint32_t abort = check_segment(step);
-  if (abort != no_abort) {
-    return abort;
-  }
-  const uint32_t left = channel.Size - channel.Num;
-  uint32_t n = left < wire::segment_bytes ? left : wire::segment_bytes;
-  abort = get(channel, channel.Num, step.answer.Data + 1, n);
-  if (abort != no_abort) {
-    return abort;
-  }
-  channel.Num += n;
+  channel.Num = channel.Read;
   const bool last = channel.Num == channel.Size;
-  step.answer.Data[0] = wire::segment(channel.Toggle, n, last);
+  answer.Data[0] = wire::segment(channel.Toggle, channel.Num - position, last);
   channel.Toggle ^= wire::toggle_bit;
-  if (last) {
-    close(channel, no_abort);
-  }
-  return no_abort;
+  return last ? close(channel, no_abort) : no_abort;
 }
 
 }  // namespace co::sdo_server

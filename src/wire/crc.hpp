@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// CRC-16-CCITT: x^16 + x^12 + x^5 + 1, start value 0. [301:7.2.4.3.16]
+#pragma once
+
+#include <stdint.h>
+
+namespace co::wire {
+
+// The sum after data whose bits, the sum before them in front, are those of the polynomial x: x * x^16 modulo
+// x^16 + x^12 + x^5 + 1, so x * (x^12 + x^5 + 1), of which g(x) = x >> 4 ^ x >> 11 ^ x >> 16 lies beyond 16 bits and is
+// reduced likewise. All that is to be reduced is x + g(x) + g(g(x)) + ..., until nothing is left: (1 + g)(1 + g^2)(1 +
+// g^4), where g^2 is >> 8 ^ >> 22 and g^4 is >> 16.
+[[gnu::always_inline]] constexpr uint32_t crc16_of(uint32_t x) {
+  x ^= x >> 16;
+  x ^= (x >> 8) ^ (x >> 22);
+  x ^= (x >> 4) ^ (x >> 11) ^ (x >> 16);
+  return x ^ (x << 5) ^ (x << 12);  // in bits 15...0
+}
+
+// The CRC of more data. Four bytes at a time, without a table.
+[[gnu::noinline]] constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
+  uint32_t sum = crc;
+  const uint8_t* const words_end = data + (n & ~3U);
+  const uint8_t* const end = data + n;
+  for (; data != words_end; data += 4) {
+    const uint32_t word = (static_cast<uint32_t>(data[0]) << 24) | (static_cast<uint32_t>(data[1]) << 16) |
+                          (static_cast<uint32_t>(data[2]) << 8) | data[3];
+    sum = crc16_of((sum << 16) ^ word);
+  }
+  for (; data != end; ++data) {
+    sum = (sum << 8) ^ crc16_of(((sum >> 8) & 0xFFU) ^ *data);
+  }
+  return static_cast<uint16_t>(sum);
+}
+
+namespace vectors {
+inline constexpr uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+static_assert(crc16(0, digits, sizeof digits) == 0x31C3);
+static_assert(crc16(crc16(0, digits, 4), digits + 4, 5) == 0x31C3);
+static_assert(crc16(crc16(0, digits, 3), digits + 3, 6) == 0x31C3);
+}  // namespace vectors
+
+}  // namespace co::wire
