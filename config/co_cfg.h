@@ -76,6 +76,30 @@
 #define USE_PDO_RTR 1
 #endif
 
+/// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…): 0 or
+/// 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each TPDO, and what
+/// follows.
+#ifndef USE_MPDO
+#define USE_MPDO 0
+#endif
+
+/// Objects that the object scanner list (1FA0h…) can name, blocks counted by their objects: 1…1024. Each costs 2.25
+/// bytes of RAM with USE_MPDO.
+#ifndef CO_MPDO_SCAN_N
+#define CO_MPDO_SCAN_N 16
+#endif
+#if CO_MPDO_SCAN_N < 1 || CO_MPDO_SCAN_N > 1024
+#error "CO_MPDO_SCAN_N: 1...1024 objects"
+#endif
+
+/// Entries that the object dispatching list (1FD0h…) can have: 1…1024. Each costs 8 bytes of RAM with USE_MPDO.
+#ifndef CO_MPDO_DISPATCH_N
+#define CO_MPDO_DISPATCH_N 16
+#endif
+#if CO_MPDO_DISPATCH_N < 1 || CO_MPDO_DISPATCH_N > 1024
+#error "CO_MPDO_DISPATCH_N: 1...1024 entries"
+#endif
+
 /// Event-driven TPDOs (types 254 and 255) are sent when the node enters Operational: 0 or 1. No cost.
 #ifndef CO_TPDO_ON_START
 #define CO_TPDO_ON_START 0

@@ -31,11 +31,17 @@
 #include "co_hb_prod.h"
 #include "co_nmt_startup.h"
 #include "co_para.h"
+#if USE_MPDO
+#include "co_pdo_dispatch.h"
+#endif
 #include "co_pdo_event.h"
 #include "co_pdo_id.h"
 #include "co_pdo_inhibit.h"
 #include "co_pdo_map.h"
 #include "co_pdo_num.h"
+#if USE_MPDO
+#include "co_pdo_scan.h"
+#endif
 #include "co_pdo_start.h"
 #include "co_pdo_type.h"
 #include "co_sdo_id.h"
@@ -174,13 +180,13 @@ typedef struct CO_NODE_T {
   const CO_NODE_EXT* Ext;
   CO_TX_QUEUE TxQueue;
   CO_IF If;
-  CO_OBJ* Served;  ///< object of the SDO transfer being served; null: none
+  CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
+  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
   enum CO_ERR_T Error;
   CO_DICT Dict;
   CO_TMR Tmr;
   CO_ROUTES Routes;
   CO_NODE_COUNTERS Count;
-  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for Served
   uint32_t Baudrate;
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
@@ -215,6 +221,9 @@ typedef struct CO_NODE_T {
 #if CO_HBCONS_N > 0
   CO_TMR_MEM HbConsTmr;             ///< of all consumers
   CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< by sub-index
+#endif
+#if USE_MPDO
+  CO_MPDO Mpdo;
 #endif
   CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
 } CO_NODE;

@@ -3,15 +3,28 @@
 /// Process data objects. [301:7.2.2] Configured by 1400h…, 1600h… (RPDOs) and 1800h…, 1A00h… (TPDOs), in the table or
 /// by the network. A mapping is resolved when it is switched on: PDOs that pass neither look objects up nor check them.
 ///
-/// Objects of 1 to 8 bytes of every type can be mapped. Plain numbers of 1, 2 and 4 bytes are copied; neighbours of
-/// equal width in one copy. Any other type has its Read and Write functions called. Each number of up to 4 bytes is
-/// stored in one access; what belongs together beyond that is protected by CO_NODE_EXT.OdLock and OdUnlock, which are
-/// held while the objects of a PDO are copied, and while those of all RPDOs of one SYNC are:
+/// Objects of 1 to 8 bytes of every type can be mapped. Plain numbers of 1, 2 and 4 bytes in variables are copied;
+/// neighbours of equal width in one copy. Any other type has its Read and Write functions called. Each number of up to
+/// 4 bytes is stored in one access; what belongs together beyond that is protected by CO_NODE_EXT.OdLock and OdUnlock,
+/// which are held while the objects of a PDO are copied, and while those of all RPDOs of one SYNC are:
 ///   - interrupt and loop: the stack in the loop, the application's interrupt reads mapped objects. OdLock keeps the
 ///     interrupt away, OdUnlock lets it in again.
 ///   - two threads: both take a mutex, the stack by OdLock and OdUnlock, the application around its own accesses. The
 ///     functions and callbacks of this file are called by the stack without it, except the Read and Write functions of
 ///     types.
+///
+/// Multiplex PDOs, with USE_MPDO [301:7.2.3]: each frame names an object of up to 4 bytes, whose value it has. Sub 0 of
+/// the mapping says so; they are event-driven, and know no remote requests.
+///   - FFh, destination addressing: the frame names an object of the consumer, or of all consumers. It is sent by
+///     COTPdoSendTo(), and written to what an RPDO could map (flags P and W). If there is no such object, EMCY 8230h is
+///     sent, once until an object is written again. Frames for other nodes are as if they did not come.
+///   - FEh, source addressing: the frame names an object of the producer. The object scanner list (co_pdo_scan.h) says
+///     which objects the one TPDO of this kind has: each is sent alone, by COTPdoTrigObj() or flag A, and all of them
+///     by a request, an event timer or at the start (CO_TPDO_ON_START), in the order of the list and each with its
+///     value of then, an inhibit time apart. The object dispatching list (co_pdo_dispatch.h) says where the RPDOs of
+///     this kind write; objects that it does not name are ignored.
+/// COPdoTransmit(), COPdoReceive() and COPdoUpdate() are called for each frame. CORPdoObjWasReceived() knows the object
+/// that a multiplex PDO has written last.
 ///
 /// A TPDO that the SYNC, a timer or a remote request asks for, and that cannot be read, is not sent: the node's error
 /// tells what the type has answered. One that still waits for the controller is replaced by a younger one, which is not
@@ -67,37 +80,69 @@ struct CO_NODE_T;
 
 /// What a PDO holds, resolved.
 typedef struct CO_PDO_MAP_T {
-  uint16_t Entry[CO_PDO_MAP_N];      ///< numbers of the entries in the dictionary; FFFFh: a static data type
-  uint8_t Bits[CO_PDO_MAP_N];        ///< copied in one; 0: with the object before. Bit 7: by the type
+  uint8_t Flags;  ///< of the PDO
+#if USE_MPDO
+  uint8_t Mode;     ///< FEh, FFh: it is multiplexed, with source or destination addressing; 0: it is not
+  uint8_t Missing;  ///< it is reported that the node has no such object
+#endif
+  uint8_t Length;                    ///< bytes, with USE_PDO_BITS bits; 0: the PDO does not exist
+  uint8_t Span;                      ///< entries lie less than 2^Span behind Entry[0], modulo 2^16
   uint8_t Passed[CO_PDO_MAP_N / 8];  ///< a bit for each object: sent or received since the application has asked
-  uint8_t Num;                       ///< objects; 0: the PDO does not exist
-  uint8_t Length;                    ///< bytes
-  uint8_t Flags;                     ///< of the PDO
+  uint8_t Step[CO_PDO_MAP_N];    ///< copied in one, in units of Length; 0: with the object before. Bit 7: by the type
+  uint16_t Entry[CO_PDO_MAP_N];  ///< numbers of the entries in the dictionary; FFFFh: none, or a static data type
 } CO_PDO_MAP;
 
 /// An RPDO. The application touches nothing of it.
 typedef struct CO_RPDO_T {
   struct CO_NODE_T* Node;
-  CO_TMR_MEM Tmr;   ///< deadline
+  uint16_t Next;  ///< of those that wait for the SYNC
+  CO_PDO_MAP Map;
   uint32_t Event;   ///< deadline in ticks, 0: none
   uint8_t Data[8];  ///< synchronous: waits for the SYNC
-  CO_PDO_MAP Map;
-  uint16_t Next;  ///< of those that wait for the SYNC
+  CO_TMR_MEM Tmr;   ///< deadline
 } CO_RPDO;
+
+/// Times of an event-driven TPDO.
+typedef struct CO_TPDO_TIMES_T {
+  uint32_t Inhibit;  ///< ticks, 0: none
+  uint32_t Event;    ///< ticks, 0: none
+} CO_TPDO_TIMES;
 
 /// A TPDO. The application touches nothing of it, and names it by its place: node.TPdo, number.
 typedef struct CO_TPDO_T {
   struct CO_NODE_T* Node;
-  CO_TMR_MEM Tmr;       ///< inhibit time, then what is left of the event time
-  uint32_t Identifier;  ///< of its frames
-  uint32_t Inhibit;     ///< ticks, 0: none
-  uint32_t Event;       ///< ticks, 0: none
-  uint8_t Data[8];      ///< as of the last SYNC, for remote requests
-  CO_PDO_MAP Map;
   uint16_t Next;  ///< of the synchronous ones
   uint8_t Type;
   uint8_t Count;  ///< SYNCs since it was sent; or the SYNC start value that it waits for
+  CO_PDO_MAP Map;
+  uint32_t Identifier;  ///< of its frames
+  union {
+    CO_TPDO_TIMES Time;  ///< event-driven
+    uint8_t Data[8];     ///< synchronous: as of the last SYNC, for remote requests
+  } Own;                 ///< by Type
+  CO_TMR_MEM Tmr;        ///< inhibit time, then what is left of the event time
 } CO_TPDO;
+
+#if USE_MPDO
+/// \cond internal
+typedef struct CO_MPDO_BLOCK_T {  ///< an entry of the object dispatching list
+  uint32_t Producer;              ///< CO_DEV() of its first object, and its node-ID
+  uint16_t Entry;                 ///< number of the first object in the own dictionary
+  uint8_t Num;                    ///< objects
+} CO_MPDO_BLOCK;
+
+typedef struct CO_MPDO_T {                  ///< the lists, resolved
+  CO_MPDO_BLOCK Block[CO_MPDO_DISPATCH_N];  ///< dispatching
+  uint16_t BlockNum;
+  uint16_t ScanNum;
+  uint16_t Scan[CO_MPDO_SCAN_N];              ///< numbers of the objects in the dictionary
+  uint8_t Waiting[(CO_MPDO_SCAN_N + 7) / 8];  ///< a bit for each of them: it is to be sent
+  uint8_t Passed[(CO_MPDO_SCAN_N + 7) / 8];   ///< sent since the application has asked
+  uint16_t Turn;                              ///< whose turn it is to be sent
+  uint16_t Producer;                          ///< the TPDO, from 1; 0: none
+} CO_MPDO;
+/// \endcond
+#endif
 
 /// Sends TPDO \a num of \a tpdo (node.TPdo), event-driven or with the next SYNC (type 0), as COTPdoRequest() does. What
 /// keeps it from being sent is the node's error; \a num out of range: CO_ERR_TPDO_NUM_TRIGGER.
@@ -110,9 +155,21 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 /// An event for TPDO \a num, 0…CO_TPDO_N-1. [301:7.2.2.5] It is sent now, or as soon as its inhibit time has passed, or
 /// with the next SYNC (type 0), with the values of then: CO_ERR_NONE. Else nothing is sent, now or later:
 /// CO_ERR_TPDO_NUM_TRIGGER: no such number; CO_ERR_NMT_MODE: the node is not in Operational; CO_ERR_TPDO_COM_OBJ: the
-/// PDO does not exist; CO_ERR_TPDO_EVENT: its type (1…240, 252, 253) knows no events; what the type of an object
-/// answers that could not be read; CO_ERR_IF_CAN_SEND: the transmit queue is full. CO_ERR_BAD_ARG: \a node is null.
+/// PDO does not exist; CO_ERR_TPDO_EVENT: its type (1…240, 252, 253) knows no events, or it is sent by COTPdoSendTo();
+/// what the type of an object answers that could not be read; CO_ERR_TPDO_OBJ_TRIGGER: its object scanner list is
+/// empty; CO_ERR_IF_CAN_SEND: the transmit queue is full. CO_ERR_BAD_ARG: \a node is null.
 CO_ERR COTPdoRequest(struct CO_NODE_T* node, uint16_t num);
+
+#if USE_MPDO
+/// Sends \a value to \a node_id (1…127; 0: to all) by TPDO \a num, which is a multiplex PDO with destination addressing
+/// (sub 0 of its mapping is FFh): it is to be written to the object \a key, CO_DEV(index, sub-index), of up to 4 bytes
+/// there. The first byte on the bus is that of bits 7…0. [301:7.2.3] Nothing is kept for later: CO_ERR_NONE if it was
+/// given to the driver or to the transmit queue, else CO_ERR_BAD_ARG: \a node is null or \a node_id above 127;
+/// CO_ERR_TPDO_NUM_TRIGGER: no such number; CO_ERR_NMT_MODE: the node is not in Operational; CO_ERR_TPDO_COM_OBJ: the
+/// PDO does not exist; CO_ERR_TPDO_MAP_OBJ: it is of another kind; CO_ERR_TPDO_INHIBIT: its inhibit time has not
+/// passed; CO_ERR_IF_CAN_SEND: the transmit queue is full.
+CO_ERR COTPdoSendTo(struct CO_NODE_T* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value);
+#endif
 
 /// \name What has passed
 /// True: it has, since the question was asked last (or since the PDO was switched on). A PDO and each of its objects

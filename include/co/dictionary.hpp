@@ -39,11 +39,13 @@
 #include "co_integer8.h"
 #include "co_nmt_startup.h"
 #include "co_obj.h"
+#include "co_pdo_dispatch.h"
 #include "co_pdo_event.h"
 #include "co_pdo_id.h"
 #include "co_pdo_inhibit.h"
 #include "co_pdo_map.h"
 #include "co_pdo_num.h"
+#include "co_pdo_scan.h"
 #include "co_pdo_start.h"
 #include "co_pdo_type.h"
 #include "co_real.h"
@@ -146,6 +148,10 @@ inline constexpr Type types[] = {
     {&COTPdoStart, rules::pdo_start, Value::unsigned_integer, 1},
     {&COTPdoNum, rules::pdo_number, Value::unsigned_integer, 1},
     {&COTPdoMap, rules::pdo_mapping, Value::unsigned_integer, 4},
+#if USE_MPDO
+    {&COTPdoScan, rules::pdo_scan, Value::unsigned_integer, 4},
+    {&COTPdoDispatch, rules::pdo_dispatch, Value::unsigned_integer, 8},
+#endif
 #if USE_SYNC
     {&COTSyncId, rules::sync_cob_id, Value::unsigned_integer, 4},
     {&COTSyncCycle, rules::sync_cycle, Value::unsigned_integer, 4},

@@ -123,6 +123,8 @@ inline constexpr Rule pdo_event{0x1400, 0x15FF, 5, 5, 2, false, true};
 inline constexpr Rule pdo_start{0x1800, 0x19FF, 6, 6, 1, false, false};
 inline constexpr Rule pdo_number{0x1600, 0x17FF, 0, 0, 1, false, true};
 inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
+inline constexpr Rule pdo_scan{0x1FA0, 0x1FCF, 1, 254, 4, false, false};
+inline constexpr Rule pdo_dispatch{0x1FD0, 0x1FFF, 1, 254, 8, false, false};
 
 constexpr bool is_index(const Rule& rule, std::uint16_t index) {
   return index >= rule.first_index && index <= rule.last_index;

@@ -105,12 +105,17 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.Emcy.Node = &node;
   node.Emcy.Root = spec.EmcyCode;
 #endif
+#if CO_TPDO_N > 0
+  for (CO_TPDO& pdo : node.TPdo) {
+    pdo.Node = &node;
+  }
+#endif
 }
 
-// What has found the controller full: frames, then block transfers. False: the node was stopped.
+// What has found the controller full: frames, then block transfers and multiplex PDOs. False: the node was stopped.
 [[nodiscard]] bool go_on(CO_NODE& node) {
   transmit::flush(node);
-  if (USE_SDO_BLOCK != 0 && node.Paused != 0) {
+  if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
     node.Busy = 1;
     services::on_free(node);
     node.Busy = 0;

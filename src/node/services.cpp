@@ -46,7 +46,9 @@ constexpr Service table[] = {
 #if CO_RPDO_N > 0
     {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, no_remote, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
-#if CO_TPDO_N > 0
+#if CO_TPDO_N > 0 && USE_MPDO
+    {CO_PDO_ALLOWED, 1, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, pdo::on_free, nullptr},
+#elif CO_TPDO_N > 0
     {CO_PDO_ALLOWED, 0, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0

@@ -358,7 +358,7 @@ TEST_CASE("PDO COB-ID: the rules hold for the application as well [P2] [P6]") {
   };
   CHECK(write(0x202) == CO_ERR_OBJ_RANGE);
   CHECK(write(0x80000202) == CO_ERR_NONE);
-  CHECK(write(0x101) == CO_ERR_OBJ_RANGE);
+  CHECK(write(CO_RESTRICTED_IDS == 0 ? 0x101 : 0x000) == CO_ERR_OBJ_RANGE);
   CHECK(write(0x202) == CO_ERR_NONE);
   node.start();
   node.rx("202#2A");

@@ -214,7 +214,7 @@ class Trial {
   }
   void write_number(std::size_t which) {
     set_number(which,
-               any_of<std::uint32_t>({0, 0, any(9), any(CO_PDO_MAP_N + 1), pdos_[which].entries().number, any(256)}));
+               any_of<std::uint32_t>({0, 0, any(9), any(CO_PDO_MAP_N + 1), pdos_[which].entries().number, any(0xFE)}));
   }
   void write_word(std::size_t which) {
     const auto sub = static_cast<std::uint8_t>(1 + any(CO_PDO_MAP_N + 1));

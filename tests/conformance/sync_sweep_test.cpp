@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every CAN-ID against 1005h. [301:7.3.5, 7.5.2.5] [Y2] [Other 10]
+#include "support/restricted_ids.hpp"
 #include "support/sync_fixture.hpp"
 
 #if USE_SYNC && CO_RPDO_N > 0
@@ -7,11 +8,6 @@
 namespace {
 
 using namespace test;
-
-bool is_restricted(std::uint32_t id) {
-  return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) || (id >= 0x601 && id <= 0x67F) ||
-         (id >= 0x6E0 && id <= 0x6FF) || (id >= 0x701 && id <= 0x7FF);
-}
 
 SyncTable with_rpdo() {
   SyncTable table;

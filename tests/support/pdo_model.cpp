@@ -32,11 +32,6 @@ std::uint32_t check_dummy(bool transmit, std::uint32_t word) {
 
 }  // namespace
 
-bool is_restricted(std::uint32_t id) {
-  return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) || (id >= 0x601 && id <= 0x67F) ||
-         (id >= 0x6E0 && id <= 0x6FF) || (id >= 0x701 && id <= 0x7FF);
-}
-
 ModelObjects::ModelObjects(const CO_DICT& dict) {
   for (std::uint16_t n = 0; n < dict.Num; ++n) {
     const CO_OBJ& entry = dict.Root[n];
@@ -90,7 +85,7 @@ std::uint32_t PdoModel::check_cob_id(std::uint32_t value) const {
     return ((value ^ pdo_.cob_id) & ~no_remote) == 0 ? 0 : invalid_value;  // bits 0 to 29 stay
   }
   const bool fits = (value & wide) != 0 || (value & 0x1FFFF800U) == 0;
-  const bool is_free = CO_RESTRICTED_IDS != 0 || !is_restricted(value & 0x1FFFFFFFU);
+  const bool is_free = !is_forbidden(value & 0x1FFFFFFFU);
   return fits && is_free && pdo_.number != 0 ? 0 : invalid_value;
 }
 

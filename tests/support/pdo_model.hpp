@@ -9,11 +9,9 @@
 #include <set>
 
 #include "pdo_fixture.hpp"
+#include "restricted_ids.hpp"
 
 namespace test {
-
-/// CAN-IDs that no PDO may have. [301:7.3.5]
-bool is_restricted(std::uint32_t id);
 
 /// The objects of a dictionary that is made of basic types.
 class ModelObjects {

@@ -33,7 +33,7 @@ bool is_type(Direction direction, uint8_t type) {
   if (by_request && (direction == Direction::receive || USE_PDO_RTR == 0)) {
     return false;
   }
-  return is_synchronous(type) ? USE_SYNC != 0 : type >= type_rtr;
+  return is_synchronous(type) || type >= type_rtr;
 }
 
 uint8_t start_value(CO_NODE& node, uint16_t number) {
@@ -45,7 +45,7 @@ uint32_t ticks(const CO_NODE& node, uint16_t time, uint32_t unit) { return tmr::
 CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, CO_PDO_MAP& map) {
   const auto mapping = static_cast<uint16_t>(index + from_communication_to_mapping);
   const CO_ERR err = resolve(node, direction, mapping, read_parameter(node, mapping, 0, uint8_t{0}), map);
-  return err == CO_ERR_NONE && map.Num == 0 ? CO_ERR_OBJ_MAP_LEN : err;
+  return err == CO_ERR_NONE && map.Length == 0 ? CO_ERR_OBJ_MAP_LEN : err;
 }
 
 void configure(CO_NODE& node, Direction direction, uint16_t index, Parameters& parameters, CO_PDO_MAP& map) {

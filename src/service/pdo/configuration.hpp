@@ -18,7 +18,10 @@ constexpr uint8_t type_rtr = 253;
 constexpr uint8_t type_event = 254;
 constexpr uint8_t default_type = 255;
 
-constexpr bool is_synchronous(uint8_t type) { return type <= last_synchronous_type || type == type_rtr_synchronous; }
+constexpr bool is_synchronous(uint8_t type) {
+  return USE_SYNC != 0 && (type <= last_synchronous_type || type == type_rtr_synchronous);
+}
+constexpr bool is_acyclic(uint8_t type) { return USE_SYNC != 0 && type == type_acyclic; }
 constexpr bool is_event_driven(uint8_t type) { return type >= type_event; }
 [[nodiscard]] bool is_type(Direction direction, uint8_t type);
 

@@ -5,6 +5,7 @@
 #include "core/timer.hpp"
 #include "object/cob_id.hpp"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/mpdo.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {
@@ -104,13 +105,26 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Sub 2 --------------------------------------------------------------------------------------------------------------
 
+// A multiplex PDO that exists stays event-driven. [301:7.2.3.2]
+bool fits_mapping([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj, [[maybe_unused]] uint8_t type) {
+#if USE_MPDO
+  const auto mapping = static_cast<uint16_t>(CO_GET_IDX(obj.Key) + pdo::from_communication_to_mapping);
+  uint8_t number = 0;
+  const bool is_multiplexed =
+      CODictRdByte(&node.Dict, CO_DEV(mapping, 0), &number) == CO_ERR_NONE && number >= mpdo::sam;
+  return !is_multiplexed || pdo::is_event_driven(type) || !exists(node, obj);
+#else
+  return true;
+#endif
+}
+
 CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
   }
   const auto value = value_in<uint8_t>(buffer);
-  if (!pdo::is_type(direction_of(*obj), value)) {
+  if (!pdo::is_type(direction_of(*obj), value) || !fits_mapping(*node, *obj, value)) {
     return CO_ERR_OBJ_RANGE;
   }
   const CO_ERR err = COTInt8.Write(obj, node, buffer, size);

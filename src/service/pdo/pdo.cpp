@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/pdo.hpp"
 
+#include "service/pdo/mpdo.hpp"
+
 // What is left of PDOs that are not configured.
 
 namespace co::pdo {
@@ -16,11 +18,13 @@ bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
 void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }
 void flush(CO_NODE&) {}
-void change_object(CO_NODE&, const CO_OBJ&) {}
-void settle_touched(CO_NODE&) {}
+CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
+void send_touched(CO_NODE&) {}
 void remap_tpdos(CO_NODE&) {}
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
-bool trigger_object(CO_NODE&, const CO_OBJ&) { return false; }
+#if USE_MPDO
+CO_ERR send_to(CO_NODE&, uint16_t, uint8_t, uint32_t, uint32_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
+#endif
 bool was_sent(CO_NODE&, uint16_t) { return false; }
 bool was_sent(CO_NODE&, const CO_OBJ&) { return false; }
 #endif
@@ -43,15 +47,33 @@ void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
 void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
-  if (obj == nullptr || CO_IS_PDOMAP(obj->Key) == 0 || !pdo::trigger_object(*tpdo->Node, *obj)) {
-    tpdo->Node->Error = CO_ERR_TPDO_OBJ_TRIGGER;
+  const bool is_mappable = obj != nullptr && CO_IS_PDOMAP(obj->Key) != 0;
+  const CO_ERR err = is_mappable ? pdo::change_object(*tpdo->Node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER;
+  if (err != CO_ERR_NONE) {
+    tpdo->Node->Error = err;
   }
 }
 
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+#if USE_MPDO && CO_TPDO_N > 0
+  if (num < CO_TPDO_N) {
+    mpdo::mark_all(node->TPdo[num]);
+  }
+#endif
   return num < CO_TPDO_N ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
 }
+
+#if USE_MPDO
+CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  constexpr uint8_t last_node_id = 127;
+  if (node_id > last_node_id) {
+    return CO_ERR_BAD_ARG;
+  }
+  return num < CO_TPDO_N ? pdo::send_to(*node, num, node_id, key, value) : CO_ERR_TPDO_NUM_TRIGGER;
+}
+#endif
 
 bool CORPdoWasReceived(CO_NODE* node, uint16_t num) {
   return node != nullptr && num < CO_RPDO_N && pdo::was_received(*node, num);

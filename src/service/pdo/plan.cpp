@@ -2,9 +2,11 @@
 #include "service/pdo/plan.hpp"
 
 #include "core/dict.hpp"
+#include "core/events.hpp"
 #include "core/obj.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
+#include "service/pdo/mpdo.hpp"
 #include "wire/bytes.hpp"
 
 // Only an application that defines them has them; see co_pdo.h.
@@ -15,10 +17,9 @@ namespace co::pdo {
 namespace {
 
 constexpr uint16_t no_entry = 0xFFFF;
-constexpr uint8_t by_type = 0x80;
 constexpr uint8_t all_bits = 64;
-constexpr uint8_t longest_number = 4;  // bytes, that callbacks of the application do not get
-constexpr bool maps_bits = USE_PDO_BITS != 0;
+constexpr uint8_t unit = 8 / one_byte;  // bits
+constexpr uint8_t longest_number = 4;   // bytes, that callbacks of the application do not get
 
 // BOOLEAN, INTEGER8, 16, 32, UNSIGNED8, 16, 32: objects that are never written, only skipped. [301:7.4.1 table 44]
 constexpr uint8_t static_type_bits[] = {1, 8, 16, 32, 8, 16, 32};
@@ -70,12 +71,13 @@ CO_ERR locate(CO_NODE& node, Direction direction, uint32_t mapping, CO_OBJ*& obj
 }
 
 const CO_OBJ_TYPE* number_of_bits(uint8_t bits) {
-  switch (bits) {
-    case 8: return &COTInt8;
-    case 16: return &COTInt16;
-    case 32: return &COTInt32;
-    default: return nullptr;
+  if (bits == 8) {
+    return &COTInt8;
   }
+  if (bits == 16) {
+    return &COTInt16;
+  }
+  return bits == 32 ? &COTInt32 : nullptr;
 }
 
 // Is the value nothing but the bytes of its variable? What a change has to be noticed of (flag A) is written by its
@@ -90,182 +92,126 @@ bool is_plain(const CO_NODE& node, CO_OBJ& obj, Direction direction, uint8_t bit
     return obj.Type->Read == number->Read;
   }
   return obj.Type->Write == number->Write && CO_IS_ASYNC(obj.Key) == 0 &&
-         port::is_writable(node, place_of(obj), bits / 8U);
+         port::is_writable(node, data_of<void>(obj), bits / 8U);
 }
 
-// A number that lies behind the one before it, in the frame as in memory, is copied with it.
-void merge(const CO_NODE& node, CO_PDO_MAP& map, uint8_t first, uint8_t place) {
-  if (maps_bits || place == 0) {
-    return;
-  }
-  const uint8_t width = map.Bits[place];
-  const uint8_t before = map.Bits[first];
-  if (((width | before) & by_type) != 0 || map.Entry[place] == no_entry || map.Entry[first] == no_entry) {
-    return;
-  }
-  CO_OBJ& a = node.Dict.Root[map.Entry[first]];
-  CO_OBJ& b = node.Dict.Root[map.Entry[place]];
-  const bool same_width = a.Type->Size == b.Type->Size;
-  if (same_width && static_cast<uint8_t*>(place_of(a)) + before / 8 == place_of(b)) {
-    map.Bits[first] = static_cast<uint8_t>(before + width);
-    map.Bits[place] = 0;
-  }
-}
-
-uint16_t number_of(const CO_NODE& node, const CO_OBJ* obj) {
-  return obj == nullptr ? no_entry : static_cast<uint16_t>(obj - node.Dict.Root);
-}
-
-// Memory of the application is read and written in units as wide as it is aligned: a number is never torn. The other
-// side is a frame.
-
-typedef volatile uint32_t Word __attribute__((may_alias));
-typedef volatile uint16_t Half __attribute__((may_alias));
-
-bool is_aligned(const uint8_t* memory, uint32_t bytes, uintptr_t to) {
-  return ((reinterpret_cast<uintptr_t>(memory) | bytes) & (to - 1)) == 0;
-}
-
-void to_memory(uint8_t* to, const uint8_t* from, uint32_t n) {
-  const uint8_t* const end = from + n;
-  if (is_aligned(to, n, sizeof(uint32_t))) {
-    for (; from != end; from += sizeof(uint32_t), to += sizeof(uint32_t)) {
-      *static_cast<Word*>(static_cast<void*>(to)) = wire::get_u32(from);
-    }
-  } else if (is_aligned(to, n, sizeof(uint16_t))) {
-    for (; from != end; from += sizeof(uint16_t), to += sizeof(uint16_t)) {
-      *static_cast<Half*>(static_cast<void*>(to)) = wire::get_u16(from);
-    }
-  } else {
-    for (; from != end; ++from, ++to) {
-      *static_cast<volatile uint8_t*>(to) = *from;
-    }
-  }
-}
-
-void from_memory(uint8_t* to, const uint8_t* from, uint32_t n) {
-  const uint8_t* const end = from + n;
-  if (is_aligned(from, n, sizeof(uint32_t))) {
-    for (; from != end; from += sizeof(uint32_t), to += sizeof(uint32_t)) {
-      wire::put_u32(to, *static_cast<const Word*>(static_cast<const void*>(from)));
-    }
-  } else if (is_aligned(from, n, sizeof(uint16_t))) {
-    for (; from != end; from += sizeof(uint16_t), to += sizeof(uint16_t)) {
-      wire::put_u16(to, *static_cast<const Half*>(static_cast<const void*>(from)));
-    }
-  } else {
-    for (; from != end; ++from, ++to) {
-      *to = *static_cast<const volatile uint8_t*>(from);
-    }
-  }
-}
-
-// A step of a plan: an object, or neighbours, and where it lies in the frame.
-struct Step {
-  CO_OBJ& obj;
-  uint8_t position;  // bits
-  uint8_t bits;
-  bool typed;
+// Numbers of one width that lie side by side, in the frame as in memory, are copied together.
+struct Row {
+  uint8_t first;  // place
+  uint8_t width;  // bits
+  const uint8_t* end;
 };
 
-bool is_whole(const Step& step) { return !maps_bits || ((step.position | step.bits) & 7U) == 0; }
-uint8_t* first_byte(CO_IF_FRM& frame, const Step& step) { return frame.Data + step.position / 8; }
+void merge(CO_PDO_MAP& map, Row& row, uint8_t place, uint8_t width, const uint8_t* variable) {
+  if (!maps_bits && variable != nullptr && variable == row.end && width == row.width) {
+    map.Step[row.first] = static_cast<uint8_t>(map.Step[row.first] + map.Step[place]);
+    map.Step[place] = 0;
+  } else {
+    row.first = place;
+    row.width = width;
+  }
+  row.end = variable == nullptr ? nullptr : variable + width / 8;
+}
+
+void add(const CO_NODE& node, CO_PDO_MAP& map, uint8_t place, const CO_OBJ* obj, uint8_t step) {
+  map.Entry[place] = obj == nullptr ? no_entry : number_of(node, *obj);
+  map.Step[place] = step;
+  const auto behind = static_cast<uint16_t>(map.Entry[place] - map.Entry[0]);
+  while (behind >> map.Span != 0) {
+    ++map.Span;
+  }
+}
+
+template <class T>
+void copy_units(void* to, const void* from, uint32_t n) {
+  for (uint32_t place = 0; place < n / sizeof(T); ++place) {
+    copy_unit<T>(to, from, place);
+  }
+}
+
+// In units as wide as both sides are aligned.
+void copy_aligned(void* to, const void* from, uint32_t n) {
+  const uintptr_t alignment = alignment_of(to, from, n);
+  if (alignment % sizeof(Word) == 0) {
+    copy_units<Word>(to, from, n);
+  } else if (alignment % sizeof(Half) == 0) {
+    copy_units<Half>(to, from, n);
+  } else {
+    copy_units<uint8_t>(to, from, n);
+  }
+}
+
+// One of both is a frame. Memory of the application is read and written in units as wide as it is aligned, so that a
+// number is never torn, wherever it lies in the frame.
+void copy(void* to, const void* from, uint32_t n) {
+  uint32_t buffer[2] = {};
+  const uintptr_t different = reinterpret_cast<uintptr_t>(to) ^ reinterpret_cast<uintptr_t>(from);
+  if (different % sizeof(Word) != 0) {
+    copy_aligned(buffer, from, n);
+    from = buffer;
+  }
+  copy_aligned(to, from, n);
+}
+
+// An object that is copied by its type, and where it lies in the frame, in units.
+struct Part {
+  CO_OBJ& obj;
+  uint8_t position;
+  uint8_t length;
+};
+
+bool is_whole(const Part& part) { return (part.position | part.length) % one_byte == 0; }
+uint8_t first_byte(const Part& part) { return part.position / one_byte; }
+uint8_t bytes_of(const Part& part) { return static_cast<uint8_t>((part.length + one_byte - 1U) / one_byte); }
 
 bool get_bit(const uint8_t* data, unsigned bit) { return (data[bit / 8] & (1U << (bit % 8))) != 0; }
-void put_bit(CO_IF_FRM& frame, unsigned bit, bool value) {
-  frame.Data[bit / 8] = static_cast<uint8_t>(frame.Data[bit / 8] | (value ? 1U << (bit % 8) : 0U));
-}
 
-// Bytes of a step in front, whatever bits of the frame they are.
-void extract(const CO_IF_FRM& frame, const Step& step, uint8_t* value) {
-  for (unsigned bit = 0; bit < step.bits; ++bit) {
-    value[bit / 8] =
-        static_cast<uint8_t>(value[bit / 8] | (get_bit(frame.Data, step.position + bit) ? 1U << (bit % 8) : 0U));
-  }
-}
-void place(CO_IF_FRM& frame, const Step& step, const uint8_t* value) {
-  for (unsigned bit = 0; bit < step.bits; ++bit) {
-    put_bit(frame, step.position + bit, get_bit(value, bit));
+void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_bit, unsigned n) {
+  for (; n != 0; --n, ++to_bit, ++from_bit) {
+    to[to_bit / 8] = static_cast<uint8_t>(to[to_bit / 8] | (get_bit(from, from_bit) ? 1U << (to_bit % 8) : 0U));
   }
 }
 
-bool is_left_to(void (*callback)(CO_IF_FRM*, uint8_t, uint8_t, CO_OBJ*), const Step& step) {
-  return callback != nullptr && step.bits > longest_number * 8U && is_whole(step);
+void copy_part(uint8_t* value, CO_IF_FRM& frame, const Part& part, bool receives) {
+  if (!is_whole(part)) {
+    receives ? copy_bits(value, 0, frame.Data, part.position, part.length)
+             : copy_bits(frame.Data, part.position, value, 0, part.length);
+    return;
+  }
+  uint8_t* const data = frame.Data + first_byte(part);
+  __builtin_memcpy(receives ? value : data, receives ? data : value, bytes_of(part));
 }
 
-CO_ERR write_by_type(CO_NODE& node, CO_IF_FRM& frame, const Step& step) {
-  const uint32_t n = (step.bits + 7U) / 8U;
-  if (is_left_to(CORpdoWriteData, step)) {
-    CORpdoWriteData(&frame, step.position / 8, static_cast<uint8_t>(n), &step.obj);
+CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, bool receives) {
+  const uint8_t n = bytes_of(part);
+  const auto callback = receives ? CORpdoWriteData : COTpdoReadData;
+  if (callback != nullptr && n > longest_number && is_whole(part)) {
+    callback(&frame, first_byte(part), n, &part.obj);
     return CO_ERR_NONE;
   }
   uint8_t value[8] = {};
-  if (is_whole(step)) {
-    __builtin_memcpy(value, first_byte(frame, step), n);
-  } else {
-    extract(frame, step, value);
+  CO_ERR err = obj::seek(part.obj, node, 0);
+  if (receives) {
+    copy_part(value, frame, part, receives);
+    if (!obj::is_stream(part.obj)) {
+      wire::swap_host(value, n);
+    }
+    return err == CO_ERR_NONE ? obj::write(part.obj, node, value, n) : err;
   }
-  if (!obj::is_stream(step.obj)) {
-    wire::swap_host(value, n);
-  }
-  const CO_ERR err = obj::seek(step.obj, node, 0);
-  return err == CO_ERR_NONE ? obj::write(step.obj, node, value, n) : err;
-}
-
-CO_ERR read_by_type(CO_NODE& node, CO_IF_FRM& frame, const Step& step) {
-  const uint32_t n = (step.bits + 7U) / 8U;
-  if (is_left_to(COTpdoReadData, step)) {
-    COTpdoReadData(&frame, step.position / 8, static_cast<uint8_t>(n), &step.obj);
-    return CO_ERR_NONE;
-  }
-  uint8_t value[8] = {};
-  CO_ERR err = obj::seek(step.obj, node, 0);
   if (err == CO_ERR_NONE) {
-    err = obj::read(step.obj, node, value, n);
+    err = obj::read(part.obj, node, value, n);
   }
-  if (!obj::is_stream(step.obj)) {
+  if (!obj::is_stream(part.obj)) {
     wire::swap_host(value, n);
   }
-  if (is_whole(step)) {
-    __builtin_memcpy(first_byte(frame, step), value, n);
-  } else {
-    place(frame, step, value);
-  }
+  copy_part(value, frame, part, receives);
   return err;
 }
 
-void write_step(CO_NODE& node, CO_IF_FRM& frame, const Step& step) {
-  if (!step.typed && is_whole(step)) {
-    to_memory(static_cast<uint8_t*>(place_of(step.obj)), first_byte(frame, step), step.bits / 8U);
-    return;
-  }
-  const CO_ERR err = write_by_type(node, frame, step);
-  if (err != CO_ERR_NONE) {
-    node.Error = err;
-  }
-}
-
-CO_ERR read_step(CO_NODE& node, CO_IF_FRM& frame, const Step& step) {
-  if (!step.typed && is_whole(step)) {
-    from_memory(first_byte(frame, step), static_cast<const uint8_t*>(place_of(step.obj)), step.bits / 8U);
-    return CO_ERR_NONE;
-  }
-  return read_by_type(node, frame, step);
-}
+// Entries have their numbers until a frame has been processed in which CODictInit() was called.
+bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
 
 }  // namespace
-
-Lock::Lock(CO_NODE& node) : node_(node) {
-  if (node.OdLocked++ == 0 && node.Ext->OdLock != nullptr) {
-    node.Ext->OdLock(node.Ext->User);
-  }
-}
-
-Lock::~Lock() {
-  if (--node_.OdLocked == 0 && node_.Ext->OdUnlock != nullptr) {
-    node_.Ext->OdUnlock(node_.Ext->User);
-  }
-}
 
 CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
   CO_OBJ* obj = nullptr;
@@ -273,11 +219,14 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
 }
 
 CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map) {
-  unsigned length = 0;
-  uint8_t first = 0;
+  unsigned bits = 0;
+  Row row = {};
+  mpdo::set_mode(map, 0);
   if (num > CO_PDO_MAP_N) {
-    return CO_ERR_OBJ_MAP_LEN;
+    return mpdo::resolve(node, direction, index, num, map);
   }
+  map.Span = 0;
+  __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
   for (uint8_t place = 0; place < num; ++place) {
     uint32_t mapping = 0;
     CO_OBJ* obj = nullptr;
@@ -287,65 +236,73 @@ CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, 
     if (locate(node, direction, mapping, obj) != CO_ERR_NONE) {
       return CO_ERR_OBJ_MAP_TYPE;
     }
-    const auto bits = static_cast<uint8_t>(mapping);
-    const bool plain = obj == nullptr || is_plain(node, *obj, direction, bits);
-    length += bits;
-    map.Entry[place] = number_of(node, obj);
-    map.Bits[place] = static_cast<uint8_t>(bits | (plain ? 0 : by_type));
-    merge(node, map, first, place);
-    first = map.Bits[place] != 0 ? place : first;
+    const auto length = static_cast<uint8_t>(mapping);
+    const bool plain = obj != nullptr && (!maps_bits || bits % 8 == 0) && is_plain(node, *obj, direction, length);
+    bits += length;
+    add(node, map, place, obj, static_cast<uint8_t>(length / unit | (plain ? 0 : by_type)));
+    merge(map, row, place, length, plain ? data_of<uint8_t>(*obj) : nullptr);
   }
-  map.Num = num;
-  map.Length = static_cast<uint8_t>((length + 7U) / 8U);
-  return length > all_bits ? CO_ERR_OBJ_MAP_LEN : CO_ERR_NONE;
+  map.Length = static_cast<uint8_t>(bits / unit);
+  return bits > all_bits ? CO_ERR_OBJ_MAP_LEN : CO_ERR_NONE;
 }
 
-// A type function that changes the mapping itself changes what is left of it.
-void write(CO_NODE& node, CO_PDO_MAP& map, const CO_IF_FRM& frame) {
-  CO_IF_FRM copy = frame;
-  uint8_t position = 0;
-  for (uint8_t place = 0; place < map.Num && position < all_bits; ++place) {
-    const auto bits = static_cast<uint8_t>(map.Bits[place] & ~by_type);
-    const uint16_t entry = map.Entry[place];
-    if (bits != 0 && entry < node.Dict.Num) {
-      write_step(node, copy, {node.Dict.Root[entry], position, bits, (map.Bits[place] & by_type) != 0});
+// What cannot be written is the node's error, and the rest is written all the same; a TPDO is read as a whole. A type
+// function that changes the PDO ends it.
+CO_ERR copy_rest(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction, Progress at) {
+  const bool receives = direction == Direction::receive;
+  const Lock lock(node);
+  for (;;) {
+    if (!has(map, served) || is_numbered_anew(node)) {
+      return CO_ERR_TPDO_COM_OBJ;
     }
-    position = static_cast<uint8_t>(position + bits);
-  }
-  pass(map);
-}
-
-CO_ERR read(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
-  uint8_t position = 0;
-  CO_ERR err = CO_ERR_NONE;
-  for (uint8_t place = 0; place < map.Num && position < all_bits && err == CO_ERR_NONE; ++place) {
-    const auto bits = static_cast<uint8_t>(map.Bits[place] & ~by_type);
-    const uint16_t entry = map.Entry[place];
-    if (bits != 0 && entry < node.Dict.Num) {
-      err = read_step(node, frame, {node.Dict.Root[entry], position, bits, (map.Bits[place] & by_type) != 0});
+    if (at.position >= map.Length) {
+      return CO_ERR_NONE;
     }
-    position = static_cast<uint8_t>(position + bits);
+    const uint16_t entry = map.Entry[at.place];
+    const auto length = static_cast<uint8_t>(map.Step[at.place] & ~by_type);
+    CO_ERR err = CO_ERR_NONE;
+    if (map.Step[at.place] < by_type) {
+      uint8_t* const variable = data_of<uint8_t>(node.Dict.Root[entry]);
+      uint8_t* const data = frame.Data + at.position / one_byte;
+      copy(receives ? variable : data, receives ? data : variable, length / one_byte);
+    } else if (entry != no_entry) {
+      err = copy_by_type(node, frame, {node.Dict.Root[entry], at.position, length}, receives);
+    }
+    if (err != CO_ERR_NONE) {
+      node.Error = err;
+    }
+    if (err != CO_ERR_NONE && !receives) {
+      return err;
+    }
+    ++at.place;
+    at.position = static_cast<uint8_t>(at.position + length);
   }
-  return err;
 }
 
-uint8_t find(const CO_NODE& node, const CO_PDO_MAP& map, const CO_OBJ& obj) {
-  const uint16_t entry = number_of(node, &obj);
-  uint8_t place = 0;
-  while (place < map.Num && map.Entry[place] != entry) {
+unsigned find(const CO_PDO_MAP& map, uint16_t entry) {
+  unsigned place = exists(map) ? 0 : CO_PDO_MAP_N;
+  while (place < CO_PDO_MAP_N && map.Entry[place] != entry) {
     ++place;
   }
   return place;
 }
 
-void pass(CO_PDO_MAP& map) { __builtin_memset(map.Passed, 0xFF, sizeof map.Passed); }
+bool has_passed(CO_PDO_MAP& map) {
+  const bool was = has(map, passed);
+  clear(map, passed);
+  return was;
+}
 
-bool has_passed(CO_PDO_MAP& map, uint8_t place) {
+bool has_passed(CO_PDO_MAP& map, uint16_t entry) {
+  const unsigned place = find(map, entry);
+  if (place == CO_PDO_MAP_N) {
+    return false;
+  }
   const auto bit = static_cast<uint8_t>(1U << (place % 8U));
   uint8_t& bits = map.Passed[place / 8U];
-  const bool passed = (bits & bit) != 0;
+  const bool was = (bits & bit) != 0;
   bits = static_cast<uint8_t>(bits & ~bit);
-  return passed;
+  return was;
 }
 
 }  // namespace co::pdo

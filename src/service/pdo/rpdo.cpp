@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // RPDOs. [301:7.2.2.5.1]
+#include <stddef.h>
+
 #include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
 
 #if CO_RPDO_N > 0
 
@@ -15,152 +19,206 @@ namespace {
 
 using event::Fault;
 
+// Of CO_PDO_MAP.Flags, beside those of plan.hpp.
 enum Flag : uint8_t {
   synchronous = 0x01,
   queued = 0x02,     // it is in the list of those that wait for the SYNC
-  fresh = 0x04,      // Data has not been written yet
-  received = 0x08,   // since the application has asked
-  too_short = 0x10,  // reported
-  too_long = 0x20,   // reported
-  late = 0x40,       // reported
+  fresh = 0x04,      // queued, and Data has not been written yet
+  too_short = 0x08,  // reported
+  too_long = 0x10,   // reported
+  late = 0x20,       // reported
 };
+
+static_assert(offsetof(CO_RPDO, Data) % sizeof(Word) == 0);
 
 // Links of the list are numbers from 1.
 constexpr uint16_t none = 0;
 CO_RPDO& at(CO_NODE& node, uint16_t link) { return node.RPdo[link - 1]; }
+uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }
 
-bool has(const CO_RPDO& pdo, Flag flag) { return (pdo.Map.Flags & flag) != 0; }
-void set(CO_RPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags | flag); }
-void clear(CO_RPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags & ~flag); }
+bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && has(pdo.Map, synchronous); }
 
-uint16_t number_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo); }
-// The number of the PDO, from 1; 255 for all above.
-uint8_t detail(const CO_RPDO& pdo) {
-  const unsigned number = number_of(pdo) + 1U;
-  return static_cast<uint8_t>(number < UINT8_MAX ? number : UINT8_MAX);
+// With the number of the PDO, from 1 (255 for all above).
+void report(const CO_RPDO& pdo, Fault fault, bool is_wrong) {
+  const uint16_t number = link_of(pdo);
+  const auto detail = static_cast<uint8_t>(number < UINT8_MAX ? number : UINT8_MAX);
+  is_wrong ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
 }
 
-// Each fault is reported once, until it is gone.
-void report(CO_RPDO& pdo, Flag flag, Fault fault) {
-  if (!has(pdo, flag)) {
-    set(pdo, flag);
-    event::raise(*pdo.Node, fault, detail(pdo));
+// Each fault is reported once, and gone once.
+void report(CO_RPDO& pdo, Flag flag, Fault fault, bool is_wrong) {
+  if (has(pdo.Map, flag) != is_wrong) {
+    pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
+    report(pdo, fault, is_wrong);
   }
 }
 
-void resolve(CO_RPDO& pdo, Flag flag, Fault fault) {
-  if (has(pdo, flag)) {
-    clear(pdo, flag);
-    event::resolve(*pdo.Node, fault, detail(pdo));
+void report_missing([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] bool is_missing) {
+#if USE_MPDO
+  if ((pdo.Map.Missing != 0) != is_missing) {
+    pdo.Map.Missing = is_missing ? 1 : 0;
+    report(pdo, Fault::pdo_unknown, is_missing);
   }
+#endif
 }
 
-void resolve_all(CO_RPDO& pdo) {
-  resolve(pdo, too_short, Fault::pdo_short);
-  resolve(pdo, too_long, Fault::pdo_long);
-  resolve(pdo, late, Fault::pdo_timeout);
-}
-
-void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, Fault::pdo_timeout); }
+void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, Fault::pdo_timeout, true); }
 
 void watch(CO_RPDO& pdo) {
-  resolve(pdo, late, Fault::pdo_timeout);
+  report(pdo, late, Fault::pdo_timeout, false);
   if (pdo.Event != 0) {
     tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Event, 0, on_deadline, &pdo);
   }
 }
 
-// A frame longer than the mapping is taken. [301:7.2.7.1 table 26]
-bool check_length(CO_RPDO& pdo, uint8_t length) {
-  if (length < pdo.Map.Length) {
-    report(pdo, too_short, Fault::pdo_short);
-    return false;
-  }
-  resolve(pdo, too_short, Fault::pdo_short);
-  if (length > pdo.Map.Length) {
-    report(pdo, too_long, Fault::pdo_long);
-  } else {
-    resolve(pdo, too_long, Fault::pdo_long);
-  }
-  return true;
+// Nothing is expected any more, and what was reported is over.
+void end(CO_NODE& node, CO_RPDO& pdo) {
+  tmr::stop(node.Tmr, pdo.Tmr);
+  clear(pdo.Map, served);
+  report(pdo, too_short, Fault::pdo_short, false);
+  report(pdo, too_long, Fault::pdo_long, false);
+  report(pdo, late, Fault::pdo_timeout, false);
+  report_missing(pdo, false);
 }
 
-void write(CO_RPDO& pdo, const CO_IF_FRM& frame) {
-  const Lock lock(*pdo.Node);
-  pdo::write(*pdo.Node, pdo.Map, frame);
-  set(pdo, received);
+// A frame longer than the mapping is taken. [301:7.2.7.1 table 26]
+bool check_length(CO_RPDO& pdo, uint8_t length) {
+  const uint8_t mapped = length_of(pdo.Map);
+  if (length == mapped && !has(pdo.Map, too_short | too_long)) {
+    return true;
+  }
+  report(pdo, too_short, Fault::pdo_short, length < mapped);
+  if (length >= mapped) {
+    report(pdo, too_long, Fault::pdo_long, length > mapped);
+  }
+  return length >= mapped;
 }
 
 // Keeps the data; the last that comes before the SYNC counts.
 void keep(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
-  __builtin_memcpy(pdo.Data, frame.Data, sizeof pdo.Data);
-  set(pdo, fresh);
-  if (has(pdo, queued)) {
+  copy_data(pdo.Data, frame.Data);
+  const bool is_queued = has(pdo.Map, queued);
+  set(pdo.Map, fresh | queued);
+  if (is_queued) {
     return;
   }
-  set(pdo, queued);
-  const auto link = static_cast<uint16_t>(number_of(pdo) + 1);
+  const uint16_t link = link_of(pdo);
   pdo.Next = none;
   (node.RPdoFirst == none ? node.RPdoFirst : at(node, node.RPdoLast).Next) = link;
   node.RPdoLast = link;
 }
 
+void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
+  if (copy_objects<Direction::receive>(node, map, frame) == CO_ERR_NONE) {
+    pass(map);
+  }
+}
+
+// What a multiplex PDO writes is told by the frame. False: there is nothing to be written.
+bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_FRM& frame) {
+#if USE_MPDO
+  CO_NODE& node = *pdo.Node;
+  CO_OBJ* const obj = mpdo::find(node, pdo.Map, frame);
+  if (obj != nullptr) {
+    report_missing(pdo, false);
+    const Lock lock(node);
+    mpdo::write(node, pdo.Map, *obj, frame);
+    return true;
+  }
+  if (mpdo::is_dam(pdo.Map)) {
+    report_missing(pdo, true);
+  }
+#endif
+  return false;
+}
+
 void write_kept(CO_NODE& node, CO_RPDO& pdo) {
-  if (!has(pdo, fresh)) {
+  if (!has(pdo.Map, fresh)) {
     return;
   }
-  CO_IF_FRM frame = {0, {}, sizeof pdo.Data};
-  __builtin_memcpy(frame.Data, pdo.Data, sizeof pdo.Data);
-  pdo::write(node, pdo.Map, frame);
-  set(pdo, received);
+  CO_IF_FRM frame = wire::empty_frame(0, sizeof pdo.Data);
+  copy_data(frame.Data, pdo.Data);
+  set(pdo.Map, served);
+  write_and_mark(node, pdo.Map, frame);
 }
 
 void forget_kept(CO_NODE& node) {
   for (uint16_t link = node.RPdoFirst; link != none; link = at(node, link).Next) {
-    clear(at(node, link), queued);
-    clear(at(node, link), fresh);
+    clear(at(node, link).Map, queued);
   }
   node.RPdoFirst = none;
 }
 
 // Both are called while nothing else of the list can change: frames and resets wait.
 void tell(CO_NODE& node, uint16_t first) {
-  for (uint16_t link = first; link != none; link = at(node, link).Next) {
+  for (uint16_t link = first; link != none;) {
     CO_RPDO& pdo = at(node, link);
-    clear(pdo, queued);
-    if (has(pdo, fresh)) {
-      clear(pdo, fresh);
+    const bool is_fresh = has(pdo.Map, fresh);
+    clear(pdo.Map, queued | fresh);
+    if (is_fresh) {
       COPdoSyncUpdate(&pdo);
       COPdoUpdate(&pdo);
     }
+    link = pdo.Next;
   }
 }
 
-bool is_kept_from(const CO_NODE& node, const CO_RPDO& pdo) { return has(pdo, synchronous) && node.WindowOver != 0; }
+// The application may end Operational meanwhile, or the PDO. False: the frame is too short.
+[[gnu::noinline]] bool take(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
+  if (is_synchronous(pdo) && node.WindowOver != 0) {
+    return true;
+  }
+  set(pdo.Map, served);
+  if (!check_length(pdo, frame.DLC) || !mpdo::is_kind(pdo.Map, frame)) {
+    return false;
+  }
+  if (!mpdo::is_addressed(node, pdo.Map, frame)) {
+    return true;
+  }
+  if (pdo.Event != 0) {
+    watch(pdo);
+  }
+  CO_IF_FRM copy = frame;
+  if (COPdoReceive(&copy) != 0 || !has(pdo.Map, served)) {
+    return true;
+  }
+  if (is_synchronous(pdo)) {
+    keep(pdo, copy);
+    return true;
+  }
+  if (!mpdo::is_one(pdo.Map)) {
+    write_and_mark(node, pdo.Map, copy);
+  } else if (!find_and_write(pdo, copy)) {
+    return true;
+  }
+  settle_touched(node);
+  COPdoUpdate(&pdo);
+  return true;
+}
 
 }  // namespace
 
 void configure_rpdo(CO_NODE& node, uint16_t number) {
   CO_RPDO& pdo = node.RPdo[number];
-  const auto kept = static_cast<uint8_t>(pdo.Map.Flags & queued);
   Parameters parameters = {};
-  resolve_all(pdo);
-  tmr::stop(node.Tmr, pdo.Tmr);
+  end(node, pdo);
+  const auto kept = static_cast<uint8_t>(pdo.Map.Flags & queued);
   configure(node, Direction::receive, static_cast<uint16_t>(first_rpdo + number), parameters, pdo.Map);
   pdo.Event = parameters.event;
   pdo.Map.Flags = static_cast<uint8_t>(kept | (is_synchronous(parameters.type) ? synchronous : 0));
-  const bool exists = pdo.Map.Num != 0;
-  routes::change(node, exists ? wire::frame_id(parameters.cob_id) : wire::no_frame, routes::Service::rpdo, number);
+  const uint32_t identifier = exists(pdo.Map) ? wire::frame_id(parameters.cob_id) : wire::no_frame;
+  routes::change(node, identifier, routes::Service::rpdo, number);
 }
 
 void change_deadline(CO_NODE& node, uint16_t number, uint32_t ticks) {
   CO_RPDO& pdo = node.RPdo[number];
+  const bool is_expected = tmr::is_running(pdo.Tmr);
   pdo.Event = ticks;
   if (ticks == 0) {
     tmr::stop(node.Tmr, pdo.Tmr);
-    resolve(pdo, late, Fault::pdo_timeout);
-  } else if (tmr::is_running(pdo.Tmr)) {
+  }
+  if (ticks == 0 || is_expected) {
     watch(pdo);
   }
 }
@@ -174,40 +232,19 @@ void init_rpdos(CO_NODE& node) {
   }
 }
 
-// What was reported is over when process data are no longer exchanged.
 void on_mode_rpdos(CO_NODE& node) {
   if (event::is_allowed(node, CO_PDO_ALLOWED)) {
     return;
   }
-  forget_kept(node);
+  if (USE_SYNC != 0) {
+    forget_kept(node);
+  }
   for (CO_RPDO& pdo : node.RPdo) {
-    tmr::stop(node.Tmr, pdo.Tmr);
-    resolve_all(pdo);
+    end(node, pdo);
   }
 }
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
-  CO_RPDO& pdo = node.RPdo[number];
-  if (is_kept_from(node, pdo)) {
-    return true;
-  }
-  if (!check_length(pdo, frame.DLC)) {
-    return false;
-  }
-  watch(pdo);
-  CO_IF_FRM copy = frame;
-  if (COPdoReceive(&copy) != 0 || pdo.Map.Num == 0 || !event::is_allowed(node, CO_PDO_ALLOWED)) {
-    return true;
-  }
-  if (has(pdo, synchronous)) {
-    keep(pdo, copy);
-  } else {
-    write(pdo, copy);
-    settle_touched(node);
-    COPdoUpdate(&pdo);
-  }
-  return true;
-}
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return take(node, node.RPdo[number], frame); }
 
 // All of one SYNC together.
 void apply(CO_NODE& node) {
@@ -218,26 +255,23 @@ void apply(CO_NODE& node) {
   node.RPdoFirst = none;
   {
     const Lock lock(node);
-    for (uint16_t link = first; link != none; link = at(node, link).Next) {
-      write_kept(node, at(node, link));
+    for (uint16_t link = first; link != none;) {
+      CO_RPDO& pdo = at(node, link);
+      write_kept(node, pdo);
+      link = pdo.Next;
     }
   }
   settle_touched(node);
   tell(node, first);
 }
 
-bool was_received(CO_NODE& node, uint16_t number) {
-  CO_RPDO& pdo = node.RPdo[number];
-  const bool was = has(pdo, received);
-  clear(pdo, received);
-  return was;
-}
+bool was_received(CO_NODE& node, uint16_t number) { return has_passed(node.RPdo[number].Map); }
 
 bool was_received(CO_NODE& node, const CO_OBJ& obj) {
+  const uint16_t entry = number_of(node, obj);
   bool was = false;
   for (CO_RPDO& pdo : node.RPdo) {
-    const uint8_t place = find(node, pdo.Map, obj);
-    was |= place != pdo.Map.Num && has_passed(pdo.Map, place);
+    was |= has_passed(pdo.Map, entry);
   }
   return was;
 }
@@ -245,8 +279,10 @@ bool was_received(CO_NODE& node, const CO_OBJ& obj) {
 void remap_rpdos(CO_NODE& node) {
   for (uint16_t number = 0; number < CO_RPDO_N; ++number) {
     CO_PDO_MAP& map = node.RPdo[number].Map;
-    if (map.Num != 0 &&
-        resolve(node, Direction::receive, static_cast<uint16_t>(first_rpdo + number), map) != CO_ERR_NONE) {
+    const auto index = static_cast<uint16_t>(first_rpdo + number);
+    const bool was_multiplexed = mpdo::is_one(map);
+    if (exists(map) &&
+        (resolve(node, Direction::receive, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
       configure_rpdo(node, number);
     }
   }

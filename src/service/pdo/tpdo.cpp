@@ -1,126 +1,199 @@
 // SPDX-License-Identifier: Apache-2.0
 // TPDOs. [301:7.2.2.5.2-3]
+#include <stddef.h>
+
 #include "core/events.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
+#include "wire/mpdo.hpp"
 
 #if CO_TPDO_N > 0
 
 namespace co::pdo {
 namespace {
 
+// Of CO_PDO_MAP.Flags, beside those of plan.hpp.
 enum Flag : uint8_t {
   pending = 0x01,    // an event waits for the end of the inhibit time, or for the SYNC
-  inhibited = 0x02,  // the timer runs for the inhibit time
+  inhibited = 0x02,  // event-driven: the timer runs for the inhibit time
+  sampled = 0x02,    // synchronous: Data holds what was sampled at the last SYNC
   starts = 0x04,     // it has a SYNC start value
   waiting = 0x08,    // for that SYNC, whose number Count holds
-  sampled = 0x10,    // Data holds what was sampled at the last SYNC
-  sent = 0x20,       // since the application has asked
-  touched = 0x40,    // an object has changed
-  remote = 0x80,     // may be asked for
+  remote = 0x10,     // may be asked for
+  touched = 0x20,    // an object has changed while objects were locked
 };
+
+static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
 
 // Links of the list are numbers from 1.
 constexpr uint16_t none = 0;
 CO_TPDO& at(CO_NODE& node, uint16_t link) { return node.TPdo[link - 1]; }
 
-bool has(const CO_TPDO& pdo, Flag flag) { return (pdo.Map.Flags & flag) != 0; }
-void set(CO_TPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags | flag); }
-void clear(CO_TPDO& pdo, Flag flag) { pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags & ~flag); }
-
 uint16_t number_of(const CO_TPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->TPdo); }
 
-bool exists(const CO_TPDO& pdo) { return pdo.Map.Num != 0; }
 bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
 
-// What Read functions change of the PDO itself is part of it.
-CO_ERR fill(CO_TPDO& pdo, CO_IF_FRM& frame) {
+// Are remote requests answered with what was sampled at the last SYNC?
+bool is_kept(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
+
+// Nothing replaces what waits of a multiplex PDO: it may be another object.
+bool give(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
-  const Lock lock(node);
-  const CO_ERR err = read(node, pdo.Map, frame);
-  clear(pdo, touched);
-  if (err != CO_ERR_NONE) {
-    node.Error = err;
-  }
-  return err;
+  return mpdo::is_one(pdo.Map) ? transmit::send_for_application(node, frame) : transmit::send_process_data(node, frame);
 }
 
-// The application may have ended Operational meanwhile, or the PDO.
+// The application has ended Operational meanwhile, or the PDO.
+CO_ERR end_of(const CO_TPDO& pdo) { return is_operational(*pdo.Node) ? CO_ERR_TPDO_COM_OBJ : CO_ERR_NMT_MODE; }
+
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
-  const uint32_t identifier = pdo.Identifier;
   COPdoTransmit(&frame);
-  if (!is_operational(*pdo.Node)) {
-    return CO_ERR_NMT_MODE;
+  if (!has(pdo.Map, served)) {
+    return end_of(pdo);
   }
-  if (!exists(pdo) || pdo.Identifier != identifier) {
-    return CO_ERR_TPDO_COM_OBJ;
-  }
-  if (!transmit::send_process_data(*pdo.Node, frame)) {
+  if (!give(pdo, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
-  set(pdo, sent);
   pass(pdo.Map);
   return CO_ERR_NONE;
 }
 
-// The objects as they are now.
-CO_ERR send_now(CO_TPDO& pdo) {
-  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, pdo.Map.Length);
-  const CO_ERR err = fill(pdo, frame);
-  return err == CO_ERR_NONE ? send(pdo, frame) : err;
+#if USE_MPDO
+CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
+  CO_NODE& node = *pdo.Node;
+  const uint16_t entry = node.Mpdo.Scan[place];
+  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, wire::mpdo_dlc);
+  CO_ERR err = CO_ERR_NONE;
+  {
+    const Lock lock(node);
+    err = mpdo::read(node, place, frame);
+  }
+  if (!has(pdo.Map, served)) {
+    return end_of(pdo);
+  }
+  if (err == CO_ERR_NONE) {
+    err = send(pdo, frame);
+  } else {
+    node.Error = err;
+  }
+  if (err != CO_ERR_IF_CAN_SEND) {
+    mpdo::settle(node, place, entry, err == CO_ERR_NONE);
+  }
+  return err;
+}
+
+// The objects that wait, each at most once, or one of them where there is an inhibit time. They go on when nothing else
+// waits for the controller.
+CO_ERR send_scanned(CO_TPDO& pdo) {
+  CO_NODE& node = *pdo.Node;
+  const bool all = pdo.Own.Time.Inhibit == 0;
+  CO_ERR result = node.Mpdo.ScanNum != 0 ? CO_ERR_NONE : CO_ERR_TPDO_OBJ_TRIGGER;
+  uint16_t place = 0;
+  bool goes_on = true;
+  for (uint16_t left = node.Mpdo.ScanNum; left != 0 && goes_on && mpdo::next(node, place); --left) {
+    transmit::flush(node);
+    if (transmit::is_waiting(node)) {
+      break;
+    }
+    const CO_ERR err = send_object(pdo, place);
+    result = err != CO_ERR_NONE ? err : result;
+    goes_on = has(pdo.Map, served) && (all || err != CO_ERR_NONE);
+  }
+  if (all && mpdo::is_waiting(node)) {
+    node.Paused = 1;
+  }
+  return result;
+}
+#endif
+
+// What a PDO that is served is for. What was sampled at the last SYNC answers remote requests until the next one.
+enum class Use : uint8_t { sample, send, send_sampled };
+
+CO_ERR serve(CO_TPDO& pdo, Use use) {
+#if USE_MPDO
+  if (mpdo::is_sam(pdo.Map)) {
+    return send_scanned(pdo);
+  }
+#endif
+  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, length_of(pdo.Map));
+  if (use == Use::send_sampled) {
+    copy_data(frame.Data, pdo.Own.Data);
+  } else if (const CO_ERR err = copy_objects<Direction::transmit>(*pdo.Node, pdo.Map, frame); err != CO_ERR_NONE) {
+    if (!has(pdo.Map, served)) {
+      return end_of(pdo);
+    }
+    pdo.Node->Error = err;
+    return err;
+  } else if (is_kept(pdo)) {
+    copy_data(pdo.Own.Data, frame.Data);
+    set(pdo.Map, sampled);
+  }
+  return use == Use::sample ? CO_ERR_NONE : send(pdo, frame);
 }
 
 void on_time(void* pdo_pointer);
+
+void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ticks, 0, on_time, &pdo); }
 
 // The times of an event-driven PDO begin with each transmission. The event time of one that the timer has asked for
 // began when the timer elapsed, so that nothing drifts; an inhibit time never begins before the transmission. A
 // callback may have started the timer.
 void restart(CO_TPDO& pdo, bool by_timer) {
-  CO_NODE& node = *pdo.Node;
-  const uint32_t ticks = pdo.Inhibit != 0 ? pdo.Inhibit : pdo.Event;
-  if (ticks == 0 || !exists(pdo) || !is_operational(node)) {
+  const CO_TPDO_TIMES& time = pdo.Own.Time;
+  if (time.Inhibit != 0) {
+    set(pdo.Map, inhibited);
+    start(pdo, time.Inhibit);
+  } else if (time.Event == 0) {
     return;
-  }
-  if (pdo.Inhibit != 0) {
-    set(pdo, inhibited);
-  }
-  if (by_timer && pdo.Inhibit == 0 && !tmr::is_running(pdo.Tmr)) {
-    tmr::again(node.Tmr, pdo.Tmr, ticks);
+  } else if (by_timer && !tmr::is_running(pdo.Tmr)) {
+    tmr::again(pdo.Node->Tmr, pdo.Tmr, time.Event);
   } else {
-    tmr::start(node.Tmr, pdo.Tmr, ticks, 0, on_time, &pdo);
+    start(pdo, time.Event);
   }
 }
 
 // What cannot be sent now is not sent later, but the event timer goes on. An event for the PDO that comes from its own
 // callback is part of it.
 CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
-  set(pdo, inhibited);
-  const CO_ERR err = send_now(pdo);
-  clear(pdo, inhibited);
-  clear(pdo, pending);
-  restart(pdo, by_timer);
+  set(pdo.Map, served | inhibited);
+  const CO_ERR err = serve(pdo, Use::send);
+  if (has(pdo.Map, served)) {
+    clear(pdo.Map, served | inhibited | pending | touched);
+    if (mpdo::is_sam(pdo.Map) && mpdo::is_waiting(*pdo.Node)) {
+      set(pdo.Map, pending);
+    }
+    restart(pdo, by_timer);
+  }
   return err;
 }
 
+// Is the event time, once the inhibit time is?
+bool is_over(const CO_TPDO_TIMES& time) { return time.Event != 0 && time.Event <= time.Inhibit; }
+
 void end_inhibit(CO_TPDO& pdo) {
-  clear(pdo, inhibited);
-  if (has(pdo, pending) || (pdo.Event != 0 && pdo.Event <= pdo.Inhibit)) {
+  const CO_TPDO_TIMES& time = pdo.Own.Time;
+  clear(pdo.Map, inhibited);
+  if (has(pdo.Map, pending) || is_over(time)) {
+    if (is_over(time)) {
+      mpdo::mark_all(pdo);
+    }
     (void)send_event(pdo, true);
-  } else if (pdo.Event != 0) {
-    tmr::again(pdo.Node->Tmr, pdo.Tmr, pdo.Event - pdo.Inhibit);
+  } else if (time.Event != 0) {
+    tmr::again(pdo.Node->Tmr, pdo.Tmr, time.Event - time.Inhibit);
   }
 }
 
 void on_time(void* pdo_pointer) {
   CO_TPDO& pdo = *static_cast<CO_TPDO*>(pdo_pointer);
-  if (has(pdo, inhibited)) {
+  if (has(pdo.Map, inhibited)) {
     end_inhibit(pdo);
   } else {
+    mpdo::mark_all(pdo);
     (void)send_event(pdo, true);
   }
   settle_touched(*pdo.Node);
@@ -128,47 +201,28 @@ void on_time(void* pdo_pointer) {
 
 // An event inside the inhibit time is kept. [301:7.2.2.6]
 CO_ERR take_event(CO_TPDO& pdo) {
-  if (has(pdo, inhibited)) {
-    set(pdo, pending);
-    return CO_ERR_NONE;
+  if (!has(pdo.Map, inhibited)) {
+    return send_event(pdo, false);
   }
-  return send_event(pdo, false);
-}
-
-CO_ERR trigger(CO_TPDO& pdo) {
-  if (is_event_driven(pdo.Type)) {
-    return take_event(pdo);
-  }
-  if (pdo.Type != type_acyclic) {
-    return CO_ERR_TPDO_EVENT;
-  }
-  set(pdo, pending);
+  set(pdo.Map, pending);
   return CO_ERR_NONE;
 }
 
-void send_touched(CO_TPDO& pdo) {
-  if (has(pdo, touched)) {
-    clear(pdo, touched);
-    if (is_operational(*pdo.Node)) {
-      (void)trigger(pdo);
-    }
+CO_ERR trigger(CO_TPDO& pdo) {
+  if (!is_operational(*pdo.Node)) {
+    return CO_ERR_NMT_MODE;
   }
-}
-
-// What remote requests are answered with until the next SYNC.
-void keep(CO_TPDO& pdo) {
-  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, pdo.Map.Length);
-  clear(pdo, sampled);
-  if (fill(pdo, frame) == CO_ERR_NONE) {
-    __builtin_memcpy(pdo.Data, frame.Data, sizeof pdo.Data);
-    set(pdo, sampled);
+  if (!exists(pdo.Map)) {
+    return CO_ERR_TPDO_COM_OBJ;
   }
-}
-
-CO_ERR send_kept(CO_TPDO& pdo) {
-  CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, pdo.Map.Length);
-  __builtin_memcpy(frame.Data, pdo.Data, sizeof pdo.Data);
-  return send(pdo, frame);
+  if (is_event_driven(pdo.Type) && !mpdo::is_dam(pdo.Map)) {
+    return take_event(pdo);
+  }
+  if (!is_acyclic(pdo.Type)) {
+    return CO_ERR_TPDO_EVENT;
+  }
+  set(pdo.Map, pending);
+  return CO_ERR_NONE;
 }
 
 bool has_counter([[maybe_unused]] const CO_NODE& node) {
@@ -181,16 +235,17 @@ bool has_counter([[maybe_unused]] const CO_NODE& node) {
 
 // Is this the SYNC that it is sent with? The one with the start value counts as the first. [301:7.5.2.37]
 bool counts(CO_TPDO& pdo, uint8_t counter) {
-  if (has_counter(*pdo.Node) && has(pdo, starts) && (counter == 0 || (has(pdo, waiting) && counter != pdo.Count))) {
+  const bool is_waiting = has(pdo.Map, waiting);
+  if (has(pdo.Map, starts) && has_counter(*pdo.Node) && (counter == 0 || (is_waiting && counter != pdo.Count))) {
     return false;
   }
-  if (has(pdo, waiting)) {
-    clear(pdo, waiting);
+  if (is_waiting) {
+    clear(pdo.Map, waiting);
     pdo.Count = 0;
   }
   if (pdo.Type == type_acyclic) {
-    const bool was_pending = has(pdo, pending);
-    clear(pdo, pending);
+    const bool was_pending = has(pdo.Map, pending);
+    clear(pdo.Map, pending);
     return was_pending;
   }
   if (pdo.Type > last_synchronous_type || ++pdo.Count < pdo.Type) {
@@ -200,17 +255,39 @@ bool counts(CO_TPDO& pdo, uint8_t counter) {
   return true;
 }
 
+// It may just have become another one. What Read functions change of the PDO itself is part of it.
 void take_sync(CO_TPDO& pdo, uint8_t counter) {
-  const bool is_due = counts(pdo, counter);
-  if (USE_PDO_RTR != 0 && has(pdo, remote)) {
-    keep(pdo);
-  }
-  if (!is_due) {
+  if (!is_synchronous(pdo.Type)) {
     return;
   }
-  const CO_ERR err = has(pdo, sampled) ? send_kept(pdo) : send_now(pdo);
-  if (err != CO_ERR_NONE && pdo.Type == type_acyclic) {
-    set(pdo, pending);
+  const bool is_due = counts(pdo, counter);
+  clear(pdo.Map, sampled);
+  if (!is_due && !is_kept(pdo)) {
+    return;
+  }
+  set(pdo.Map, served);
+  const CO_ERR err = serve(pdo, is_due ? Use::send : Use::sample);
+  clear(pdo.Map, served | touched);
+  if (is_due && err != CO_ERR_NONE && pdo.Type == type_acyclic) {
+    set(pdo.Map, pending);
+  }
+}
+
+// Has the PDO this entry? In a scanner list it waits from now on.
+bool takes(CO_TPDO& pdo, uint16_t entry) {
+  return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
+}
+
+CO_ERR touch(CO_TPDO& pdo) {
+  set(pdo.Map, touched);
+  pdo.Node->Touched = 1;
+  return CO_ERR_NONE;
+}
+
+void take_touched(CO_TPDO& pdo) {
+  if (has(pdo.Map, touched)) {
+    clear(pdo.Map, touched);
+    (void)trigger(pdo);
   }
 }
 
@@ -236,34 +313,31 @@ void list(CO_NODE& node, uint16_t number, bool listed) {
 
 // Enters Operational, or the PDO comes into being there.
 void begin(CO_TPDO& pdo) {
-  if (!exists(pdo)) {
+  constexpr auto lasting = static_cast<uint8_t>(remote | passed);
+  if (!exists(pdo.Map)) {
     return;
   }
-  constexpr auto lasting = static_cast<uint8_t>(remote | sent);
   pdo.Map.Flags &= lasting;
-  pdo.Count = start_value(*pdo.Node, number_of(pdo));
-  if (pdo.Count != 0) {
-    set(pdo, starts);
-    set(pdo, waiting);
+  if (mpdo::is_sam(pdo.Map)) {
+    mpdo::forget_marks(*pdo.Node);
   }
-  if (pdo.Type == type_acyclic) {
-    set(pdo, pending);
-  }
-  if (!is_event_driven(pdo.Type)) {
-    return;
-  }
-  if (CO_TPDO_ON_START != 0) {
-    (void)send_event(pdo, false);
-  } else if (pdo.Event != 0) {
-    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Event, 0, on_time, &pdo);
+  if (is_event_driven(pdo.Type)) {
+    if (CO_TPDO_ON_START != 0) {
+      mpdo::mark_all(pdo);
+      (void)trigger(pdo);
+    } else if (pdo.Own.Time.Event != 0) {
+      start(pdo, pdo.Own.Time.Event);
+    }
+  } else if (USE_SYNC != 0) {
+    pdo.Count = start_value(*pdo.Node, number_of(pdo));
+    set(pdo.Map, (pdo.Count != 0 ? starts | waiting : 0) | (pdo.Type == type_acyclic ? pending : 0));
   }
 }
 
 void end(CO_NODE& node, CO_TPDO& pdo) {
   tmr::stop(node.Tmr, pdo.Tmr);
-  clear(pdo, inhibited);
-  clear(pdo, pending);
-  if (exists(pdo)) {
+  clear(pdo.Map, served);
+  if (exists(pdo.Map)) {
     transmit::withdraw(node, pdo.Identifier);
   }
 }
@@ -286,12 +360,14 @@ void configure_tpdo(CO_NODE& node, uint16_t number) {
   end(node, pdo);
   configure(node, Direction::transmit, static_cast<uint16_t>(first_tpdo + number), parameters, pdo.Map);
   pdo.Identifier = wire::frame_id(parameters.cob_id);
-  pdo.Inhibit = is_event_driven(parameters.type) ? parameters.inhibit : 0;
-  pdo.Event = is_event_driven(parameters.type) ? parameters.event : 0;
   pdo.Type = parameters.type;
-  const bool asked = exists(pdo) && is_remote(parameters);
+  pdo.Own.Time = {parameters.inhibit, mpdo::is_dam(pdo.Map) ? 0 : parameters.event};
+  mpdo::set_producer(node, number, pdo.Map);
+  const bool asked = exists(pdo.Map) && is_remote(parameters) && !mpdo::is_one(pdo.Map);
   pdo.Map.Flags = asked ? remote : 0;
-  list(node, number, exists(pdo) && is_synchronous(pdo.Type));
+  if (USE_SYNC != 0) {
+    list(node, number, exists(pdo.Map) && is_synchronous(pdo.Type));
+  }
   if (USE_PDO_RTR != 0) {
     routes::change(node, asked ? pdo.Identifier : wire::no_frame, routes::Service::tpdo, number);
   }
@@ -302,23 +378,24 @@ void configure_tpdo(CO_NODE& node, uint16_t number) {
 
 void change_event_time(CO_NODE& node, uint16_t number, uint32_t ticks) {
   CO_TPDO& pdo = node.TPdo[number];
-  if (!exists(pdo) || !is_event_driven(pdo.Type)) {
+  if (!exists(pdo.Map) || !is_event_driven(pdo.Type) || mpdo::is_dam(pdo.Map)) {
     return;
   }
-  pdo.Event = ticks;
-  if (has(pdo, inhibited) || !is_operational(node)) {
+  pdo.Own.Time.Event = ticks;
+  if (has(pdo.Map, inhibited) || !is_operational(node)) {
     return;
   }
   tmr::stop(node.Tmr, pdo.Tmr);
   if (ticks != 0) {
-    tmr::start(node.Tmr, pdo.Tmr, ticks, 0, on_time, &pdo);
+    start(pdo, ticks);
   }
 }
 
 void init_tpdos(CO_NODE& node) {
   node.TPdoFirst = none;
-  node.WindowOver = 0;
-  node.Touched = 0;
+#if USE_MPDO
+  node.Mpdo.Producer = none;
+#endif
   for (uint16_t number = 0; number < CO_TPDO_N; ++number) {
     node.TPdo[number].Node = &node;
     configure_tpdo(node, number);
@@ -336,12 +413,15 @@ void on_mode_tpdos(CO_NODE& node) {
 // [301:7.2.2.5.3]
 bool on_remote(CO_NODE& node, uint16_t number) {
   CO_TPDO& pdo = node.TPdo[number];
+  if (USE_PDO_RTR == 0) {
+    return false;
+  }
   if (is_event_driven(pdo.Type)) {
     (void)take_event(pdo);
-  } else if (pdo.Type == type_rtr) {
-    (void)send_now(pdo);
-  } else if (has(pdo, sampled)) {
-    (void)send_kept(pdo);
+  } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
+    set(pdo.Map, served);
+    (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
+    clear(pdo.Map, served | touched);
   }
   settle_touched(node);
   return true;
@@ -349,9 +429,6 @@ bool on_remote(CO_NODE& node, uint16_t number) {
 
 void sample(CO_NODE& node, uint8_t counter) {
   node.WindowOver = 0;
-  if (!is_operational(node)) {
-    return;
-  }
   for (uint16_t link = node.TPdoFirst; link != none && is_operational(node); link = at(node, link).Next) {
     take_sync(at(node, link), counter);
   }
@@ -363,73 +440,92 @@ void end_window(CO_NODE& node) {
   withdraw_synchronous(node);
 }
 
-void flush(CO_NODE& node) { withdraw_synchronous(node); }
+void flush(CO_NODE& node) {
+  if (USE_SYNC != 0) {
+    withdraw_synchronous(node);
+  }
+}
 
-void change_object(CO_NODE& node, const CO_OBJ& obj) {
+CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
+  const uint16_t entry = number_of(node, obj);
+  CO_ERR all = CO_ERR_TPDO_OBJ_TRIGGER;
   for (CO_TPDO& pdo : node.TPdo) {
-    if (find(node, pdo.Map, obj) != pdo.Map.Num) {
-      set(pdo, touched);
-      node.Touched = 1;
+    if (takes(pdo, entry)) {
+      const CO_ERR err = node.OdLocked == 0 ? trigger(pdo) : touch(pdo);
+      all = err != CO_ERR_NONE || all == CO_ERR_TPDO_OBJ_TRIGGER ? err : all;
     }
   }
   settle_touched(node);
+  return all;
 }
 
 // What Read functions change meanwhile is sent, too; what is changed by that waits for the next event.
-void settle_touched(CO_NODE& node) {
+void send_touched(CO_NODE& node) {
   constexpr unsigned rounds = 2;
   for (unsigned round = 0; round < rounds && node.Touched != 0 && node.OdLocked == 0; ++round) {
     node.Touched = 0;
     for (CO_TPDO& pdo : node.TPdo) {
-      send_touched(pdo);
+      take_touched(pdo);
     }
   }
 }
 
 CO_ERR request(CO_NODE& node, uint16_t number) {
-  CO_TPDO& pdo = node.TPdo[number];
-  if (!is_operational(node)) {
-    return CO_ERR_NMT_MODE;
-  }
-  const CO_ERR err = exists(pdo) ? trigger(pdo) : CO_ERR_TPDO_COM_OBJ;
+  const CO_ERR err = trigger(node.TPdo[number]);
   settle_touched(node);
   return err;
 }
 
-bool trigger_object(CO_NODE& node, const CO_OBJ& obj) {
-  bool is_mapped = false;
-  for (uint16_t number = 0; number < CO_TPDO_N; ++number) {
-    CO_TPDO& pdo = node.TPdo[number];
-    if (find(node, pdo.Map, obj) != pdo.Map.Num) {
-      is_mapped = true;
-      const CO_ERR err = request(node, number);
-      node.Error = err == CO_ERR_NONE ? node.Error : err;
-    }
-  }
-  return is_mapped;
-}
-
-bool was_sent(CO_NODE& node, uint16_t number) {
-  CO_TPDO& pdo = node.TPdo[number];
-  const bool was = has(pdo, sent);
-  clear(pdo, sent);
-  return was;
-}
+bool was_sent(CO_NODE& node, uint16_t number) { return has_passed(node.TPdo[number].Map); }
 
 bool was_sent(CO_NODE& node, const CO_OBJ& obj) {
+  const uint16_t entry = number_of(node, obj);
   bool was = false;
   for (CO_TPDO& pdo : node.TPdo) {
-    const uint8_t place = find(node, pdo.Map, obj);
-    was |= place != pdo.Map.Num && has_passed(pdo.Map, place);
+    was |= has_passed(pdo.Map, entry);
   }
-  return was;
+  return mpdo::was_sent(node, entry) || was;
 }
+
+#if USE_MPDO
+CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value) {
+  CO_TPDO& pdo = node.TPdo[number];
+  if (!is_operational(node)) {
+    return CO_ERR_NMT_MODE;
+  }
+  if (!mpdo::is_dam(pdo.Map)) {
+    return exists(pdo.Map) ? CO_ERR_TPDO_MAP_OBJ : CO_ERR_TPDO_COM_OBJ;
+  }
+  if (has(pdo.Map, inhibited)) {
+    return CO_ERR_TPDO_INHIBIT;
+  }
+  CO_IF_FRM frame = wire::mpdo(pdo.Identifier, static_cast<uint8_t>(wire::mpdo_to_consumer | node_id), key, value);
+  set(pdo.Map, served | inhibited);
+  const CO_ERR err = send(pdo, frame);
+  if (has(pdo.Map, served)) {
+    clear(pdo.Map, served | inhibited);
+    restart(pdo, false);
+  }
+  return err;
+}
+
+bool on_free(CO_NODE& node, uint16_t) {
+  CO_TPDO* const pdo = mpdo::producer(node);
+  if (pdo != nullptr && is_operational(node) && !has(pdo->Map, inhibited) && mpdo::is_waiting(node)) {
+    (void)send_event(*pdo, false);
+    settle_touched(node);
+  }
+  return false;
+}
+#endif
 
 void remap_tpdos(CO_NODE& node) {
   for (uint16_t number = 0; number < CO_TPDO_N; ++number) {
     CO_PDO_MAP& map = node.TPdo[number].Map;
-    if (map.Num != 0 &&
-        resolve(node, Direction::transmit, static_cast<uint16_t>(first_tpdo + number), map) != CO_ERR_NONE) {
+    const auto index = static_cast<uint16_t>(first_tpdo + number);
+    const bool was_multiplexed = mpdo::is_one(map);
+    if (exists(map) &&
+        (resolve(node, Direction::transmit, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
       configure_tpdo(node, number);
     }
   }

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_pdo_scan.h
+/// 1FA0h…1FCFh, sub 1…254: object scanner list, with USE_MPDO. [301:7.5.2.39] It names the objects of the one TPDO that
+/// is a multiplex PDO with source addressing (co_pdo.h). Data: a uint32_t, CO_MPDO_SCAN(), or the value itself (flag
+/// D); 0: the entry is not used. The list begins with 1FA0h sub 1, and goes on with whatever entries the dictionary
+/// has; sub 0 is a plain CO_TUNSIGNED8.
+///
+/// Refused: an index without object (0602 0000h); an object that could not be mapped into a TPDO, or has more than 4
+/// bytes (0604 0041h); more than CO_MPDO_SCAN_N objects (0604 0042h); a block that goes beyond sub-index 255 (0609
+/// 0030h). A change takes effect at once, and what still waits to be sent is forgotten; with a plain CO_TUNSIGNED32,
+/// when the PDO is switched on.
+#ifndef CO_PDO_SCAN_H_
+#define CO_PDO_SCAN_H_
+
+#include "co_obj.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_OBJ_TYPE COTPdoScan;
+
+#define CO_TPDO_SCAN ((const CO_OBJ_TYPE*)&COTPdoScan)
+
+/// \a block objects with consecutive sub-indices, from \a idx, \a sub on; 0 and 1: one.
+#define CO_MPDO_SCAN(block, idx, sub) \
+  ((((uint32_t)(block)&0xFFu) << 24) | (((uint32_t)(idx)&0xFFFFu) << 8) | ((uint32_t)(sub)&0xFFu))
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Multiplex PDOs: each frame names its object. [301:7.2.3]
+#pragma once
+
+#include "service/pdo/plan.hpp"
+
+namespace co::mpdo {
+
+using pdo::Direction;
+
+// Sub 0 of the mapping. [301:7.5.2.36, 38]
+inline constexpr uint8_t sam = 0xFE;  // source address mode
+inline constexpr uint8_t dam = 0xFF;  // destination address mode
+
+#if USE_MPDO
+
+[[nodiscard]] inline bool is_sam(const CO_PDO_MAP& map) { return map.Mode == sam; }
+[[nodiscard]] inline bool is_dam(const CO_PDO_MAP& map) { return map.Mode == dam; }
+[[nodiscard]] inline bool is_one(const CO_PDO_MAP& map) { return map.Mode != 0; }
+inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
+
+// As pdo::resolve(), for a number that is none of objects.
+[[nodiscard]] CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map);
+
+// The lists. An entry of which an object cannot be had is left out; the first error is returned.
+[[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
+[[nodiscard]] CO_ERR resolve_dispatch(CO_NODE& node);
+[[nodiscard]] CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key);
+
+// Consumer -----------------------------------------------------------------------------------------------------------
+
+// Is the frame of the PDO's kind, and meant for this node?
+[[nodiscard]] bool is_kind(const CO_PDO_MAP& map, const CO_IF_FRM& frame);
+[[nodiscard]] bool is_addressed(const CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame);
+
+// The object that it writes; null: there is none.
+[[nodiscard]] CO_OBJ* find(CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame);
+void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame);
+
+// Producer in source address mode ------------------------------------------------------------------------------------
+
+// The TPDO, whose objects are those of the scanner list. A place is that of an object in it.
+void set_producer(CO_NODE& node, uint16_t number, const CO_PDO_MAP& map);
+[[nodiscard]] CO_TPDO* producer(CO_NODE& node);
+
+// Objects wait to be sent: one (false: the list does not have it), or all, if this is the producer.
+bool mark(CO_NODE& node, uint16_t entry);
+void mark_all(CO_TPDO& pdo);
+void forget_marks(CO_NODE& node);
+[[nodiscard]] bool is_waiting(const CO_NODE& node);
+
+// The next one that waits, in the order of the list, after the one before.
+[[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
+[[nodiscard]] CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame);
+
+// The object does not wait any more, because it could be sent, or not be read.
+void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
+[[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
+
+#else
+
+[[nodiscard]] inline bool is_sam(const CO_PDO_MAP&) { return false; }
+[[nodiscard]] inline bool is_dam(const CO_PDO_MAP&) { return false; }
+[[nodiscard]] inline bool is_one(const CO_PDO_MAP&) { return false; }
+inline void set_mode(CO_PDO_MAP&, uint8_t) {}
+[[nodiscard]] inline CO_ERR resolve(CO_NODE&, Direction, uint16_t, uint8_t, CO_PDO_MAP&) { return CO_ERR_OBJ_MAP_LEN; }
+[[nodiscard]] inline bool is_kind(const CO_PDO_MAP&, const CO_IF_FRM&) { return true; }
+[[nodiscard]] inline bool is_addressed(const CO_NODE&, const CO_PDO_MAP&, const CO_IF_FRM&) { return true; }
+inline void set_producer(CO_NODE&, uint16_t, const CO_PDO_MAP&) {}
+inline bool mark(CO_NODE&, uint16_t) { return false; }
+inline void mark_all(CO_TPDO&) {}
+inline void forget_marks(CO_NODE&) {}
+[[nodiscard]] inline bool is_waiting(const CO_NODE&) { return false; }
+[[nodiscard]] inline bool was_sent(CO_NODE&, uint16_t) { return false; }
+
+#endif
+
+}  // namespace co::mpdo
