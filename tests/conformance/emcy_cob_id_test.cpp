@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1014h, COB-ID EMCY. [301:7.5.2.17, 7.3.5]
 #include "support/emcy_fixture.hpp"
+#include "support/restricted_ids.hpp"
 
 #if USE_EMCY
 
@@ -71,12 +72,10 @@ TEST_CASE("1014h: restricted CAN-IDs are refused, with bit 31 and without [E5] [
     node.ask(write(0x80000081), done);
     unsigned wrong = 0;
     for (std::uint32_t id = 0; id <= 0x7FF; ++id) {
-      const bool restricted = id <= 0x7F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
-                              (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || id >= 0x701;
       node.rx(write(valid | id));
       const std::vector<std::string> answer = node.frames();
-      wrong += answer != std::vector<std::string>{restricted ? refused : done} ? 1U : 0U;
-      if (!restricted && valid == 0) {
+      wrong += answer != std::vector<std::string>{is_forbidden(id) ? refused : done} ? 1U : 0U;
+      if (!is_forbidden(id) && valid == 0) {
         node.rx(write(0x80000000U | id));
         node.frames();
       }

@@ -21,10 +21,10 @@ TEST_CASE("EMCY: each fault has its code; the third of the five bytes tells whic
   for (const auto& one : cases) {
     CAPTURE(one.sent);
     EmcyNode node(Setup().only_small());
-    node.raise(one.fault, 7);
+    node.raise_fault(one.fault, 7);
     node.tx(one.sent);
     CHECK(node.error_register() == 0x11);
-    node.resolve(one.fault, 7);
+    node.resolve_fault(one.fault, 7);
     node.tx("081#0000000000070000");
     CHECK(node.error_register() == 0);
   }
@@ -33,22 +33,22 @@ TEST_CASE("EMCY: each fault has its code; the third of the five bytes tells whic
 TEST_CASE(
     "EMCY: of a fault that is there several times each is sent, and the register lasts until the last [E1] [E2]") {
   EmcyNode node{Setup()};
-  node.raise(Fault::heartbeat, 3);
-  node.raise(Fault::heartbeat, 4);
+  node.raise_fault(Fault::heartbeat, 3);
+  node.raise_fault(Fault::heartbeat, 4);
   node.tx({"081#3081110000030000", "081#3081110000040000"});
-  node.resolve(Fault::heartbeat, 4);
+  node.resolve_fault(Fault::heartbeat, 4);
   node.tx("081#0000110000040000");
-  node.resolve(Fault::heartbeat, 3);
+  node.resolve_fault(Fault::heartbeat, 3);
   node.tx("081#0000000000030000");
   CHECK(node.errors() == std::vector<std::uint32_t>{0x8130, 0x8130});
 }
 
 TEST_CASE("EMCY: 512 PDOs at once") {
   EmcyNode node(Setup().only_small());
-  for (unsigned n = 0; n < 512; ++n) node.raise(Fault::pdo_timeout, static_cast<std::uint8_t>(n));
+  for (unsigned n = 0; n < 512; ++n) node.raise_fault(Fault::pdo_timeout, static_cast<std::uint8_t>(n));
   for (unsigned n = 0; n < 512; ++n) {
     CHECK(node.error_register() == 0x11);
-    node.resolve(Fault::pdo_timeout, static_cast<std::uint8_t>(n));
+    node.resolve_fault(Fault::pdo_timeout, static_cast<std::uint8_t>(n));
   }
   CHECK(node.error_register() == 0);
   CHECK(node.trace().size() == 1024);
@@ -56,11 +56,11 @@ TEST_CASE("EMCY: 512 PDOs at once") {
 
 TEST_CASE("EMCY: what nobody has raised is not resolved, and a fault that is forgotten is not sent") {
   EmcyNode node{Setup()};
-  node.resolve(Fault::pdo_short, 1);
+  node.resolve_fault(Fault::pdo_short, 1);
   node.call([&] { co::event::forget(node.node, Fault::pdo_short); });
   node.silent();
   CHECK(node.error_register() == 0);
-  node.raise(Fault::pdo_short, 1);
+  node.raise_fault(Fault::pdo_short, 1);
   node.tx("081#1082110000010000");
   node.call([&] { co::event::forget(node.node, Fault::pdo_short); });
   node.silent();
@@ -70,12 +70,12 @@ TEST_CASE("EMCY: what nobody has raised is not resolved, and a fault that is for
 TEST_CASE("EMCY: errors of the application and of the stack share the register [E3]") {
   EmcyNode node(Setup().emergencies({{CO_EMCY_REG_COM, CO_EMCY_CODE_MON_COM_ERR}}));
   node.set(0);
-  node.raise(Fault::sync_length);
+  node.raise_fault(Fault::sync_length);
   node.tx({"081#0081110000000000", "081#4082110000000000"});
   node.clr(0);
   node.tx("081#0000110000000000");
   node.set(0);
-  node.resolve(Fault::sync_length);
+  node.resolve_fault(Fault::sync_length);
   node.tx({"081#0081110000000000", "081#0000110000000000"});
   node.clr(0);
   node.tx("081#0000000000000000");
@@ -119,7 +119,7 @@ TEST_CASE("EMCY: a flood of lost frames, or of frames with our CAN-ID, sends one
   for (const Fault fault : {Fault::overrun, Fault::collision}) {
     EmcyNode node(Setup().only_small());
     for (int n = 0; n < 3000; ++n) {
-      node.raise(fault);
+      node.raise_fault(fault);
       node.after(1ms);
     }
     node.tx(fault == Fault::overrun ? "081#1081110000000000" : "081#5081110000000000");
@@ -129,16 +129,16 @@ TEST_CASE("EMCY: a flood of lost frames, or of frames with our CAN-ID, sends one
     node.silent();
     node.after(1ms);
     node.tx("081#0000000000000000");
-    node.raise(fault);
+    node.raise_fault(fault);
     CHECK(node.trace().size() == 1);
   }
 }
 
 TEST_CASE("EMCY: lost frames and collisions end each in their own time") {
   EmcyNode node{Setup()};
-  node.raise(Fault::overrun);
+  node.raise_fault(Fault::overrun);
   node.after(400ms);
-  node.raise(Fault::collision);
+  node.raise_fault(Fault::collision);
   node.tx({"081#1081110000000000", "081#5081110000000000"});
   node.after(2s);
   node.tx_at(600ms, "081#0000110000000000");

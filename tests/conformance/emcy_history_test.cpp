@@ -59,7 +59,7 @@ TEST_CASE("1003h: code in the low word, the user's information in the high word 
 
 TEST_CASE("1003h: errors of the stack have 0 in the high word and in the first two of the five bytes [E11]") {
   EmcyNode node;
-  node.raise(co::event::Fault::pdo_short, 3);
+  node.raise_fault(co::event::Fault::pdo_short, 3);
   node.tx("081#1082110000030000");
   node.ask("601#4003100100000000", "581#4303100110820000");
 }
@@ -68,8 +68,8 @@ TEST_CASE("1003h: errors that are gone are not entered [E8] [N8]") {
   EmcyNode node;
   node.set(current);
   node.clr(current);
-  node.raise(co::event::Fault::heartbeat, 4);
-  node.resolve(co::event::Fault::heartbeat, 4);
+  node.raise_fault(co::event::Fault::heartbeat, 4);
+  node.resolve_fault(co::event::Fault::heartbeat, 4);
   CHECK(node.trace().size() == 4);
   CHECK(node.errors() == Errors{0x8130, 0x2000});
 }

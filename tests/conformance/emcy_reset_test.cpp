@@ -13,8 +13,8 @@ using co::event::Fault;
 void disturb(EmcyNode& node) {
   node.set(current);
   node.set(hot);
-  node.raise(Fault::heartbeat, 3);
-  node.raise(Fault::overrun);
+  node.raise_fault(Fault::heartbeat, 3);
+  node.raise_fault(Fault::overrun);
   node.can_event(CO_CAN_PASSIVE);
   node.trace();
   CHECK(node.error_register() == 0x1B);
@@ -61,7 +61,7 @@ TEST_CASE("EMCY: reset communication takes back the errors of the stack; those o
   node.tx("081#0000090000000000");
   node.clr(hot);
   node.tx("081#0000000000000000");
-  node.resolve(Fault::heartbeat, 3);
+  node.resolve_fault(Fault::heartbeat, 3);
   node.can_event(CO_CAN_RECOVERED);
   node.silent();
 }

@@ -178,11 +178,11 @@ TEST_CASE("EMCY: COEmcyGet, COEmcyCnt and COEmcyReset, silent and not [D17]") {
 TEST_CASE("EMCY: COEmcyReset leaves the errors of the stack alone") {
   EmcyNode node;
   node.set(hot);
-  node.raise(co::event::Fault::heartbeat, 3);
+  node.raise_fault(co::event::Fault::heartbeat, 3);
   CHECK(node.trace().size() == 2);
   node.call([&] { COEmcyReset(&node->Emcy, 1); });
   CHECK(node.error_register() == 0x11);
-  node.resolve(co::event::Fault::heartbeat, 3);
+  node.resolve_fault(co::event::Fault::heartbeat, 3);
   node.tx("081#0000000000030000");
 }
 

@@ -151,11 +151,11 @@ struct LedNode : Fixture {
     call([&] { CONodeCanEvent(&node, what); });
     trace();
   }
-  void raise(co::event::Fault fault) {
+  void raise_fault(co::event::Fault fault) {
     call([&] { co::event::raise(node, fault, 0); });
     trace();
   }
-  void resolve(co::event::Fault fault) {
+  void resolve_fault(co::event::Fault fault) {
     call([&] { co::event::resolve(node, fault, 0); });
     trace();
   }
@@ -260,21 +260,21 @@ TEST_CASE("LED: error control, SYNC and late RPDOs, each until the last one has 
   using co::event::Fault;
   LedNode node;
   node.start();
-  node.raise(Fault::heartbeat);
+  node.raise_fault(Fault::heartbeat);
   CHECK(node.err() == red_double);
-  node.raise(Fault::heartbeat);
-  node.resolve(Fault::heartbeat);
+  node.raise_fault(Fault::heartbeat);
+  node.resolve_fault(Fault::heartbeat);
   CHECK(node.err() == red_double);
-  node.raise(Fault::sync_length);
+  node.raise_fault(Fault::sync_length);
   CHECK(node.err() == red_triple);
-  node.raise(Fault::pdo_timeout);
+  node.raise_fault(Fault::pdo_timeout);
   CHECK(node.err() == red_quadruple);
-  node.resolve(Fault::pdo_timeout);
-  node.resolve(Fault::sync_length);
+  node.resolve_fault(Fault::pdo_timeout);
+  node.resolve_fault(Fault::sync_length);
   CHECK(node.err() == red_double);
-  node.resolve(Fault::heartbeat);
+  node.resolve_fault(Fault::heartbeat);
   CHECK(node.err() == off);
-  node.raise(Fault::life_guard);
+  node.raise_fault(Fault::life_guard);
   CHECK(node.err() == red_double);
   node.call([&] { co::event::forget(node.node, Fault::life_guard); });
   node.trace();
@@ -328,7 +328,7 @@ TEST_CASE("LED: an error in Operational, and a pattern that goes on for a minute
   LedNode node;
   node.rx("000#0101");
   node.start();
-  node.raise(co::event::Fault::heartbeat);
+  node.raise_fault(co::event::Fault::heartbeat);
   std::string all;
   std::string expected;
   for (int i = 0; i < 16; ++i) {  // 80 s are 50 periods
@@ -345,12 +345,12 @@ TEST_CASE("LED: faults that it does not show, and faults that were never raised,
   LedNode node;
   node.start();
   for (const Fault fault : {Fault::recovered, Fault::collision, Fault::pdo_short, Fault::pdo_long}) {
-    node.raise(fault);
+    node.raise_fault(fault);
     CHECK(node.err() == off);
-    node.resolve(fault);
+    node.resolve_fault(fault);
   }
-  node.resolve(Fault::heartbeat);
-  node.raise(Fault::heartbeat);
+  node.resolve_fault(Fault::heartbeat);
+  node.raise_fault(Fault::heartbeat);
   CHECK(node.err() == red_double);
 }
 
@@ -359,7 +359,7 @@ TEST_CASE("LED: what the application says holds through resets, what the node ha
   node.start();
   node.set(CO_LED_CONFIG, true);
   node.report(CO_CAN_BUS_OFF);
-  node.raise(co::event::Fault::heartbeat);
+  node.raise_fault(co::event::Fault::heartbeat);
   CHECK(node.err() == on);
   node.rx("000#8201");
   node.started = node.now();

@@ -7,12 +7,12 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <deque>
 #include <iterator>
 #include <random>
 #include <vector>
 
+#include "soak.hpp"
 #include "support/callbacks.hpp"
 #include "support/network.hpp"
 #include "support/notation.hpp"
@@ -28,6 +28,7 @@ using test::Line;
 using test::SdoBytes;
 using test::SdoObject;
 using test::SdoServerModel;
+using test::time_on_bus;
 using test::World;
 using Micros = std::chrono::microseconds;
 
@@ -188,12 +189,6 @@ struct Member {
   Micros earliest{0};
 };
 
-// Data frame with 11-bit identifier, without stuff bits: SOF to interframe space. [ISO 11898-1]
-Micros time_on_bus(const CO_IF_FRM& frame) {
-  const unsigned bytes = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? 0 : std::min<unsigned>(frame.DLC, 8);
-  return Micros(47 + ((frame.Identifier & CO_IF_FRM_EXT) != 0 ? 20 : 0) + 8 * bytes);
-}
-
 class Soak {
  public:
   explicit Soak(std::uint32_t seed) : random_(seed) {
@@ -346,19 +341,11 @@ class Soak {
   Micros next_question_ = 1s;
 };
 
-// Counters of 32 bits last for more than three days of a full bus.
-std::chrono::minutes soak_time() {
-  const char* const minutes = std::getenv("LEXICAN_SOAK_MINUTES");
-  const long number = minutes == nullptr ? 1 : std::strtol(minutes, nullptr, 10);
-  REQUIRE_MESSAGE((number >= 1 && number <= 1440), "LEXICAN_SOAK_MINUTES: 1...1440");
-  return std::chrono::minutes(number);
-}
-
 }  // namespace
 
 TEST_CASE("soak: a minute at full bus load, every frame accounted for, heartbeats in time, no queue grows [T16]") {
   Soak soak(20160);
-  soak.run(soak_time(), 1);
+  soak.run(test::soak_time(), 1);
   soak.check();
   CHECK(soak.longest_queue() <= 2);
   CHECK(soak.latest_heartbeat() <= 131us);  // the longest frame: nodes are called between two frames

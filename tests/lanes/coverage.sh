@@ -2,9 +2,10 @@
 about="line and branch coverage of src/ by all doctest cases and the C programs"
 packages=("${build_packages[@]}" gcovr)
 
-# As deployed: asserts off. Not optimised, so that a branch of the report is one of the source.
+# As deployed: asserts off. Not optimised, so that a branch of the report is one of the source. With the mapping of single
+# bits, which is beside that of bytes.
 lane() {
-  local flags="--coverage -O0 -DNDEBUG" program=$build/coverage/tests/lexican_tests
+  local flags="--coverage -O0 -DNDEBUG -DUSE_PDO_BITS=1" program=$build/coverage/tests/lexican_tests
   build_tree coverage -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" || return
   find "$build/coverage" -name '*.gcda' -delete
   run_doctest coverage "$program"

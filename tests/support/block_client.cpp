@@ -32,20 +32,7 @@ CO_IF_FRM initiate(std::uint8_t command, std::uint16_t index, std::uint8_t sub) 
   return frm;
 }
 
-bool is_blksize(std::uint8_t blksize) { return blksize >= 1 && blksize <= 127; }
-
 }  // namespace
-
-std::uint16_t crc_by_bits(const Bytes& data) {
-  unsigned crc = 0;
-  for (const std::uint8_t byte : data) {
-    crc ^= static_cast<unsigned>(byte) << 8;
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      crc = (crc & 0x8000U) != 0 ? (crc << 1) ^ 0x1021U : crc << 1;
-    }
-  }
-  return static_cast<std::uint16_t>(crc);
-}
 
 // The bus ------------------------------------------------------------------------------------------------------------
 
@@ -194,7 +181,7 @@ void BlockClient::send_block(const Bytes& data, std::size_t first, std::size_t e
 bool BlockClient::end_download(const Bytes& data) {
   const std::size_t unused = data.empty() ? 7 : (7 - data.size() % 7) % 7;
   CO_IF_FRM frm = request(static_cast<std::uint8_t>(0xC1U | (unused << 2)));
-  CO_SET_WORD(&frm, has_crc_ ? crc_by_bits(data) ^ options_.crc_error : 0U, 1);
+  CO_SET_WORD(&frm, has_crc_ ? crc_16(data) ^ options_.crc_error : 0U, 1);
   for (unsigned n = 0; n < patience; ++n) {
     send(frm);
     if (!next()) {
@@ -304,7 +291,7 @@ bool BlockClient::end_upload() {
   if (sized_ && result_.data.size() != size_) {
     return give_up(wrong_length);
   }
-  if (has_crc_ && CO_GET_WORD(&answer_, 1) != crc_by_bits(result_.data)) {
+  if (has_crc_ && CO_GET_WORD(&answer_, 1) != crc_16(result_.data)) {
     return give_up(wrong_crc);
   }
   send(request(0xA1));

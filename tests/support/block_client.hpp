@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "block.hpp"
 #include "co_core.h"
 
 namespace test {
@@ -90,8 +91,5 @@ class BlockClient {
   std::uint32_t size_ = 0;
   BlockResult result_;
 };
-
-/// [301:7.2.4.3.16]
-std::uint16_t crc_by_bits(const Bytes& data);
 
 }  // namespace test

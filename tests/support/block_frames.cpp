@@ -62,7 +62,7 @@ void expect_last_ack(Fixture& node, unsigned ackseq, Where at) {
 CO_IF_FRM block_end(std::uint32_t identifier, const Bytes& data) {
   const std::size_t unused = data.empty() ? 7 : (7 - data.size() % 7) % 7;
   CO_IF_FRM frm{identifier, {static_cast<std::uint8_t>(0xC1U | (unused << 2))}, 8};
-  CO_SET_WORD(&frm, crc_by_bits(data), 1);
+  CO_SET_WORD(&frm, crc_16(data), 1);
   return frm;
 }
 

@@ -38,10 +38,11 @@ class EmcyNode : private EmcyObjects, public Fixture {
   void clr(std::uint8_t err, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { COEmcyClr(&node.Emcy, err); }, at);
   }
-  void raise(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
+  // Not raise(): that is what doctest calls in CHECK() where there is no debugger instruction.
+  void raise_fault(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { co::event::raise(node, fault, detail); }, at);
   }
-  void resolve(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
+  void resolve_fault(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { co::event::resolve(node, fault, detail); }, at);
   }
   void can_event(CO_CAN_EVENT event, Where at = {__builtin_FILE(), __builtin_LINE()}) {

@@ -100,6 +100,22 @@ class SdoClient : public ClientEntries, public Fixture {
   unsigned in_callback_ = 0;
 };
 
+/// The client works: it reads 2001h.
+inline void check_asks(SdoClient& node) {
+  node.start_upload(0x2001, 0, 4);
+  node.tx("605#4001200000000000");
+  node.rx("585#4F01200011000000");
+  node.has_read({0x11});
+}
+
+/// The same with these COB-IDs, from 2000h:05.
+inline void check_asks(SdoClient& node, const std::string& tx, const std::string& rx) {
+  node.start_upload(0x2000, 5, 4);
+  node.tx(tx + "#4000200500000000");
+  node.rx(rx + "#4F00200511000000");
+  node.has_read({0x11});
+}
+
 }  // namespace test
 
 #endif

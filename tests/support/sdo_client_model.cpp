@@ -132,7 +132,7 @@ std::optional<SdoBytes> SdoClientModel::answer(const SdoBytes& response) {
   if (state_ == State::block_upload_end && is_last_again(response) && !is_right_end(response)) {
     return std::nullopt;
   }
-  return (response[0] >> 5) == 4 ? aborted(response) : answer_in_state(response);
+  return response[0] == 0x80 ? aborted(response) : answer_in_state(response);
 }
 
 SdoClientModel::Answer SdoClientModel::answer_in_state(const SdoBytes& response) {
@@ -143,7 +143,11 @@ SdoClientModel::Answer SdoClientModel::answer_in_state(const SdoBytes& response)
     case State::download: return (command & 0xEFU) == 0x20 ? segment_taken(response) : give_up(unknown_command);
     case State::block_upload_end:
       return (command & 0xE3U) == 0xC1 ? end_block_upload(response) : give_up(unknown_command);
-    case State::block_download: return command == 0xA2 ? block_taken(response) : give_up(unknown_command);
+    case State::block_download:
+      if ((command & 0xFBU) == 0xA0) {  // repeated by a server that has waited for the segments
+        return std::nullopt;
+      }
+      return command == 0xA2 ? block_taken(response) : give_up(unknown_command);
     case State::block_download_end: return command == 0xA1 ? finish(0) : give_up(unknown_command);
     default: return give_up(unknown_command);
   }
@@ -358,8 +362,9 @@ std::optional<SdoBytes> SdoClientModel::segment() {
 
 SdoClientModel::Answer SdoClientModel::block_taken(const SdoBytes& response) {
   const std::size_t ackseq = response[1];
-  if (ackseq > seq_) {
-    return give_up(wrong_sequence);
+  if (ackseq > seq_) {  // a server that has waited for the segments acknowledges those of the block before again
+    const bool is_whole = seq_ == blksize_ || last_sent_;
+    return done_ != 0 && !is_whole ? std::nullopt : give_up(wrong_sequence);
   }
   if (response[2] == 0 || response[2] > largest_block) {
     return give_up(wrong_blksize);

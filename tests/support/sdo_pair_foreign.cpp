@@ -32,7 +32,7 @@ CO_IF_FRM segment_of(const Bytes& data, std::size_t position, unsigned number, s
 
 CO_IF_FRM end_of(const Bytes& data, std::uint32_t identifier) {
   CO_IF_FRM frm{identifier, {static_cast<std::uint8_t>(0xC1U | (unused_in(data) << 2U))}, 8};
-  const std::uint16_t crc = crc_by_bits(data);
+  const std::uint16_t crc = crc_16(data);
   CO_SET_WORD(&frm, crc, 1);
   return frm;
 }
@@ -154,7 +154,7 @@ void ForeignServer::end_download(const CO_IF_FRM& request) {
   data_.resize(data_.size() - unused);
   if (data_.size() != size_) {
     abort(request, wrong_length);
-  } else if (CO_GET_WORD(&request, 1) != crc_by_bits(data_)) {
+  } else if (CO_GET_WORD(&request, 1) != crc_16(data_)) {
     abort(request, wrong_crc);
   } else {
     object = data_;
@@ -293,7 +293,7 @@ std::uint32_t ForeignClient::end_upload(std::uint32_t size) {
   if (data.size() != size) {
     return give_up(wrong_length);
   }
-  if (CO_GET_WORD(&answer_, 1) != crc_by_bits(data)) {
+  if (CO_GET_WORD(&answer_, 1) != crc_16(data)) {
     return give_up(wrong_crc);
   }
   send(0xA1);

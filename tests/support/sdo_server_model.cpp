@@ -28,17 +28,6 @@ std::uint32_t number_in(const SdoBytes& frame, std::size_t first) {
 
 }  // namespace
 
-std::uint16_t crc_16(const Bytes& data) {
-  unsigned crc = 0;
-  for (const std::uint8_t byte : data) {
-    crc ^= static_cast<unsigned>(byte) << 8;
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      crc = (crc & 0x8000U) != 0 ? (crc << 1) ^ 0x1021U : crc << 1;
-    }
-  }
-  return static_cast<std::uint16_t>(crc);
-}
-
 // A text ends at its first NUL. A transfer that was cut off within a character leaves only whole ones.
 Bytes SdoObject::shown() const {
   auto end = kind == Kind::text ? std::find(value.begin(), value.end(), 0) : value.end();

@@ -15,14 +15,13 @@
 #include <optional>
 #include <vector>
 
+#include "block.hpp"
+
 namespace test {
 
 using Bytes = std::vector<std::uint8_t>;
 using SdoBytes = std::array<std::uint8_t, 8>;
 using SdoKey = std::array<std::uint8_t, 3>;  ///< multiplexer as in a frame
-
-/// CRC-16-CCITT from 0, bit by bit. [301:7.2.4.3.16] [D14]
-std::uint16_t crc_16(const Bytes& data);
 
 /// What an object looks like from the network.
 struct SdoObject {

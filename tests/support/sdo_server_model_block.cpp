@@ -15,8 +15,6 @@ constexpr std::uint32_t too_long = 0x06070012;
 
 constexpr std::size_t segment_bytes = 7;
 
-constexpr bool is_blksize(std::uint8_t blksize) { return blksize >= 1 && blksize <= 127; }
-
 }  // namespace
 
 // Block download. data_ are all bytes so far, of which the object has got done_. -------------------------------------
