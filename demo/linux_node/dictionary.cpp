@@ -49,6 +49,8 @@ constexpr const CO_OBJ_TYPE* CO_TFIGURE = &figure_type;
 
 std::uint8_t error_register = 0;
 std::uint16_t heartbeat_time = 1000;  // ms
+std::uint16_t guard_time = 0;         // ms; the node may be guarded while it has no heartbeat time
+std::uint8_t life_time_factor = 0;
 std::uint8_t history_number = 0;
 std::uint32_t history[4] = {};
 std::uint32_t sync_id = CO_COBID_SYNC_STD(0, 0x80);
@@ -87,6 +89,8 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&device_name)},
     {CO_KEY(0x1009, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&hardware_version)},
     {CO_KEY(0x100A, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&software_version)},
+    {CO_KEY(0x100C, 0, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&guard_time)},
+    {CO_KEY(0x100D, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&life_time_factor)},
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&heartbeat_time)},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(4)},
@@ -126,6 +130,8 @@ CO_OD_CHECK(od);
 
 Table clock_dictionary() { return {const_cast<CO_OBJ*>(od), static_cast<std::uint16_t>(std::size(od))}; }
 
+std::uint16_t clock_heartbeat_time() { return heartbeat_time; }
+
 Errors clock_errors() { return {errors, static_cast<std::uint16_t>(std::size(errors))}; }
 
 trace::Mappings clock_mappings() {
@@ -145,6 +151,8 @@ const trace::Names& clock_object_names() {
       {0x1008, 0, "device name", Form::characters},
       {0x1009, 0, "hardware version", Form::characters},
       {0x100A, 0, "software version", Form::characters},
+      {0x100C, 0, "guard time in ms", Form::decimal},
+      {0x100D, 0, "life time factor", Form::decimal},
       {0x1014, 0, "COB-ID EMCY", Form::hex},
       {0x1017, 0, "heartbeat time in ms", Form::decimal},
       {0x1018, 0, "identity, highest sub-index", Form::decimal},

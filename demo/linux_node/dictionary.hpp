@@ -13,6 +13,9 @@ extern TimeOfDay clock_time;
 
 Table clock_dictionary();
 
+/// 1017h in ms; 0: no heartbeats.
+std::uint16_t clock_heartbeat_time();
+
 /// Hour, minute and second that no clock shows.
 Errors clock_errors();
 

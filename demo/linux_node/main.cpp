@@ -8,6 +8,8 @@
 
 #include "host/linux_host.hpp"
 #include "linux_node/clock.hpp"
+#include "linux_node/dictionary.hpp"
+#include "linux_node/heartbeat_watch.hpp"
 #include "linux_node/options.hpp"
 #include "linux_node/tour.hpp"
 #include "linux_node/view.hpp"
@@ -17,6 +19,7 @@ namespace demo {
 namespace {
 
 constexpr const char* default_interface = "vcan0";
+constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 
 /// The bus to use, and why; or no host, and what is wrong.
 struct Bus {
@@ -81,7 +84,7 @@ class FaultReport {
   std::uint32_t frames_ = 0;
 };
 
-int serve(Host& host, Clock& clock, View& view) {
+int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view) {
   if (!clock.start()) {
     view.line(text("The node does not start: error %04Xh", static_cast<unsigned>(clock.node().error())));
     return exit_failed;
@@ -94,6 +97,7 @@ int serve(Host& host, Clock& clock, View& view) {
   }
   view.line("\nThe end");
   show_counters(clock.node().counters(), view);
+  view.note("", text("%u heartbeats, the latest %u us after its time", heartbeats.number(), heartbeats.latest()));
   return exit_ok;
 }
 
@@ -110,9 +114,17 @@ int run(const Options& options) {
   view.line(text("Node: the demo clock, node-ID %u%s\n", options.node_id, options.serve ? "; Ctrl-C ends it" : ""));
   view.columns();
   const Micros begin = host.now();
-  Clock clock(options.node_id, host.device_can(), host.device_timer(),
-              [&](bool received, const CO_IF_FRM& frame) { view.frame(host.now() - begin, received, frame); });
-  return options.serve ? serve(host, clock, view) : show_tour(host, clock, options, view);
+  const Timer timer = host.device_timer();
+  HeartbeatWatch heartbeats(options.node_id);
+  Clock clock(options.node_id, host.device_can(), timer, [&](bool received, const CO_IF_FRM& frame) {
+    if (!received) {
+      heartbeats.sent(frame, timer.driver->Now(timer.context), clock_heartbeat_time() * ticks_per_millisecond);
+    }
+    if (!options.quiet) {
+      view.frame(host.now() - begin, received, frame);
+    }
+  });
+  return options.serve ? serve(host, clock, heartbeats, view) : show_tour(host, clock, options, view);
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ CommandLine read_command_line(int argc, char** argv) {
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
       ->excludes(can)
       ->excludes(serve);
-  app.add_flag("--every-frame", options.every_frame, "Show all frames of long transfers");
+  auto* const quiet = app.add_flag("--quiet", options.quiet, "Show no frames");
+  app.add_flag("--every-frame", options.every_frame, "Show all frames of long transfers")->excludes(quiet);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -16,6 +16,7 @@ struct Options {
   bool serve = false;
   bool virtual_bus = false;
   bool every_frame = false;
+  bool quiet = false;
 };
 
 struct CommandLine {

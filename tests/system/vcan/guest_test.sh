@@ -4,8 +4,9 @@
 # candump's notation.
 
 node=lexican-demo-node
+latest_heartbeat=50000  # ticks of the node, which are microseconds: 5 % of its heartbeat time
 master=lexican-demo-master
-heartbeat=705 request=605 response=585  # of node-ID 5
+heartbeat=705 request=605 response=585 emcy=085 tpdo=185 rpdo=205 sync=080  # of node-ID 5
 cases=0
 
 verdict() {  # STATUS NAME DETAIL
@@ -19,14 +20,16 @@ verdict() {  # STATUS NAME DETAIL
 
 listeners() { grep -ci " $1 " /proc/net/can/rcvlist_sff; }  # CAN-ID
 
-# Data frames of one CAN-ID are recorded from listen until expect. Nothing is lost between the two, however slow the
+# Data frames of some CAN-IDs are recorded from listen until expect. Nothing is lost between the two, however slow the
 # machine is: listen returns when the kernel knows the listener, which has room for the frames of a long transfer.
-listen() {  # CAN-ID NUMBER [MILLISECONDS]
-  others=$(listeners "$1")
-  candump -L "vcan0,$1:C00007FF" -r 8000000 -n "$2" -T "${3:-5000}" >/tmp/heard &
+listen() {  # "CAN-ID..." NUMBER [MILLISECONDS]
+  others=$(listeners "${1##* }")
+  filters=
+  for id in $1; do filters=$filters,$id:C00007FF; done
+  candump -L "vcan0$filters" -r 8000000 -n "$2" -T "${3:-5000}" >/tmp/heard &
   listener=$!
   tries=500
-  until [ "$(listeners "$1")" -gt "$others" ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+  until [ "$(listeners "${1##* }")" -gt "$others" ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
 }
 
 # Compares what was heard since listen: the frames without time and interface, in one line.
@@ -177,6 +180,83 @@ reboot "NMT reset node: boot-up" 8105
 reboot "NMT reset communication: boot-up" 8205
 nmt "NMT start after a reset" 0105 05
 
+# --- PDOs: RPDO1 sets the clock, TPDO1 tells the time when it changes.
+
+listen $tpdo 3
+cansend vcan0 $rpdo#0C2238
+expect "RPDO1 sets the clock to 12:34:56, TPDO1 tells it" "*$tpdo#0C223[89]*"
+sdo "and SDO reads the hour" 4000210100000000 4F0021010C000000
+listen $emcy 2
+cansend vcan0 $rpdo#180000
+cansend vcan0 $rpdo#0C2238
+expect "RPDO1 with hour 24: EMCY 6300h; then a right one: 0000h" "$emcy#0063810118000000 $emcy#0000000000000000"
+listen $emcy 2
+cansend vcan0 $rpdo#0102
+cansend vcan0 $rpdo#0C2238
+expect "RPDO1 with 2 bytes of 3: EMCY 8210h; then a right one: 0000h" "$emcy#108211* $emcy#000000*"
+
+# --- SYNC
+
+sdo "TPDO1 with every SYNC" 2F00180201000000 6000180200000000
+listen $tpdo 1 2500
+expect "no SYNC: no TPDO1, whatever the time is" ""
+listen $tpdo 3 1500
+cansend vcan0 $sync#
+usleep 200000
+cansend vcan0 $sync#
+expect "two SYNC messages: TPDO1 twice" "$tpdo#?????? $tpdo#??????"
+sdo "RPDO1 with the next SYNC" 2F00140201000000 6000140200000000
+cansend vcan0 $rpdo#070809
+sdo "before the SYNC: still 12 hours" 4000210100000000 4F0021010C000000
+cansend vcan0 $sync#
+sdo "after the SYNC: 7 hours" 4000210100000000 4F00210107000000
+sdo "SYNC each 250 ms" 2306100090D00300 6006100000000000
+listen "$sync $tpdo" 6
+cansend vcan0 $request#2305100080000040
+expect "the node produces SYNC, and TPDO1 follows each" \
+  "$sync# $tpdo#?????? $sync# $tpdo#?????? $sync# $tpdo#??????"
+sdo "no SYNC any more" 2305100080000000 6005100000000000
+listen $sync 1 1000
+expect "and none comes" ""
+sdo "RPDO1 at once" 2F001402FF000000 6000140200000000
+sdo "TPDO1 when the time changes" 2F001802FF000000 6000180200000000
+
+# --- Node guarding
+
+guard() {  # NAME EXPECTED-PATTERN: answers to four requests
+  listen $heartbeat 4 1000
+  for n in 1 2 3 4; do
+    cansend vcan0 $heartbeat#R
+    usleep 100000
+  done
+  expect "$1" "$2"
+}
+
+sdo "guard time 200 ms" 2B0C1000C8000000 600C100000000000
+sdo "life time factor 3" 2F0D100003000000 600D100000000000
+listen $heartbeat 1
+expect "a heartbeat; the next comes in a second" "$heartbeat#05"
+listen $heartbeat 1 500
+cansend vcan0 $heartbeat#R
+expect "the heartbeat wins: no answer to a remote frame" ""
+sdo "no heartbeat" 2B17100000000000 6017100000000000
+guard "node guarding: the toggle bit changes" "$heartbeat#05 $heartbeat#85 $heartbeat#05 $heartbeat#85"
+listen $emcy 1
+expect "life guarding: EMCY 8130h when nobody asks for 600 ms" "$emcy#308111*"
+listen "$heartbeat $emcy" 2
+cansend vcan0 $heartbeat#R
+expect "the node is in pre-operational; the next request ends the error" "$heartbeat#7F $emcy#000000*"
+listen $heartbeat 1
+cansend vcan0 000#8205
+expect "reset communication: boot-up" "$heartbeat#00"
+guard "node guarding after a reset: the toggle bit begins with 0" \
+  "$heartbeat#7F $heartbeat#FF $heartbeat#7F $heartbeat#FF"
+sdo "no life guarding" 2F0D100000000000 600D100000000000
+sdo "a heartbeat again" 2B171000E8030000 6017100000000000
+nmt "NMT start after guarding" 0105 05
+
+# --- Floods
+
 cangen vcan0 -g 0 -p 10 -n 20000 -I 123 -L 8
 sdo "a flood of 20000 foreign frames is survived" 4018100000000000 4F18100004000000
 # What random NMT and SDO frames have done is undone by the reset.
@@ -240,6 +320,40 @@ says "master: the node goes on" "From a file" --index 0x2201 --type string read
 kill -TERM $server
 wait $server
 verdict $? "SIGTERM ends the node with status 0" "status $?"
+
+# --- Half a minute at full speed: all identifiers, lengths and kinds of frames, and many for the node itself. How late
+# its heartbeats are the node tells in ticks of its own clock, counted from the boot-up message. Seven programs share
+# one processor, so it has to wait for its turn.
+
+flood() {  # ARGUMENT... of cangen
+  timeout 30 cangen vcan0 -g 0 -p 10 "$@" &
+  floods="$floods $!"
+}
+
+listen $heartbeat 1
+$node --can vcan0 --node-id 5 --serve --quiet >/tmp/end 2>&1 &
+server=$!
+expect "another node boots" "$heartbeat#00"
+nmt "NMT start before the flood" 0105 05
+floods=
+flood -I i -L i -D r
+flood -I r -L r -D r -e
+flood -I i -L i -R
+flood -I r -L r -e -R
+flood -I $rpdo -L r -D r
+flood -I $request -L r -D r
+for process in $floods; do wait "$process"; done
+reboot "30 s of cangen at full speed are survived" 8105
+sdo "and the node answers" 4018100200000000 431810020CC10000
+kill -TERM $server
+wait $server
+told=$(sed -n 's/^ *\([0-9]*\) heartbeats, the latest \([0-9]*\) us after its time$/\1 \2/p' /tmp/end)
+[ "${told% *}" -ge 29 ] && [ "${told#* }" -le $latest_heartbeat ]
+verdict $? "no heartbeat was later than $latest_heartbeat ticks" "$(cat /tmp/end)"
+received=$(sed -n 's/.*node *\([0-9]*\) frames received.*/\1/p' /tmp/end)
+[ "${received:-0}" -ge 10000 ]
+verdict $? "and many frames were for the node" "$(cat /tmp/end)"
+cat /tmp/end
 
 # Without arguments the demo takes vcan0 by itself.
 $node >/tmp/tour 2>&1 && grep -q "steps in .* all as expected" /tmp/tour && head -n 1 /tmp/tour | grep -q vcan0

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "linux_node/heartbeat_watch.hpp"
+
+#include <algorithm>
+
+namespace demo {
+namespace {
+
+constexpr std::uint8_t boot_up = 0;
+
+}  // namespace
+
+// Answers to node guarding look the same, but come only while there is no heartbeat.
+void HeartbeatWatch::sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period) {
+  if (frame.Identifier != identifier_) {
+    return;
+  }
+  if (frame.Data[0] == boot_up || period != period_ || period == 0) {
+    period_ = period;
+    due_ = tick + period;
+    return;
+  }
+  const auto late = static_cast<std::int32_t>(tick - due_);
+  latest_ = std::max(latest_, static_cast<std::uint32_t>(std::max(late, 0)));
+  due_ += period;
+  ++number_;
+}
+
+}  // namespace demo

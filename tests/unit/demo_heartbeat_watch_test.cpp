@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_cfg.h"
+
+#if USE_CSDO  // which the demo's master needs
+#include <doctest/doctest.h>
+
+#include "linux_node/heartbeat_watch.hpp"
+#include "support/notation.hpp"
+
+using demo::HeartbeatWatch;
+using test::frame;
+
+TEST_CASE("demo heartbeats: each is due a whole number of heartbeat times after the boot-up [301:7.2.8.2.2.1]") {
+  HeartbeatWatch watch(5);
+  watch.sent(frame("705#00"), 0xFFFFFF00, 1000);  // the clock wraps soon
+  CHECK(watch.number() == 0);
+  watch.sent(frame("705#7F"), 0xFFFFFF00u + 1000, 1000);
+  CHECK(watch.latest() == 0);
+  watch.sent(frame("705#7F"), 0xFFFFFF00u + 2030, 1000);
+  CHECK(watch.latest() == 30);
+  watch.sent(frame("705#05"), 0xFFFFFF00u + 3020, 1000);
+  CHECK(watch.latest() == 30);
+  CHECK(watch.number() == 3);
+}
+
+TEST_CASE("demo heartbeats: one that is left out makes the next one late") {
+  HeartbeatWatch watch(5);
+  watch.sent(frame("705#00"), 0, 1000);
+  watch.sent(frame("705#7F"), 1000, 1000);
+  watch.sent(frame("705#7F"), 3000, 1000);
+  CHECK(watch.latest() == 1000);
+}
+
+TEST_CASE("demo heartbeats: another heartbeat time and a reset begin anew") {
+  HeartbeatWatch watch(5);
+  watch.sent(frame("705#00"), 0, 1000);
+  watch.sent(frame("705#7F"), 1000, 1000);
+  watch.sent(frame("705#7F"), 5555, 500);
+  watch.sent(frame("705#7F"), 6056, 500);
+  watch.sent(frame("705#00"), 9999, 500);
+  watch.sent(frame("705#7F"), 10501, 500);
+  CHECK(watch.latest() == 2);
+  CHECK(watch.number() == 3);
+}
+
+TEST_CASE("demo heartbeats: other frames, and answers to node guarding, are none") {
+  HeartbeatWatch watch(5);
+  watch.sent(frame("705#00"), 0, 0);
+  watch.sent(frame("705#7F"), 1000, 0);
+  watch.sent(frame("705#FF"), 5000, 0);
+  watch.sent(frame("706#7F"), 9000, 1000);
+  watch.sent(frame("085#0081110000000000"), 9000, 1000);
+  CHECK(watch.number() == 0);
+  CHECK(watch.latest() == 0);
+}
+
+#endif
