@@ -12,13 +12,20 @@
 namespace fuzz {
 
 /// Bytes of chance. Behind the end all are 0, so that everything that depends on them comes to rest.
+/// What is asked for beside the course of things, while an Aside lives, comes from the end: the rest means the same,
+/// however often that happens.
 class Input {
  public:
   Input() = default;
   Input(const std::uint8_t* data, std::size_t size) : next_(data), end_(data + size) {}
 
   bool is_empty() const { return next_ == end_; }
-  std::uint8_t byte() { return is_empty() ? std::uint8_t{0} : *next_++; }
+  std::uint8_t byte() {
+    if (is_empty()) {
+      return 0;
+    }
+    return asides_ == 0 ? *next_++ : *--end_;
+  }
   std::uint32_t below(std::size_t limit) { return static_cast<std::uint32_t>(byte() % limit); }  ///< limit: 1…256
   bool flag() { return (byte() & 1U) != 0; }
   std::uint16_t word() {
@@ -31,8 +38,21 @@ class Input {
   }
 
  private:
+  friend class Aside;
   const std::uint8_t* next_ = nullptr;
   const std::uint8_t* end_ = nullptr;
+  unsigned asides_ = 0;
+};
+
+class Aside {
+ public:
+  explicit Aside(Input& input) : input_(input) { ++input_.asides_; }
+  ~Aside() { --input_.asides_; }
+  Aside(const Aside&) = delete;
+  Aside& operator=(const Aside&) = delete;
+
+ private:
+  Input& input_;
 };
 
 /// Ends the program, which is a finding.

@@ -15,6 +15,7 @@
 
 #include "co_core.h"
 #include "fuzz/fuzz.hpp"
+#include "fuzz/node_network.hpp"
 #include "fuzz/node_objects.hpp"
 #include "support/invariants.hpp"
 
@@ -93,19 +94,26 @@ class Bench {
 
   // From callbacks and type functions: perhaps does something with the node.
   void meddle() {
+    const fuzz::Aside aside(input_);
     const std::uint8_t byte = input_.byte();
     if ((byte & 0x80U) != 0 && depth_ < max_depth) {
       act(byte);
     }
   }
   CO_ERR mood() {
+    const fuzz::Aside aside(input_);
     meddle();
     return input_.below(8) == 7 ? CO_ERR_TYPE_WR : CO_ERR_NONE;
   }
-  std::uint32_t chance(std::uint32_t limit) { return input_.below(limit); }
+  std::uint32_t chance(std::uint32_t limit) {
+    const fuzz::Aside aside(input_);
+    return input_.below(limit);
+  }
 
   void lock() { require(!std::exchange(locked_, true), "locks do not nest"); }
   void unlock() { require(std::exchange(locked_, false), "a lock is given back once"); }
+  void lock_objects() { require(!std::exchange(objects_locked_, true), "locks of the objects do not nest"); }
+  void unlock_objects() { require(std::exchange(objects_locked_, false), "a lock of the objects is given back once"); }
 
  private:
   using Action = void (Bench::*)();
@@ -126,12 +134,17 @@ class Bench {
       ext_.Timer = timer_driver_ == TimerDriver::clock ? &clock_with_alarm : &clock_alone;
     }
     drivers_.Timer = timer_driver_ == TimerDriver::delta ? &delta : &cyclic;
+    if ((bits & 128U) != 0) {
+      ext_.OdLock = [](void*) { bench->lock_objects(); };
+      ext_.OdUnlock = [](void*) { bench->unlock_objects(); };
+    }
+    ext_.EmcyNum = fuzz::network_errors;
     sdo_buffer_ = (bits & 64U) != 0 ? std::make_unique<std::uint8_t[]>(CO_SSDO_N * CO_SDO_BUF_BYTE) : nullptr;
   }
 
   void init() {
     const auto length = static_cast<std::uint16_t>(table_.size());
-    const CO_NODE_SPEC spec{first_node_id, 250000,     table_.data(), length,    nullptr,
+    const CO_NODE_SPEC spec{first_node_id, 250000,     table_.data(), length,    fuzz::errors(),
                             timers_,       own_timers, frequency,     &drivers_, sdo_buffer_.get()};
     forget_requests();
     ++depth_;  // type functions call the stack
@@ -170,15 +183,22 @@ class Bench {
   }
 
   CO_IF_FRM any_frame(std::uint8_t kind) {
-    constexpr std::uint32_t identifiers[] = {0x605, 0x685, 0x000, 0x587, 0x705, 0x588, 0x605, 0x605};
+    constexpr std::uint32_t rtr = CO_IF_FRM_RTR;
+    constexpr std::uint32_t identifiers[] = {
+        0x605, 0x685, 0x000, 0x587, 0x705, 0x588,       0x605,       0x605,  //
+        0x080, 0x080, 0x205, 0x305, 0x405, 0x505,       0x709,       0x100,  //
+        0x70A, 0x089, 0x205, 0x305, 0x405, 0x705 | rtr, 0x185 | rtr, 0x385 | rtr,
+    };
     CO_IF_FRM frame{};
-    frame.Identifier = (kind & 0x18U) == 0x18U ? input_.number() : identifiers[kind & 7U];
-    frame.DLC = (kind & 0x60U) == 0x60U ? input_.byte() : frame.Identifier == 0 ? 2 : 8;
+    frame.Identifier = (kind & 0x18U) == 0x18U ? input_.number() : identifiers[kind & 0x1FU];
+    frame.DLC = (kind & 0x60U) == 0x60U ? input_.byte() : network_.usual_length(frame.Identifier);
     for (std::uint8_t& byte : frame.Data) {
       byte = input_.byte();
     }
-    if ((kind & 0xC0U) == 0x40U) {
+    if ((kind & 0xE0U) == 0x40U) {
       name_object(frame);
+    } else if ((kind & 0xE0U) == 0x60U) {
+      fuzz::Network::name_object(frame);
     }
     return frame;
   }
@@ -187,8 +207,7 @@ class Bench {
   static void name_object(CO_IF_FRM& frame) {
     constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008, 0x1017, 0x1200,
                                          0x1201, 0x1202, 0x1280, 0x1281, 0x2100};
-    const std::uint16_t index = indices[frame.Data[1] % std::size(indices)];
-    CO_SET_WORD(&frame, index, 1);
+    CO_SET_WORD(&frame, indices[frame.Data[1] % std::size(indices)], 1);
     frame.Data[3] &= 15U;
   }
 
@@ -199,6 +218,8 @@ class Bench {
     meddled_ = false;
     std::vector<std::uint32_t> may_change = open_transfers();
     may_change.push_back(CO_DEV(CO_GET_WORD(&frame, 1), frame.Data[3]));
+    const bool may_be_pdo = network_.may_be_pdo(frame);
+    const std::vector<std::uint32_t> mapped = may_be_pdo ? network_.written_by_pdos() : std::vector<std::uint32_t>{};
     const std::uint64_t sent = bus_.sent;
     const std::size_t waiting = node_.TxQueue.Num;
     ++depth_;
@@ -208,12 +229,16 @@ class Bench {
       return;
     }
     constexpr unsigned channels = CO_SSDO_N + CO_CSDO_N;
-    require(bus_.sent - sent <= waiting + channels * (1U + longest_block), "a frame has a bounded number of answers");
+    constexpr unsigned answers = channels * (1U + longest_block) + CO_TPDO_N + CO_EMCY_QUEUE_N + 2U;
+    require(bus_.sent - sent <= waiting + answers, "a frame has a bounded number of answers");
     for (const std::uint32_t dev : memory_.changed()) {
       if (dev == CO_DEV(0x1001, 0)) {  // the node itself writes it
         continue;
       }
       require(!memory_.is_read_only(dev), "what is read-only does not change");
+      if (std::find(mapped.begin(), mapped.end(), dev) != mapped.end()) {
+        continue;
+      }
       const bool may = std::find(may_change.begin(), may_change.end(), dev) != may_change.end();
       require(may && frame.DLC >= 8, "an object changes by its download only");
     }
@@ -242,7 +267,11 @@ class Bench {
     };
     ++depth_;
     meddled_ = true;
-    (this->*actions[(kind & 31U) % std::size(actions)])();
+    if (kind >= 0xE0) {
+      network_.act(kind);
+    } else {
+      (this->*actions[(kind & 31U) % std::size(actions)])();
+    }
     --depth_;
   }
 
@@ -408,9 +437,10 @@ class Bench {
 
   void pass(std::uint32_t ticks) {
     const std::uint64_t end = clock_.now + ticks;
-    while (clock_.now < end) {
+    const unsigned turns = input_.byte();  // the loop's, among eight interrupts
+    for (unsigned n = 0; clock_.now < end; ++n) {
       to_next_interrupt(end);
-      if (is_outermost() && input_.flag()) {
+      if (is_outermost() && (turns >> n % 8U & 1U) != 0) {
         COTmrProcess(&node_.Tmr);
         CONodeProcess(&node_);
       }
@@ -449,14 +479,15 @@ class Bench {
   // What must hold -----------------------------------------------------------
 
   void check() const {
-    require(!locked_, "no lock is left");
+    require(!locked_ && !objects_locked_, "no lock is left");
     require(node_.Busy == 0 && node_.Pending == 0, "nothing is left to be done");
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
     require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");
     require(timers_in_lists() <= most_timers, "no timer is in two lists");
     for (const CO_SDO& server : node_.Sdo) {
-      require(server.State == 0 || server.Obj != nullptr, "an open transfer has an object");
+      require(server.State == 0 || server.Obj != nullptr || fuzz::source.has_moved,
+              "an open transfer has an object, unless that has moved");
     }
     for (std::size_t n = 0; n < std::size(requests_) && node_.Nmt.Mode != CO_INVALID; ++n) {
       const bool is_busy = node_.CSdo[n].State == CO_CSDO_STATE_BUSY;
@@ -472,7 +503,7 @@ class Bench {
 
   unsigned timers_in_lists() const {
     unsigned number = 0;
-    for (const CO_TMR_MEM* list : {node_.Tmr.Use, node_.Tmr.Due, node_.Tmr.Run}) {
+    for (const CO_TMR_MEM* list : {node_.Tmr.Use.First, node_.Tmr.Due.First}) {
       for (; list != nullptr && number <= most_timers; list = list->Next) {
         ++number;
       }
@@ -488,6 +519,7 @@ class Bench {
     }
     forget_transfers();
     restore_table();
+    network_.forget();
     objects_.cob_id[0] = 0x600;
     objects_.cob_id[1] = 0x580;
     objects_.cob_id[2] = objects_.cob_id[3] = CO_SDO_ID_OFF;
@@ -505,6 +537,7 @@ class Bench {
 
   void forget_transfers() {
     bus_.to_node.clear();
+    CONodeProcess(&node_);     // what has waited for the controller is sent
     COTmrProcess(&node_.Tmr);  // what has elapsed must not wait for the next interrupt
     const std::uint64_t end = clock_.now + patience;
     while (clock_.now < end) {
@@ -540,8 +573,21 @@ class Bench {
                        [&](const CO_SDO& server) { return server.TxId == frame.Identifier; });
   }
 
+  // An answer to node guarding. [301:7.2.8.3.2.1]
+  CO_IF_FRM without_toggle(const CO_IF_FRM& frame) const {
+    CO_IF_FRM plain = frame;
+    if (frame.Identifier == 0x700U + node_.NodeId) {
+      plain.Data[0] &= 0x7FU;
+    }
+    return plain;
+  }
+
   // A segment of a block upload looks like anything.
-  std::string fault_of(const CO_IF_FRM& frame) const {
+  std::string fault_of(const CO_IF_FRM& frame) {
+    network_.look();
+    if (network_.is_ours(frame)) {
+      return network_.fault_of(frame);
+    }
     const CO_MODE mode = mode_of(frame);
     const bool may_be_segment = std::any_of(std::begin(node_.Sdo), std::end(node_.Sdo), [&](const CO_SDO& server) {
       return server.TxId == frame.Identifier && server.State != 0;
@@ -553,9 +599,10 @@ class Bench {
   std::int16_t take(const CO_IF_FRM& frame) {
     if (bus_.refusals > 0) {
       --bus_.refusals;
+      const fuzz::Aside aside(input_);
       return input_.flag() ? std::int16_t{-1} : std::int16_t{0};
     }
-    const std::string fault = fault_of(frame);
+    const std::string fault = fault_of(without_toggle(frame));
     require(fault.empty(), fault);
     require(bus_.is_on, "nothing is sent while off the bus");
     ++bus_.sent;
@@ -636,6 +683,7 @@ class Bench {
   TimerDriver timer_driver_ = TimerDriver::clock;
   bool has_context_ = false;
   bool locked_ = false;
+  bool objects_locked_ = false;
   bool meddled_ = false;  // since the frame: something else than the frame may have changed the node
   unsigned depth_ = 0;
   Clock clock_;
@@ -653,6 +701,7 @@ class Bench {
   CO_IF_DRV drivers_{&can, nullptr, nullptr};
   CO_NODE_EXT ext_{};
   CO_NODE node_;
+  fuzz::Network network_{node_, objects_.network, input_};
 };
 
 }  // namespace
@@ -670,6 +719,16 @@ void COIfCanReceive(CO_IF_FRM* frame) {
   bench->meddle();
 }
 void CONodeCanChange(CO_NODE*, CO_CAN_EVENT) { bench->meddle(); }
+void CONmtHbConsEvent(CO_NMT*, std::uint8_t) { bench->meddle(); }
+void CONmtHbConsChange(CO_NMT*, std::uint8_t, CO_MODE) { bench->meddle(); }
+void CONmtLifeGuardEvent(CO_NMT*, bool) { bench->meddle(); }
+void COPdoTransmit(CO_IF_FRM*) { bench->meddle(); }
+std::int16_t COPdoReceive(CO_IF_FRM*) { return bench->mood() == CO_ERR_NONE ? 0 : 1; }
+void COPdoSyncUpdate(CO_RPDO*) { bench->meddle(); }
+void COPdoUpdate(CO_RPDO*) { bench->meddle(); }
+void COTimeUpdate(CO_NODE*, const CO_TIME_OF_DAY*) { bench->meddle(); }
+void COLedChange(CO_NODE*, std::uint8_t) { bench->meddle(); }
+void COEmcyReceived(CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*) { bench->meddle(); }
 void COTmrLock(void) { bench->lock(); }
 void COTmrUnlock(void) { bench->unlock(); }
 void CONodeFatalError(void) { require(false, "no fatal error"); }

@@ -96,7 +96,7 @@ constexpr CO_OBJ_TYPE_EX source_type = {
 }  // namespace
 
 std::vector<CO_OBJ> dictionary(Objects& o) {
-  return {
+  std::vector<CO_OBJ> table = {
       {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x191)},
       {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&o.error_register)},
       {CO_KEY(0x1008, 0, CO_OBJ_____R_), CO_TSTRING, (CO_DATA)(&o.name)},
@@ -114,36 +114,40 @@ std::vector<CO_OBJ> dictionary(Objects& o) {
       {CO_KEY(0x1281, 1, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.client_tx[1])},
       {CO_KEY(0x1281, 2, CO_OBJ_____RW), CO_TSDO_ID, (CO_DATA)(&o.client_rx[1])},
       {CO_KEY(0x1281, 3, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&o.server_node_id[1])},
-      {CO_KEY(0x2000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&o.u8)},
-      {CO_KEY(0x2000, 1, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)(&o.u16)},
-      {CO_KEY(0x2000, 2, CO_OBJ__N__RW), CO_TUNSIGNED24, (CO_DATA)(&o.u24)},
-      {CO_KEY(0x2000, 3, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&o.u32)},
-      {CO_KEY(0x2000, 4, CO_OBJ_____RW), CO_TUNSIGNED40, (CO_DATA)(&o.u40)},
-      {CO_KEY(0x2000, 5, CO_OBJ_____RW), CO_TUNSIGNED56, (CO_DATA)(&o.u56)},
-      {CO_KEY(0x2000, 6, CO_OBJ_____RW), CO_TUNSIGNED64, (CO_DATA)(&o.u64)},
-      {CO_KEY(0x2000, 7, CO_OBJ_____RW), CO_TSIGNED24, (CO_DATA)(&o.s24)},
-      {CO_KEY(0x2000, 8, CO_OBJ_____RW), CO_TREAL32, (CO_DATA)(&o.real32)},
-      {CO_KEY(0x2000, 9, CO_OBJ_____RW), CO_TREAL64, (CO_DATA)(&o.real64)},
-      {CO_KEY(0x2000, 10, CO_OBJ_____RW), CO_TTIME_OF_DAY, (CO_DATA)(&o.time_of_day)},
-      {CO_KEY(0x2000, 11, CO_OBJ_____RW), CO_TBOOLEAN, (CO_DATA)(&o.boolean)},
+      {CO_KEY(0x2000, 0, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)(&o.u8)},
+      {CO_KEY(0x2000, 1, CO_OBJ____PRW), CO_TUNSIGNED16, (CO_DATA)(&o.u16)},
+      {CO_KEY(0x2000, 2, CO_OBJ__N_PRW), CO_TUNSIGNED24, (CO_DATA)(&o.u24)},
+      {CO_KEY(0x2000, 3, CO_OBJ___APRW), CO_TUNSIGNED32, (CO_DATA)(&o.u32)},
+      {CO_KEY(0x2000, 4, CO_OBJ____PRW), CO_TUNSIGNED40, (CO_DATA)(&o.u40)},
+      {CO_KEY(0x2000, 5, CO_OBJ___APRW), CO_TUNSIGNED56, (CO_DATA)(&o.u56)},
+      {CO_KEY(0x2000, 6, CO_OBJ____PRW), CO_TUNSIGNED64, (CO_DATA)(&o.u64)},
+      {CO_KEY(0x2000, 7, CO_OBJ____PRW), CO_TSIGNED24, (CO_DATA)(&o.s24)},
+      {CO_KEY(0x2000, 8, CO_OBJ____PRW), CO_TREAL32, (CO_DATA)(&o.real32)},
+      {CO_KEY(0x2000, 9, CO_OBJ____PRW), CO_TREAL64, (CO_DATA)(&o.real64)},
+      {CO_KEY(0x2000, 10, CO_OBJ____PRW), CO_TTIME_OF_DAY, (CO_DATA)(&o.time_of_day)},
+      {CO_KEY(0x2000, 11, CO_OBJ____PRW), CO_TBOOLEAN, (CO_DATA)(&o.boolean)},
       {CO_KEY(0x2000, 12, CO_OBJ_______), CO_TUNSIGNED8, (CO_DATA)(&o.no_access)},
-      {CO_KEY(0x2000, 13, CO_OBJ_D___RW), CO_TUNSIGNED32, (CO_DATA)(7)},
-      {CO_KEY(0x2100, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.domain)},
+      {CO_KEY(0x2000, 13, CO_OBJ_D___RW | CO_OBJ____P__), CO_TUNSIGNED32, (CO_DATA)(7)},
+      {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_TDOMAIN, (CO_DATA)(&o.domain)},
       {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.small_domain)},
       {CO_KEY(0x2100, 2, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&o.text)},
       {CO_KEY(0x2100, 3, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.octets)},
       {CO_KEY(0x2100, 4, CO_OBJ_____RW), CO_TUNICODE_STRING, (CO_DATA)(&o.unicode)},
       {CO_KEY(0x2100, 5, CO_OBJ_____RW), CO_TOCTET_STRING, (CO_DATA)(&o.nothing)},
       {CO_KEY(0x2100, 6, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&o.large)},
-      {CO_KEY(0x2200, 0, CO_OBJ_____RW), &short_value_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 0, CO_OBJ___APRW), &short_value_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 1, CO_OBJ_____RW), &stream_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 2, CO_OBJ_____RW), &long_value_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 3, CO_OBJ_____RW), &moody_type, (CO_DATA)(1)},
+      {CO_KEY(0x2200, 3, CO_OBJ____PRW), &moody_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 4, CO_OBJ_____RW), &moody_stream_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 5, CO_OBJ_____RW), &empty_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 6, CO_OBJ_D___RW), CO_TUNSIGNED64, (CO_DATA)(7)},
+      {CO_KEY(0x2200, 6, CO_OBJ_D___RW | CO_OBJ____P__), CO_TUNSIGNED64, (CO_DATA)(7)},
       {CO_KEY(0x2200, 7, CO_OBJ_____RW), &source_type.Type, (CO_DATA)(1)},
   };
+  add_network(table, o.network);
+  std::sort(table.begin(), table.end(),
+            [](const CO_OBJ& left, const CO_OBJ& right) { return CO_GET_DEV(left.Key) < CO_GET_DEV(right.Key); });
+  return table;
 }
 
 }  // namespace fuzz

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "co_core.h"
+#include "fuzz/node_network.hpp"
 
 namespace fuzz {
 
@@ -25,6 +26,7 @@ inline constexpr std::uint32_t large_domain = 2000;  ///< bytes, more than the b
 using Memory = std::unique_ptr<std::uint8_t[]>;
 
 struct Objects {
+  NetworkObjects network;
   std::uint8_t error_register = 0;
   std::uint16_t heartbeat = 0;
   std::uint32_t cob_id[4] = {0x600, 0x580, 0x685, 0x586};

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file node_network.hpp
+/// PDOs, SYNC, TIME, EMCY, error control and NMT of the node under test: their entries of the dictionary, and what an
+/// application and a master do with them.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "co_core.h"
+#include "fuzz/fuzz.hpp"
+
+namespace fuzz {
+
+inline constexpr unsigned network_pdos = 4;  ///< of each direction
+
+struct PdoObjects {
+  std::uint32_t cob_id;
+  std::uint8_t type;
+  std::uint16_t inhibit;
+  std::uint16_t event;
+  std::uint8_t start;
+  std::uint8_t number;
+  std::uint32_t map[8];
+};
+
+struct NetworkObjects {
+  std::uint8_t history_number = 0;
+  std::uint32_t history[3] = {};
+  std::uint32_t sync_id = 0x80;
+  std::uint32_t sync_cycle = 0;   // µs
+  std::uint32_t sync_window = 0;  // µs
+  std::uint8_t sync_counter = 0;
+  std::uint16_t guard_time = 0;
+  std::uint8_t life_time_factor = 0;
+  std::uint32_t time_id = CO_TIME_COBID_CONSUME | 0x100;
+  std::uint32_t emcy_id = 0x80;
+  std::uint16_t emcy_inhibit = 0;
+  std::uint32_t emcy_consumers[2] = {0x81, 0x89};
+  CO_HBCONS heartbeat_consumers[2] = {};
+  std::uint8_t error_behaviour = 0;
+  std::uint32_t startup = CO_NMT_STARTUP_STAY;
+  // None exists, until somebody switches it on.
+  PdoObjects rpdo[network_pdos] = {
+      {0x80000205, 255, 0, 0, 0, 2, {0x20000008, 0x20000110}},
+      {0x80000305, 1, 0, 0, 0, 3, {0x20000320, 0x00050008, 0x20000B08}},
+      {0x80000405, 255, 0, 20, 0, 1, {0x22000020}},
+      {0x80000500, 255, 0, 0, 0, 0, {}},
+  };
+  PdoObjects tpdo[network_pdos] = {
+      {0x80000185, 255, 0, 0, 0, 2, {0x20000008, 0x20000110}},
+      {0x80000285, 1, 0, 0, 0, 2, {0x20000320, 0x20000820}},
+      {0x80000385, 254, 100, 30, 0, 1, {0x22000020}},
+      {0x80000480, 252, 0, 0, 0, 0, {}},
+  };
+};
+
+void add_network(std::vector<CO_OBJ>& table, NetworkObjects& objects);
+
+/// The errors of the application.
+inline constexpr std::uint16_t network_errors = 11;
+CO_EMCY_TBL* errors();
+
+class Network {
+ public:
+  Network(CO_NODE& node, NetworkObjects& objects, Input& input) : node_(node), objects_(objects), input_(input) {}
+
+  /// What an application does. \a kind: bits 0…4 count.
+  void act(std::uint8_t kind);
+
+  /// Lets an SDO request name one of the entries of these services.
+  static void name_object(CO_IF_FRM& frame);
+  /// Lengths as the services have them, so that chance need not find them.
+  std::uint8_t usual_length(std::uint32_t identifier) const;
+  /// Objects that a frame of RPDOs or SYNC may write.
+  std::vector<std::uint32_t> written_by_pdos() const;
+  bool may_be_pdo(const CO_IF_FRM& frame) const;
+
+  /// Remembers what identifiers the services send with: a frame that waits may have an old one.
+  void look();
+  /// What is wrong with a frame; only of these services: is_ours().
+  std::string fault_of(const CO_IF_FRM& frame) const;
+  bool is_ours(const CO_IF_FRM& frame) const { return frame.Identifier == 0 || identifiers_.count(frame.Identifier); }
+
+  void forget() { objects_.startup = CO_NMT_STARTUP_STAY; }
+
+ private:
+  void configure();
+  void map_pdo();
+  void configure_pdo();
+  void request_pdo();
+  void trigger_pdo();
+  void trigger_object();
+  void write_object();
+  void ask_pdos();
+  void set_error();
+  void clear_error();
+  void ask_errors();
+  void reset_errors();
+  void reset_history();
+  void command();
+  void ask_heartbeats();
+  void activate_heartbeat();
+  void set_time();
+  void send_time();
+  void use_leds();
+
+  bool is_tpdo(std::uint32_t identifier) const;
+  std::uint32_t emcy_identifier() const;
+  std::uint32_t any_value(unsigned size);
+  std::uint32_t any_cob_id();
+  std::uint32_t any_mapping();
+  CO_OBJ* any_object();
+  void write(std::uint16_t index, std::uint8_t sub, unsigned size, std::uint32_t value);
+
+  CO_NODE& node_;
+  NetworkObjects& objects_;
+  Input& input_;
+  std::set<std::uint32_t> identifiers_;
+};
+
+}  // namespace fuzz
