@@ -4,8 +4,8 @@
 ///
 /// Errors are those of the application (COEmcySet()) and those that the stack finds itself: lost frames (8110h), error
 /// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use (8150h),
-/// PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC of another length (8240h), PDO missing
-/// (8250h).
+/// PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC of another length (8240h), PDO
+/// missing (8250h).
 ///
 /// Each error that comes is entered in 1003h, sets its bit and the generic one in 1001h, and is sent: code, 1001h as of
 /// that moment, five bytes. Each that goes is sent as code 0000h with what is left in 1001h. Errors that come while the
