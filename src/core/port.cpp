@@ -81,6 +81,13 @@ bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
   return result > 0;
 }
 
+bool nvm_exists(const CO_NODE& node) { return node.Ext->Nvm != nullptr || node.If.Drv->Nvm != nullptr; }
+
+bool nvm_erase(const CO_NODE& node, uint32_t start, uint32_t size) {
+  const CO_IF_NVM_DRV_EX& driver = *node.Ext->Nvm;
+  return driver.Erase != nullptr && driver.Erase(node.Ext->NvmCtx, start, size);
+}
+
 uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size) {
   if (node.Ext->Nvm != nullptr) {
     return node.Ext->Nvm->Read(node.Ext->NvmCtx, start, buffer, size);

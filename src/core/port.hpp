@@ -65,6 +65,12 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 }
 [[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
 
+[[nodiscard]] bool nvm_exists(const CO_NODE& node);
+[[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) {
+  return node.Ext->Nvm != nullptr && node.Ext->Nvm->Shape != nullptr;
+}
+[[nodiscard]] inline CO_NVM_SHAPE nvm_shape(const CO_NODE& node) { return node.Ext->Nvm->Shape(node.Ext->NvmCtx); }
+[[nodiscard]] bool nvm_erase(const CO_NODE& node, uint32_t start, uint32_t size);
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 [[nodiscard]] uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/slots.hpp"
+
+#include "core/port.hpp"
+#include "wire/crc32.hpp"
+
+#if USE_PARA
+
+namespace co::slots {
+namespace {
+
+using store::Found;
+using store::Record;
+
+constexpr uint32_t magic = 0x314E584C;     // "LXN1"
+constexpr uint32_t defaults = UINT32_MAX;  // in place of the size
+constexpr uint8_t erased = 0xFF;
+
+struct Header {
+  uint32_t magic;
+  uint32_t version;
+  uint32_t size;
+  uint32_t generation;
+  uint32_t crc;  // of the members above and the data
+};
+
+struct Slot {
+  uint32_t start;
+  Header header;
+  Found found;
+};
+
+uint32_t round_up(uint32_t value, uint32_t unit) {
+  const uint32_t over = value % unit;
+  return over == 0 ? value : value + (unit - over);
+}
+
+uint32_t program_size(const CO_NODE& node) {
+  const uint32_t size = port::nvm_shape(node).ProgramSize;
+  return size == 0 ? 1 : size;
+}
+
+// Slots begin and end where the memory can be erased and programmed.
+uint32_t unit(const CO_NODE& node) {
+  const uint32_t program = program_size(node);
+  const uint32_t erase = port::nvm_shape(node).EraseSize;
+  return erase == 0 ? program : round_up(erase, program);
+}
+
+uint32_t header_size(const CO_NODE& node) { return round_up(sizeof(Header), program_size(node)); }
+
+uint32_t slot_size(const CO_NODE& node, uint32_t size) {
+  return round_up(header_size(node) + round_up(size, program_size(node)), unit(node));
+}
+
+wire::Crc32 crc_of(const Header& header) {
+  wire::Crc32 crc;
+  crc.add(reinterpret_cast<const uint8_t*>(&header), offsetof(Header, crc));
+  return crc;
+}
+
+// Work memory, in whole units of programming.
+class Buffer {
+ public:
+  explicit Buffer(const CO_NODE& node) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % program_size(node)) {}
+  [[nodiscard]] uint32_t size() const { return size_; }
+  [[nodiscard]] uint8_t* bytes() { return bytes_; }
+
+ private:
+  uint32_t size_;
+  uint8_t bytes_[CO_STORE_BUFFER];
+};
+
+bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
+  return port::nvm_read(node, start, static_cast<uint8_t*>(to), size) == size;
+}
+
+// Adds what is stored to the CRC, piece by piece. False: it cannot be read.
+bool add(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
+  Buffer buffer(node);
+  while (size != 0) {
+    const uint32_t piece = size < buffer.size() ? size : buffer.size();
+    if (!read(node, start, buffer.bytes(), piece)) {
+      return false;
+    }
+    crc.add(buffer.bytes(), piece);
+    start += piece;
+    size -= piece;
+  }
+  return true;
+}
+
+// As it was made, or erased.
+bool is_blank(const Header& header) {
+  const bool uniform = header.version == header.magic && header.size == header.magic &&
+                       header.generation == header.magic && header.crc == header.magic;
+  return uniform && (header.magic == UINT32_MAX || header.magic == 0);
+}
+
+// What a slot holds, as its header says, unless the CRC disagrees.
+Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Header& header) {
+  if (!read(node, start, &header, sizeof header)) {
+    return Found::lost;
+  }
+  if (is_blank(header)) {
+    return Found::blank;
+  }
+  const bool is_default = header.size == defaults;
+  if (header.magic != magic || header.version != record.version || (!is_default && header.size != record.size)) {
+    return Found::lost;
+  }
+  wire::Crc32 crc = crc_of(header);
+  if (!add(node, start + header_size(node), is_default ? 0 : record.size, crc) || crc.value() != header.crc) {
+    return Found::lost;
+  }
+  return is_default ? Found::defaults : Found::data;
+}
+
+bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
+
+bool is_newer(const Slot& slot, const Slot& other) {
+  return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
+}
+
+// Both slots, the newest that is whole first.
+struct Slots {
+  Slots(const CO_NODE& node, const Record& record) : newest{record.start, {}, {}}, other{} {
+    other.start = record.start + slot_size(node, record.size);
+    newest.found = read_slot(node, record, newest.start, newest.header);
+    other.found = read_slot(node, record, other.start, other.header);
+    if (is_newer(other, newest)) {
+      const Slot first = newest;
+      newest = other;
+      other = first;
+    }
+  }
+
+  Slot newest;
+  Slot other;
+};
+
+bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to) {
+  wire::Crc32 crc = crc_of(slot.header);
+  if (!read(node, slot.start + header_size(node), to, record.size)) {
+    return false;
+  }
+  crc.add(to, record.size);
+  return crc.value() == slot.header.crc;
+}
+
+bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t size) {
+  Buffer buffer(node);
+  while (size != 0) {
+    const uint32_t piece = size < buffer.size() ? size : buffer.size();
+    if (!read(node, start, buffer.bytes(), piece) || __builtin_memcmp(buffer.bytes(), data, piece) != 0) {
+      return false;
+    }
+    start += piece;
+    data += piece;
+    size -= piece;
+  }
+  return true;
+}
+
+bool is_stored(const CO_NODE& node, const Record& record, const Slot& slot, const uint8_t* data) {
+  if (data == nullptr) {
+    return slot.found == Found::defaults;
+  }
+  return slot.found == Found::data && is_equal(node, slot.start + header_size(node), data, record.size);
+}
+
+// Writes bytes, the last unit filled up. They may change meanwhile: the CRC is of what is written.
+bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
+  Buffer buffer(node);
+  while (size != 0) {
+    const uint32_t piece = size < buffer.size() ? size : buffer.size();
+    const uint32_t whole = round_up(piece, program_size(node));
+    __builtin_memcpy(buffer.bytes(), bytes, piece);
+    __builtin_memset(buffer.bytes() + piece, erased, whole - piece);
+    crc.add(buffer.bytes(), piece);
+    if (port::nvm_write(node, start, buffer.bytes(), whole) != whole) {
+      return false;
+    }
+    start += piece;
+    bytes += piece;
+    size -= piece;
+  }
+  return true;
+}
+
+bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
+  return port::nvm_shape(node).EraseSize == 0 || port::nvm_erase(node, start, size);
+}
+
+// The header comes last: until it is there the slot is not whole.
+bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uint8_t* data) {
+  wire::Crc32 crc = crc_of(slot.header);
+  wire::Crc32 unused;
+  if (!erase(node, slot.start, slot_size(node, record.size))) {
+    return false;
+  }
+  if (data != nullptr && !write(node, slot.start + header_size(node), data, record.size, crc)) {
+    return false;
+  }
+  slot.header.crc = crc.value();
+  return write(node, slot.start, reinterpret_cast<const uint8_t*>(&slot.header), sizeof slot.header, unused);
+}
+
+// Takes the slot that does not count. data: null for the defaults.
+CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
+  const uint32_t generation = is_whole(slots.newest) ? slots.newest.header.generation + 1 : 0;
+  const Slot& target = is_whole(slots.newest) ? slots.other : slots.newest;
+  Slot slot = {target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, {}};
+  Header stored = {};
+  const bool written = write_slot(node, record, slot, data);
+  const bool whole = written && read_slot(node, record, slot.start, stored) != Found::lost;
+  return whole && stored.crc == slot.header.crc && stored.generation == generation ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
+}
+
+}  // namespace
+
+bool fits(const CO_NODE& node, const Record& record) {
+  const uint32_t capacity = port::nvm_shape(node).Capacity;
+  if (program_size(node) > CO_STORE_BUFFER || record.size > capacity / 2) {
+    return false;
+  }
+  const uint32_t needed = 2 * slot_size(node, record.size);
+  return needed <= capacity && record.start <= capacity - needed && record.start % unit(node) == 0;
+}
+
+Found look(const CO_NODE& node, const Record& record) {
+  const Slots slots(node, record);
+  const bool blank = slots.newest.found == Found::blank && slots.other.found == Found::blank;
+  return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
+}
+
+Found load(const CO_NODE& node, const Record& record, uint8_t* to) {
+  const Slots slots(node, record);
+  const Slot* const by_age[] = {&slots.newest, &slots.other};
+  for (const Slot* const slot : by_age) {
+    if (slot->found == Found::defaults || (slot->found == Found::data && copy(node, record, *slot, to))) {
+      return slot->found;
+    }
+  }
+  return slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost;
+}
+
+CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data) {
+  const Slots slots(node, record);
+  return is_stored(node, record, slots.newest, data) ? CO_ERR_NONE : put(node, record, slots, data);
+}
+
+}  // namespace co::slots
+
+#endif
