@@ -176,6 +176,38 @@
 #define USE_LED 0
 #endif
 
+/// LSS slave: 0 or 1.
+#ifndef USE_LSS
+#define USE_LSS 1
+#endif
+
+/// LSS master (co_lss_master.h): 0 or 1. 1 costs 108 bytes of RAM (32-bit CPU) and 1.8 KB of flash (Cortex-M0+, -Os).
+#ifndef USE_LSS_MASTER
+#define USE_LSS_MASTER 0
+#endif
+
+/// Parameter groups (1010h, 1011h, 1020h): 0 or 1.
+#ifndef USE_PARA
+#define USE_PARA 1
+#endif
+
+/// Milliseconds between two looks at the groups that are stored autonomously (CO_PARA__A_), at most 65 535: what has
+/// changed is stored then. Rules how fast a flash memory wears.
+#ifndef CO_PARA_PERIOD
+#define CO_PARA_PERIOD 10000
+#endif
+#if CO_PARA_PERIOD < 1 || CO_PARA_PERIOD > 65535
+#error "CO_PARA_PERIOD: 1...65535 ms"
+#endif
+
+/// Bytes of stack for a piece of what is stored: 8…1024, at least the ProgramSize of the memory.
+#ifndef CO_STORE_BUFFER
+#define CO_STORE_BUFFER 32
+#endif
+#if CO_STORE_BUFFER < 8 || CO_STORE_BUFFER > 1024
+#error "CO_STORE_BUFFER: 8...1024 bytes"
+#endif
+
 /// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
 /// bring more memory.
 #ifndef CO_TX_QUEUE_N

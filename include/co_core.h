@@ -58,6 +58,12 @@
 #if USE_LED
 #include "co_led.h"
 #endif
+#if USE_LSS
+#include "co_lss.h"
+#endif
+#if USE_LSS_MASTER
+#include "co_lss_master.h"
+#endif
 #include "co_nmt.h"
 #include "co_pdo.h"
 #include "co_ring.h"
@@ -138,10 +144,10 @@ typedef struct CO_NODE_EXT_T {
 } CO_NODE_EXT;
 
 /// \cond internal
-// NMT, error control, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs
-#define CO_ROUTE_N                                                                                  \
-  (2 + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + \
-   (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
+// NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs
+#define CO_ROUTE_N                                                                                           \
+  (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
+   CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
 #if CO_ROUTE_N > 255
 typedef uint16_t CO_ROUTE_NUM;
 #else
@@ -171,7 +177,11 @@ typedef struct CO_NODE_T {
   uint8_t Paused;      ///< a block transfer waits for the controller
   uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
   uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
+  uint8_t Held;        ///< nothing may be sent: the bit rate is being switched
   uint8_t WindowOver;  ///< the synchronous window is over
+#if USE_PARA
+  uint8_t Verified;  ///< 1020h is not 0
+#endif
   CO_NMT Nmt;
   uint16_t Turn;       ///< whose turn it is when a block transfer may go on
   uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
@@ -212,6 +222,15 @@ typedef struct CO_NODE_T {
 #endif
 #if USE_LED
   CO_LED Led;
+#endif
+#if USE_LSS
+  CO_LSS Lss;
+#endif
+#if USE_LSS_MASTER
+  CO_LSSM Lssm;
+#endif
+#if USE_PARA
+  CO_TMR_MEM ParaTmr;  ///< groups that are stored autonomously
 #endif
 #if USE_GUARDING
   uint8_t GuardToggle;  ///< bit 7 of the next answer

@@ -101,6 +101,7 @@ typedef enum CO_ERR_T {
   CO_ERR_TYPE_RESET,   ///< a type function cannot reset the object
   CO_ERR_OBJ_STATE,    ///< not possible in the present device state (SDO abort 0800 0022h)
   CO_ERR_OBJ_NO_DATA,  ///< there is no data to give (SDO abort 0800 0024h)
+  CO_ERR_LSS_BUSY,     ///< a service of the LSS master is going on
 } CO_ERR;
 
 #ifdef __cplusplus

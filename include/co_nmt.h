@@ -34,6 +34,7 @@ struct CO_NODE_T;
 #define CO_TIME_ALLOWED 0x08u
 #define CO_SYNC_ALLOWED 0x10u
 #define CO_SDO_ALLOWED 0x20u
+#define CO_LSS_ALLOWED 0x80u
 #define CO_PDO_ALLOWED 0x40u
 /// \}
 

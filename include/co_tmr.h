@@ -48,9 +48,9 @@ typedef struct CO_TMR_LIST_T {
 typedef struct CO_TMR_T {
   struct CO_NODE_T* Node;
   CO_TMR_MEM* Pool;
-  CO_TMR_MEM* Free;  ///< unused timers of the pool
-  CO_TMR_LIST Use;   ///< armed, by time
-  CO_TMR_LIST Due;   ///< elapsed, oldest first; filled by COTmrService(), worked off by COTmrProcess()
+  CO_TMR_MEM* Free;     ///< unused timers of the pool
+  CO_TMR_LIST Use;      ///< armed, by time
+  CO_TMR_LIST Due;      ///< elapsed, oldest first; filled by COTmrService(), worked off by COTmrProcess()
   CO_TMR_MEM* RunEnd;   ///< last of them that COTmrProcess() runs, null: it does not run
   uint32_t Freq;        ///< ticks per second
   uint32_t Clock;       ///< driver with a clock: when that was read last; without: when it elapses, or was stopped

@@ -13,6 +13,7 @@
 #define CO_EMCY_CONS_N 8
 #define CO_HBCONS_N 16
 #define USE_NMT_MASTER 1
+#define USE_LSS_MASTER 1
 #define USE_LED 1
 #define CO_TX_QUEUE_N 32
 

@@ -12,6 +12,8 @@
 #define CO_TPDO_N 1
 #define USE_PDO_RTR 0
 #define USE_SYNC 0
+#define USE_LSS 0
+#define USE_PARA 0
 #define CO_EMCY_N 8
 #define CO_HBCONS_N 0
 #define USE_GUARDING 0

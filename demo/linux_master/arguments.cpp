@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linux_master/arguments.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -78,6 +79,39 @@ Bytes data_to_write(const Arguments& arguments, const std::optional<ValueType>& 
   return encoded.bytes;
 }
 
+std::optional<LssAddress> lss_address(const std::vector<std::string>& typed, Conversion& conversion) {
+  LssAddress address{};
+  if (typed.empty()) {
+    return std::nullopt;
+  }
+  if (typed.size() != address.size()) {
+    conversion.fail("--address: an LSS address has four numbers");
+    return std::nullopt;
+  }
+  for (std::size_t part = 0; part < address.size(); ++part) {
+    address[part] = conversion.number("--address", typed[part], 0, longest);
+  }
+  return address;
+}
+
+std::uint32_t bit_rate(const std::string& typed, Conversion& conversion) {
+  constexpr std::uint32_t rates[] = {1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000};
+  const std::uint32_t rate = conversion.number("set-bitrate", typed, 0, longest);
+  if (std::find(std::begin(rates), std::end(rates), rate) == std::end(rates)) {
+    conversion.fail("set-bitrate: '" + typed +
+                    "' is none of 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000");
+  }
+  return rate;
+}
+
+std::uint32_t lss_value(const LssArguments& arguments, Conversion& conversion) {
+  switch (arguments.action) {
+    case LssAction::set_id: return conversion.number("set-id", arguments.value, 1, 127);
+    case LssAction::set_bit_rate: return bit_rate(arguments.value, conversion);
+    default: return 0;
+  }
+}
+
 }  // namespace
 
 Prepared prepare(const Arguments& arguments) {
@@ -107,6 +141,22 @@ Prepared prepare(const Arguments& arguments) {
   }
   if (request.write && conversion.fault.empty()) {
     request.data = data_to_write(arguments, request.type, conversion);
+  }
+  return {request, conversion.fault};
+}
+
+LssPrepared prepare(const LssArguments& arguments) {
+  Conversion conversion;
+  LssRequest request{};
+  request.action = arguments.action;
+  request.address = lss_address(arguments.address, conversion);
+  request.value = lss_value(arguments, conversion);
+  request.store = arguments.store || arguments.action == LssAction::store;
+  request.own_id = static_cast<std::uint8_t>(conversion.number("--own-id", arguments.own_id, 1, 127));
+  request.timeout = conversion.number("--timeout", arguments.timeout, 1, longest);
+  request.listen = conversion.number("--listen", arguments.listen, 1, longest);
+  if (request.action == LssAction::scan && request.address) {
+    conversion.fail("--address: scan looks for all nodes without node-ID");
   }
   return {request, conversion.fault};
 }

@@ -3,9 +3,11 @@
 /// What the user of lexican-demo-master has typed, and the request that it means.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/values.hpp"
 
@@ -45,5 +47,40 @@ struct Prepared {
 
 /// Reads the file that shall be written to the object.
 Prepared prepare(const Arguments& arguments);
+
+// --- lss
+
+enum class LssAction { scan, set_id, set_bit_rate, store, inquire };
+
+/// As typed.
+struct LssArguments {
+  LssAction action = LssAction::scan;
+  std::vector<std::string> address;  // empty: a node without node-ID
+  std::string value;                 // of set-id and set-bitrate
+  bool store = false;                // behind it
+  std::string own_id = "127";
+  std::string timeout = "1000";
+  std::string listen = "50";
+};
+
+/// Vendor-ID, product code, revision and serial number.
+using LssAddress = std::array<std::uint32_t, 4>;
+
+struct LssRequest {
+  LssAction action;
+  std::optional<LssAddress> address;  // nothing: a node without node-ID
+  std::uint32_t value;                // node-ID, or bit/s
+  bool store;
+  std::uint8_t own_id;
+  std::uint32_t timeout;  // ms, for the answer of a node
+  std::uint32_t listen;   // ms, for each request that looks for nodes
+};
+
+struct LssPrepared {
+  LssRequest request;
+  std::string fault;  // empty: nothing is wrong with the arguments
+};
+
+LssPrepared prepare(const LssArguments& arguments);
 
 }  // namespace demo

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// lexican-demo-master: reads or writes one object of a CANopen node, with the stack's SDO client.
+// lexican-demo-master: reads or writes one object of a CANopen node, with the stack's SDO client, or gives node-IDs
+// with its LSS master.
 #include <unistd.h>
 
 #include <iostream>
 
 #include "host/linux_host.hpp"
+#include "linux_master/lss.hpp"
 #include "linux_master/options.hpp"
 #include "linux_master/request.hpp"
 
@@ -40,10 +42,26 @@ int run(const CommandLine& line) {
   return report(prepared.request, outcome, std::cout, std::cerr);
 }
 
+int run_lss(const CommandLine& line) {
+  const LssPrepared prepared = prepare(line.lss);
+  if (!prepared.fault.empty()) {
+    return refuse(prepared.fault);
+  }
+  const Interruption interruption;
+  SocketCanHost host(interruption);
+  if (const std::string fault = host.open(line.interface, false, true); !fault.empty()) {
+    return refuse(fault);
+  }
+  return carry_out(prepared.request, host, std::cout, std::cerr);
+}
+
 }  // namespace
 }  // namespace demo
 
 int main(int argc, char** argv) {
   const demo::CommandLine line = demo::read_command_line(argc, argv);
-  return line.run ? demo::run(line) : line.exit_code;
+  if (!line.run) {
+    return line.exit_code;
+  }
+  return line.is_lss ? demo::run_lss(line) : demo::run(line);
 }

@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* description =
     "Reads or writes an object of a CANopen node by SDO: expedited, segmented or by block transfer.\n"
-    "It boots on the bus as a node of its own. Standard output gets the value that was read and nothing else.";
+    "Or finds nodes without node-ID, and configures nodes, by LSS.\n"
+    "It boots on the bus as a node of its own. Standard output gets what was read or found, and nothing else.";
 
 constexpr const char* footer =
     "Without --type, read shows 1, 2, 4 and 8 bytes as a number in hex digits, others as a hex dump.\n"
@@ -21,20 +22,23 @@ constexpr const char* footer =
     "  lexican-demo-master --node 1 --index 0x1008 --type string read\n"
     "  lexican-demo-master --node 1 --index 0x2100 --sub 1 --type u8 write 12\n"
     "  lexican-demo-master --node 1 --index 0x2200 --file picture.rgb read\n"
+    "  lexican-demo-master lss scan\n"
+    "  lexican-demo-master lss set-id 5 --store\n"
+    "  lexican-demo-master lss --address 0x319 0x1234 1 7 inquire\n"
     "\n"
     "Exit codes:\n"
-    "    0  the object was transferred\n"
-    "    1  the transfer was aborted, there was no answer, or the value read is not of the type\n"
+    "    0  the object was transferred, or the LSS services are done\n"
+    "    1  the transfer was aborted or refused, there was no answer, or the value read is not of the type\n"
     "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
-    "  130  Ctrl-C or SIGTERM has cancelled the transfer";
+    "  130  Ctrl-C or SIGTERM has cancelled it";
 
 void add_object_options(CLI::App& app, CommandLine& line) {
   Arguments& arguments = line.arguments;
   app.add_option("--can", line.interface, "SocketCAN interface to use")->type_name("IF")->capture_default_str();
-  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127")->type_name("N")->required();
+  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127")->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")
       ->type_name("N");
-  app.add_option("--index", arguments.index, "Index of the object, as 0x2100")->type_name("N")->required();
+  app.add_option("--index", arguments.index, "Index of the object, as 0x2100")->type_name("N");
   app.add_option("--sub", arguments.sub, "Sub-index of the object")->type_name("N")->capture_default_str();
 }
 
@@ -52,6 +56,35 @@ void add_value_options(CLI::App& app, CommandLine& line) {
   app.add_flag("--progress", line.progress, "Show the progress also where standard error is no terminal");
 }
 
+void add_action(CLI::App& lss, CommandLine& line, LssAction action, const char* name, const char* purpose,
+                const char* value) {
+  CLI::App* const app = lss.add_subcommand(name, purpose);
+  app->set_help_flag();
+  app->callback([&line, action] { line.lss.action = action; });
+  if (value[0] != 0) {
+    app->add_option(value, line.lss.value, "The value")->type_name("")->required();
+    app->add_flag("--store", line.lss.store, "Store it as well");
+  }
+}
+
+void add_lss(CLI::App& app, CommandLine& line) {
+  CLI::App* const lss = app.add_subcommand("lss", "Find nodes without node-ID, configure nodes");
+  lss->fallthrough();
+  lss->require_subcommand(1);
+  lss->add_option("--address", line.lss.address,
+                  "Vendor-ID, product code, revision and serial number [of a node without node-ID]")
+      ->type_name("V P R S")
+      ->expected(4);
+  lss->add_option("--listen", line.lss.listen, "Time for each of the requests that look for nodes")
+      ->type_name("MS")
+      ->capture_default_str();
+  add_action(*lss, line, LssAction::scan, "scan", "Find all nodes without node-ID, print their addresses", "");
+  add_action(*lss, line, LssAction::set_id, "set-id", "Give a node its node-ID, 1...127", "NODE-ID");
+  add_action(*lss, line, LssAction::set_bit_rate, "set-bitrate", "Give a node its bit rate, in bit/s", "BITRATE");
+  add_action(*lss, line, LssAction::store, "store", "Let a node store node-ID and bit rate", "");
+  add_action(*lss, line, LssAction::inquire, "inquire", "Print the address and the node-ID of a node", "");
+}
+
 }  // namespace
 
 CommandLine read_command_line(int argc, char** argv) {
@@ -64,10 +97,15 @@ CommandLine read_command_line(int argc, char** argv) {
   add_value_options(app, line);
   app.fallthrough();  // options may come after read and write, too
   app.require_subcommand(1);
-  app.add_subcommand("read", "Read the object")->set_help_flag();  // there is one help for all
+  CLI::App* const read = app.add_subcommand("read", "Read the object");
   CLI::App* const write = app.add_subcommand("write", "Write the object");
-  write->set_help_flag();
+  for (CLI::App* const transfer : {read, write}) {
+    transfer->set_help_flag();  // there is one help for all
+    transfer->needs(app.get_option("--node"));
+    transfer->needs(app.get_option("--index"));
+  }
   write->add_option("VALUE", line.arguments.value, "The value")->type_name("");
+  add_lss(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -75,6 +113,9 @@ CommandLine read_command_line(int argc, char** argv) {
     return line;
   }
   line.arguments.write = write->parsed();
+  line.is_lss = app.got_subcommand("lss");
+  line.lss.timeout = line.arguments.timeout;
+  line.lss.own_id = line.arguments.own_id.empty() ? line.lss.own_id : line.arguments.own_id;
   line.run = true;
   return line;
 }

@@ -12,6 +12,8 @@ namespace demo {
 
 struct CommandLine {
   Arguments arguments;
+  LssArguments lss;
+  bool is_lss = false;
   std::string interface = "vcan0";
   bool progress = false;
   bool run = false;  // false: all is said (--help, or a fault), end with exit_code

@@ -39,6 +39,7 @@
 #include "co_integer8.h"
 #include "co_nmt_startup.h"
 #include "co_obj.h"
+#include "co_para.h"
 #include "co_pdo_dispatch.h"
 #include "co_pdo_event.h"
 #include "co_pdo_id.h"
@@ -151,6 +152,13 @@ inline constexpr Type types[] = {
 #if USE_MPDO
     {&COTPdoScan, rules::pdo_scan, Value::unsigned_integer, 4},
     {&COTPdoDispatch, rules::pdo_dispatch, Value::unsigned_integer, 8},
+#endif
+#if USE_PARA
+    {&COTParaStore, rules::parameter_group_number, Value::unsigned_integer, 1},
+    {&COTParaStore, rules::parameter_group, Value::unsigned_integer, 4},
+    {&COTParaRestore, rules::parameter_group_number, Value::unsigned_integer, 1},
+    {&COTParaRestore, rules::parameter_group, Value::unsigned_integer, 4},
+    {&COTVerifyConfig, rules::verify_configuration, Value::unsigned_integer, 4},
 #endif
 #if USE_SYNC
     {&COTSyncId, rules::sync_cob_id, Value::unsigned_integer, 4},

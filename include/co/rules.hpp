@@ -106,6 +106,9 @@ inline constexpr Rule heartbeat_consumers{0x1016, 0x1016, 0, 0, 1, false, false}
 inline constexpr Rule heartbeat_consumer{0x1016, 0x1016, 1, CO_HBCONS_N, 0, false, false};
 inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false, false};
 inline constexpr Rule error_behaviour{0x1029, 0x1029, 0, 254, 1, false, false};
+inline constexpr Rule parameter_group_number{0x1010, 0x1011, 0, 0, 1, false, false};
+inline constexpr Rule parameter_group{0x1010, 0x1011, 1, 127, 0, false, false};
+inline constexpr Rule verify_configuration{0x1020, 0x1020, 1, 2, 0, false, false};
 inline constexpr Rule nmt_startup{0x1F80, 0x1F80, 0, 0, 4, false, false};
 inline constexpr Rule emcy_history_number{0x1003, 0x1003, 0, 0, 1, false, false};
 inline constexpr Rule emcy_history{0x1003, 0x1003, 1, 254, 0, false, false};

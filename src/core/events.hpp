@@ -65,6 +65,19 @@ void end_sync_window(CO_NODE& node);
 // The application or the network has changed an object whose TPDOs are event-driven (flag A).
 void change_object(CO_NODE& node, const CO_OBJ& obj);
 
+// The application gives the node another node-ID.
+void change_node_id(CO_NODE& node, uint8_t id);
+
+// The network has written an object; a configuration that was verified may no longer be the one. [301:7.5.2.23]
+void change_configuration(CO_NODE& node, const CO_OBJ& obj);
+inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {
+#if USE_PARA
+  if (node.Verified != 0) {
+    change_configuration(node, obj);
+  }
+#endif
+}
+
 // Does what waits, unless a frame is being processed or the mode is being changed.
 void settle_pending(CO_NODE& node);
 inline void settle(CO_NODE& node) {

@@ -3,8 +3,6 @@
 // it, so that a foreign frame is known after one or two comparisons.
 #pragma once
 
-#include <limits.h>
-
 #include "co_core.h"
 
 namespace co::routes {
@@ -35,6 +33,12 @@ enum class Service : uint8_t {
 #if CO_EMCY_CONS_N > 0
   emcy_consumer,
 #endif
+#if USE_LSS
+  lss,
+#endif
+#if USE_LSS_MASTER
+  lss_master,
+#endif
   count
 };
 
@@ -59,7 +63,7 @@ void publish(const CO_NODE& node);
   return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
 }
 
-inline constexpr unsigned nowhere = UINT_MAX;
+inline constexpr unsigned nowhere = ~0U;
 
 // Is the route at this place one of the identifier?
 [[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned place, uint32_t identifier) {

@@ -15,7 +15,9 @@ uint32_t rank(const CO_IF_FRM& frame) {
 }
 
 // In Initialisation only what a reset has left to be sent: the boot-up message comes before anything else.
-bool may_send_next(const CO_NODE& node) { return node.TxQueue.Fixed != 0 || node.Nmt.Mode != CO_INIT; }
+bool may_send_next(const CO_NODE& node) {
+  return node.Held == 0 && (node.TxQueue.Fixed != 0 || node.Nmt.Mode != CO_INIT);
+}
 
 bool try_send(CO_NODE& node, const CO_IF_FRM& frame) {
   if (!port::can_send(node, frame)) {
@@ -96,10 +98,10 @@ bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
   return send_or_enqueue(node, frame, places_for_application(node.TxQueue));
 }
 
-void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame) {
+void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   CO_TX_QUEUE& queue = node.TxQueue;
   flush(node);
-  if (queue.Fixed == 0 && try_send(node, frame)) {
+  if (queue.Fixed == 0 && node.Held == 0 && try_send(node, frame)) {
     return;
   }
   if (queue.Num == queue.Len) {

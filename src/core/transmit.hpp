@@ -18,8 +18,8 @@ bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame);
 // The same for a PDO; an older one of it that still waits is replaced.
 bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame);
 
-// Sends the boot-up message, which everything else waits for.
-void send_boot_up(CO_NODE& node, const CO_IF_FRM& frame);
+// Sends what everything else waits for in Initialisation: the boot-up message, or LSS.
+void send_ahead(CO_NODE& node, const CO_IF_FRM& frame);
 
 // Sends the state of something that is sent again and again: a frame of the same identifier that still waits is
 // replaced, except the boot-up message.

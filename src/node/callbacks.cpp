@@ -25,6 +25,18 @@ WEAK void CONmtLifeGuardEvent(CO_NMT*, bool) {}
 
 WEAK void COIfCanReceive(CO_IF_FRM*) {}
 
+#if USE_LSS
+WEAK CO_ERR COLssLoad(uint32_t*, uint8_t*) { return CO_ERR_NONE; }
+
+WEAK CO_ERR COLssStore(uint32_t, uint8_t) { return CO_ERR_NONE; }
+#endif
+
+#if USE_PARA
+WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
+
+WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
+#endif
+
 WEAK void COPdoTransmit(CO_IF_FRM*) {}
 
 WEAK int16_t COPdoReceive(CO_IF_FRM*) { return 0; }

@@ -12,6 +12,7 @@
 #include "wire/can_error.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
+#include "wire/nmt.hpp"
 
 namespace co::node {
 namespace {
@@ -28,12 +29,16 @@ void check_mandatory_objects(CO_NODE& node) {
 
 // The part of the initialisation that every NMT reset runs, too. Busy is set: what type functions and callbacks ask for
 // waits. False: they have stopped the node.
-[[nodiscard]] bool initialise(CO_NODE& node) {
+[[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
     return false;
   }
   routes::clear(node);
+  if (type == CO_RESET_NODE) {
+    services::load(node, CO_RESET_NODE);
+  }
+  services::load(node, CO_RESET_COM);
   if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
     node.Error = CO_ERR_OBJ_INIT;
   }
@@ -42,34 +47,45 @@ void check_mandatory_objects(CO_NODE& node) {
   return node.Nmt.Mode == CO_INIT;
 }
 
+// A node without node-ID stays in Initialisation. [305]
+void start(CO_NODE& node) {
+  if (!services::awaits_node_id(node)) {
+    nmt::boot(node);
+  }
+}
+
 // A reset that the application asked for lets the frames go out that wait, an answer among them.
-void reset(CO_NODE& node, bool commanded) {
-  const bool waits_for_start = node.Nmt.Mode == CO_INIT;
+void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
+  const bool waits_for_start = node.Nmt.Mode == CO_INIT && !services::is_started(node);
   commanded ? transmit::clear(node) : transmit::fix(node);
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
     return;
   }
   port::can_reset(node);
-  if (initialise(node) && !waits_for_start) {
-    nmt::boot(node);
+  services::save_changes(node);
+  services::take_node_id(node);
+  if (initialise(node, type) && !waits_for_start) {
+    start(node);
   }
 }
 
 void settle_reset(CO_NODE& node, uint8_t pending) {
   const bool commanded = (pending & event::commanded) != 0;
+  const CO_NMT_RESET type = (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM;
   if (node.Nmt.Mode == CO_INVALID) {
     return;
   }
   node.Busy = 1;
-  if ((pending & event::reset_node) != 0) {
+  if (type == CO_RESET_NODE) {
     services::forget_application(node);
+    services::load_node_id(node);
   }
-  reset(node, commanded);
+  reset(node, type, commanded);
   node.Busy = 0;
   event::forget_resets(node);
   if (commanded && node.Nmt.Mode != CO_INVALID) {
-    CONmtResetRequest(&node.Nmt, (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM);
+    CONmtResetRequest(&node.Nmt, type);
   }
 }
 
@@ -90,7 +106,8 @@ bool has_drivers(const CO_NODE& node) {
 }
 
 bool is_usable(const CO_NODE& node) {
-  return node.NodeId >= 1 && node.NodeId <= 127 && node.Ext->Size >= sizeof(CO_NODE_EXT) && has_drivers(node);
+  const bool waits_for_one = USE_LSS != 0 && node.NodeId == wire::no_node_id;
+  return (wire::is_node_id(node.NodeId) || waits_for_one) && node.Ext->Size >= sizeof(CO_NODE_EXT) && has_drivers(node);
 }
 
 void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) {
@@ -189,6 +206,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (usable) {
     node->Tmr.Freq = spec->TmrFreq;
     port::init(*node);
+    services::begin_lss(*node);
   } else {
     node->Error = CO_ERR_BAD_ARG;
     node->Ext = &port::no_drivers;
@@ -198,12 +216,13 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (!usable) {
     return;
   }
-  node->Error = CODictInit(&node->Dict, node, spec->Dict, spec->DictLen);
-  if (node->Error != CO_ERR_NONE) {
+  const CO_ERR err = CODictInit(&node->Dict, node, spec->Dict, spec->DictLen);
+  if (err != CO_ERR_NONE) {
+    node->Error = err;
     return;
   }
   node->Busy = 1;
-  const bool initialised = node::initialise(*node);
+  const bool initialised = node::initialise(*node, CO_RESET_NODE);
   event::forget_resets(*node);
   node->Busy = 0;
   event::settle(*node);
@@ -222,7 +241,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && node->Busy == 0) {
-    nmt::boot(*node);
+    node::start(*node);
   }
 }
 

@@ -10,7 +10,10 @@
 #include "service/guarding/guarding.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "service/led/led.hpp"
+#include "service/lss/lss.hpp"
+#include "service/lss/master.hpp"
 #include "service/nmt/nmt.hpp"
+#include "service/para/para.hpp"
 #include "service/pdo/pdo.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
@@ -54,8 +57,17 @@ constexpr Service table[] = {
 #if CO_EMCY_CONS_N > 0
     {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_remote, nullptr, nullptr, nullptr},
 #endif
+#if USE_LSS
+    {CO_LSS_ALLOWED, 0, lss::init, lss::on_frame, no_remote, lss::on_mode, nullptr, nullptr},
+#endif
+#if USE_LSS_MASTER
+    {CO_LSS_ALLOWED, 0, lss_master::init, lss_master::on_frame, no_remote, lss_master::on_mode, nullptr, nullptr},
+#endif
 
     {CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+#if USE_PARA
+    {CO_NMT_ALLOWED, 0, para::init, nullptr, nullptr, para::on_mode, nullptr, nullptr},
+#endif
 #if USE_EMCY
     {CO_EMCY_ALLOWED, 0, emcy::init, nullptr, nullptr, emcy::on_mode, nullptr, nullptr},
 #endif
@@ -108,6 +120,28 @@ bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
 namespace services {
 
 void init(CO_NODE& node) { run(node, &Service::init); }
+
+#if USE_LSS
+void load_node_id(CO_NODE& node) { lss::load(node); }
+void take_node_id(CO_NODE& node) { lss::take_node_id(node); }
+void begin_lss(CO_NODE& node) { lss::begin(node); }
+bool awaits_node_id(CO_NODE& node) { return lss::awaits_node_id(node); }
+bool is_started(const CO_NODE& node) { return node.Lss.Started != 0; }
+#else
+void begin_lss(CO_NODE&) {}
+void load_node_id(CO_NODE&) {}
+void take_node_id(CO_NODE&) {}
+bool awaits_node_id(CO_NODE&) { return false; }
+bool is_started(const CO_NODE&) { return false; }
+#endif
+
+#if USE_PARA
+void load(CO_NODE& node, CO_NMT_RESET type) { (void)para::load(node, type); }
+void save_changes(CO_NODE& node) { para::save_changes(node); }
+#else
+void load(CO_NODE&, CO_NMT_RESET) {}
+void save_changes(CO_NODE&) {}
+#endif
 
 #if USE_EMCY
 void forget_application(CO_NODE& node) { emcy::forget_application(node); }
@@ -210,6 +244,17 @@ void event::sync(CO_NODE& node, uint8_t counter) {
 }
 
 void event::end_sync_window(CO_NODE& node) { pdo::end_window(node); }
+
+void event::change_node_id(CO_NODE& node, uint8_t id) {
+  node.NodeId = id;
+#if USE_LSS
+  node.Lss.CfgNodeId = id;
+#endif
+}
+
+#if USE_PARA
+void event::change_configuration(CO_NODE& node, const CO_OBJ& obj) { para::on_write(node, obj); }
+#endif
 
 void event::change_object(CO_NODE& node, const CO_OBJ& obj) { pdo::change_object(node, obj); }
 

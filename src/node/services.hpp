@@ -21,6 +21,21 @@ namespace services {
 
 void init(CO_NODE& node);
 
+// LSS: node-ID and bit rate as they were stored, for the node that is being initialised, and for the next reset.
+void begin_lss(CO_NODE& node);
+void load_node_id(CO_NODE& node);
+void take_node_id(CO_NODE& node);
+
+// Does the node that is started have to wait for a node-ID? Was it started so?
+[[nodiscard]] bool awaits_node_id(CO_NODE& node);
+[[nodiscard]] bool is_started(const CO_NODE& node);
+
+// Loads the parameters of a reset.
+void load(CO_NODE& node, CO_NMT_RESET type);
+
+// What is stored autonomously is safe.
+void save_changes(CO_NODE& node);
+
 // The application starts anew: what it has told the services is no more.
 void forget_application(CO_NODE& node);
 

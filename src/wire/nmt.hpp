@@ -8,6 +8,9 @@
 
 namespace co::wire {
 
+inline constexpr uint8_t no_node_id = 255;  // of a node that waits for one [305]
+constexpr bool is_node_id(uint8_t id) { return id >= 1 && id <= 127; }
+
 inline constexpr uint8_t nmt_dlc = 2;
 
 // Command specifiers of "NMT node control". [301:7.2.8.2.1]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the page "Using Object Dictionary" shows of parameter groups, as it stands there but for white space, with the
-// name of the type CO_PARA moved to its place. Compiled only: the storage service is not part of the library yet.
+// name of the type CO_PARA moved to its place. Compiled only: there is no memory to store in.
 #include <string.h>
 
 #include "co_core.h"

@@ -99,16 +99,17 @@ TEST_CASE("NMT: while initialising nothing is answered and no command obeyed [N3
 }
 
 TEST_CASE("NMT: what each state allows [N3]") {
+  constexpr unsigned configured =
+      CO_LSS_ALLOWED | CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED;
   Fixture node(Setup().stay_in_init());
-  CHECK(node->Nmt.Allowed == CO_BOOT_ALLOWED);
+  CHECK(node->Nmt.Allowed == (CO_BOOT_ALLOWED | CO_LSS_ALLOWED));
   node.call([&] { CONodeStart(&node.node); });
   node.tx("701#00");
-  CHECK(node->Nmt.Allowed == (CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED));
+  CHECK(node->Nmt.Allowed == configured);
   node.rx("000#0101");
-  CHECK(node->Nmt.Allowed ==
-        (CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED | CO_PDO_ALLOWED));
+  CHECK(node->Nmt.Allowed == (configured | CO_PDO_ALLOWED));
   node.rx("000#0201");
-  CHECK(node->Nmt.Allowed == CO_NMT_ALLOWED);
+  CHECK(node->Nmt.Allowed == (CO_NMT_ALLOWED | CO_LSS_ALLOWED));
 }
 
 TEST_CASE("NMT: reset node and reset communication end in Pre-operational after boot-up, from every state [N2] [N6]") {

@@ -49,6 +49,20 @@ void COLedChange(CO_NODE* node, std::uint8_t leds) { test::call(test::callbacks(
 void COEmcyReceived(CO_NODE* node, uint8_t id, uint16_t code, uint8_t reg, const uint8_t msef[5]) {
   test::call(test::callbacks().emcy_received, node, id, code, reg, msef);
 }
+CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* id) {
+  const test::OutsideStack outside;
+  return test::callbacks().lss_load ? test::callbacks().lss_load(baud, id) : CO_ERR_NONE;
+}
+CO_ERR COLssStore(std::uint32_t baud, std::uint8_t id) {
+  const test::OutsideStack outside;
+  return test::callbacks().lss_store ? test::callbacks().lss_store(baud, id) : CO_ERR_NONE;
+}
+std::int16_t COParaDefault(CO_PARA* pg) {
+  const auto& wanted = test::callbacks().para_default;
+  const test::OutsideStack outside;
+  return wanted ? wanted(pg) : std::int16_t{0};
+}
+void COParaLost(CO_NODE* node, const CO_PARA* pg) { test::call(test::callbacks().para_lost, node, pg); }
 void COTmrLock(void) { test::call(test::callbacks().lock); }
 void COTmrUnlock(void) { test::call(test::callbacks().unlock); }
 void CONodeFatalError(void) { ++test::callbacks().fatal_errors; }

@@ -26,6 +26,10 @@ struct Callbacks {
   std::function<void(CO_NODE*, const CO_TIME_OF_DAY*)> time_update;
   std::function<void(CO_NODE*, std::uint8_t)> led_change;
   std::function<void(CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*)> emcy_received;
+  std::function<CO_ERR(std::uint32_t*, std::uint8_t*)> lss_load;
+  std::function<CO_ERR(std::uint32_t, std::uint8_t)> lss_store;
+  std::function<std::int16_t(CO_PARA*)> para_default;
+  std::function<void(CO_NODE*, const CO_PARA*)> para_lost;
   std::function<void()> lock;
   std::function<void()> unlock;
   std::function<void()> od_lock;    ///< CO_NODE_EXT.OdLock

@@ -171,8 +171,10 @@ Fixture::Fixture(Setup setup)
   for (CO_OBJ& obj : dictionary_) {
     memory_.add(obj);
   }
-  may_change(0x1001, 0);  // the node itself writes it
-  (void)callbacks();      // what is made at its first use must not be counted as the stack's
+  for (const auto& [index, sub] : setup_.may_change_) {
+    may_change(index, sub);
+  }
+  (void)callbacks();  // what is made at its first use must not be counted as the stack's
   call([this] { init(); });
   if (setup_.start_) {
     call([this] { CONodeStart(&node); });
@@ -188,6 +190,8 @@ void Fixture::init() {
   ext_.TxQueue = tx_queue_.empty() ? nullptr : tx_queue_.data();
   ext_.TxQueueLen = setup_.tx_queue_;
   ext_.Writable = setup_.may_write_ ? Drivers::writable : nullptr;
+  ext_.Nvm = setup_.nvm_;
+  ext_.NvmCtx = setup_.nvm_context_;
   ext_.OdLock = Drivers::od_lock;
   ext_.OdUnlock = Drivers::od_unlock;
   ext_.EmcyNum = static_cast<std::uint16_t>(setup_.emergencies_.size());

@@ -114,6 +114,9 @@ class Setup {
   Setup& with_mebibyte();       ///< a domain of that size, which is not watched
   Setup& without_sdo_buffer();  ///< CO_NODE_SPEC.SdoBuf is null
   Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
+  Setup& nvm(const CO_IF_NVM_DRV_EX& driver, void* context);  ///< must outlive the fixture
+  Setup& no_nvm();
+  Setup& may_change(std::uint16_t index, std::uint8_t sub);  ///< the node itself writes this object
   Setup& before_init(std::function<void(Objects&)> change);
 
  private:
@@ -145,6 +148,9 @@ class Setup {
   std::vector<std::uint32_t> without_;
   std::function<bool(const void*, std::uint32_t)> may_write_;
   std::function<void(Objects&)> before_init_;
+  const CO_IF_NVM_DRV_EX* nvm_ = nullptr;
+  void* nvm_context_ = nullptr;
+  std::vector<std::pair<std::uint16_t, std::uint8_t>> may_change_ = {{0x1001, 0}};
 };
 
 /// A frame that the driver took, and when.

@@ -25,6 +25,16 @@ Setup& Setup::without_sdo_buffer() { return sdo_buffer_ = false, *this; }
 Setup& Setup::writable(std::function<bool(const void*, std::uint32_t)> may_write) {
   return may_write_ = std::move(may_write), *this;
 }
+Setup& Setup::nvm(const CO_IF_NVM_DRV_EX& driver, void* context) {
+  nvm_ = &driver;
+  nvm_context_ = context;
+  return *this;
+}
+Setup& Setup::no_nvm() { return nvm_ = nullptr, *this; }
+Setup& Setup::may_change(std::uint16_t index, std::uint8_t sub) {
+  may_change_.emplace_back(index, sub);
+  return *this;
+}
 Setup& Setup::before_init(std::function<void(Objects&)> change) { return before_init_ = std::move(change), *this; }
 
 namespace {
@@ -43,11 +53,10 @@ void add_communication(Table& table, Objects& o) {
       entry(0x100A, 0, CO_OBJ_____R_, CO_TSTRING, &o.version),
       entry(0x1014, 0, CO_OBJ_DN__R_, CO_TUNSIGNED32, 0x80),
       entry(0x1017, 0, CO_OBJ_____RW, CO_THB_PROD, &o.heartbeat),
-      entry(0x1018, 0, CO_OBJ_D___R_, CO_TUNSIGNED8, 4),
+      entry(0x1018, 0, CO_OBJ_D___R_, CO_TUNSIGNED8, 3),  // no serial number: no LSS
       entry(0x1018, 1, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x11111111),
       entry(0x1018, 2, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x22222222),
       entry(0x1018, 3, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x33333333),
-      entry(0x1018, 4, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x44444444),
       entry(0x1200, 0, CO_OBJ_D___R_, CO_TUNSIGNED8, 2),
       entry(0x1200, 1, CO_OBJ_DN__R_, CO_TSDO_ID, CO_COBID_SDO_REQUEST()),
       entry(0x1200, 2, CO_OBJ_DN__R_, CO_TSDO_ID, CO_COBID_SDO_RESPONSE()),

@@ -154,4 +154,93 @@ TEST_CASE("demo arguments: a number is read into little room, anything else into
   arguments.type = "u64";
   CHECK(demo::prepare(arguments).request.capacity == CO_CSDO_BLOCK - 1);  // no block transfer for a number
 }
+
+// --- lss
+
+namespace {
+
+using demo::LssAction;
+using demo::LssAddress;
+using demo::LssArguments;
+using demo::LssPrepared;
+
+LssArguments lss(LssAction action, const char* value = "") {
+  LssArguments arguments;
+  arguments.action = action;
+  arguments.value = value;
+  return arguments;
+}
+
+std::string fault_of(const LssArguments& arguments) { return demo::prepare(arguments).fault; }
+
+}  // namespace
+
+TEST_CASE("demo arguments: lss: without an address it is about nodes without node-ID") {
+  for (const LssAction action : {LssAction::scan, LssAction::store, LssAction::inquire}) {
+    const LssPrepared prepared = demo::prepare(lss(action));
+    CHECK(prepared.fault == "");
+    CHECK(prepared.request.action == action);
+    CHECK_FALSE(prepared.request.address.has_value());
+    CHECK(prepared.request.store == (action == LssAction::store));
+    CHECK(prepared.request.own_id == 127);
+    CHECK(prepared.request.timeout == 1000);
+    CHECK(prepared.request.listen == 50);
+  }
+}
+
+TEST_CASE("demo arguments: lss: an address has four numbers") {
+  LssArguments arguments = lss(LssAction::inquire);
+  arguments.address = {"0x319", "4294967295", "0", "0xFFFFFFFF"};
+  const LssPrepared prepared = demo::prepare(arguments);
+  CHECK(prepared.fault == "");
+  REQUIRE(prepared.request.address.has_value());
+  CHECK((*prepared.request.address == LssAddress{0x319, 0xFFFFFFFF, 0, 0xFFFFFFFF}));
+  arguments.address[2] = "4294967296";
+  CHECK(fault_of(arguments) == "--address: '4294967296' is no number in 0...4294967295");
+  arguments.address = {"1", "2", "3"};
+  CHECK(fault_of(arguments) == "--address: an LSS address has four numbers");
+  arguments = lss(LssAction::scan);
+  arguments.address = {"1", "2", "3", "4"};
+  CHECK(fault_of(arguments) == "--address: scan looks for all nodes without node-ID");
+}
+
+TEST_CASE("demo arguments: lss: node-IDs and bit rates that there are") {
+  CHECK(demo::prepare(lss(LssAction::set_id, "1")).request.value == 1);
+  CHECK(demo::prepare(lss(LssAction::set_id, "0x7F")).request.value == 127);
+  CHECK(fault_of(lss(LssAction::set_id, "0")) == "set-id: '0' is no number in 1...127");
+  CHECK(fault_of(lss(LssAction::set_id, "128")) == "set-id: '128' is no number in 1...127");
+  for (const char* rate : {"1000000", "800000", "500000", "250000", "125000", "50000", "20000", "10000"}) {
+    const LssPrepared prepared = demo::prepare(lss(LssAction::set_bit_rate, rate));
+    CHECK(prepared.fault == "");
+    CHECK(std::to_string(prepared.request.value) == rate);
+  }
+  for (const char* rate : {"0", "100000", "500"}) {
+    CHECK(fault_of(lss(LssAction::set_bit_rate, rate)) ==
+          "set-bitrate: '" + std::string(rate) +
+              "' is none of 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000");
+  }
+  CHECK(fault_of(lss(LssAction::set_bit_rate, "fast")) == "set-bitrate: 'fast' is no number in 0...4294967295");
+}
+
+TEST_CASE("demo arguments: lss: times, the own node-ID and --store") {
+  LssArguments arguments = lss(LssAction::set_id, "5");
+  arguments.store = true;
+  arguments.own_id = "3";
+  arguments.timeout = "1";
+  arguments.listen = "4294967295";
+  const LssPrepared prepared = demo::prepare(arguments);
+  CHECK(prepared.fault == "");
+  CHECK(prepared.request.store);
+  CHECK(prepared.request.own_id == 3);
+  CHECK(prepared.request.timeout == 1);
+  CHECK(prepared.request.listen == 4294967295);
+  arguments.timeout = "0";
+  CHECK(fault_of(arguments) == "--timeout: '0' is no number in 1...4294967295");
+  arguments.timeout = "1";
+  arguments.listen = "0";
+  CHECK(fault_of(arguments) == "--listen: '0' is no number in 1...4294967295");
+  arguments.listen = "1";
+  arguments.own_id = "128";
+  CHECK(fault_of(arguments) == "--own-id: '128' is no number in 1...127");
+}
 #endif

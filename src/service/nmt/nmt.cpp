@@ -10,14 +10,14 @@
 namespace co::nmt {
 namespace {
 
-constexpr uint8_t error_control = CO_NMT_ALLOWED;
-constexpr uint8_t configured = CO_NMT_ALLOWED | CO_SDO_ALLOWED | CO_SYNC_ALLOWED | CO_TIME_ALLOWED | CO_EMCY_ALLOWED;
+constexpr uint8_t error_control = CO_NMT_ALLOWED | CO_LSS_ALLOWED;
+constexpr uint8_t configured = error_control | CO_SDO_ALLOWED | CO_SYNC_ALLOWED | CO_TIME_ALLOWED | CO_EMCY_ALLOWED;
 constexpr uint8_t permissions[CO_MODE_NUM] = {
-    0,                            // CO_INVALID
-    CO_BOOT_ALLOWED,              // CO_INIT
-    configured,                   // CO_PREOP
-    configured | CO_PDO_ALLOWED,  // CO_OPERATIONAL
-    error_control,                // CO_STOP
+    0,                                 // CO_INVALID
+    CO_BOOT_ALLOWED | CO_LSS_ALLOWED,  // CO_INIT
+    configured,                        // CO_PREOP
+    configured | CO_PDO_ALLOWED,       // CO_OPERATIONAL
+    error_control,                     // CO_STOP
 };
 
 enum class Event : uint8_t { start, stop, enter_pre_operational, reset_node, reset_communication, count };
@@ -79,7 +79,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 void boot(CO_NODE& node) {
   const uint8_t busy = node.Busy;
   node.Busy = 1;
-  transmit::send_boot_up(node, wire::boot_up(node.NodeId));
+  transmit::send_ahead(node, wire::boot_up(node.NodeId));
   event::change_mode(node, CO_PREOP);
   event::forget_resets(node);
   node.Busy = busy;
@@ -107,8 +107,9 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
   const bool initialising = nmt->Next == CO_INIT && node.Busy != 0;
+  const bool nameless = !wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
-  if (stopped || initialising || mode < CO_PREOP || mode >= CO_MODE_NUM) {
+  if (stopped || initialising || nameless || mode < CO_PREOP || mode >= CO_MODE_NUM) {
     node.Error = CO_ERR_NMT_MODE;
     return;
   }
@@ -133,7 +134,7 @@ void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId) {
   } else if (nodeId < 1 || nodeId > 127) {
     nmt->Node->Error = CO_ERR_BAD_ARG;
   } else {
-    nmt->Node->NodeId = nodeId;
+    event::change_node_id(*nmt->Node, nodeId);
   }
 }
 

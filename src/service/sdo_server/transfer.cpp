@@ -2,6 +2,7 @@
 #include "service/sdo_server/transfer.hpp"
 
 #include "core/count.hpp"
+#include "core/events.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
 #include "object/stream.hpp"
@@ -61,7 +62,14 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position) {
 
 [[gnu::always_inline]] inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
-  return has(channel, download) ? obj::write(obj, node, data, n) : obj::read(obj, node, data, n);
+  if (!has(channel, download)) {
+    return obj::read(obj, node, data, n);
+  }
+  const CO_ERR err = obj::write(obj, node, data, n);
+  if (err == CO_ERR_NONE) {
+    event::write_object(node, obj);
+  }
+  return err;
 }
 
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file lss.hpp
+/// lexican-demo-master lss: finds and configures nodes by their LSS address. [305]
+#pragma once
+
+#include <ostream>
+
+#include "host/host.hpp"
+#include "linux_master/arguments.hpp"
+
+namespace demo {
+
+/// Goes on the bus as a node, and does what was asked for; all slaves are then in the state waiting. Slaves that were
+/// found, and what was inquired, go to \a out; what went wrong goes to \a err. Returns the exit code.
+int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ostream& err);
+
+}  // namespace demo

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_lss.h
+/// LSS slave: node-ID and bit rate by the network. [305]
+///
+/// A node is addressed by its identity, the four numbers of 1018h; a dictionary that lacks one of them has no LSS. All
+/// services are served in every NMT state: switch state global and selective, configure node-ID and bit timing,
+/// activate bit timing, store, inquire, identify remote and non-configured slave, fastscan.
+///
+/// A node without node-ID (CO_NODE_SPEC.NodeId or COLssLoad(): CO_LSS_NO_NODE_ID) waits after CONodeStart() in CO_INIT,
+/// silent but for LSS. It gets to work, with its boot-up message, when it is switched back to the state waiting with
+/// a node-ID. A node that has one takes a new one with the next NMT reset.
+///
+/// While the bit rate is switched nothing is sent: a delay before, which the LSS master commands, and the same after
+/// it. Frames wait meanwhile. The CAN driver's Init and Enable are called for the new rate.
+///
+/// Context: the loop.
+#ifndef CO_LSS_H_
+#define CO_LSS_H_
+
+#include "co_err.h"
+#include "co_tmr.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CO_NODE_T;
+
+#define CO_LSS_RX_ID 2021u  ///< 7E5h, from the LSS master
+#define CO_LSS_TX_ID 2020u  ///< 7E4h, from the slaves
+#define CO_LSS_NO_NODE_ID 255u
+
+#define CO_LSS_WAIT 1u  ///< state waiting
+#define CO_LSS_CONF 2u  ///< state configuration
+
+/// The LSS slave of a node. The application touches nothing of it.
+typedef struct CO_LSS_T {
+  struct CO_NODE_T* Node;
+  CO_TMR_MEM Tmr;        ///< of the switch delay
+  uint32_t Delay;        ///< ticks
+  uint32_t CfgBaudrate;  ///< bit/s, to be activated
+  uint8_t CfgNodeId;     ///< of the next reset
+  uint8_t Mode;          ///< CO_LSS_WAIT, CO_LSS_CONF
+  uint8_t Selected;      ///< parts of the address that have matched: switch state selective
+  uint8_t Identified;    ///< the same: identify remote slave
+  uint8_t Scanned;       ///< part that fastscan looks for
+  uint8_t Started;       ///< CONodeStart() waits for a node-ID
+} CO_LSS;
+
+/// \name Callbacks of the application (see co_nmt.h on how to define them)
+/// \{
+
+/// In CONodeInit(), after the drivers' Init, and at NMT reset node (the bit rate is then left alone): what was stored.
+/// Leave unchanged what was not. \a baud: bit/s; \a nodeId: 1…127, CO_LSS_NO_NODE_ID. An error, or another node-ID, is
+/// CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
+CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
+
+/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. An error is told to the master
+/// (medium). Default: CO_ERR_NONE, nothing is stored.
+CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
+/// \}
+
+/// \name Ready-made
+/// What the callbacks need, over the memory driver of the node (needs USE_PARA):
+///
+///     CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId) { return COLssNvmLoad(&Node, 0, baud, nodeId); }
+///     CO_ERR COLssStore(uint32_t baud, uint8_t nodeId) { return COLssNvmStore(&Node, 0, baud, nodeId); }
+///
+/// Never torn with a driver that tells the shape of the memory; they take CO_PARA_SPACE(8, …) bytes there from
+/// \a offset on, else 8 bytes.
+/// \{
+
+/// Leaves \a baud and \a nodeId unchanged where nothing was stored. CO_ERR_IF_NVM_READ: what is stored is damaged, or
+/// cannot be read; CO_ERR_BAD_ARG: an argument is null.
+CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId);
+
+/// CO_ERR_PARA_STORE: no place at \a offset; CO_ERR_IF_NVM_WRITE: the memory does not hold the values, the old ones
+/// stay; CO_ERR_BAD_ARG: \a node is null.
+CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId);
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

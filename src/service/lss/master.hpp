@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// LSS master. [305]
+#pragma once
+
+#include "co_core.h"
+
+namespace co::lss_master {
+
+void init(CO_NODE& node);
+
+// The service that is going on ends when the node is stopped or reset.
+void on_mode(CO_NODE& node);
+
+// An answer of a slave. False: malformed.
+[[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
+
+}  // namespace co::lss_master

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "service/lss/lss.hpp"
+
+#if USE_LSS
+
+#include "core/dict.hpp"
+#include "core/events.hpp"
+#include "core/machine.hpp"
+#include "core/routes.hpp"
+#include "core/timer.hpp"
+#include "core/transmit.hpp"
+#include "service/lss/bit_rate.hpp"
+#include "wire/lss.hpp"
+
+namespace co::lss {
+namespace {
+
+using wire::Lss;
+
+enum class State : uint8_t { waiting, configuration, count };
+
+enum class Event : uint8_t {
+  switch_global,
+  switch_selective,
+  configure_node_id,
+  configure_bit_timing,
+  activate_bit_timing,
+  store,
+  inquire,
+  inquire_node_id,
+  identify,
+  identify_unconfigured,
+  fastscan,
+  unknown,
+  count
+};
+
+using Service = void (*)(CO_NODE& node, const CO_IF_FRM& request);
+
+bool is_unconfigured(const CO_NODE& node) { return node.NodeId == wire::no_node_id; }
+
+constexpr bool is_in(uint8_t command, Lss first, uint8_t num) {
+  return static_cast<uint8_t>(command - static_cast<uint8_t>(first)) < num;
+}
+
+constexpr Event event_of(uint8_t command) {
+  switch (static_cast<Lss>(command)) {
+    case Lss::switch_global: return Event::switch_global;
+    case Lss::configure_node_id: return Event::configure_node_id;
+    case Lss::configure_bit_timing: return Event::configure_bit_timing;
+    case Lss::activate_bit_timing: return Event::activate_bit_timing;
+    case Lss::store: return Event::store;
+    case Lss::inquire_node_id: return Event::inquire_node_id;
+    case Lss::identify_unconfigured: return Event::identify_unconfigured;
+    case Lss::fastscan: return Event::fastscan;
+    default: break;
+  }
+  if (is_in(command, Lss::switch_selective, wire::lss_address_parts)) {
+    return Event::switch_selective;
+  }
+  if (is_in(command, Lss::identify, wire::lss_identify_parts)) {
+    return Event::identify;
+  }
+  return is_in(command, Lss::inquire, wire::lss_address_parts) ? Event::inquire : Event::unknown;
+}
+
+// A part of the LSS address: sub-indices 1…4 of 1018h.
+bool read_part(CO_NODE& node, uint8_t part, uint32_t& number) {
+  return dict::read_u32(node.Dict, CO_DEV(0x1018, part + 1U), number) == CO_ERR_NONE;
+}
+
+uint32_t part_of(CO_NODE& node, unsigned part) {
+  uint32_t number = 0;
+  (void)read_part(node, static_cast<uint8_t>(part), number);
+  return number;
+}
+
+// A node without node-ID is in Initialisation, where nothing else is sent.
+void send(CO_NODE& node, const CO_IF_FRM& frame) {
+  is_unconfigured(node) ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
+}
+
+void answer(CO_NODE& node, Lss command) {
+  send(node, wire::lss_frame(wire::lss_answer, static_cast<uint8_t>(command)));
+}
+
+void answer(CO_NODE& node, const CO_IF_FRM& request, uint32_t data) {
+  CO_IF_FRM frame = wire::lss_frame(wire::lss_answer, request.Data[0]);
+  wire::put_u32(frame.Data + 1, data);
+  send(node, frame);
+}
+
+// A node that waits for a node-ID gets to work.
+void enter(CO_NODE& node, State state) {
+  CO_LSS& lss = node.Lss;
+  const bool configured = is_unconfigured(node) && lss.CfgNodeId != wire::no_node_id;
+  lss.Mode = state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF;
+  lss.Selected = 0;
+  if (state == State::waiting && configured) {
+    event::defer(node, event::reset_communication);
+  }
+}
+
+// [305] Switch state global, selective -------------------------------------------------------------------------------
+
+void switch_global(CO_NODE& node, const CO_IF_FRM& request) {
+  if (request.Data[1] <= 1) {
+    enter(node, request.Data[1] == 0 ? State::waiting : State::configuration);
+  }
+}
+
+// The parts come in their order; any other begins anew.
+void switch_selective(CO_NODE& node, const CO_IF_FRM& request) {
+  CO_LSS& lss = node.Lss;
+  const unsigned part = request.Data[0] - static_cast<unsigned>(Lss::switch_selective);
+  const bool matches = (part == 0 || part == lss.Selected) && wire::get_u32(request.Data + 1) == part_of(node, part);
+  lss.Selected = static_cast<uint8_t>(matches ? part + 1 : 0);
+  if (lss.Selected == wire::lss_address_parts) {
+    enter(node, State::configuration);
+    answer(node, Lss::selected);
+  }
+}
+
+// Configure ----------------------------------------------------------------------------------------------------------
+
+constexpr uint32_t not_supported = 1;
+constexpr uint32_t medium = 2;
+
+void configure_node_id(CO_NODE& node, const CO_IF_FRM& request) {
+  const uint8_t id = request.Data[1];
+  const bool possible = wire::may_be_configured(id);
+  node.Lss.CfgNodeId = possible ? id : node.Lss.CfgNodeId;
+  answer(node, request, possible ? 0 : not_supported);
+}
+
+void configure_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
+  const uint32_t rate = request.Data[1] == 0 ? wire::bit_rate(request.Data[2]) : 0;
+  node.Lss.CfgBaudrate = rate != 0 ? rate : node.Lss.CfgBaudrate;
+  answer(node, request, rate != 0 ? 0 : not_supported);
+}
+
+void end_switch(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  node.Held = 0;
+  transmit::flush(node);
+}
+
+// Runs a function after the delay.
+void wait(CO_NODE& node, CO_TMR_FUNC then) {
+  if (node.Lss.Delay == 0) {
+    then(&node);
+  } else {
+    tmr::start(node.Tmr, node.Lss.Tmr, node.Lss.Delay, 0, then, &node);
+  }
+}
+
+void switch_rate(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  take_bit_rate(node, node.Lss.CfgBaudrate);
+  wait(node, end_switch);
+}
+
+void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
+  const uint32_t delay = wire::get_u16(request.Data + 1);
+  node.Lss.Delay = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
+  node.Held = 1;
+  wait(node, switch_rate);
+}
+
+void store(CO_NODE& node, const CO_IF_FRM& request) {
+  const bool stored = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId) == CO_ERR_NONE;
+  node.Error = stored ? node.Error : CO_ERR_LSS_STORE;
+  answer(node, request, stored ? 0 : medium);
+}
+
+// Inquire, identify --------------------------------------------------------------------------------------------------
+
+void inquire(CO_NODE& node, const CO_IF_FRM& request) {
+  answer(node, request, part_of(node, request.Data[0] - static_cast<unsigned>(Lss::inquire)));
+}
+
+void inquire_node_id(CO_NODE& node, const CO_IF_FRM& request) { answer(node, request, node.NodeId); }
+
+// Vendor-ID and product code are equal; revision and serial number lie between their limits.
+bool is_identified(CO_NODE& node, unsigned step, uint32_t value) {
+  constexpr uint8_t parts[] = {0, 1, 2, 2, 3, 3};
+  constexpr uint8_t first_limit = 2;
+  const uint32_t own = part_of(node, parts[step]);
+  const bool lowest = step % 2 == 0;
+  if (step < first_limit) {
+    return own == value;
+  }
+  return lowest ? own >= value : own <= value;
+}
+
+void identify(CO_NODE& node, const CO_IF_FRM& request) {
+  CO_LSS& lss = node.Lss;
+  const unsigned step = request.Data[0] - static_cast<unsigned>(Lss::identify);
+  const bool in_order = step == 0 || step == lss.Identified;
+  const bool matches = in_order && is_identified(node, step, wire::get_u32(request.Data + 1));
+  lss.Identified = static_cast<uint8_t>(matches ? step + 1 : 0);
+  if (lss.Identified == wire::lss_identify_parts) {
+    lss.Identified = 0;
+    answer(node, Lss::identified);
+  }
+}
+
+void identify_unconfigured(CO_NODE& node, const CO_IF_FRM&) {
+  if (is_unconfigured(node) && node.Lss.CfgNodeId == wire::no_node_id) {
+    answer(node, Lss::unconfigured);
+  }
+}
+
+// A part of which all bits are known leads to the next; the last one selects the node.
+void fastscan(CO_NODE& node, const CO_IF_FRM& request) {
+  CO_LSS& lss = node.Lss;
+  const wire::Fastscan scan = wire::get_fastscan(request);
+  if (!is_unconfigured(node) || lss.CfgNodeId != wire::no_node_id) {
+    return;
+  }
+  if (scan.bit == wire::fastscan_begin) {
+    lss.Scanned = 0;
+    answer(node, Lss::identified);
+    return;
+  }
+  if (!wire::is_possible(scan) || scan.part != lss.Scanned || !wire::is_match(scan, part_of(node, scan.part))) {
+    return;
+  }
+  if (scan.bit == 0) {
+    lss.Scanned = scan.next;
+    if (scan.next < scan.part) {
+      enter(node, State::configuration);
+    }
+  }
+  answer(node, Lss::identified);
+}
+
+void ignore(CO_NODE&, const CO_IF_FRM&) {}
+
+constexpr uint32_t both = in(State::waiting, State::configuration);
+constexpr uint32_t configuration = in(State::configuration);
+
+constexpr Row<Event, Service> rows[] = {
+    {both, Event::switch_global, switch_global},
+    {in(State::waiting), Event::switch_selective, switch_selective},
+    {configuration, Event::configure_node_id, configure_node_id},
+    {configuration, Event::configure_bit_timing, configure_bit_timing},
+    {configuration, Event::activate_bit_timing, activate_bit_timing},
+    {configuration, Event::store, store},
+    {configuration, Event::inquire, inquire},
+    {configuration, Event::inquire_node_id, inquire_node_id},
+    {both, Event::identify, identify},
+    {both, Event::identify_unconfigured, identify_unconfigured},
+    {in(State::waiting), Event::fastscan, fastscan},
+};
+
+constexpr auto machine =
+    make_machine<State, static_cast<size_t>(State::count), static_cast<size_t>(Event::count)>(rows, ignore);
+
+bool has_address(CO_NODE& node) {
+  uint32_t number = 0;
+  uint8_t part = 0;
+  while (part < wire::lss_address_parts && read_part(node, part, number)) {
+    ++part;
+  }
+  return part == wire::lss_address_parts;
+}
+
+}  // namespace
+
+void begin(CO_NODE& node) {
+  node.Lss.Node = &node;
+  node.Lss.CfgBaudrate = node.Baudrate;
+  node.Lss.CfgNodeId = node.NodeId;
+  load(node);
+  take_node_id(node);
+  node.Baudrate = node.Lss.CfgBaudrate;
+}
+
+void load(CO_NODE& node) {
+  uint32_t baud = node.Lss.CfgBaudrate;
+  uint8_t id = node.Lss.CfgNodeId;
+  if (COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id)) {
+    node.Lss.CfgBaudrate = baud;
+    node.Lss.CfgNodeId = id;
+  } else {
+    node.Error = CO_ERR_LSS_LOAD;
+  }
+}
+
+void take_node_id(CO_NODE& node) { node.NodeId = node.Lss.CfgNodeId; }
+
+bool awaits_node_id(CO_NODE& node) {
+  node.Lss.Started = is_unconfigured(node) ? 1 : 0;
+  return node.Lss.Started != 0;
+}
+
+void init(CO_NODE& node) {
+  CO_LSS& lss = node.Lss;
+  lss.Mode = CO_LSS_WAIT;
+  lss.Selected = 0;
+  lss.Identified = 0;
+  lss.Scanned = 0;
+  if (has_address(node)) {
+    routes::add(node, wire::lss_request, routes::Service::lss, 0);
+  }
+}
+
+void on_mode(CO_NODE& node) {
+  if (node.Nmt.Mode == CO_INVALID) {
+    tmr::stop(node.Tmr, node.Lss.Tmr);
+    node.Held = 0;
+  }
+}
+
+// Before CONodeStart() the node is not there.
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
+  const bool is_there = node.Nmt.Mode != CO_INIT || node.Lss.Started != 0;
+  if (frame.DLC != wire::lss_dlc) {
+    return false;
+  }
+  if (is_there && node.Held == 0) {
+    const State state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
+    machine(state, event_of(frame.Data[0]))(node, frame);
+  }
+  return true;
+}
+
+}  // namespace co::lss
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Node-ID and bit rate in the node's memory.
+#include "core/store.hpp"
+
+#if USE_LSS && USE_PARA
+
+namespace {
+
+using namespace co;
+
+struct Stored {
+  uint32_t baud;
+  uint32_t node_id;
+};
+
+store::Record record_at(uint32_t offset) {
+  constexpr uint32_t version = 0x4C535331;  // "LSS1": no parameter group
+  return {offset, sizeof(Stored), version};
+}
+
+}  // namespace
+
+extern "C" {
+
+CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
+  ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
+  Stored stored = {};
+  const store::Found found = store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored));
+  if (found == store::Found::data) {
+    *baud = stored.baud;
+    *nodeId = static_cast<uint8_t>(stored.node_id);
+  }
+  return found == store::Found::lost ? CO_ERR_IF_NVM_READ : CO_ERR_NONE;
+}
+
+CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t nodeId) {
+  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  const Stored stored = {baud, nodeId};
+  return store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
+}
+
+}  // extern "C"
+
+#endif

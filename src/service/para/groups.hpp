@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The groups that 1010h names.
+#pragma once
+
+#include "co_core.h"
+
+namespace co::para {
+
+constexpr uint16_t store_index = 0x1010;
+constexpr uint16_t restore_index = 0x1011;
+constexpr unsigned version_bit = 8;  // of CO_PARA.Value
+constexpr uint16_t verify_index = 0x1020;
+
+constexpr bool is_saved_on_command(const CO_PARA& group) { return (group.Value & CO_PARA___E) != 0; }
+constexpr bool is_saved_autonomously(const CO_PARA& group) { return (group.Value & CO_PARA__A_) != 0; }
+
+// The groups of 1010h or 1011h: sub-index 1 stands for all that follow it, if any do. [301:7.5.2.13]
+class Groups {
+ public:
+  Groups(CO_NODE& node, uint16_t index);
+
+  // The next group; null: there is none.
+  [[nodiscard]] const CO_PARA* next();
+
+ private:
+  CO_NODE& node_;
+  uint16_t index_;
+  uint8_t sub_;
+  uint8_t last_;
+};
+
+}  // namespace co::para

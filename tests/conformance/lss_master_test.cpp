@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// LSS master: requests and answers. [305]
+#include "support/lss_master_fixture.hpp"
+
+#if USE_LSS_MASTER
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("LSS master: each service sends its request, and ends with the answer of the slave") {
+  for (const LssDialogue& dialogue : lss_dialogues()) {
+    CAPTURE(dialogue.name);
+    LssMaster node;
+    start_all(node, dialogue);
+    node.after(999ms);
+    node.goes_on();
+    CHECK(node.armed_timers() == 1);
+    node.rx(dialogue.answer);
+    node.end(CO_LSSM_OK);
+    CHECK(node.armed_timers() == 0);
+    node.after(5000ms);
+    node.goes_on();
+    node.silent();
+  }
+}
+
+TEST_CASE("LSS master: what was inquired is told") {
+  LssMaster node;
+  const std::uint32_t numbers[] = {0x00000319, 0x12345678, 0xFFFFFFFF, 0x00000044, 255};
+  for (std::size_t n = 0; n < 5; ++n) {
+    start_all(node, lss_dialogues()[n + 4]);
+    node.rx(lss_dialogues()[n + 4].answer);
+    CHECK(node.end(CO_LSSM_OK).value == numbers[n]);
+  }
+  node.run("7E5#5E00000000000000", COLssmInquireNodeId);
+  node.rx("7E4#5E7FEEEEEEEEEEEE");  // reserved bytes are none of the number
+  CHECK(node.end(CO_LSSM_OK).value == 127);
+}
+
+TEST_CASE("LSS master: switch state global: no answer, the service lss_ends after 1 ms") {
+  LssMaster node;
+  node.run("7E5#0401000000000000", COLssmSwitchGlobal, lss_configuration);
+  node.goes_on();
+  node.after(1ms);
+  node.end(CO_LSSM_OK);
+  node.run("7E5#0400000000000000", COLssmSwitchGlobal, lss_waiting);
+  node.rx("7E4#0400000000000000");
+  node.goes_on();
+  node.after(1ms);
+  node.end(CO_LSSM_OK);
+}
+
+TEST_CASE("LSS master: configure bit timing: table 0, its index for the bit rate") {
+  const std::pair<std::uint32_t, const char*> rates[] = {
+      {1000000, "7E5#1300000000000000"}, {800000, "7E5#1300010000000000"}, {500000, "7E5#1300020000000000"},
+      {250000, "7E5#1300030000000000"},  {125000, "7E5#1300040000000000"}, {50000, "7E5#1300060000000000"},
+      {20000, "7E5#1300070000000000"},   {10000, "7E5#1300080000000000"}};
+  for (const auto& [rate, request] : rates) {
+    LssMaster node;
+    node.run(request, COLssmConfigureBitTiming, rate);
+    node.rx("7E4#1300000000000000");
+    node.end(CO_LSSM_OK);
+  }
+}
+
+TEST_CASE("LSS master: a slave that refuses is told with its error code, and that of its manufacturer") {
+  const char* refusals[][2] = {
+      {"7E5#1120000000000000", "7E4#11"}, {"7E5#1300040000000000", "7E4#13"}, {"7E5#1700000000000000", "7E4#17"}};
+  for (std::size_t n = 0; n < 3; ++n) {
+    LssMaster node;
+    for (const auto& [error, codes] : {std::pair(1, "0100"), std::pair(2, "0200"), std::pair(255, "FF7B")}) {
+      start_all(node, lss_dialogues()[n + 1]);
+      node.rx(std::string(refusals[n][1]) + codes + "0000000000");
+      const LssEnd end = node.end(CO_LSSM_REFUSED);
+      CHECK(end.error == error);
+      CHECK(end.specific == (error == 255 ? 0x7B : 0));
+    }
+    start_all(node, lss_dialogues()[n + 1]);
+    node.rx(std::string(refusals[n][1]) + "000000000000");
+    node.goes_on();  // 7 bytes
+    node.rx(std::string(refusals[n][1]) + "00000000000000");
+    CHECK(node.end(CO_LSSM_OK).error == 0);
+  }
+}
+
+TEST_CASE("LSS master: without an answer a service lss_ends after its time, neither sooner nor later") {
+  for (const LssDialogue& dialogue : lss_dialogues()) {
+    CAPTURE(dialogue.name);
+    LssMaster node;
+    start_all(node, dialogue);
+    node.after(999ms);
+    node.goes_on();
+    node.after(1ms);
+    node.end(CO_LSSM_TIMEOUT);
+    node.times(20, 3);
+    start_all(node, dialogue);
+    node.after(19ms);
+    node.goes_on();
+    node.after(1ms);
+    node.end(CO_LSSM_TIMEOUT);
+    node.times(0, 0);
+    start_all(node, dialogue);
+    node.after(999ms);
+    node.goes_on();
+    node.after(1ms);
+    node.end(CO_LSSM_TIMEOUT);
+  }
+}
+
+TEST_CASE("LSS master: times that the timer cannot count are its longest") {
+  LssMaster node(Setup().rate(1000000));
+  node.times(UINT32_MAX, UINT32_MAX);
+  node.run("7E5#1700000000000000", COLssmStore);
+  node.after(1h);
+  node.goes_on();
+  node.rx("7E4#1700000000000000");
+  node.end(CO_LSSM_OK);
+}
+
+TEST_CASE("LSS master: no other command is taken for the answer") {
+  std::vector<LssDialogue> all = lss_dialogues();
+  all.insert(all.end(), lss_searches().begin(), lss_searches().end());
+  for (const LssDialogue& dialogue : all) {
+    CAPTURE(dialogue.name);
+    LssMaster node;
+    start_all(node, dialogue);
+    CO_IF_FRM answer = frame("7E4#0000000000000000");
+    const CO_IF_FRM right = frame(dialogue.answer);
+    for (unsigned command = 0; command <= 255; ++command) {
+      answer.Data[0] = static_cast<std::uint8_t>(command);
+      if (command != right.Data[0]) {
+        node.rx(answer);
+      }
+    }
+    node.goes_on();
+    node.after(1000ms);
+    node.end(right.Data[0] == 0x4F || right.Data[0] == 0x50 ? CO_LSSM_NOT_FOUND : CO_LSSM_TIMEOUT);
+  }
+}
+
+TEST_CASE("LSS master: frames of a wrong length and remote frames are no answers, and counted as malformed") {
+  LssMaster node;
+  node.run("7E5#5E00000000000000", COLssmInquireNodeId);
+  const std::uint32_t before = node.counters().Malformed;
+  for (const char* wrong : {"7E4#", "7E4#5E", "7E4#5E050000000000", "7E4#R"}) {
+    node.rx(wrong);
+    node.goes_on();
+  }
+  CHECK(node.counters().Malformed == before + 4);
+  node.rx("80007E4#5E05000000000000");
+  node.goes_on();
+  node.rx("7E4#5E05000000000000");
+  CHECK(node.end(CO_LSSM_OK).value == 5);
+}
+
+TEST_CASE("LSS master: what comes when nothing is awaited is ignored: late, double and unasked answers") {
+  for (const LssDialogue& dialogue : lss_dialogues()) {
+    CAPTURE(dialogue.name);
+    LssMaster node;
+    node.rx(dialogue.answer);
+    node.goes_on();
+    start_all(node, dialogue);
+    node.rx(dialogue.answer);
+    node.end(CO_LSSM_OK);
+    node.rx(dialogue.answer);
+    node.goes_on();
+    start_all(node, dialogue);
+    node.after(1000ms);
+    node.end(CO_LSSM_TIMEOUT);
+    node.rx(dialogue.answer);
+    node.goes_on();
+    node.silent();
+  }
+}
+
+TEST_CASE("LSS master: a late answer is none to the next service") {
+  LssMaster node;
+  for (std::size_t n = 4; n + 1 < lss_dialogues().size(); ++n) {
+    start_all(node, lss_dialogues()[n]);
+    node.after(1000ms);
+    node.end(CO_LSSM_TIMEOUT);
+    start_all(node, lss_dialogues()[n + 1]);
+    node.rx(lss_dialogues()[n].answer);
+    node.goes_on();
+    node.rx(lss_dialogues()[n + 1].answer);
+    node.end(CO_LSSM_OK);
+  }
+}
+
+TEST_CASE("LSS master: an answer before the request is complete is none") {
+  LssMaster node;
+  const LssDialogue& selective = lss_dialogues()[0];
+  start(node, selective);
+  node.tx(selective.requests[0]);
+  node.rx(selective.answer);
+  node.goes_on();
+  for (unsigned n = 1; n < 4; ++n) {
+    node.after(1ms);
+    node.tx(selective.requests[n]);
+  }
+  node.goes_on();
+  node.rx(selective.answer);
+  node.end(CO_LSSM_OK);
+}
+
+TEST_CASE("LSS master: identify: answers are awaited for the whole time, however many come") {
+  for (const LssDialogue& dialogue : lss_searches()) {
+    CAPTURE(dialogue.name);
+    LssMaster node;
+    start_all(node, dialogue);
+    node.rx(dialogue.answer);
+    node.after(25ms);
+    node.rx(dialogue.answer);
+    node.after(24ms);
+    node.rx(dialogue.answer);
+    node.goes_on();
+    node.after(1ms);
+    node.end(CO_LSSM_OK);
+    node.times(20, 200);
+    start_all(node, dialogue);
+    node.after(199ms);
+    node.goes_on();
+    node.after(1ms);
+    node.end(CO_LSSM_NOT_FOUND);
+  }
+}
+
+#if USE_LSS
+TEST_CASE("LSS master: a node is slave and master at the same time") {
+  Setup setup;
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+    setup.with({CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, sub});
+  }
+  LssMaster node(setup);
+  node.run("7E5#0401000000000000", COLssmSwitchGlobal, lss_configuration);
+  node.rx("7E5#5E00000000000000");  // its slave is still waiting
+  node.silent();
+  node.after(1ms);
+  node.end(CO_LSSM_OK);
+  node.run("7E5#5E00000000000000", COLssmInquireNodeId);
+  node.rx("7E5#0401000000000000");
+  node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+  node.goes_on();
+  node.rx("7E4#5E05000000000000");
+  CHECK(node.end(CO_LSSM_OK).value == 5);
+}
+#endif
+
+}  // namespace
+
+#endif

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: Apache-2.0
+// LSS slave. [305] [L1-L7]
+#include "support/failing_nvm.hpp"
+#include "support/fixture.hpp"
+
+#if USE_LSS
+
+namespace {
+
+using namespace test;
+
+CO_OBJ identity(std::uint8_t sub, std::uint32_t number) {
+  return {CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, number};
+}
+
+Setup slave(std::uint8_t node_id = 1, std::uint32_t serial = 0x00000044) {
+  return Setup()
+      .node_id(node_id)
+      .with({CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4})
+      .with(identity(1, 0x00000319))
+      .with(identity(2, 0x12345678))
+      .with(identity(3, 0x00010002))
+      .with(identity(4, serial));
+}
+
+constexpr std::uint8_t no_node_id = 255;
+constexpr const char* to_configuration = "7E5#0401000000000000";
+constexpr const char* to_waiting = "7E5#0400000000000000";
+
+// In the state configuration.
+struct Configured {
+  explicit Configured(std::uint8_t node_id = 1) : node(slave(node_id)) { node.rx(to_configuration); }
+  Fixture node;
+};
+
+void select(Fixture& node) {
+  node.rx("7E5#4019030000000000");
+  node.rx("7E5#4178563412000000");
+  node.rx("7E5#4202000100000000");
+  node.rx("7E5#4344000000000000");
+}
+
+TEST_CASE("LSS: in the state waiting, configuration services are ignored [L1]") {
+  Fixture node(slave());
+  for (const char* request : {"7E5#1105000000000000", "7E5#1300020000000000", "7E5#1500000000000000",
+                              "7E5#1700000000000000", "7E5#5A00000000000000", "7E5#5E00000000000000"}) {
+    CAPTURE(request);
+    node.rx(request);
+    node.silent();
+  }
+  CHECK(node.can.init_calls == 1);
+}
+
+TEST_CASE("LSS: switch state global: no answer; configuration and back [L2]") {
+  Fixture node(slave());
+  node.rx(to_configuration);
+  node.silent();
+  node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+  node.rx("7E5#0402000000000000");
+  node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+  node.rx(to_waiting);
+  node.rx("7E5#5E00000000000000");
+  node.silent();
+}
+
+TEST_CASE("LSS: switch state selective: answered after the whole address [L2]") {
+  Fixture node(slave());
+  select(node);
+  node.tx("7E4#4400000000000000");
+  node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+}
+
+TEST_CASE("LSS: switch state selective: each part has to match, in the order of the address [L2]") {
+  const char* parts[] = {"7E5#4019030000000000", "7E5#4178563412000000", "7E5#4202000100000000",
+                         "7E5#4344000000000000"};
+  for (unsigned wrong = 0; wrong < 4; ++wrong) {
+    for (const bool missing : {false, true}) {
+      Fixture node(slave());
+      for (unsigned n = 0; n < 4; ++n) {
+        if (n != wrong) {
+          node.rx(parts[n]);
+        } else if (!missing) {
+          node.rx(std::string(parts[n]).replace(6, 2, "7F"));
+        }
+      }
+      node.silent();
+      node.rx("7E5#5E00000000000000");
+      node.silent();
+      select(node);
+      node.tx("7E4#4400000000000000");
+    }
+  }
+}
+
+TEST_CASE("LSS: in the state configuration, switch state selective is ignored") {
+  Configured device;
+  select(device.node);
+  device.node.silent();
+}
+
+TEST_CASE("LSS: configure node-ID: 1…127 and 255 are taken, any other is refused with 1 and changes nothing [L3]") {
+  for (unsigned id = 0; id <= 255; ++id) {
+    CAPTURE(id);
+    Configured device;
+    CO_IF_FRM request = frame("7E5#1100000000000000");
+    request.Data[1] = static_cast<std::uint8_t>(id);
+    device.node.rx(request);
+    const bool possible = (id >= 1 && id <= 127) || id == 255;
+    device.node.tx(possible ? "7E4#1100000000000000" : "7E4#1101000000000000");
+    CHECK(device.node->Lss.CfgNodeId == (possible ? id : 1));
+    CHECK(device.node->NodeId == 1);
+  }
+}
+
+TEST_CASE("LSS: a new node-ID is the node's after NMT reset communication, and not before [L7]") {
+  for (const char* reset : {"000#8201", "000#8101"}) {
+    Configured device;
+    Fixture& node = device.node;
+    node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+    node.rx(to_waiting);
+    node.ask("601#4000100000000000", "581#4300100091010F00");
+    node.ask(reset, "705#00");
+    node.ask("605#4000100000000000", "585#4300100091010F00");
+    node.rx("601#4000100000000000");
+    node.silent();
+  }
+}
+
+TEST_CASE("LSS: configure bit timing: table 0, index 0…8 without 5; any other is refused with 1 [L4]") {
+  const std::map<unsigned, std::uint32_t> rates = {{0, 1000000}, {1, 800000}, {2, 500000}, {3, 250000},
+                                                   {4, 125000},  {6, 50000},  {7, 20000},  {8, 10000}};
+  for (const unsigned table : {0U, 1U, 128U, 255U}) {
+    for (unsigned index = 0; index <= 255; ++index) {
+      Configured device;
+      CO_IF_FRM request = frame("7E5#1300000000000000");
+      request.Data[1] = static_cast<std::uint8_t>(table);
+      request.Data[2] = static_cast<std::uint8_t>(index);
+      device.node.rx(request);
+      const auto rate = table == 0 ? rates.find(index) : rates.end();
+      device.node.tx(rate != rates.end() ? "7E4#1300000000000000" : "7E4#1301000000000000");
+      CHECK(device.node->Lss.CfgBaudrate == (rate != rates.end() ? rate->second : 250000));
+      CHECK(device.node.can.baud == 250000);
+    }
+  }
+}
+
+TEST_CASE("LSS: activate bit timing: nothing is sent for the delay, the switch, and the delay again [L4]") {
+  Fixture node(slave().heartbeat(30));
+  node.rx(to_configuration);
+  node.ask("7E5#1300020000000000", "7E4#1300000000000000");
+  node.rx("7E5#1564000000000000");
+  node.after(99ms);
+  node.silent();
+  CHECK(node.can.baud == 250000);
+  node.after(1ms);
+  CHECK(node.can.baud == 500000);
+  CHECK(node.can.init_calls == 2);
+  node.after(99ms);
+  node.silent();
+  node.after(1ms);
+  node.tx("701#7F");
+  node.after(10ms);
+  node.tx("701#7F");
+  CHECK(node->Baudrate == 500000);
+}
+
+TEST_CASE("LSS: activate bit timing with delay 0 switches at once [L4] [D50]") {
+  Configured device;
+  device.node.ask("7E5#1300000000000000", "7E4#1300000000000000");
+  device.node.rx("7E5#1500000000000000");
+  CHECK(device.node.can.baud == 1000000);
+  CHECK(device.node.can.on_bus);
+  device.node.ask("601#4000100000000000", "581#4300100091010F00");
+}
+
+TEST_CASE("LSS: activate bit timing, and the node is stopped or reset meanwhile: it goes on") {
+  Configured device;
+  Fixture& node = device.node;
+  node.ask("7E5#1300020000000000", "7E4#1300000000000000");
+  node.rx("7E5#150A000000000000");
+  node.rx("000#8201");
+  node.silent();
+  node.after(20ms);
+  node.tx("701#00");
+  CHECK(node.can.baud == 500000);
+}
+
+TEST_CASE("LSS: store: what is pending is given to the application, whose answer is told [L5]") {
+  Configured device;
+  Fixture& node = device.node;
+  std::uint32_t baud = 0;
+  std::uint8_t id = 0;
+  callbacks().lss_store = [&](std::uint32_t stored_baud, std::uint8_t stored_id) {
+    baud = stored_baud;
+    id = stored_id;
+    return CO_ERR_NONE;
+  };
+  node.ask("7E5#1300020000000000", "7E4#1300000000000000");
+  node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+  node.ask("7E5#1700000000000000", "7E4#1700000000000000");
+  CHECK(baud == 500000);
+  CHECK(id == 5);
+  callbacks().lss_store = [](std::uint32_t, std::uint8_t) { return CO_ERR_BAD_ARG; };
+  node.ask("7E5#1700000000000000", "7E4#1702000000000000");
+  CHECK(node.error() == CO_ERR_LSS_STORE);
+}
+
+TEST_CASE("LSS: what was stored is loaded at power-on: node-ID and bit rate") {
+  callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t* id) {
+    CHECK(*baud == 250000);
+    CHECK(*id == 1);
+    *baud = 125000;
+    *id = 9;
+    return CO_ERR_NONE;
+  };
+  Fixture node(slave().stay_in_init());
+  CHECK(node.can.baud == 125000);
+  node.call([&] { CONodeStart(&node.node); });
+  node.tx("709#00");
+}
+
+TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
+  FailingNvm nvm({64, 1, 0});
+  CO_NODE* device = nullptr;
+  callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(device, 0, baud, id); };
+  {
+    Fixture node(slave(no_node_id).nvm(FailingNvm::driver, &nvm));
+    device = &node.node;
+    node.rx(to_configuration);
+    node.ask("7E5#1300040000000000", "7E4#1300000000000000");
+    node.ask("7E5#1121000000000000", "7E4#1100000000000000");
+    node.ask("7E5#1700000000000000", "7E4#1700000000000000");
+    nvm.cut_at = nvm.steps + 5;
+    node.ask("7E5#1122000000000000", "7E4#1100000000000000");
+    node.ask("7E5#1700000000000000", "7E4#1702000000000000");
+    CHECK(node.error() == CO_ERR_LSS_STORE);
+  }
+  nvm.power_up();
+  std::uint32_t baud = 250000;
+  std::uint8_t id = no_node_id;
+  Fixture node(slave().nvm(FailingNvm::driver, &nvm));
+  CHECK(COLssNvmLoad(&node.node, 0, &baud, &id) == CO_ERR_NONE);
+  CHECK(baud == 125000);
+  CHECK(id == 0x21);
+  nvm.bytes.assign(nvm.bytes.size(), 0x55);
+  CHECK(COLssNvmLoad(&node.node, 0, &baud, &id) == CO_ERR_IF_NVM_READ);
+  CHECK(COLssNvmStore(&node.node, 60, baud, id) == CO_ERR_PARA_STORE);
+  CHECK(COLssNvmLoad(nullptr, 0, &baud, &id) == CO_ERR_BAD_ARG);
+  CHECK(COLssNvmLoad(&node.node, 0, nullptr, &id) == CO_ERR_BAD_ARG);
+  CHECK(COLssNvmLoad(&node.node, 0, &baud, nullptr) == CO_ERR_BAD_ARG);
+  CHECK(COLssNvmStore(nullptr, 0, baud, id) == CO_ERR_BAD_ARG);
+}
+
+TEST_CASE("LSS: what cannot be loaded is told, and the node keeps node-ID and bit rate") {
+  SUBCASE("error") {
+    callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) {
+      *baud = 5;
+      return CO_ERR_BAD_ARG;
+    };
+  }
+  SUBCASE("node-ID 0") {
+    callbacks().lss_load = [](std::uint32_t*, std::uint8_t* id) { return *id = 0, CO_ERR_NONE; };
+  }
+  SUBCASE("node-ID 128") {
+    callbacks().lss_load = [](std::uint32_t*, std::uint8_t* id) { return *id = 128, CO_ERR_NONE; };
+  }
+  Fixture node(slave());
+  CHECK(node.error() == CO_ERR_LSS_LOAD);
+  CHECK(node.can.baud == 250000);
+  CHECK(node->NodeId == 1);
+  callbacks().lss_load = nullptr;
+}
+
+TEST_CASE("LSS: inquire: the four parts of the address and the node-ID [L6]") {
+  Configured device(0x7F);
+  Fixture& node = device.node;
+  node.ask("7E5#5A00000000000000", "7E4#5A19030000000000");
+  node.ask("7E5#5B00000000000000", "7E4#5B78563412000000");
+  node.ask("7E5#5C00000000000000", "7E4#5C02000100000000");
+  node.ask("7E5#5D00000000000000", "7E4#5D44000000000000");
+  node.ask("7E5#5E00000000000000", "7E4#5E7F000000000000");
+}
+
+TEST_CASE("LSS: identify remote slave: equal vendor-ID and product code, revision and serial number in range [L6]") {
+  const std::vector<std::string> right = {"7E5#4619030000000000", "7E5#4778563412000000", "7E5#4802000100000000",
+                                          "7E5#4902000100000000", "7E5#4A44000000000000", "7E5#4B44000000000000"};
+  const auto identify = [](Fixture& node, const std::vector<std::string>& requests) {
+    for (const std::string& request : requests) {
+      node.rx(request);
+    }
+  };
+  for (const char* state : {to_waiting, to_configuration}) {
+    Fixture node(slave());
+    node.rx(state);
+    identify(node, right);
+    node.tx("7E4#4F00000000000000");
+    const char* wrong[] = {"7E5#461A030000000000", "7E5#4779563412000000", "7E5#4803000100000000",
+                           "7E5#4901000100000000", "7E5#4A45000000000000", "7E5#4B43000000000000"};
+    for (unsigned n = 0; n < 6; ++n) {
+      std::vector<std::string> requests = right;
+      requests[n] = wrong[n];
+      identify(node, requests);
+      node.silent();
+      requests.erase(requests.begin() + n);
+      identify(node, requests);
+      node.silent();
+    }
+    identify(node, right);
+    node.tx("7E4#4F00000000000000");
+  }
+}
+
+TEST_CASE("LSS: identify non-configured: answered by nodes without node-ID alone [L6] [D50]") {
+  Fixture with(slave());
+  with.rx("7E5#4C00000000000000");
+  with.silent();
+  Fixture without(slave(no_node_id));
+  without.ask("7E5#4C00000000000000", "7E4#5000000000000000");
+}
+
+TEST_CASE("LSS: a node without node-ID sends no boot-up and no heartbeat, and hears nothing but LSS [L7] [D50]") {
+  Fixture node(slave(no_node_id).heartbeat(10));
+  node.after(1000ms);
+  node.silent();
+  for (const char* foreign : {"000#0100", "000#8100", "601#4000100000000000", "6FF#4000100000000000", "000#81FF"}) {
+    node.rx(foreign);
+    node.silent();
+  }
+  CHECK(node.mode() == CO_INIT);
+  node.call([&] { CONmtSetMode(&node->Nmt, CO_OPERATIONAL); });
+  CHECK(node.mode() == CO_INIT);
+  CHECK(node.error() == CO_ERR_NMT_MODE);
+  node.silent();
+}
+
+TEST_CASE("LSS: a node without node-ID gets to work when it is switched to waiting with one [L7]") {
+  Fixture node(slave(no_node_id));
+  node.rx(to_configuration);
+  node.ask("7E5#5E00000000000000", "7E4#5EFF000000000000");
+  node.ask("7E5#1120000000000000", "7E4#1100000000000000");
+  node.after(100ms);
+  node.silent();
+  node.ask(to_waiting, "720#00");
+  CHECK(node.mode() == CO_PREOP);
+  node.ask("620#4000100000000000", "5A0#4300100091010F00");
+}
+
+TEST_CASE("LSS: node-ID 255 makes a node unconfigured at the next reset communication") {
+  Configured device;
+  Fixture& node = device.node;
+  node.ask("7E5#11FF000000000000", "7E4#1100000000000000");
+  node.rx("000#8201");
+  node.silent();
+  CHECK(node.mode() == CO_INIT);
+  node.ask("7E5#4C00000000000000", "7E4#5000000000000000");
+  node.rx(to_configuration);
+  node.ask("7E5#1103000000000000", "7E4#1100000000000000");
+  node.ask(to_waiting, "703#00");
+}
+
+TEST_CASE("LSS: before CONodeStart() a node is silent") {
+  for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
+    Fixture node(slave(id).stay_in_init());
+    node.rx("7E5#4C00000000000000");
+    select(node);
+    node.rx("7E5#5180000000800000");
+    node.silent();
+  }
+}
+
+TEST_CASE("LSS: without the whole address in 1018h there is no LSS") {
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+    Fixture node(slave().without(0x1018, sub));
+    node.rx(to_configuration);
+    node.rx("7E5#5E00000000000000");
+    node.silent();
+  }
+}
+
+TEST_CASE("LSS: frames of a wrong length, remote frames and unknown commands are ignored [L1]") {
+  Configured device;
+  for (const char* request : {"7E5#", "7E5#5E", "7E5#5E000000000000", "7E5#R", "80007E5#5E00000000000000"}) {
+    CAPTURE(request);
+    device.node.rx(request);
+    device.node.silent();
+  }
+}
+
+// Every command byte in each state, with and without node-ID.
+TEST_CASE("LSS: no command byte but those of CiA 305 is answered [L1]") {
+  for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
+    for (const bool configuration : {false, true}) {
+      for (unsigned command = 0; command <= 255; ++command) {
+        CAPTURE(command);
+        Fixture node(slave(id).only_small());
+        node.rx(configuration ? to_configuration : to_waiting);
+        CO_IF_FRM request = frame("7E5#0000000000000000");
+        request.Data[0] = static_cast<std::uint8_t>(command);
+        node.rx(request);
+        const bool configures =
+            command == 0x11 || command == 0x13 || command == 0x17 || (command >= 0x5A && command <= 0x5E);
+        const bool finds = id == no_node_id && (command == 0x4C);
+        const auto sent = node.frames();
+        CHECK(sent.size() == (((configuration && configures) || finds) ? 1 : 0));
+      }
+    }
+  }
+}
+
+TEST_CASE("LSS: services are served in every NMT state") {
+  for (const char* state : {"000#8001", "000#0101", "000#0201"}) {
+    Fixture node(slave());
+    node.rx(state);
+    select(node);
+    node.tx("7E4#4400000000000000");
+    node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+  }
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: Apache-2.0
+// 1010h, 1011h and 1020h: parameter groups. [301:7.5.2.13, 7.5.2.14, 7.5.2.23] [S1-S7]
+#include "support/failing_nvm.hpp"
+#include "support/fixture.hpp"
+
+#if USE_PARA
+
+namespace {
+
+using namespace test;
+
+// A device with three groups, and its memory, which outlives each of its nodes.
+struct Device {
+  struct Memory {
+    std::uint32_t number;
+    std::uint8_t byte;
+  };
+
+  Device() = default;
+  explicit Device(CO_NVM_SHAPE shape) : nvm(shape) {}
+
+  static CO_DATA data(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
+
+  Setup setup() {
+    Setup all = without_groups();
+    all.with({CO_KEY(0x1010, 0, CO_OBJ_D___R_), CO_TPARA_STORE, 4});
+    all.with({CO_KEY(0x1011, 0, CO_OBJ_D___R_), CO_TPARA_RESTORE, 4});
+    const CO_PARA* groups[] = {&own, &own, &application, &autonomous};
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) {
+      all.with({CO_KEY(0x1010, sub, CO_OBJ_____RW), CO_TPARA_STORE, data(groups[sub - 1])});
+      all.with({CO_KEY(0x1011, sub, CO_OBJ_____RW), CO_TPARA_RESTORE, data(groups[sub - 1])});
+    }
+    return all;
+  }
+
+  Setup single() {
+    return without_groups()
+        .with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, data(&application)})
+        .with({CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, data(&application)});
+  }
+
+  Setup without_groups() {
+    return Setup()
+        .only_small()
+        .may_change(0x2300, 1)
+        .may_change(0x2300, 2)
+        .may_change(0x2300, 3)
+        .may_change(0x1020, 1)
+        .may_change(0x1020, 2)
+        .nvm(FailingNvm::driver, &nvm)
+        .with({CO_KEY(0x1020, 1, CO_OBJ_____RW), CO_TVERIFY_CONFIG, data(&date)})
+        .with({CO_KEY(0x1020, 2, CO_OBJ_____RW), CO_TVERIFY_CONFIG, data(&time)})
+        .with({CO_KEY(0x2300, 1, CO_OBJ_____RW), CO_TUNSIGNED32, data(&ram[0].number)})
+        .with({CO_KEY(0x2300, 2, CO_OBJ_____RW), CO_TUNSIGNED32, data(&ram[1].number)})
+        .with({CO_KEY(0x2300, 3, CO_OBJ_____RW), CO_TUNSIGNED32, data(&ram[2].number)})
+        .with({CO_KEY(0x2300, 4, CO_OBJ_____RW), CO_TUNSIGNED32, data(&stray)});
+  }
+
+  FailingNvm nvm{{1024, 1, 0}};
+  Memory ram[3] = {};
+  Memory defaults[3] = {{10, 1}, {20, 2}, {30, 3}};
+  std::uint32_t stray = 0;
+  std::uint32_t date = 0;
+  std::uint32_t time = 0;
+  CO_PARA own = {0, sizeof(Memory), &ram[0], &defaults[0], CO_RESET_COM, nullptr, CO_PARA___E};
+  CO_PARA application = {100, sizeof(Memory), &ram[1], &defaults[1], CO_RESET_NODE, nullptr, CO_PARA___E};
+  CO_PARA autonomous = {200, sizeof(Memory), &ram[2], &defaults[2], CO_RESET_NODE, nullptr, CO_PARA__A_};
+};
+
+constexpr const char* save_all = "601#2310100173617665";
+constexpr const char* all_saved = "581#6010100100000000";
+
+TEST_CASE("parameters: 1010h tells what is stored on command (bit 0) and autonomously (bit 1) [S1]") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#4010100000000000", "581#4F10100004000000");
+  node.ask("601#4010100100000000", "581#4310100103000000");
+  node.ask("601#4010100200000000", "581#4310100201000000");
+  node.ask("601#4010100400000000", "581#4310100402000000");
+  node.ask("601#4010100500000000", "581#8010100511000906");
+}
+
+TEST_CASE("parameters: 1011h tells what can be restored (bit 0) [S1]") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#4011100000000000", "581#4F11100004000000");
+  node.ask("601#4011100100000000", "581#4311100101000000");
+  node.ask("601#4011100400000000", "581#4311100400000000");
+}
+
+TEST_CASE("parameters: any word but \"save\" and \"load\" is refused with 0800 0020h, and stores nothing [S2]") {
+  Device device;
+  Fixture node(device.setup());
+  for (const char* request : {"601#231010016C6F6164", "601#2310100200000000", "601#2310100265766173",
+                              "601#2311100173617665", "601#23111002FFFFFFFF", "601#2310100453415645"}) {
+    CAPTURE(request);
+    std::string answer = std::string("581#80") + std::string(request).substr(6, 6) + "20000008";
+    node.ask(request, answer);
+  }
+  CHECK(device.nvm.steps == 0);
+}
+
+TEST_CASE("parameters: a group that is not stored on command refuses \"save\" and \"load\" with 0800 0020h") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#2310100473617665", "581#8010100420000008");
+  node.ask("601#231110046C6F6164", "581#8011100420000008");
+  CHECK(device.nvm.steps == 0);
+}
+
+TEST_CASE("parameters: a wrong length is refused; 1010h:0 is read-only") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#2F10100173000000", "581#8010100113000706");
+  node.ask("601#2F10100001000000", "581#8010100002000106");
+}
+
+TEST_CASE("parameters: before anything was stored a group has its default values") {
+  Device device;
+  Fixture node(device.setup());
+  CHECK(device.ram[0].number == 10);
+  CHECK(device.ram[1].number == 20);
+  CHECK(device.ram[2].byte == 3);
+  CHECK(node.error() == CO_ERR_NONE);
+}
+
+TEST_CASE("parameters: \"save\" to sub-index 1 stores all groups; they are there after power off [S3] [S4]") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230111000000", "581#6000230100000000");
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+  }
+  device.ram[0] = device.ram[1] = {};
+  Fixture node(device.setup());
+  node.ask("601#4000230100000000", "581#4300230111000000");
+  node.ask("601#4000230200000000", "581#4300230222000000");
+}
+
+TEST_CASE("parameters: \"save\" to one sub-index stores that group alone [S3]") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230111000000", "581#6000230100000000");
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask("601#2310100373617665", "581#6010100300000000");
+  }
+  Fixture node(device.setup());
+  node.ask("601#4000230100000000", "581#430023010A000000");
+  node.ask("601#4000230200000000", "581#4300230222000000");
+}
+
+TEST_CASE("parameters: a single group at sub-index 1 is stored by it [S3]") {
+  Device device;
+  {
+    Fixture node(device.single());
+    node.ask("601#4010100100000000", "581#4310100101000000");
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+  }
+  Fixture node(device.single());
+  node.ask("601#4000230200000000", "581#4300230222000000");
+}
+
+TEST_CASE("parameters: a reset loads what was stored: communication its groups, node all [N6]") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#2300230111000000", "581#6000230100000000");
+  node.ask(save_all, all_saved);
+  for (const bool whole : {false, true}) {
+    CAPTURE(whole);
+    node.ask("601#2300230199000000", "581#6000230100000000");
+    node.ask("601#2300230299000000", "581#6000230200000000");
+    node.ask(whole ? "000#8101" : "000#8201", "701#00");
+    node.ask("601#4000230100000000", "581#4300230111000000");
+    node.ask("601#4000230200000000", whole ? "581#4300230214000000" : "581#4300230299000000");
+  }
+}
+
+TEST_CASE("parameters: \"load\" changes nothing before the reset that the group names [S5]") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#2300230111000000", "581#6000230100000000");
+  node.ask("601#2300230222000000", "581#6000230200000000");
+  node.ask(save_all, all_saved);
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  node.ask("601#4000230100000000", "581#4300230111000000");
+  node.ask("601#4000230200000000", "581#4300230222000000");
+  node.ask("000#8201", "701#00");
+  node.ask("601#4000230100000000", "581#430023010A000000");
+  node.ask("601#4000230200000000", "581#4300230222000000");
+  node.ask("000#8101", "701#00");
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: \"load\" survives power off before the reset; \"save\" after it counts [S5]") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+    node.ask("601#231110036C6F6164", "581#6011100300000000");
+  }
+  {
+    Fixture node(device.setup());
+    node.ask("601#4000230200000000", "581#4300230214000000");
+    node.ask("601#231110036C6F6164", "581#6011100300000000");
+    node.ask("601#2300230233000000", "581#6000230200000000");
+    node.ask("601#2310100373617665", "581#6010100300000000");
+  }
+  Fixture node(device.setup());
+  node.ask("601#4000230200000000", "581#4300230233000000");
+}
+
+TEST_CASE("parameters: COParaDefault() is asked at the reset after \"load\", after Default was copied") {
+  Device device;
+  Fixture node(device.setup());
+  unsigned asked = 0;
+  callbacks().para_default = [&](CO_PARA* group) {
+    ++asked;
+    CHECK(group == &device.application);
+    CHECK(device.ram[1].number == 20);
+    device.ram[1].number = 0x2A;
+    return std::int16_t{0};
+  };
+  node.ask("601#231110036C6F6164", "581#6011100300000000");
+  CHECK(asked == 0);
+  node.ask("000#8101", "701#00");
+  CHECK(asked == 1);
+  node.ask("601#4000230200000000", "581#430023022A000000");
+  callbacks().para_default = [](CO_PARA*) { return std::int16_t{-1}; };
+  node.ask("000#8101", "701#00");
+  CHECK(node.error() == CO_ERR_PARA_RESTORE);
+}
+
+TEST_CASE("parameters: a memory that fails aborts \"save\" with 0606 0000h; what was stored stays [S4]") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+    node.ask("601#2300230233000000", "581#6000230200000000");
+    device.nvm.cut_at = device.nvm.steps + 3;
+    node.ask(save_all, "581#8010100100000606");
+  }
+  device.nvm.power_up();
+  Fixture node(device.setup());
+  node.ask("601#4000230200000000", "581#4300230222000000");
+}
+
+TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tells the failure [S3]") {
+  Device device;
+  device.own.Offset = 1000;  // no room there
+  {
+    Fixture node(device.setup());
+    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, "581#8010100100000606");
+  }
+  Fixture node(device.setup());
+  node.ask("601#4000230200000000", "581#4300230222000000");
+}
+
+TEST_CASE("parameters: what was damaged is told, and the group has its default values") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+  }
+  for (std::uint32_t place = 100; place < 200; ++place) {
+    device.nvm.bytes[place] ^= 0x01;
+  }
+  const CO_PARA* lost = nullptr;
+  callbacks().para_lost = [&](CO_NODE*, const CO_PARA* group) { lost = group; };
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  CHECK(lost == &device.application);
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: values of another layout or size are not loaded") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230222000000", "581#6000230200000000");
+    node.ask(save_all, all_saved);
+  }
+  SUBCASE("version") { device.application.Value |= CO_PARA_VERSION(1); }
+  SUBCASE("size") { device.application.Size = 4; }
+  SUBCASE("place") { device.application.Offset = 104; }
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  CHECK(device.ram[1].number == 20);
+}
+
+TEST_CASE("parameters: what is stored already is not written again") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask(save_all, all_saved);
+  const auto before = device.nvm.steps;
+  node.ask(save_all, all_saved);
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  const auto after = device.nvm.steps;
+  CHECK(after > before);
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  CHECK(device.nvm.steps == after);
+  CHECK(before < 3 * 40);
+}
+
+TEST_CASE("parameters: an autonomous group is stored when it has changed, at most once in the period [S1]") {
+  Device device;
+  {
+    Fixture node(device.setup());
+    node.after(std::chrono::milliseconds(CO_PARA_PERIOD));
+    const auto at_first = device.nvm.steps;
+    CHECK(at_first > 0);
+    node.after(std::chrono::milliseconds(5 * CO_PARA_PERIOD));
+    CHECK(device.nvm.steps == at_first);
+    node.ask("601#2300230344000000", "581#6000230300000000");
+    CHECK(device.nvm.steps == at_first);
+    node.after(std::chrono::milliseconds(CO_PARA_PERIOD));
+    CHECK(device.nvm.steps > at_first);
+  }
+  Fixture node(device.setup());
+  node.ask("601#4000230300000000", "581#4300230344000000");
+}
+
+TEST_CASE("parameters: an NMT reset loses nothing of an autonomous group") {
+  Device device;
+  Fixture node(device.setup());
+  node.ask("601#2300230344000000", "581#6000230300000000");
+  node.ask("000#8101", "701#00");
+  node.ask("601#4000230300000000", "581#4300230344000000");
+}
+
+TEST_CASE("parameters: COB-IDs are loaded before anything uses them") {
+  Device device;
+  std::uint32_t cob_id = 0x80;
+  CO_PARA group = {300, sizeof cob_id, &cob_id, nullptr, CO_RESET_COM, nullptr, CO_PARA___E};
+  const auto setup = [&] {
+    return device.single()
+        .may_change(0x1005, 0)
+        .with({CO_KEY(0x1005, 0, CO_OBJ_____RW), CO_TSYNC_ID, Device::data(&cob_id)})
+        .with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, Device::data(&group)});
+  };
+  {
+    Fixture node(setup());
+    node.ask("601#2305100091000000", "581#6005100000000000");
+    node.ask(save_all, all_saved);
+  }
+  cob_id = 0x80;
+  Fixture node(setup());
+  const std::vector<std::uint32_t>& filter = node.can.filter;
+  CHECK(std::find(filter.begin(), filter.end(), 0x91) != filter.end());
+  CHECK(std::find(filter.begin(), filter.end(), 0x80) == filter.end());
+}
+
+TEST_CASE("parameters: without a memory a node runs with its default values, and \"save\" fails") {
+  Device device;
+  Fixture node(device.setup().no_nvm());
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#4000230200000000", "581#4300230214000000");
+  node.ask(save_all, "581#8010100100000606");
+}
+
+TEST_CASE("parameters: without default values a group keeps what the memory holds") {
+  Device device;
+  device.application.Default = nullptr;
+  device.ram[1].number = 0x77;
+  Fixture node(device.setup());
+  node.ask("601#4000230200000000", "581#4300230277000000");
+}
+
+TEST_CASE("1020h: a write to an object of a group makes both values 0; any other write does not [S7]") {
+  Device device;
+  Fixture node(device.setup());
+  const auto verify = [&] {
+    node.ask("601#2320100134120000", "581#6020100100000000");
+    node.ask("601#2320100278560000", "581#6020100200000000");
+  };
+  verify();
+  node.ask("601#2300230401000000", "581#6000230400000000");
+  node.ask("601#4020100100000000", "581#4320100134120000");
+  node.ask("601#4020100200000000", "581#4320100278560000");
+  node.ask("601#2300230101000000", "581#6000230100000000");
+  node.ask("601#4020100100000000", "581#4320100100000000");
+  node.ask("601#4020100200000000", "581#4320100200000000");
+  verify();
+  node.ask("601#4020100100000000", "581#4320100134120000");
+}
+
+TEST_CASE("1020h: values that the node has at start are held to the same rule [S7]") {
+  Device device;
+  device.date = 5;
+  device.time = 6;
+  Fixture node(device.setup());
+  node.ask("601#2300230201000000", "581#6000230200000000");
+  node.ask("601#4020100100000000", "581#4320100100000000");
+  node.ask("601#4020100200000000", "581#4320100200000000");
+}
+
+}  // namespace
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// A parameter group holds, whatever happens to the memory, exactly its old or exactly its new values. [T13]
+#include <cstring>
+
+#include "support/failing_nvm.hpp"
+#include "support/fixture.hpp"
+
+#if USE_PARA
+
+namespace {
+
+using namespace test;
+using Torn = FailingNvm::Torn;
+
+struct Values {
+  std::uint32_t number;
+  std::uint8_t rest[8];
+  bool operator==(const Values& other) const { return std::memcmp(this, &other, sizeof *this) == 0; }
+};
+
+constexpr Values defaults = {1, {1, 1, 1, 1, 1, 1, 1, 1}};
+constexpr Values first = {0xA5A5A5A5, {2, 3, 4, 5, 6, 7, 8, 9}};
+constexpr Values second = {0xFFFFFFFF, {0, 0xFF, 0, 0xFF, 0, 0xFF, 0, 0xFF}};
+constexpr Values third = {0, {9, 9, 9, 9, 9, 9, 9, 9}};
+constexpr Values stray = {0xDEADBEEF, {0xEE, 0xEE, 0xEE, 0xEE, 0xEE, 0xEE, 0xEE, 0xEE}};  // RAM after power-on
+
+const CO_NVM_SHAPE shapes[] = {
+    {256, 1, 0},   // EEPROM, FRAM
+    {512, 8, 0},   // programmed in words
+    {512, 4, 64},  // flash with small pages
+    {1024, 16, 128},
+};
+
+std::int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
+std::int16_t no_place(void*, const CO_IF_FRM*) { return 0; }
+std::uint32_t no_time(void*) { return 0; }
+const CO_IF_CAN_DRV_EX no_bus = {
+    [](void*) {}, [](void*, std::uint32_t) {}, no_frame, no_place, [](void*) {}, [](void*) {}, nullptr};
+const CO_IF_TIMER_DRV_EX no_timer = {[](void*, std::uint32_t) {}, no_time, nullptr};
+
+// The device, whose memory can be exchanged.
+Values ram;
+std::uint8_t error_register;
+CO_PARA group = {0, sizeof(Values), &ram, &defaults, CO_RESET_NODE, nullptr, CO_PARA___E};
+CO_OBJ dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+                       {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
+                       {CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)(&group)},
+                       {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(1)},
+                       CO_OBJ_DICT_ENDMARK};
+CO_NODE_EXT ext;
+CO_NODE node;
+
+// Its memory, whose power can fail.
+struct Device {
+  explicit Device(CO_NVM_SHAPE shape) : nvm(shape) {}
+
+  // Power comes back: what the group holds then.
+  Values boot() {
+    nvm.power_up();
+    ram = stray;
+    ext = {};
+    ext.Size = sizeof ext;
+    ext.Can = &no_bus;
+    ext.Timer = &no_timer;
+    ext.Nvm = &FailingNvm::driver;
+    ext.NvmCtx = &nvm;
+    CO_NODE_SPEC spec{};
+    spec.NodeId = 1;
+    spec.Dict = dictionary;
+    spec.DictLen = 4;
+    spec.TmrFreq = 1000;
+    CONodeInitEx(&node, &spec, &ext);
+    error = CONodeGetErr(&node);
+    return ram;
+  }
+
+  CO_ERR save(const Values& values) {
+    ext.NvmCtx = &nvm;
+    ram = values;
+    return COParaStore(&group, &node);
+  }
+
+  CO_ERR restore() {
+    ext.NvmCtx = &nvm;
+    return COParaRestore(&group, &node);
+  }
+
+  FailingNvm nvm;
+  CO_ERR error = CO_ERR_NONE;  // of the last boot()
+};
+
+// A command that the power failure interrupts, and what the group may hold afterwards.
+struct Change {
+  CO_ERR run(Device& device) const { return values == nullptr ? device.restore() : device.save(*values); }
+  [[nodiscard]] const Values& after() const { return values == nullptr ? defaults : *values; }
+  const Values* values;  // null: "load"
+};
+
+const Change to_first{&first};
+const Change to_second{&second};
+const Change to_third{&third};
+const Change to_defaults{nullptr};
+
+constexpr Torn all_torn[] = {Torn::untouched, Torn::half, Torn::garbage, Torn::done};
+
+// Runs a change that fails at each step, until it does not fail. Calls then(device, what the group may hold besides
+// the new values).
+template <class Function>
+std::uint64_t cut_everywhere(const Device& before, const Values& old, const Change& change, Torn torn, Function then) {
+  std::uint64_t cuts = 0;
+  for (std::uint64_t step = 1;; ++step) {
+    Device device = before;
+    device.nvm.cut_at = step;
+    device.nvm.torn = torn;
+    const bool done = change.run(device) == CO_ERR_NONE;
+    if (done && !device.nvm.is_off) {
+      return cuts;
+    }
+    ++cuts;
+    REQUIRE(device.nvm.is_off);
+    REQUIRE_FALSE(device.nvm.misused);
+    const Values found = device.boot();
+    REQUIRE((found == old || found == change.after()));
+    REQUIRE((!done || found == change.after()));
+    then(device, found);
+  }
+}
+
+struct Start {
+  const char* name;
+  std::vector<Change> changes;
+};
+
+const Start starts[] = {
+    {"blank", {}},
+    {"stored once", {to_first}},
+    {"stored twice", {to_first, to_second}},
+    {"restored", {to_first, to_defaults}},
+};
+
+const Values& last_of(const Start& start) { return start.changes.empty() ? defaults : start.changes.back().after(); }
+
+Device device_after(const CO_NVM_SHAPE& shape, const Start& start) {
+  Device device(shape);
+  device.boot();
+  for (const Change& change : start.changes) {
+    REQUIRE(change.run(device) == CO_ERR_NONE);
+  }
+  REQUIRE(device.boot() == last_of(start));
+  return device;
+}
+
+TEST_CASE("parameters: power off at every byte: a group holds its old or its new values [T13]") {
+  std::uint64_t cuts = 0;
+  for (const CO_NVM_SHAPE& shape : shapes) {
+    for (const Start& start : starts) {
+      const Device before = device_after(shape, start);
+      for (const Change& change : {to_first, to_second, to_defaults}) {
+        for (const Torn torn : all_torn) {
+          CAPTURE(start.name);
+          cuts += cut_everywhere(before, last_of(start), change, torn, [](Device&, const Values&) {});
+        }
+      }
+    }
+  }
+  MESSAGE("cut points: ", cuts);
+  CHECK(cuts > 5000);
+}
+
+TEST_CASE("parameters: power off at every pair of bytes of two stores in a row [T13]") {
+  std::uint64_t pairs = 0;
+  for (const CO_NVM_SHAPE& shape : {shapes[0], shapes[2]}) {
+    for (const Start& start : starts) {
+      const Device before = device_after(shape, start);
+      for (const Torn torn : all_torn) {
+        cut_everywhere(before, last_of(start), to_third, torn, [&](Device& device, const Values& found) {
+          pairs += cut_everywhere(device, found, to_second, torn, [](Device&, const Values&) {});
+        });
+      }
+    }
+  }
+  MESSAGE("pairs of cut points: ", pairs);
+  CHECK(pairs > 50000);
+}
+
+TEST_CASE("parameters: after any power failure the next store works, and is not undone by the one after it [T13]") {
+  for (const CO_NVM_SHAPE& shape : shapes) {
+    const Device before = device_after(shape, starts[2]);
+    for (const Torn torn : all_torn) {
+      cut_everywhere(before, second, to_third, torn, [](Device& device, const Values&) {
+        REQUIRE(to_first.run(device) == CO_ERR_NONE);
+        REQUIRE(device.boot() == first);
+        REQUIRE(to_second.run(device) == CO_ERR_NONE);
+        REQUIRE(device.boot() == second);
+      });
+    }
+  }
+}
+
+TEST_CASE("parameters: writes without effect that are reported as done are noticed: the old values stay [T13]") {
+  for (const CO_NVM_SHAPE& shape : shapes) {
+    const Device before = device_after(shape, starts[2]);
+    for (std::uint64_t step = 1; step < 400; ++step) {
+      for (const std::uint64_t number : {1U, 3U, 1000U}) {
+        Device device = before;
+        device.nvm.steps = 0;
+        device.nvm.deaf_from = step;
+        device.nvm.deaf_to = step + number;
+        const CO_ERR err = to_third.run(device);
+        const Values found = device.boot();
+        REQUIRE(found == (err == CO_ERR_NONE ? third : second));
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "parameters: a bit that flips in what is stored is noticed: the values before it are loaded, or the defaults") {
+  for (const CO_NVM_SHAPE& shape : shapes) {
+    for (const Start& start : {starts[1], starts[2]}) {
+      const Device before = device_after(shape, start);
+      for (std::size_t bit = 0; bit < before.nvm.bytes.size() * 8; ++bit) {
+        Device device = before;
+        device.nvm.bytes[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+        const Values found = device.boot();
+        const Values& older = start.changes.size() > 1 ? first : defaults;
+        REQUIRE((found == last_of(start) || found == older));
+        REQUIRE((found == last_of(start) || start.changes.size() > 1 || device.error == CO_ERR_PARA_LOAD));
+      }
+    }
+  }
+}
+
+TEST_CASE("parameters: a read that fails or tells something else gives old, new or default values, never others") {
+  const Device before = device_after(shapes[0], starts[2]);
+  for (std::uint64_t read = 1; read < 40; ++read) {
+    for (const bool lies : {false, true}) {
+      Device device = before;
+      device.nvm.reads = 0;
+      (lies ? device.nvm.lie_at : device.nvm.refuse_read) = read;
+      const Values found = device.boot();
+      REQUIRE((found == second || found == first || found == defaults));
+    }
+  }
+}
+
+}  // namespace
+
+#endif

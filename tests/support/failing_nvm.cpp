@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "failing_nvm.hpp"
+
+namespace test {
+
+// What is interrupted stays interrupted. False: the power is gone.
+bool FailingNvm::step(std::uint8_t& byte, std::uint8_t to) {
+  if (is_off) {
+    return false;
+  }
+  ++steps;
+  if (steps != cut_at) {
+    byte = steps >= deaf_from && steps < deaf_to ? byte : to;
+    return true;
+  }
+  is_off = true;
+  switch (torn) {
+    case Torn::untouched: break;
+    case Torn::half: byte = static_cast<std::uint8_t>((byte & 0xF0U) | (to & 0x0FU)); break;
+    case Torn::garbage: byte = static_cast<std::uint8_t>(byte ^ 0x5AU); break;
+    case Torn::done: byte = to; break;
+  }
+  return false;
+}
+
+void FailingNvm::power_up() {
+  is_off = false;
+  cut_at = 0;
+  steps = 0;
+}
+
+void FailingNvm::check(std::uint32_t start, std::uint32_t size, std::uint32_t unit) {
+  misused |= start % unit != 0 || size % unit != 0 || size > bytes.size() || start > bytes.size() - size;
+}
+
+struct FailingNvmDriver {
+  static FailingNvm& memory(void* context) { return *static_cast<FailingNvm*>(context); }
+
+  static void init(void*) {}
+
+  static std::uint32_t read(void* context, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
+    FailingNvm& nvm = memory(context);
+    nvm.check(start, size, 1);
+    if (nvm.misused || nvm.is_off || ++nvm.reads == nvm.refuse_read) {
+      return 0;
+    }
+    for (std::uint32_t n = 0; n < size; ++n) {
+      buffer[n] = nvm.bytes[start + n];
+    }
+    if (nvm.reads == nvm.lie_at && size != 0) {
+      buffer[size / 2] ^= 0x10;
+    }
+    return size;
+  }
+
+  static std::uint32_t write(void* context, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
+    FailingNvm& nvm = memory(context);
+    nvm.check(start, size, nvm.shape.ProgramSize);
+    std::uint32_t done = 0;
+    for (; !nvm.misused && done < size; ++done) {
+      std::uint8_t& byte = nvm.bytes[start + done];
+      nvm.misused |= nvm.shape.EraseSize != 0 && byte != 0xFF && nvm.deaf_to == 0;
+      if (!nvm.step(byte, buffer[done])) {
+        break;
+      }
+    }
+    return done;
+  }
+
+  static bool erase(void* context, std::uint32_t start, std::uint32_t size) {
+    FailingNvm& nvm = memory(context);
+    nvm.check(start, size, nvm.shape.EraseSize);
+    std::uint32_t done = 0;
+    while (!nvm.misused && done < size && nvm.step(nvm.bytes[start + done], 0xFF)) {
+      ++done;
+    }
+    return done == size;
+  }
+
+  static CO_NVM_SHAPE shape(void* context) { return memory(context).shape; }
+};
+
+const CO_IF_NVM_DRV_EX FailingNvm::driver = {FailingNvmDriver::init, FailingNvmDriver::read, FailingNvmDriver::write,
+                                             FailingNvmDriver::erase, FailingNvmDriver::shape};
+
+}  // namespace test
