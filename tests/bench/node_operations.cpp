@@ -7,7 +7,8 @@ namespace bench {
 namespace {
 
 bool is_ours(std::uint32_t identifier) {
-  bool ours = identifier == 0 || identifier == 0x80 || identifier == 0x600 + node_id || identifier == 0x700 + node_id;
+  bool ours = identifier == 0 || identifier == 0x80 || identifier == 0x600 + node_id || identifier == 0x700 + node_id ||
+              identifier == CO_LSS_RX_ID;
   for (const std::uint8_t other : heard_nodes) {
     ours = ours || identifier == 0x700u + other;
   }
