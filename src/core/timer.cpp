@@ -195,13 +195,26 @@ uint16_t power_of_two(uint16_t num) {
 
 }  // namespace
 
+// time * Freq / unit, rounded up, binary digit by digit: a division of 64 bits would bring half a kilobyte of library.
 uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
   if (unit == 0) {
     return 0;
   }
-  const uint64_t exact = static_cast<uint64_t>(time) * timers.Freq;
-  const uint64_t rounded_up = (exact + unit - 1) / unit;
-  return rounded_up > UINT32_MAX ? 0 : static_cast<uint32_t>(rounded_up);
+  uint64_t whole = 0;
+  uint64_t rest = 0;
+  for (uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
+    whole *= 2;
+    rest *= 2;
+    if ((time & bit) != 0) {
+      whole += timers.Freq / unit;
+      rest += timers.Freq % unit;
+    }
+    for (; rest >= unit; rest -= unit) {
+      ++whole;
+    }
+  }
+  whole += rest != 0 ? 1 : 0;
+  return whole > UINT32_MAX ? 0 : static_cast<uint32_t>(whole);
 }
 
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {

@@ -282,9 +282,11 @@ void CONodeProcess(CO_NODE* node) {
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
   const uint32_t timers = tmr::next_deadline(node->Tmr);
+  if (!transmit::is_waiting(*node) && node->Paused == 0) {
+    return timers;
+  }
   const uint32_t retry = tmr::ticks(node->Tmr, 1, CO_TMR_UNIT_1MS);
-  const bool waiting = transmit::is_waiting(*node) || node->Paused != 0;
-  return waiting && retry < timers ? retry : timers;
+  return retry < timers ? retry : timers;
 }
 
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
