@@ -48,7 +48,7 @@ extern "C" {
 /// \{
 #define CO_PARA____ 0u  ///< not stored
 #define CO_PARA___E 1u  ///< stored on command
-#define CO_PARA__A_ 2u  ///< stored autonomously
+#define CO_PARA__A_ 2u  ///< stored autonomously; only with a driver that tells the shape of its memory
 #define CO_PARA__AE 3u  ///< both
 /// Version \a n of the layout, 0…FFFFFFh, to be added. Values that were stored under another are not loaded.
 #define CO_PARA_VERSION(n) ((uint32_t)(n) << 8)

@@ -224,8 +224,8 @@ bool fits(const CO_NODE& node, const Record& record) {
   if (program_size(node) > CO_STORE_BUFFER || record.size > capacity / 2) {
     return false;
   }
-  const uint32_t needed = 2 * slot_size(node, record.size);
-  return needed <= capacity && record.start <= capacity - needed && record.start % unit(node) == 0;
+  const uint32_t slot = slot_size(node, record.size);
+  return slot <= capacity / 2 && record.start <= capacity - 2 * slot && record.start % unit(node) == 0;
 }
 
 Found look(const CO_NODE& node, const Record& record) {

@@ -61,6 +61,8 @@ CO_ERR save_bytes(const CO_NODE& node, const Record& record, const uint8_t* data
 
 }  // namespace
 
+bool is_never_torn(const CO_NODE& node) { return port::nvm_has_shape(node); }
+
 Found look(const CO_NODE& node, const Record& record) {
   if (!port::nvm_exists(node)) {
     return Found::blank;

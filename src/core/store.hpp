@@ -20,6 +20,9 @@ enum class Found : uint8_t {
   lost,      // what is there is damaged, foreign, or cannot be read; or the record has no place in the memory
 };
 
+// Does the driver tell its shape?
+[[nodiscard]] bool is_never_torn(const CO_NODE& node);
+
 // What there is.
 [[nodiscard]] Found look(const CO_NODE& node, const Record& record);
 

@@ -365,6 +365,65 @@ TEST_CASE("parameters: without a memory a node runs with its default values, and
   node.ask(save_all, "581#8010100100000606");
 }
 
+// A driver without context, as firmware for CANopen-Stack has it.
+std::uint8_t raw_memory[256];
+unsigned raw_writes;
+const CO_IF_NVM_DRV_EX raw_driver = {[](void*) {},
+                                     [](void*, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
+                                       std::copy_n(raw_memory + start, size, buffer);
+                                       return size;
+                                     },
+                                     [](void*, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
+                                       ++raw_writes;
+                                       std::copy_n(buffer, size, raw_memory + start);
+                                       return size;
+                                     },
+                                     nullptr, nullptr};
+
+TEST_CASE("parameters: with a driver that tells no shape the bytes of a group lie at Offset as they are") {
+  std::fill(std::begin(raw_memory), std::end(raw_memory), std::uint8_t{0xFF});
+  raw_writes = 0;
+  Device device;
+  device.own.Value = CO_PARA__AE;
+  {
+    Fixture node(device.setup().nvm(raw_driver, nullptr));
+    CHECK(node.error() == CO_ERR_NONE);
+    node.ask("601#4010100200000000", "581#4310100201000000");
+    node.ask("601#4010100400000000", "581#4310100400000000");
+    node.ask("601#4000230200000000", "581#4300230214000000");
+    node.ask("601#2300230244332211", "581#6000230200000000");
+    node.after(std::chrono::milliseconds(2 * CO_PARA_PERIOD));
+    CHECK(raw_writes == 0);
+    node.ask(save_all, all_saved);
+    CHECK(raw_memory[100] == 0x44);
+    CHECK(raw_memory[103] == 0x11);
+  }
+  {
+    Fixture node(device.setup().nvm(raw_driver, nullptr));
+    node.ask("601#4000230200000000", "581#4300230244332211");
+    node.ask("601#231110036C6F6164", "581#6011100300000000");
+    node.ask("601#4000230200000000", "581#4300230244332211");
+  }
+  Fixture node(device.setup().nvm(raw_driver, nullptr));
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE(
+    "parameters: a group has no place in a memory that is too small, or on another border than that of its units") {
+  const CO_NVM_SHAPE shapes[] = {{0, 1, 0},       {90, 1, 0},   {0xFFFFFFFF, 1, 0x80000000}, {1024, 1, 128},
+                                 {1024, 1024, 0}, {1024, 0, 0}, {0xFFFFFFFF, 0x80000000, 0}, {1024, 8, 0}};
+  for (const CO_NVM_SHAPE& shape : shapes) {
+    Device device;
+    device.nvm.shape = shape;
+    device.application.Offset = shape.ProgramSize == 0 ? 1020 : 100;
+    Fixture node(device.single());
+    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    node.ask("601#2310100173617665", "581#8010100100000606");
+    CHECK(device.nvm.steps == 0);
+    CHECK_FALSE(device.nvm.misused);
+  }
+}
+
 TEST_CASE("parameters: without default values a group keeps what the memory holds") {
   Device device;
   device.application.Default = nullptr;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1010h, 1011h and 1020h. [301:7.5.2.13, 7.5.2.14, 7.5.2.23]
 #include "core/dict.hpp"
+#include "core/store.hpp"
 #include "object/place.hpp"
 #include "service/para/groups.hpp"
 #include "service/para/para.hpp"
@@ -48,21 +49,19 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 }
 
 // What the network can do with the groups of an entry. [301:7.5.2.13 figure 60]
-uint32_t abilities(CO_NODE& node, const CO_OBJ& obj, uint32_t (*ability)(const CO_PARA& group)) {
+template <uint32_t bits>
+uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t all = 0;
-  for_groups(node, obj, [&](const CO_PARA& group) { all |= ability(group); });
-  return all;
+  for_groups(node, obj, [&](const CO_PARA& group) { all |= group.Value & bits; });
+  return store::is_never_torn(node) ? all : all & CO_PARA___E;
 }
 
-uint32_t saves(const CO_PARA& group) { return group.Value & CO_PARA__AE; }
-uint32_t restores(const CO_PARA& group) { return is_saved_on_command(group) ? 1 : 0; }
-
-template <uint32_t (*ability)(const CO_PARA& group)>
+template <uint32_t bits>
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (is_number(*obj)) {
     return CO_TUNSIGNED8->Read(obj, node, buffer, size);
   }
-  const uint32_t value = abilities(*node, *obj, ability);
+  const uint32_t value = abilities<bits>(*node, *obj);
   if (size != sizeof value) {
     return CO_ERR_OBJ_SIZE;
   }
@@ -78,7 +77,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return is_number(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
   }
   __builtin_memcpy(&value, buffer, sizeof value);
-  if (value != signature || abilities(*node, *obj, restores) == 0) {
+  if (value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
     return CO_ERR_TYPE_WR;
   }
   CO_ERR first = CO_ERR_NONE;
@@ -124,10 +123,9 @@ using namespace co;
 extern "C" {
 
 const CO_OBJ_TYPE COTParaStore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                  para::read<para::saves>, para::write<para::save_signature, para::save>, nullptr};
+                                  para::read<CO_PARA__AE>, para::write<para::save_signature, para::save>, nullptr};
 const CO_OBJ_TYPE COTParaRestore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
-                                    para::read<para::restores>, para::write<para::load_signature, para::restore>,
-                                    nullptr};
+                                    para::read<CO_PARA___E>, para::write<para::load_signature, para::restore>, nullptr};
 const CO_OBJ_TYPE COTVerifyConfig = {para::size_verify, para::init_verify, para::read_verify, para::write_verify,
                                      nullptr};
 

@@ -43,7 +43,8 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group) {
 
 void save_change(CO_NODE& node, const CO_PARA& group) {
   // Defaults that wait for their reset stay.
-  if (is_saved_autonomously(group) && store::look(node, record_of(group)) != Found::defaults) {
+  if (is_saved_autonomously(group) && store::is_never_torn(node) &&
+      store::look(node, record_of(group)) != Found::defaults) {
     const CO_ERR err = save(node, group);
     node.Error = err == CO_ERR_NONE ? node.Error : err;
   }
