@@ -19,12 +19,14 @@ uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& ans
   return no_abort;
 }
 
-// The abort names the transfer that it ends; without one, what the request names.
-uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
-  if (state_of(channel) == State::idle) {
-    restart(channel, request);
-  }
+// The abort names the transfer that it ends; without one, or where the request wants another, what the request names.
+uint32_t refuse_initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
+  restart(channel, request);
   return CO_SDO_ERR_CMD;
+}
+
+uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+  return state_of(channel) == State::idle ? refuse_initiate(channel, request, answer) : CO_SDO_ERR_CMD;
 }
 
 using wire::Request;
@@ -52,6 +54,9 @@ constexpr Row<Request, Service> rows[] = {
     {in(State::block_upload_ready), Request::start_block_upload, start_block_upload},
     {in(State::block_upload), Request::acknowledge_block, acknowledge_block},
     {in(State::block_upload_end), Request::end_block_upload, end_block_upload},
+#else
+    {outside_block, Request::initiate_block_download, refuse_initiate},
+    {outside_block, Request::initiate_block_upload, refuse_initiate},
 #endif
 };
 
