@@ -86,7 +86,7 @@ extern "C" {
 
 /// What a node is made of. Filled by position or member by member; used only during CONodeInit().
 typedef struct CO_NODE_SPEC_T {
-  uint8_t NodeId;                  ///< 1…127
+  uint8_t NodeId;                  ///< 1…127, or CO_LSS_NO_NODE_ID (co_lss.h)
   uint32_t Baudrate;               ///< bit/s
   struct CO_OBJ_T* Dict;           ///< the dictionary; may be const (cast it), must live as long as the node
   uint16_t DictLen;                ///< length of that array

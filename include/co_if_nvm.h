@@ -22,7 +22,7 @@ typedef struct CO_IF_NVM_DRV_T {
 typedef struct CO_NVM_SHAPE_T {
   uint32_t Capacity;     ///< addresses 0…Capacity-1
   uint32_t ProgramSize;  ///< writes start at and span multiples of it; 1: byte by byte
-  uint32_t EraseSize;    ///< erase unit; 0: memory that needs no erase (EEPROM, FRAM, file)
+  uint32_t EraseSize;    ///< erase unit, a multiple of it; 0: memory that needs no erase (EEPROM, FRAM, file)
 } CO_NVM_SHAPE;
 
 /// The same with a context, a shape and an erase function (CO_NODE_EXT).

@@ -21,6 +21,8 @@
 /// version or size are not loaded. docs/storage.md shows how. With a driver that tells no shape the bytes of a group
 /// lie at Offset as they are, and FFh everywhere means that nothing was stored.
 ///
+/// Groups must not overlap: nothing checks that.
+///
 /// Context: the loop. Functions return when the memory has been read or written.
 #ifndef CO_PARA_H_
 #define CO_PARA_H_
@@ -77,7 +79,7 @@ extern const CO_OBJ_TYPE COTParaStore;
 extern const CO_OBJ_TYPE COTParaRestore;
 
 /// Type of 1020h, sub-index 1 and 2 (date and time of the configuration): an UNSIGNED32 that becomes 0 when the network
-/// writes an object of a parameter group. [301:7.5.2.23]
+/// writes an object of a parameter group, or any string or domain. [301:7.5.2.23]
 extern const CO_OBJ_TYPE COTVerifyConfig;
 
 #define CO_TPARA_STORE ((const CO_OBJ_TYPE*)&COTParaStore)

@@ -44,7 +44,7 @@ uint32_t program_size(const CO_NODE& node) {
 uint32_t unit(const CO_NODE& node) {
   const uint32_t program = program_size(node);
   const uint32_t erase = port::nvm_shape(node).EraseSize;
-  return erase == 0 ? program : round_up(erase, program);
+  return erase == 0 ? program : erase;
 }
 
 uint32_t header_size(const CO_NODE& node) { return round_up(sizeof(Header), program_size(node)); }
@@ -219,13 +219,16 @@ CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const 
 
 }  // namespace
 
+// Whole units of programming can be erased, and nothing here exceeds 32 bits.
 bool fits(const CO_NODE& node, const Record& record) {
-  const uint32_t capacity = port::nvm_shape(node).Capacity;
-  if (program_size(node) > CO_STORE_BUFFER || record.size > capacity / 2) {
+  const CO_NVM_SHAPE shape = port::nvm_shape(node);
+  const uint32_t half = shape.Capacity / 2;
+  const uint32_t program = program_size(node);
+  if (program > CO_STORE_BUFFER || shape.EraseSize % program != 0 || shape.EraseSize > half || record.size > half) {
     return false;
   }
   const uint32_t slot = slot_size(node, record.size);
-  return slot <= capacity / 2 && record.start <= capacity - 2 * slot && record.start % unit(node) == 0;
+  return slot <= half && record.start <= shape.Capacity - 2 * slot && record.start % unit(node) == 0;
 }
 
 Found look(const CO_NODE& node, const Record& record) {

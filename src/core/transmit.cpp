@@ -175,6 +175,10 @@ void clear(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
 }
 
-void fix(CO_NODE& node) { node.TxQueue.Fixed = node.TxQueue.Num; }
+void fix(CO_NODE& node) {
+  if (node.Nmt.Mode != CO_INIT) {  // there they wait for the boot-up message
+    node.TxQueue.Fixed = node.TxQueue.Num;
+  }
+}
 
 }  // namespace co::transmit

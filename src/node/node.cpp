@@ -56,6 +56,9 @@ void start(CO_NODE& node) {
 
 // A reset that the application asked for lets the frames go out that wait, an answer among them.
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
+  if (node.Nmt.Mode == CO_INVALID) {  // COLssLoad() has stopped the node
+    return;
+  }
   const bool waits_for_start = node.Nmt.Mode == CO_INIT && !services::is_started(node);
   commanded ? transmit::clear(node) : transmit::fix(node);
   event::change_mode(node, CO_INIT);
@@ -206,7 +209,6 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (usable) {
     node->Tmr.Freq = spec->TmrFreq;
     port::init(*node);
-    services::begin_lss(*node);
   } else {
     node->Error = CO_ERR_BAD_ARG;
     node->Ext = &port::no_drivers;
@@ -216,6 +218,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   if (!usable) {
     return;
   }
+  services::begin_lss(*node);
   const CO_ERR err = CODictInit(&node->Dict, node, spec->Dict, spec->DictLen);
   if (err != CO_ERR_NONE) {
     node->Error = err;

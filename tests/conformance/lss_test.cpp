@@ -358,6 +358,72 @@ TEST_CASE("LSS: node-ID 255 makes a node unconfigured at the next reset communic
   node.ask(to_waiting, "703#00");
 }
 
+TEST_CASE("LSS: frames of the application wait for the boot-up message of a node without node-ID") {
+  Fixture node(slave(no_node_id));
+  const auto send = [&] {
+    CO_IF_FRM frm = frame("123#AA");
+    COIfCanSend(&node->If, &frm);
+  };
+  node.call(send);
+  node.silent();
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
+  node.silent();
+  node.rx(to_configuration);
+  node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+  node.rx(to_waiting);
+  node.tx({"705#00", "123#AA"});
+}
+
+TEST_CASE("LSS: a node that its application stops in COLssLoad() or COLssStore() says nothing more") {
+  Fixture node(slave().heartbeat(10));
+  callbacks().lss_load = [&](std::uint32_t*, std::uint8_t*) { return CONodeStop(&node.node), CO_ERR_NONE; };
+  node.rx("000#8101");
+  callbacks().lss_load = nullptr;
+  CHECK(node.mode() == CO_INVALID);
+  node.after(100ms);
+  node.silent();
+  Configured other;
+  callbacks().lss_store = [&](std::uint32_t, std::uint8_t) { return CONodeStop(&other.node.node), CO_ERR_NONE; };
+  other.node.rx("7E5#1700000000000000");
+  other.node.silent();
+  CHECK(other.node.mode() == CO_INVALID);
+}
+
+TEST_CASE("LSS: the bit rate that is activated is the one of that moment, whatever a reset loads meanwhile") {
+  callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) { return *baud = 500000, CO_ERR_NONE; };
+  Fixture node(slave());
+  callbacks().lss_load = nullptr;
+  node.rx(to_configuration);
+  node.ask("7E5#1303000000000000", "7E4#1301000000000000");
+  node.ask("7E5#1300030000000000", "7E4#1300000000000000");
+  node.rx("7E5#1564000000000000");
+  callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) { return *baud = 500000, CO_ERR_NONE; };
+  node.rx("000#8101");
+  callbacks().lss_load = nullptr;
+  node.after(300ms);
+  node.tx("701#00");
+  CHECK(node.can.baud == 250000);
+}
+
+TEST_CASE("LSS: the longest switch delay is longer than a fast timer can count, and does not end at once") {
+  Fixture node(slave().rate(72000000));
+  node.rx(to_configuration);
+  node.ask("7E5#1300030000000000", "7E4#1300000000000000");
+  node.rx("7E5#15FFFF0000000000");
+  CHECK(node.can.init_calls == 1);
+  node.after(10ms);
+  CHECK(node.can.init_calls == 1);
+}
+
+TEST_CASE("LSS: a node that waits is given a node-ID by its application: LSS goes on, and starts it") {
+  Fixture node(slave(no_node_id));
+  node.rx(to_configuration);
+  node.call([&] { CONmtSetNodeId(&node->Nmt, 5); });
+  node.ask("7E5#5E00000000000000", "7E4#5E05000000000000");
+  node.ask(to_waiting, "705#00");
+  node.ask("605#4000100000000000", "585#4300100091010F00");
+}
+
 TEST_CASE("LSS: before CONodeStart() a node is silent") {
   for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
     Fixture node(slave(id).stay_in_init());

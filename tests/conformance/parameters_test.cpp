@@ -410,8 +410,17 @@ TEST_CASE("parameters: with a driver that tells no shape the bytes of a group li
 
 TEST_CASE(
     "parameters: a group has no place in a memory that is too small, or on another border than that of its units") {
-  const CO_NVM_SHAPE shapes[] = {{0, 1, 0},       {90, 1, 0},   {0xFFFFFFFF, 1, 0x80000000}, {1024, 1, 128},
-                                 {1024, 1024, 0}, {1024, 0, 0}, {0xFFFFFFFF, 0x80000000, 0}, {1024, 8, 0}};
+  const CO_NVM_SHAPE shapes[] = {{0, 1, 0},
+                                 {90, 1, 0},
+                                 {0xFFFFFFFF, 1, 0x80000000},
+                                 {1024, 1, 128},
+                                 {1024, 1024, 0},
+                                 {1024, 0, 0},
+                                 {0xFFFFFFFF, 0x80000000, 0},
+                                 {1024, 8, 0},
+                                 {0xFFFFFFFF, 16, 0xFFFFFFFF},
+                                 {4096, 1, 0x80000000},
+                                 {1024, 16, 100}};
   for (const CO_NVM_SHAPE& shape : shapes) {
     Device device;
     device.nvm.shape = shape;
@@ -422,6 +431,43 @@ TEST_CASE(
     CHECK(device.nvm.steps == 0);
     CHECK_FALSE(device.nvm.misused);
   }
+}
+
+TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the dictionary") {
+  for (const CO_OBJ& wrong : {CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_D___RW), CO_TPARA_STORE, 5},
+                              CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, 0}}) {
+    Device device;
+    Fixture node(device.single().with(wrong).stay_in_init());
+    CHECK(node.mode() == CO_INVALID);
+    CHECK(node.error() == CO_ERR_DICT_INIT);
+    std::uint32_t key = 0;
+    CHECK(CODictGetFault(&node->Dict, &key) != CO_DICT_OK);
+    CHECK(CO_GET_IDX(key) == 0x1010);
+  }
+}
+
+TEST_CASE("parameters: a node that is stopped while it loads stores nothing afterwards") {
+  Device device;
+  device.nvm.bytes.assign(device.nvm.bytes.size(), 0x55);
+  Fixture* running = nullptr;
+  Fixture node(device.setup());
+  running = &node;
+  callbacks().para_lost = [&](CO_NODE*, const CO_PARA*) { CONodeStop(&running->node); };
+  device.nvm.bytes.assign(device.nvm.bytes.size(), 0x55);
+  node.rx("000#8101");
+  CHECK(node.mode() == CO_INVALID);
+  device.ram[2].number = 99;
+  const auto steps = device.nvm.steps;
+  node.after(std::chrono::milliseconds(2 * CO_PARA_PERIOD));
+  CHECK(device.nvm.steps == steps);
+}
+
+TEST_CASE("1020h: a string or a domain that the network writes counts as part of the configuration [S7]") {
+  Device device;
+  device.date = 5;
+  Fixture node(device.setup());
+  node.ask("601#2310210041424344", "581#6010210000000000");
+  node.ask("601#4020100100000000", "581#4320100100000000");
 }
 
 TEST_CASE("parameters: without default values a group keeps what the memory holds") {

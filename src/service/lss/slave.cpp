@@ -75,9 +75,11 @@ uint32_t part_of(CO_NODE& node, unsigned part) {
   return number;
 }
 
-// A node without node-ID is in Initialisation, where nothing else is sent.
+// A node without node-ID is in Initialisation, where nothing else is sent. A callback may have stopped the node.
 void send(CO_NODE& node, const CO_IF_FRM& frame) {
-  is_unconfigured(node) ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
+  if (event::is_allowed(node, CO_LSS_ALLOWED)) {
+    node.Nmt.Mode == CO_INIT ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
+  }
 }
 
 void answer(CO_NODE& node, Lss command) {
@@ -93,7 +95,7 @@ void answer(CO_NODE& node, const CO_IF_FRM& request, uint32_t data) {
 // A node that waits for a node-ID gets to work.
 void enter(CO_NODE& node, State state) {
   CO_LSS& lss = node.Lss;
-  const bool configured = is_unconfigured(node) && lss.CfgNodeId != wire::no_node_id;
+  const bool configured = lss.Started != 0 && lss.CfgNodeId != wire::no_node_id;
   lss.Mode = state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF;
   lss.Selected = 0;
   if (state == State::waiting && configured) {
@@ -156,13 +158,15 @@ void wait(CO_NODE& node, CO_TMR_FUNC then) {
 
 void switch_rate(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  take_bit_rate(node, node.Lss.CfgBaudrate);
+  take_bit_rate(node, node.Baudrate);
   wait(node, end_switch);
 }
 
 void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint32_t delay = wire::get_u16(request.Data + 1);
-  node.Lss.Delay = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
+  const uint32_t ticks = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
+  node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
+  node.Baudrate = node.Lss.CfgBaudrate;  // whatever a reset loads meanwhile
   node.Held = 1;
   wait(node, switch_rate);
 }

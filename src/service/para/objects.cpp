@@ -16,8 +16,6 @@ constexpr uint32_t load_signature = 0x64616F6C;
 
 bool is_number(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
-const CO_PARA& group_of(const CO_OBJ& obj) { return *data_of<const CO_PARA>(obj); }
-
 // Sub-index 1 stands for all groups where there are others.
 bool is_all(CO_NODE& node, const CO_OBJ& obj) {
   uint8_t last = 0;
@@ -29,7 +27,9 @@ bool is_all(CO_NODE& node, const CO_OBJ& obj) {
 template <class Function>
 void for_groups(CO_NODE& node, const CO_OBJ& obj, Function function) {
   if (!is_all(node, obj)) {
-    function(group_of(obj));
+    if (data_of<const CO_PARA>(obj) != nullptr) {
+      function(*data_of<const CO_PARA>(obj));
+    }
     return;
   }
   Groups groups(node, static_cast<uint16_t>(CO_GET_IDX(obj.Key)));

@@ -4,6 +4,7 @@
 #if USE_PARA
 
 #include "core/dict.hpp"
+#include "core/obj.hpp"
 #include "core/port.hpp"
 #include "core/store.hpp"
 #include "core/timer.hpp"
@@ -67,7 +68,11 @@ bool holds(const CO_PARA& group, const CO_OBJ& obj) {
   return CO_IS_DIRECT(obj.Key) == 0 && place - start < group.Size;
 }
 
+// Where strings and domains have their bytes is the affair of their types.
 bool is_stored(CO_NODE& node, const CO_OBJ& obj) {
+  if (obj::is_stream(obj)) {
+    return true;
+  }
   Groups groups(node, store_index);
   const CO_PARA* group = groups.next();
   while (group != nullptr && !holds(*group, obj)) {
@@ -90,7 +95,9 @@ Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), index_(index), sub_
 const CO_PARA* Groups::next() {
   while (sub_ <= last_) {
     const CO_OBJ* const obj = dict::find(node_.Dict, CO_DEV(index_, sub_++));
-    if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE)) {
+    // Groups are loaded before the Init functions check their entries.
+    if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE) &&
+        CO_IS_DIRECT(obj->Key) == 0 && data_of<const CO_PARA>(*obj) != nullptr) {
       return data_of<const CO_PARA>(*obj);
     }
   }
@@ -120,8 +127,9 @@ void save_changes(CO_NODE& node) {
 }
 
 void init(CO_NODE& node) {
-  if (has_autonomous_group(node)) {
-    tmr::start(node.Tmr, node.ParaTmr, 0, tmr::ticks(node.Tmr, CO_PARA_PERIOD, CO_TMR_UNIT_1MS), on_time, &node);
+  const uint32_t period = tmr::ticks(node.Tmr, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
+  if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
+    tmr::start(node.Tmr, node.ParaTmr, 0, period, on_time, &node);
   } else {
     tmr::stop(node.Tmr, node.ParaTmr);
   }

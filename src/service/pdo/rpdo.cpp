@@ -65,10 +65,10 @@ void report_missing([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] bool is_miss
 void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, Fault::pdo_timeout, true); }
 
 void watch(CO_RPDO& pdo) {
-  report(pdo, late, Fault::pdo_timeout, false);
   if (pdo.Event != 0) {
     tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Event, 0, on_deadline, &pdo);
   }
+  report(pdo, late, Fault::pdo_timeout, false);  // its callbacks may end the PDO
 }
 
 // Nothing is expected any more, and what was reported is over.
@@ -180,7 +180,7 @@ void tell(CO_NODE& node, uint16_t first) {
     watch(pdo);
   }
   CO_IF_FRM copy = frame;
-  if (COPdoReceive(&copy) != 0 || !has(pdo.Map, served)) {
+  if (!has(pdo.Map, served) || COPdoReceive(&copy) != 0 || !has(pdo.Map, served)) {
     return true;
   }
   if (is_synchronous(pdo)) {

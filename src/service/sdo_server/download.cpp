@@ -90,6 +90,9 @@ uint32_t check_total(CO_SDO& channel, uint32_t total) {
   if (total > channel.Size) {
     return CO_SDO_ERR_LEN_HIGH;
   }
+  if (channel.Obj == nullptr) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
   return has(channel, sized) ? access::compare_length(total, channel.Size)
                              : access::check_length(*channel.Node, *channel.Obj, total);
 }

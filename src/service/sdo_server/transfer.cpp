@@ -48,6 +48,9 @@ void on_slice(void* node_pointer) {
 
 // A type that did not know its size may know it after a read, which may have filled only a part.
 uint32_t learn_size(CO_SDO& channel, uint32_t position) {
+  if (channel.Obj == nullptr) {
+    return CO_SDO_ERR_TOS_STATE;
+  }
   const uint32_t size = obj::size(*channel.Obj, *channel.Node, 0);
   if (size == CO_OBJ_SIZE_UNKNOWN) {
     return no_abort;
@@ -175,8 +178,11 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
     uint8_t* const value = channel.Value + position;
     has(channel, download) ? wire::copy(value, data, n) : wire::copy(data, value, n);
   } else if (n != 0) {
+    if (channel.Obj == nullptr) {
+      return CO_SDO_ERR_TOS_STATE;
+    }
     err = seek_piece(channel, position);
-    if (err == CO_ERR_NONE) {
+    if (err == CO_ERR_NONE && channel.Obj != nullptr) {
       err = run(channel, *channel.Obj, data, n);
     }
   }

@@ -9,6 +9,7 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   if (value) {
     set(channel, whole);
   }
+  go_on(channel, obj, by_block ? State::block_upload_ready : State::upload);
   const uint32_t abort = begin_data(channel, obj, channel.Value, value ? channel.Size : 0);
   if (abort != no_abort) {
     return abort;
@@ -16,7 +17,6 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   const bool sized = channel.Size != CO_OBJ_SIZE_UNKNOWN;
   wire::put_reply(answer, by_block ? wire::initiate_block(sized) : wire::initiate_upload_response(sized), request);
   wire::put_high(answer, sized ? channel.Size : 0);
-  go_on(channel, obj, by_block ? State::block_upload_ready : State::upload);
   if (has_block && by_block) {
     begin_block_upload(channel, request);
   }

@@ -39,7 +39,7 @@ void open_window(CO_NODE& node) {
 }
 
 void take(CO_NODE& node, uint8_t counter) {
-  if (node.Sync.Window != 0) {
+  if (node.Sync.Window != 0 && event::is_allowed(node, CO_SYNC_ALLOWED)) {
     tmr::start(node.Tmr, node.Sync.WindowTmr, node.Sync.Window, 0, end_window, &node);
   }
   event::sync(node, counter);
