@@ -152,8 +152,13 @@ bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t
   Buffer buffer(node);
   while (size != 0) {
     const uint32_t piece = size < buffer.size() ? size : buffer.size();
-    if (!read(node, start, buffer.bytes(), piece) || __builtin_memcmp(buffer.bytes(), data, piece) != 0) {
+    if (!read(node, start, buffer.bytes(), piece)) {
       return false;
+    }
+    for (uint32_t n = 0; n < piece; ++n) {
+      if (buffer.bytes()[n] != data[n]) {
+        return false;
+      }
     }
     start += piece;
     data += piece;
