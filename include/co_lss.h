@@ -67,6 +67,7 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 ///     CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId) { return COLssNvmLoad(&Node, 0, baud, nodeId); }
 ///     CO_ERR COLssStore(uint32_t baud, uint8_t nodeId) { return COLssNvmStore(&Node, 0, baud, nodeId); }
 ///
+/// The callbacks do not name a node: a program with several has to know which one it is initialising or processing.
 /// Never torn with a driver that tells the shape of the memory; they take CO_PARA_SPACE(8, …) bytes there from
 /// \a offset on, else 8 bytes.
 /// \{

@@ -21,7 +21,8 @@
 /// version or size are not loaded. docs/storage.md shows how. With a driver that tells no shape the bytes of a group
 /// lie at Offset as they are, and FFh everywhere means that nothing was stored.
 ///
-/// Groups must not overlap: nothing checks that.
+/// Groups must not overlap: nothing checks that. Of a string (co_string.h) a group holds the bytes, and its Size only
+/// if that lies in the group, too.
 ///
 /// Context: the loop. Functions return when the memory has been read or written.
 #ifndef CO_PARA_H_

@@ -46,12 +46,17 @@ std::string Transfer::outcome() const {
   return fault.empty() ? "done" : fault;
 }
 
-SdoClient::SdoClient(Node& node, Loop& loop) : node_(node), loop_(loop) { node.set_user(this); }
+SdoClient::SdoClient(Node& node, Loop& loop) : node_(node), loop_(loop) {}
 
 void SdoClient::note_end(CO_CSDO* client, std::uint16_t, std::uint8_t, std::uint32_t code) {
   auto& self = *static_cast<SdoClient*>(CONodeGetUser(client->Node));
   self.ended_ = true;
   self.code_ = code;
+}
+
+void SdoClient::begin() {
+  node_.set_user(this);  // the LSS master of the same node does so, too
+  ended_ = false;
 }
 
 Transfer SdoClient::wait_for_end(CO_CSDO& client, const Options& options) {
@@ -71,7 +76,7 @@ Transfer SdoClient::wait_for_end(CO_CSDO& client, const Options& options) {
 Transfer SdoClient::upload(std::uint16_t index, std::uint8_t sub, const Options& options) {
   CO_CSDO* const client = COCSdoFind(&node_.stack(), 0);
   Bytes data(options.capacity);
-  ended_ = false;
+  begin();
   const CO_ERR error =
       COCSdoRequestUpload(client, CO_DEV(index, sub), data.data(), options.capacity, note_end, options.timeout);
   if (error != CO_ERR_NONE) {
@@ -87,7 +92,7 @@ Transfer SdoClient::upload(std::uint16_t index, std::uint8_t sub, const Options&
 
 Transfer SdoClient::download(std::uint16_t index, std::uint8_t sub, Bytes data, const Options& options) {
   CO_CSDO* const client = COCSdoFind(&node_.stack(), 0);
-  ended_ = false;
+  begin();
   const CO_ERR error = COCSdoRequestDownload(client, CO_DEV(index, sub), data.data(),
                                              static_cast<std::uint32_t>(data.size()), note_end, options.timeout);
   return error == CO_ERR_NONE ? wait_for_end(*client, options) : Transfer{{}, 0, reason(error)};

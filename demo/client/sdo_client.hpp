@@ -66,6 +66,7 @@ class SdoClient {
 
  private:
   static void note_end(CO_CSDO* client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
+  void begin();
   Transfer wait_for_end(CO_CSDO& client, const Options& options);
 
   Node& node_;

@@ -26,6 +26,12 @@ struct Timer {
   void* context;
 };
 
+/// Memory that survives a loss of power, or no driver.
+struct Memory {
+  const CO_IF_NVM_DRV_EX* driver = nullptr;
+  void* context = nullptr;
+};
+
 class Host {
  public:
   virtual ~Host() = default;

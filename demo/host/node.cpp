@@ -53,12 +53,16 @@ void Node::Tap::show(void* tap, bool received, const CO_IF_FRM& frame) {
   }
 }
 
+Node* Node::at_work_ = nullptr;
+
 Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears_all} {
   extension_.Size = sizeof extension_;
   extension_.Can = &Tap::driver;
   extension_.CanCtx = &tap_;
   extension_.Timer = setup.timer.driver;
   extension_.TimerCtx = setup.timer.context;
+  extension_.Nvm = setup.memory.driver;
+  extension_.NvmCtx = setup.memory.context;
   extension_.EmcyNum = setup.errors.number;
 
   CO_NODE_SPEC spec{};
@@ -71,13 +75,16 @@ Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears
   spec.TmrNum = static_cast<std::uint16_t>(std::size(timer_));
   spec.TmrFreq = ticks_per_second;
   spec.SdoBuf = sdo_buffer_;
+  at_work_ = this;
   CONodeInitEx(&node_, &spec, &extension_);
+  at_work_ = nullptr;
 }
 
 Node::~Node() { CONodeStop(&node_); }
 
 bool Node::process() {
   const std::uint32_t before = frames(counters());
+  at_work_ = this;
   for (unsigned n = 0; n < frames_at_once; ++n) {
     const std::uint32_t received = counters().Received;
     CONodeProcess(&node_);  // one frame a call
@@ -87,8 +94,28 @@ bool Node::process() {
       break;
     }
   }
+  at_work_ = nullptr;
   return frames(counters()) != before;
 }
+
+#if USE_LSS && USE_PARA
+
+CO_ERR Node::load_lss(std::uint32_t* bit_rate, std::uint8_t* node_id) {
+  const bool has_memory = at_work_ != nullptr && at_work_->extension_.Nvm != nullptr;
+  return has_memory ? COLssNvmLoad(&at_work_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
+}
+
+CO_ERR Node::store_lss(std::uint32_t bit_rate, std::uint8_t node_id) {
+  const bool has_memory = at_work_ != nullptr && at_work_->extension_.Nvm != nullptr;
+  return has_memory ? COLssNvmStore(&at_work_->node_, 0, bit_rate, node_id) : CO_ERR_NONE;
+}
+
+#else
+
+CO_ERR Node::load_lss(std::uint32_t*, std::uint8_t*) { return CO_ERR_NONE; }
+CO_ERR Node::store_lss(std::uint32_t, std::uint8_t) { return CO_ERR_NONE; }
+
+#endif
 
 Micros Node::due_in() {
   const Micros due = CONodeNextDeadline(&node_);  // soon, while frames wait to be sent

@@ -23,6 +23,15 @@ struct Errors {
   std::uint16_t number;
 };
 
+constexpr std::uint8_t no_node_id = 255;
+
+/// Bytes that a node takes from the begin of its memory for its node-ID and bit rate.
+#if USE_LSS && USE_PARA
+constexpr std::uint32_t lss_memory_size = CO_PARA_SPACE(8U, 1U, 1U);
+#else
+constexpr std::uint32_t lss_memory_size = 0;
+#endif
+
 class Node {
  public:
   /// Called for every frame that the node takes from the bus (received) or puts on it.
@@ -36,6 +45,7 @@ class Node {
     Observer observer = {};
     bool hears_all = false;  // the observer gets the frames that are not for this node, too
     Errors errors = {};
+    Memory memory = {};  // that can be written byte by byte; without it nothing is stored
   };
 
   static constexpr std::uint32_t ticks_per_second = second;
@@ -54,6 +64,13 @@ class Node {
   Micros due_in();
   /// Whether process() has nothing to do until a frame arrives.
   bool is_idle() { return CONodeNextDeadline(&node_) == UINT32_MAX; }
+
+  /// \name What COLssLoad() and COLssStore() have to do. These do not say for which node they are called; it is the one
+  /// that is being made or processed.
+  /// \{
+  static CO_ERR load_lss(std::uint32_t* bit_rate, std::uint8_t* node_id);
+  static CO_ERR store_lss(std::uint32_t bit_rate, std::uint8_t node_id);
+  /// \}
 
   /// For CONodeGetUser().
   void set_user(void* user) { extension_.User = user; }
@@ -74,6 +91,8 @@ class Node {
     static const Can& to(void* tap);
     static void show(void* tap, bool received, const CO_IF_FRM& frame);
   };
+
+  static Node* at_work_;  // null: none
 
   Tap tap_;
   CO_NODE_EXT extension_{};

@@ -3,12 +3,12 @@
 /// What the user of lexican-demo-master has typed, and the request that it means.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/lss_master.hpp"
 #include "client/values.hpp"
 
 namespace demo {
@@ -62,9 +62,6 @@ struct LssArguments {
   std::string timeout = "1000";
   std::string listen = "50";
 };
-
-/// Vendor-ID, product code, revision and serial number.
-using LssAddress = std::array<std::uint32_t, 4>;
 
 struct LssRequest {
   LssAction action;

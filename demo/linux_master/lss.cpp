@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linux_master/lss.hpp"
 
+#include "client/lss_master.hpp"
 #include "client/sdo_client.hpp"
 #include "host/exit.hpp"
 #include "host/loop.hpp"
@@ -16,69 +17,10 @@ namespace {
 constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
 constexpr std::uint8_t no_sdo = 1;                 // server of an SDO client that is not used
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
-constexpr unsigned no_node_id = 255;
-constexpr unsigned manufacturers_error = 255;  // the specific error code tells more
 
 std::string shown(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
-
-/// The stack's LSS master for a program that wants to wait until a service has ended.
-class LssMaster {
- public:
-  LssMaster(Node& node, Loop& loop, const LssRequest& request) : lssm_(node.stack().Lssm), loop_(loop) {
-    node.set_user(this);
-    COLssmSetTimes(&lssm_, request.timeout, request.listen);
-  }
-  LssMaster(const LssMaster&) = delete;
-  LssMaster& operator=(const LssMaster&) = delete;
-
-  /// Runs a service. An interruption of the program cancels it. False: it has failed, fault() tells why.
-  template <class... Argument, class... Given>
-  bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
-    ended_ = false;
-    error_ = service(&lssm_, given..., note_end);
-    if (error_ == CO_ERR_NONE && !loop_.run_until([this] { return ended_; }, for_ever)) {
-      COLssmCancel(&lssm_);
-    }
-    return error_ == CO_ERR_NONE && result_ == CO_LSSM_OK;
-  }
-
-  std::uint32_t value() const { return lssm_.Value; }
-  LssAddress address() const { return {lssm_.Address[0], lssm_.Address[1], lssm_.Address[2], lssm_.Address[3]}; }
-  bool nobody_found() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
-  bool cancelled() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_CANCELLED; }
-
-  std::string fault() const {
-    if (error_ != CO_ERR_NONE) {
-      return error_ == CO_ERR_IF_CAN_SEND ? "the bus takes no frames"
-                                          : text("error %04Xh", static_cast<unsigned>(error_));
-    }
-    switch (result_) {
-      case CO_LSSM_REFUSED:
-        return lssm_.Error == manufacturers_error ? text("refused, manufacturer's error %u", lssm_.Specific)
-                                                  : text("refused with error %u", lssm_.Error);
-      case CO_LSSM_TIMEOUT: return "no answer";
-      case CO_LSSM_NOT_FOUND: return "no node without node-ID";
-      case CO_LSSM_NOT_SENT: return "the bus takes no frames";
-      case CO_LSSM_CANCELLED: return "cancelled";
-      default: return "the master was stopped";
-    }
-  }
-
- private:
-  static void note_end(CO_LSSM* lssm, CO_LSSM_RESULT result) {
-    auto& self = *static_cast<LssMaster*>(CONodeGetUser(lssm->Node));
-    self.ended_ = true;
-    self.result_ = result;
-  }
-
-  CO_LSSM& lssm_;
-  Loop& loop_;
-  bool ended_ = false;
-  CO_ERR error_ = CO_ERR_NONE;  // of the last service, when it was started
-  CO_LSSM_RESULT result_ = CO_LSSM_OK;
-};
 
 /// A slave that was found stays in the state configuration, where no fastscan finds it again.
 bool scan(LssMaster& master, std::ostream& out) {
@@ -140,7 +82,7 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
   ClientDictionary dictionary(no_sdo);
   Node node({request.own_id, host.master_can(), host.master_timer(), dictionary.table()});
   Loop loop(host, {&node});
-  LssMaster master(node, loop, request);
+  LssMaster master(node, loop, {request.timeout, request.listen});
   CONodeStart(&node.stack());
   const bool done = work(master, request, out);
   const bool cancelled = !done && master.cancelled();

@@ -28,11 +28,19 @@ void tick(void* node) {
 
 }  // namespace
 
-Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer)
-    : node_({node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors()}) {}
+Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory)
+    : setup_{node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors(), memory} {
+  lose_power();
+}
+
+void Clock::lose_power() {
+  node_.reset();
+  forget_variables();
+  node_.emplace(setup_);
+}
 
 bool Clock::start() {
-  CO_NODE& node = node_.stack();
+  CO_NODE& node = node_->stack();
   if (CONmtGetMode(&node.Nmt) != CO_INIT) {
     return false;
   }

@@ -13,6 +13,9 @@ extern TimeOfDay clock_time;
 
 Table clock_dictionary();
 
+/// All variables get the values that they have when the program begins.
+void forget_variables();
+
 /// 1017h in ms; 0: no heartbeats.
 std::uint16_t clock_heartbeat_time();
 

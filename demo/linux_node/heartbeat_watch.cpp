@@ -8,11 +8,16 @@ namespace {
 
 constexpr std::uint8_t boot_up = 0;
 
+// The node may get its node-ID while it is watched.
+bool is_error_control(const CO_IF_FRM& frame) {
+  return frame.Identifier > 0x700 && frame.Identifier <= 0x77F && frame.DLC == 1;
+}
+
 }  // namespace
 
 // Answers to node guarding look the same, but come only while there is no heartbeat.
 void HeartbeatWatch::sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period) {
-  if (frame.Identifier != identifier_) {
+  if (!is_error_control(frame)) {
     return;
   }
   if (frame.Data[0] == boot_up || period != period_ || period == 0) {

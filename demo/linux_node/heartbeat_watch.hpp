@@ -13,8 +13,6 @@ namespace demo {
 /// whatever delays one does not move the others.
 class HeartbeatWatch {
  public:
-  explicit HeartbeatWatch(std::uint8_t node_id) : identifier_(0x700u + node_id) {}
-
   /// What the node has sent at \a tick. \a period: its present heartbeat time in ticks, 0: it sends none.
   void sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period);
 
@@ -23,7 +21,6 @@ class HeartbeatWatch {
   std::uint32_t latest() const { return latest_; }
 
  private:
-  std::uint32_t identifier_;
   std::uint32_t period_ = 0;  // ticks, 0: there is no heartbeat from which the next can be told
   std::uint32_t due_ = 0;     // the next one
   std::uint32_t number_ = 0;

@@ -11,6 +11,7 @@
 #include "linux_node/dictionary.hpp"
 #include "linux_node/heartbeat_watch.hpp"
 #include "linux_node/options.hpp"
+#include "linux_node/storage.hpp"
 #include "linux_node/tour.hpp"
 #include "linux_node/view.hpp"
 #include "trace/text.hpp"
@@ -19,6 +20,7 @@ namespace demo {
 namespace {
 
 constexpr const char* default_interface = "vcan0";
+constexpr bool tour_begins_with_lss = USE_LSS != 0 && USE_LSS_MASTER != 0;
 constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 
 /// The bus to use, and why; or no host, and what is wrong.
@@ -50,6 +52,25 @@ View::Style style_for(const Options& options) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   const bool colours = terminal && std::getenv("NO_COLOR") == nullptr;
   return {terminal, colours, options.every_frame, options.serve ? "bus" : "master"};
+}
+
+std::string open_storage(Storage& storage, const Options& options) {
+  if (!options.serve) {
+    return storage.open_temporary();
+  }
+  return options.storage.empty() ? std::string() : storage.open(options.storage);
+}
+
+/// Of the node when it is started.
+std::uint8_t first_node_id(const Options& options) {
+  const bool none = options.serve ? options.unconfigured : tour_begins_with_lss;
+  return none ? no_node_id : options.node_id;
+}
+
+std::string about_node(Clock& clock, const Options& options) {
+  return "Node: the demo clock, " +
+         (clock.node_id() == no_node_id ? "without node-ID" : text("node-ID %u", clock.node_id())) +
+         (options.serve ? "; Ctrl-C ends it\n" : "\n");
 }
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
@@ -108,22 +129,28 @@ int run(const Options& options) {
     std::cerr << bus.about << '\n';
     return exit_usage;
   }
+  Storage storage;
+  if (const std::string fault = open_storage(storage, options); !fault.empty()) {
+    std::cerr << fault << '\n';
+    return exit_usage;
+  }
   Host& host = *bus.host;
   View view(std::cout, clock_object_names(), style_for(options), clock_mappings());
-  view.line("Bus:  " + bus.about);
-  view.line(text("Node: the demo clock, node-ID %u%s\n", options.node_id, options.serve ? "; Ctrl-C ends it" : ""));
-  view.columns();
   const Micros begin = host.now();
   const Timer timer = host.device_timer();
-  HeartbeatWatch heartbeats(options.node_id);
-  Clock clock(options.node_id, host.device_can(), timer, [&](bool received, const CO_IF_FRM& frame) {
+  HeartbeatWatch heartbeats;
+  const Node::Observer observer = [&](bool received, const CO_IF_FRM& frame) {
     if (!received) {
       heartbeats.sent(frame, timer.driver->Now(timer.context), clock_heartbeat_time() * ticks_per_millisecond);
     }
     if (!options.quiet) {
       view.frame(host.now() - begin, received, frame);
     }
-  });
+  };
+  Clock clock(first_node_id(options), host.device_can(), timer, observer, storage.memory());
+  view.line("Bus:  " + bus.about);
+  view.line(about_node(clock, options));
+  view.columns();
   return options.serve ? serve(host, clock, heartbeats, view) : show_tour(host, clock, options, view);
 }
 

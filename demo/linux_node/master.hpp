@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 
+#include "client/lss_master.hpp"
 #include "client/sdo_client.hpp"
 #include "host/loop.hpp"
 #include "host/node.hpp"
@@ -36,6 +37,9 @@ class Master {
   void forget();
 
   SdoClient& sdo() { return sdo_; }
+#if USE_LSS_MASTER
+  LssMaster& lss() { return lss_; }
+#endif
   Loop& loop() { return loop_; }
   std::uint8_t node_id() const { return node_id_; }
 
@@ -51,6 +55,9 @@ class Master {
   Node node_;
   Loop loop_;
   SdoClient sdo_;
+#if USE_LSS_MASTER
+  LssMaster lss_{node_, loop_, {CO_LSSM_TIMEOUT_MS, 20}};  // its only slave is in the same program
+#endif
 };
 
 }  // namespace demo

@@ -9,33 +9,39 @@
 namespace demo {
 namespace {
 
+constexpr const char* unconfigured = "unconfigured";
+
 constexpr const char* description =
     "A CANopen node, the demo clock of Lexican, and a small master that shows what the node can do.\n"
     "Without options: uses vcan0 if there is one, else a bus built into the program.\n"
-    "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C.";
+    "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C.\n"
+    "An unconfigured node waits until an LSS master gives it a node-ID, as lexican-demo-master lss set-id does.";
 
 constexpr const char* footer =
     "Exit codes:\n"
     "    0  all steps went as expected; --serve: ended by Ctrl-C or SIGTERM\n"
     "    1  a step went wrong\n"
-    "    2  wrong arguments, or the CAN interface cannot be used\n"
+    "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
     "  130  ended by Ctrl-C or SIGTERM before the last step";
 
 }  // namespace
 
 CommandLine read_command_line(int argc, char** argv) {
   Options options;
-  unsigned node_id = options.node_id;
+  std::string node_id = std::to_string(options.node_id);
   CLI::App app(description, "lexican-demo-node");
   app.footer(footer);
   app.get_formatter()->column_width(36);
   app.set_version_flag("--version", text("%d.%d.%d", CO_VER_MAJOR, CO_VER_MINOR, CO_VER_BUILD));
   auto* const can = app.add_option("--can", options.interface, "SocketCAN interface to use")->type_name("IF");
-  app.add_option("--node-id", node_id, "Node-ID of the clock, 1...127")
+  app.add_option("--node-id", node_id, "Node-ID of the clock until LSS stores another, 1...127, or unconfigured")
       ->type_name("N")
-      ->check(CLI::Range(1, 127).description(""))
+      ->check((CLI::IsMember({unconfigured}) | CLI::Range(1, 127)).description(""))
       ->capture_default_str();
   auto* const serve = app.add_flag("--serve", options.serve, "Run the node alone, and show what it receives and sends");
+  app.add_option("--storage", options.storage, "File in which the clock keeps node-ID, name and time zone [RAM]")
+      ->type_name("FILE")
+      ->needs(serve);
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
       ->excludes(can)
       ->excludes(serve);
@@ -46,7 +52,8 @@ CommandLine read_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return {options, false, app.exit(error) == 0 ? exit_ok : exit_usage};
   }
-  options.node_id = static_cast<std::uint8_t>(node_id);
+  options.unconfigured = node_id == unconfigured;
+  options.node_id = options.unconfigured ? options.node_id : static_cast<std::uint8_t>(std::stoul(node_id, nullptr, 0));
   return {options, true, exit_ok};
 }
 

@@ -13,6 +13,8 @@ namespace demo {
 struct Options {
   std::string interface;  // SocketCAN; empty: the program chooses
   std::uint8_t node_id = 1;
+  bool unconfigured = false;  // the node starts without
+  std::string storage;        // file; empty: none
   bool serve = false;
   bool virtual_bus = false;
   bool every_frame = false;

@@ -2,7 +2,6 @@
 #include "linux_node/tour.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 
 #include "client/progress.hpp"
@@ -16,8 +15,6 @@ namespace {
 
 constexpr Micros heartbeat_timeout = 3 * second;
 constexpr TimeOfDay set_time = {12, 34, 57};  // the minute changes while we look
-
-Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
 
 /// Colours that change from pixel to pixel.
 Bytes test_picture() {
@@ -106,11 +103,10 @@ Finding write_constant(Tour& tour) {
 }
 
 Finding name_station(Tour& tour) {
-  constexpr const char* name = "Central Station";
-  if (const Transfer written = tour.sdo.download(0x2201, 0, bytes_of(name)); !written.done()) {
+  if (const Transfer written = tour.sdo.download(0x2201, 0, bytes_of(station_name)); !written.done()) {
     return failure("the station name", written);
   }
-  return expect_text("the station name", tour.sdo.upload(0x2201, 0), name);
+  return expect_text("the station name", tour.sdo.upload(0x2201, 0), station_name);
 }
 
 /// For a transfer of the picture: room for it, and the progress is shown.
@@ -188,15 +184,29 @@ struct Step {
   Finding (*take)(Tour& tour);
 };
 
-constexpr Step steps[] = {
+constexpr Step configured[] = {
     {"The node boots", "boot-up", boot},
+};
+
+#if USE_LSS_MASTER
+constexpr Step unconfigured[] = {
+    {"A node without node-ID: LSS fastscan finds out who it is", "LSS fastscan", find_unconfigured},
+    {"It gets a node-ID, stores it, and boots", "LSS configuration", give_node_id},
+};
+#endif
+
+constexpr Step steps[] = {
     {"Who is it? Device type and identity, by expedited SDO", "identity", identify},
     {"Its name has more than 4 bytes: segmented SDO", "segmented upload", read_name},
+    {"Give the station a name: segmented download", "segmented download", name_station},
+#if USE_PARA
+    {"Set its time zone, and save both", "parameters stored", save_settings},
+    {"The node loses its power, and starts again with what it has stored", "power failure", lose_power},
+#endif
     {"Set the clock", "expedited download", set_clock},
     {"The clock refuses hour 24 with an abort code of its own", "abort of the application", set_impossible_hour},
     {"An object that does not exist", "abort: no object", read_missing_object},
     {"An object that cannot be written", "abort: read-only", write_constant},
-    {"Give the station a name: segmented download", "segmented download", name_station},
     {"A picture for the clock, 192 x 128: block download", "block download", send_picture},
     {"And back, every byte compared: block upload", "block upload", fetch_picture},
     {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
@@ -209,6 +219,23 @@ constexpr Step steps[] = {
     {"Meanwhile the clock has run", "a cyclic timer", read_clock},
     {"Reset the node", "NMT reset node", reset},
 };
+
+template <std::size_t Number>
+void append(std::vector<Step>& all, const Step (&some)[Number]) {
+  all.insert(all.end(), std::begin(some), std::end(some));
+}
+
+std::vector<Step> steps_with([[maybe_unused]] Clock& clock) {
+  std::vector<Step> all;
+#if USE_LSS_MASTER
+  const bool is_configured = clock.node_id() != no_node_id;
+  is_configured ? append(all, configured) : append(all, unconfigured);
+#else
+  append(all, configured);
+#endif
+  append(all, steps);
+  return all;
+}
 
 /// A few in a line.
 void show_list(const std::vector<std::string>& items, View& view) {
@@ -227,9 +254,11 @@ void show_list(const std::vector<std::string>& items, View& view) {
 
 TourResult take_tour(Clock& clock, Master& master, View& view) {
   Tour tour{clock, master, view};
+  const std::vector<Step> all = steps_with(clock);
   TourResult result;
+  result.of = all.size();
   const Micros begin = master.loop().now();
-  for (const Step& step : steps) {
+  for (const Step& step : all) {
     view.heading(result.steps + 1, step.title);
     const Finding finding = step.take(tour);
     master.loop().run_for(millisecond);  // what was sent last is still seen in this step
@@ -251,7 +280,7 @@ TourResult take_tour(Clock& clock, Master& master, View& view) {
 
 void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view) {
   const double seconds = static_cast<double>(result.duration) / static_cast<double>(second);
-  const std::string taken = text("%u of %zu steps in %.1f s", result.steps, std::size(steps), seconds);
+  const std::string taken = text("%u of %zu steps in %.1f s", result.steps, result.of, seconds);
   view.line("\nSummary");
   show_list(result.shown, view);
   show_counters(counters, view);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file tour_steps.hpp
-/// What the steps of the tour have in common, and those of them that are about process data.
+/// What the steps of the tour have in common, and those of them that are about process data, LSS and storage.
 #pragma once
 
 #include <string>
@@ -25,6 +25,10 @@ struct Tour {
   Micros set_at = 0;      // when
 };
 
+constexpr char station_name[] = "Central Station";
+
+Bytes bytes_of(const char* text);
+
 constexpr std::uint32_t seconds_per_day = 24 * 60 * 60;
 
 /// Since midnight.
@@ -47,5 +51,19 @@ Finding set_nonsense_by_pdo(Tour& tour);
 
 /// The node produces SYNC for a while, with a synchronous TPDO1.
 Finding produce_sync(Tour& tour);
+
+#if USE_LSS_MASTER
+/// The node starts without node-ID.
+Finding find_unconfigured(Tour& tour);
+
+/// The node that was found gets its node-ID, stores it and boots.
+Finding give_node_id(Tour& tour);
+#endif
+
+/// The time zone is set, and stored with the name of the station.
+Finding save_settings(Tour& tour);
+
+/// The node is started again, and has what was stored.
+Finding lose_power(Tour& tour);
 
 }  // namespace demo

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "trace/layer_setting.hpp"
 #include "trace/network_services.hpp"
 #include "trace/text.hpp"
 
@@ -260,6 +261,9 @@ Meaning Decoder::decode(const CO_IF_FRM& frame) {
   }
   if (is_response(frame)) {
     return sdo(Sender::server, frame);
+  }
+  if (const std::optional<Meaning> setting = decode_layer_setting(frame)) {
+    return *setting;
   }
   const std::optional<std::string> service = decode_network_service(frame, names_, mappings_);
   return {service.value_or("unknown " + candump(frame)), Place::outside};

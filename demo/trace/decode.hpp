@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file decode.hpp
-/// CAN frames in the words of CiA 301, of the pre-defined connection set. [301:7.3.3]
+/// CAN frames in the words of CiA 301, of the pre-defined connection set [301:7.3.3], and of CiA 305.
 #pragma once
 
 #include <array>
@@ -38,10 +38,10 @@ struct Mapped {
 /// What PDOs hold, by their CAN-ID less the node-ID: 180h, 200h, …
 using Mappings = std::map<std::uint16_t, std::vector<Mapped>>;
 
-/// The place of a frame in an SDO transfer.
+/// The place of a frame in an SDO transfer, or in a fastscan.
 enum class Place {
   outside,  // of any
-  edge,     // begin, end and abort; all there is of an expedited transfer
+  edge,     // begin, end and abort; all there is of an expedited transfer, or of another LSS service
   middle,   // segments but the last, and what asks for or confirms these: a long transfer has many of them
 };
 

@@ -6,15 +6,20 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "co_nvm_ram.h"
 #include "demo_simulation.hpp"
+#include "file_nvm.hpp"
 #include "linux_node/clock.hpp"
 #include "linux_node/master.hpp"
 #include "linux_node/tour.hpp"
 #include "linux_node/view.hpp"
+#include "support/callbacks.hpp"
 #include "support/notation.hpp"
 
 namespace {
@@ -29,8 +34,38 @@ using demo::TimeOfDay;
 using test::SimulatedHost;
 
 constexpr std::uint8_t node_id = 5;
+constexpr unsigned storage_steps = USE_PARA != 0 ? 2 : 0;
+constexpr unsigned tour_steps = 19 + storage_steps;
+
+std::string number_of_steps() { return std::to_string(tour_steps); }
+
+/// Memory that outlives the programs that use it, as a file does.
+struct Remembered {
+  Remembered() {
+    CONvmRamClear(&ram);
+    test::callbacks().lss_load = demo::Node::load_lss;
+    test::callbacks().lss_store = demo::Node::store_lss;
+  }
+  ~Remembered() {
+    test::callbacks().lss_load = nullptr;
+    test::callbacks().lss_store = nullptr;
+  }
+  Remembered(const Remembered&) = delete;
+  Remembered& operator=(const Remembered&) = delete;
+  demo::Memory memory() { return {&RamNvmDriver, &ram}; }
+
+  std::array<std::uint8_t, demo::clock_memory_size> bytes{};
+  CO_NVM_RAM ram{bytes.data(), demo::clock_memory_size};
+};
 
 struct Bench {
+  Bench() : Bench(node_id) {}
+  explicit Bench(std::uint8_t first_node_id)
+      : clock(
+            first_node_id, host.device_can(), host.device_timer(),
+            [this](bool received, const CO_IF_FRM& frame) { view.frame(host.now(), received, frame); },
+            remembered.memory()) {}
+
   void start() {
     REQUIRE(clock.start());
     REQUIRE(master.await_state(State::boot_up, 0));
@@ -41,9 +76,9 @@ struct Bench {
 
   std::ostringstream out;
   SimulatedHost host;
+  Remembered remembered;
   demo::View view{out, demo::clock_object_names(), {}, demo::clock_mappings()};
-  demo::Clock clock{node_id, host.device_can(), host.device_timer(),
-                    [this](bool received, const CO_IF_FRM& frame) { view.frame(host.now(), received, frame); }};
+  demo::Clock clock;
   demo::Master master{host, clock, node_id};
   SdoClient& sdo = master.sdo();
 };
@@ -59,7 +94,7 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   demo::summarise(result, bench.clock.node().counters(), bench.view);
   INFO(bench.trace());
-  CHECK(result.steps == 19);
+  CHECK(result.steps == tour_steps);
   CHECK(result.failed.empty());
   CHECK_FALSE(result.interrupted);
   CHECK(bench.shows("705  00                       boot-up"));
@@ -85,8 +120,134 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
   CHECK(bench.shows("ok  EMCY 6300h, and 0000h when the time is right again"));
   CHECK(bench.shows("node    080                           SYNC"));
   CHECK(bench.shows("ok  3 of 3 SYNC messages, each followed by TPDO1"));
-  CHECK(bench.shows("19 of 19 steps in 7.0 s, all as expected"));
+  CHECK(bench.shows((number_of_steps() + " of " + number_of_steps() + " steps in 7.0 s, all as expected").c_str()));
 }
+
+#if USE_LSS && USE_LSS_MASTER && USE_PARA
+TEST_CASE("demo: in the tour a clock without node-ID is found, gets one, and keeps it over a loss of power") {
+  Bench bench(demo::no_node_id);
+  const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
+  INFO(bench.trace());
+  CHECK(result.steps == tour_steps + 1);
+  CHECK(result.failed.empty());
+  CHECK(bench.shows("7E5  51 00 00 00 00 80 00 00  LSS fastscan: who has no node-ID?"));
+  CHECK(bench.shows("7E4  4F 00 00 00 00 00 00 00  LSS answer: that is me"));
+  CHECK(bench.shows("ok  found: vendor-ID 00000000h, product code 0000C10Ch, revision"));
+  CHECK(bench.shows("7E5  11 05 00 00 00 00 00 00  LSS configure node-ID 5"));
+  CHECK(bench.shows("7E5  17 00 00 00 00 00 00 00  LSS store"));
+  CHECK(bench.shows("ok  node 5 is there"));
+  CHECK(bench.shows("ok  node-ID 5, \"Central Station\", time zone 60 min: all as stored"));
+}
+
+TEST_CASE("demo: a clock without node-ID that nobody configures says nothing") {
+  Bench bench(demo::no_node_id);
+  REQUIRE(bench.clock.start());
+  unsigned frames = 0;
+  bench.host.bus.set_trace([&](const VirtualBus::Traffic&) { ++frames; });
+  bench.clock.node().process();
+  CHECK(bench.clock.node_id() == demo::no_node_id);
+  CHECK_FALSE(bench.master.await_state(State::boot_up, 3 * second));
+  CHECK(frames == 0);
+}
+
+TEST_CASE("demo: the node-ID that LSS has stored wins over the one of the command line, and no other node takes it") {
+  Remembered remembered;
+  SimulatedHost host;
+  {
+    demo::Clock clock(demo::no_node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
+    demo::Master master(host, clock, 9);
+    REQUIRE(clock.start());
+    demo::LssMaster& lss = master.lss();
+    REQUIRE(lss.run(COLssmFastscan, nullptr, std::uint8_t{0}));
+    REQUIRE(lss.run(COLssmConfigureNodeId, std::uint8_t{9}));
+    REQUIRE(lss.run(COLssmStore));
+  }
+  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, remembered.memory());
+  CHECK(clock.node_id() == 9);
+  demo::Master master(host, clock, 9);
+  REQUIRE(clock.start());
+  CHECK(master.await_state(State::boot_up, 0));
+  CHECK(master.sdo().upload(0x1018, 2).data == Bytes{0x0C, 0xC1, 0, 0});
+}
+#endif
+
+#if USE_PARA
+TEST_CASE("demo: after a loss of power name and time zone are as they were saved, and the rest is new") {
+  Bench bench;
+  bench.start();
+  const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
+  REQUIRE(bench.sdo.download(0x2201, 0, name).done());
+  REQUIRE(bench.sdo.download(0x2101, 0, {0x88, 0xFF}).done());  // -120 min
+  REQUIRE(bench.sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
+  REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
+  REQUIRE(bench.sdo.download(0x1017, 0, {0xFA, 0x00}).done());
+  bench.clock.lose_power();
+  bench.start();
+  CHECK(bench.sdo.upload(0x2201, 0).data == name);
+  CHECK(bench.sdo.upload(0x2101, 0).data == Bytes{0x88, 0xFF});
+  CHECK(bench.sdo.upload(0x1017, 0).data == Bytes{0xE8, 0x03});
+}
+
+TEST_CASE("demo: another program with the same file has name and time zone, whatever the first one did not save") {
+  const std::string path = (std::filesystem::temp_directory_path() / "lexican_demo_test").string();
+  std::filesystem::remove(path);
+  const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
+  SimulatedHost host;
+  for (const bool first : {true, false}) {
+    co::FileNvm file;
+    REQUIRE(file.open(path, demo::clock_memory_size));
+    demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {&co::FileNvmDriver, &file});
+    demo::Master master(host, clock, node_id);
+    REQUIRE(clock.start());
+    SdoClient& sdo = master.sdo();
+    CHECK(sdo.upload(0x2201, 0).data == (first ? Bytes{} : name));
+    CHECK(sdo.upload(0x2101, 0).data == (first ? Bytes{0, 0} : Bytes{60, 0}));
+    REQUIRE(sdo.download(0x2201, 0, name).done());
+    REQUIRE(sdo.download(0x2101, 0, {60, 0}).done());
+    REQUIRE(sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
+    REQUIRE(sdo.download(0x2201, 0, {'X'}).done());
+  }
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("demo: NMT reset node brings back a name that is longer than the present one") {
+  Bench bench;
+  bench.start();
+  const Bytes name(20, 'n');
+  REQUIRE(bench.sdo.download(0x2201, 0, name).done());
+  REQUIRE(bench.sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
+  REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
+  CHECK(bench.sdo.upload(0x2201, 0).data == Bytes{'X'});
+  REQUIRE(bench.master.command(demo::Nmt::reset_node));
+  REQUIRE(bench.master.await_state(State::boot_up, second));
+  CHECK(bench.sdo.upload(0x2201, 0).data == name);
+}
+
+TEST_CASE("demo: \"load\" brings back an empty name at the next start; a new name makes 1020h 0") {
+  Bench bench;
+  bench.start();
+  REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
+  REQUIRE(bench.sdo.download(0x1020, 1, {1, 0, 0, 0}).done());
+  REQUIRE(bench.sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
+  bench.clock.lose_power();
+  bench.start();
+  CHECK(bench.sdo.upload(0x1020, 1).data == Bytes{1, 0, 0, 0});
+  REQUIRE(bench.sdo.download(0x2201, 0, {'Y'}).done());
+  CHECK(bench.sdo.upload(0x1020, 1).data == Bytes{0, 0, 0, 0});
+  REQUIRE(bench.sdo.download(0x1011, 1, {'l', 'o', 'a', 'd'}).done());
+  bench.clock.lose_power();
+  bench.start();
+  CHECK(bench.sdo.upload(0x2201, 0).data.empty());
+}
+
+TEST_CASE("demo: a clock without memory refuses \"save\" with 0606 0000h") {
+  SimulatedHost host;
+  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {});
+  demo::Master master(host, clock, node_id);
+  REQUIRE(clock.start());
+  CHECK(master.sdo().download(0x1010, 1, {'s', 'a', 'v', 'e'}).code == 0x06060000);
+}
+#endif
 
 TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
   Bench bench;
@@ -98,7 +259,7 @@ TEST_CASE("demo: no line of the trace is longer than 120 characters, and long tr
     longest = std::max(longest, line.size());
   }
   CHECK(longest <= 120);
-  CHECK(count < 200);
+  CHECK(count < 250);
   CHECK(bench.shows("more frames like these"));
 }
 
@@ -110,7 +271,7 @@ TEST_CASE("demo: a step that goes wrong is reported, and the tour goes on") {
   bench.host.bus.add_rule({VirtualBus::Fault::drop, is_last_name_segment});
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
-  CHECK(result.steps == 19);
+  CHECK(result.steps == tour_steps);
   REQUIRE(result.failed.size() == 1);
   CHECK(result.failed[0] == "Its name has more than 4 bytes: segmented SDO");
   CHECK(bench.shows("FAILED  the device name: no answer"));
@@ -171,9 +332,9 @@ TEST_CASE("demo: an interruption ends the tour") {
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   demo::summarise(result, bench.clock.node().counters(), bench.view);
   CHECK(result.interrupted);
-  CHECK(result.steps == 10);
+  CHECK(result.steps == 10 + storage_steps);
   CHECK(result.failed.empty());
-  CHECK(bench.shows("interrupted: 10 of 19 steps"));
+  CHECK(bench.shows(("of " + number_of_steps() + " steps").c_str()));
 }
 
 TEST_CASE("demo: the master waits for a state that comes after its command, not for one heard before") {

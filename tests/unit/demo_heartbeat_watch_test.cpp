@@ -11,7 +11,7 @@ using demo::HeartbeatWatch;
 using test::frame;
 
 TEST_CASE("demo heartbeats: each is due a whole number of heartbeat times after the boot-up [301:7.2.8.2.2.1]") {
-  HeartbeatWatch watch(5);
+  HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0xFFFFFF00, 1000);  // the clock wraps soon
   CHECK(watch.number() == 0);
   watch.sent(frame("705#7F"), 0xFFFFFF00u + 1000, 1000);
@@ -24,7 +24,7 @@ TEST_CASE("demo heartbeats: each is due a whole number of heartbeat times after 
 }
 
 TEST_CASE("demo heartbeats: one that is left out makes the next one late") {
-  HeartbeatWatch watch(5);
+  HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 1000);
   watch.sent(frame("705#7F"), 1000, 1000);
   watch.sent(frame("705#7F"), 3000, 1000);
@@ -32,7 +32,7 @@ TEST_CASE("demo heartbeats: one that is left out makes the next one late") {
 }
 
 TEST_CASE("demo heartbeats: another heartbeat time and a reset begin anew") {
-  HeartbeatWatch watch(5);
+  HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 1000);
   watch.sent(frame("705#7F"), 1000, 1000);
   watch.sent(frame("705#7F"), 5555, 500);
@@ -43,12 +43,21 @@ TEST_CASE("demo heartbeats: another heartbeat time and a reset begin anew") {
   CHECK(watch.number() == 3);
 }
 
+TEST_CASE("demo heartbeats: the node may get its node-ID after it was started") {
+  HeartbeatWatch watch;
+  watch.sent(frame("7E4#4F00000000000000"), 500, 1000);
+  watch.sent(frame("77F#00"), 2000, 1000);
+  watch.sent(frame("77F#7F"), 3010, 1000);
+  CHECK(watch.latest() == 10);
+  CHECK(watch.number() == 1);
+}
+
 TEST_CASE("demo heartbeats: other frames, and answers to node guarding, are none") {
-  HeartbeatWatch watch(5);
+  HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 0);
   watch.sent(frame("705#7F"), 1000, 0);
   watch.sent(frame("705#FF"), 5000, 0);
-  watch.sent(frame("706#7F"), 9000, 1000);
+  watch.sent(frame("7E4#4F00000000000000"), 9000, 1000);
   watch.sent(frame("085#0081110000000000"), 9000, 1000);
   CHECK(watch.number() == 0);
   CHECK(watch.latest() == 0);

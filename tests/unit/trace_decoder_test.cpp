@@ -135,6 +135,53 @@ TEST_CASE("trace: SYNC, TIME and EMCY messages [301:7.2.5, 7.2.6, 7.2.7]") {
   CHECK(meaning("081#00A0010000000000") == "EMCY A000h unknown error code, error register 01h");
 }
 
+TEST_CASE("trace: LSS: switch state, configure, store [305]") {
+  CHECK(meaning("7E5#0400000000000000") == "LSS switch all to waiting");
+  CHECK(meaning("7E5#0401000000000000") == "LSS switch all to configuration");
+  CHECK(meaning("7E5#4019030000000000") == "LSS switch to configuration: vendor-ID 00000319h");
+  CHECK(meaning("7E5#4301000080000000") == "LSS switch to configuration: serial number 80000001h");
+  CHECK(meaning("7E4#4400000000000000") == "LSS answer: in configuration");
+  CHECK(meaning("7E5#1105000000000000") == "LSS configure node-ID 5");
+  CHECK(meaning("7E5#11FF000000000000") == "LSS configure no node-ID");
+  CHECK(meaning("7E4#1100000000000000") == "LSS answer: configure node-ID done");
+  CHECK(meaning("7E4#1101000000000000") == "LSS answer: configure node-ID refused, error 1");
+  CHECK(meaning("7E5#1300020000000000") == "LSS configure bit timing: 500 kbit/s");
+  CHECK(meaning("7E5#1300050000000000") == "LSS configure bit timing: table 0, index 5");
+  CHECK(meaning("7E5#1380020000000000") == "LSS configure bit timing: table 128, index 2");
+  CHECK(meaning("7E4#1301000000000000") == "LSS answer: configure bit timing refused, error 1");
+  CHECK(meaning("7E5#15E8030000000000") == "LSS activate bit timing, delay 1000 ms");
+  CHECK(meaning("7E5#1700000000000000") == "LSS store");
+  CHECK(meaning("7E4#1702000000000000") == "LSS answer: store refused, error 2");
+}
+
+TEST_CASE("trace: LSS: inquire and identify [305]") {
+  CHECK(meaning("7E5#5A00000000000000") == "LSS inquire vendor-ID");
+  CHECK(meaning("7E5#5D00000000000000") == "LSS inquire serial number");
+  CHECK(meaning("7E4#5B0CC10000000000") == "LSS answer: product code 0000C10Ch");
+  CHECK(meaning("7E5#5E00000000000000") == "LSS inquire node-ID");
+  CHECK(meaning("7E4#5E05000000000000") == "LSS answer: node-ID 5");
+  CHECK(meaning("7E4#5EFF000000000000") == "LSS answer: no node-ID");
+  CHECK(meaning("7E5#4619030000000000") == "LSS identify: vendor-ID 00000319h");
+  CHECK(meaning("7E5#4801000000000000") == "LSS identify: revision number from 00000001h");
+  CHECK(meaning("7E5#4B09000000000000") == "LSS identify: serial number to 00000009h");
+  CHECK(meaning("7E5#4C00000000000000") == "LSS identify: who has no node-ID?");
+  CHECK(meaning("7E4#5000000000000000") == "LSS answer: I have no node-ID");
+  CHECK(meaning("7E5#7700000000000000") == "LSS unknown command 77h");
+  CHECK(meaning("7E4#7700000000000000") == "LSS answer: unknown command 77h");
+  CHECK(meaning("7E5#04000000000000") == "unknown 7E5#04000000000000");
+}
+
+TEST_CASE("trace: LSS: of a fastscan, what is asked bit by bit can be folded [305]") {
+  CHECK(meaning("7E5#5100000000800000") == "LSS fastscan: who has no node-ID?");
+  CHECK(meaning("7E5#51000000801F0303") == "LSS fastscan serial number 80000000h, bits 31...31");
+  CHECK(meaning("7E5#510CC10000000102") == "LSS fastscan product code 0000C10Ch, bits 31...0");
+  CHECK(meaning("7E4#4F00000000000000") == "LSS answer: that is me");
+  CHECK(place("7E5#5100000000800000") == Place::edge);
+  CHECK(place("7E5#51000000801F0303") == Place::middle);
+  CHECK(place("7E4#4F00000000000000") == Place::middle);
+  CHECK(place("7E5#1105000000000000") == Place::edge);
+}
+
 TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
   CHECK(meaning("780#1122334455667788") == "unknown 780#1122334455667788");
   CHECK(meaning("180#11") == "unknown 180#11");  // a PDO of node 0

@@ -355,6 +355,83 @@ received=$(sed -n 's/.*node *\([0-9]*\) frames received.*/\1/p' /tmp/end)
 verdict $? "and many frames were for the node" "$(cat /tmp/end)"
 cat /tmp/end
 
+# --- Storage and LSS: what was stored is there after kill -9, which leaves the node no time for anything.
+
+address="0x00000000 0x0000C10C 0x???????? 0x00000001"
+
+serve() {  # ARGUMENT... of the node
+  $node --can vcan0 --serve "$@" >/tmp/trace 2>&1 &
+  server=$!
+}
+
+killed() {  # NAME
+  kill -KILL $server
+  wait $server 2>/dev/null
+  status=$?
+  [ $status -eq 137 ]
+  verdict $? "$1" "status $status"
+}
+
+# The LSS master succeeds, and prints this and nothing else.
+lss() {  # NAME OUTPUT-PATTERN ARGUMENT...
+  name=$1 expected=$2
+  shift 2
+  got=$($master lss "$@" 2>/tmp/said)
+  got="$? $got"
+  case $got in
+    "0 "$expected) verdict 0 "$name" ;;
+    *) verdict 1 "$name" "expected '0 $expected', got '$got' $(cat /tmp/said)" ;;
+  esac
+}
+
+listen $heartbeat 1
+serve --node-id 5 --storage /tmp/storage
+expect "storage: a node with an empty file boots" "$heartbeat#00"
+says "storage: no time zone" 0 --index 0x2101 --type i16 read
+says "storage: a name" "" --index 0x2201 --type string write "Platform 9"
+says "storage: a time zone" "" --index 0x2101 --type i16 write 120
+sdo "storage: save" 2310100173617665 6010100100000000
+says "storage: a name that is not saved" "" --index 0x2201 --type string write "Platform 10"
+killed "storage: kill -9"
+listen $heartbeat 1
+serve --node-id 5 --storage /tmp/storage
+expect "storage: the node boots again" "$heartbeat#00"
+says "storage: its name is the one that was saved" "Platform 9" --index 0x2201 --type string read
+says "storage: and its time zone" 120 --index 0x2101 --type i16 read
+sdo "storage: load" 231110016C6F6164 6011100100000000
+killed "storage: kill -9 after load"
+listen $heartbeat 1
+serve --node-id 5 --storage /tmp/storage
+expect "storage: it boots" "$heartbeat#00"
+says "storage: with the default time zone" 0 --index 0x2101 --type i16 read
+killed "storage: kill -9 of a node that has nothing to do"
+
+listen "7E4 $heartbeat" 1 1500
+serve --node-id unconfigured --storage /tmp/lss
+shown "LSS: a node without node-ID" "without node-ID"
+expect "LSS: it says nothing" ""
+lss "LSS: a fastscan finds it" "$address" scan
+listen $heartbeat 1 30000  # a fastscan takes its time
+lss "LSS: it gets a node-ID, and stores it" "$address" set-id 5 --store
+expect "LSS: and boots" "$heartbeat#00"
+sdo "LSS: and answers" 4018100200000000 431810020CC10000
+lss "LSS: there is no node without node-ID any more" "" scan
+killed "LSS: kill -9"
+listen $heartbeat 1
+serve --node-id unconfigured --storage /tmp/lss
+expect "LSS: it has its node-ID" "$heartbeat#00"
+kill -TERM $server
+wait $server
+
+for id in 0 128 none; do
+  $node --can vcan0 --node-id $id --serve >/tmp/tour 2>&1
+  [ $? -eq 2 ] && grep -q -e --node-id /tmp/tour
+  verdict $? "node-ID $id is refused, status 2" "$(cat /tmp/tour)"
+done
+$node --can vcan0 --node-id 5 --serve --storage /tmp/missing/file >/tmp/tour 2>&1
+[ $? -eq 2 ] && grep -q /tmp/missing/file /tmp/tour
+verdict $? "a file that cannot be made is named, status 2" "$(cat /tmp/tour)"
+
 # Without arguments the demo takes vcan0 by itself.
 $node >/tmp/tour 2>&1 && grep -q "steps in .* all as expected" /tmp/tour && head -n 1 /tmp/tour | grep -q vcan0
 verdict $? "the tour, on vcan0 by itself" "$(tail -n 1 /tmp/tour)"

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/lss_master.hpp"
+
+#include "trace/text.hpp"
+
+#if USE_LSS_MASTER
+
+namespace demo {
+namespace {
+
+constexpr unsigned manufacturers_error = 255;  // the specific error code tells more
+
+}  // namespace
+
+LssMaster::LssMaster(Node& node, Loop& loop, Times times) : node_(node), lssm_(node.stack().Lssm), loop_(loop) {
+  COLssmSetTimes(&lssm_, times.timeout, times.listen);
+}
+
+void LssMaster::note_end(CO_LSSM* lssm, CO_LSSM_RESULT result) {
+  auto& self = *static_cast<LssMaster*>(CONodeGetUser(lssm->Node));
+  self.ended_ = true;
+  self.result_ = result;
+}
+
+void LssMaster::begin() {
+  node_.set_user(this);  // the SDO client of the same node does so, too
+  ended_ = false;
+}
+
+bool LssMaster::wait_for_end(CO_ERR begun) {
+  error_ = begun;
+  if (error_ == CO_ERR_NONE && !loop_.run_until([this] { return ended_; }, for_ever)) {
+    COLssmCancel(&lssm_);
+  }
+  return error_ == CO_ERR_NONE && result_ == CO_LSSM_OK;
+}
+
+std::string LssMaster::fault() const {
+  if (error_ != CO_ERR_NONE) {
+    return error_ == CO_ERR_IF_CAN_SEND ? "the bus takes no frames"
+                                        : text("error %04Xh", static_cast<unsigned>(error_));
+  }
+  switch (result_) {
+    case CO_LSSM_REFUSED:
+      return lssm_.Error == manufacturers_error ? text("refused, manufacturer's error %u", lssm_.Specific)
+                                                : text("refused with error %u", lssm_.Error);
+    case CO_LSSM_TIMEOUT: return "no answer";
+    case CO_LSSM_NOT_FOUND: return "no node without node-ID";
+    case CO_LSSM_NOT_SENT: return "the bus takes no frames";
+    case CO_LSSM_CANCELLED: return "cancelled";
+    default: return "the master was stopped";
+  }
+}
+
+}  // namespace demo
+
+#endif

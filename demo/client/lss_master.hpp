@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file lss_master.hpp
+/// The stack's LSS master for a program that wants to wait until a service has ended. [305]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "co_core.h"
+#include "host/loop.hpp"
+#include "host/node.hpp"
+
+namespace demo {
+
+/// Vendor-ID, product code, revision and serial number.
+using LssAddress = std::array<std::uint32_t, 4>;
+
+#if USE_LSS_MASTER
+
+class LssMaster {
+ public:
+  struct Times {
+    std::uint32_t timeout;  // ms, for the answer of a node
+    std::uint32_t listen;   // ms, for each request that looks for nodes
+  };
+
+  /// \a node runs in \a loop. Both must outlive this.
+  LssMaster(Node& node, Loop& loop, Times times);
+  LssMaster(const LssMaster&) = delete;
+  LssMaster& operator=(const LssMaster&) = delete;
+
+  /// Runs a service. An interruption of the program cancels it. False: it has failed, fault() tells why.
+  template <class... Argument, class... Given>
+  bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
+    begin();
+    return wait_for_end(service(&lssm_, given..., note_end));
+  }
+
+  std::uint32_t value() const { return lssm_.Value; }
+  LssAddress address() const { return {lssm_.Address[0], lssm_.Address[1], lssm_.Address[2], lssm_.Address[3]}; }
+  bool nobody_found() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
+  bool cancelled() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_CANCELLED; }
+  std::string fault() const;
+
+ private:
+  static void note_end(CO_LSSM* lssm, CO_LSSM_RESULT result);
+  void begin();
+  bool wait_for_end(CO_ERR begun);
+
+  Node& node_;
+  CO_LSSM& lssm_;
+  Loop& loop_;
+  bool ended_ = false;
+  CO_ERR error_ = CO_ERR_NONE;  // of the last service, when it was started
+  CO_LSSM_RESULT result_ = CO_LSSM_OK;
+};
+
+#endif
+
+}  // namespace demo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file storage.hpp
+/// Where the clock of the program keeps its settings: in RAM, until a file is opened.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "co_nvm_ram.h"
+#include "file_nvm.hpp"
+#include "host/host.hpp"
+#include "linux_node/clock.hpp"
+
+namespace demo {
+
+class Storage {
+ public:
+  Storage();
+  ~Storage();
+  Storage(const Storage&) = delete;
+  Storage& operator=(const Storage&) = delete;
+
+  /// Returns what is wrong with the file, in words; empty: nothing.
+  std::string open(const std::string& path);
+  /// The same with a new file, which is removed at the end.
+  std::string open_temporary();
+
+  Memory memory();
+
+ private:
+  std::array<std::uint8_t, clock_memory_size> bytes_{};
+  CO_NVM_RAM ram_{bytes_.data(), clock_memory_size};
+  co::FileNvm file_;
+  std::string temporary_;  // path, empty: none
+};
+
+}  // namespace demo

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+
+#include "linux_node/tour_steps.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+
+Bytes bytes_of(const char* text) { return Bytes(text, text + std::strlen(text)); }
+
+#if USE_LSS_MASTER
+
+namespace {
+
+constexpr std::uint8_t waiting = CO_LSSM_WAITING;
+
+}  // namespace
+
+Finding find_unconfigured(Tour& tour) {
+  LssMaster& lss = tour.master.lss();
+  if (!tour.clock.start()) {
+    return {false, "the node does not start"};
+  }
+  if (!lss.run(COLssmSwitchGlobal, waiting) || !lss.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
+    return {false, "fastscan: " + lss.fault()};
+  }
+  const LssAddress found = lss.address();
+  return {found[1] == clock_product_code && found[3] == clock_serial_number,
+          text("found: vendor-ID %08Xh, product code %08Xh, revision %08Xh, serial number %08Xh", found[0], found[1],
+               found[2], found[3])};
+}
+
+Finding give_node_id(Tour& tour) {
+  LssMaster& lss = tour.master.lss();
+  const std::uint8_t node_id = tour.master.node_id();
+  if (!lss.run(COLssmConfigureNodeId, node_id) || !lss.run(COLssmStore) || !lss.run(COLssmSwitchGlobal, waiting)) {
+    return {false, "LSS: " + lss.fault()};
+  }
+  const bool booted = tour.master.await_state(State::boot_up, second);
+  return {booted, text(booted ? "node %u is there" : "node %u does not boot", node_id)};
+}
+
+#endif
+
+namespace {
+
+constexpr std::int16_t time_zone = 60;  // min
+const Bytes time_zone_bytes = {60, 0};
+
+}  // namespace
+
+Finding save_settings(Tour& tour) {
+  if (const Transfer zone = tour.sdo.download(0x2101, 0, time_zone_bytes); !zone.done()) {
+    return failure("the time zone", zone);
+  }
+  const Transfer saved = tour.sdo.download(0x1010, 1, bytes_of("save"));
+  return saved.done() ? Finding{true, "stored"} : failure("save", saved);
+}
+
+Finding lose_power(Tour& tour) {
+  tour.clock.lose_power();
+  tour.master.forget();
+  if (!tour.clock.start() || !tour.master.await_state(State::boot_up, second)) {
+    return {false, text("node %u does not come back", tour.master.node_id())};
+  }
+  const Transfer name = tour.sdo.upload(0x2201, 0);
+  const Transfer zone = tour.sdo.upload(0x2101, 0);
+  if (!name.done() || !zone.done()) {
+    return failure("reading what was stored", name.done() ? zone : name);
+  }
+  const bool good = name.data == bytes_of(station_name) && zone.data == time_zone_bytes;
+  return {good, good ? text("node-ID %u, ", tour.master.node_id()) + quoted(name.data.data(), name.data.size()) +
+                           text(", time zone %d min: all as stored", time_zone)
+                     : "not what was stored"};
+}
+
+}  // namespace demo
