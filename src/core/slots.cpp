@@ -68,7 +68,7 @@ class Buffer {
 
  private:
   uint32_t size_;
-  uint8_t bytes_[CO_STORE_BUFFER];
+  uint8_t bytes_[CO_STORE_BUFFER] = {};
 };
 
 bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
@@ -148,17 +148,20 @@ bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* 
   return crc.value() == slot.header.crc;
 }
 
+bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
+  uint32_t n = 0;
+  while (n < num && a[n] == b[n]) {
+    ++n;
+  }
+  return n == num;
+}
+
 bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t size) {
   Buffer buffer(node);
   while (size != 0) {
     const uint32_t piece = size < buffer.size() ? size : buffer.size();
-    if (!read(node, start, buffer.bytes(), piece)) {
+    if (!read(node, start, buffer.bytes(), piece) || !is_same(buffer.bytes(), data, piece)) {
       return false;
-    }
-    for (uint32_t n = 0; n < piece; ++n) {
-      if (buffer.bytes()[n] != data[n]) {
-        return false;
-      }
     }
     start += piece;
     data += piece;
