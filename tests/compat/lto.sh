@@ -15,7 +15,7 @@ mkdir -p "$build"
 cd "$build"
 
 # clang's objects need a linker of its own.
-linker=-flto=1  # without a word about the number of processes
+linker=-flto=auto  # without a word about the number of processes
 if [ "$cc" = clang ]; then
   linker=-fuse-ld=lld
   command -v ld.lld >/dev/null || { echo "skipped: no ld.lld"; exit 77; }
