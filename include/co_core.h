@@ -156,8 +156,8 @@ typedef uint8_t CO_ROUTE_NUM;
 
 typedef struct CO_ROUTES_T {  ///< who gets the frames of an identifier
   CO_ROUTE_NUM Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
-  uint16_t Owner[CO_ROUTE_N];  ///< service in bits 15…12, number of its instance in bits 11…0
-  uint32_t Id[CO_ROUTE_N];     ///< identifiers with flags, ascending
+  uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, and an end that is none
+  uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
 
 typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by priority
@@ -172,7 +172,7 @@ typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by pri
 /// Baudrate, and touches nothing else. What is used most lies in front, where small CPUs reach it in one instruction.
 typedef struct CO_NODE_T {
   uint8_t NodeId;
-  uint8_t Busy;        ///< a frame is being processed
+  uint8_t State;       ///< runs, serves a frame, changes its NMT state: bits
   uint8_t Pending;     ///< what is to be done when it has been answered
   uint8_t Paused;      ///< a block transfer waits for the controller
   uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
@@ -193,10 +193,10 @@ typedef struct CO_NODE_T {
   CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
   uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
   enum CO_ERR_T Error;
+  CO_NODE_COUNTERS Count;
+  CO_ROUTES Routes;
   CO_DICT Dict;
   CO_TMR Tmr;
-  CO_ROUTES Routes;
-  CO_NODE_COUNTERS Count;
   uint32_t Baudrate;
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;

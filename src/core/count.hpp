@@ -7,8 +7,9 @@
 namespace co {
 
 constexpr void count(uint32_t& counter) {
-  if (counter != UINT32_MAX) {
-    ++counter;
+  const uint32_t next = counter + 1;
+  if (next != 0) {
+    counter = next;
   }
 }
 

@@ -12,6 +12,26 @@ namespace co::event {
 // Changes the NMT state: the application's callback, the permissions, then every service.
 void change_mode(CO_NODE& node, CO_MODE mode);
 
+// CO_NODE.State: CONodeProcess() reads a frame where the node runs and does nothing else.
+enum State : uint8_t {
+  running = 0x01,   // not in CO_INVALID
+  serving = 0x02,   // a frame, a reset, …: what callbacks and type functions ask for waits
+  changing = 0x04,  // the NMT state; CONmtModeChange() is asked
+};
+[[nodiscard]] inline bool is_serving(const CO_NODE& node) { return (node.State & serving) != 0; }
+
+class Serving {
+ public:
+  [[gnu::always_inline]] explicit Serving(CO_NODE& node) : node_(node), before_(node.State) { node.State |= serving; }
+  Serving(const Serving&) = delete;
+  Serving& operator=(const Serving&) = delete;
+  [[gnu::always_inline]] ~Serving() { node_.State &= static_cast<uint8_t>(before_ | ~serving); }
+
+ private:
+  CO_NODE& node_;
+  uint8_t before_;
+};
+
 // Things that wait until the frame being processed has been answered (CO_NODE.Pending); done at once if none is.
 enum Pending : uint8_t {
   reset_node = 0x01,
@@ -80,7 +100,7 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 
 // Does what waits, unless a frame is being processed or the mode is being changed.
 void settle_pending(CO_NODE& node);
-inline void settle(CO_NODE& node) {
+[[gnu::always_inline]] inline void settle(CO_NODE& node) {
   if (node.Pending != 0) {
     settle_pending(node);
   }

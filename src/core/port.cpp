@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/port.hpp"
 
+#include "core/count.hpp"
 #include "core/transmit.hpp"
 #include "wire/cob_id.hpp"
 
@@ -24,6 +25,11 @@ constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIME
   return ext;
 }
 
+void call(const CO_NODE& node, void (*CO_IF_CAN_DRV_EX::*with_context)(void*), void (*CO_IF_CAN_DRV::*plain)()) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  ext.Can != nullptr ? (ext.Can->*with_context)(ext.CanCtx) : (node.If.Drv->Can->*plain)();
+}
+
 }  // namespace
 
 const CO_IF_DRV no_plain_drivers = {nullptr, nullptr, nullptr};
@@ -45,20 +51,12 @@ void init(CO_NODE& node) {
   can_init(node);
 }
 
-void can_init(const CO_NODE& node) {
-  node.Ext->Can != nullptr ? node.Ext->Can->Init(node.Ext->CanCtx) : node.If.Drv->Can->Init();
-}
+void can_init(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Init, &CO_IF_CAN_DRV::Init); }
+void can_reset(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Reset, &CO_IF_CAN_DRV::Reset); }
+void can_close(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Close, &CO_IF_CAN_DRV::Close); }
 
 void can_enable(const CO_NODE& node, uint32_t baud) {
   node.Ext->Can != nullptr ? node.Ext->Can->Enable(node.Ext->CanCtx, baud) : node.If.Drv->Can->Enable(baud);
-}
-
-void can_reset(const CO_NODE& node) {
-  node.Ext->Can != nullptr ? node.Ext->Can->Reset(node.Ext->CanCtx) : node.If.Drv->Can->Reset();
-}
-
-void can_close(const CO_NODE& node) {
-  node.Ext->Can != nullptr ? node.Ext->Can->Close(node.Ext->CanCtx) : node.If.Drv->Can->Close();
 }
 
 bool can_wants_filter(const CO_NODE& node) { return node.Ext->Can != nullptr && node.Ext->Can->Filter != nullptr; }
@@ -75,10 +73,14 @@ bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
     CO_IF_FRM copy = frame;  // drivers without context may change the frame
     result = node.If.Drv->Can->Send(&copy);
   }
+  if (result > 0) {
+    count(node.Count.Sent);
+    return true;
+  }
   if (result < 0) {
     node.Error = CO_ERR_IF_CAN_SEND;
   }
-  return result > 0;
+  return false;
 }
 
 bool nvm_exists(const CO_NODE& node) { return node.Ext->Nvm != nullptr || node.If.Drv->Nvm != nullptr; }

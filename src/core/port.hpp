@@ -63,6 +63,7 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   }
   return result;
 }
+// Counts what is sent.
 [[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
 
 [[nodiscard]] bool nvm_exists(const CO_NODE& node);

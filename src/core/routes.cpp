@@ -30,12 +30,16 @@ void move(CO_ROUTES& routes, unsigned to, unsigned from) {
 
 }  // namespace
 
-void clear(CO_NODE& node) { node.Routes = {}; }
+void clear(CO_NODE& node) {
+  node.Routes = {};
+  node.Routes.Id[0] = no_identifier;
+}
 
 void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
   CO_ROUTES& routes = node.Routes;
   const uint16_t whose = owner(service, number);
   unsigned place = routes.Start[end];
+  routes.Id[place + 1] = no_identifier;
   for (; place > 0 && is_behind(routes, place - 1, identifier, whose); --place) {
     move(routes, place, place - 1);
   }
@@ -58,6 +62,7 @@ void remove(CO_NODE& node, Service service, uint16_t number) {
   for (; place + 1 < num; ++place) {
     move(routes, place, place + 1);
   }
+  routes.Id[place] = no_identifier;
 }
 
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
@@ -68,10 +73,11 @@ void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number
 }
 
 unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner) {
-  if (!is_at(node, place, identifier) || node.Routes.Owner[place] != owner) {
-    place = find(node, identifier);
+  const CO_ROUTES& routes = node.Routes;
+  if (place >= routes.Start[end] || !is_at(node, place, identifier) || routes.Owner[place] != owner) {
+    place = 0;
   }
-  while (is_at(node, place, identifier) && node.Routes.Owner[place] <= owner) {
+  while (routes.Id[place] != no_identifier && !is_behind(routes, place, identifier, owner)) {
     ++place;
   }
   return is_at(node, place, identifier) ? place : nowhere;

@@ -65,10 +65,12 @@ void publish(const CO_NODE& node);
 
 inline constexpr unsigned nowhere = ~0U;
 
+// Stands behind the last route.
+inline constexpr uint32_t no_identifier = ~0U;
+
 // Is the route at this place one of the identifier?
 [[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned place, uint32_t identifier) {
-  constexpr uint8_t end = 17;
-  return place < node.Routes.Start[end] && node.Routes.Id[place] == identifier;
+  return node.Routes.Id[place] == identifier;
 }
 
 // The first place of the routes of an identifier, or nowhere.
@@ -86,12 +88,10 @@ inline constexpr unsigned nowhere = ~0U;
       last = middle + 1;
     }
   }
-  for (; first < last && routes.Id[first] <= identifier; ++first) {
-    if (routes.Id[first] == identifier) {
-      return first;
-    }
+  while (routes.Id[first] < identifier) {
+    ++first;
   }
-  return nowhere;
+  return routes.Id[first] == identifier ? first : nowhere;
 }
 
 // The place behind the owner at this place, who may have changed the routes while it was served; or nowhere.

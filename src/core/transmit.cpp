@@ -19,27 +19,25 @@ bool may_send_next(const CO_NODE& node) {
   return node.Held == 0 && (node.TxQueue.Fixed != 0 || node.Nmt.Mode != CO_INIT);
 }
 
-bool try_send(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (!port::can_send(node, frame)) {
-    return false;
-  }
-  count(node.Count.Sent);
-  return true;
-}
-
-void insert(CO_TX_QUEUE& queue, const CO_IF_FRM& frame) {
-  uint16_t place = queue.Num;
-  while (place > queue.Fixed && rank(queue.Frame[place - 1]) > rank(frame)) {
-    queue.Frame[place] = queue.Frame[place - 1];
-    --place;
+void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
+  for (unsigned n = queue.Num; n > place; --n) {
+    queue.Frame[n] = queue.Frame[n - 1];
   }
   queue.Frame[place] = frame;
   ++queue.Num;
 }
 
+unsigned place_of(const CO_TX_QUEUE& queue, uint32_t wanted) {
+  unsigned place = queue.Num;
+  while (place > queue.Fixed && rank(queue.Frame[place - 1]) > wanted) {
+    --place;
+  }
+  return place;
+}
+
 void remove_first(CO_TX_QUEUE& queue) {
   --queue.Num;
-  for (uint16_t n = 0; n < queue.Num; ++n) {
+  for (unsigned n = 0; n < queue.Num; ++n) {
     queue.Frame[n] = queue.Frame[n + 1];
   }
   queue.Fixed = static_cast<uint16_t>(queue.Fixed == 0 ? 0 : queue.Fixed - 1);
@@ -50,7 +48,7 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
     count(node.Count.Dropped);
     return false;
   }
-  insert(node.TxQueue, frame);
+  insert(node.TxQueue, place_of(node.TxQueue, rank(frame)), frame);
   return true;
 }
 
@@ -58,11 +56,7 @@ bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
   if (is_waiting(node)) {
     flush(node);
   }
-  return !is_waiting(node) && may_send_next(node) && try_send(node, frame);
-}
-
-bool send_or_enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
-  return try_now(node, frame) || enqueue(node, frame, places);
+  return !is_waiting(node) && may_send_next(node) && port::can_send(node, frame);
 }
 
 // The rest is kept for the node's own frames: one of each SDO server and client, an EMCY message and a heartbeat, but
@@ -92,16 +86,18 @@ void init(CO_NODE& node) {
   node.TxQueue = {own ? node.TxFrame : ext.TxQueue, own ? static_cast<uint16_t>(CO_TX_QUEUE_N) : ext.TxQueueLen, 0, 0};
 }
 
-bool send(CO_NODE& node, const CO_IF_FRM& frame) { return send_or_enqueue(node, frame, node.TxQueue.Len); }
+bool send(CO_NODE& node, const CO_IF_FRM& frame) {
+  return try_now(node, frame) || enqueue(node, frame, node.TxQueue.Len);
+}
 
 bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
-  return send_or_enqueue(node, frame, places_for_application(node.TxQueue));
+  return try_now(node, frame) || enqueue(node, frame, places_for_application(node.TxQueue));
 }
 
 void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   CO_TX_QUEUE& queue = node.TxQueue;
   flush(node);
-  if (queue.Fixed == 0 && node.Held == 0 && try_send(node, frame)) {
+  if (queue.Fixed == 0 && node.Held == 0 && port::can_send(node, frame)) {
     return;
   }
   if (queue.Num == queue.Len) {
@@ -109,18 +105,14 @@ void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
     count(node.Count.Dropped);
   }
   queue.Fixed = queue.Fixed < queue.Num ? queue.Fixed : queue.Num;
-  for (uint16_t place = queue.Num; place > queue.Fixed; --place) {
-    queue.Frame[place] = queue.Frame[place - 1];
-  }
-  queue.Frame[queue.Fixed] = frame;
-  ++queue.Num;
+  insert(queue, queue.Fixed, frame);
   ++queue.Fixed;
 }
 
 CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
   flush(node);
   CO_TX_QUEUE& queue = node.TxQueue;
-  for (uint16_t n = queue.Fixed; n < queue.Num; ++n) {
+  for (unsigned n = queue.Fixed; n < queue.Num; ++n) {
     if (queue.Frame[n].Identifier == identifier) {
       return &queue.Frame[n];
     }
@@ -145,7 +137,7 @@ bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 void flush(CO_NODE& node) {
-  while (is_waiting(node) && may_send_next(node) && try_send(node, node.TxQueue.Frame[0])) {
+  while (is_waiting(node) && may_send_next(node) && port::can_send(node, node.TxQueue.Frame[0])) {
     remove_first(node.TxQueue);
   }
 }
@@ -157,15 +149,15 @@ bool is_full(CO_NODE& node) {
 
 void withdraw(CO_NODE& node, uint32_t identifier) {
   CO_TX_QUEUE& queue = node.TxQueue;
-  uint16_t kept = queue.Fixed;
-  for (uint16_t n = kept; n < queue.Num; ++n) {
+  unsigned kept = queue.Fixed;
+  for (unsigned n = kept; n < queue.Num; ++n) {
     if (queue.Frame[n].Identifier == identifier) {
       count(node.Count.Dropped);
     } else {
       queue.Frame[kept++] = queue.Frame[n];
     }
   }
-  queue.Num = kept;
+  queue.Num = static_cast<uint16_t>(kept);
 }
 
 void clear(CO_NODE& node) {

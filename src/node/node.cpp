@@ -27,8 +27,8 @@ void check_mandatory_objects(CO_NODE& node) {
   }
 }
 
-// The part of the initialisation that every NMT reset runs, too. Busy is set: what type functions and callbacks ask for
-// waits. False: they have stopped the node.
+// The part of the initialisation that every NMT reset runs, too. The node is serving: what type functions and callbacks
+// ask for waits. False: they have stopped the node.
 [[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
@@ -79,26 +79,28 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
   if (node.Nmt.Mode == CO_INVALID) {
     return;
   }
-  node.Busy = 1;
-  if (type == CO_RESET_NODE) {
-    services::forget_application(node);
-    services::load_node_id(node);
+  {
+    const event::Serving serving(node);
+    if (type == CO_RESET_NODE) {
+      services::forget_application(node);
+      services::load_node_id(node);
+    }
+    reset(node, type, commanded);
+    event::forget_resets(node);
   }
-  reset(node, type, commanded);
-  node.Busy = 0;
-  event::forget_resets(node);
   if (commanded && node.Nmt.Mode != CO_INVALID) {
     CONmtResetRequest(&node.Nmt, type);
   }
 }
 
 void reconfigure(CO_NODE& node, bool entries_have_moved) {
-  node.Busy = 1;
-  if (entries_have_moved) {
-    services::remap(node);
+  {
+    const event::Serving serving(node);
+    if (entries_have_moved) {
+      services::remap(node);
+    }
+    services::configure(node);
   }
-  services::configure(node);
-  node.Busy = 0;
   routes::publish(node);
 }
 
@@ -136,9 +138,10 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 [[nodiscard]] bool go_on(CO_NODE& node) {
   transmit::flush(node);
   if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
-    node.Busy = 1;
-    services::on_free(node);
-    node.Busy = 0;
+    {
+      const event::Serving serving(node);
+      services::on_free(node);
+    }
     event::settle(node);
   }
   return node.Nmt.Mode != CO_INVALID;
@@ -177,7 +180,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
 namespace co {
 
 void event::settle_pending(CO_NODE& node) {
-  while (node.Pending != 0 && node.Busy == 0 && node.Nmt.Changing == 0) {
+  while (node.Pending != 0 && (node.State & (serving | changing)) == 0) {
     const uint8_t pending = node.Pending;
     node.Pending = 0;
     if ((pending & (reset_node | reset_communication)) != 0) {
@@ -224,10 +227,12 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
     node->Error = err;
     return;
   }
-  node->Busy = 1;
-  const bool initialised = node::initialise(*node, CO_RESET_NODE);
-  event::forget_resets(*node);
-  node->Busy = 0;
+  bool initialised = false;
+  {
+    const event::Serving serving(*node);
+    initialised = node::initialise(*node, CO_RESET_NODE);
+    event::forget_resets(*node);
+  }
   event::settle(*node);
   if (node->Dict.Fault != CO_DICT_OK) {
     event::change_mode(*node, CO_INVALID);
@@ -243,14 +248,14 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
 
 void CONodeStart(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && node->Busy == 0) {
+  if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_serving(*node)) {
     node::start(*node);
   }
 }
 
 void CONodeStop(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INVALID && node->Nmt.Changing == 0) {
+  if (node->Nmt.Mode == CO_INVALID && (node->State & event::changing) == 0) {
     return;
   }
   event::change_mode(*node, CO_INVALID);
@@ -265,7 +270,7 @@ CO_ERR CONodeGetErr(CO_NODE* node) {
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  if (node->Nmt.Mode == CO_INVALID || node->Busy != 0 || node->Nmt.Changing != 0) {
+  if (node->State != event::running) {
     return;
   }
   if ((transmit::is_waiting(*node) || node->Paused != 0) && !node::go_on(*node)) {
@@ -276,9 +281,9 @@ void CONodeProcess(CO_NODE* node) {
     return;
   }
   count(node->Count.Received);
-  node->Busy = 1;
+  node->State = event::running | event::serving;
   node::dispatch(*node, frame);
-  node->Busy = 0;
+  node->State &= static_cast<uint8_t>(~event::serving);
   event::settle(*node);
 }
 

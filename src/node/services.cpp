@@ -25,29 +25,28 @@ namespace co {
 namespace {
 
 bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
-bool no_remote(CO_NODE&, uint16_t) { return false; }
 
 // Those that get frames come first, in the order of routes::Service.
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_remote, nmt::on_mode, nullptr, nullptr},
-    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_remote, sdo_server::on_mode,
+    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
+    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_frames, sdo_server::on_mode,
      sdo_server::on_free, sdo_server::configure},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, no_remote, sdo_client::on_mode,
+    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, no_frames, sdo_client::on_mode,
      sdo_client::on_free, sdo_client::configure},
 #endif
     {CO_NMT_ALLOWED, 0, guarding::init, guarding::on_frame, guarding::on_remote, guarding::on_mode, nullptr, nullptr},
 #if CO_HBCONS_N > 0
-    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, no_remote, heartbeat::on_mode_consumer, nullptr, nullptr},
+    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, no_frames, heartbeat::on_mode_consumer, nullptr, nullptr},
 #endif
 #if USE_SYNC
-    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, no_remote, sync::on_mode, nullptr, nullptr},
+    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, no_frames, sync::on_mode, nullptr, nullptr},
 #endif
 #if USE_TIME
-    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_remote, time::on_mode, nullptr, nullptr},
+    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_frames, time::on_mode, nullptr, nullptr},
 #endif
 #if CO_RPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, no_remote, pdo::on_mode_rpdos, nullptr, nullptr},
+    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
 #if CO_TPDO_N > 0 && USE_MPDO
     {CO_PDO_ALLOWED, 1, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, pdo::on_free, nullptr},
@@ -55,13 +54,13 @@ constexpr Service table[] = {
     {CO_PDO_ALLOWED, 0, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
-    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_remote, nullptr, nullptr, nullptr},
+    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},
 #endif
 #if USE_LSS
-    {CO_LSS_ALLOWED, 0, lss::init, lss::on_frame, no_remote, lss::on_mode, nullptr, nullptr},
+    {CO_LSS_ALLOWED, 0, lss::init, lss::on_frame, no_frames, lss::on_mode, nullptr, nullptr},
 #endif
 #if USE_LSS_MASTER
-    {CO_LSS_ALLOWED, 0, lss_master::init, lss_master::on_frame, no_remote, lss_master::on_mode, nullptr, nullptr},
+    {CO_LSS_ALLOWED, 0, lss_master::init, lss_master::on_frame, no_frames, lss_master::on_mode, nullptr, nullptr},
 #endif
 
     {CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
@@ -103,16 +102,6 @@ bool go_on(CO_NODE& node, uint16_t stream) {
     stream = static_cast<uint16_t>(stream - service.streams);
   }
   return false;
-}
-
-// False: malformed.
-bool serve(CO_NODE& node, const CO_IF_FRM& frame, uint16_t owner) {
-  const Service& service = table[routes::service_of(owner)];
-  const uint16_t number = routes::number_of(owner);
-  if ((frame.Identifier & CO_IF_FRM_RTR) != 0) {
-    return service.on_remote(node, number);
-  }
-  return service.on_frame(node, frame, number);
 }
 
 }  // namespace
@@ -170,16 +159,19 @@ void on_free(CO_NODE& node) {
   }
 }
 
+// Whom a frame reaches may change the routes.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   bool claimed = false;
   bool served = false;
-  const uint32_t id = frame.Identifier & ~CO_IF_FRM_RTR;
+  const uint32_t id = node.Routes.Id[place];
   do {
     const uint16_t owner = node.Routes.Owner[place];
     const bool alone = !routes::is_at(node, place + 1, id);
-    if (event::is_allowed(node, table[routes::service_of(owner)].allowed)) {
+    const Service& service = table[routes::service_of(owner)];
+    if (event::is_allowed(node, service.allowed)) {
+      const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service.on_remote : service.on_frame;
       claimed = true;
-      served |= serve(node, frame, owner);
+      served |= serve(node, frame, routes::number_of(owner));
     }
     place = alone ? routes::nowhere : routes::next(node, place, id, owner);
   } while (place != routes::nowhere);
@@ -262,6 +254,7 @@ namespace {
 
 void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Mode = mode;
+  node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
   node.Nmt.Allowed = nmt::allowed_in(mode);
   run(node, &Service::on_mode);
   if (mode == CO_INVALID) {
@@ -280,12 +273,12 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
   if (nmt.Mode == CO_INVALID && mode > CO_INIT) {
     return;
   }
-  if (nmt.Changing != 0) {
+  if ((node.State & changing) != 0) {
     nmt.Next = nmt.Next == CO_INVALID ? CO_INVALID : mode;
     return;
   }
   nmt.Next = mode;
-  nmt.Changing = 1;
+  node.State |= changing;
   while (nmt.Mode != nmt.Next) {
     const CO_MODE next = nmt.Next;
     CONmtModeChange(&nmt, next);
@@ -293,7 +286,7 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
       enter(node, next);
     }
   }
-  nmt.Changing = 0;
+  node.State &= static_cast<uint8_t>(~changing);
   event::settle(node);
 }
 

@@ -480,7 +480,7 @@ class Bench {
 
   void check() const {
     require(!locked_ && !objects_locked_, "no lock is left");
-    require(node_.Busy == 0 && node_.Pending == 0, "nothing is left to be done");
+    require((node_.State & ~1) == 0 && node_.Pending == 0, "nothing is left to be done");
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
     require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");

@@ -66,7 +66,7 @@ void answer(CO_NODE& node) {
 
 }  // namespace
 
-bool on_remote(CO_NODE& node, uint16_t) {
+bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
   const bool guarded = !is_replaced_by_heartbeat(node);
   if (guarded) {
     answer(node);
@@ -84,7 +84,7 @@ void on_mode(CO_NODE& node) {
 
 #else
 
-bool on_remote(CO_NODE&, uint16_t) { return false; }
+bool on_remote(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 void on_mode(CO_NODE&) {}
 
 #endif

@@ -13,7 +13,7 @@ void init(CO_NODE& node);
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // The NMT master guards.
-[[nodiscard]] bool on_remote(CO_NODE& node, uint16_t number);
+[[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Life guarding ends where error control is not allowed.
 void on_mode(CO_NODE& node);

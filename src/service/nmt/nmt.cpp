@@ -77,12 +77,12 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 }
 
 void boot(CO_NODE& node) {
-  const uint8_t busy = node.Busy;
-  node.Busy = 1;
-  transmit::send_ahead(node, wire::boot_up(node.NodeId));
-  event::change_mode(node, CO_PREOP);
-  event::forget_resets(node);
-  node.Busy = busy;
+  {
+    const event::Serving serving(node);
+    transmit::send_ahead(node, wire::boot_up(node.NodeId));
+    event::change_mode(node, CO_PREOP);
+    event::forget_resets(node);
+  }
   event::settle(node);
 }
 
@@ -106,7 +106,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
-  const bool initialising = nmt->Next == CO_INIT && node.Busy != 0;
+  const bool initialising = nmt->Next == CO_INIT && event::is_serving(node);
   const bool nameless = !wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
   if (stopped || initialising || nameless || mode < CO_PREOP || mode >= CO_MODE_NUM) {

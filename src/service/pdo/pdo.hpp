@@ -18,7 +18,7 @@ void on_mode_tpdos(CO_NODE& node);
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // A remote request for TPDO number.
-[[nodiscard]] bool on_remote(CO_NODE& node, uint16_t number);
+[[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Samples and sends the synchronous TPDOs, then writes the synchronous RPDOs. counter: 0 if the SYNC has none.
 void sample(CO_NODE& node, uint8_t counter);

@@ -411,7 +411,7 @@ void on_mode_tpdos(CO_NODE& node) {
 }
 
 // [301:7.2.2.5.3]
-bool on_remote(CO_NODE& node, uint16_t number) {
+bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
   CO_TPDO& pdo = node.TPdo[number];
   if (USE_PDO_RTR == 0) {
     return false;

@@ -65,14 +65,14 @@ void listen_on(CO_CSDO& client) {
 // What type functions ask for waits until the access is over; a change of the NMT state has ended it already.
 void take_turn(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
-  const uint8_t busy = node.Busy;
-  node.Busy = 1;
-  set_state(client, State::own_served);
-  const uint32_t code = access_own(client);
-  const bool is_over = state_of(client) == State::own_ended;
-  set_state(client, State::own);
-  finish(client, is_over ? client.Ticks : code);
-  node.Busy = busy;
+  {
+    const event::Serving serving(node);
+    set_state(client, State::own_served);
+    const uint32_t code = access_own(client);
+    const bool is_over = state_of(client) == State::own_ended;
+    set_state(client, State::own);
+    finish(client, is_over ? client.Ticks : code);
+  }
   event::settle(node);
 }
 

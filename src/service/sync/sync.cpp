@@ -54,11 +54,11 @@ void produce(void* node_pointer) {
   sync.Counter = static_cast<uint8_t>(sync.Counter + (counted ? 1 : 0));
   CO_IF_FRM frame = wire::empty_frame(sync.Identifier, counted ? 1 : 0);
   frame.Data[0] = sync.Counter;
-  const uint8_t busy = node.Busy;
-  node.Busy = 1;
-  transmit::send_latest(node, frame);
-  take(node, sync.Counter);
-  node.Busy = busy;
+  {
+    const event::Serving serving(node);
+    transmit::send_latest(node, frame);
+    take(node, sync.Counter);
+  }
   event::settle(node);
 }
 
