@@ -2,8 +2,9 @@
 /// \file co_led.h
 /// The status LEDs of CiA 303-3: RUN (green) and ERR (red), as two bits. Exists with USE_LED.
 ///
-/// The node shows its NMT state, what the CAN controller reports, missing heartbeats and life guarding, SYNC messages
-/// of a wrong length and RPDOs that come too late. The application adds what only it can know (COLedSet()).
+/// The node shows its NMT state, the LSS state configuration, that it waits for a node-ID, what the CAN controller
+/// reports, missing heartbeats and life guarding, SYNC messages of a wrong length and RPDOs that come too late. The
+/// application adds what only it can know (COLedSet()).
 ///
 /// Context: the loop.
 #ifndef CO_LED_H_

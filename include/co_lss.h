@@ -39,7 +39,9 @@ typedef struct CO_LSS_T {
   struct CO_NODE_T* Node;
   CO_TMR_MEM Tmr;        ///< of the switch delay
   uint32_t Delay;        ///< ticks
+  uint32_t OwnBaudrate;  ///< bit/s, of the application: what holds where nothing is stored
   uint32_t CfgBaudrate;  ///< bit/s, to be activated
+  uint8_t OwnNodeId;     ///< of the application
   uint8_t CfgNodeId;     ///< of the next reset
   uint8_t Mode;          ///< CO_LSS_WAIT, CO_LSS_CONF
   uint8_t Selected;      ///< parts of the address that have matched: switch state selective
@@ -52,7 +54,8 @@ typedef struct CO_LSS_T {
 /// \{
 
 /// In CONodeInit(), after the drivers' Init, and at NMT reset node (the bit rate is then left alone): what was stored.
-/// Leave unchanged what was not. \a baud: bit/s; \a nodeId: 1…127, CO_LSS_NO_NODE_ID. An error, or another node-ID, is
+/// They hold what the application has given in CO_NODE_SPEC or by CONmtSetNodeId(): leave unchanged what was not
+/// stored; an LSS master's node-ID that it has not stored ends with the reset. [305] \a baud: bit/s; \a nodeId: 1…127, CO_LSS_NO_NODE_ID. An error, or another node-ID, is
 /// CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 

@@ -77,7 +77,8 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode);
 CO_MODE CONmtGetMode(CO_NMT* nmt);
 
 /// Sets the node-ID (1…127), in CO_INIT only (else node error CO_ERR_NMT_MODE; an ID out of range: CO_ERR_BAD_ARG, and
-/// nothing changes). Call CONmtReset(nmt, CO_RESET_NODE) afterwards, so that node-ID relative identifiers follow.
+/// nothing changes). Call CONmtReset(nmt, CO_RESET_NODE) afterwards, so that node-ID relative identifiers follow. A
+/// node-ID that COLssLoad() then gives comes before this one.
 void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId);
 
 /// The node-ID; 0 if \a nmt is null (after CONodeFatalError()).

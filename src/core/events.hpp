@@ -88,6 +88,9 @@ void change_object(CO_NODE& node, const CO_OBJ& obj);
 // The application gives the node another node-ID.
 void change_node_id(CO_NODE& node, uint8_t id);
 
+// The LSS slave is in another state.
+void change_lss(CO_NODE& node);
+
 // The network has written an object; a configuration that was verified may no longer be the one. [301:7.5.2.23]
 void change_configuration(CO_NODE& node, const CO_OBJ& obj);
 inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {

@@ -240,7 +240,14 @@ void event::end_sync_window(CO_NODE& node) { pdo::end_window(node); }
 void event::change_node_id(CO_NODE& node, uint8_t id) {
   node.NodeId = id;
 #if USE_LSS
+  node.Lss.OwnNodeId = id;
   node.Lss.CfgNodeId = id;
+#endif
+}
+
+void event::change_lss([[maybe_unused]] CO_NODE& node) {
+#if USE_LED
+  led::update(node);
 #endif
 }
 

@@ -231,6 +231,34 @@ TEST_CASE("LED: nothing is shown and no timer runs before COLedStart() and after
   CHECK(callbacks().fatal_errors == fatal + 2);
 }
 
+#if USE_LSS
+TEST_CASE("LED: both flicker in the LSS state configuration, and while a node without node-ID waits for one") {
+  const auto slave = [] {
+    Setup setup;
+    setup.with({CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4});
+    for (std::uint8_t sub = 1; sub <= 4; ++sub) setup.with({CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, sub});
+    return setup;
+  };
+  LedNode node(slave());
+  node.start();
+  node.rx("7E5#0401000000000000");
+  CHECK(node.watch() == Shown{flickering, red_flickering});
+  node.rx("7E5#0400000000000000");
+  CHECK(node.watch().err == off);
+  node.rx("7E5#0401000000000000");
+  node.rx("000#8201");
+  CHECK(node.watch().err == off);
+
+  LedNode nameless(slave().node_id(255));
+  nameless.start();
+  CHECK(nameless.watch() == Shown{flickering, red_flickering});
+  nameless.rx("7E5#0401000000000000");
+  nameless.ask("7E5#1105000000000000", "7E4#1100000000000000");
+  nameless.ask("7E5#0400000000000000", "705#00");
+  CHECK(nameless.watch().err == off);
+}
+#endif
+
 TEST_CASE("LED: started in Initialisation, dark until the boot-up") {
   LedNode node(Setup().stay_in_init());
   node.start();

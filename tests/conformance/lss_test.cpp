@@ -113,16 +113,60 @@ TEST_CASE("LSS: configure node-ID: 1…127 and 255 are taken, any other is refus
 }
 
 TEST_CASE("LSS: a new node-ID is the node's after NMT reset communication, and not before [L7]") {
-  for (const char* reset : {"000#8201", "000#8101"}) {
-    Configured device;
-    Fixture& node = device.node;
+  Configured device;
+  Fixture& node = device.node;
+  node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+  node.rx(to_waiting);
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+  node.ask("000#8201", "705#00");
+  node.ask("605#4000100000000000", "585#4300100091010F00");
+  node.rx("601#4000100000000000");
+  node.silent();
+}
+
+TEST_CASE("LSS: a node-ID that was not stored is gone after NMT reset node [L7]") {
+  Configured device;
+  Fixture& node = device.node;
+  node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+  node.ask("000#8101", "701#00");
+  node.ask("000#8201", "701#00");
+  SUBCASE("active before") {
+    node.rx(to_configuration);
     node.ask("7E5#1105000000000000", "7E4#1100000000000000");
-    node.rx(to_waiting);
-    node.ask("601#4000100000000000", "581#4300100091010F00");
-    node.ask(reset, "705#00");
-    node.ask("605#4000100000000000", "585#4300100091010F00");
-    node.rx("601#4000100000000000");
-    node.silent();
+    node.ask("000#8201", "705#00");
+    node.ask("000#8105", "701#00");
+  }
+  SUBCASE("a node without one of its own waits for one again") {
+    Configured nameless(no_node_id);
+    nameless.node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+    nameless.node.ask(to_waiting, "705#00");
+    nameless.node.rx("000#8105");
+    nameless.node.silent();
+    nameless.node.ask("7E5#4C00000000000000", "7E4#5000000000000000");
+  }
+}
+
+TEST_CASE("LSS: a stored node-ID stays after NMT reset node, and so does one that the application has set [L7]") {
+  SUBCASE("stored") {
+    std::uint8_t stored = 1;
+    callbacks().lss_store = [&](std::uint32_t, std::uint8_t id) { return stored = id, CO_ERR_NONE; };
+    callbacks().lss_load = [&](std::uint32_t*, std::uint8_t* id) { return *id = stored, CO_ERR_NONE; };
+    Configured device;
+    device.node.ask("7E5#1105000000000000", "7E4#1100000000000000");
+    device.node.ask("7E5#1700000000000000", "7E4#1700000000000000");
+    device.node.ask("000#8101", "705#00");
+    callbacks().lss_store = nullptr;
+    callbacks().lss_load = nullptr;
+  }
+  SUBCASE("of the application") {
+    Fixture node(slave().stay_in_init());
+    node.call([&] {
+      CONmtSetNodeId(&node->Nmt, 7);
+      CONmtReset(&node->Nmt, CO_RESET_NODE);
+      CONodeStart(&node.node);
+    });
+    node.tx("707#00");
+    node.ask("000#8107", "707#00");
   }
 }
 

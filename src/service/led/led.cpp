@@ -67,11 +67,21 @@ uint8_t leds_at(const CO_LED_STATE& state, uint32_t ms) {
   return static_cast<uint8_t>((green ? CO_LED_RUN : 0) | (red ? CO_LED_ERR : 0));
 }
 
+// A node without node-ID waits for LSS.
+unsigned lss_of([[maybe_unused]] const CO_NODE& node) {
+#if USE_LSS
+  const bool waits = node.Nmt.Mode == CO_INIT && node.Lss.Started != 0;
+  return waits || node.Lss.Mode == CO_LSS_CONF ? CO_LED_LSS : 0;
+#else
+  return 0;
+#endif
+}
+
 CO_LED_STATE state_of(const CO_NODE& node) {
   const CO_LED& led = node.Led;
   const unsigned faults =
       (led.Control != 0 ? CO_LED_CONTROL : 0) | (led.Pdo != 0 ? CO_LED_PDO : 0) | (led.Sync != 0 ? CO_LED_SYNC : 0);
-  return {node.Nmt.Mode, static_cast<uint8_t>(faults | led.Can | led.Set)};
+  return {node.Nmt.Mode, static_cast<uint8_t>(faults | lss_of(node) | led.Can | led.Set)};
 }
 
 void show(CO_NODE& node, uint8_t leds) {
@@ -100,15 +110,6 @@ void run_timer(CO_NODE& node, bool runs) {
   }
 }
 
-void update(CO_NODE& node) {
-  if (node.Led.On == 0) {
-    return;
-  }
-  const CO_LED_STATE state = state_of(node);
-  run_timer(node, !is_steady(run_of(state)) || !is_steady(error_of(state)));
-  show(node, leds_at(state, node.Led.Phase));
-}
-
 void stop(CO_NODE& node) {
   run_timer(node, false);
   if (node.Led.On != 0) {
@@ -128,6 +129,15 @@ uint16_t* counter_of(CO_LED& led, event::Fault fault) {
 }
 
 }  // namespace
+
+void update(CO_NODE& node) {
+  if (node.Led.On == 0) {
+    return;
+  }
+  const CO_LED_STATE state = state_of(node);
+  run_timer(node, !is_steady(run_of(state)) || !is_steady(error_of(state)));
+  show(node, leds_at(state, node.Led.Phase));
+}
 
 void init(CO_NODE& node) {
   CO_LED& led = node.Led;

@@ -13,6 +13,9 @@ void init(CO_NODE& node);
 
 void on_mode(CO_NODE& node);
 
+// Something that they show has changed.
+void update(CO_NODE& node);
+
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
 // A fault has come, or gone; each counts.

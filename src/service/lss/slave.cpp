@@ -98,6 +98,7 @@ void enter(CO_NODE& node, State state) {
   const bool configured = lss.Started != 0 && lss.CfgNodeId != wire::no_node_id;
   lss.Mode = state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF;
   lss.Selected = 0;
+  event::change_lss(node);
   if (state == State::waiting && configured) {
     event::defer(node, event::reset_communication);
   }
@@ -274,28 +275,28 @@ bool has_address(CO_NODE& node) {
 
 void begin(CO_NODE& node) {
   node.Lss.Node = &node;
-  node.Lss.CfgBaudrate = node.Baudrate;
-  node.Lss.CfgNodeId = node.NodeId;
+  node.Lss.OwnBaudrate = node.Baudrate;
+  node.Lss.OwnNodeId = node.NodeId;
   load(node);
   take_node_id(node);
   node.Baudrate = node.Lss.CfgBaudrate;
 }
 
 void load(CO_NODE& node) {
-  uint32_t baud = node.Lss.CfgBaudrate;
-  uint8_t id = node.Lss.CfgNodeId;
-  if (COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id)) {
-    node.Lss.CfgBaudrate = baud;
-    node.Lss.CfgNodeId = id;
-  } else {
-    node.Error = CO_ERR_LSS_LOAD;
-  }
+  CO_LSS& lss = node.Lss;
+  uint32_t baud = lss.OwnBaudrate;
+  uint8_t id = lss.OwnNodeId;
+  const bool loaded = COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id);
+  node.Error = loaded ? node.Error : CO_ERR_LSS_LOAD;
+  lss.CfgBaudrate = loaded ? baud : lss.OwnBaudrate;
+  lss.CfgNodeId = loaded ? id : lss.OwnNodeId;
 }
 
 void take_node_id(CO_NODE& node) { node.NodeId = node.Lss.CfgNodeId; }
 
 bool awaits_node_id(CO_NODE& node) {
   node.Lss.Started = is_unconfigured(node) ? 1 : 0;
+  event::change_lss(node);
   return node.Lss.Started != 0;
 }
 
