@@ -53,14 +53,14 @@ typedef struct CO_LSS_T {
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{
 
-/// In CONodeInit(), after the drivers' Init, and at NMT reset node (the bit rate is then left alone): what was stored.
-/// They hold what the application has given in CO_NODE_SPEC or by CONmtSetNodeId(): leave unchanged what was not
-/// stored; an LSS master's node-ID that it has not stored ends with the reset. [305] \a baud: bit/s; \a nodeId: 1…127, CO_LSS_NO_NODE_ID. An error, or another node-ID, is
-/// CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
+/// What was stored: in CONodeInit(), after the drivers' Init, and at NMT reset node (the bit rate is then left alone).
+/// \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID) hold what the application has given in CO_NODE_SPEC or by
+/// CONmtSetNodeId(): leave unchanged what was not stored. What an LSS master has configured and not stored ends with
+/// reset node. [305] An error, or another node-ID, is CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 
-/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. An error is told to the master
-/// (medium). Default: CO_ERR_NONE, nothing is stored.
+/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. CO_ERR_LSS_NO_STORE is told to the
+/// master as "not supported", any other error as "medium". Default: CO_ERR_LSS_NO_STORE.
 CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// \}
 
@@ -75,12 +75,12 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// \a offset on, else 8 bytes.
 /// \{
 
-/// Leaves \a baud and \a nodeId unchanged where nothing was stored. CO_ERR_IF_NVM_READ: what is stored is damaged, or
-/// cannot be read; CO_ERR_BAD_ARG: an argument is null.
+/// Leaves \a baud and \a nodeId unchanged where nothing was stored. CO_ERR_PARA_STORE: no place at \a offset;
+/// CO_ERR_IF_NVM_READ: what is stored is damaged, or cannot be read; CO_ERR_BAD_ARG: an argument is null.
 CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId);
 
-/// CO_ERR_PARA_STORE: no place at \a offset; CO_ERR_IF_NVM_WRITE: the memory does not hold the values, the old ones
-/// stay; CO_ERR_BAD_ARG: \a node is null.
+/// CO_ERR_LSS_NO_STORE: the node has no memory; CO_ERR_PARA_STORE: no place at \a offset; CO_ERR_IF_NVM_WRITE: the
+/// memory does not hold the values, the old ones stay; CO_ERR_BAD_ARG: \a node is null.
 CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId);
 /// \}
 

@@ -4,16 +4,18 @@
 ///
 ///     static struct { uint32_t Limit; uint16_t Rate; } Memory;
 ///     static const struct … Defaults = { 1000, 5 };
-///     static const CO_PARA Group = { 0, sizeof(Memory), &Memory, &Defaults, CO_RESET_NODE, NULL, CO_PARA___E };
+///     static const CO_PARA Group = { 0, sizeof(Memory), (uint8_t *)&Memory, (uint8_t *)&Defaults,
+///                                    CO_RESET_NODE, NULL, CO_PARA___E };
 ///     { CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)(&Group) },
 ///     { CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)(&Group) },
 ///
 /// The network stores groups by "save" (65766173h) to 1010h and asks for their default values by "load" (64616F6Ch) to
 /// 1011h. Sub-index 1 alone is a group; with others behind it (sub-index 0 > 1) it stands for all of them: 2 =
-/// communication, 3 = application, 4…127 = the manufacturer's. A group is loaded, before anything uses its values, by
-/// CONodeInit() and by the NMT reset of its Type: CO_RESET_COM by both resets, CO_RESET_NODE by reset node. "load"
-/// takes effect then, too, also after the power was off in between. Where nothing was stored, and after "load", a group
-/// gets its Default values; without any its memory stays as it is.
+/// communication, 3 = application, 4…127 = the manufacturer's. It names a CO_PARA then, too, whose memory is neither
+/// stored nor loaded: { 0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E }. A group is loaded, before anything uses
+/// its values, by CONodeInit() and by the NMT reset of its Type: CO_RESET_COM by both resets, CO_RESET_NODE by reset
+/// node. "load" takes effect then, too, also after the power was off in between. Where nothing was stored, and after
+/// "load", a group gets its Default values; without any its memory stays as it is.
 ///
 /// What is stored is never torn: with a driver that tells the shape of the memory (CO_IF_NVM_DRV_EX.Shape) a group
 /// holds after a power failure, at whatever moment, exactly its old or exactly its new values. It takes CO_PARA_SPACE()
@@ -96,15 +98,17 @@ CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node);
 CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
 
 /// Loads all groups of 1010h of this \a type. Returns the last error, which is also the node's: CO_ERR_PARA_LOAD: what
-/// is stored is damaged or foreign, or cannot be read (COParaLost() was called); CO_ERR_PARA_RESTORE: COParaDefault()
-/// has failed. CO_ERR_BAD_ARG: \a node is null.
+/// is stored is damaged or foreign, or cannot be read (COParaLost() was called); CO_ERR_PARA_STORE: a group does not
+/// fit the memory; CO_ERR_PARA_RESTORE: COParaDefault() has failed. CO_ERR_BAD_ARG: \a node is null.
 CO_ERR CONodeParaLoad(struct CO_NODE_T* node, enum CO_NMT_RESET_T type);
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{
 
 /// The group's default values were asked for ("load"); Default, if there is any, has been copied. Put them in place.
-/// Returns 0; anything else: CO_ERR_PARA_RESTORE.
+/// Called by every load of the group, also at later power-ons, until it is stored again; with a driver that tells no
+/// shape, not after the power was off. \a pg is the group of the table, which may be constant. Returns 0; anything
+/// else: CO_ERR_PARA_RESTORE.
 int16_t COParaDefault(struct CO_PARA_T* pg);
 
 /// What is stored for a group cannot be used; it has its default values now. An application that wants the network to

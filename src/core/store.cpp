@@ -70,12 +70,12 @@ Found look(const CO_NODE& node, const Record& record) {
   if (!port::nvm_has_shape(node)) {
     return look_at_bytes(node, record);
   }
-  return slots::fits(node, record) ? slots::look(node, record) : Found::lost;
+  return slots::fits(node, record) ? slots::look(node, record) : Found::no_place;
 }
 
 Found load(const CO_NODE& node, const Record& record, uint8_t* to) {
   if (port::nvm_has_shape(node)) {
-    return slots::fits(node, record) ? slots::load(node, record, to) : Found::lost;
+    return slots::fits(node, record) ? slots::load(node, record, to) : Found::no_place;
   }
   const Found found = look(node, record);
   const bool is_data = found == Found::data;

@@ -17,7 +17,8 @@ enum class Found : uint8_t {
   data,      // they were stored
   defaults,  // these were asked for
   blank,     // nothing has ever been stored, or there is no memory
-  lost,      // what is there is damaged, foreign, or cannot be read; or the record has no place in the memory
+  lost,      // what is there is damaged, foreign, or cannot be read
+  no_place,  // the record does not fit the memory
 };
 
 // Does the driver tell its shape?

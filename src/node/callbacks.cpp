@@ -28,7 +28,7 @@ WEAK void COIfCanReceive(CO_IF_FRM*) {}
 #if USE_LSS
 WEAK CO_ERR COLssLoad(uint32_t*, uint8_t*) { return CO_ERR_NONE; }
 
-WEAK CO_ERR COLssStore(uint32_t, uint8_t) { return CO_ERR_NONE; }
+WEAK CO_ERR COLssStore(uint32_t, uint8_t) { return CO_ERR_LSS_NO_STORE; }
 #endif
 
 #if USE_PARA

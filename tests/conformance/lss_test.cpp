@@ -263,6 +263,16 @@ TEST_CASE("LSS: what was stored is loaded at power-on: node-ID and bit rate") {
   node.tx("709#00");
 }
 
+TEST_CASE("LSS: store: a node that can store nothing says so [L5]") {
+  CO_NODE* device = nullptr;
+  callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(device, 0, baud, id); };
+  Configured slave;
+  device = &slave.node.node;
+  slave.node.ask("7E5#1700000000000000", "7E4#1701000000000000");
+  CHECK(slave.node.error() == CO_ERR_LSS_STORE);
+  callbacks().lss_store = nullptr;
+}
+
 TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
   FailingNvm nvm({64, 1, 0});
   CO_NODE* device = nullptr;
@@ -289,6 +299,7 @@ TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
   nvm.bytes.assign(nvm.bytes.size(), 0x55);
   CHECK(COLssNvmLoad(&node.node, 0, &baud, &id) == CO_ERR_IF_NVM_READ);
   CHECK(COLssNvmStore(&node.node, 60, baud, id) == CO_ERR_PARA_STORE);
+  CHECK(COLssNvmLoad(&node.node, 60, &baud, &id) == CO_ERR_PARA_STORE);
   CHECK(COLssNvmLoad(nullptr, 0, &baud, &id) == CO_ERR_BAD_ARG);
   CHECK(COLssNvmLoad(&node.node, 0, nullptr, &id) == CO_ERR_BAD_ARG);
   CHECK(COLssNvmLoad(&node.node, 0, &baud, nullptr) == CO_ERR_BAD_ARG);

@@ -254,7 +254,7 @@ TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tel
   device.own.Offset = 1000;  // no room there
   {
     Fixture node(device.setup());
-    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    CHECK(node.error() == CO_ERR_PARA_STORE);
     node.ask("601#2300230222000000", "581#6000230200000000");
     node.ask(save_all, "581#8010100100000606");
   }
@@ -425,8 +425,11 @@ TEST_CASE(
     Device device;
     device.nvm.shape = shape;
     device.application.Offset = shape.ProgramSize == 0 ? 1020 : 100;
+    bool lost = false;
+    callbacks().para_lost = [&](CO_NODE*, const CO_PARA*) { lost = true; };
     Fixture node(device.single());
-    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    CHECK(node.error() == CO_ERR_PARA_STORE);
+    CHECK_FALSE(lost);
     node.ask("601#2310100173617665", "581#8010100100000606");
     CHECK(device.nvm.steps == 0);
     CHECK_FALSE(device.nvm.misused);

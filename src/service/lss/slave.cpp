@@ -173,9 +173,13 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
 }
 
 void store(CO_NODE& node, const CO_IF_FRM& request) {
-  const bool stored = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId) == CO_ERR_NONE;
-  node.Error = stored ? node.Error : CO_ERR_LSS_STORE;
-  answer(node, request, stored ? 0 : medium);
+  const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
+  if (err == CO_ERR_NONE) {
+    answer(node, request, 0);
+    return;
+  }
+  node.Error = CO_ERR_LSS_STORE;
+  answer(node, request, err == CO_ERR_LSS_NO_STORE ? not_supported : medium);
 }
 
 // Inquire, identify --------------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Node-ID and bit rate in the node's memory.
+#include "core/port.hpp"
 #include "core/store.hpp"
 
 #if USE_LSS && USE_PARA
@@ -32,11 +33,17 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);
   }
+  if (found == store::Found::no_place) {
+    return CO_ERR_PARA_STORE;
+  }
   return found == store::Found::lost ? CO_ERR_IF_NVM_READ : CO_ERR_NONE;
 }
 
 CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t nodeId) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
+  if (!port::nvm_exists(*node)) {
+    return CO_ERR_LSS_NO_STORE;
+  }
   const Stored stored = {baud, nodeId};
   return store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
 }

@@ -39,7 +39,7 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group) {
     COParaLost(&node, &group);
     return CO_ERR_PARA_LOAD;
   }
-  return err;
+  return found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
 void save_change(CO_NODE& node, const CO_PARA& group) {
