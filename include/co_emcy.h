@@ -120,8 +120,10 @@ typedef struct CO_EMCY_USR_T {
 
 /// \cond internal
 #define CO_EMCY_FAULT_N (USE_MPDO ? 11 : 10)  // kinds of errors that the stack finds
+#define CO_EMCY_HOLD_N 2                      // of these may come with every frame
 
 typedef struct CO_EMCY_HIST_T {  // 1003h is a ring
+  uint8_t Found;                 // entries that it has, while their types are initialised
   uint8_t Max;                   // entries that it has
   uint8_t Num;                   // of these in use
   uint8_t Off;                   // sub-index of the newest
@@ -139,11 +141,12 @@ typedef struct CO_EMCY_T {
   const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
   uint8_t Waiting;                  ///< messages in the queue, oldest first
   CO_EMCY_HIST Hist;                ///< 1003h
-  CO_TMR_MEM Tmr;                   ///< until the next message may be sent
+  uint8_t Register;                 ///< what 1001h shows
+  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
   uint16_t Fault[CO_EMCY_FAULT_N];  ///< how many there are of each error of the stack
+  CO_TMR_MEM Tmr;                   ///< until the next message may be sent
+  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< until 8110h and 8150h are over
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
-  CO_TMR_MEM Hold[2];            ///< until 8110h and 8150h are over
-  uint8_t Err[CO_EMCY_STORAGE];  ///< errors of the application: bit 0 of byte 0 is identifier 0
 } CO_EMCY;
 
 /// The application has found error \a err (its place in CO_NODE_SPEC.EmcyCode); \a usr may be null: all 0. While the

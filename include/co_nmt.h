@@ -57,9 +57,9 @@ typedef enum CO_NMT_RESET_T {
 typedef struct CO_NMT_T {
   struct CO_NODE_T* Node;
   CO_MODE Mode;
-  CO_MODE Next;      ///< mode to be entered; Mode unless that is being changed
-  uint8_t Allowed;   ///< CO_…_ALLOWED bits of the present mode
-  uint8_t Booting;   ///< the node has not been in Pre-operational since it was initialised
+  CO_MODE Next;     ///< mode to be entered; Mode unless that is being changed
+  uint8_t Allowed;  ///< CO_…_ALLOWED bits of the present mode
+  uint8_t Booting;  ///< the node has not been in Pre-operational since it was initialised
 } CO_NMT;
 
 /// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is

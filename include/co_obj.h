@@ -126,7 +126,7 @@ typedef struct CO_OBJ_TYPE_T {
 } CO_OBJ_TYPE;
 /// \}
 
-/// \name Types that take part in the whole transfer
+/// \name Types that take part in the whole transfer (USE_OBJ_EX, co_cfg.h)
 /// A stream type that needs to know when a transfer begins and how it ends (a file, a firmware image, a queue of
 /// records): a CO_OBJ_TYPE_EX, whose first member is the table that entries name and whose Type.Reset is
 /// COObjTypeExReset().

@@ -3,10 +3,11 @@
 /// Process data objects. [301:7.2.2] Configured by 1400h…, 1600h… (RPDOs) and 1800h…, 1A00h… (TPDOs), in the table or
 /// by the network. A mapping is resolved when it is switched on: PDOs that pass neither look objects up nor check them.
 ///
-/// Objects of 1 to 8 bytes of every type can be mapped. Plain numbers of 1, 2 and 4 bytes in variables are copied;
-/// neighbours of equal width in one copy. Any other type has its Read and Write functions called. Each number of up to
-/// 4 bytes is stored in one access; what belongs together beyond that is protected by CO_NODE_EXT.OdLock and OdUnlock,
-/// which are held while the objects of a PDO are copied, and while those of all RPDOs of one SYNC are:
+/// Objects of 1 to 8 bytes of every type can be mapped. The objects of a PDO are copied, neighbours together, if all
+/// are plain numbers of 1, 2 or 4 bytes in variables, aligned in the frame as in memory; else the Read and Write
+/// functions of their types are called. Each number of up to 4 bytes is stored in one access; what belongs together
+/// beyond that is protected by CO_NODE_EXT.OdLock and OdUnlock, which are held while the objects of a PDO are copied,
+/// and while those of all RPDOs of one SYNC are:
 ///   - interrupt and loop: the stack in the loop, the application's interrupt reads mapped objects. OdLock keeps the
 ///     interrupt away, OdUnlock lets it in again.
 ///   - two threads: both take a mutex, the stack by OdLock and OdUnlock, the application around its own accesses. The
@@ -82,25 +83,15 @@ struct CO_NODE_T;
 typedef struct CO_PDO_MAP_T {
   uint8_t Flags;  ///< of the PDO
 #if USE_MPDO
-  uint8_t Mode;     ///< FEh, FFh: it is multiplexed, with source or destination addressing; 0: it is not
-  uint8_t Missing;  ///< it is reported that the node has no such object
+  uint8_t Mode;  ///< FEh, FFh: it is multiplexed, with source or destination addressing; 0: it is not
 #endif
   uint8_t Length;                    ///< bytes, with USE_PDO_BITS bits; 0: the PDO does not exist
   uint8_t Span;                      ///< entries lie less than 2^Span behind Entry[0], modulo 2^16
   uint8_t Passed[CO_PDO_MAP_N / 8];  ///< a bit for each object: sent or received since the application has asked
-  uint8_t Step[CO_PDO_MAP_N];    ///< copied in one, in units of Length; 0: with the object before. Bit 7: by the type
+  uint8_t Step[CO_PDO_MAP_N];    ///< copied in one, in units of Length; 0: with the object before. Bit 7 of the first:
+                                 ///< each by its type
   uint16_t Entry[CO_PDO_MAP_N];  ///< numbers of the entries in the dictionary; FFFFh: none, or a static data type
 } CO_PDO_MAP;
-
-/// An RPDO. The application touches nothing of it.
-typedef struct CO_RPDO_T {
-  struct CO_NODE_T* Node;
-  uint16_t Next;  ///< of those that wait for the SYNC
-  CO_PDO_MAP Map;
-  uint32_t Event;   ///< deadline in ticks, 0: none
-  uint8_t Data[8];  ///< synchronous: waits for the SYNC
-  CO_TMR_MEM Tmr;   ///< deadline
-} CO_RPDO;
 
 /// Times of an event-driven TPDO.
 typedef struct CO_TPDO_TIMES_T {
@@ -108,20 +99,26 @@ typedef struct CO_TPDO_TIMES_T {
   uint32_t Event;    ///< ticks, 0: none
 } CO_TPDO_TIMES;
 
-/// A TPDO. The application touches nothing of it, and names it by its place: node.TPdo, number.
-typedef struct CO_TPDO_T {
+/// A PDO. The application touches nothing of it, and names it by its place: node.RPdo or node.TPdo, number.
+typedef struct CO_PDO_T {
   struct CO_NODE_T* Node;
-  uint16_t Next;  ///< of the synchronous ones
+  uint16_t Next;  ///< RPDO: of those that wait for the SYNC; TPDO: of the synchronous ones
   uint8_t Type;
-  uint8_t Count;  ///< SYNCs since it was sent; or the SYNC start value that it waits for
+  uint8_t Count;  ///< TPDO: SYNCs since it was sent; or the SYNC start value that it waits for
   CO_PDO_MAP Map;
-  uint32_t Identifier;  ///< of its frames
   union {
-    CO_TPDO_TIMES Time;  ///< event-driven
-    uint8_t Data[8];     ///< synchronous: as of the last SYNC, for remote requests
+    uint32_t Deadline;    ///< RPDO: ticks, 0: none
+    uint32_t Identifier;  ///< TPDO: of its frames
+  };
+  union {
+    CO_TPDO_TIMES Time;  ///< event-driven TPDO
+    uint8_t Data[8];     ///< synchronous: RPDO: waits for the SYNC; TPDO: as of the last SYNC, for remote requests
   } Own;                 ///< by Type
-  CO_TMR_MEM Tmr;        ///< inhibit time, then what is left of the event time
-} CO_TPDO;
+  CO_TMR_MEM Tmr;        ///< RPDO: deadline; TPDO: inhibit time, then what is left of the event time
+} CO_PDO;
+
+typedef CO_PDO CO_RPDO;
+typedef CO_PDO CO_TPDO;
 
 #if USE_MPDO
 /// \cond internal

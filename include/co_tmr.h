@@ -31,29 +31,22 @@ typedef struct CO_TMR_MEM_T {
   struct CO_TMR_MEM_T* Next;
   CO_TMR_FUNC Func;
   void* Para;
-  uint32_t At;     ///< clock at expiry
-  uint32_t Cycle;  ///< ticks, 0: runs once
-  uint16_t Id;     ///< of those of the pool: number in it in the low bits, generation above
-  uint8_t State;
-  uint8_t Pooled;  ///< 1: belongs to the pool and has an id; 0: part of its owner
+  uint32_t At;      ///< clock at expiry
+  uint32_t Cycle;   ///< ticks, 0: runs once
+  uint16_t Id;      ///< of those of the pool: number in it in the low bits, generation above
+  uint8_t Running;  ///< armed, or elapsed and still to be run
+  uint8_t Pooled;   ///< 1: belongs to the pool and has an id; 0: part of its owner
 } CO_TMR_MEM;
 
-/// \cond internal
-typedef struct CO_TMR_LIST_T {
-  CO_TMR_MEM* First;
-  CO_TMR_MEM* Last;  // of a list that is not empty
-} CO_TMR_LIST;
-/// \endcond
-
 typedef struct CO_TMR_T {
+  CO_TMR_MEM* First;  ///< all that run: elapsed ones, oldest first, then armed ones, by time
   struct CO_NODE_T* Node;
   CO_TMR_MEM* Pool;
-  CO_TMR_MEM* Free;     ///< unused timers of the pool
-  CO_TMR_LIST Use;      ///< armed, by time
-  CO_TMR_LIST Due;      ///< elapsed, oldest first; filled by COTmrService(), worked off by COTmrProcess()
-  CO_TMR_MEM* RunEnd;   ///< last of them that COTmrProcess() runs, null: it does not run
-  uint32_t Freq;        ///< ticks per second
-  uint32_t Clock;       ///< driver with a clock: when that was read last; without: when it elapses, or was stopped
+  CO_TMR_MEM* Free;    ///< unused timers of the pool
+  CO_TMR_MEM** Armed;  ///< link to the first armed one: moved by COTmrService(), while COTmrProcess() takes the elapsed
+  CO_TMR_MEM** End;    ///< link behind the last one that is armed, if there is one
+  uint32_t Freq;       ///< ticks per second
+  uint32_t Clock;      ///< driver with a clock: when that was read last; without: when it elapses, or was stopped
   uint32_t Programmed;  ///< ticks that a driver without a clock was told to wait, 0: stopped
   uint16_t Max;         ///< timers in the pool
   uint16_t IdStep;      ///< power of two: from one generation of an id to the next

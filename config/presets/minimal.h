@@ -6,6 +6,7 @@
 #define CO_PRESET_MINIMAL_H_
 
 #define CO_SSDO_N 1
+#define USE_OBJ_EX 0
 #define USE_CSDO 0
 #define USE_SDO_BLOCK 0
 #define CO_RPDO_N 1

@@ -11,9 +11,18 @@ namespace co {
 inline constexpr uint32_t no_abort = 0;
 
 namespace abort_codes {
+// Abort codes consist of error class, error code and additional code; half of their digits are always 0.
+// [301:7.2.4.3.17]
 struct Row {
-  CO_ERR err;
-  uint32_t code;
+  uint8_t err;      // less CO_ERR_BASE
+  uint8_t upper;    // error class and error code
+  uint8_t details;  // additional code
+
+  constexpr Row(CO_ERR of, uint32_t code)
+      : err(static_cast<uint8_t>(of - CO_ERR_BASE)),
+        upper(static_cast<uint8_t>((code >> 20) | (code >> 16))),
+        details(static_cast<uint8_t>(code)) {}
+  constexpr uint32_t code() const { return ((upper & 0xF0U) << 20) | ((upper & 0x0FU) << 16) | details; }
 };
 inline constexpr Row rows[] = {
     {CO_ERR_OBJ_NOT_FOUND, CO_SDO_ERR_OBJ},
@@ -40,13 +49,15 @@ inline constexpr Row rows[] = {
 
 [[nodiscard]] constexpr uint32_t abort_code(CO_ERR err) {
   for (const auto& row : abort_codes::rows) {
-    if (row.err == err) {
-      return row.code;
+    if (row.err + CO_ERR_BASE == err) {
+      return row.code();
     }
   }
   return CO_SDO_ERR_GENERAL;
 }
 
-static_assert(abort_code(CO_ERR_OBJ_RANGE) == 0x06090030 && abort_code(CO_ERR_TMR_CREATE) == 0x08000000);
+static_assert(abort_code(CO_ERR_OBJ_NOT_FOUND) == 0x06020000 && abort_code(CO_ERR_OBJ_SIZE) == 0x06070010);
+static_assert(abort_code(CO_ERR_OBJ_MAP_TYPE) == 0x06040041 && abort_code(CO_ERR_OBJ_RANGE) == 0x06090030);
+static_assert(abort_code(CO_ERR_TYPE_RD) == 0x08000020 && abort_code(CO_ERR_TMR_CREATE) == 0x08000000);
 
 }  // namespace co

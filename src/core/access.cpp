@@ -58,7 +58,7 @@ uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
   if (length == 0 && obj::is_stream(obj)) {
     return no_abort;
   }
-  const uint32_t need = obj::size(obj, node, length);
+  const uint32_t need = size(obj, node, length);
   const bool failed = need == 0 && !obj::is_stream(obj);
   return failed ? abort_for(node, CO_ERR_TYPE_WR) : compare_length(length, need);
 }

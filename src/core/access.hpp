@@ -12,6 +12,11 @@ namespace co::access {
 // code.
 [[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer);
 
+// The length of an object that open() has found: its type can tell it.
+[[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
+  return obj.Type->Size(&obj, &node, width);
+}
+
 // COObjTypeUserSDOAbort() acts for this object, or none.
 inline void serve(CO_NODE& node, CO_OBJ* obj) {
   node.Served = obj;

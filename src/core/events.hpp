@@ -48,11 +48,11 @@ inline void forget_resets(CO_NODE& node) { node.Pending &= configure_sdo | remap
 // What can go wrong on the bus: an EMCY message with its code, and the bits of the error register. [301:7.2.7]
 enum class Fault : uint8_t {
   overrun,     // 8110h
+  collision,   // 8150h, somebody has our CAN-ID
   passive,     // 8120h
   heartbeat,   // 8130h, a node is missing
   life_guard,  // 8130h, the NMT master is missing
   recovered,   // 8140h, from bus-off
-  collision,   // 8150h, somebody has our CAN-ID
   pdo_short,   // 8210h
   pdo_long,    // 8220h
 #if USE_MPDO

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol machines: a row for every event that states know. A pair that is in no row is the protocol error.
+// Protocol machines: a row for every event, with the states that know it. Any other pair is the protocol error.
 #pragma once
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include <type_traits>
 
 namespace co {
 
@@ -20,37 +22,47 @@ struct Row {
   Service run;
 };
 
-// The rows as a matrix of their numbers, so that a step costs two look-ups whatever the number of rows.
-template <class State, class Event, class Service, size_t states, size_t events, size_t rows>
+void two_rows_have_the_same_event();  // defined nowhere: such a machine does not compile
+
+// The rows by the numbers of their events, so that a step costs one look-up.
+template <class State, const auto& rows>
 class Machine {
+  using Event = std::remove_const_t<decltype(rows[0].on)>;
+  using Service = std::remove_const_t<decltype(rows[0].run)>;
+
  public:
-  constexpr Machine(const Row<Event, Service> (&table)[rows], Service otherwise) : run_{otherwise}, number_{} {
-    for (size_t n = 0; n < rows; ++n) {
-      enter(table[n], static_cast<uint8_t>(n + 1));
+  constexpr explicit Machine(Service otherwise) : of_{}, otherwise_(otherwise) {
+    for (const auto& row : rows) {
+      Entry& entry = of_[static_cast<size_t>(row.on)];
+      if (entry.states != 0) {
+        two_rows_have_the_same_event();
+      }
+      entry = {row.states, row.run};
     }
   }
 
   constexpr Service operator()(State in, Event on) const {
-    return run_[number_[static_cast<size_t>(in)][static_cast<size_t>(on)]];
+    const auto event = static_cast<size_t>(on);
+    const bool is_known = event < events && (of_[event].states >> static_cast<unsigned>(in) & 1U) != 0;
+    return is_known ? of_[event].run : otherwise_;
   }
 
  private:
-  constexpr void enter(const Row<Event, Service>& row, uint8_t number) {
-    run_[number] = row.run;
-    for (size_t state = 0; state < states; ++state) {
-      if ((row.states >> state & 1U) != 0) {
-        number_[state][static_cast<size_t>(row.on)] = number;
-      }
+  static constexpr size_t count_events() {
+    size_t all = 0;
+    for (const auto& row : rows) {
+      all = static_cast<size_t>(row.on) < all ? all : static_cast<size_t>(row.on) + 1;
     }
+    return all;
   }
+  static constexpr size_t events = count_events();
 
-  Service run_[rows + 1];
-  uint8_t number_[states][events];
+  struct Entry {
+    uint32_t states;
+    Service run;
+  };
+  Entry of_[events];
+  Service otherwise_;
 };
-
-template <class State, size_t states, size_t events, class Event, class Service, size_t rows>
-constexpr auto make_machine(const Row<Event, Service> (&table)[rows], Service otherwise) {
-  return Machine<State, Event, Service, states, events, rows>(table, otherwise);
-}
 
 }  // namespace co

@@ -38,6 +38,7 @@ CO_ERR COObjInit(CO_OBJ* obj, CO_NODE_T* node) {
   return obj->Type->Init == nullptr ? CO_ERR_NONE : obj->Type->Init(obj, node);
 }
 
+#if USE_OBJ_EX
 CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
   if (!is_complete(obj, node)) {
     return CO_ERR_BAD_ARG;
@@ -45,6 +46,7 @@ CO_ERR COObjTypeExReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
   const CO_OBJ_TYPE_EX* const type = obj::extended(*obj);
   return type == nullptr || type->Reset == nullptr ? CO_ERR_NONE : type->Reset(obj, node, para);
 }
+#endif
 
 CO_ERR COObjReset(CO_OBJ* obj, CO_NODE_T* node, uint32_t para) {
   return is_complete(obj, node) ? obj::seek(*obj, *node, para) : CO_ERR_BAD_ARG;

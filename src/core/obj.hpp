@@ -2,6 +2,7 @@
 // Access to one entry through its type.
 #pragma once
 
+#include "co_cfg.h"
 #include "co_obj.h"
 
 namespace co::obj {
@@ -23,9 +24,19 @@ namespace co::obj {
 }
 
 // For types that take part in the whole transfer; others see nothing.
-[[nodiscard]] inline const CO_OBJ_TYPE_EX* extended(const CO_OBJ& obj) {
-  const bool is_extended = obj.Type->Reset == COObjTypeExReset;
-  return is_extended ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type) : nullptr;
+[[nodiscard]] inline const CO_OBJ_TYPE_EX* extended([[maybe_unused]] const CO_OBJ& obj) {
+#if USE_OBJ_EX
+  if (obj.Type->Reset == COObjTypeExReset) {
+    return reinterpret_cast<const CO_OBJ_TYPE_EX*>(obj.Type);
+  }
+#endif
+  return nullptr;
+}
+// Does the object not know its length yet?
+[[nodiscard]] constexpr bool is_unknown(uint32_t size) { return USE_OBJ_EX != 0 && size == CO_OBJ_SIZE_UNKNOWN; }
+// Is this no length of an upload? An empty stream has one.
+[[nodiscard]] inline bool is_no_size(const CO_OBJ& obj, uint32_t size) {
+  return (size == 0 && !is_stream(obj)) || (USE_OBJ_EX == 0 && size == CO_OBJ_SIZE_UNKNOWN);
 }
 // Can the position be set?
 [[nodiscard]] inline bool can_seek(const CO_OBJ& obj) {

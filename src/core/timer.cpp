@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/timer.hpp"
 
+#include <stddef.h>
+
 #include "core/count.hpp"
 #include "core/port.hpp"
 
 namespace co::tmr {
 namespace {
-
-enum State : uint8_t { idle = 0, armed, due };
 
 // Keeps the timer interrupt away while it lives.
 class Lock {
@@ -21,34 +21,23 @@ class Lock {
   const CO_TMR& timers_;
 };
 
-// Returns the one before it.
-CO_TMR_MEM* unlink(CO_TMR_LIST& list, const CO_TMR_MEM& timer) {
-  CO_TMR_MEM* before = nullptr;
-  for (CO_TMR_MEM* each = list.First; each != &timer; each = each->Next) {
-    before = each;
-  }
-  (before == nullptr ? list.First : before->Next) = timer.Next;
-  list.Last = list.Last == &timer ? before : list.Last;
-  return before;
-}
+// The timer that a link belongs to.
+CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
+static_assert(offsetof(CO_TMR_MEM, Next) == 0);
 
-// COTmrProcess() looks at the elapsed ones without the lock.
-void append_due(CO_TMR& t, CO_TMR_MEM& timer) {
-  timer.State = due;
-  timer.Next = nullptr;
-  __atomic_store_n(t.Due.First == nullptr ? &t.Due.First : &t.Due.Last->Next, &timer, __ATOMIC_RELAXED);
-  t.Due.Last = &timer;
-}
+// COTmrProcess() asks without the lock.
+CO_TMR_MEM** first_armed(const CO_TMR& t) { return __atomic_load_n(&t.Armed, __ATOMIC_RELAXED); }
+bool has_due(const CO_TMR& t) { return first_armed(t) != &t.First; }
 
 // Lets the time go on; what has elapsed becomes due.
 void advance(CO_TMR& t, uint32_t now) {
   const uint32_t passed = now - t.Clock;
   t.Clock = now;
-  while (t.Use.First != nullptr && now - t.Use.First->At <= passed) {
-    CO_TMR_MEM& timer = *t.Use.First;
-    t.Use.First = timer.Next;
-    append_due(t, timer);
+  CO_TMR_MEM** armed = t.Armed;
+  while (*armed != nullptr && now - (*armed)->At <= passed) {
+    armed = &(*armed)->Next;
   }
+  __atomic_store_n(&t.Armed, armed, __ATOMIC_RELAXED);
 }
 
 uint32_t first_cycle(const CO_TMR_MEM* list) {
@@ -61,12 +50,13 @@ uint32_t first_cycle(const CO_TMR_MEM* list) {
 // While nothing is armed, but elapsed cyclic timers are still to be run, a driver without a clock has to go on
 // counting, so that they can keep their phase.
 void program(CO_TMR& t, uint32_t now) {
-  const uint32_t next = t.Use.First != nullptr ? t.Use.First->At - now : 0;
+  const CO_TMR_MEM* const first = *t.Armed;
+  const uint32_t next = first != nullptr ? first->At - now : 0;
   if (port::has_clock(*t.Node)) {
     port::set_alarm(*t.Node, next);
     return;
   }
-  const uint32_t wait = next != 0 ? next : first_cycle(t.Due.First);
+  const uint32_t wait = next != 0 ? next : first_cycle(t.First);
   port::count_down(*t.Node, wait, t.Programmed == 0);
   t.Clock = now + wait;
   t.Programmed = wait;
@@ -97,34 +87,44 @@ uint32_t synchronise(CO_TMR& t) {
 // Behind all timers that elapse before or with it; mostly that is the end. A driver that waits for the right time
 // already is left alone.
 void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
-  CO_TMR_MEM** place = &t.Use.First;
-  if (t.Use.First != nullptr && t.Use.Last->At - now <= ticks) {
-    place = &t.Use.Last->Next;
-  } else if (t.Use.First != nullptr) {
-    while ((*place)->At - now <= ticks) {
-      place = &(*place)->Next;
+  CO_TMR_MEM** link = t.Armed;
+  if (*link != nullptr && owner_of(t.End).At - now <= ticks) {
+    link = t.End;
+  } else if (*link != nullptr) {
+    while ((*link)->At - now <= ticks) {
+      link = &(*link)->Next;
     }
   }
-  timer.State = armed;
+  timer.Running = 1;
   timer.At = now + ticks;
-  timer.Next = *place;
-  *place = &timer;
-  t.Use.Last = timer.Next == nullptr ? &timer : t.Use.Last;
-  if (place == &t.Use.First && timer.At != t.Clock) {
+  timer.Next = *link;
+  *link = &timer;
+  if (timer.Next == nullptr) {
+    t.End = &timer.Next;
+  }
+  if (link == t.Armed && timer.At != t.Clock) {
     reprogram(t, now);
   }
 }
 
 void remove(CO_TMR& t, CO_TMR_MEM& timer) {
-  const uint8_t state = timer.State;
-  if (state == idle) {
+  if (timer.Running == 0) {
     return;
   }
-  timer.State = idle;
-  CO_TMR_MEM* const before = unlink(state == armed ? t.Use : t.Due, timer);
-  if (state == due) {
-    t.RunEnd = t.RunEnd == &timer ? before : t.RunEnd;
-  } else if (before == nullptr) {
+  timer.Running = 0;
+  const bool is_next = *t.Armed == &timer;
+  CO_TMR_MEM** link = &t.First;
+  while (*link != &timer) {
+    link = &(*link)->Next;
+  }
+  *link = timer.Next;
+  if (t.Armed == &timer.Next) {
+    t.Armed = link;
+  }
+  if (t.End == &timer.Next) {
+    t.End = link;
+  }
+  if (is_next) {
     reprogram(t, synchronise(t));
   }
 }
@@ -136,11 +136,31 @@ void release(CO_TMR& t, CO_TMR_MEM& timer) {
   t.Free = &timer;
 }
 
+// Quotient in the low word, rest in the high one, bit by bit: the library's division would bring 270 bytes. The
+// quotient must fit.
+uint64_t divide(uint64_t dividend, uint32_t divisor) {
+  auto rest = static_cast<uint32_t>(dividend >> 32);
+  auto low = static_cast<uint32_t>(dividend);
+  for (unsigned bit = 32; bit != 0; --bit) {
+    const bool carry = rest > INT32_MAX;
+    rest = (rest << 1) | (low >> 31);
+    low <<= 1;
+    if (carry || rest >= divisor) {
+      rest -= divisor;
+      ++low;
+    }
+  }
+  return (uint64_t{rest} << 32) | low;
+}
+
+uint32_t modulo(uint32_t ticks, uint32_t cycle) {
+  return ticks < cycle ? ticks : static_cast<uint32_t>(divide(ticks, cycle) >> 32);
+}
+
 // A timer that has elapsed is armed for its next expiry after now; those that were missed are skipped.
 void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
   const uint32_t now = synchronise(t);
-  const uint32_t passed = now - timer.At;
-  insert(t, timer, now, cycle - (passed < cycle ? passed : passed % cycle));
+  insert(t, timer, now, cycle - modulo(now - timer.At, cycle));
 }
 
 void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
@@ -153,19 +173,32 @@ void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FU
 // The timer that has elapsed first, armed again or released, its action still to be run.
 const CO_TMR_MEM& take_due(CO_TMR& t) {
   const Lock lock(t);
-  CO_TMR_MEM& timer = *t.Due.First;
-  CO_TMR_MEM* const end = t.RunEnd == nullptr ? t.Due.Last : t.RunEnd;
-  t.RunEnd = end == &timer ? nullptr : end;
-  t.Due.First = timer.Next;
+  CO_TMR_MEM& timer = *t.First;
+  t.First = timer.Next;
+  if (t.Armed == &timer.Next) {
+    t.Armed = &t.First;
+  }
   if (timer.Cycle != 0) {
     rearm(t, timer, timer.Cycle);
     return timer;
   }
-  timer.State = idle;
+  timer.Running = 0;
   if (timer.Pooled != 0) {
     release(t, timer);
   }
   return timer;
+}
+
+// A timer management that was never initialised seems to have such timers. What elapses while actions run waits for the
+// next call.
+[[gnu::noinline]] void run_due(CO_TMR& t) {
+  ASSERT_PTR_FATAL(t.Node);
+  const uint32_t first = t.First->At;
+  const uint32_t span = owner_of(first_armed(t)).At - first;
+  do {
+    const CO_TMR_MEM& timer = take_due(t);
+    timer.Func(timer.Para);
+  } while (has_due(t) && t.First->At - first <= span);
 }
 
 CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
@@ -174,7 +207,7 @@ CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
     return nullptr;
   }
   CO_TMR_MEM& timer = t.Pool[number];
-  return timer.State != idle && timer.Id == id ? &timer : nullptr;
+  return timer.Running != 0 && timer.Id == id ? &timer : nullptr;
 }
 
 CO_TMR_MEM* take_free(CO_TMR& t) {
@@ -185,7 +218,7 @@ CO_TMR_MEM* take_free(CO_TMR& t) {
   return timer;
 }
 
-uint16_t power_of_two(uint16_t num) {
+uint16_t power_of_two(unsigned num) {
   unsigned power = 1;
   while (power < num) {
     power *= 2;
@@ -195,26 +228,15 @@ uint16_t power_of_two(uint16_t num) {
 
 }  // namespace
 
-// time * Freq / unit, rounded up, binary digit by digit: a division of 64 bits would bring half a kilobyte of library.
+// Bit by bit, too: a product of 64 bits is a function of the library on the smallest CPUs.
 uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
-  if (unit == 0) {
-    return 0;
-  }
-  uint64_t whole = 0;
-  uint64_t rest = 0;
-  for (uint32_t bit = 1U << 31; bit != 0; bit >>= 1) {
-    whole *= 2;
-    rest *= 2;
-    if ((time & bit) != 0) {
-      whole += timers.Freq / unit;
-      rest += timers.Freq % unit;
-    }
-    for (; rest >= unit; rest -= unit) {
-      ++whole;
+  uint64_t product = unit - 1U;
+  for (uint64_t part = timers.Freq; time != 0; time >>= 1, part *= 2) {
+    if ((time & 1U) != 0) {
+      product += part;
     }
   }
-  whole += rest != 0 ? 1 : 0;
-  return whole > UINT32_MAX ? 0 : static_cast<uint32_t>(whole);
+  return product >> 32 >= unit ? 0 : static_cast<uint32_t>(divide(product, unit));
 }
 
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
@@ -234,8 +256,6 @@ void stop(CO_TMR& timers, CO_TMR_MEM& timer) {
   remove(timers, timer);
 }
 
-bool is_running(const CO_TMR_MEM& timer) { return timer.State != idle; }
-
 uint32_t now(CO_TMR& timers) {
   if (port::has_clock(*timers.Node)) {
     return port::now(*timers.Node);
@@ -247,10 +267,10 @@ uint32_t now(CO_TMR& timers) {
 uint32_t next_deadline(CO_TMR& timers) {
   const Lock lock(timers);
   const uint32_t now = synchronise(timers);
-  if (timers.Due.First != nullptr || is_pending(timers, now)) {
+  if (has_due(timers) || is_pending(timers, now)) {
     return 0;
   }
-  return timers.Use.First == nullptr ? UINT32_MAX : timers.Use.First->At - now;
+  return timers.First == nullptr ? UINT32_MAX : timers.First->At - now;
 }
 
 }  // namespace co::tmr
@@ -263,12 +283,14 @@ void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32
   ASSERT_PTR_FATAL(tmr);
   ASSERT_PTR_FATAL(node);
   *tmr = {};
+  tmr->Armed = &tmr->First;
   tmr->Node = node;
   tmr->Pool = mem;
   tmr->Freq = freq;
-  tmr->Max = static_cast<uint16_t>(mem == nullptr ? 0 : (num > INT16_MAX ? INT16_MAX : num));
-  tmr->IdStep = tmr::power_of_two(tmr->Max);
-  for (uint16_t n = tmr->Max; n > 0; --n) {
+  const unsigned max = mem == nullptr ? 0U : (num > INT16_MAX ? INT16_MAX : num);
+  tmr->Max = static_cast<uint16_t>(max);
+  tmr->IdStep = tmr::power_of_two(max);
+  for (unsigned n = max; n != 0; --n) {
     CO_TMR_MEM& timer = mem[n - 1];
     timer = {};
     timer.Id = static_cast<uint16_t>(n - 1U);
@@ -338,19 +360,14 @@ int16_t COTmrService(CO_TMR* tmr) {
   }
   tmr::advance(*tmr, now);
   tmr::program(*tmr, now);
-  return tmr->Due.First != nullptr ? 1 : 0;
+  return tmr::has_due(*tmr) ? 1 : 0;
 }
 
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
-  ASSERT_PTR_FATAL(tmr->Node);
-  if (__atomic_load_n(&tmr->Due.First, __ATOMIC_RELAXED) == nullptr) {
-    return;
+  if (tmr::has_due(*tmr)) {
+    tmr::run_due(*tmr);
   }
-  do {
-    const CO_TMR_MEM& timer = tmr::take_due(*tmr);
-    timer.Func(timer.Para);
-  } while (tmr->RunEnd != nullptr);
 }
 
 }  // extern "C"

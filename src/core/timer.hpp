@@ -21,7 +21,7 @@ void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 // Stops a timer that is part of its owner; a stopped one stays stopped.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
 
-[[nodiscard]] bool is_running(const CO_TMR_MEM& timer);
+[[nodiscard]] inline bool is_running(const CO_TMR_MEM& timer) { return timer.Running != 0; }
 
 // A clock of ticks, starting anywhere, wrapping at 2^32. With a driver that has none, it goes while a timer runs.
 [[nodiscard]] uint32_t now(CO_TMR& timers);

@@ -127,6 +127,11 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   node.Emcy.Node = &node;
   node.Emcy.Root = spec.EmcyCode;
 #endif
+#if CO_RPDO_N > 0
+  for (CO_RPDO& pdo : node.RPdo) {
+    pdo.Node = &node;
+  }
+#endif
 #if CO_TPDO_N > 0
   for (CO_TPDO& pdo : node.TPdo) {
     pdo.Node = &node;

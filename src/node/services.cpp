@@ -26,6 +26,11 @@ namespace {
 
 bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 
+#if CO_TPDO_N > 0
+// All PDOs are initialised together.
+constexpr auto init_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::init;
+#endif
+
 // Those that get frames come first, in the order of routes::Service.
 constexpr Service table[] = {
     {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
@@ -46,12 +51,12 @@ constexpr Service table[] = {
     {CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_frames, time::on_mode, nullptr, nullptr},
 #endif
 #if CO_RPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init_rpdos, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
+    {CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
 #if CO_TPDO_N > 0 && USE_MPDO
-    {CO_PDO_ALLOWED, 1, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, pdo::on_free, nullptr},
+    {CO_PDO_ALLOWED, 1, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, pdo::on_free, nullptr},
 #elif CO_TPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
+    {CO_PDO_ALLOWED, 0, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
     {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},
@@ -140,10 +145,7 @@ void forget_application(CO_NODE&) {}
 
 void configure(CO_NODE& node) { run(node, &Service::configure); }
 
-void remap(CO_NODE& node) {
-  pdo::remap_rpdos(node);
-  pdo::remap_tpdos(node);
-}
+void remap(CO_NODE& node) { pdo::remap(node); }
 
 // In turns, a frame each. Whom the controller refuses is the first the next time.
 void on_free(CO_NODE& node) {

@@ -10,7 +10,7 @@ struct Service {
   uint8_t allowed;   // CO_…_ALLOWED bit that its frames need
   uint16_t streams;  // for on_free: who may send so, numbers from 0
   void (*init)(CO_NODE& node);
-  bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // false: malformed
+  bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);   // false: malformed
   bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // a remote frame, likewise
   void (*on_mode)(CO_NODE& node);
   bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may now succeed. True: it has

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "object/cob_id.hpp"
 
+#include "object/integer.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::cob_id {
@@ -30,8 +31,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return err;
   }
   const uint32_t node_id = node_id_of(*obj, *node);
-  const uint32_t value = shift_id(shown - node_id, node_id);
-  __builtin_memcpy(buffer, &value, sizeof value);
+  integer::put_u32(buffer, shift_id(shown - node_id, node_id));
   return CO_ERR_NONE;
 }
 
@@ -41,8 +41,7 @@ CO_ERR write(CO_OBJ& obj, CO_NODE& node, const void* buffer, uint32_t size, Perm
   if (err != CO_ERR_NONE) {
     return err;
   }
-  uint32_t value = 0;
-  __builtin_memcpy(&value, buffer, sizeof value);
+  const uint32_t value = integer::get_u32(buffer);
   if (!may(obj, before, value)) {
     return CO_ERR_OBJ_RANGE;
   }

@@ -21,12 +21,15 @@ inline constexpr uint32_t base_ids = 0x7FF;
 inline constexpr uint32_t extended_ids = CO_IF_FRM_ID;
 
 // CAN-IDs that no configurable object may use. [301:7.3.5 table 38]
+struct Range {
+  uint16_t first;
+  uint16_t last;
+};
+inline constexpr Range restricted[] = {{0x000, 0x07F}, {0x101, 0x180}, {0x581, 0x5FF},
+                                       {0x601, 0x67F}, {0x6E0, 0x6FF}, {0x701, 0x7FF}};
+
 constexpr bool is_restricted(uint32_t id) {
-  constexpr struct {
-    uint16_t first;
-    uint16_t last;
-  } ranges[] = {{0x000, 0x07F}, {0x101, 0x180}, {0x581, 0x5FF}, {0x601, 0x67F}, {0x6E0, 0x6FF}, {0x701, 0x7FF}};
-  for (const auto& range : ranges) {
+  for (const Range& range : restricted) {
     if (id >= range.first && id <= range.last) {
       return true;
     }

@@ -9,14 +9,17 @@ namespace co::wire {
 
 inline constexpr uint8_t emcy_dlc = 8;
 
-// Error code, error register, five bytes of the manufacturer.
-constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t reg, const uint8_t* msef) {
-  return {code | (uint32_t{reg} << 16) | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
+// Error code and five bytes of the manufacturer.
+constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
+  return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
 // The same with the third of the five bytes alone.
-constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t reg, uint8_t detail) {
-  return {code | (uint32_t{reg} << 16), uint32_t{detail} << 8};
+constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
+
+// The same with the error register, which stands between them.
+constexpr CO_EMCY_MSG with_register(const CO_EMCY_MSG& msg, uint8_t reg) {
+  return {msg.Low | (uint32_t{reg} << 16), msg.High};
 }
 
 inline CO_IF_FRM emcy(uint32_t identifier, const CO_EMCY_MSG& msg) {
@@ -31,9 +34,9 @@ inline uint8_t emcy_register(const CO_IF_FRM& frame) { return frame.Data[2]; }
 inline const uint8_t* emcy_bytes(const CO_IF_FRM& frame) { return frame.Data + 3; }
 
 inline constexpr uint8_t emcy_example[] = {0xAB, 1, 2, 3, 4};
-static_assert(emcy_message(0x8210, 0x11, emcy_example).Low == 0xAB118210);
-static_assert(emcy_message(0x8210, 0x11, emcy_example).High == 0x04030201);
-static_assert(emcy_message(0x8130, 0x11, uint8_t{5}).Low == 0x00118130);
-static_assert(emcy_message(0x8130, 0x11, uint8_t{5}).High == 0x00000500);
+static_assert(with_register(emcy_message(0x8210, emcy_example), 0x11).Low == 0xAB118210);
+static_assert(with_register(emcy_message(0x8210, emcy_example), 0x11).High == 0x04030201);
+static_assert(with_register(emcy_message(0x8130, uint8_t{5}), 0x11).Low == 0x00118130);
+static_assert(with_register(emcy_message(0x8130, uint8_t{5}), 0x11).High == 0x00000500);
 
 }  // namespace co::wire

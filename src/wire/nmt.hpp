@@ -25,14 +25,9 @@ enum class NmtCommand : uint8_t {
 constexpr bool addresses(const CO_IF_FRM& nmt, uint8_t node_id) { return nmt.Data[1] == 0 || nmt.Data[1] == node_id; }
 
 // Heartbeat state byte of a mode. [301:7.2.8.3.2.2]
+inline constexpr uint8_t heartbeat_states[CO_MODE_NUM] = {255, 0, 127, 5, 4};
 constexpr uint8_t heartbeat_state(CO_MODE mode) {
-  switch (mode) {
-    case CO_INIT: return 0;
-    case CO_STOP: return 4;
-    case CO_OPERATIONAL: return 5;
-    case CO_PREOP: return 127;
-    default: return 255;
-  }
+  return mode < CO_MODE_NUM ? heartbeat_states[mode] : heartbeat_states[CO_INVALID];
 }
 
 inline constexpr uint8_t error_control_dlc = 1;

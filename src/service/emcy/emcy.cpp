@@ -24,8 +24,8 @@ constexpr uint8_t generic = 1U << CO_EMCY_REG_GENERAL;
 constexpr uint8_t communication = generic | (1U << CO_EMCY_REG_COM);
 
 constexpr uint16_t codes[CO_EMCY_FAULT_N] = {
-    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_PASSIVE_ERR,      CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,
-    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_RECOVER_ERR,      CO_EMCY_CODE_MON_COM_COLLISION_ERR,
+    CO_EMCY_CODE_MON_COM_OVERRUN_ERR,   CO_EMCY_CODE_MON_COM_COLLISION_ERR,    CO_EMCY_CODE_MON_COM_PASSIVE_ERR,
+    CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR, CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR,    CO_EMCY_CODE_MON_COM_RECOVER_ERR,
     CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR,  CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR,
 #if USE_MPDO
     CO_EMCY_CODE_MON_PROT_DAM_ERR,
@@ -44,19 +44,17 @@ constexpr CO_EMCY_USR nothing_added = {};
 
 // Errors of the application -------------------------------------------------------------------------------------------
 
-constexpr uint8_t mask(uint16_t err) { return static_cast<uint8_t>(1U << (err % 8)); }
+constexpr uint8_t mask(unsigned err) { return static_cast<uint8_t>(1U << (err % 8)); }
 
-bool is_set(const CO_EMCY& emcy, uint16_t err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
+bool is_set(const CO_EMCY& emcy, unsigned err) { return (emcy.Err[err / 8] & mask(err)) != 0; }
 
-void toggle(CO_EMCY& emcy, uint16_t err) { emcy.Err[err / 8] = static_cast<uint8_t>(emcy.Err[err / 8] ^ mask(err)); }
-
-uint16_t table_length(const CO_EMCY& emcy) {
-  const uint16_t given = emcy.Node->Ext->EmcyNum;
+unsigned table_length(const CO_EMCY& emcy) {
+  const unsigned given = emcy.Node->Ext->EmcyNum;
   return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
 }
 
 // Lets an error come or go. False: it has before, or there is none, which the node tells.
-bool change(CO_EMCY& emcy, uint8_t err, bool come) {
+bool change(CO_EMCY& emcy, unsigned err, bool come) {
   if (emcy.Root == nullptr) {
     emcy.Node->Error = CO_ERR_EMCY_BAD_ROOT;
     return false;
@@ -65,11 +63,11 @@ bool change(CO_EMCY& emcy, uint8_t err, bool come) {
     emcy.Node->Error = CO_ERR_BAD_ARG;
     return false;
   }
-  const bool changes = is_set(emcy, err) != come;
-  if (changes) {
-    toggle(emcy, err);
-  }
-  return changes;
+  uint8_t& bits = emcy.Err[err / 8];
+  const unsigned before = bits;
+  const unsigned after = come ? before | mask(err) : before & ~unsigned{mask(err)};
+  bits = static_cast<uint8_t>(after);
+  return after != before;
 }
 
 // Error register ------------------------------------------------------------------------------------------------------
@@ -87,64 +85,68 @@ uint8_t register_of(const CO_EMCY& emcy) {
       bits |= (set & 1U) != 0 ? bits_of(emcy.Root[err].Reg) : 0U;
     }
   }
+  uint32_t faults = 0;
   for (const uint16_t number : emcy.Fault) {
-    bits |= number != 0 ? communication : 0U;
+    faults |= number;
   }
-  return static_cast<uint8_t>(bits);
+  return static_cast<uint8_t>(faults != 0 ? bits | communication : bits);
 }
 
-// Shows it in 1001h. A value in the entry itself may lie in read-only memory.
+// In 1001h. A value in the entry itself may lie in read-only memory.
+void show_register(CO_NODE& node, uint8_t bits) {
+  node.Emcy.Register = bits;
+  CO_OBJ* const obj = dict::find(node.Dict, key_register);
+  if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0) {
+    return;
+  }
+  const CO_ERR err = obj::write(*obj, node, &bits, sizeof bits);
+  node.Error = err != CO_ERR_NONE ? err : node.Error;
+}
+
 uint8_t update_register(CO_NODE& node) {
   const uint8_t bits = register_of(node.Emcy);
-  CO_OBJ* const obj = dict::find(node.Dict, key_register);
-  uint8_t value = 0;
-  if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0 || obj::read(*obj, node, &value, sizeof value) != CO_ERR_NONE ||
-      value == bits) {
-    return bits;
+  if (bits != node.Emcy.Register) {
+    show_register(node, bits);
   }
-  value = bits;
-  const CO_ERR err = obj::write(*obj, node, &value, sizeof value);
-  node.Error = err != CO_ERR_NONE ? err : node.Error;
   return bits;
 }
 
 // Messages ------------------------------------------------------------------------------------------------------------
 
-uint32_t cob_id(CO_NODE& node) { return dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid); }
-
 // 0 ticks are a time that the timer cannot hold.
-void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
+[[gnu::noinline]] void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
   tmr::start(node.Tmr, timer, ticks != 0 ? ticks : UINT32_MAX, 0, func, &node);
 }
 
-CO_EMCY_MSG take_first(CO_EMCY& emcy) {
-  const CO_EMCY_MSG first = emcy.Queue[0];
+void remove_first(CO_EMCY& emcy) {
   --emcy.Waiting;
-  for (uint8_t n = 0; n < emcy.Waiting; ++n) {
+  for (unsigned n = 0; n < emcy.Waiting; ++n) {
     emcy.Queue[n] = emcy.Queue[n + 1];
   }
-  return first;
 }
 
 // x 100 µs; 0: none.
-uint16_t inhibit_time(CO_NODE& node) {
+unsigned inhibit_time(CO_NODE& node) {
   uint16_t time = 0;
-  return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : static_cast<uint16_t>(0);
+  return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : 0;
 }
 
 void go_on(void* node_pointer);
 
 // Until the inhibit time, or the next attempt where the transmit queue is full.
-void send_waiting(CO_NODE& node, uint32_t cob_id) {
-  constexpr uint16_t next_attempt = 10;  // x 100 µs
-  while (node.Emcy.Waiting != 0) {
-    uint16_t pause = next_attempt;
+void send_waiting(CO_NODE& node, uint32_t identifier) {
+  constexpr unsigned next_attempt = 10;  // x 100 µs
+  CO_EMCY& emcy = node.Emcy;
+  while (emcy.Waiting != 0) {
+    unsigned pause = next_attempt;
     if (!transmit::is_full(node)) {
-      transmit::send(node, wire::emcy(wire::frame_id(cob_id), take_first(node.Emcy)));
+      const CO_IF_FRM frame = wire::emcy(identifier, emcy.Queue[0]);
+      remove_first(emcy);
+      transmit::send(node, frame);
       pause = inhibit_time(node);
     }
     if (pause != 0) {
-      start(node, node.Emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), go_on);
+      start(node, emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), go_on);
       return;
     }
   }
@@ -152,18 +154,20 @@ void send_waiting(CO_NODE& node, uint32_t cob_id) {
 
 void go_on(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  const uint32_t id = cob_id(node);
-  if (id == wire::cob_invalid) {
+  const uint32_t id = identifier(node);
+  if (id == wire::no_frame) {
     withdraw(node, id);
   } else {
     send_waiting(node, id);
   }
 }
 
-// In a full queue the newest takes the place of the last, so that the last always tells the present state.
+// Shows the error register, and sends a message with it. In a full queue the newest takes the place of the last, so
+// that the last always tells the present state.
 void post(CO_NODE& node, CO_EMCY_MSG msg) {
-  const uint32_t id = cob_id(node);
-  if (id == wire::cob_invalid || !event::is_allowed(node, CO_EMCY_ALLOWED)) {
+  msg = wire::with_register(msg, update_register(node));
+  const uint32_t id = identifier(node);
+  if (id == wire::no_frame || !event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
   CO_EMCY& emcy = node.Emcy;
@@ -177,35 +181,32 @@ void post(CO_NODE& node, CO_EMCY_MSG msg) {
   }
 }
 
-void report_gone(CO_NODE& node, uint8_t detail) {
-  post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, update_register(node), detail));
-}
+void report_gone(CO_NODE& node, uint8_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
 
 // The first two of the five bytes are those of 1003h. [E11]
 void report_fault(CO_NODE& node, Fault fault, uint8_t detail) {
   const uint16_t code = code_of(fault);
   add_to_history(node, code);
-  post(node, wire::emcy_message(code, update_register(node), detail));
+  post(node, wire::emcy_message(code, detail));
 }
 
 void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
   add_to_history(node, code | (uint32_t{usr.Hist} << 16));
-  post(node, wire::emcy_message(code, update_register(node), usr.Emcy));
+  post(node, wire::emcy_message(code, usr.Emcy));
 }
 
 // Faults that may come with every frame -------------------------------------------------------------------------------
 
-template <Fault fault>
-void let_go(void* node) {
-  emcy::resolve(*static_cast<CO_NODE*>(node), fault, 0);
-}
+// Such a fault is over when it has not come again for a second: its timer does not run any more.
+constexpr Fault held[CO_EMCY_HOLD_N] = {Fault::overrun, Fault::collision};
+static_assert(static_cast<uint8_t>(held[0]) == 0 && static_cast<uint8_t>(held[1]) == 1);
 
-// Such a fault is over when it has not come again for a second. False: it is of another kind.
-bool hold(CO_NODE& node, Fault fault) {
-  switch (fault) {
-    case Fault::overrun: start(node, node.Emcy.Hold[0], node.Tmr.Freq, let_go<Fault::overrun>); return true;
-    case Fault::collision: start(node, node.Emcy.Hold[1], node.Tmr.Freq, let_go<Fault::collision>); return true;
-    default: return false;
+void let_go(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  for (const Fault fault : held) {
+    if (!tmr::is_running(node.Emcy.Hold[static_cast<uint8_t>(fault)])) {
+      emcy::resolve(node, fault, 0);
+    }
   }
 }
 
@@ -219,13 +220,14 @@ void begin_bus_off(CO_NODE& node) {
 
 // The error passive state that came before a bus-off is over with it.
 void recover(CO_NODE& node) {
+  Fault over = Fault::passive;
   if (number_of(node, Fault::recovered) != 0) {
-    report_fault(node, Fault::recovered, 0);
+    number_of(node, Fault::recovered) = 0;
+    emcy::raise(node, Fault::recovered, 0);
     emcy::forget(node, Fault::passive);
-    emcy::resolve(node, Fault::recovered, 0);
-  } else {
-    emcy::resolve(node, Fault::passive, 0);
+    over = Fault::recovered;
   }
+  emcy::resolve(node, over, 0);
 }
 
 }  // namespace
@@ -235,6 +237,7 @@ void init(CO_NODE& node) {
     number = 0;
   }
   init_history(node);
+  (void)CODictRdByte(&node.Dict, key_register, &node.Emcy.Register);
   update_register(node);
   if (node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
     node.Error = CO_ERR_CFG_1014_0;
@@ -245,7 +248,7 @@ void on_mode(CO_NODE& node) {
   if (event::is_allowed(node, CO_EMCY_ALLOWED)) {
     return;
   }
-  withdraw(node, transmit::is_waiting(node) ? cob_id(node) : wire::cob_invalid);
+  withdraw(node, transmit::is_waiting(node) ? identifier(node) : wire::no_frame);
   if (!event::is_allowed(node, CO_NMT_ALLOWED)) {
     tmr::stop(node.Tmr, node.Emcy.Tmr);
     for (CO_TMR_MEM& timer : node.Emcy.Hold) {
@@ -255,8 +258,12 @@ void on_mode(CO_NODE& node) {
 }
 
 void raise(CO_NODE& node, Fault fault, uint8_t detail) {
+  const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);
-  if (hold(node, fault) && number != 0) {
+  if (kind < CO_EMCY_HOLD_N) {
+    start(node, node.Emcy.Hold[kind], node.Tmr.Freq, let_go);
+  }
+  if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
     return;
   }
   ++number;
@@ -283,13 +290,9 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what) {
   }
   switch (what) {
     case CO_CAN_OVERRUN: emcy::raise(node, Fault::overrun, 0); break;
+    case CO_CAN_PASSIVE: emcy::raise(node, Fault::passive, 0); break;
     case CO_CAN_BUS_OFF: begin_bus_off(node); break;
     case CO_CAN_RECOVERED: recover(node); break;
-    case CO_CAN_PASSIVE:
-      if (number_of(node, Fault::passive) == 0) {
-        emcy::raise(node, Fault::passive, 0);
-      }
-      break;
     default: break;
   }
 }
@@ -301,13 +304,16 @@ void forget_application(CO_NODE& node) {
   clear_history(node);
 }
 
-void withdraw(CO_NODE& node, uint32_t cob_id) {
+uint32_t identifier(CO_NODE& node) {
+  const uint32_t cob_id = dict::read_cob_id(node.Dict, key_cob_id, wire::cob_invalid);
+  return cob_id != wire::cob_invalid ? wire::frame_id(cob_id) : wire::no_frame;
+}
+
+void withdraw(CO_NODE& node, uint32_t identifier) {
   for (; node.Emcy.Waiting != 0; --node.Emcy.Waiting) {
     count(node.Count.Dropped);
   }
-  if (cob_id != wire::cob_invalid) {
-    transmit::withdraw(node, wire::frame_id(cob_id));
-  }
+  transmit::withdraw(node, identifier);
 }
 
 }  // namespace co::emcy
@@ -357,7 +363,7 @@ void COEmcyReset(CO_EMCY* emcy, uint8_t silent) {
     if (!emcy::is_set(*emcy, err)) {
       continue;
     }
-    emcy::toggle(*emcy, err);
+    emcy::change(*emcy, err, false);
     if (silent == 0) {
       emcy::report_gone(*emcy->Node, 0);
     }

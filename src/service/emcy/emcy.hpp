@@ -21,10 +21,13 @@ void report_can(CO_NODE& node, CO_CAN_EVENT what);
 // The application's errors and the history are no more.
 void forget_application(CO_NODE& node);
 
-// What waits under this COB-ID is not sent any more.
-void withdraw(CO_NODE& node, uint32_t cob_id);
+// The identifier of the messages; wire::no_frame: there are none.
+[[nodiscard]] uint32_t identifier(CO_NODE& node);
 
-// 1003h: how many entries has it? One that has another number than before is empty.
+// What waits under this identifier is not sent any more.
+void withdraw(CO_NODE& node, uint32_t identifier);
+
+// 1003h. Its entries are those whose types were initialised; if it has another number of them than before, it is empty.
 void init_history(CO_NODE& node);
 void add_to_history(CO_NODE& node, uint32_t entry);
 void clear_history(CO_NODE& node);

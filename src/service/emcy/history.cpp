@@ -19,13 +19,17 @@ uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return CO_GET_SUB(obj->Key) == 0 ? 1 : 4; }
 
+// Entries are counted from sub-index 1 without a gap.
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
-  if (CO_GET_SUB(obj->Key) != 0) {
-    return dict::check_type(*obj, *node, rules::emcy_history);
+  const uint8_t sub = CO_GET_SUB(obj->Key);
+  if (sub == 0) {
+    const CO_ERR err = dict::check_type(*obj, *node, rules::emcy_history_number);
+    const bool has_entries = dict::find(node->Dict, CO_DEV(index, 1)) != nullptr;
+    return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
   }
-  const CO_ERR err = dict::check_type(*obj, *node, rules::emcy_history_number);
-  const bool has_entries = dict::find(node->Dict, CO_DEV(index, 1)) != nullptr;
-  return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
+  uint8_t& found = node->Emcy.Hist.Found;
+  found = sub == 1 || sub == found + 1 ? sub : found;
+  return dict::check_type(*obj, *node, rules::emcy_history);
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
@@ -61,16 +65,10 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 void init_history(CO_NODE& node) {
   CO_EMCY_HIST& history = node.Emcy.Hist;
-  uint8_t entries = 0;
-  for (const CO_OBJ* obj = nullptr;; ++entries) {
-    obj = dict::find(node.Dict, CO_DEV(index, entries + 1U));
-    if (obj == nullptr || obj->Type != CO_TEMCY_HIST) {
-      break;
-    }
+  if (history.Found != history.Max) {
+    history = {0, history.Found, 0, 0};
   }
-  if (entries != history.Max) {
-    history = {entries, 0, 0};
-  }
+  history.Found = 0;
 }
 
 void add_to_history(CO_NODE& node, uint32_t entry) {
@@ -78,14 +76,17 @@ void add_to_history(CO_NODE& node, uint32_t entry) {
   if (history.Max == 0) {
     return;
   }
-  history.Off = history.Off < history.Max ? static_cast<uint8_t>(history.Off + 1U) : uint8_t{1};
+  const unsigned next = history.Off + 1U;
+  history.Off = static_cast<uint8_t>(next <= history.Max ? next : 1);
+  if (history.Num < history.Max) {
+    ++history.Num;
+  }
   CO_OBJ* const place = dict::find(node.Dict, CO_DEV(index, history.Off));
   const CO_ERR err =
       place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
   if (err != CO_ERR_NONE) {
     node.Error = err;
   }
-  history.Num = history.Num < history.Max ? static_cast<uint8_t>(history.Num + 1U) : history.Max;
 }
 
 void clear_history(CO_NODE& node) { node.Emcy.Hist.Num = 0; }

@@ -24,9 +24,9 @@ bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::emcy_cob_id); }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const uint32_t before = dict::read_cob_id(node->Dict, obj->Key, wire::cob_invalid);
+  const uint32_t before = identifier(*node);
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  if (err == CO_ERR_NONE && dict::read_cob_id(node->Dict, obj->Key, wire::cob_invalid) == wire::cob_invalid) {
+  if (identifier(*node) == wire::no_frame) {
     withdraw(*node, before);
   }
   return err;

@@ -8,8 +8,8 @@
 namespace co::led {
 namespace {
 
-constexpr uint16_t step = 50;         // ms, the shortest phase
-constexpr uint16_t all_over = 24000;  // ms, a multiple of every period
+constexpr uint32_t step = 50;         // ms, the shortest phase
+constexpr uint32_t all_over = 24000;  // ms, a multiple of every period
 
 // A number of flashes, each a phase long and followed by one that is dark, at the begin of a period.
 struct Pattern {

@@ -263,8 +263,7 @@ constexpr Row<Event, Service> rows[] = {
     {in(State::waiting), Event::fastscan, fastscan},
 };
 
-constexpr auto machine =
-    make_machine<State, static_cast<size_t>(State::count), static_cast<size_t>(Event::count)>(rows, ignore);
+constexpr Machine<State, rows> machine(ignore);
 
 bool has_address(CO_NODE& node) {
   uint32_t number = 0;

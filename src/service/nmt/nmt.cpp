@@ -2,7 +2,6 @@
 #include "service/nmt/nmt.hpp"
 
 #include "core/events.hpp"
-#include "core/machine.hpp"
 #include "core/routes.hpp"
 #include "core/transmit.hpp"
 #include "wire/nmt.hpp"
@@ -20,44 +19,33 @@ constexpr uint8_t permissions[CO_MODE_NUM] = {
     error_control,                     // CO_STOP
 };
 
-enum class Event : uint8_t { start, stop, enter_pre_operational, reset_node, reset_communication, count };
-
-// Commands that are none are Event::count.
-constexpr Event event_of(uint8_t command) {
-  switch (static_cast<wire::NmtCommand>(command)) {
-    case wire::NmtCommand::start: return Event::start;
-    case wire::NmtCommand::stop: return Event::stop;
-    case wire::NmtCommand::enter_pre_operational: return Event::enter_pre_operational;
-    case wire::NmtCommand::reset_node: return Event::reset_node;
-    case wire::NmtCommand::reset_communication: return Event::reset_communication;
-    default: return Event::count;
-  }
-}
-
-template <CO_MODE mode>
-void enter(CO_NODE& node) {
-  event::change_mode(node, mode);
-}
-
-template <uint8_t kind>
-void reset(CO_NODE& node) {
-  event::defer(node, kind | event::commanded);
-}
-
-void stay(CO_NODE&) {}
-
-using Service = void (*)(CO_NODE&);
-
-// [301:7.3.2.1 figure 46]
-constexpr Row<Event, Service> rows[] = {
-    {in(CO_PREOP, CO_STOP), Event::start, enter<CO_OPERATIONAL>},
-    {in(CO_PREOP, CO_OPERATIONAL), Event::stop, enter<CO_STOP>},
-    {in(CO_OPERATIONAL, CO_STOP), Event::enter_pre_operational, enter<CO_PREOP>},
-    {in(CO_PREOP, CO_OPERATIONAL, CO_STOP), Event::reset_node, reset<event::reset_node>},
-    {in(CO_PREOP, CO_OPERATIONAL, CO_STOP), Event::reset_communication, reset<event::reset_communication>},
+struct Command {
+  wire::NmtCommand specifier;
+  uint8_t reset;  // event::Pending; 0: none
+  CO_MODE mode;
 };
 
-constexpr auto machine = make_machine<CO_MODE, CO_MODE_NUM, static_cast<size_t>(Event::count)>(rows, stay);
+// [301:7.3.2.1 figure 46] What is commanded already changes nothing.
+constexpr Command commands[] = {
+    {wire::NmtCommand::start, 0, CO_OPERATIONAL},
+    {wire::NmtCommand::stop, 0, CO_STOP},
+    {wire::NmtCommand::enter_pre_operational, 0, CO_PREOP},
+    {wire::NmtCommand::reset_node, event::reset_node, CO_INIT},
+    {wire::NmtCommand::reset_communication, event::reset_communication, CO_INIT},
+};
+
+void obey(CO_NODE& node, uint8_t specifier) {
+  for (const Command& command : commands) {
+    if (static_cast<uint8_t>(command.specifier) != specifier) {
+      continue;
+    }
+    if (command.reset != 0) {
+      event::defer(node, command.reset | event::commanded);
+    } else {
+      event::change_mode(node, command.mode);
+    }
+  }
+}
 
 }  // namespace
 
@@ -69,9 +57,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::nmt_dlc) {
     return false;
   }
-  const Event event = event_of(frame.Data[0]);
-  if (event != Event::count && wire::addresses(frame, node.NodeId)) {
-    machine(node.Nmt.Mode, event)(node);
+  if (wire::addresses(frame, node.NodeId)) {
+    obey(node, frame.Data[0]);
   }
   return true;
 }
@@ -145,10 +132,9 @@ uint8_t CONmtGetNodeId(CO_NMT* nmt) {
 }
 
 CO_MODE CONmtModeDecode(uint8_t code) {
-  constexpr CO_MODE modes[] = {CO_INIT, CO_PREOP, CO_OPERATIONAL, CO_STOP};
-  for (const CO_MODE mode : modes) {
-    if (wire::heartbeat_state(mode) == code) {
-      return mode;
+  for (unsigned mode = CO_INIT; mode < CO_MODE_NUM; ++mode) {
+    if (wire::heartbeat_states[mode] == code) {
+      return static_cast<CO_MODE>(mode);
     }
   }
   return CO_INVALID;

@@ -1,32 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/configuration.hpp"
 
-#include "core/dict.hpp"
-#include "core/obj.hpp"
 #include "core/timer.hpp"
 #include "object/cob_id.hpp"
+#include "service/pdo/mpdo.hpp"
+#include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::pdo {
-namespace {
-
-template <class T>
-T read_parameter(CO_NODE& node, uint16_t index, uint8_t sub, T otherwise) {
-  T value = otherwise;
-  CO_OBJ* const obj = dict::find(node.Dict, CO_DEV(index, sub));
-  return obj != nullptr && obj::read(*obj, node, &value, sizeof value) == CO_ERR_NONE ? value : otherwise;
-}
-
-Parameters read_parameters(CO_NODE& node, uint16_t index) {
-  return {read_parameter(node, index, 1, wire::cob_invalid),
-          ticks(node, read_parameter(node, index, 3, uint16_t{0}), CO_TMR_UNIT_100US),
-          ticks(node, read_parameter(node, index, 5, uint16_t{0}), CO_TMR_UNIT_1MS),
-          read_parameter(node, index, 2, default_type)};
-}
-
-CO_ERR wrong(Direction direction, CO_ERR rpdo, CO_ERR tpdo) { return direction == Direction::receive ? rpdo : tpdo; }
-
-}  // namespace
 
 bool is_type(Direction direction, uint8_t type) {
   const bool by_request = type == type_rtr || type == type_rtr_synchronous;
@@ -36,34 +17,112 @@ bool is_type(Direction direction, uint8_t type) {
   return is_synchronous(type) || type >= type_rtr;
 }
 
-uint8_t start_value(CO_NODE& node, uint16_t number) {
-  return read_parameter(node, static_cast<uint16_t>(first_tpdo + number), 6, uint8_t{0});
+uint8_t start_value(CO_NODE& node, unsigned number) {
+  return static_cast<uint8_t>(read_number(node, CO_DEV(first_tpdo + number, 6), sizeof(uint8_t), 0));
 }
 
-uint32_t ticks(const CO_NODE& node, uint16_t time, uint32_t unit) { return tmr::ticks(node.Tmr, time, unit); }
+uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return tmr::ticks(node.Tmr, time, unit); }
 
-CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, CO_PDO_MAP& map) {
-  const auto mapping = static_cast<uint16_t>(index + from_communication_to_mapping);
-  const CO_ERR err = resolve(node, direction, mapping, read_parameter(node, mapping, 0, uint8_t{0}), map);
-  return err == CO_ERR_NONE && map.Length == 0 ? CO_ERR_OBJ_MAP_LEN : err;
+CO_ERR resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {
+  const unsigned mapping = index + from_communication_to_mapping;
+  const unsigned num = read_number(node, CO_DEV(mapping, 0), sizeof(uint8_t), 0);
+  return num == 0 ? CO_ERR_OBJ_MAP_LEN : resolve(node, mapping, num, map);
 }
 
-void configure(CO_NODE& node, Direction direction, uint16_t index, Parameters& parameters, CO_PDO_MAP& map) {
-  map = {};
-  parameters = read_parameters(node, index);
-  const uint32_t cob_id = parameters.cob_id;
-  if ((cob_id & wire::cob_invalid) != 0) {
+#if CO_RPDO_N > 0 || CO_TPDO_N > 0
+
+namespace {
+
+[[gnu::noinline]] CO_PDO& pdo_at(CO_NODE& node, unsigned index) {
+#if CO_RPDO_N == 0
+  CO_PDO* const first = node.TPdo;
+#elif CO_TPDO_N == 0
+  CO_PDO* const first = node.RPdo;
+#else
+  CO_PDO* const first = direction_of(index) == Direction::transmit ? node.TPdo : node.RPdo;
+#endif
+  return first[number_of(index)];
+}
+
+void for_each(CO_NODE& node, void (*run)(CO_NODE& node, unsigned index)) {
+  for (unsigned number = 0; number != CO_RPDO_N; ++number) {
+    run(node, first_rpdo + number);
+  }
+  for (unsigned number = 0; number != CO_TPDO_N; ++number) {
+    run(node, first_tpdo + number);
+  }
+}
+
+uint32_t read_time(CO_NODE& node, uint32_t key, uint32_t unit) {
+  return ticks(node, read_number(node, key, sizeof(uint16_t), 0), unit);
+}
+
+void init_one(CO_NODE& node, unsigned index) {
+  CO_PDO& pdo = pdo_at(node, index);
+  pdo.Node = &node;
+  pdo.Map.Flags = 0;
+  configure(node, index);
+}
+
+void remap_one(CO_NODE& node, unsigned index) {
+  CO_PDO_MAP& map = pdo_at(node, index).Map;
+  const bool was_multiplexed = mpdo::is_one(map);
+  if (exists(map) && (resolve(node, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
+    configure(node, index);
+  }
+}
+
+bool may_exist(Direction direction, uint32_t cob_id, uint8_t type) {
+  return cob_id::is_free(cob_id) && is_type(direction, type);
+}
+
+}  // namespace
+
+void configure(CO_NODE& node, unsigned index) {
+  const Direction direction = direction_of(index);
+  const bool receives = direction == Direction::receive;
+  CO_PDO& pdo = pdo_at(node, index);
+  receives ? end_rpdo(node, pdo) : end_tpdo(node, pdo);
+  const uint32_t cob_id = read_number(node, CO_DEV(index, 1), sizeof cob_id, wire::cob_invalid);
+  const uint32_t event = read_time(node, CO_DEV(index, 5), CO_TMR_UNIT_1MS);
+  uint32_t identifier = wire::no_frame;
+  pdo.Type = static_cast<uint8_t>(read_number(node, CO_DEV(index, 2), sizeof pdo.Type, default_type));
+  pdo.Map.Length = 0;
+  mpdo::set_mode(pdo.Map, 0);
+  __builtin_memset(pdo.Map.Passed, 0, sizeof pdo.Map.Passed);
+  if ((cob_id & wire::cob_invalid) == 0) {
+    if (!may_exist(direction, cob_id, pdo.Type)) {
+      node.Error = receives ? CO_ERR_RPDO_COM_OBJ : CO_ERR_TPDO_COM_OBJ;
+    } else if (resolve(node, index, pdo.Map) != CO_ERR_NONE) {
+      node.Error = receives ? CO_ERR_RPDO_MAP_OBJ : CO_ERR_TPDO_MAP_OBJ;
+    } else {
+      identifier = wire::frame_id(cob_id);
+    }
+  }
+  if (receives) {
+    begin_rpdo(pdo, number_of(index), identifier, event);
     return;
   }
-  parameters.cob_id = wire::cob_invalid;
-  if (!wire::is_usable(cob_id) || !cob_id::is_free(cob_id) || !is_type(direction, parameters.type)) {
-    node.Error = wrong(direction, CO_ERR_RPDO_COM_OBJ, CO_ERR_TPDO_COM_OBJ);
-  } else if (resolve(node, direction, index, map) != CO_ERR_NONE) {
-    map = {};
-    node.Error = wrong(direction, CO_ERR_RPDO_MAP_OBJ, CO_ERR_TPDO_MAP_OBJ);
-  } else {
-    parameters.cob_id = cob_id;
-  }
+  pdo.Own.Time = {read_time(node, CO_DEV(index, 3), CO_TMR_UNIT_100US), event};
+  begin_tpdo(pdo, number_of(index), identifier, (cob_id & CO_TPDO_COBID_REMOTE) == 0);
 }
+
+void init(CO_NODE& node) {
+  node.RPdoFirst = 0;
+  node.TPdoFirst = 0;
+#if USE_MPDO
+  node.Mpdo.Producer = 0;
+#endif
+  for_each(node, init_one);
+}
+
+void remap(CO_NODE& node) { for_each(node, remap_one); }
+
+#else
+
+void configure(CO_NODE&, unsigned) {}
+void remap(CO_NODE&) {}
+
+#endif
 
 }  // namespace co::pdo

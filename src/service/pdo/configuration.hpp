@@ -25,32 +25,31 @@ constexpr bool is_acyclic(uint8_t type) { return USE_SYNC != 0 && type == type_a
 constexpr bool is_event_driven(uint8_t type) { return type >= type_event; }
 [[nodiscard]] bool is_type(Direction direction, uint8_t type);
 
-// Communication parameters of a PDO, whose index they have. [301:7.5.2.35, 37]
-struct Parameters {
-  uint32_t cob_id;   // wire::cob_invalid: the PDO does not exist
-  uint32_t inhibit;  // ticks
-  uint32_t event;    // ticks
-  uint8_t type;
-};
-
 // SYNC start value of a TPDO; 0: none.
-[[nodiscard]] uint8_t start_value(CO_NODE& node, uint16_t number);
+[[nodiscard]] uint8_t start_value(CO_NODE& node, unsigned number);
 
 // Ticks of a number of units; the longest time that there is where they do not fit.
-[[nodiscard]] uint32_t ticks(const CO_NODE& node, uint16_t time, uint32_t unit);
+[[nodiscard]] uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit);
 
-// Takes parameters and mapping. A PDO that they do not allow does not exist; the node's error says so.
-void configure(CO_NODE& node, Direction direction, uint16_t index, Parameters& parameters, CO_PDO_MAP& map);
+// PDOs are named by the index of their communication parameters.
+constexpr unsigned number_of(unsigned index) { return index & 0x01FFU; }
 
-// Resolves the mapping of the PDO that exists.
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, CO_PDO_MAP& map);
+// Takes parameters and mapping from the dictionary. A PDO that they do not allow does not exist; the node's error says
+// so.
+void configure(CO_NODE& node, unsigned index);
 
-// A single PDO, from the dictionary.
-void configure_rpdo(CO_NODE& node, uint16_t number);
-void configure_tpdo(CO_NODE& node, uint16_t number);
+// Resolves the mapping of the PDO, of which there is to be one.
+[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);
+
+// What it is before it is configured ends, and it begins to be what it was configured to be. identifier:
+// wire::no_frame if it does not exist; event: ticks
+void end_rpdo(CO_NODE& node, CO_PDO& pdo);
+void end_tpdo(CO_NODE& node, CO_PDO& pdo);
+void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event);
+void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote);
 
 // The event timer has changed.
-void change_deadline(CO_NODE& node, uint16_t number, uint32_t ticks);
-void change_event_time(CO_NODE& node, uint16_t number, uint32_t ticks);
+void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks);
+void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks);
 
 }  // namespace co::pdo

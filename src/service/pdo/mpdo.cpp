@@ -27,18 +27,12 @@ CO_OBJ* object_at(CO_NODE& node, uint16_t entry) {
   return entry < node.Dict.Num && (node.Pending & event::remap) == 0 ? &node.Dict.Root[entry] : nullptr;
 }
 
-uint8_t transmission_type(CO_NODE& node, uint16_t mapping) {
-  uint8_t type = pdo::default_type;
-  const auto communication = static_cast<uint16_t>(mapping - pdo::from_communication_to_mapping);
-  return CODictRdByte(&node.Dict, CO_DEV(communication, 2), &type) == CO_ERR_NONE ? type : pdo::default_type;
-}
-
 // Only one TPDO has the scanner list. [301:7.2.3.2.2]
-CO_ERR resolve_list(CO_NODE& node, Direction direction, uint16_t index) {
-  if (direction == Direction::receive) {
+CO_ERR resolve_list(CO_NODE& node, unsigned index) {
+  if (pdo::direction_of(index) == Direction::receive) {
     return resolve_dispatch(node);
   }
-  const auto own = static_cast<uint16_t>((index & 0x01FFU) + 1U);
+  const unsigned own = (index & 0x01FFU) + 1;
   const bool taken = node.Mpdo.Producer != nobody && node.Mpdo.Producer != own;
   return taken ? CO_ERR_OBJ_INCOMPATIBLE : resolve_scan(node);
 }
@@ -58,20 +52,24 @@ CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
 
 }  // namespace
 
-CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map) {
+CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
   if (num < sam) {
     return CO_ERR_OBJ_MAP_LEN;
   }
-  if (!pdo::is_event_driven(transmission_type(node, index))) {
+  const uint32_t type_key = CO_DEV(index - pdo::from_communication_to_mapping, 2);
+  if (!pdo::is_event_driven(static_cast<uint8_t>(pdo::read_number(node, type_key, 1, pdo::default_type)))) {
     return CO_ERR_OBJ_INCOMPATIBLE;
   }
-  const CO_ERR err = num == sam ? resolve_list(node, direction, index) : CO_ERR_NONE;
+  const CO_ERR err = num == sam ? resolve_list(node, index) : CO_ERR_NONE;
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
   __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
   map.Span = 0;
   map.Length = wire::mpdo_dlc * pdo::one_byte;
   map.Step[0] = static_cast<uint8_t>(map.Length | pdo::by_type);
-  set_mode(map, num);
-  return err;
+  set_mode(map, static_cast<uint8_t>(num));
+  return CO_ERR_NONE;
 }
 
 // Up to 4 bytes of process data; static data types hold nothing.
@@ -131,7 +129,7 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame) 
 
 // Producer in source address mode ------------------------------------------------------------------------------------
 
-void set_producer(CO_NODE& node, uint16_t number, const CO_PDO_MAP& map) {
+void set_producer(CO_NODE& node, unsigned number, const CO_PDO_MAP& map) {
   const auto own = static_cast<uint16_t>(number + 1);
   if (is_sam(map)) {
     node.Mpdo.Producer = own;

@@ -20,7 +20,7 @@ inline constexpr uint8_t dam = 0xFF;  // destination address mode
 inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
 
 // As pdo::resolve(), for a number that is none of objects.
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map);
+[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
 
 // The lists. An entry of which an object cannot be had is left out; the first error is returned.
 [[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
@@ -40,7 +40,7 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame);
 // Producer in source address mode ------------------------------------------------------------------------------------
 
 // The TPDO, whose objects are those of the scanner list. A place is that of an object in it.
-void set_producer(CO_NODE& node, uint16_t number, const CO_PDO_MAP& map);
+void set_producer(CO_NODE& node, unsigned number, const CO_PDO_MAP& map);
 [[nodiscard]] CO_TPDO* producer(CO_NODE& node);
 
 // Objects wait to be sent: one (false: the list does not have it), or all, if this is the producer.
@@ -63,10 +63,10 @@ void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 [[nodiscard]] inline bool is_dam(const CO_PDO_MAP&) { return false; }
 [[nodiscard]] inline bool is_one(const CO_PDO_MAP&) { return false; }
 inline void set_mode(CO_PDO_MAP&, uint8_t) {}
-[[nodiscard]] inline CO_ERR resolve(CO_NODE&, Direction, uint16_t, uint8_t, CO_PDO_MAP&) { return CO_ERR_OBJ_MAP_LEN; }
+[[nodiscard]] inline CO_ERR resolve(CO_NODE&, unsigned, unsigned, CO_PDO_MAP&) { return CO_ERR_OBJ_MAP_LEN; }
 [[nodiscard]] inline bool is_kind(const CO_PDO_MAP&, const CO_IF_FRM&) { return true; }
 [[nodiscard]] inline bool is_addressed(const CO_NODE&, const CO_PDO_MAP&, const CO_IF_FRM&) { return true; }
-inline void set_producer(CO_NODE&, uint16_t, const CO_PDO_MAP&) {}
+inline void set_producer(CO_NODE&, unsigned, const CO_PDO_MAP&) {}
 inline bool mark(CO_NODE&, uint16_t) { return false; }
 inline void mark_all(CO_TPDO&) {}
 inline void forget_marks(CO_NODE&) {}

@@ -29,20 +29,9 @@ bool exists(CO_NODE& node, const CO_OBJ& obj) {
   return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
 }
 
-void configure([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj) {
-#if CO_TPDO_N > 0
-  if (is_tpdo(obj)) {
-    pdo::configure_tpdo(node, number_of(obj));
-    routes::publish(node);
-    return;
-  }
-#endif
-#if CO_RPDO_N > 0
-  if (!is_tpdo(obj)) {
-    pdo::configure_rpdo(node, number_of(obj));
-    routes::publish(node);
-  }
-#endif
+void configure(CO_NODE& node, const CO_OBJ& obj) {
+  pdo::configure(node, communication_of(obj));
+  routes::publish(node);
 }
 
 template <const CO_OBJ_TYPE& number>
@@ -89,7 +78,7 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const auto value = value_in<uint32_t>(buffer);
   const bool is_new = !exists(*node, *obj) && (value & wire::cob_invalid) == 0;
   CO_PDO_MAP map;
-  if (is_new && pdo::resolve(*node, direction_of(*obj), communication_of(*obj), map) != CO_ERR_NONE) {
+  if (is_new && pdo::resolve(*node, communication_of(*obj), map) != CO_ERR_NONE) {
     return CO_ERR_OBJ_RANGE;
   }
   uint32_t before = 0;
@@ -185,7 +174,7 @@ CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   CO_PDO_MAP map;
-  const CO_ERR err = pdo::resolve(*node, direction_of(*obj), CO_GET_IDX(obj->Key), value_in<uint8_t>(buffer), map);
+  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value_in<uint8_t>(buffer), map);
   uint8_t none = 0;
   const CO_ERR stored = COTInt8.Write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
   return err != CO_ERR_NONE ? err : stored;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/pdo.hpp"
 
+#include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 
 // What is left of PDOs that are not configured.
@@ -8,19 +9,21 @@
 namespace co::pdo {
 
 #if CO_RPDO_N == 0
+void end_rpdo(CO_NODE&, CO_PDO&) {}
+void begin_rpdo(CO_PDO&, unsigned, uint32_t, uint32_t) {}
 void apply(CO_NODE&) {}
-void remap_rpdos(CO_NODE&) {}
 bool was_received(CO_NODE&, uint16_t) { return false; }
 bool was_received(CO_NODE&, const CO_OBJ&) { return false; }
 #endif
 
 #if CO_TPDO_N == 0
+void end_tpdo(CO_NODE&, CO_PDO&) {}
+void begin_tpdo(CO_PDO&, unsigned, uint32_t, bool) {}
 void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }
 void flush(CO_NODE&) {}
 CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
 void send_touched(CO_NODE&) {}
-void remap_tpdos(CO_NODE&) {}
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
 #if USE_MPDO
 CO_ERR send_to(CO_NODE&, uint16_t, uint8_t, uint32_t, uint32_t) { return CO_ERR_TPDO_NUM_TRIGGER; }

@@ -7,8 +7,7 @@
 namespace co::pdo {
 
 // Takes the configuration of all PDOs from the dictionary. A PDO whose mapping is wrong does not exist.
-void init_rpdos(CO_NODE& node);
-void init_tpdos(CO_NODE& node);
+void init(CO_NODE& node);
 
 // Entering and leaving Operational.
 void on_mode_rpdos(CO_NODE& node);
@@ -49,8 +48,7 @@ inline void settle_touched(CO_NODE& node) {
 }
 
 // Entries have other numbers.
-void remap_rpdos(CO_NODE& node);
-void remap_tpdos(CO_NODE& node);
+void remap(CO_NODE& node);
 
 // See co_pdo.h; number and object exist.
 [[nodiscard]] CO_ERR request(CO_NODE& node, uint16_t number);

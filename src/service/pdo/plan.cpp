@@ -17,152 +17,134 @@ namespace co::pdo {
 namespace {
 
 constexpr uint16_t no_entry = 0xFFFF;
-constexpr uint8_t all_bits = 64;
-constexpr uint8_t unit = 8 / one_byte;  // bits
-constexpr uint8_t longest_number = 4;   // bytes, that callbacks of the application do not get
+constexpr unsigned all_bits = 64;
+constexpr unsigned unit = 8 / one_byte;  // bits
+constexpr unsigned longest_number = 4;   // bytes, that callbacks of the application do not get
 
 // BOOLEAN, INTEGER8, 16, 32, UNSIGNED8, 16, 32: objects that are never written, only skipped. [301:7.4.1 table 44]
 constexpr uint8_t static_type_bits[] = {1, 8, 16, 32, 8, 16, 32};
 
-bool is_static_type(uint32_t mapping) {
-  const uint16_t index = CO_GET_IDX(mapping);
-  return index >= 1 && index <= sizeof static_type_bits;
+bool is_static_type(uint32_t mapping) { return CO_GET_IDX(mapping) - 1U < sizeof static_type_bits; }
+
+bool is_skipped(Direction direction, uint32_t mapping) {
+  const uint32_t index = CO_GET_IDX(mapping);
+  const uint32_t bits = static_type_bits[index - 1];
+  const bool fits = maps_bits || bits % 8 == 0;
+  return direction == Direction::receive && fits && mapping == CO_LINK(index, 0, bits);
 }
 
-CO_ERR check_static_type(Direction direction, uint32_t mapping) {
-  const uint8_t bits = static_type_bits[CO_GET_IDX(mapping) - 1];
-  const bool fits = maps_bits || bits % 8 == 0;
-  const bool named = CO_GET_SUB(mapping) == 0 && (mapping & 0xFFU) == bits;
-  return direction == Direction::receive && fits && named ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
+// What copies an object.
+auto function_of(const CO_OBJ& obj, Direction direction) {
+  return direction == Direction::receive ? obj.Type->Write : obj.Type->Read;
 }
 
 bool is_mappable(const CO_OBJ& obj, Direction direction) {
   const uint32_t right = direction == Direction::receive ? CO_OBJ____P_W : CO_OBJ____PR_;
-  const bool has_function = direction == Direction::receive ? obj.Type->Write != nullptr : obj.Type->Read != nullptr;
-  return (obj.Key & right) == right && has_function;
+  return (obj.Key & right) == right && function_of(obj, direction) != nullptr;
 }
 
-bool is_bit(const CO_OBJ& obj) {
-  if constexpr (maps_bits) {
-    return obj.Type == CO_TBOOLEAN;
-  }
-  return false;
-}
+bool is_bit(const CO_OBJ& obj) { return maps_bits && obj.Type == CO_TBOOLEAN; }
 
-CO_ERR check_length(CO_NODE& node, CO_OBJ& obj, uint8_t bits) {
+bool has_length(CO_NODE& node, CO_OBJ& obj, unsigned bits) {
   const uint32_t bytes = (bits + 7U) / 8U;
   const bool whole = bits % 8 == 0 || (bits == 1 && is_bit(obj));
-  const bool fits = bits != 0 && bits <= all_bits && whole;
-  const bool exact = fits && obj::size(obj, node, obj::is_stream(obj) ? 0 : bytes) == bytes;
-  return exact ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
+  return whole && bits - 1U < all_bits && obj::size(obj, node, obj::is_stream(obj) ? 0 : bytes) == bytes;
 }
 
-// The object that a mapping entry names; null for a static type.
-CO_ERR locate(CO_NODE& node, Direction direction, uint32_t mapping, CO_OBJ*& obj) {
-  obj = nullptr;
-  if (is_static_type(mapping)) {
-    return check_static_type(direction, mapping);
-  }
-  obj = dict::find(node.Dict, CO_GET_DEV(mapping));
-  if (obj == nullptr) {
-    return dict::has_index(node.Dict, mapping) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
-  }
-  return is_mappable(*obj, direction) ? check_length(node, *obj, mapping & 0xFFU) : CO_ERR_OBJ_MAP_TYPE;
-}
+bool is_number(const CO_OBJ_TYPE* type) { return type == &COTInt8 || type == &COTInt16 || type == &COTInt32; }
 
-const CO_OBJ_TYPE* number_of_bits(uint8_t bits) {
-  if (bits == 8) {
-    return &COTInt8;
-  }
-  if (bits == 16) {
-    return &COTInt16;
-  }
-  return bits == 32 ? &COTInt32 : nullptr;
-}
+// Entries have their numbers until a frame has been processed in which CODictInit() was called.
+bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
 
-// Is the value nothing but the bytes of its variable? What a change has to be noticed of (flag A) is written by its
-// type.
-bool is_plain(const CO_NODE& node, CO_OBJ& obj, Direction direction, uint8_t bits) {
-  constexpr uint32_t none = CO_OBJ_D_____ | CO_OBJ__N____;
-  const CO_OBJ_TYPE* const number = number_of_bits(bits);
-  if (!wire::host_is_little_endian || number == nullptr || (obj.Key & none) != 0) {
+uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
+
+// Is the value nothing but the bytes of its variable, which can be copied in one access? position: in the frame. What a
+// change has to be noticed of (flag A) is written by its type.
+bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned position, unsigned bytes) {
+  constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
+  const bool aligned = ((address_of(obj) | position) & (bytes - 1U)) == 0;
+  const bool in_variable = aligned && (obj.Key & typed) == 0 && is_number(obj.Type);
+  if (!wire::host_is_little_endian || !in_variable || is_numbered_anew(node)) {
     return false;
   }
-  if (direction == Direction::transmit) {
-    return obj.Type->Read == number->Read;
-  }
-  return obj.Type->Write == number->Write && CO_IS_ASYNC(obj.Key) == 0 &&
-         port::is_writable(node, data_of<void>(obj), bits / 8U);
+  return direction == Direction::transmit ||
+         (CO_IS_ASYNC(obj.Key) == 0 && port::is_writable(node, data_of<void>(obj), bytes));
 }
 
-// Numbers of one width that lie side by side, in the frame as in memory, are copied together.
-struct Row {
-  uint8_t first;  // place
-  uint8_t width;  // bits
-  const uint8_t* end;
-};
-
-void merge(CO_PDO_MAP& map, Row& row, uint8_t place, uint8_t width, const uint8_t* variable) {
-  if (!maps_bits && variable != nullptr && variable == row.end && width == row.width) {
-    map.Step[row.first] = static_cast<uint8_t>(map.Step[row.first] + map.Step[place]);
-    map.Step[place] = 0;
-  } else {
-    row.first = place;
-    row.width = width;
+// Joins the words of what lies side by side, in the frame as in memory, to one copy each: numbers of any width that no
+// access tears.
+void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
+  unsigned position = 0;   // in the frame
+  unsigned first = 0;      // place of the first number that lies beside the next,
+  unsigned begin = 0;      // where it lies in the frame,
+  uintptr_t distance = 0;  // and how far behind the frame in memory: never 0
+  for (unsigned place = 0; place < num; ++place) {
+    const uintptr_t address = address_of(root[map.Entry[place]]);
+    if (address - position != distance) {
+      first = place;
+      begin = position;
+      distance = address - position;
+    }
+    position += map.Step[place] / one_byte;
+    if ((begin | distance | position) % sizeof(Word) == 0) {
+      __builtin_memset(map.Step + first, 0, place - first + 1);
+      map.Step[first] = static_cast<uint8_t>((position - begin) * one_byte);
+    }
   }
-  row.end = variable == nullptr ? nullptr : variable + width / 8;
 }
 
-void add(const CO_NODE& node, CO_PDO_MAP& map, uint8_t place, const CO_OBJ* obj, uint8_t step) {
+void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned place, const CO_OBJ* obj) {
   map.Entry[place] = obj == nullptr ? no_entry : number_of(node, *obj);
-  map.Step[place] = step;
   const auto behind = static_cast<uint16_t>(map.Entry[place] - map.Entry[0]);
   while (behind >> map.Span != 0) {
     ++map.Span;
   }
 }
 
-template <class T>
-void copy_units(void* to, const void* from, uint32_t n) {
-  for (uint32_t place = 0; place < n / sizeof(T); ++place) {
-    copy_unit<T>(to, from, place);
+// Both are aligned: no number is torn.
+inline void copy_access(void* to, const void* from, unsigned bytes) {
+  if (bytes == 1) {
+    *static_cast<uint8_t*>(to) = *static_cast<const uint8_t*>(from);
+  } else if (bytes == sizeof(Half)) {
+    *static_cast<Half*>(to) = *static_cast<const Half*>(from);
+  } else if (bytes != 0) {
+    static_cast<Word*>(to)[0] = static_cast<const Word*>(from)[0];
+    if (bytes != sizeof(Word)) {
+      static_cast<Word*>(to)[1] = static_cast<const Word*>(from)[1];
+    }
   }
 }
 
-// In units as wide as both sides are aligned.
-void copy_aligned(void* to, const void* from, uint32_t n) {
-  const uintptr_t alignment = alignment_of(to, from, n);
-  if (alignment % sizeof(Word) == 0) {
-    copy_units<Word>(to, from, n);
-  } else if (alignment % sizeof(Half) == 0) {
-    copy_units<Half>(to, from, n);
-  } else {
-    copy_units<uint8_t>(to, from, n);
+template <Direction direction>
+CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data) {
+  constexpr bool receives = direction == Direction::receive;
+  const uint16_t* entry = map.Entry;
+  unsigned left = length_of(map);
+  for (const uint8_t* step = map.Step; left != 0; ++step, ++entry) {
+    const unsigned bytes = *step / one_byte;
+    auto* const variable = data_of<uint8_t>(root[*entry]);
+    copy_access(receives ? variable : data, receives ? data : variable, bytes);
+    data += bytes;
+    left -= bytes;
   }
+  return CO_ERR_NONE;
 }
 
-// One of both is a frame. Memory of the application is read and written in units as wide as it is aligned, so that a
-// number is never torn, wherever it lies in the frame.
-void copy(void* to, const void* from, uint32_t n) {
-  uint32_t buffer[2] = {};
-  const uintptr_t different = reinterpret_cast<uintptr_t>(to) ^ reinterpret_cast<uintptr_t>(from);
-  if (different % sizeof(Word) != 0) {
-    copy_aligned(buffer, from, n);
-    from = buffer;
-  }
-  copy_aligned(to, from, n);
+CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data, Direction direction) {
+  return direction == Direction::receive ? copy_plain<Direction::receive>(root, map, data)
+                                         : copy_plain<Direction::transmit>(root, map, data);
 }
 
 // An object that is copied by its type, and where it lies in the frame, in units.
 struct Part {
   CO_OBJ& obj;
-  uint8_t position;
-  uint8_t length;
+  unsigned position;
+  unsigned length;
 };
 
 bool is_whole(const Part& part) { return (part.position | part.length) % one_byte == 0; }
-uint8_t first_byte(const Part& part) { return part.position / one_byte; }
-uint8_t bytes_of(const Part& part) { return static_cast<uint8_t>((part.length + one_byte - 1U) / one_byte); }
+unsigned first_byte(const Part& part) { return part.position / one_byte; }
+unsigned bytes_of(const Part& part) { return (part.length + one_byte - 1U) / one_byte; }
 
 bool get_bit(const uint8_t* data, unsigned bit) { return (data[bit / 8] & (1U << (bit % 8))) != 0; }
 
@@ -172,111 +154,143 @@ void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_
   }
 }
 
-void copy_part(uint8_t* value, CO_IF_FRM& frame, const Part& part, bool receives) {
-  if (!is_whole(part)) {
-    receives ? copy_bits(value, 0, frame.Data, part.position, part.length)
-             : copy_bits(frame.Data, part.position, value, 0, part.length);
-    return;
-  }
-  uint8_t* const data = frame.Data + first_byte(part);
-  __builtin_memcpy(receives ? value : data, receives ? data : value, bytes_of(part));
-}
-
-CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, bool receives) {
-  const uint8_t n = bytes_of(part);
-  const auto callback = receives ? CORpdoWriteData : COTpdoReadData;
-  if (callback != nullptr && n > longest_number && is_whole(part)) {
-    callback(&frame, first_byte(part), n, &part.obj);
-    return CO_ERR_NONE;
-  }
-  uint8_t value[8] = {};
+// value: the object's bytes in the order of the bus, which become those of the CPU.
+CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
+  const uint32_t bytes = bytes_of(part);
+  const uint32_t number = obj::is_stream(part.obj) ? 0 : bytes;
   CO_ERR err = obj::seek(part.obj, node, 0);
-  if (receives) {
-    copy_part(value, frame, part, receives);
-    if (!obj::is_stream(part.obj)) {
-      wire::swap_host(value, n);
-    }
-    return err == CO_ERR_NONE ? obj::write(part.obj, node, value, n) : err;
+  if (direction == Direction::receive) {
+    wire::swap_host(value, number);
   }
   if (err == CO_ERR_NONE) {
-    err = obj::read(part.obj, node, value, n);
+    err = function_of(part.obj, direction)(&part.obj, &node, value, bytes);
   }
-  if (!obj::is_stream(part.obj)) {
-    wire::swap_host(value, n);
+  if (direction == Direction::transmit) {
+    wire::swap_host(value, number);
   }
-  copy_part(value, frame, part, receives);
   return err;
 }
 
-// Entries have their numbers until a frame has been processed in which CODictInit() was called.
-bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
+CO_ERR pass_bits(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
+  uint8_t value[8] = {};
+  if (direction == Direction::receive) {
+    copy_bits(value, 0, frame.Data, part.position, part.length);
+    return pass(node, part, value, direction);
+  }
+  const CO_ERR err = pass(node, part, value, direction);
+  copy_bits(frame.Data, part.position, value, 0, part.length);
+  return err;
+}
+
+CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
+  if (!is_whole(part)) {
+    return pass_bits(node, frame, part, direction);
+  }
+  const auto callback = direction == Direction::receive ? CORpdoWriteData : COTpdoReadData;
+  const unsigned bytes = bytes_of(part);
+  if (callback != nullptr && bytes > longest_number) {
+    callback(&frame, static_cast<uint8_t>(first_byte(part)), static_cast<uint8_t>(bytes), &part.obj);
+    return CO_ERR_NONE;
+  }
+  return pass(node, part, frame.Data + first_byte(part), direction);
+}
+
+// What a type function may change ends it: the PDO, or the numbers of the entries.
+bool is_over(const CO_NODE& node, const CO_PDO_MAP& map) { return !has(map, served) || is_numbered_anew(node); }
+
+CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
+  CO_ERR result = CO_ERR_NONE;
+  unsigned position = 0;
+  for (unsigned place = 0; position != map.Length; ++place) {
+    const unsigned entry = map.Entry[place];
+    const unsigned length = map.Step[place] % by_type;
+    if (entry != no_entry) {
+      const CO_ERR err = copy_by_type(node, frame, {node.Dict.Root[entry], position, length}, direction);
+      result = err != CO_ERR_NONE ? err : result;
+    }
+    if (is_over(node, map)) {
+      return CO_ERR_TPDO_COM_OBJ;
+    }
+    position += length;
+  }
+  if (result != CO_ERR_NONE) {
+    node.Error = result;
+  }
+  return direction == Direction::receive ? CO_ERR_NONE : result;
+}
+
+[[gnu::noinline]] CO_ERR copy_locked(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
+  const Lock lock(node);
+  if (is_numbered_anew(node)) {
+    return CO_ERR_TPDO_COM_OBJ;
+  }
+  return map.Step[0] < by_type ? copy_plain(node.Dict.Root, map, frame.Data, direction)
+                               : copy_by_types(node, map, frame, direction);
+}
 
 }  // namespace
 
-CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
-  CO_OBJ* obj = nullptr;
-  return locate(node, direction, mapping, obj);
+uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise) {
+  uint32_t number = 0;
+  const uint32_t above = wire::host_is_little_endian ? 0 : sizeof number - width;
+  CO_OBJ* const obj = dict::find(node.Dict, key);
+  const bool known =
+      obj != nullptr && obj::read(*obj, node, reinterpret_cast<uint8_t*>(&number) + above, width) == CO_ERR_NONE;
+  return known ? number : otherwise;
 }
 
-CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map) {
+CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
+  if (is_static_type(mapping)) {
+    return is_skipped(direction, mapping) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
+  }
+  CO_OBJ* const obj = dict::find(node.Dict, mapping);
+  if (obj == nullptr) {
+    return dict::has_index(node.Dict, mapping) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
+  }
+  return is_mappable(*obj, direction) && has_length(node, *obj, mapping & 0xFFU) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
+}
+
+CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
+  const Direction direction = direction_of(index);
   unsigned bits = 0;
-  Row row = {};
+  bool plain = true;
+  map.Length = 0;
   mpdo::set_mode(map, 0);
   if (num > CO_PDO_MAP_N) {
-    return mpdo::resolve(node, direction, index, num, map);
+    return mpdo::resolve(node, index, num, map);
   }
   map.Span = 0;
   __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
-  for (uint8_t place = 0; place < num; ++place) {
-    uint32_t mapping = 0;
-    CO_OBJ* obj = nullptr;
-    if (dict::read_u32(node.Dict, CO_DEV(index, place + 1), mapping) != CO_ERR_NONE || mapping == 0) {
+  for (unsigned place = 0; place < num; ++place) {
+    const uint32_t mapping = read_number(node, CO_DEV(index, place + 1), sizeof mapping, 0);
+    if (mapping == 0) {
       return CO_ERR_OBJ_MAP_LEN;
     }
-    if (locate(node, direction, mapping, obj) != CO_ERR_NONE) {
+    if (check(node, direction, mapping) != CO_ERR_NONE) {
       return CO_ERR_OBJ_MAP_TYPE;
     }
-    const auto length = static_cast<uint8_t>(mapping);
-    const bool plain = obj != nullptr && (!maps_bits || bits % 8 == 0) && is_plain(node, *obj, direction, length);
+    const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node.Dict, mapping);
+    const unsigned length = mapping & 0xFFU;
+    plain = plain && obj != nullptr && is_plain(node, *obj, direction, bits / 8, length / 8);
+    add(node, map, place, obj);
+    map.Step[place] = static_cast<uint8_t>(length / unit);
     bits += length;
-    add(node, map, place, obj, static_cast<uint8_t>(length / unit | (plain ? 0 : by_type)));
-    merge(map, row, place, length, plain ? data_of<uint8_t>(*obj) : nullptr);
+  }
+  if (bits > all_bits) {
+    return CO_ERR_OBJ_MAP_LEN;
+  }
+  if (plain) {
+    join(node.Dict.Root, map, num);
+  } else {
+    map.Step[0] |= by_type;
   }
   map.Length = static_cast<uint8_t>(bits / unit);
-  return bits > all_bits ? CO_ERR_OBJ_MAP_LEN : CO_ERR_NONE;
+  return CO_ERR_NONE;
 }
 
-// What cannot be written is the node's error, and the rest is written all the same; a TPDO is read as a whole. A type
-// function that changes the PDO ends it.
-CO_ERR copy_rest(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction, Progress at) {
-  const bool receives = direction == Direction::receive;
-  const Lock lock(node);
-  for (;;) {
-    if (!has(map, served) || is_numbered_anew(node)) {
-      return CO_ERR_TPDO_COM_OBJ;
-    }
-    if (at.position >= map.Length) {
-      return CO_ERR_NONE;
-    }
-    const uint16_t entry = map.Entry[at.place];
-    const auto length = static_cast<uint8_t>(map.Step[at.place] & ~by_type);
-    CO_ERR err = CO_ERR_NONE;
-    if (map.Step[at.place] < by_type) {
-      uint8_t* const variable = data_of<uint8_t>(node.Dict.Root[entry]);
-      uint8_t* const data = frame.Data + at.position / one_byte;
-      copy(receives ? variable : data, receives ? data : variable, length / one_byte);
-    } else if (entry != no_entry) {
-      err = copy_by_type(node, frame, {node.Dict.Root[entry], at.position, length}, receives);
-    }
-    if (err != CO_ERR_NONE) {
-      node.Error = err;
-    }
-    if (err != CO_ERR_NONE && !receives) {
-      return err;
-    }
-    ++at.place;
-    at.position = static_cast<uint8_t>(at.position + length);
-  }
+CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
+  const bool at_once = map.Step[0] < by_type && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
+  return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }
 
 unsigned find(const CO_PDO_MAP& map, uint16_t entry) {

@@ -25,11 +25,20 @@ inline void clear(CO_PDO_MAP& map, unsigned flags) { map.Flags = static_cast<uin
   return USE_PDO_BITS != 0 ? static_cast<uint8_t>((map.Length + 7U) / 8U) : map.Length;
 }
 
+// A PDO is named by the index of its communication or mapping parameters: 1400h…, 1600h… and 1800h…, 1A00h….
+constexpr Direction direction_of(unsigned index) {
+  constexpr unsigned of_tpdo = 0x0800;
+  return (index & of_tpdo) != 0 ? Direction::transmit : Direction::receive;
+}
+
+// The number that an entry holds; what it is without one, or with one of another width. width: bytes, up to 4
+[[nodiscard]] uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise);
+
 // May the object that a mapping entry names be mapped so? [301:7.4.7, 7.5.2.36]
 [[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping);
 
-// Resolves num entries of the mapping at index (1600h…, 1A00h…).
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, Direction direction, uint16_t index, uint8_t num, CO_PDO_MAP& map);
+// Resolves num entries of the mapping at index (1600h…, 1A00h…). Only a map that is resolved gets a length.
+[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
 
 // Holds CO_NODE_EXT.OdLock while it lives.
 class Lock {
@@ -66,82 +75,11 @@ inline void copy_data(uint8_t* to, const uint8_t* from) {
   wire::put_aligned(to + sizeof(Word), wire::get_aligned(from + sizeof(Word)));
 }
 
-// What both addresses and the length are multiples of, in its lowest bits.
-inline uintptr_t alignment_of(const void* to, const void* from, uint32_t n) {
-  return reinterpret_cast<uintptr_t>(to) | reinterpret_cast<uintptr_t>(from) | n;
-}
-
-template <class T>
-inline void copy_unit(void* to, const void* from, unsigned n = 0) {
-  static_cast<T*>(to)[n] = static_cast<const T*>(from)[n];
-}
-
-// Copies neighbours, or a number of 2 or 4 bytes, if they lie in the frame as aligned as in memory.
-inline bool copy_alike(void* to, const void* from, uint32_t n) {
-  const uintptr_t alignment = alignment_of(to, from, n);
-  if (alignment % sizeof(Word) == 0) {
-    copy_unit<Word>(to, from);
-    if (n > sizeof(Word)) {
-      copy_unit<Word>(to, from, 1);
-    }
-    return true;
-  }
-  const bool half = n == sizeof(Half) && alignment % sizeof(Half) == 0;
-  if (half) {
-    copy_unit<Half>(to, from);
-  }
-  return half;
-}
-
-// Copies what a step stands for, if it is a plain object. Most are bytes.
-template <Direction direction>
-inline bool copy_plain(const CO_OBJ* root, uint16_t entry, uint8_t* data, unsigned bytes) {
-  constexpr unsigned typed = by_type / one_byte;
-  constexpr bool receives = direction == Direction::receive;
-  if (bytes == 1) {
-    uint8_t* const variable = data_of<uint8_t>(root[entry]);
-    copy_unit<uint8_t>(receives ? variable : data, receives ? data : variable);
-    return true;
-  }
-  if (bytes == 0 || bytes >= typed) {
-    return bytes == 0;
-  }
-  uint8_t* const variable = data_of<uint8_t>(root[entry]);
-  return copy_alike(receives ? variable : data, receives ? data : variable, bytes);
-}
-
-// How far the copying of a PDO has come.
-struct Progress {
-  uint8_t place;
-  uint8_t position;
-};
-
-// Goes on from there, in every case; the objects are locked meanwhile.
-[[nodiscard]] CO_ERR copy_rest(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction,
-                               Progress at);
-
-// Copies the data of a frame into the objects of a PDO that is served, or the objects into a frame. Returns what the
-// type of one has answered that could not be read; CO_ERR_TPDO_COM_OBJ: something has changed the PDO meanwhile, what
-// was left of it is not copied.
-template <Direction direction>
-[[nodiscard]] inline CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame) {
-  const uint16_t* entry = map.Entry;
-  const uint8_t* step = map.Step;
-  uint8_t* data = frame.Data;
-  if (node.Ext->OdLock == nullptr && node.Pending == 0) {
-    const CO_OBJ* const root = node.Dict.Root;
-    const uint8_t* const end = data + length_of(map);
-    for (; data != end && copy_plain<direction>(root, *entry, data, *step / one_byte); ++entry, ++step) {
-      data += *step / one_byte;
-    }
-    if (data == end) {
-      return CO_ERR_NONE;
-    }
-  }
-  const auto place = static_cast<uint8_t>(step - map.Step);
-  const auto position = static_cast<uint8_t>((data - frame.Data) * one_byte);
-  return copy_rest(node, map, frame, direction, {place, position});
-}
+// Copies the data of a frame into the objects of a PDO that is served, or the objects into a frame, while they are
+// locked. What cannot be written is the node's error, and the rest is written all the same; a TPDO is read as a whole,
+// or what the type has answered is returned. CO_ERR_TPDO_COM_OBJ: something has changed the PDO meanwhile, what was
+// left of it is not copied.
+[[nodiscard]] CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction);
 
 [[nodiscard]] inline uint16_t number_of(const CO_NODE& node, const CO_OBJ& obj) {
   return static_cast<uint16_t>(&obj - node.Dict.Root);

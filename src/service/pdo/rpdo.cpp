@@ -21,83 +21,77 @@ using event::Fault;
 
 // Of CO_PDO_MAP.Flags, beside those of plan.hpp.
 enum Flag : uint8_t {
-  synchronous = 0x01,
-  queued = 0x02,     // it is in the list of those that wait for the SYNC
-  fresh = 0x04,      // queued, and Data has not been written yet
-  too_short = 0x08,  // reported
-  too_long = 0x10,   // reported
-  late = 0x20,       // reported
+  queued = 0x01,     // it is in the list of those that wait for the SYNC
+  fresh = 0x02,      // queued, and Data has not been written yet
+  too_short = 0x04,  // reported
+  too_long = 0x08,   // reported
+  late = 0x10,       // reported
+  unknown = 0x20,    // reported: the frame names no object
 };
+constexpr unsigned reported = too_short | too_long | late | unknown;
 
-static_assert(offsetof(CO_RPDO, Data) % sizeof(Word) == 0);
+static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 
 // Links of the list are numbers from 1.
 constexpr uint16_t none = 0;
 CO_RPDO& at(CO_NODE& node, uint16_t link) { return node.RPdo[link - 1]; }
 uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }
 
-bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && has(pdo.Map, synchronous); }
+// RPDOs know no remote requests.
+bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
 
-// With the number of the PDO, from 1 (255 for all above).
-void report(const CO_RPDO& pdo, Fault fault, bool is_wrong) {
-  const uint16_t number = link_of(pdo);
-  const auto detail = static_cast<uint8_t>(number < UINT8_MAX ? number : UINT8_MAX);
-  is_wrong ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
-}
-
-// Each fault is reported once, and gone once.
-void report(CO_RPDO& pdo, Flag flag, Fault fault, bool is_wrong) {
-  if (has(pdo.Map, flag) != is_wrong) {
-    pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
-    report(pdo, fault, is_wrong);
-  }
-}
-
-void report_missing([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] bool is_missing) {
+// Faults of the flags from too_short on.
+constexpr Fault faults[] = {
+    Fault::pdo_short,
+    Fault::pdo_long,
+    Fault::pdo_timeout,
 #if USE_MPDO
-  if ((pdo.Map.Missing != 0) != is_missing) {
-    pdo.Map.Missing = is_missing ? 1 : 0;
-    report(pdo, Fault::pdo_unknown, is_missing);
-  }
+    Fault::pdo_unknown,
 #endif
+};
+
+// Of the faults that flags name those in is are there, and the others are not. Each is reported once, and gone once,
+// with the number of the PDO, from 1 (255 for all above). Callbacks may end the PDO.
+void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
+  unsigned flag = too_short;
+  for (const Fault fault : faults) {
+    if (((pdo.Map.Flags ^ is) & flags & flag) != 0) {
+      const uint16_t number = link_of(pdo);
+      const auto detail = static_cast<uint8_t>(CO_RPDO_N < UINT8_MAX || number < UINT8_MAX ? number : UINT8_MAX);
+      pdo.Map.Flags = static_cast<uint8_t>(pdo.Map.Flags ^ flag);
+      (is & flag) != 0 ? event::raise(*pdo.Node, fault, detail) : event::resolve(*pdo.Node, fault, detail);
+    }
+    flag <<= 1U;
+  }
 }
 
-void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, Fault::pdo_timeout, true); }
+void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, late); }
 
 void watch(CO_RPDO& pdo) {
-  if (pdo.Event != 0) {
-    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Event, 0, on_deadline, &pdo);
+  if (pdo.Deadline != 0) {
+    tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
   }
-  report(pdo, late, Fault::pdo_timeout, false);  // its callbacks may end the PDO
-}
-
-// Nothing is expected any more, and what was reported is over.
-void end(CO_NODE& node, CO_RPDO& pdo) {
-  tmr::stop(node.Tmr, pdo.Tmr);
-  clear(pdo.Map, served);
-  report(pdo, too_short, Fault::pdo_short, false);
-  report(pdo, too_long, Fault::pdo_long, false);
-  report(pdo, late, Fault::pdo_timeout, false);
-  report_missing(pdo, false);
+  report(pdo, late, 0);  // its callbacks may end the PDO
 }
 
 // A frame longer than the mapping is taken. [301:7.2.7.1 table 26]
-bool check_length(CO_RPDO& pdo, uint8_t length) {
-  const uint8_t mapped = length_of(pdo.Map);
+bool check_length(CO_RPDO& pdo, unsigned length) {
+  const unsigned mapped = length_of(pdo.Map);
   if (length == mapped && !has(pdo.Map, too_short | too_long)) {
     return true;
   }
-  report(pdo, too_short, Fault::pdo_short, length < mapped);
-  if (length >= mapped) {
-    report(pdo, too_long, Fault::pdo_long, length > mapped);
+  if (length < mapped) {
+    report(pdo, too_short, too_short);
+    return false;
   }
-  return length >= mapped;
+  report(pdo, too_short | too_long, length > mapped ? unsigned{too_long} : 0U);
+  return true;
 }
 
 // Keeps the data; the last that comes before the SYNC counts.
 void keep(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
-  copy_data(pdo.Data, frame.Data);
+  copy_data(pdo.Own.Data, frame.Data);
   const bool is_queued = has(pdo.Map, queued);
   set(pdo.Map, fresh | queued);
   if (is_queued) {
@@ -110,7 +104,7 @@ void keep(CO_RPDO& pdo, const CO_IF_FRM& frame) {
 }
 
 void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
-  if (copy_objects<Direction::receive>(node, map, frame) == CO_ERR_NONE) {
+  if (copy_objects(node, map, frame, Direction::receive) == CO_ERR_NONE) {
     pass(map);
   }
 }
@@ -121,13 +115,13 @@ bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_
   CO_NODE& node = *pdo.Node;
   CO_OBJ* const obj = mpdo::find(node, pdo.Map, frame);
   if (obj != nullptr) {
-    report_missing(pdo, false);
+    report(pdo, unknown, 0);
     const Lock lock(node);
     mpdo::write(node, pdo.Map, *obj, frame);
     return true;
   }
   if (mpdo::is_dam(pdo.Map)) {
-    report_missing(pdo, true);
+    report(pdo, unknown, unknown);
   }
 #endif
   return false;
@@ -137,8 +131,8 @@ void write_kept(CO_NODE& node, CO_RPDO& pdo) {
   if (!has(pdo.Map, fresh)) {
     return;
   }
-  CO_IF_FRM frame = wire::empty_frame(0, sizeof pdo.Data);
-  copy_data(frame.Data, pdo.Data);
+  CO_IF_FRM frame = wire::empty_frame(0, sizeof pdo.Own.Data);
+  copy_data(frame.Data, pdo.Own.Data);
   set(pdo.Map, served);
   write_and_mark(node, pdo.Map, frame);
 }
@@ -176,7 +170,7 @@ void tell(CO_NODE& node, uint16_t first) {
   if (!mpdo::is_addressed(node, pdo.Map, frame)) {
     return true;
   }
-  if (pdo.Event != 0) {
+  if (pdo.Deadline != 0) {
     watch(pdo);
   }
   CO_IF_FRM copy = frame;
@@ -199,36 +193,28 @@ void tell(CO_NODE& node, uint16_t first) {
 
 }  // namespace
 
-void configure_rpdo(CO_NODE& node, uint16_t number) {
-  CO_RPDO& pdo = node.RPdo[number];
-  Parameters parameters = {};
-  end(node, pdo);
-  const auto kept = static_cast<uint8_t>(pdo.Map.Flags & queued);
-  configure(node, Direction::receive, static_cast<uint16_t>(first_rpdo + number), parameters, pdo.Map);
-  pdo.Event = parameters.event;
-  pdo.Map.Flags = static_cast<uint8_t>(kept | (is_synchronous(parameters.type) ? synchronous : 0));
-  const uint32_t identifier = exists(pdo.Map) ? wire::frame_id(parameters.cob_id) : wire::no_frame;
-  routes::change(node, identifier, routes::Service::rpdo, number);
+// Nothing is expected any more, and what was reported is over.
+void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
+  tmr::stop(node.Tmr, pdo.Tmr);
+  clear(pdo.Map, served);
+  report(pdo, reported, 0);
 }
 
-void change_deadline(CO_NODE& node, uint16_t number, uint32_t ticks) {
+void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event) {
+  pdo.Deadline = event;
+  pdo.Map.Flags &= queued;
+  routes::change(*pdo.Node, identifier, routes::Service::rpdo, static_cast<uint16_t>(number));
+}
+
+void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
   CO_RPDO& pdo = node.RPdo[number];
   const bool is_expected = tmr::is_running(pdo.Tmr);
-  pdo.Event = ticks;
+  pdo.Deadline = ticks;
   if (ticks == 0) {
     tmr::stop(node.Tmr, pdo.Tmr);
   }
   if (ticks == 0 || is_expected) {
     watch(pdo);
-  }
-}
-
-void init_rpdos(CO_NODE& node) {
-  node.RPdoFirst = none;
-  for (uint16_t number = 0; number < CO_RPDO_N; ++number) {
-    node.RPdo[number].Node = &node;
-    node.RPdo[number].Map.Flags = 0;
-    configure_rpdo(node, number);
   }
 }
 
@@ -240,7 +226,7 @@ void on_mode_rpdos(CO_NODE& node) {
     forget_kept(node);
   }
   for (CO_RPDO& pdo : node.RPdo) {
-    end(node, pdo);
+    end_rpdo(node, pdo);
   }
 }
 
@@ -274,18 +260,6 @@ bool was_received(CO_NODE& node, const CO_OBJ& obj) {
     was |= has_passed(pdo.Map, entry);
   }
   return was;
-}
-
-void remap_rpdos(CO_NODE& node) {
-  for (uint16_t number = 0; number < CO_RPDO_N; ++number) {
-    CO_PDO_MAP& map = node.RPdo[number].Map;
-    const auto index = static_cast<uint16_t>(first_rpdo + number);
-    const bool was_multiplexed = mpdo::is_one(map);
-    if (exists(map) &&
-        (resolve(node, Direction::receive, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
-      configure_rpdo(node, number);
-    }
-  }
 }
 
 }  // namespace co::pdo

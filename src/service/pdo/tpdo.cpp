@@ -123,7 +123,7 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
   CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, length_of(pdo.Map));
   if (use == Use::send_sampled) {
     copy_data(frame.Data, pdo.Own.Data);
-  } else if (const CO_ERR err = copy_objects<Direction::transmit>(*pdo.Node, pdo.Map, frame); err != CO_ERR_NONE) {
+  } else if (const CO_ERR err = copy_objects(*pdo.Node, pdo.Map, frame, Direction::transmit); err != CO_ERR_NONE) {
     if (!has(pdo.Map, served)) {
       return end_of(pdo);
     }
@@ -141,8 +141,7 @@ void on_time(void* pdo_pointer);
 void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ticks, 0, on_time, &pdo); }
 
 // The times of an event-driven PDO begin with each transmission. The event time of one that the timer has asked for
-// began when the timer elapsed, so that nothing drifts; an inhibit time never begins before the transmission. A
-// callback may have started the timer.
+// began when the timer elapsed, so that nothing drifts; an inhibit time never begins before the transmission.
 void restart(CO_TPDO& pdo, bool by_timer) {
   const CO_TPDO_TIMES& time = pdo.Own.Time;
   if (time.Inhibit != 0) {
@@ -150,7 +149,7 @@ void restart(CO_TPDO& pdo, bool by_timer) {
     start(pdo, time.Inhibit);
   } else if (time.Event == 0) {
     return;
-  } else if (by_timer && !tmr::is_running(pdo.Tmr)) {
+  } else if (by_timer) {
     tmr::again(pdo.Node->Tmr, pdo.Tmr, time.Event);
   } else {
     start(pdo, time.Event);
@@ -300,7 +299,7 @@ uint16_t& find_link(CO_NODE& node, uint16_t to) {
   return *link;
 }
 
-void list(CO_NODE& node, uint16_t number, bool listed) {
+void list(CO_NODE& node, unsigned number, bool listed) {
   const auto own = static_cast<uint16_t>(number + 1);
   uint16_t& link = find_link(node, own);
   if (listed && link != own) {
@@ -334,49 +333,41 @@ void begin(CO_TPDO& pdo) {
   }
 }
 
-void end(CO_NODE& node, CO_TPDO& pdo) {
-  tmr::stop(node.Tmr, pdo.Tmr);
-  clear(pdo.Map, served);
-  if (exists(pdo.Map)) {
-    transmit::withdraw(node, pdo.Identifier);
-  }
-}
-
 void withdraw_synchronous(CO_NODE& node) {
   for (uint16_t link = node.TPdoFirst; link != none && transmit::is_waiting(node); link = at(node, link).Next) {
     transmit::withdraw(node, at(node, link).Identifier);
   }
 }
 
-bool is_remote(const Parameters& parameters) {
-  return USE_PDO_RTR != 0 && (parameters.cob_id & CO_TPDO_COBID_REMOTE) == 0;
-}
-
 }  // namespace
 
-void configure_tpdo(CO_NODE& node, uint16_t number) {
-  CO_TPDO& pdo = node.TPdo[number];
-  Parameters parameters = {};
-  end(node, pdo);
-  configure(node, Direction::transmit, static_cast<uint16_t>(first_tpdo + number), parameters, pdo.Map);
-  pdo.Identifier = wire::frame_id(parameters.cob_id);
-  pdo.Type = parameters.type;
-  pdo.Own.Time = {parameters.inhibit, mpdo::is_dam(pdo.Map) ? 0 : parameters.event};
-  mpdo::set_producer(node, number, pdo.Map);
-  const bool asked = exists(pdo.Map) && is_remote(parameters) && !mpdo::is_one(pdo.Map);
+void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
+  tmr::stop(node.Tmr, pdo.Tmr);
+  clear(pdo.Map, served);
+  transmit::withdraw(node, pdo.Identifier);
+}
+
+void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote) {
+  CO_NODE& node = *pdo.Node;
+  const bool asked = USE_PDO_RTR != 0 && is_remote && exists(pdo.Map) && !mpdo::is_one(pdo.Map);
+  pdo.Identifier = identifier;
   pdo.Map.Flags = asked ? remote : 0;
+  mpdo::set_producer(node, number, pdo.Map);
+  if (mpdo::is_dam(pdo.Map)) {
+    pdo.Own.Time.Event = 0;
+  }
   if (USE_SYNC != 0) {
     list(node, number, exists(pdo.Map) && is_synchronous(pdo.Type));
   }
   if (USE_PDO_RTR != 0) {
-    routes::change(node, asked ? pdo.Identifier : wire::no_frame, routes::Service::tpdo, number);
+    routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, static_cast<uint16_t>(number));
   }
   if (is_operational(node)) {
     begin(pdo);
   }
 }
 
-void change_event_time(CO_NODE& node, uint16_t number, uint32_t ticks) {
+void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks) {
   CO_TPDO& pdo = node.TPdo[number];
   if (!exists(pdo.Map) || !is_event_driven(pdo.Type) || mpdo::is_dam(pdo.Map)) {
     return;
@@ -391,21 +382,10 @@ void change_event_time(CO_NODE& node, uint16_t number, uint32_t ticks) {
   }
 }
 
-void init_tpdos(CO_NODE& node) {
-  node.TPdoFirst = none;
-#if USE_MPDO
-  node.Mpdo.Producer = none;
-#endif
-  for (uint16_t number = 0; number < CO_TPDO_N; ++number) {
-    node.TPdo[number].Node = &node;
-    configure_tpdo(node, number);
-  }
-}
-
 void on_mode_tpdos(CO_NODE& node) {
   const bool operational = is_operational(node);
   for (CO_TPDO& pdo : node.TPdo) {
-    operational ? begin(pdo) : end(node, pdo);
+    operational ? begin(pdo) : end_tpdo(node, pdo);
   }
   settle_touched(node);
 }
@@ -518,18 +498,6 @@ bool on_free(CO_NODE& node, uint16_t) {
   return false;
 }
 #endif
-
-void remap_tpdos(CO_NODE& node) {
-  for (uint16_t number = 0; number < CO_TPDO_N; ++number) {
-    CO_PDO_MAP& map = node.TPdo[number].Map;
-    const auto index = static_cast<uint16_t>(first_tpdo + number);
-    const bool was_multiplexed = mpdo::is_one(map);
-    if (exists(map) &&
-        (resolve(node, Direction::transmit, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
-      configure_tpdo(node, number);
-    }
-  }
-}
 
 }  // namespace co::pdo
 

@@ -11,7 +11,7 @@ bool is_value(const CO_OBJ& obj, uint32_t size) { return !obj::is_stream(obj) &&
 // What is left of a stream of unknown size once the buffer is full: nothing, or it does not fit.
 CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
   size = obj::size(obj, node, 0);
-  if (size != CO_OBJ_SIZE_UNKNOWN) {
+  if (!obj::is_unknown(size)) {
     return CO_ERR_NONE;
   }
   uint8_t more = 0;
@@ -24,9 +24,9 @@ uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
   CO_NODE& node = *client.Node;
   CO_ERR err = is_value(obj, size) ? CO_ERR_NONE : COObjRdBufStart(&obj, &node, client.Buf, 0);
   if (err == CO_ERR_NONE && size != 0) {
-    err = obj::read(obj, node, client.Buf, size == CO_OBJ_SIZE_UNKNOWN ? client.Size : size);
+    err = obj::read(obj, node, client.Buf, obj::is_unknown(size) ? client.Size : size);
   }
-  if (err == CO_ERR_NONE && size == CO_OBJ_SIZE_UNKNOWN) {
+  if (err == CO_ERR_NONE && obj::is_unknown(size)) {
     err = find_end(obj, node, size);
   }
   if (err != CO_ERR_NONE) {
@@ -63,10 +63,10 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
 }
 
 uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
-  if (size == 0 && !obj::is_stream(obj)) {
+  if (obj::is_no_size(obj, size)) {
     return access::abort_for(*client.Node, CO_ERR_TYPE_RD);
   }
-  return size != CO_OBJ_SIZE_UNKNOWN && size > client.Size ? CO_SDO_ERR_MEM : no_abort;
+  return !obj::is_unknown(size) && size > client.Size ? CO_SDO_ERR_MEM : no_abort;
 }
 
 // The checks before the type is told.

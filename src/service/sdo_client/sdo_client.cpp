@@ -89,20 +89,21 @@ void on_time(void* client_pointer) {
 
 uint32_t refuse_response(Step&) { return CO_SDO_ERR_CMD; }
 
+// Block transfer is optional for servers; the others are not.
+bool is_block_refused(const Step& step) {
+  const uint32_t code = wire::get_high(step.response);
+  const uint32_t asked = in(State::block_download_initiated, State::block_upload_initiated);
+  return (in(state_of(step.client)) & asked) != 0 && (code == CO_SDO_ERR_CMD || code == CO_SDO_ERR_GENERAL);
+}
+
 uint32_t aborted(Step& step) {
+  if (is_block_refused(step)) {
+    put_initiate(step.client, false, step.request);
+    return no_abort;
+  }
   step.silent = true;
   step.done = true;
   step.result = wire::abort_code_in(step.response);
-  return no_abort;
-}
-
-// Block transfer is optional for servers; the others are not.
-uint32_t block_refused(Step& step) {
-  const uint32_t code = wire::get_high(step.response);
-  if (code != CO_SDO_ERR_CMD && code != CO_SDO_ERR_GENERAL) {
-    return aborted(step);
-  }
-  put_initiate(step.client, false, step.request);
   return no_abort;
 }
 
@@ -111,6 +112,9 @@ using wire::Response;
 
 constexpr uint32_t initiated = in(State::download_initiated, State::upload_initiated, State::block_download_initiated,
                                   State::block_upload_initiated);
+constexpr uint32_t in_transfer =
+    initiated | in(State::download, State::upload, State::block_download, State::block_download_end,
+                   State::block_upload, State::block_upload_end);
 
 constexpr Row<Response, Service> rows[] = {
     {in(State::download_initiated), Response::initiate_download, download_accepted},
@@ -119,7 +123,7 @@ constexpr Row<Response, Service> rows[] = {
     {in(State::upload_initiated, State::block_upload_initiated), Response::initiate_upload, upload_accepted},
     {in(State::upload), Response::upload_segment, segment_uploaded},
 
-    {in(State::download_initiated, State::download, State::upload_initiated, State::upload), Response::abort, aborted},
+    {in_transfer, Response::abort, aborted},
 
 #if USE_SDO_BLOCK
     {in(State::block_download_initiated, State::block_download), Response::initiate_block_download,
@@ -130,15 +134,10 @@ constexpr Row<Response, Service> rows[] = {
     {in(State::block_upload_initiated), Response::initiate_block_upload, block_upload_accepted},
     {in(State::block_upload, State::block_upload_end), Response::block_segment, block_segment_uploaded},
     {in(State::block_upload_end), Response::end_block_upload, block_upload_ended},
-
-    {in(State::block_download_initiated, State::block_upload_initiated), Response::abort, block_refused},
-    {in(State::block_download, State::block_download_end, State::block_upload, State::block_upload_end),
-     Response::abort, aborted},
 #endif
 };
 
-constexpr auto machine =
-    make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_response);
+constexpr Machine<State, rows> machine(refuse_response);
 
 // An answer that names another object belongs to an older transfer.
 bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {

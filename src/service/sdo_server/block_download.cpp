@@ -24,7 +24,7 @@ void sum(CO_SDO& channel, uint32_t n) {
 }
 
 // What is wrong with a segment is told at the end of the block: those behind it would else be taken for commands.
-void take(CO_SDO& channel, const CO_IF_FRM& segment) {
+void keep(CO_SDO& channel, const CO_IF_FRM& segment) {
   const uint32_t least = wire::is_last_in_block(segment.Data[0]) ? 0 : wire::segment_bytes;
   if (channel.Fill + least > channel.Size - channel.Num) {
     set(channel, too_long);
@@ -62,17 +62,11 @@ void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
 }
 
 // The client goes on behind the last segment that has arrived in order.
-void end_block(CO_SDO& channel, CO_IF_FRM& answer) {
+void acknowledge(CO_SDO& channel, CO_IF_FRM& answer) {
   channel.AckSeq = channel.Seq;
   begin_block(channel);
   channel.AckSize = channel.BlkSize;
   put_acknowledge(channel, answer);
-}
-
-// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
-// others are lost, then the server is silent for a while and asks for them.
-bool is_repeated(const CO_SDO& channel, uint8_t number) {
-  return number > 1 && channel.AckSize != 0 && !has(channel, heard);
 }
 
 // The last segment of some objects looks like their end.
@@ -96,34 +90,37 @@ void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   answer.Data[4] = channel.BlkSize;
 }
 
-uint32_t download_block_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
-  const uint8_t command = request.Data[0];
-  const uint8_t number = wire::seqno(command);
-  silence(answer);
-  if (number == 0 || number > channel.BlkSize || state_of(channel) != State::block_download) {
-    return no_abort;
+// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
+// others are lost, then the server is silent for a while and asks for them.
+bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
+  const unsigned number = wire::seqno(segment.Data[0]);
+  if (number - 1 >= channel.BlkSize || state_of(channel) != State::block_download) {
+    return false;
   }
-  const bool in_order = number == channel.Seq + 1;
-  const bool ends = wire::is_last_in_block(command) || number == channel.BlkSize;
-  const bool repeated = ends && is_repeated(channel, number);
+  const bool is_last = wire::is_last_in_block(segment.Data[0]);
+  const bool in_order = number == channel.Seq + 1U;
+  const bool begins = !has(channel, heard);
   set(channel, heard);
   if (in_order) {
-    take(channel, request);
+    keep(channel, segment);
   }
-  if (!ends || repeated) {
-    return no_abort;
+  if (!is_last && number != channel.BlkSize) {
+    return false;
   }
-  answer.DLC = wire::sdo_dlc;
+  if (in_order && is_last) {
+    set_state(channel, State::block_download_end);
+  }
+  const bool is_repeated = begins && number > 1 && channel.AckSize != 0;
+  return !is_repeated;
+}
+
+uint32_t end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
   if (has(channel, too_long)) {
     return CO_SDO_ERR_LEN_HIGH;
   }
-  uint32_t abort = no_abort;
-  if (in_order && wire::is_last_in_block(command)) {
-    set_state(channel, State::block_download_end);
-  } else if (channel.Fill == CO_SDO_BUF_BYTE) {
-    abort = empty_buffer(channel);
-  }
-  end_block(channel, answer);
+  const bool is_full = channel.Fill == CO_SDO_BUF_BYTE && state_of(channel) == State::block_download;
+  const uint32_t abort = is_full ? empty_buffer(channel) : no_abort;
+  acknowledge(channel, answer);
   return abort;
 }
 
@@ -157,13 +154,12 @@ void remind(CO_SDO& channel) {
     return;
   }
   if (has(channel, too_long)) {
-    send_abort(channel, CO_SDO_ERR_LEN_HIGH);
-    close(channel, CO_SDO_ERR_LEN_HIGH);
+    abort_transfer(channel, CO_SDO_ERR_LEN_HIGH);
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
   if (has(channel, heard)) {
-    end_block(channel, frame);
+    acknowledge(channel, frame);
   } else if (channel.AckSize != 0) {
     put_acknowledge(channel, frame);
   } else {

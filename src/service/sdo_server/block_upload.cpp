@@ -38,47 +38,49 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   return abort;
 }
 
-}  // namespace
-
-bool send_segment(CO_SDO& channel, uint32_t& abort) {
-  if (state_of(channel) != State::block_upload || channel.Seq == channel.BlkSize) {
-    return false;
+// Is the segment at the position in the buffer, or can it be read? Else abort says why, if SDO is still allowed.
+bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
+  if (channel.Read - position - 1 < channel.Fill || position >= channel.Size) {
+    return true;
   }
-  const uint32_t position = channel.Num + channel.Seq * wire::segment_bytes;
-  uint32_t left = channel.Read - position;  // in the buffer
-  if (left - 1 >= channel.Fill && position < channel.Size) {
-    abort = load(channel, position);
-    if (abort != no_abort || !event::is_allowed(*channel.Node, CO_SDO_ALLOWED)) {
-      return false;
-    }
-    left = channel.Read - position;
-  }
-  const uint32_t n = smaller(wire::segment_bytes, left);
-  const bool last = position + n == channel.Size;
-  CO_IF_FRM frame = wire::empty_frame(channel.TxId);
-  frame.Data[0] = wire::block_segment(static_cast<uint8_t>(channel.Seq + 1), last);
-  wire::copy(frame.Data + 1, buffer_of(channel) + channel.Fill - left, n);
-  if (!transmit::offer(*channel.Node, frame)) {
-    return false;
-  }
-  ++channel.Seq;
-  if (last) {
-    channel.BlkSize = channel.Seq;
-    set(channel, last_sent);
-  }
-  return true;
+  abort = load(channel, position);
+  return abort == no_abort && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
 
-namespace {
+// The segment, of which so many bytes are in the buffer.
+void fill(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
+  if (left >= wire::segment_bytes) {
+    wire::copy_segment(frame.Data + 1, from);
+  } else {
+    wire::put_low(frame, 0);
+    wire::put_high(frame, 0);
+    wire::copy(frame.Data + 1, from, left);
+  }
+}
 
-uint32_t send_segments(CO_SDO& channel) {
+}  // namespace
+
+uint32_t send_segments(CO_SDO& channel, unsigned most) {
   uint32_t abort = no_abort;
-  while (send_segment(channel, abort)) {
+  uint32_t position = channel.Num + channel.Seq * wire::segment_bytes;
+  CO_IF_FRM frame = wire::empty_frame(channel.TxId);
+  for (; most != 0 && channel.Seq != channel.BlkSize && provide(channel, position, abort); --most) {
+    const uint32_t left = channel.Read - position;
+    fill(frame, buffer_of(channel) + channel.Fill - left, left);
+    position += smaller(wire::segment_bytes, left);
+    const bool last = position == channel.Size;
+    frame.Data[0] = wire::block_segment(static_cast<uint8_t>(channel.Seq + 1), last);
+    if (!transmit::offer(*channel.Node, frame)) {
+      break;
+    }
+    ++channel.Seq;
+    if (last) {
+      channel.BlkSize = channel.Seq;
+      set(channel, last_sent);
+    }
   }
   return abort;
 }
-
-}  // namespace
 
 uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request) {
   if (!wire::is_blksize(request.Data[4])) {
@@ -104,7 +106,7 @@ void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
 uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
   silence(answer);
   set_state(channel, State::block_upload);
-  return send_segments(channel);
+  return send_segments(channel, wire::max_blksize);
 }
 
 uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
@@ -128,7 +130,7 @@ uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&
   channel.Seq = 0;
   clear(channel, last_sent);
   silence(answer);
-  return send_segments(channel);
+  return send_segments(channel, wire::max_blksize);
 }
 
 uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {

@@ -5,7 +5,7 @@ namespace co::sdo_server {
 namespace {
 
 // Bytes that a download can have when the client does not say how many.
-uint32_t capacity(CO_NODE& node, CO_OBJ& obj) { return obj::size(obj, node, obj::is_stream(obj) ? UINT32_MAX : 0); }
+uint32_t capacity(CO_NODE& node, CO_OBJ& obj) { return access::size(obj, node, obj::is_stream(obj) ? UINT32_MAX : 0); }
 
 uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
@@ -23,7 +23,7 @@ uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& reque
   }
   wire::put_aligned(channel.Value, wire::get_high(request));
   abort = begin_data(channel, obj, channel.Value, length);
-  return abort == no_abort && has(channel, begun) ? close(channel, no_abort) : abort;
+  return abort == no_abort && is_told(channel) ? close(channel, no_abort) : abort;
 }
 
 // Takes the size that the client announces, or the most that the object can have.

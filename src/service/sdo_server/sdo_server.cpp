@@ -19,17 +19,17 @@ uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& ans
   return no_abort;
 }
 
-// The abort names the transfer that it ends; without one, or where the request wants another, what the request names.
-uint32_t refuse_initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
-  restart(channel, request);
+using wire::Request;
+
+// The abort names the transfer that it ends; without one, or where the request begins another, what the request names.
+uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
+  const Request command = wire::request_of(request.Data[0]);
+  const bool begins = command == Request::initiate_block_download || command == Request::initiate_block_upload;
+  if (begins || state_of(channel) == State::idle) {
+    restart(channel, request);
+  }
   return CO_SDO_ERR_CMD;
 }
-
-uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
-  return state_of(channel) == State::idle ? refuse_initiate(channel, request, answer) : CO_SDO_ERR_CMD;
-}
-
-using wire::Request;
 
 // A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3] Within a
 // block of a download everything but an abort is a segment.
@@ -47,21 +47,17 @@ constexpr Row<Request, Service> rows[] = {
 
 #if USE_SDO_BLOCK
     {outside_block, Request::initiate_block_download, initiate_block_download},
-    {in(State::block_download, State::block_download_end), Request::block_segment, download_block_segment},
+    {in(State::block_download, State::block_download_end), Request::block_segment, end_block},
     {in(State::block_download_end), Request::end_block_download, end_block_download},
 
     {outside_block, Request::initiate_block_upload, initiate_block_upload},
     {in(State::block_upload_ready), Request::start_block_upload, start_block_upload},
     {in(State::block_upload), Request::acknowledge_block, acknowledge_block},
     {in(State::block_upload_end), Request::end_block_upload, end_block_upload},
-#else
-    {outside_block, Request::initiate_block_download, refuse_initiate},
-    {outside_block, Request::initiate_block_upload, refuse_initiate},
 #endif
 };
 
-constexpr auto machine =
-    make_machine<State, static_cast<size_t>(State::count), wire::command_count>(rows, refuse_command);
+constexpr Machine<State, rows> machine(refuse_command);
 
 // Segments of a block look like anything; the state tells them.
 bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
@@ -78,22 +74,16 @@ void give_up(CO_SDO& channel, uint32_t abort) {
     on_mode(node);
     return;
   }
-  send_abort(channel, abort);
-  close(channel, abort);
+  abort_transfer(channel, abort);
 }
 
-// A channel is busy while its type functions run: they may change the NMT state. Not inlined: a channel by itself lies
-// within reach of short loads.
-[[gnu::noinline]] bool serve(CO_SDO& channel, const CO_IF_FRM& frame) {
-  if (frame.DLC != wire::sdo_dlc) {
-    return false;
-  }
+// A channel is busy while its type functions run: they may change the NMT state.
+inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
-  const Request request = is_segment(channel, frame) ? Request::block_segment : wire::request_of(frame.Data[0]);
   channel.Idle = busy;
   access::serve(node, channel.Obj);
-  const uint32_t abort = machine(state_of(channel), request)(channel, frame, answer);
+  const uint32_t abort = service(channel, request, answer);
   channel.Idle = 0;
   node.Served = nullptr;
   if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
@@ -101,40 +91,46 @@ void give_up(CO_SDO& channel, uint32_t abort) {
   } else if (answer.DLC != 0) {
     transmit::send(node, answer);
   }
+}
+
+// Not inlined: a channel by itself lies within reach of short loads.
+[[gnu::noinline]] bool serve(CO_SDO& channel, const CO_IF_FRM& frame) {
+  if (frame.DLC != wire::sdo_dlc) {
+    return false;
+  }
+  const bool in_block = is_segment(channel, frame);
+  if (in_block && !take_segment(channel, frame)) {
+    channel.Idle = 0;
+    return true;
+  }
+  const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
+  perform(channel, machine(state_of(channel), request), frame);
   return true;
 }
 
 #if USE_SDO_BLOCK
-bool send_next(CO_SDO& channel) {
-  CO_NODE& node = *channel.Node;
-  const uint8_t idle = channel.Idle;
-  uint32_t abort = no_abort;
-  channel.Idle = busy;
-  access::serve(node, channel.Obj);
-  const bool sent = send_segment(channel, abort);
-  channel.Idle = sent ? 0 : idle;
-  node.Served = nullptr;
-  if (abort == no_abort && event::is_allowed(node, CO_SDO_ALLOWED)) {
-    return sent;
-  }
-  give_up(channel, abort);
-  return false;
+uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+  silence(answer);
+  return send_segments(channel, 1);
 }
 #endif
 
-// Without an entry the default server has the COB-IDs that every node reserves for it. [301:7.3.5]
-uint32_t cob_id(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
-  return dict::read_cob_id(node.Dict, CO_DEV(0x1200U + number, sub),
-                           number == 0 ? base + node.NodeId : wire::cob_invalid);
+// The identifier of an entry, or no_frame. Without one the default server has those that every node reserves for it.
+// [301:7.3.5]
+[[gnu::noinline]] uint32_t identifier(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
+  const uint32_t cob_id =
+      dict::read_cob_id(node.Dict, CO_DEV(0x1200U + number, sub), number == 0 ? base + node.NodeId : wire::cob_invalid);
+  return cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
 }
 
 void configure_channel(CO_NODE& node, uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
-  const uint32_t rx = cob_id(node, number, 1, wire::CobId::sdo_rx);
-  const uint32_t tx = cob_id(node, number, 2, wire::CobId::sdo_tx);
-  const bool valid = rx != wire::cob_invalid && tx != wire::cob_invalid;
-  const uint32_t rx_id = valid ? wire::frame_id(rx) : wire::no_frame;
-  const uint32_t tx_id = valid ? wire::frame_id(tx) : wire::no_frame;
+  uint32_t rx_id = identifier(node, number, 1, wire::CobId::sdo_rx);
+  uint32_t tx_id = identifier(node, number, 2, wire::CobId::sdo_tx);
+  if (rx_id == wire::no_frame || tx_id == wire::no_frame) {
+    rx_id = wire::no_frame;
+    tx_id = wire::no_frame;
+  }
   if (channel.RxId == rx_id && channel.TxId == tx_id) {
     return;
   }
@@ -174,7 +170,12 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 #if USE_SDO_BLOCK
   CO_SDO& channel = node.Sdo[number];
   if (state_of(channel) == State::block_upload) {
-    return send_next(channel);
+    const uint8_t idle = channel.Idle;
+    const uint8_t before = channel.Seq;
+    perform(channel, send_next, wire::empty_frame(wire::no_frame));
+    const bool sent = channel.Seq != before;
+    channel.Idle = sent ? 0 : idle;
+    return sent;
   }
 #endif
   return false;

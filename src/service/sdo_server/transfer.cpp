@@ -10,6 +10,7 @@
 namespace co::sdo_server {
 namespace {
 
+constexpr bool has_time_out = CO_SDO_TIMEOUT != 0;
 constexpr uint8_t slices = 8;
 constexpr uint8_t reminder_slices = 2;
 
@@ -21,8 +22,7 @@ void count_slice(CO_SDO& channel) {
   }
   ++channel.Idle;
   if (channel.Idle == slices) {
-    send_abort(channel, CO_SDO_ERR_TIMEOUT);
-    close(channel, CO_SDO_ERR_TIMEOUT);
+    abort_transfer(channel, CO_SDO_ERR_TIMEOUT);
   } else if (has_block && channel.Idle % reminder_slices == 0) {
     remind(channel);
   }
@@ -38,8 +38,7 @@ void on_slice(void* node_pointer) {
 
 // The position of our own streams is set before each piece: the application may have used it in between. Types of the
 // application are reset at the beginning, and when an upload goes back.
-[[gnu::always_inline]] inline CO_ERR seek_piece(CO_SDO& channel, uint32_t position) {
-  CO_OBJ& obj = *channel.Obj;
+[[gnu::always_inline]] inline CO_ERR seek_piece(const CO_SDO& channel, CO_OBJ& obj, uint32_t position) {
   if (obj.Type->Reset == stream::reset) {
     return stream::seek(obj, position);
   }
@@ -51,8 +50,8 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  const uint32_t size = obj::size(*channel.Obj, *channel.Node, 0);
-  if (size == CO_OBJ_SIZE_UNKNOWN) {
+  const uint32_t size = access::size(*channel.Obj, *channel.Node, 0);
+  if (obj::is_unknown(size)) {
     return no_abort;
   }
   if (size < position) {
@@ -63,12 +62,13 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   return no_abort;
 }
 
-[[gnu::always_inline]] inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
+// access::open() has seen that the type has the function.
+inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
   if (!has(channel, download)) {
-    return obj::read(obj, node, data, n);
+    return obj.Type->Read(&obj, &node, data, n);
   }
-  const CO_ERR err = obj::write(obj, node, data, n);
+  const CO_ERR err = obj.Type->Write(&obj, &node, data, n);
   if (err == CO_ERR_NONE) {
     event::write_object(node, obj);
   }
@@ -89,15 +89,16 @@ uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
 
 uint32_t close(CO_SDO& channel, uint32_t code) {
   CO_OBJ* const obj = channel.Obj;
-  const bool is_told = has(channel, begun) && obj != nullptr;
+  const bool has_end = is_told(channel) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
-  return is_told ? tell_end(channel, *obj, code) : no_abort;
+  return has_end ? tell_end(channel, *obj, code) : no_abort;
 }
 
-void send_abort(CO_SDO& channel, uint32_t code) {
+void abort_transfer(CO_SDO& channel, uint32_t code) {
   count(channel.Node->Count.SdoAborts);
   transmit::send(*channel.Node, wire::abort_frame(channel.TxId, channel.Key, code));
+  close(channel, code);
 }
 
 // One timer watches all channels: a transfer ends after eight slices without a frame.
@@ -108,7 +109,7 @@ void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
   channel.Read = 0;
   channel.Toggle = 0;
   set_state(channel, state);
-  if (tmr::is_running(node.SdoTmr)) {
+  if (!has_time_out || tmr::is_running(node.SdoTmr)) {
     return;
   }
   const uint32_t slice = tmr::ticks(node.Tmr, CO_SDO_TIMEOUT, CO_TMR_UNIT_1MS * slices);
@@ -118,6 +119,9 @@ void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
 }
 
 void rest(CO_NODE& node) {
+  if (!has_time_out) {
+    return;
+  }
   for (const CO_SDO& channel : node.Sdo) {
     if (state_of(channel) != State::idle) {
       return;
@@ -131,12 +135,6 @@ void restart(CO_SDO& channel, const CO_IF_FRM& request) {
     close(channel, CO_SDO_ERR_TOS_STATE);
   }
   channel.Key = wire::multiplexer(request);
-}
-
-uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
-  restart(channel, request);
-  channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
-  return access::open(*channel.Node, channel.Key, transfer);
 }
 
 uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
@@ -181,7 +179,7 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
     if (channel.Obj == nullptr) {
       return CO_SDO_ERR_TOS_STATE;
     }
-    err = seek_piece(channel, position);
+    err = seek_piece(channel, *channel.Obj, position);
     if (err == CO_ERR_NONE && channel.Obj != nullptr) {
       err = run(channel, *channel.Obj, data, n);
     }
@@ -190,7 +188,7 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   if (err != CO_ERR_NONE) {
     return access::failed(*channel.Node, direction(channel), err);
   }
-  const bool may_end = channel.Size == CO_OBJ_SIZE_UNKNOWN && !has(channel, download);
+  const bool may_end = obj::is_unknown(channel.Size) && !has(channel, download);
   return may_end ? learn_size(channel, position) : no_abort;
 }
 

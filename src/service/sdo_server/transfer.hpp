@@ -26,7 +26,7 @@ enum Flag : uint8_t {
   whole = 0x02,      // a value: collected in Value, read or written in one piece
   too_long = 0x04,   // block download: more data than the object can have
   download = 0x08,   // direction
-  begun = 0x10,      // the type was told of the begin and wants to know the end
+  begun = 0x10,      // see is_told()
   crc = 0x20,        // both sides support the CRC
   heard = 0x40,      // block download: a segment of the block has arrived
   last_sent = 0x80,  // block upload: the last segment of all was sent
@@ -43,6 +43,9 @@ inline bool has(const CO_SDO& channel, Flag flag) { return (channel.Flags & flag
 inline void set(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags | flag); }
 inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags & ~flag); }
 
+// Was the type told of the begin, and does it want to know the end?
+inline bool is_told(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
+
 // No answer at all, unless it gets its length again.
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
@@ -53,19 +56,27 @@ using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FR
 [[nodiscard]] uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t download_block_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+[[nodiscard]] uint32_t end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
+// Ends the transfer with an abort code, or no_abort: it is complete. The type is told; what it then answers to a
+// complete download is the result.
+uint32_t close(CO_SDO& channel, uint32_t code);
+
 // A new transfer, of the object that the request names; its client has given up the one before.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
 // The same, with the checks that every transfer begins with: the object, which is node.Served then, and its access
 // right.
-[[nodiscard]] uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer);
+[[nodiscard]] inline uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
+  restart(channel, request);
+  channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
+  return access::open(*channel.Node, channel.Key, transfer);
+}
 
 // The transfer of the object takes more than this frame: the time-out watches it.
 void go_on(CO_SDO& channel, CO_OBJ& obj, State state);
@@ -81,11 +92,8 @@ void rest(CO_NODE& node);
   return wire::toggle(request) != channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
 }
 
-// Ends the transfer with an abort code, or no_abort: it is complete. The type is told; what it then answers to a
-// complete download is the result.
-uint32_t close(CO_SDO& channel, uint32_t code);
-
-void send_abort(CO_SDO& channel, uint32_t code);
+// The same, and tells the client.
+void abort_transfer(CO_SDO& channel, uint32_t code);
 
 // A stream belongs to one channel at a time, and its type may have to be told.
 [[nodiscard]] uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size);
@@ -127,8 +135,12 @@ void send_abort(CO_SDO& channel, uint32_t code);
 void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
 void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
-// Sends the next segment of a block upload. False: there is none, the controller does not take it, or abort is set.
-[[nodiscard]] bool send_segment(CO_SDO& channel, uint32_t& abort);
+// Sends segments of a block upload, as many as there are and as the controller takes, but not more than most. Returns
+// an abort code.
+[[nodiscard]] uint32_t send_segments(CO_SDO& channel, unsigned most);
+
+// Keeps a segment of a block download. True: it ends the block, and end_block() answers.
+[[nodiscard]] bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment);
 
 // Block download: is this the last segment of all once more?
 [[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);

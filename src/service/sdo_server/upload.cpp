@@ -14,7 +14,7 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   if (abort != no_abort) {
     return abort;
   }
-  const bool sized = channel.Size != CO_OBJ_SIZE_UNKNOWN;
+  const bool sized = !obj::is_unknown(channel.Size);
   wire::put_reply(answer, by_block ? wire::initiate_block(sized) : wire::initiate_upload_response(sized), request);
   wire::put_high(answer, sized ? channel.Size : 0);
   if (has_block && by_block) {
@@ -30,9 +30,9 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
     return abort;
   }
   CO_OBJ& obj = *node.Served;
-  const uint32_t size = obj::size(obj, node, 0);
+  const uint32_t size = access::size(obj, node, 0);
   channel.Size = size;
-  if (size == 0 && !obj::is_stream(obj)) {
+  if (obj::is_no_size(obj, size)) {
     return access::abort_for(node, CO_ERR_TYPE_RD);
   }
   if (has_block && by_block) {
@@ -50,7 +50,7 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
   }
   wire::put_reply(answer, wire::expedited_upload_response(size), request);
   abort = begin_data(channel, obj, answer.Data + 4, size);
-  return abort == no_abort && has(channel, begun) ? close(channel, no_abort) : abort;
+  return abort == no_abort && is_told(channel) ? close(channel, no_abort) : abort;
 }
 
 }  // namespace

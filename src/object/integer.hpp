@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers in the byte order of the CPU, at places of any alignment: what type functions are given.
+#pragma once
+
+#include <stdint.h>
+
+namespace co::integer {
+
+[[nodiscard]] uint32_t get_u32(const void* from);
+void put_u32(void* to, uint32_t value);
+
+}  // namespace co::integer
