@@ -9,61 +9,99 @@
 
 static CO_IF_FRM ReceiveMemory[RECEIVE_QUEUE_FRAMES];
 static CO_RING ReceiveQueue;
+static uint16_t ReportedLost;         // frames that found the queue full, as reported to the node
+static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
+
+static void ForgetReceived(void) {
+  CO_IF_FRM old;
+  while (CORingGet(&ReceiveQueue, &old)) {
+  }
+}
 
 // Context: the loop, in CONodeInit(). Prepare the controller (clock, pins, interrupt), but stay off the bus: the bit
-// rate is not known yet. May be called again, with Enable, to change the bit rate.
+// rate is not known yet. Called again, before Enable, when LSS changes the bit rate.
 static void Init(void) {
-  // Here: receive interrupt off, controller in its initialisation mode.
+  // Here: the controller's interrupts off, controller in its initialisation mode, transmit mailboxes empty. From here
+  // on no interrupt touches the queue.
   (void)CORingInit(&ReceiveQueue, ReceiveMemory, RECEIVE_QUEUE_FRAMES);
+  ReportedLost = 0;
+  NotedEvents = 0;
 }
 
 // Context: the loop. Set the bit timing for baud bit/s (sample point at 87.5 % of the bit for CANopen) and go on the
 // bus. Let everything be received, or set the filters (CO_IF_CAN_DRV_EX.Filter).
 static void Enable(uint32_t baud) {
-  CO_UNUSED(baud);  // Here: bit timing registers, normal mode, receive interrupt on.
+  CO_UNUSED(baud);  // Here: bit timing registers, normal mode, receive, transmit and error interrupts on.
 }
 
-// Context: the loop (or a task of its own that calls CONodeProcess(): then it may block until a frame is there).
-// Returns sizeof(CO_IF_FRM): a frame, 0: none, -1: the controller reports an error.
+// Context: the loop. Returns sizeof(CO_IF_FRM): a frame, 0: none, -1: the controller reports an error.
 static int16_t Read(CO_IF_FRM* frm) { return CORingGet(&ReceiveQueue, frm) ? (int16_t)sizeof(CO_IF_FRM) : 0; }
 
 // Context: the loop. Must not block, and must not let frames overtake each other: if the controller has several
 // transmit mailboxes, set them to send in the order of writing, or use one.
-// Returns sizeof(CO_IF_FRM): the controller has taken the frame, 0: no room, the stack asks again, -1: error, likewise.
+// Returns sizeof(CO_IF_FRM): the controller has taken the frame, 0: no room, or off the bus: the stack asks again, -1:
+// error, likewise.
 static int16_t Send(CO_IF_FRM* frm) {
   CO_UNUSED(frm);
   // Here: return 0 if no mailbox is free; else write
   //   CO_GET_ID(frm) & CO_IF_FRM_ID     the identifier; 29 bits if CO_IF_FRM_EXT is set in CO_GET_ID(frm), else 11
   //   CO_GET_ID(frm) & CO_IF_FRM_RTR    remote frame
-  //   CO_GET_DLC(frm), frm->Data        the data
+  //   CO_GET_DLC(frm), frm->Data        the data; the first byte on the bus is Data[0]
   // start the transmission and return (int16_t)sizeof(CO_IF_FRM).
   return 0;
 }
 
 // Context: the loop, at an NMT reset. Clear errors and queues, and go back on the bus (leave bus-off).
 static void Reset(void) {
-  CO_IF_FRM old;
-  while (CORingGet(&ReceiveQueue, &old)) {
-  }
   // Here: drop what waits in the transmit mailboxes, restart the controller if it is in bus-off.
+  ForgetReceived();
 }
 
-// Context: the loop, in CONodeStop(). Go off the bus.
+// Context: the loop, in CONodeStop(), and when LSS changes the bit rate. Go off the bus.
 static void Close(void) {
-  // Here: receive interrupt off, controller in its initialisation mode.
+  // Here: interrupts off, controller in its initialisation mode, transmit mailboxes empty.
+  ForgetReceived();
 }
 
 const CO_IF_CAN_DRV TemplateCanDriver = {Init, Enable, Read, Send, Reset, Close};
 
-// Context: the receive interrupt, the one producer of the queue. A full queue counts the frame as lost; the loop can
-// look at CORingLost() and tell the node with CONodeCanEvent(&node, CO_CAN_OVERRUN). In the same way, let an error
-// interrupt leave a note for the loop, which calls CONodeCanEvent() with CO_CAN_PASSIVE, CO_CAN_BUS_OFF or
-// CO_CAN_RECOVERED.
-void TemplateCanReceiveInterrupt(void) {
-  const bool pending = false;  // Here: is there a frame in the controller?
-  if (pending) {
+// Context: the interrupt of the controller, the one producer of the queue. A full queue counts the frame as lost.
+// Events are only noted: the node belongs to the loop. Where transmission has an interrupt of its own it need do
+// nothing but end the loop's sleep.
+void TemplateCanInterrupt(void) {
+  const bool received = false;  // Here: is there a frame in the controller?
+  if (received) {
     CO_IF_FRM frm = {0, {0}, 0};
-    // Here: CO_SET_ID(&frm, identifier | flags), CO_SET_DLC(&frm, length), copy the data, release the mailbox.
+    // Here: CO_SET_ID(&frm, identifier | flags), CO_SET_DLC(&frm, length, 8 at most), copy the data, release the
+    // mailbox.
     (void)CORingPut(&ReceiveQueue, &frm);
   }
+  const uint8_t events = 0;  // Here: bit CO_CAN_OVERRUN, CO_CAN_PASSIVE, CO_CAN_BUS_OFF, CO_CAN_RECOVERED, if new
+  NotedEvents = (uint8_t)(NotedEvents | events);
+}
+
+static uint8_t TakeNotes(void) {
+  // Here: the controller's interrupts off.
+  const uint8_t events = NotedEvents;
+  NotedEvents = 0;
+  // Here: and on again.
+  return events;
+}
+
+void TemplateCanReport(CO_NODE* node) {
+  uint8_t events = NotedEvents == 0 ? 0 : TakeNotes();
+  const uint16_t lost = CORingLost(&ReceiveQueue);
+  if (lost != ReportedLost) {
+    ReportedLost = lost;
+    events = (uint8_t)(events | 1u << CO_CAN_OVERRUN);
+  }
+  for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
+    if ((events & 1u << event) != 0) {
+      CONodeCanEvent(node, (CO_CAN_EVENT)event);
+    }
+  }
+}
+
+bool TemplateCanHasWork(void) {
+  return CORingCount(&ReceiveQueue) != 0 || NotedEvents != 0 || CORingLost(&ReceiveQueue) != ReportedLost;
 }

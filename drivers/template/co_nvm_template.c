@@ -1,30 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_nvm_template.h"
 
+// Here: the size of the memory, and of the pages across which it cannot be written at once (1: there are none).
+#define MEMORY_BYTES 2048u
+#define PAGE_BYTES 32u
+
+// Here: read bytes that lie in the memory. false: it does not answer.
+static bool ReadMemory(uint32_t start, uint8_t* to, uint32_t size) {
+  CO_UNUSED(start);
+  CO_UNUSED(to);
+  CO_UNUSED(size);
+  return false;
+}
+
+// Here: write a piece of one page, wait for the end of the write cycle, and better read it back. The bytes at from stay
+// as they are: they are the parameters themselves. false: they are not stored.
+static bool WritePage(uint32_t start, const uint8_t* from, uint32_t size) {
+  CO_UNUSED(start);
+  CO_UNUSED(from);
+  CO_UNUSED(size);
+  return false;
+}
+
+// How much of an access lies in the memory.
+static uint32_t Inside(uint32_t start, uint32_t size) {
+  const uint32_t left = start < MEMORY_BYTES ? MEMORY_BYTES - start : 0;
+  return size < left ? size : left;
+}
+
 // Context of all functions: the loop. They may take their time: they are called at the start, at an NMT reset and when
 // parameters are stored, never in normal operation. The addresses are those that the application has given to its
 // parameter groups, from 0.
 
-// Prepare the memory and the bus (SPI, I2C) to it.
+// Prepare the memory and the bus (SPI, I2C) to it. What is stored stays.
 static void Init(void) {
   // Here: pins, clock, write protection.
 }
 
 // Read size bytes from address start. Returns the bytes read; fewer than size means: broken, or behind the end.
 static uint32_t Read(uint32_t start, uint8_t* buffer, uint32_t size) {
-  CO_UNUSED(start);
-  CO_UNUSED(buffer);
-  CO_UNUSED(size);
-  return 0;
+  const uint32_t inside = Inside(start, size);
+  return inside == 0 || ReadMemory(start, buffer, inside) ? inside : 0;
 }
 
-// Write size bytes to address start, across page boundaries where the memory has pages. Returns the bytes that are
-// safely stored: wait for the end of the last write cycle, and better read them back.
+// Write size bytes to address start. Returns the bytes that are safely stored; fewer than size means: broken, or behind
+// the end.
 static uint32_t Write(uint32_t start, uint8_t* buffer, uint32_t size) {
-  CO_UNUSED(start);
-  CO_UNUSED(buffer);
-  CO_UNUSED(size);
-  return 0;
+  const uint32_t inside = Inside(start, size);
+  uint32_t done = 0;
+  while (done < inside) {
+    const uint32_t room = PAGE_BYTES - (start + done) % PAGE_BYTES;
+    const uint32_t piece = inside - done < room ? inside - done : room;
+    if (!WritePage(start + done, buffer + done, piece)) {
+      break;
+    }
+    done += piece;
+  }
+  return done;
 }
 
 const CO_IF_NVM_DRV TemplateNvmDriver = {Init, Read, Write};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nvm_template.h
 /// Template of a driver for non-volatile memory: copy both files, rename everything called "template", fill in what the
-/// comments ask for. As it is, it compiles, and stores and finds nothing.
+/// comments ask for. As it is, it compiles, and stores and finds nothing. docs/porting.md goes through it step by step,
+/// and tests/driver_check checks what has become of it.
 ///
 /// This table is for memory that is written byte by byte without being erased before (EEPROM, FRAM). Flash, and the
 /// storage that survives a power cut in the middle of writing, need CO_IF_NVM_DRV_EX: the same functions with a first

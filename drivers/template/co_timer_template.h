@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_template.h
 /// Template of a timer driver: copy both files, rename everything called "template", fill in what the comments ask for.
-/// As it is, it compiles, and no time ever passes.
+/// As it is, it compiles, and no time ever passes. docs/porting.md goes through it step by step, and tests/driver_check
+/// checks what has become of it.
 ///
 /// There are two ways to drive the timers of a node; this template is of the first kind:
 /// - Delta mode: a hardware counter runs at CO_NODE_SPEC.TmrFreq (say 1 MHz), and its compare match interrupts exactly

@@ -11,7 +11,7 @@ TEST_CASE("template of a CAN driver: receives nothing, and can send nothing now"
   CO_IF_FRM frame{};
   driver.Init();
   driver.Enable(250000);
-  TemplateCanReceiveInterrupt();
+  TemplateCanInterrupt();
   CHECK(driver.Read(&frame) == 0);
   CHECK(driver.Send(&frame) == 0);
   driver.Reset();

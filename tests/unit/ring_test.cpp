@@ -3,30 +3,14 @@
 
 #include <doctest/doctest.h>
 
-#include <atomic>
-#include <thread>
 #include <vector>
+
+#include "support/numbered_frame.hpp"
 
 namespace {
 
-CO_IF_FRM numbered(std::uint32_t number) {
-  CO_IF_FRM frm{};
-  frm.Identifier = number;
-  frm.DLC = 8;
-  for (unsigned i = 0; i < 8; ++i) {
-    frm.Data[i] = static_cast<std::uint8_t>(number + i);
-  }
-  return frm;
-}
-
-bool is_numbered(const CO_IF_FRM& frm, std::uint32_t number) {
-  const CO_IF_FRM expected = numbered(number);
-  bool same = frm.Identifier == expected.Identifier && frm.DLC == expected.DLC;
-  for (unsigned i = 0; i < 8; ++i) {
-    same = same && frm.Data[i] == expected.Data[i];
-  }
-  return same;
-}
+using test::is_numbered;
+using test::numbered;
 
 TEST_CASE("ring: frames come out whole and in order") {
   CO_IF_FRM mem[4];
@@ -141,33 +125,6 @@ TEST_CASE("ring: arguments out of range make a ring that holds nothing") {
   CHECK_FALSE(CORingInit(&ring, nullptr, 2));
   CHECK_FALSE(CORingPut(&ring, &frm));
   CHECK_FALSE(CORingGet(&ring, &frm));
-}
-
-TEST_CASE("ring: one thread puts while another gets, nothing is torn, lost or out of order") {
-  constexpr std::uint32_t number = 50000;
-  CO_IF_FRM mem[16];
-  CO_RING ring;
-  REQUIRE(CORingInit(&ring, mem, 16));
-  std::thread producer([&] {
-    for (std::uint32_t n = 0; n < number; ++n) {
-      const CO_IF_FRM frm = numbered(n);
-      while (!CORingPut(&ring, &frm)) {
-        std::this_thread::yield();
-      }
-    }
-  });
-  std::uint32_t wrong = 0;
-  for (std::uint32_t n = 0; n < number; ++n) {
-    CO_IF_FRM frm;
-    while (!CORingGet(&ring, &frm)) {
-      std::this_thread::yield();
-    }
-    wrong += is_numbered(frm, n) ? 0U : 1U;
-    wrong += CORingCount(&ring) <= 16 ? 0U : 1U;
-    CORingLost(&ring);
-  }
-  producer.join();
-  CHECK(wrong == 0);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct Route {
 // The routes of an identifier as the node finds them.
 std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
   std::vector<Route> all;
-  for (unsigned n = co::routes::find(node, id); co::routes::is_at(node, n, id); ++n) {
+  for (unsigned n = co::routes::find(node, id); n != co::routes::nowhere && co::routes::is_at(node, n, id); ++n) {
     all.push_back({id, co::routes::service_of(node.Routes.Owner[n]), co::routes::number_of(node.Routes.Owner[n])});
   }
   return all;

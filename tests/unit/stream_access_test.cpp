@@ -87,7 +87,7 @@ TEST_CASE("stream access: a string that is written beyond its capacity keeps its
   const Case cases[] = {{0x2110, &node.objects.text}, {0x2111, &node.objects.octets}, {0x2112, &node.objects.unicode}};
   for (const Case& one : cases) {
     const CO_OBJ_STR_RW& string = *one.string;
-    for (const std::uint32_t beyond : {1U, 1000U, 0xFFFFFFFFU - string.Capacity}) {
+    for (const std::uint32_t beyond : std::initializer_list<std::uint32_t>{1, 1000, 0xFFFFFFFF - string.Capacity}) {
       CAPTURE(one.index);
       CAPTURE(beyond);
       CO_OBJ* const obj = node.find(one.index, 0);

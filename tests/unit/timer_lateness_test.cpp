@@ -347,6 +347,23 @@ TEST_CASE("timer lateness: what elapses while actions run waits for the next COT
   CHECK(runs == Runs{{1, 1}, {1, 4}, {2, 7}});
 }
 
+TEST_CASE("timer lateness: all that have elapsed run in one call, however long some of them have waited") {
+  constexpr std::uint64_t late = 3'000'000'000;  // more than 2^31
+  for (const Driver driver : {Driver::counter, Driver::clock}) {
+    CAPTURE(driver == Driver::clock);
+    Device device(driver);
+    device.create(1, 0, 1);
+    device.create(2, 0, 2);
+    device.create(static_cast<std::uint32_t>(late), 0, 3);
+    for (const std::uint64_t now : {std::uint64_t{1}, std::uint64_t{2}, late}) {
+      hardware.now = now;
+      COTmrService(&device.node.Tmr);
+    }
+    device.process();
+    CHECK(runs == Runs{{1, late}, {2, late}, {3, late}});
+  }
+}
+
 TEST_CASE("timer lateness: an action deletes the last of the elapsed timers, and later ones elapse meanwhile") {
   for (const bool alone : {true, false}) {
     CAPTURE(alone);

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_slcan.h"
+
+namespace {
+
+constexpr int16_t taken = sizeof(CO_IF_FRM);
+constexpr uint8_t end_of_line = '\r';
+constexpr uint8_t bell = 7;
+
+// Of all text that waits, frames leave as much for the commands of two calls: a frame that is refused comes again,
+// a command does not.
+constexpr uint32_t room_for_commands = 16;
+
+constexpr uint8_t broken = UINT8_MAX;  // LineLen: the line cannot become a frame
+
+// As SocketCAN codes it: the controller (byte 0…3 of the identifier) has lost a received frame (byte 1 of the data).
+constexpr CO_IF_FRM overflow = {CO_IF_FRM_ERROR | 0x04U, {0, 0x01, 0, 0, 0, 0, 0, 0}, 8};
+
+constexpr uint32_t bit_rates[] = {10000, 20000, 50000, 100000, 125000, 250000, 500000, 800000, 1000000};
+
+// --- Between the contexts
+
+template <typename Number>
+Number load(const Number& number) {
+  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
+}
+
+template <typename Number>
+void store(Number& number, Number value) {
+  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
+}
+
+void count(uint16_t& counter) {
+  if (counter != UINT16_MAX) {
+    store(counter, static_cast<uint16_t>(counter + 1));
+  }
+}
+
+// --- Text that is received
+
+constexpr uint8_t no_digit = 16;
+
+uint8_t digit(uint8_t character) {
+  if (character >= '0' && character <= '9') {
+    return static_cast<uint8_t>(character - '0');
+  }
+  const auto letter = static_cast<uint8_t>(character | 0x20);
+  return letter >= 'a' && letter <= 'f' ? static_cast<uint8_t>(letter - 'a' + 10) : no_digit;
+}
+
+// Takes one number after the other from a line; after a fault, the rest no longer matters.
+class Reader {
+ public:
+  Reader(const uint8_t* text, uint8_t length) : text_(text), length_(length) {}
+
+  uint32_t number(unsigned digits) {
+    uint32_t value = 0;
+    for (; digits != 0; --digits) {
+      const uint8_t next = place_ < length_ ? digit(text_[place_]) : no_digit;
+      good_ = good_ && next != no_digit;
+      value = value << 4 | (next & 15U);
+      ++place_;
+    }
+    return value;
+  }
+
+  bool good() const { return good_; }
+  unsigned left() const { return length_ - place_; }
+
+ private:
+  const uint8_t* text_;
+  unsigned length_;
+  unsigned place_ = 0;
+  bool good_ = true;
+};
+
+constexpr unsigned time_stamp = 4;  // digits
+
+// The digits behind the letter. Returns false if they are no frame.
+bool decode(Reader& line, bool extended, bool remote, CO_IF_FRM& frame) {
+  const uint32_t identifier = line.number(extended ? 8 : 3);
+  const uint32_t length = line.number(1);
+  if (identifier > (extended ? CO_IF_FRM_ID : 0x7FFU) || length > sizeof frame.Data) {
+    return false;
+  }
+  frame = {};
+  frame.Identifier = identifier | (extended ? CO_IF_FRM_EXT : 0U) | (remote ? CO_IF_FRM_RTR : 0U);
+  frame.DLC = static_cast<uint8_t>(length);
+  for (uint32_t n = 0; n < length && !remote; ++n) {
+    frame.Data[n] = static_cast<uint8_t>(line.number(2));
+  }
+  if (line.good() && line.left() == time_stamp) {
+    line.number(time_stamp);
+  }
+  return line.good() && line.left() == 0;
+}
+
+void take_frame(CO_SLCAN& can, bool extended, bool remote) {
+  CO_IF_FRM frame;
+  Reader line(can.Line + 1, static_cast<uint8_t>(can.LineLen - 1));
+  if (!decode(line, extended, remote, frame)) {
+    count(can.Malformed);
+  } else if (load(can.Open) != 0) {
+    CORingPut(&can.Frames, &frame);
+  }
+}
+
+// An answer (the frame is on its way) or the command of a peer.
+bool is_passed_over(const CO_SLCAN& can) {
+  switch (can.Line[0]) {
+    case 'z':
+    case 'Z':
+    case 'C':
+    case 'O': return can.LineLen == 1;
+    case 'S': return can.LineLen == 2;
+    default: return false;
+  }
+}
+
+void take_line(CO_SLCAN& can) {
+  if (can.LineLen == 0) {
+    return;  // an answer: done
+  }
+  if (can.LineLen > CO_SLCAN_LINE) {
+    count(can.Malformed);
+    return;
+  }
+  switch (can.Line[0]) {
+    case 't': return take_frame(can, false, false);
+    case 'T': return take_frame(can, true, false);
+    case 'r': return take_frame(can, false, true);
+    case 'R': return take_frame(can, true, true);
+    default:
+      if (!is_passed_over(can)) {
+        count(can.Malformed);
+      }
+  }
+}
+
+void receive(CO_SLCAN& can, uint8_t byte) {
+  if (byte == end_of_line) {
+    take_line(can);
+    can.LineLen = 0;
+  } else if (byte == bell) {
+    count(can.Refused);
+    can.LineLen = 0;
+  } else if (byte == '\n' && can.LineLen == 0) {
+    // Some adapters end their lines with CR and LF.
+  } else if (can.LineLen < CO_SLCAN_LINE) {
+    can.Line[can.LineLen++] = byte;
+  } else {
+    can.LineLen = broken;
+  }
+}
+
+// --- Text to be sent
+
+constexpr uint8_t mask = CO_SLCAN_TX_BYTES - 1;
+
+uint8_t waiting(const CO_SLCAN& can) { return static_cast<uint8_t>(load(can.TxHead) - load(can.TxTail)); }
+
+// Puts a line together that is not to be seen before it is complete. There is room.
+class Writer {
+ public:
+  explicit Writer(CO_SLCAN& can) : can_(can), head_(can.TxHead) {}
+
+  void character(uint8_t character) { can_.Tx[head_++ & mask] = character; }
+  void number(uint32_t value, unsigned digits) {
+    while (digits != 0) {
+      --digits;
+      character(static_cast<uint8_t>("0123456789ABCDEF"[value >> 4 * digits & 15U]));
+    }
+  }
+  void end() {
+    character(end_of_line);
+    store(can_.TxHead, head_);
+  }
+
+ private:
+  CO_SLCAN& can_;
+  uint8_t head_;
+};
+
+struct Form {
+  bool extended;
+  bool remote;
+  uint8_t length;
+};
+
+// An identifier that is too long for 11 bits goes out with 29: cut, it would be another message.
+Form form_of(const CO_IF_FRM& frame) {
+  const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0 || (frame.Identifier & CO_IF_FRM_ID) > 0x7FF;
+  const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
+  return {extended, remote, frame.DLC < sizeof frame.Data ? frame.DLC : static_cast<uint8_t>(sizeof frame.Data)};
+}
+
+uint32_t characters(const Form& form) { return (form.extended ? 11U : 6U) + (form.remote ? 0U : 2U * form.length); }
+
+void write_frame(CO_SLCAN& can, const CO_IF_FRM& frame, const Form& form) {
+  const char letter = form.remote ? 'r' : 't';
+  Writer line(can);
+  line.character(static_cast<uint8_t>(form.extended ? letter - 'a' + 'A' : letter));
+  line.number(frame.Identifier & CO_IF_FRM_ID, form.extended ? 8 : 3);
+  line.number(form.length, 1);
+  for (uint8_t n = 0; n < form.length && !form.remote; ++n) {
+    line.number(frame.Data[n], 2);
+  }
+  line.end();
+}
+
+void write_command(CO_SLCAN& can, uint8_t letter) {
+  Writer line(can);
+  line.character(letter);
+  line.end();
+}
+
+void write_bit_rate(CO_SLCAN& can, uint32_t baud) {
+  uint8_t code = '0';
+  for (const uint32_t rate : bit_rates) {
+    if (rate == baud) {
+      Writer line(can);
+      line.character('S');
+      line.character(code);
+      line.end();
+      return;
+    }
+    ++code;
+  }
+}
+
+void start(const CO_SLCAN& can) {
+  if (can.Start != nullptr) {
+    can.Start(can.Ctx);
+  }
+}
+
+// --- The driver
+
+CO_SLCAN& slcan(void* ctx) { return *static_cast<CO_SLCAN*>(ctx); }
+
+void drain(CO_SLCAN& can) {
+  CO_IF_FRM old;
+  while (CORingGet(&can.Frames, &old)) {
+  }
+}
+
+void reset(void* ctx) { drain(slcan(ctx)); }
+
+void close(void* ctx) {
+  CO_SLCAN& can = slcan(ctx);
+  store(can.Open, static_cast<uint8_t>(0));
+  if (CO_SLCAN_TX_BYTES - waiting(can) >= 2) {
+    write_command(can, 'C');
+    start(can);
+  }
+}
+
+void init(void* ctx) {
+  store(slcan(ctx).Open, static_cast<uint8_t>(0));
+  drain(slcan(ctx));
+}
+
+void enable(void* ctx, uint32_t baud) {
+  CO_SLCAN& can = slcan(ctx);
+  drain(can);
+  store(can.Open, static_cast<uint8_t>(1));
+  if (CO_SLCAN_TX_BYTES - waiting(can) < 7) {
+    return;  // nobody takes what is sent
+  }
+  write_command(can, 'C');
+  write_bit_rate(can, baud != 0 ? baud : can.Baud);
+  write_command(can, 'O');
+  start(can);
+}
+
+int16_t read(void* ctx, CO_IF_FRM* frm) {
+  CO_SLCAN& can = slcan(ctx);
+  const uint16_t lost = CORingLost(&can.Frames);
+  if (lost != can.LostSeen) {
+    can.LostSeen = lost;
+    *frm = overflow;
+    return taken;
+  }
+  return CORingGet(&can.Frames, frm) ? taken : static_cast<int16_t>(0);
+}
+
+int16_t send(void* ctx, const CO_IF_FRM* frm) {
+  CO_SLCAN& can = slcan(ctx);
+  if (load(can.Open) == 0) {
+    return -1;
+  }
+  const Form form = form_of(*frm);
+  const bool room = waiting(can) + characters(form) + room_for_commands <= CO_SLCAN_TX_BYTES;
+  can.Busy = room ? 0 : 1;
+  if (!room) {
+    return 0;
+  }
+  write_frame(can, *frm, form);
+  start(can);
+  return taken;
+}
+
+}  // namespace
+
+extern "C" {
+
+bool COSlcanInit(CO_SLCAN* can, CO_IF_FRM* mem, uint16_t num, void (*start)(void* ctx), void* ctx) {
+  if (can == nullptr) {
+    return false;
+  }
+  *can = {};
+  can->Start = start;
+  can->Ctx = ctx;
+  return CORingInit(&can->Frames, mem, num) && start != nullptr;
+}
+
+void COSlcanReceive(CO_SLCAN* can, uint8_t byte) { receive(*can, byte); }
+
+void COSlcanBroken(CO_SLCAN* can) { can->LineLen = broken; }
+
+uint32_t COSlcanPending(const CO_SLCAN* can, const uint8_t** bytes) {
+  const uint32_t first = can->TxTail & mask;
+  const uint32_t num = waiting(*can);
+  *bytes = can->Tx + first;
+  return num < CO_SLCAN_TX_BYTES - first ? num : CO_SLCAN_TX_BYTES - first;
+}
+
+void COSlcanSent(CO_SLCAN* can, uint32_t num) { store(can->TxTail, static_cast<uint8_t>(can->TxTail + num)); }
+
+bool COSlcanIsDue(const CO_SLCAN* can) {
+  const bool has_room = waiting(*can) + CO_SLCAN_LINE + 1 + room_for_commands <= CO_SLCAN_TX_BYTES;
+  return CORingCount(&can->Frames) != 0 || CORingLost(&can->Frames) != can->LostSeen || (can->Busy != 0 && has_room);
+}
+
+uint16_t COSlcanMalformed(const CO_SLCAN* can) { return load(can->Malformed); }
+
+uint16_t COSlcanRefused(const CO_SLCAN* can) { return load(can->Refused); }
+
+}  // extern "C"
+
+const CO_IF_CAN_DRV_EX SlcanDriver = {init, enable, read, send, reset, close, nullptr};

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_can_zynqmp.h"
+
+#include <cstdint>
+
+#include "acceptance.hpp"
+#include "registers.hpp"
+
+namespace co::zynqmp {
+namespace {
+
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+constexpr unsigned fifo_frames = 64;
+constexpr std::uint8_t bytes_at_most = 8;
+constexpr std::uint32_t standard_ids = 0x7FF;
+
+// What wakes the loop. That a frame has been sent is added while one is being sent: without one it is always true.
+constexpr std::uint32_t always_wanted = received | receive_overflow | bus_off | woken;
+
+// What a node is told, coded as SocketCAN does.
+constexpr std::uint32_t class_controller = 0x004;
+constexpr std::uint32_t class_bus_off = 0x040;
+constexpr std::uint32_t class_restarted = 0x100;
+constexpr std::uint8_t detail_overflow = 0x01;
+constexpr std::uint8_t detail_passive = 0x30;
+constexpr std::uint8_t detail_active = 0x40;
+
+// States of CO_CAN_ZYNQMP.Told.
+constexpr std::uint8_t told_active = 0;
+constexpr std::uint8_t told_passive = 1;
+constexpr std::uint8_t told_bus_off = 2;
+
+CO_CAN_ZYNQMP& controller(void* ctx) { return *static_cast<CO_CAN_ZYNQMP*>(ctx); }
+
+// Each of these has one writer, interrupt or loop, so that loads and stores suffice.
+template <typename Number>
+Number load(const Number& number) {
+  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
+}
+template <typename Number>
+void store(Number& number, Number value) {
+  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
+}
+
+bool has(const CO_CAN_ZYNQMP& can, std::uint32_t interrupt) {
+  return (read(can.Registers, Register::interrupt_status) & interrupt) != 0;
+}
+
+void clear(const CO_CAN_ZYNQMP& can, std::uint32_t interrupts) {
+  write(can.Registers, Register::interrupt_clear, interrupts);
+}
+
+// Receiving -----------------------------------------------------------------------------------------------------------
+
+void unpack(std::uint32_t word, std::uint8_t* bytes) {
+  for (unsigned n = 0; n < 4; ++n) {
+    bytes[n] = static_cast<std::uint8_t>(word >> (24 - 8 * n));
+  }
+}
+
+std::uint32_t identifier_of(std::uint32_t word) {
+  const std::uint32_t base = word >> standard_shift;
+  if ((word & extended) == 0) {
+    return base | ((word & standard_remote) != 0 ? CO_IF_FRM_RTR : 0);
+  }
+  const std::uint32_t extension = (word >> extension_shift) & 0x3FFFF;
+  return (base << 18) | extension | CO_IF_FRM_EXT | ((word & extended_remote) != 0 ? CO_IF_FRM_RTR : 0);
+}
+
+CO_IF_FRM read_frame(const CO_CAN_ZYNQMP& can) {
+  CO_IF_FRM frame{};
+  frame.Identifier = identifier_of(read(can.Registers, Register::receive));
+  const std::uint32_t dlc = read(can.Registers, Register::receive + 1) >> dlc_shift;
+  frame.DLC = dlc < bytes_at_most ? static_cast<std::uint8_t>(dlc) : bytes_at_most;
+  unpack(read(can.Registers, Register::receive + 2), frame.Data);
+  unpack(read(can.Registers, Register::receive + 3), frame.Data + 4);
+  return frame;
+}
+
+// On and off the bus --------------------------------------------------------------------------------------------------
+
+const CO_CAN_ZYNQMP_RATE* find_rate(const CO_CAN_ZYNQMP& can, std::uint32_t baud) {
+  for (unsigned n = 0; n < can.RateNum; ++n) {
+    if (can.Rates[n].Baud == baud) {
+      return &can.Rates[n];
+    }
+  }
+  return nullptr;
+}
+
+// No interrupt comes behind this: what is read back was written.
+void silence(CO_CAN_ZYNQMP& can) {
+  write(can.Registers, Register::interrupt_enable, 0);
+  static_cast<void>(read(can.Registers, Register::interrupt_enable));
+}
+
+// For what takes the controller a few of its clock periods.
+void await(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t value) {
+  for (unsigned patience = 1000; patience != 0 && (read(can.Registers, Register::status) & bit) != value;) {
+    --patience;
+  }
+}
+
+void go_off_the_bus(CO_CAN_ZYNQMP& can) {
+  silence(can);
+  write(can.Registers, Register::software_reset, soft_reset);
+  await(can, is_configuring, is_configuring);
+  can.Rate = nullptr;
+}
+
+// While there is no interrupt.
+void forget_received(CO_CAN_ZYNQMP& can) {
+  for (unsigned n = 0; n < fifo_frames && has(can, received); ++n) {
+    static_cast<void>(read_frame(can));
+    clear(can, received);
+  }
+  clear(can, receive_overflow);
+  static_cast<void>(CORingInit(&can.Received, can.Frames, can.FrameNum));
+  can.Overflows = 0;
+  can.ToldLost = 0;
+}
+
+void want_interrupts(const CO_CAN_ZYNQMP& can) {
+  write(can.Registers, Register::interrupt_enable, can.IsSending != 0 ? always_wanted | all_sent : always_wanted);
+}
+
+void set_filters(const CO_CAN_ZYNQMP& can) {
+  write(can.Registers, Register::filters_used, 0);  // meanwhile everything comes through
+  await(can, filters_busy, 0);
+  for (unsigned n = 0; n < can.FilterNum; ++n) {
+    write(can.Registers, Register::filters + 2 * n, can.FilterMask[n]);
+    write(can.Registers, Register::filters + (2 * n + 1), can.FilterId[n]);
+  }
+  write(can.Registers, Register::filters_used, (1U << can.FilterNum) - 1);
+}
+
+void go_on_the_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
+  go_off_the_bus(can);
+  forget_received(can);
+  can.Rate = &rate;
+  can.IsBusOff = 0;
+  can.IsSending = 0;
+  write(can.Registers, Register::prescaler, rate.Prescaler);
+  write(can.Registers, Register::bit_timing, rate.Timing);
+  write(can.Registers, Register::mode_select, can.Loopback ? loopback_mode : 0);
+  set_filters(can);
+  want_interrupts(can);
+  write(can.Registers, Register::software_reset, can_enable);
+}
+
+// Sending -------------------------------------------------------------------------------------------------------------
+
+std::uint32_t word_of(const CO_IF_FRM& frame) {
+  const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
+  const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
+  // Cut to 11 bits a longer one would be another message, at worst an NMT command.
+  if ((frame.Identifier & CO_IF_FRM_EXT) == 0 && id <= standard_ids) {
+    return (id << standard_shift) | (remote ? standard_remote : 0);
+  }
+  return identifier_word(id | CO_IF_FRM_EXT) | standard_remote | (remote ? extended_remote : 0);
+}
+
+// First byte in the highest bits.
+std::uint32_t word_at(const std::uint8_t* bytes) {
+  return (std::uint32_t{bytes[0]} << 24) | (std::uint32_t{bytes[1]} << 16) | (std::uint32_t{bytes[2]} << 8) | bytes[3];
+}
+
+void write_frame(const CO_CAN_ZYNQMP& can, Register buffer, std::uint32_t word, const CO_IF_FRM& frame) {
+  const std::uint32_t dlc = frame.DLC < bytes_at_most ? frame.DLC : bytes_at_most;
+  write(can.Registers, buffer, word);
+  write(can.Registers, buffer + 1, dlc << dlc_shift);
+  write(can.Registers, buffer + 2, word_at(frame.Data));
+  write(can.Registers, buffer + 3, word_at(frame.Data + 4));
+}
+
+bool is_sending(CO_CAN_ZYNQMP& can) {
+  if (can.IsSending != 0 && has(can, all_sent)) {
+    can.IsSending = 0;
+  }
+  return can.IsSending != 0;
+}
+
+// Nothing comes before the boot-up message. [301:7.3.2.2.1]
+bool is_boot_up(const CO_IF_FRM& frame) {
+  constexpr std::uint32_t error_control = 0x700;
+  return (frame.Identifier & ~0x7FU) == error_control && frame.DLC == 1 && frame.Data[0] == 0;
+}
+
+// The interrupt of the empty FIFO is cleared behind the frame, as it comes again while the FIFO is empty. A frame that
+// is sent before that is told by the other one.
+void send_next(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
+  clear(can, sent | arbitration_lost);
+  write_frame(can, Register::transmit, word, frame);
+  clear(can, all_sent);
+  if (has(can, sent)) {
+    return;
+  }
+  can.IsSending = 1;
+  can.SendingWord = is_boot_up(frame) ? 0 : word;
+  want_interrupts(can);
+}
+
+// A frame that has lost the arbitration is not on the bus now. One that has not, or another one in front of it, is.
+bool may_overtake(const CO_CAN_ZYNQMP& can, std::uint32_t word) {
+  return word < can.SendingWord && has(can, arbitration_lost);
+}
+
+void send_first(const CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
+  clear(can, arbitration_lost);
+  write_frame(can, Register::transmit_first, word, frame);
+}
+
+bool try_send(CO_CAN_ZYNQMP& can, const CO_IF_FRM& frame) {
+  const std::uint32_t word = word_of(frame);
+  if ((read(can.Registers, Register::status) & first_is_full) != 0) {
+    return false;
+  }
+  if (!is_sending(can)) {
+    send_next(can, word, frame);
+    return true;
+  }
+  if (may_overtake(can, word)) {
+    send_first(can, word, frame);
+    return true;
+  }
+  return false;
+}
+
+// Reporting -----------------------------------------------------------------------------------------------------------
+
+std::uint8_t state_of(const CO_CAN_ZYNQMP& can) {
+  if (load(can.IsBusOff) != 0) {
+    return told_bus_off;
+  }
+  switch (read(can.Registers, Register::status) & error_state) {
+    case error_active: return told_active;
+    case error_passive: return told_passive;
+    default: return can.Told;  // on its way to the bus, or to bus-off
+  }
+}
+
+void tell_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
+  if (state == told_bus_off) {
+    report.Identifier |= class_bus_off;
+  } else if (can.Told == told_bus_off) {
+    report.Identifier |= class_restarted;
+  }
+  if (state == told_passive || (state == told_active && can.Told == told_passive)) {
+    report.Identifier |= class_controller;
+    report.Data[1] = state == told_passive ? detail_passive : detail_active;
+  }
+  can.Told = state;
+}
+
+void tell_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
+  report.Identifier |= class_controller;
+  report.Data[1] = static_cast<std::uint8_t>(report.Data[1] | detail_overflow);
+  can.ToldLost = lost;
+}
+
+// False: nothing has happened since the last report.
+bool report_events(CO_CAN_ZYNQMP& can, CO_IF_FRM& report) {
+  const std::uint32_t lost = COCanZynqmpLost(&can);
+  const std::uint8_t state = state_of(can);
+  if (lost == can.ToldLost && state == can.Told) {
+    return false;
+  }
+  report = {CO_IF_FRM_ERROR, {}, bytes_at_most};
+  if (state != can.Told) {
+    tell_state(can, state, report);
+  }
+  if (lost != can.ToldLost) {
+    tell_lost(can, lost, report);
+  }
+  return true;
+}
+
+// The driver ----------------------------------------------------------------------------------------------------------
+
+void init(void* ctx) { go_off_the_bus(controller(ctx)); }
+
+void enable(void* ctx, std::uint32_t baud) {
+  CO_CAN_ZYNQMP& can = controller(ctx);
+  const CO_CAN_ZYNQMP_RATE* const rate = find_rate(can, baud);
+  can.Told = told_active;
+  if (rate == nullptr) {
+    go_off_the_bus(can);
+    return;
+  }
+  go_on_the_bus(can, *rate);
+}
+
+std::int16_t read_driver(void* ctx, CO_IF_FRM* frm) {
+  CO_CAN_ZYNQMP& can = controller(ctx);
+  if (can.Rate == nullptr) {
+    return 0;
+  }
+  return report_events(can, *frm) || CORingGet(&can.Received, frm) ? taken : std::int16_t{0};
+}
+
+std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
+  CO_CAN_ZYNQMP& can = controller(ctx);
+  if (can.Rate == nullptr || load(can.IsBusOff) != 0) {
+    return -1;
+  }
+  return try_send(can, *frm) ? taken : std::int16_t{0};
+}
+
+// The frame that is being sent may be the answer to what has asked for the reset.
+void reset(void* ctx) {
+  CO_CAN_ZYNQMP& can = controller(ctx);
+  if (can.Rate == nullptr) {
+    return;
+  }
+  if (can.IsBusOff != 0) {
+    go_on_the_bus(can, *can.Rate);
+    return;
+  }
+  silence(can);
+  forget_received(can);
+  want_interrupts(can);
+}
+
+void close(void* ctx) { go_off_the_bus(controller(ctx)); }
+
+void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
+  CO_CAN_ZYNQMP& can = controller(ctx);
+  const Acceptance acceptance = acceptance_of(ids, num);
+  can.FilterNum = acceptance.number;
+  for (unsigned n = 0; n < acceptance.number; ++n) {
+    can.FilterMask[n] = acceptance.filter[n].mask;
+    can.FilterId[n] = acceptance.filter[n].word;
+  }
+  if (can.Rate != nullptr) {
+    set_filters(can);
+  }
+}
+
+}  // namespace
+}  // namespace co::zynqmp
+
+using namespace co::zynqmp;
+
+const CO_IF_CAN_DRV_EX ZynqmpCanDriver = {init, enable, read_driver, send, reset, close, filter};
+
+extern "C" {
+
+void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can) {
+  ASSERT_PTR(can);
+  if (can->Rate == nullptr) {
+    return;
+  }
+  for (unsigned n = 0; n < fifo_frames && has(*can, received); ++n) {
+    const CO_IF_FRM frame = read_frame(*can);
+    clear(*can, received);
+    static_cast<void>(CORingPut(&can->Received, &frame));
+  }
+  const std::uint32_t status = read(can->Registers, Register::interrupt_status);
+  if ((status & receive_overflow) != 0) {
+    store(can->Overflows, can->Overflows + 1);
+  }
+  if ((status & bus_off) != 0) {
+    write(can->Registers, Register::software_reset, 0);
+    store(can->IsBusOff, std::uint8_t{1});
+  }
+  clear(*can, status & (receive_overflow | bus_off | woken));
+  if ((status & all_sent) != 0) {
+    write(can->Registers, Register::interrupt_enable, always_wanted);
+  }
+}
+
+void COCanZynqmpSleep(CO_CAN_ZYNQMP* can) {
+  ASSERT_PTR(can);
+  if (can->Rate != nullptr && load(can->IsBusOff) == 0 && !is_sending(*can)) {
+    write(can->Registers, Register::mode_select, sleep_mode);
+  }
+}
+
+uint32_t COCanZynqmpLost(const CO_CAN_ZYNQMP* can) {
+  return can == nullptr ? 0 : load(can->Overflows) + CORingLost(&can->Received);
+}
+
+}  // extern "C"

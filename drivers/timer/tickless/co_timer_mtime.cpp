@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_timer_mtime.h"
+
+#include "cycle_clock.hpp"
+
+namespace {
+
+constexpr uint32_t most = 1U << 31;  // cycles to the next interrupt
+
+CO_MTIME& mtime(void* ctx) { return *static_cast<CO_MTIME*>(ctx); }
+
+// The low word wraps as the clock of cycles does.
+uint32_t cycle(const CO_MTIME& t) { return t.Time[0]; }
+
+void change(CO_MTIME& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
+
+uint64_t time(const CO_MTIME& t) {
+  uint32_t high = t.Time[1];
+  for (;;) {
+    const uint32_t low = t.Time[0];
+    const uint32_t again = t.Time[1];
+    if (again == high) {
+      return uint64_t{high} << 32 | low;
+    }
+    high = again;
+  }
+}
+
+// With the high word out of reach first, no value in between interrupts.
+void set_compare(CO_MTIME& t, uint64_t at) {
+  t.Compare[1] = UINT32_MAX;
+  t.Compare[0] = static_cast<uint32_t>(at);
+  t.Compare[1] = static_cast<uint32_t>(at >> 32);
+}
+
+void alarm(void* ctx, uint32_t ticks) {
+  CO_MTIME& t = mtime(ctx);
+  const uint64_t now = time(t);
+  set_compare(t, now + co::cycles::until(t.Clock, static_cast<uint32_t>(now), ticks, most));
+  change(t);
+}
+
+void init(void* ctx, uint32_t freq) {
+  CO_MTIME& t = mtime(ctx);
+  co::cycles::start(t.Clock, t.Hz, freq, cycle(t));
+  alarm(ctx, 0);
+}
+
+// In the loop the interrupt, which changes what is read, may come in between.
+uint32_t now(void* ctx) {
+  const CO_MTIME& t = mtime(ctx);
+  for (;;) {
+    const uint32_t turn = __atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE);
+    const uint32_t ticks = co::cycles::ticks(t.Clock, cycle(t));
+    __atomic_signal_fence(__ATOMIC_ACQ_REL);
+    if (__atomic_load_n(&t.Turn, __ATOMIC_ACQUIRE) == turn) {
+      return ticks;
+    }
+  }
+}
+
+}  // namespace
+
+const CO_IF_TIMER_DRV_EX MtimeDriver = {init, now, alarm};

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_timer_mtime.h
+/// The machine timer of RISC-V (mtime and mtimecmp) as a clock that interrupts only when something is due. C and C++,
+/// bare metal, 32 and 64 bits.
+///
+///     static CO_MTIME timer = {(volatile uint32_t*)0x0200BFF8, (volatile uint32_t*)0x02004000, 10000000};   // Hz
+///     spec.TmrFreq = 1000000;                                                           // Hz is a multiple of it
+///     ext.Timer = &MtimeDriver;  ext.TimerCtx = &timer;                                 // CO_NODE_EXT
+///     machine timer interrupt: COTmrService(&node.Tmr);
+///
+/// An alarm further away than 2^31 cycles is reached in steps of these, each an interrupt; so is the time in which no
+/// alarm is set, as the ticks are counted from there.
+///
+/// An alarm is never early. Contexts: the loop, and COTmrService() in the machine timer interrupt. Owner: the caller;
+/// must outlive the node.
+#ifndef CO_TIMER_MTIME_H_
+#define CO_TIMER_MTIME_H_
+
+#include "co_cycle_clock.h"
+#include "co_if_timer.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The first three members are the caller's, the others the driver's.
+typedef struct CO_MTIME_T {
+  volatile uint32_t* Time;     ///< mtime: two words, the low one first
+  volatile uint32_t* Compare;  ///< mtimecmp of the hart, likewise
+  uint32_t Hz;                 ///< of mtime
+  CO_CYCLE_CLOCK Clock;
+  uint32_t Turn;  // changes with it
+} CO_MTIME;
+
+/// The driver; its context is a CO_MTIME.
+extern const CO_IF_TIMER_DRV_EX MtimeDriver;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_timer_nrf51.h"
+
+namespace {
+
+static_assert(offsetof(CO_NRF51_TIMER_REGS, Capture) == 0x040 && offsetof(CO_NRF51_TIMER_REGS, Compared) == 0x140);
+static_assert(offsetof(CO_NRF51_TIMER_REGS, InterruptsOn) == 0x304 && offsetof(CO_NRF51_TIMER_REGS, Mode) == 0x504);
+static_assert(offsetof(CO_NRF51_TIMER_REGS, Prescaler) == 0x510 && offsetof(CO_NRF51_TIMER_REGS, Compare) == 0x540);
+
+constexpr uint32_t clock_hz = 16000000;
+constexpr uint32_t highest_prescaler = 9;
+constexpr uint32_t bits_32 = 3;
+
+// Registers for the present time, and for the alarm.
+constexpr unsigned present = 0;
+constexpr unsigned due = 1;
+constexpr uint32_t due_interrupt = 1U << (16 + due);
+
+// Ticks between a look at the clock and the compare register that is written then, and more.
+constexpr uint32_t lead = 4;
+
+CO_NRF51_TIMER_REGS& registers(void* ctx) { return *static_cast<CO_NRF51_TIMER*>(ctx)->Regs; }
+
+// The interrupt may come between the lines: then the time is that of its own look, which is not older.
+uint32_t look(CO_NRF51_TIMER_REGS& regs) {
+  regs.Capture[present] = 1;
+  return regs.Compare[present];
+}
+
+void init(void* ctx, uint32_t freq) {
+  CO_NRF51_TIMER_REGS& regs = registers(ctx);
+  uint32_t prescaler = 0;
+  while (prescaler < highest_prescaler && clock_hz >> prescaler > freq) {
+    ++prescaler;
+  }
+  regs.Stop = 1;
+  regs.InterruptsOff = UINT32_MAX;
+  regs.Mode = 0;
+  regs.BitMode = bits_32;
+  regs.Prescaler = prescaler;
+  regs.Clear = 1;
+  regs.Start = 1;
+}
+
+uint32_t now(void* ctx) { return look(registers(ctx)); }
+
+// A compare register that is written when its time is over would match one turn of the clock later.
+void alarm(void* ctx, uint32_t ticks) {
+  CO_NRF51_TIMER_REGS& regs = registers(ctx);
+  regs.InterruptsOff = due_interrupt;
+  regs.Compared[due] = 0;
+  if (ticks == 0) {
+    return;
+  }
+  const uint32_t begin = look(regs);
+  uint32_t wait = ticks < lead ? lead : ticks;
+  regs.Compare[due] = begin + wait;
+  for (uint32_t passed = look(regs) - begin; passed >= wait; passed = look(regs) - begin) {
+    wait = passed + lead;
+    regs.Compare[due] = begin + wait;
+  }
+  regs.InterruptsOn = due_interrupt;
+}
+
+}  // namespace
+
+const CO_IF_TIMER_DRV_EX Nrf51TimerDriver = {init, now, alarm};

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bus behind an slcan adapter: a socket, a terminal, and what goes wrong with them.
+#include "co_cfg.h"
+
+#if USE_CSDO && defined(__linux__)  // the demo's master needs the one, and the other
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "host/slcan_host.hpp"
+#include "support/notation.hpp"
+
+namespace {
+
+using demo::Interruption;
+using demo::SlcanHost;
+
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+
+/// The other end of a host's adapter.
+class Adapter {
+ public:
+  explicit Adapter(int fd) : fd_(fd) {}
+  ~Adapter() { close(); }
+  Adapter(const Adapter&) = delete;
+  Adapter& operator=(const Adapter&) = delete;
+
+  void send(const std::string& text) const { REQUIRE(::write(fd_, text.data(), text.size()) == ssize_t(text.size())); }
+  std::string receive() const {
+    char text[4096];
+    const ssize_t size = ::read(fd_, text, sizeof text);
+    return {text, size < 0 ? 0 : static_cast<std::size_t>(size)};
+  }
+  void close() {
+    if (fd_ >= 0) {
+      ::close(fd_);
+    }
+    fd_ = -1;
+  }
+
+ private:
+  int fd_;
+};
+
+int listening_socket(const std::string& path) {
+  std::filesystem::remove(path);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  const int fd = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  REQUIRE(::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  REQUIRE(::listen(fd, 1) == 0);
+  return fd;
+}
+
+struct Line {
+  Line() {
+    const int fd = listening_socket(path);
+    REQUIRE(host.open(path, 500000) == "");
+    adapter = std::make_unique<Adapter>(::accept(fd, nullptr, nullptr));
+    ::close(fd);
+    std::filesystem::remove(path);
+  }
+  std::string read() {
+    CO_IF_FRM frame{};
+    return can.driver->Read(can.context, &frame) > 0 ? test::notation(frame) : std::string();
+  }
+  std::int16_t send(const char* text) {
+    const CO_IF_FRM frame = test::frame(text);
+    return can.driver->Send(can.context, &frame);
+  }
+
+  std::string path =
+      (std::filesystem::temp_directory_path() / ("lexican_slcan_" + std::to_string(::getpid()))).string();
+  Interruption interruption;
+  SlcanHost host{interruption};
+  demo::Can can = host.master_can();
+  std::unique_ptr<Adapter> adapter;
+};
+
+}  // namespace
+
+TEST_CASE("slcan host: frames go over a socket in both directions, behind the commands that open the adapter") {
+  Line line;
+  line.can.driver->Init(line.can.context);
+  line.can.driver->Enable(line.can.context, 0);
+  CHECK(line.send("601#4000100000000000") == taken);
+  CHECK(line.adapter->receive() == "C\rS6\rO\rt60184000100000000000\r");
+  line.adapter->send("\r\r\rz\rt5818430010000");
+  CHECK(line.read().empty());
+  line.adapter->send("0000000\rt70117F\r");
+  CHECK(line.read() == "581#4300100000000000");
+  CHECK(line.read() == "701#7F");
+  CHECK(line.read().empty());
+  line.can.driver->Close(line.can.context);
+  CHECK(line.adapter->receive() == "C\r");
+  CHECK(line.host.bus_fault().empty());
+}
+
+TEST_CASE("slcan host: what arrives ends a wait") {
+  Line line;
+  line.can.driver->Enable(line.can.context, 0);
+  line.adapter->send("t0800\r");
+  line.host.wait(demo::for_ever / 1000000);
+  CHECK(line.read() == "080#");
+}
+
+TEST_CASE("slcan host: all frames come through although more arrive than it has room for") {
+  Line line;
+  line.can.driver->Enable(line.can.context, 0);
+  constexpr unsigned number = 5000;
+  std::thread adapter([&] {
+    for (unsigned n = 0; n < number; ++n) {
+      const std::string text = "t0010\r";
+      line.adapter->send(text);
+    }
+  });
+  unsigned received = 0;
+  while (received < number) {
+    const std::string frame = line.read();
+    received += frame.empty() ? 0u : 1u;
+    REQUIRE((frame.empty() || frame == "001#"));
+  }
+  adapter.join();
+  CHECK(received == number);
+}
+
+TEST_CASE("slcan host: an adapter that takes nothing makes Send say so, and gets all of it later") {
+  Line line;
+  std::string expected = "C\rS6\rO\r";
+  line.can.driver->Enable(line.can.context, 0);
+  unsigned sent = 0;
+  for (; sent < 1000000 && line.send("601#4000100000000000") == taken; ++sent) {
+    expected += "t60184000100000000000\r";
+  }
+  REQUIRE(sent < 1000000);
+  std::string text;
+  while (text.size() < expected.size()) {
+    const std::string more = line.adapter->receive();
+    REQUIRE(!more.empty());
+    text += more;
+    line.read();  // sends on, too
+  }
+  CHECK(text == expected);
+  CHECK(line.send("080#") == taken);
+}
+
+TEST_CASE("slcan host: an adapter that goes away is told in words, and nothing waits for it") {
+  Line line;
+  line.can.driver->Enable(line.can.context, 0);
+  CHECK_FALSE(line.host.interrupted());
+  line.adapter->close();
+  CHECK(line.read().empty());
+  CHECK(line.send("080#") == -1);
+  CHECK(line.host.bus_fault().find("slcan adapter '" + line.path + "': ") == 0);
+  CHECK(line.host.interrupted());
+}
+
+TEST_CASE("slcan host: a refusal of the adapter is told") {
+  Line line;
+  line.can.driver->Enable(line.can.context, 0);
+  line.adapter->send("\a");
+  line.read();
+  CHECK(line.host.bus_fault().find("has refused a command or a frame") != std::string::npos);
+}
+
+TEST_CASE("slcan host: a terminal carries the bytes as they are") {
+  const int fd = ::posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE(fd >= 0);
+  REQUIRE(::grantpt(fd) == 0);
+  REQUIRE(::unlockpt(fd) == 0);
+  char name[64];
+  REQUIRE(::ptsname_r(fd, name, sizeof name) == 0);
+  const Adapter adapter(fd);
+  const Interruption interruption;
+  SlcanHost host(interruption);
+  REQUIRE(host.open(name, 0) == "");
+  const demo::Can can = host.master_can();
+  can.driver->Enable(can.context, 0);
+  CHECK(adapter.receive() == "C\rO\r");
+  adapter.send("\rt70117F\r");
+  host.wait(demo::second * 100);
+  CO_IF_FRM frame{};
+  REQUIRE(can.driver->Read(can.context, &frame) > 0);
+  CHECK(test::notation(frame) == "701#7F");
+}
+
+TEST_CASE("slcan host: what cannot be opened is told in words") {
+  const Interruption interruption;
+  SlcanHost host(interruption);
+  CHECK(host.open("/no/such/adapter", 0) == "slcan adapter '/no/such/adapter': No such file or directory");
+  CHECK(host.open("/", 0).find("slcan adapter '/': ") == 0);
+}
+#endif
