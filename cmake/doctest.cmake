@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # lexican_doctest: the doctest header of the distribution, for native and for cross builds.
-find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h PATHS /usr/local/include /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
 
 add_library(lexican_doctest INTERFACE)
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# Bare-metal Arm: -D LEXICAN_CPU=cortex-m0, cortex-m4, …
+# Bare-metal Arm: -D LEXICAN_CPU=cortex-m0, cortex-m4, …; -D LEXICAN_FLOAT_ABI=hard for a core with floating point.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(LEXICAN_CPU cortex-m0 CACHE STRING "Value of -mcpu")
-set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES LEXICAN_CPU)
+set(LEXICAN_FLOAT_ABI soft CACHE STRING "Value of -mfloat-abi")
+set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES LEXICAN_CPU LEXICAN_FLOAT_ABI)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-set(CMAKE_C_FLAGS_INIT "-mcpu=${LEXICAN_CPU} -mthumb")
-set(CMAKE_CXX_FLAGS_INIT "-mcpu=${LEXICAN_CPU} -mthumb")
+set(CMAKE_C_FLAGS_INIT "-mcpu=${LEXICAN_CPU} -mthumb -mfloat-abi=${LEXICAN_FLOAT_ABI}")
+set(CMAKE_CXX_FLAGS_INIT "-mcpu=${LEXICAN_CPU} -mthumb -mfloat-abi=${LEXICAN_FLOAT_ABI}")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)

@@ -46,7 +46,7 @@ std::string Transfer::outcome() const {
   return fault.empty() ? "done" : fault;
 }
 
-SdoClient::SdoClient(Node& node, Loop& loop) : node_(node), loop_(loop) {}
+SdoClient::SdoClient(Node& node, Loop& loop, Options usual) : node_(node), loop_(loop), usual_(std::move(usual)) {}
 
 void SdoClient::note_end(CO_CSDO* client, std::uint16_t, std::uint8_t, std::uint32_t code) {
   auto& self = *static_cast<SdoClient*>(CONodeGetUser(client->Node));

@@ -50,19 +50,22 @@ class SdoClient {
     std::function<void(const Amount&)> watch{};  // told how far the transfer is
   };
 
-  /// Uses the first client of \a node, which runs in \a loop. Both must outlive this.
-  SdoClient(Node& node, Loop& loop);
+  /// Uses the first client of \a node, which runs in \a loop. Both must outlive this. \a usual: where none are given.
+  SdoClient(Node& node, Loop& loop, Options usual);
+  SdoClient(Node& node, Loop& loop) : SdoClient(node, loop, Options()) {}
   SdoClient(const SdoClient&) = delete;
   SdoClient& operator=(const SdoClient&) = delete;
 
   /// An interruption of the program cancels a transfer, with the abort code CO_SDO_ERR_TOS_LOCAL.
   Transfer upload(std::uint16_t index, std::uint8_t sub, const Options& options);
-  Transfer upload(std::uint16_t index, std::uint8_t sub) { return upload(index, sub, Options()); }
+  Transfer upload(std::uint16_t index, std::uint8_t sub) { return upload(index, sub, usual_); }
   /// \a data must not be empty.
   Transfer download(std::uint16_t index, std::uint8_t sub, Bytes data, const Options& options);
   Transfer download(std::uint16_t index, std::uint8_t sub, Bytes data) {
-    return download(index, sub, std::move(data), Options());
+    return download(index, sub, std::move(data), usual_);
   }
+
+  const Options& usual() const { return usual_; }
 
  private:
   static void note_end(CO_CSDO* client, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
@@ -71,6 +74,7 @@ class SdoClient {
 
   Node& node_;
   Loop& loop_;
+  Options usual_;
   bool ended_ = false;
   std::uint32_t code_ = 0;  // of the transfer that has ended
 };

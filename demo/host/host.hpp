@@ -46,12 +46,14 @@ class Host {
 
   /// What is wrong with the bus, in words; empty: nothing so far.
   virtual std::string bus_fault() { return {}; }
+  /// Whether it is gone for good.
+  virtual bool bus_lost() { return false; }
 
   /// Time since any moment.
   virtual Micros now() = 0;
   /// Lets at most \a time pass; ends sooner when a frame arrives or interrupted() becomes true.
   virtual void wait(Micros time) = 0;
-  /// Whether somebody wants the program to end.
+  /// Whether somebody wants the program to end, or the bus is lost.
   virtual bool interrupted() = 0;
 };
 

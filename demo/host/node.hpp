@@ -8,29 +8,9 @@
 
 #include "co_core.h"
 #include "host/host.hpp"
+#include "host/table.hpp"
 
 namespace demo {
-
-/// A dictionary, in the form in which CO_NODE_SPEC takes it.
-struct Table {
-  CO_OBJ* first;
-  std::uint16_t length;
-};
-
-/// Errors that a device can have, in the form in which CO_NODE_SPEC takes them.
-struct Errors {
-  CO_EMCY_TBL* first;
-  std::uint16_t number;
-};
-
-constexpr std::uint8_t no_node_id = 255;
-
-/// Bytes that a node takes from the begin of its memory for its node-ID and bit rate.
-#if USE_LSS && USE_PARA
-constexpr std::uint32_t lss_memory_size = CO_PARA_SPACE(8U, 1U, 1U);
-#else
-constexpr std::uint32_t lss_memory_size = 0;
-#endif
 
 class Node {
  public:
@@ -76,6 +56,7 @@ class Node {
   void set_user(void* user) { extension_.User = user; }
 
   CO_NODE& stack() { return node_; }
+  const CO_NODE& stack() const { return node_; }
   /// The last error of the node, which is thereby cleared.
   CO_ERR error() { return CONodeGetErr(&node_); }
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node_); }

@@ -145,6 +145,12 @@ Prepared prepare(const Arguments& arguments) {
   return {request, conversion.fault};
 }
 
+TourPrepared prepare_tour(const Arguments& arguments) {
+  Conversion conversion;
+  const std::string node = arguments.node.empty() ? "1" : arguments.node;
+  return {static_cast<std::uint8_t>(conversion.number("--node", node, 1, 127)), conversion.fault};
+}
+
 LssPrepared prepare(const LssArguments& arguments) {
   Conversion conversion;
   LssRequest request{};

@@ -48,6 +48,15 @@ struct Prepared {
 /// Reads the file that shall be written to the object.
 Prepared prepare(const Arguments& arguments);
 
+// --- tour
+
+struct TourPrepared {
+  std::uint8_t node;
+  std::string fault;  // empty: nothing is wrong with the arguments
+};
+
+TourPrepared prepare_tour(const Arguments& arguments);
+
 // --- lss
 
 enum class LssAction { scan, set_id, set_bit_rate, store, inquire };

@@ -85,7 +85,7 @@ int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ost
   LssMaster master(node, loop, {request.timeout, request.listen});
   CONodeStart(&node.stack());
   const bool done = work(master, request, out);
-  const bool cancelled = !done && master.cancelled();
+  const bool cancelled = !done && master.cancelled() && !host.bus_lost();
   if (!done) {
     const std::string bus_fault = host.bus_fault();
     err << "LSS: " << master.fault() << (bus_fault.empty() ? "" : '\n' + bus_fault) << std::endl;

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// lexican-demo-master: reads or writes one object of a CANopen node, with the stack's SDO client, or gives node-IDs
-// with its LSS master.
+// lexican-demo-master: reads or writes one object of a CANopen node, with the stack's SDO client, gives node-IDs with
+// its LSS master, or shows what a demo clock can do.
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include "host/linux_host.hpp"
+#include "host/slcan_host.hpp"
 #include "linux_master/lss.hpp"
 #include "linux_master/options.hpp"
 #include "linux_master/request.hpp"
+#include "linux_master/tour.hpp"
 
 namespace demo {
 namespace {
@@ -25,6 +30,28 @@ Progress::Form progress_form(bool asked_for) {
   return asked_for ? Progress::Form::lines : Progress::Form::none;
 }
 
+/// The bus to use; or no host, and what is wrong.
+struct Bus {
+  std::unique_ptr<Host> host;
+  std::string fault;
+};
+
+template <typename Kind>
+Bus opened(std::unique_ptr<Kind> host, std::string fault) {
+  return {fault.empty() ? std::move(host) : nullptr, std::move(fault)};
+}
+
+Bus open_bus(const CommandLine& line, const Interruption& interruption) {
+  if (line.slcan.empty()) {
+    auto host = std::make_unique<SocketCanHost>(interruption);
+    std::string fault = host->open(line.interface, false, true);
+    return opened(std::move(host), std::move(fault));
+  }
+  auto host = std::make_unique<SlcanHost>(interruption);
+  std::string fault = host->open(line.slcan, line.bit_rate);
+  return opened(std::move(host), std::move(fault));
+}
+
 int run(const CommandLine& line) {
   const Prepared prepared = prepare(line.arguments);
   if (!prepared.fault.empty()) {
@@ -33,11 +60,11 @@ int run(const CommandLine& line) {
   Outcome outcome;
   {
     const Interruption interruption;
-    SocketCanHost host(interruption);
-    if (const std::string fault = host.open(line.interface, false, true); !fault.empty()) {
-      return refuse(fault);
+    const Bus bus = open_bus(line, interruption);
+    if (bus.host == nullptr) {
+      return refuse(bus.fault);
     }
-    outcome = carry_out(prepared.request, host, progress_form(line.progress), std::cerr);
+    outcome = carry_out(prepared.request, *bus.host, progress_form(line.progress), std::cerr);
   }
   return report(prepared.request, outcome, std::cout, std::cerr);
 }
@@ -48,11 +75,31 @@ int run_lss(const CommandLine& line) {
     return refuse(prepared.fault);
   }
   const Interruption interruption;
-  SocketCanHost host(interruption);
-  if (const std::string fault = host.open(line.interface, false, true); !fault.empty()) {
-    return refuse(fault);
+  const Bus bus = open_bus(line, interruption);
+  return bus.host == nullptr ? refuse(bus.fault) : carry_out(prepared.request, *bus.host, std::cout, std::cerr);
+}
+
+int run_tour(const CommandLine& line) {
+  const TourPrepared prepared = prepare_tour(line.arguments);
+  if (!prepared.fault.empty()) {
+    return refuse(prepared.fault);
   }
-  return carry_out(prepared.request, host, std::cout, std::cerr);
+  const Interruption interruption;
+  const Bus bus = open_bus(line, interruption);
+  if (bus.host == nullptr) {
+    return refuse(bus.fault);
+  }
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  const View::Style style = {terminal, terminal && std::getenv("NO_COLOR") == nullptr, line.every_frame, "master"};
+  return take_tour_with(prepared.node, *bus.host, style, std::cout);
+}
+
+int run_any(const CommandLine& line) {
+  switch (line.work) {
+    case Work::lss: return run_lss(line);
+    case Work::tour: return run_tour(line);
+    default: return run(line);
+  }
 }
 
 }  // namespace
@@ -63,5 +110,5 @@ int main(int argc, char** argv) {
   if (!line.run) {
     return line.exit_code;
   }
-  return line.is_lss ? demo::run_lss(line) : demo::run(line);
+  return demo::run_any(line);
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* description =
     "Reads or writes an object of a CANopen node by SDO: expedited, segmented or by block transfer.\n"
     "Or finds nodes without node-ID, and configures nodes, by LSS.\n"
+    "Or takes a tour with a demo clock somewhere on the bus, and shows what goes over it.\n"
     "It boots on the bus as a node of its own. Standard output gets what was read or found, and nothing else.";
 
 constexpr const char* footer =
@@ -22,20 +23,29 @@ constexpr const char* footer =
     "  lexican-demo-master --node 1 --index 0x1008 --type string read\n"
     "  lexican-demo-master --node 1 --index 0x2100 --sub 1 --type u8 write 12\n"
     "  lexican-demo-master --node 1 --index 0x2200 --file picture.rgb read\n"
+    "  lexican-demo-master --slcan /dev/ttyACM0 --bit-rate 500000 --node 1 --index 0x1000 read\n"
     "  lexican-demo-master lss scan\n"
     "  lexican-demo-master lss set-id 5 --store\n"
     "  lexican-demo-master lss --address 0x319 0x1234 1 7 inquire\n"
     "\n"
     "Exit codes:\n"
-    "    0  the object was transferred, or the LSS services are done\n"
-    "    1  the transfer was aborted or refused, there was no answer, or the value read is not of the type\n"
-    "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
+    "    0  the object was transferred, the LSS services are done, or all steps of the tour went as expected\n"
+    "    1  the transfer was aborted or refused, there was no answer, the value read is not of the type, or a step of\n"
+    "       the tour went wrong\n"
+    "    2  wrong arguments, or the CAN interface, the adapter or the file cannot be used\n"
     "  130  Ctrl-C or SIGTERM has cancelled it";
 
 void add_object_options(CLI::App& app, CommandLine& line) {
   Arguments& arguments = line.arguments;
-  app.add_option("--can", line.interface, "SocketCAN interface to use")->type_name("IF")->capture_default_str();
-  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127")->type_name("N");
+  auto* const can = app.add_option("--can", line.interface, "SocketCAN interface to use")->type_name("IF");
+  can->capture_default_str();
+  auto* const slcan = app.add_option("--slcan", line.slcan, "slcan adapter to use instead: a serial device or a socket")
+                          ->type_name("PATH")
+                          ->excludes(can);
+  app.add_option("--bit-rate", line.bit_rate, "Bit rate that the adapter sets, in bit/s [what it has]")
+      ->type_name("N")
+      ->needs(slcan);
+  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127 [tour: 1]")->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")
       ->type_name("N");
   app.add_option("--index", arguments.index, "Index of the object, as 0x2100")->type_name("N");
@@ -106,6 +116,9 @@ CommandLine read_command_line(int argc, char** argv) {
   }
   write->add_option("VALUE", line.arguments.value, "The value")->type_name("");
   add_lss(app, line);
+  CLI::App* const tour = app.add_subcommand("tour", "Show what a demo clock on the bus can do");
+  tour->set_help_flag();
+  tour->add_flag("--every-frame", line.every_frame, "Show all frames of long transfers");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -113,7 +126,7 @@ CommandLine read_command_line(int argc, char** argv) {
     return line;
   }
   line.arguments.write = write->parsed();
-  line.is_lss = app.got_subcommand("lss");
+  line.work = app.got_subcommand("lss") ? Work::lss : tour->parsed() ? Work::tour : Work::transfer;
   line.lss.timeout = line.arguments.timeout;
   line.lss.own_id = line.arguments.own_id.empty() ? line.lss.own_id : line.arguments.own_id;
   line.run = true;

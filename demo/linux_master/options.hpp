@@ -3,6 +3,7 @@
 /// The command line of lexican-demo-master.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "host/exit.hpp"
@@ -10,11 +11,16 @@
 
 namespace demo {
 
+enum class Work { transfer, lss, tour };
+
 struct CommandLine {
+  Work work = Work::transfer;
   Arguments arguments;
   LssArguments lss;
-  bool is_lss = false;
   std::string interface = "vcan0";
+  std::string slcan;           // device or socket of an adapter; empty: the interface is used
+  std::uint32_t bit_rate = 0;  // bit/s, 0: what the adapter has
+  bool every_frame = false;    // of the tour
   bool progress = false;
   bool run = false;  // false: all is said (--help, or a fault), end with exit_code
   int exit_code = exit_ok;

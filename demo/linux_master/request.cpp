@@ -95,7 +95,7 @@ Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::
   outcome.transfer = transfer(
       request, sdo, {request.capacity, request.timeout, [&](const Amount& amount) { progress.update(amount); }});
   progress.end();
-  outcome.interrupted = !outcome.transfer.done() && loop.interrupted();
+  outcome.interrupted = !outcome.transfer.done() && loop.interrupted() && !host.bus_lost();
   loop.flush(last_frames);
   outcome.bus_fault = host.bus_fault();
   return outcome;

@@ -3,30 +3,15 @@
 
 #include <utility>
 
-#include "linux_node/dictionary.hpp"
-
 namespace demo {
 namespace {
 
-void advance(TimeOfDay& now) {
-  if (++now.second < 60) {
-    return;
-  }
-  now.second = 0;
-  if (++now.minute < 60) {
-    return;
-  }
-  now.minute = 0;
-  now.hour = static_cast<std::uint8_t>((now.hour + 1) % 24);
-}
-
-// TPDO1 is sent where the NMT state and its transmission type allow it.
-void tick(void* node) {
-  advance(clock_time);
-  COTPdoRequest(static_cast<CO_NODE*>(node), 0);
-}
+std::uint8_t picture[picture_size];
 
 }  // namespace
+
+const std::uint8_t clock_hardware[] = "host";
+CO_OBJ_DOM clock_picture = {0, picture_size, picture};
 
 Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory)
     : setup_{node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors(), memory} {
@@ -45,13 +30,11 @@ bool Clock::start() {
     return false;
   }
   clock_time = {};
-  if (COTmrCreate(&node.Tmr, Node::ticks_per_second, Node::ticks_per_second, tick, &node) < 0) {
+  if (COTmrCreate(&node.Tmr, Node::ticks_per_second, Node::ticks_per_second, clock_tick, &node) < 0) {
     return false;
   }
   CONodeStart(&node);
   return true;
 }
-
-TimeOfDay Clock::time() { return clock_time; }
 
 }  // namespace demo

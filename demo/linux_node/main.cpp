@@ -6,14 +6,15 @@
 #include <iostream>
 #include <memory>
 
+#include "clock/dictionary.hpp"
+#include "clock/names.hpp"
 #include "host/linux_host.hpp"
 #include "linux_node/clock.hpp"
-#include "linux_node/dictionary.hpp"
 #include "linux_node/heartbeat_watch.hpp"
 #include "linux_node/options.hpp"
 #include "linux_node/storage.hpp"
-#include "linux_node/tour.hpp"
-#include "linux_node/view.hpp"
+#include "tour/tour.hpp"
+#include "tour/view.hpp"
 #include "trace/text.hpp"
 
 namespace demo {

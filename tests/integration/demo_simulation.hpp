@@ -19,6 +19,7 @@ class SimulatedHost : public demo::Host {
   demo::Timer device_timer() override { return {&co::VirtualTimerDriver, &device_timer_}; }
   demo::Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
   std::string bus_fault() override { return fault; }
+  bool bus_lost() override { return lost; }
   demo::Micros now() override { return clock_.elapsed(); }  // the clock of the nodes ticks in microseconds
   void wait(demo::Micros time) override {
     if (!others || !others()) {
@@ -31,6 +32,7 @@ class SimulatedHost : public demo::Host {
   co::VirtualBus bus;
   demo::Micros interrupted_at = UINT64_MAX;
   std::string fault;
+  bool lost = false;
   /// What happens beside the program while that waits; false: nothing. May be empty.
   std::function<bool()> others;
 

@@ -12,15 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "clock/names.hpp"
 #include "co_nvm_ram.h"
 #include "demo_simulation.hpp"
 #include "file_nvm.hpp"
 #include "linux_node/clock.hpp"
-#include "linux_node/master.hpp"
-#include "linux_node/tour.hpp"
-#include "linux_node/view.hpp"
 #include "support/callbacks.hpp"
 #include "support/notation.hpp"
+#include "tour/master.hpp"
+#include "tour/tour.hpp"
+#include "tour/view.hpp"
 
 namespace {
 

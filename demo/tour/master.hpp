@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file master.hpp
-/// A small CANopen master, a node of its own in the same thread as the device: while it waits, both run.
+/// A small CANopen master, a node of its own; a device in the same program runs in its loop, while it waits.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "client/lss_master.hpp"
 #include "client/sdo_client.hpp"
 #include "host/loop.hpp"
 #include "host/node.hpp"
-#include "linux_node/clock.hpp"
+#include "tour/device.hpp"
 
 namespace demo {
 
@@ -24,7 +25,7 @@ enum class State : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, pre
 class Master {
  public:
   /// Goes on the bus. \a node_id: the node to talk to; \a host and \a device must outlive the master.
-  Master(Host& host, Clock& device, std::uint8_t node_id);
+  Master(Host& host, Device& device, std::uint8_t node_id, Node::Observer observer = {});
 
   bool command(Nmt command);
   /// Sends a frame as it is; false: the bus does not take it.
@@ -41,14 +42,17 @@ class Master {
   LssMaster& lss() { return lss_; }
 #endif
   Loop& loop() { return loop_; }
+  CO_NODE_COUNTERS counters() const { return node_.counters(); }
   std::uint8_t node_id() const { return node_id_; }
 
  private:
+  static std::vector<Node*> nodes(Device& device, Node& own);
   void note(bool received, const CO_IF_FRM& frame);
   bool has_heard(State state);
   std::optional<CO_IF_FRM> take_frame(std::uint32_t identifier);
 
   std::uint8_t node_id_;
+  Node::Observer observer_;
   std::deque<State> heard_;       // states of the node that nobody has waited for yet
   std::deque<CO_IF_FRM> frames_;  // PDO, SYNC and EMCY messages likewise
   ClientDictionary dictionary_;
@@ -56,7 +60,7 @@ class Master {
   Loop loop_;
   SdoClient sdo_;
 #if USE_LSS_MASTER
-  LssMaster lss_{node_, loop_, {CO_LSSM_TIMEOUT_MS, 20}};  // its only slave is in the same program
+  LssMaster lss_{node_, loop_, {CO_LSSM_TIMEOUT_MS, 20}};  // for a slave in the same program
 #endif
 };
 

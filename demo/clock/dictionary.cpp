@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_node/dictionary.hpp"
-
-#include <iterator>
+#include "clock/dictionary.hpp"
 
 #include "co/dictionary.hpp"
 #include "co_ver.h"
 
 namespace demo {
-
-TimeOfDay clock_time{};
-
 namespace {
+
+template <typename Entry, std::size_t Number>
+constexpr std::uint16_t length(const Entry (&)[Number]) {
+  static_assert(Number <= UINT16_MAX);
+  return Number;
+}
 
 // --- A type of our own: a figure of the time of day. It stores and reads as UNSIGNED8 does, but knows its limit.
 
@@ -91,20 +92,17 @@ struct Variables {
   std::uint16_t tpdo_inhibit_time = 1000;  // x 100 µs
   std::uint16_t tpdo_event_time = 0;       // ms
   Settings settings = {};
-  std::uint8_t picture[picture_size] = {};
 };
 
 Variables variables;
 
-const std::uint8_t hardware_version_text[] = "host";
 const std::uint8_t software_version_text[] = {'0' + CO_VER_MAJOR, '.', '0' + CO_VER_MINOR, '.', '0' + CO_VER_BUILD, 0};
 static_assert(CO_VER_MAJOR < 10 && CO_VER_MINOR < 10 && CO_VER_BUILD < 10, "one digit each");
 
 CO_OBJ_STR device_name = {0, reinterpret_cast<const std::uint8_t*>(clock_name)};
-CO_OBJ_STR hardware_version = {0, hardware_version_text};
+CO_OBJ_STR hardware_version = {0, clock_hardware};
 CO_OBJ_STR software_version = {0, software_version_text};
 
-CO_OBJ_DOM picture = {0, picture_size, variables.picture};
 CO_OBJ_STR_RW station = {0, sizeof variables.settings.station, sizeof variables.settings.station,
                          variables.settings.station};
 
@@ -184,67 +182,25 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x2100, 2, CO_OBJ___APRW), CO_TFIGURE, (CO_DATA)(&clock_time.minute)},
     {CO_KEY(0x2100, 3, CO_OBJ___APRW), CO_TFIGURE, (CO_DATA)(&clock_time.second)},
     {CO_KEY(0x2101, 0, CO_OBJ_____RW), CO_TSIGNED16, (CO_DATA)(&variables.settings.time_zone)},
-    {CO_KEY(0x2200, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&picture)},
+    {CO_KEY(0x2200, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&clock_picture)},
     {CO_KEY(0x2201, 0, CO_OBJ_____RW), CO_TSTORED_TEXT, (CO_DATA)(&station)},
 };
 CO_OD_CHECK(od);
 
 }  // namespace
 
-Table clock_dictionary() { return {const_cast<CO_OBJ*>(od), static_cast<std::uint16_t>(std::size(od))}; }
+Table clock_dictionary() { return {const_cast<CO_OBJ*>(od), length(od)}; }
 
 void forget_variables() {
   variables = Variables{};
   clock_time = {};
+  for (std::uint32_t n = 0; n < clock_picture.Size; ++n) {
+    clock_picture.Start[n] = 0;
+  }
 }
 
 std::uint16_t clock_heartbeat_time() { return variables.heartbeat_time; }
 
-Errors clock_errors() { return {errors, static_cast<std::uint16_t>(std::size(errors))}; }
-
-trace::Mappings clock_mappings() {
-  const std::vector<trace::Mapped> time = {{0x2100, 1, 1}, {0x2100, 2, 1}, {0x2100, 3, 1}};
-  return {{0x180, time}, {0x200, time}};
-}
-
-const trace::Names& clock_object_names() {
-  using trace::Form;
-  static const trace::Names names = {
-      {0x1000, 0, "device type", Form::hex},
-      {0x1001, 0, "error register", Form::hex},
-      {0x1003, 0, "errors in the history", Form::decimal},
-      {0x1003, 1, "last error", Form::hex},
-      {0x1005, 0, "COB-ID SYNC", Form::hex},
-      {0x1006, 0, "SYNC period in us", Form::decimal},
-      {0x1008, 0, "device name", Form::characters},
-      {0x1009, 0, "hardware version", Form::characters},
-      {0x100A, 0, "software version", Form::characters},
-      {0x100C, 0, "guard time in ms", Form::decimal},
-      {0x100D, 0, "life time factor", Form::decimal},
-      {0x1010, 1, "save", Form::characters},
-      {0x1011, 1, "load", Form::characters},
-      {0x1014, 0, "COB-ID EMCY", Form::hex},
-      {0x1017, 0, "heartbeat time in ms", Form::decimal},
-      {0x1018, 0, "identity, highest sub-index", Form::decimal},
-      {0x1018, 1, "vendor-ID", Form::hex},
-      {0x1018, 2, "product code", Form::hex},
-      {0x1018, 3, "revision number", Form::hex},
-      {0x1018, 4, "serial number", Form::decimal},
-      {0x1020, 1, "configuration date", Form::decimal},
-      {0x1020, 2, "configuration time", Form::decimal},
-      {0x1200, 0, "SDO server, highest sub-index", Form::decimal},
-      {0x1200, 1, "COB-ID of SDO requests", Form::hex},
-      {0x1200, 2, "COB-ID of SDO responses", Form::hex},
-      {0x1800, 2, "transmission type of TPDO1", Form::decimal},
-      {0x2100, 0, "time, highest sub-index", Form::decimal},
-      {0x2100, 1, "hour", Form::decimal},
-      {0x2100, 2, "minute", Form::decimal},
-      {0x2100, 3, "second", Form::decimal},
-      {0x2101, 0, "time zone in min", Form::decimal},
-      {0x2200, 0, "picture", Form::hex},
-      {0x2201, 0, "station name", Form::characters},
-  };
-  return names;
-}
+Errors clock_errors() { return {errors, length(errors)}; }
 
 }  // namespace demo

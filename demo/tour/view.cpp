@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_node/view.hpp"
+#include "tour/view.hpp"
 
 #include <algorithm>
 

@@ -1,25 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_node/master.hpp"
+#include "tour/master.hpp"
+
+#include <utility>
 
 namespace demo {
 namespace {
+
+SdoClient::Options sdo_options(const Device& device) {
+  SdoClient::Options options;
+  options.timeout *= device.traits().patience;
+  return options;
+}
 
 // The highest node-ID that is free: the usual place of a master.
 std::uint8_t own_node_id(std::uint8_t device) { return device == 127 ? 126 : 127; }
 
 }  // namespace
 
-Master::Master(Host& host, Clock& device, std::uint8_t node_id)
+Master::Master(Host& host, Device& device, std::uint8_t node_id, Node::Observer observer)
     : node_id_(node_id),
+      observer_(std::move(observer)),
       dictionary_(node_id),
       node_({own_node_id(node_id), host.master_can(), host.master_timer(), dictionary_.table(),
              [this](bool received, const CO_IF_FRM& frame) { note(received, frame); }, true}),
-      loop_(host, {&device.node(), &node_}),
-      sdo_(node_, loop_) {
+      loop_(host, nodes(device, node_)),
+      sdo_(node_, loop_, sdo_options(device)) {
   CONodeStart(&node_.stack());
 }
 
+std::vector<Node*> Master::nodes(Device& device, Node& own) {
+  Node* const other = device.node_in_loop();
+  return other == nullptr ? std::vector{&own} : std::vector{other, &own};
+}
+
 void Master::note(bool received, const CO_IF_FRM& frame) {
+  if (observer_) {
+    observer_(received, frame);
+  }
   if (received && frame.Identifier == 0x700u + node_id_ && frame.DLC == 1) {
     heard_.push_back(static_cast<State>(frame.Data[0]));
   }

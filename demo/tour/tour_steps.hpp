@@ -6,8 +6,9 @@
 #include <string>
 
 #include "client/sdo_client.hpp"
-#include "linux_node/master.hpp"
-#include "linux_node/view.hpp"
+#include "clock/time_of_day.hpp"
+#include "tour/master.hpp"
+#include "tour/view.hpp"
 
 namespace demo {
 
@@ -17,10 +18,11 @@ struct Finding {
 };
 
 struct Tour {
-  Clock& clock;
+  Device& device;
   Master& master;
   View& view;
   SdoClient& sdo = master.sdo();
+  const DeviceTraits& traits = device.traits();
   TimeOfDay set_to = {};  // the clock
   Micros set_at = 0;      // when
 };
@@ -60,10 +62,16 @@ Finding find_unconfigured(Tour& tour);
 Finding give_node_id(Tour& tour);
 #endif
 
+/// How long the tour waits for what should happen within \a time.
+inline Micros at_most(const Tour& tour, Micros time) { return time * tour.traits.patience; }
+
 /// The time zone is set, and stored with the name of the station.
 Finding save_settings(Tour& tour);
 
 /// The node is started again, and has what was stored.
 Finding lose_power(Tour& tour);
+
+/// Another time zone is set, but not stored; an NMT reset brings the one back that was.
+Finding reset_settings(Tour& tour);
 
 }  // namespace demo

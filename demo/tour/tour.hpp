@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "linux_node/master.hpp"
-#include "linux_node/view.hpp"
+#include "tour/master.hpp"
+#include "tour/view.hpp"
 
 namespace demo {
 
@@ -23,10 +23,10 @@ struct TourResult {
 
 /// Takes all steps, one after the other, whatever the result of those before. A clock without node-ID gets it from the
 /// master.
-TourResult take_tour(Clock& clock, Master& master, View& view);
+TourResult take_tour(Device& device, Master& master, View& view);
 
-/// The last words: what was shown, and what the node has counted.
-void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view);
-void show_counters(const CO_NODE_COUNTERS& counters, View& view);
+/// The last words: what was shown, and what a node has counted. \a whose: the label before its counters.
+void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
+void show_counters(const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
 
 }  // namespace demo

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 
-#include "linux_node/tour_steps.hpp"
+#include "clock/dictionary.hpp"
+#include "tour/tour_steps.hpp"
 #include "trace/text.hpp"
 
 namespace demo {
@@ -18,7 +19,7 @@ constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
 Finding find_unconfigured(Tour& tour) {
   LssMaster& lss = tour.master.lss();
-  if (!tour.clock.start()) {
+  if (!tour.device.start()) {
     return {false, "the node does not start"};
   }
   if (!lss.run(COLssmSwitchGlobal, waiting) || !lss.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
@@ -36,7 +37,7 @@ Finding give_node_id(Tour& tour) {
   if (!lss.run(COLssmConfigureNodeId, node_id) || !lss.run(COLssmStore) || !lss.run(COLssmSwitchGlobal, waiting)) {
     return {false, "LSS: " + lss.fault()};
   }
-  const bool booted = tour.master.await_state(State::boot_up, second);
+  const bool booted = tour.master.await_state(State::boot_up, at_most(tour, second));
   return {booted, text(booted ? "node %u is there" : "node %u does not boot", node_id)};
 }
 
@@ -58,9 +59,9 @@ Finding save_settings(Tour& tour) {
 }
 
 Finding lose_power(Tour& tour) {
-  tour.clock.lose_power();
+  tour.device.lose_power();
   tour.master.forget();
-  if (!tour.clock.start() || !tour.master.await_state(State::boot_up, second)) {
+  if (!tour.device.start() || !tour.master.await_state(State::boot_up, at_most(tour, second))) {
     return {false, text("node %u does not come back", tour.master.node_id())};
   }
   const Transfer name = tour.sdo.upload(0x2201, 0);
@@ -72,6 +73,21 @@ Finding lose_power(Tour& tour) {
   return {good, good ? text("node-ID %u, ", tour.master.node_id()) + quoted(name.data.data(), name.data.size()) +
                            text(", time zone %d min: all as stored", time_zone)
                      : "not what was stored"};
+}
+
+Finding reset_settings(Tour& tour) {
+  if (const Transfer changed = tour.sdo.download(0x2101, 0, {0, 0}); !changed.done()) {
+    return failure("the time zone", changed);
+  }
+  if (!tour.master.command(Nmt::reset_node) || !tour.master.await_state(State::boot_up, at_most(tour, second))) {
+    return {false, text("node %u does not come back", tour.master.node_id())};
+  }
+  const Transfer zone = tour.sdo.upload(0x2101, 0);
+  if (!zone.done()) {
+    return failure("reading what was stored", zone);
+  }
+  const bool good = zone.data == time_zone_bytes;
+  return {good, text(good ? "time zone %d min, as stored" : "not the time zone of %d min that was stored", time_zone)};
 }
 
 }  // namespace demo

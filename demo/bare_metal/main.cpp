@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The demo clock without an operating system: what the loop and the interrupts of a microcontroller do for a node. The
+// CPU sleeps whenever there is nothing to do.
+#include "board.hpp"
+#include "clock/dictionary.hpp"
+#include "co_core.h"
+#include "co_nvm_ram.h"
+#include "co_slcan.h"
+#include "parts.hpp"
+
+namespace demo {
+namespace {
+
+constexpr std::uint8_t node_id = 1;  // unless LSS stores another
+constexpr std::uint32_t bit_rate = 500000;
+constexpr std::uint32_t ticks_per_second = 1000000;
+
+// What a master sends at once at most, a block of 127 segments, and what others send meanwhile.
+constexpr std::uint16_t frames_received = 160;
+
+std::uint8_t picture[48 * 32 * 3];
+
+CO_NODE node;
+CO_NODE_EXT extension;
+CO_TMR_MEM timers[1];
+std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_SLCAN can;
+CO_IF_FRM frames[frames_received];
+std::uint8_t memory_bytes[clock_memory_size];
+CO_NVM_RAM memory = {memory_bytes, sizeof memory_bytes};
+std::uint32_t interrupts_before_lock;
+
+void start_sending(void* controller) {
+  const std::uint32_t before = board::disable_interrupts();
+  uart_send(*static_cast<CO_SLCAN*>(controller));
+  board::restore_interrupts(before);
+}
+
+void make_node() {
+  const BoardTimer timer = board_timer();
+  extension.Size = sizeof extension;
+  extension.Can = &SlcanDriver;
+  extension.CanCtx = &can;
+  extension.Timer = timer.driver;
+  extension.TimerCtx = timer.context;
+  extension.Nvm = &RamNvmDriver;
+  extension.NvmCtx = &memory;
+  extension.EmcyNum = clock_errors().number;
+
+  CO_NODE_SPEC spec = {};
+  spec.NodeId = node_id;
+  spec.Baudrate = bit_rate;
+  spec.Dict = clock_dictionary().first;
+  spec.DictLen = clock_dictionary().length;
+  spec.EmcyCode = clock_errors().first;
+  spec.TmrMem = timers;
+  spec.TmrNum = 1;
+  spec.TmrFreq = ticks_per_second;
+  spec.SdoBuf = sdo_buffer;
+  CONodeInitEx(&node, &spec, &extension);
+}
+
+// Without interrupts between the check and the sleep, which one that is pending ends at once.
+void sleep_until_due() {
+  const std::uint32_t before = board::disable_interrupts();
+  if (CONodeNextDeadline(&node) != 0 && !COSlcanIsDue(&can) && uart_lets_sleep()) {
+    board::wait_for_interrupt();
+  }
+  board::restore_interrupts(before);
+}
+
+}  // namespace
+
+const std::uint8_t clock_hardware[] = LEXICAN_BOARD;
+CO_OBJ_DOM clock_picture = {0, sizeof picture, picture};
+
+}  // namespace demo
+
+namespace board {
+
+void on_uart() { demo::uart_interrupt(demo::can); }
+
+void on_timer() {
+  demo::timer_interrupt();
+  COTmrService(&demo::node.Tmr);
+}
+
+}  // namespace board
+
+// Around what the stack does with its timers, and not nested.
+void COTmrLock() { demo::interrupts_before_lock = board::disable_interrupts(); }
+void COTmrUnlock() { board::restore_interrupts(demo::interrupts_before_lock); }
+
+#if USE_LSS && USE_PARA
+CO_ERR COLssLoad(std::uint32_t* baud, std::uint8_t* nodeId) { return COLssNvmLoad(&demo::node, 0, baud, nodeId); }
+CO_ERR COLssStore(std::uint32_t baud, std::uint8_t nodeId) { return COLssNvmStore(&demo::node, 0, baud, nodeId); }
+#endif
+
+void CONodeFatalError() {
+  board::print("fatal error of the node\n");
+  board::leave(1);
+}
+
+int main() {
+  using namespace demo;
+  board::disable_interrupts();
+  CONvmRamClear(&memory);
+  COSlcanInit(&can, frames, frames_received, start_sending, &can);
+  uart_begin();
+  make_node();
+  COTmrCreate(&node.Tmr, ticks_per_second, ticks_per_second, clock_tick, &node);
+  CONodeStart(&node);
+  board::enable_interrupts();
+  for (;;) {
+    CONodeProcess(&node);
+    COTmrProcess(&node.Tmr);
+    sleep_until_due();
+  }
+}

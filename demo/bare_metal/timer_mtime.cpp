@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board.hpp"
+#include "co_timer_mtime.h"
+#include "parts.hpp"
+
+namespace demo {
+namespace {
+
+volatile std::uint32_t* registers(std::uintptr_t offset) {
+  return reinterpret_cast<volatile std::uint32_t*>(board::timer_base + offset);
+}
+
+CO_MTIME timer = {registers(0xBFF8), registers(0x4000), board::timer_hz, {}, 0};
+
+}  // namespace
+
+BoardTimer board_timer() {
+  board::enable_timer_interrupt();
+  return {&MtimeDriver, &timer};
+}
+
+void timer_interrupt() {}
+
+}  // namespace demo

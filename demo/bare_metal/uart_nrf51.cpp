@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The UART of the nRF51: a queue of six bytes that are received, one byte that is sent.
+#include "board.hpp"
+#include "parts.hpp"
+
+namespace demo {
+namespace {
+
+// Registers, by their offset.
+constexpr std::uint32_t start_receiving = 0x000;
+constexpr std::uint32_t start_sending = 0x008;
+constexpr std::uint32_t received = 0x108;
+constexpr std::uint32_t sent = 0x11C;
+constexpr std::uint32_t failed = 0x124;
+constexpr std::uint32_t interrupts_on = 0x304;
+constexpr std::uint32_t error_source = 0x480;
+constexpr std::uint32_t enable = 0x500;
+constexpr std::uint32_t transmit_pin = 0x50C;
+constexpr std::uint32_t receive_pin = 0x514;
+constexpr std::uint32_t receive_data = 0x518;
+constexpr std::uint32_t transmit_data = 0x51C;
+constexpr std::uint32_t speed = 0x524;
+
+constexpr std::uint32_t all_interrupts = 1u << 2 | 1u << 7 | 1u << 9;  // received, sent, failed
+constexpr std::uint32_t enabled = 4;
+constexpr std::uint32_t speed_115200 = 0x01D7E000;
+static_assert(uart_speed == 115200);
+
+bool sending = false;
+
+volatile std::uint32_t& at(std::uint32_t offset) {
+  return *reinterpret_cast<volatile std::uint32_t*>(board::uart_base + offset);
+}
+
+// Returns whether the event has happened, and forgets it.
+bool take(std::uint32_t event) {
+  const bool happened = at(event) != 0;
+  at(event) = 0;
+  return happened;
+}
+
+}  // namespace
+
+void uart_begin() {
+  at(transmit_pin) = 24;
+  at(receive_pin) = 25;
+  at(speed) = speed_115200;
+  at(enable) = enabled;
+  at(interrupts_on) = all_interrupts;
+  at(start_receiving) = 1;
+  at(start_sending) = 1;
+  board::enable_uart_interrupt();
+}
+
+void uart_send(CO_SLCAN& can) {
+  const std::uint8_t* bytes = nullptr;
+  if (!sending && COSlcanPending(&can, &bytes) != 0) {
+    sending = true;
+    at(transmit_data) = *bytes;
+    COSlcanSent(&can, 1);
+  }
+}
+
+void uart_interrupt(CO_SLCAN& can) {
+  if (take(failed)) {
+    at(error_source) = at(error_source);
+    COSlcanBroken(&can);
+  }
+  while (take(received)) {
+    COSlcanReceive(&can, static_cast<std::uint8_t>(at(receive_data)));
+  }
+  if (take(sent)) {
+    sending = false;
+    uart_send(can);
+  }
+}
+
+// QEMU 7.2 forgets to interrupt for a byte that its other end has not taken at once, until a register is written.
+bool uart_lets_sleep() {
+  if (sending) {
+    at(interrupts_on) = all_interrupts;
+  }
+  return !sending;
+}
+
+}  // namespace demo

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/slcan_host.hpp"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+namespace demo {
+namespace {
+
+// The shortest frame on the line is "t0000" and CR.
+constexpr std::size_t shortest_line = 6;
+
+std::string words(int error) { return std::generic_category().message(error); }
+
+bool is_socket(const std::string& path) {
+  struct stat about {};
+  return ::stat(path.c_str(), &about) == 0 && S_ISSOCK(about.st_mode);
+}
+
+int open_socket(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) {
+    errno = ENAMETOOLONG;
+    return -1;
+  }
+  path.copy(address.sun_path, path.size());
+  const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  if (fd >= 0 && ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+    return fd;
+  }
+  const int error = errno;
+  ::close(fd);
+  errno = error;
+  return -1;
+}
+
+// Adapters that are a USB device pass over the speed; others have this one.
+int open_terminal(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
+  termios settings{};
+  if (fd >= 0 && ::tcgetattr(fd, &settings) == 0) {
+    ::cfmakeraw(&settings);
+    ::cfsetspeed(&settings, B115200);
+    ::tcsetattr(fd, TCSANOW, &settings);
+  }
+  return fd;
+}
+
+// A socket without another end is an error here, and no signal.
+ssize_t put(int fd, const std::uint8_t* bytes, std::size_t size) {
+  const ssize_t sent = ::send(fd, bytes, size, MSG_NOSIGNAL);
+  return sent < 0 && errno == ENOTSOCK ? ::write(fd, bytes, size) : sent;
+}
+
+}  // namespace
+
+const CO_IF_CAN_DRV_EX SlcanHost::driver = {
+    [](void* host) { SlcanDriver.Init(&at(host).can_); },
+    [](void* host, std::uint32_t baud) { SlcanDriver.Enable(&at(host).can_, baud); },
+    [](void* host, CO_IF_FRM* frame) {
+      at(host).receive();
+      return SlcanDriver.Read(&at(host).can_, frame);
+    },
+    [](void* host, const CO_IF_FRM* frame) {
+      at(host).send();  // what could not be sent before
+      return at(host).fd_ < 0 ? std::int16_t{-1} : SlcanDriver.Send(&at(host).can_, frame);
+    },
+    [](void* host) { SlcanDriver.Reset(&at(host).can_); },
+    [](void* host) { SlcanDriver.Close(&at(host).can_); },
+    nullptr,
+};
+
+SlcanHost::~SlcanHost() {
+  if (fd_ >= 0) {
+    ::close(fd_);
+  }
+}
+
+std::string SlcanHost::open(const std::string& path, std::uint32_t bit_rate) {
+  path_ = path;
+  fd_ = is_socket(path) ? open_socket(path) : open_terminal(path);
+  if (fd_ < 0) {
+    return "slcan adapter '" + path + "': " + words(errno);
+  }
+  ::fcntl(fd_, F_SETFL, O_NONBLOCK);
+  const auto start = [](void* host) { at(host).send(); };
+  COSlcanInit(&can_, frames_.data(), static_cast<std::uint16_t>(frames_.size()), start, this);
+  can_.Baud = bit_rate;
+  return {};
+}
+
+std::string SlcanHost::bus_fault() {
+  if (gone_.empty() && COSlcanRefused(&can_) != 0) {
+    return "slcan adapter '" + path_ + "' has refused a command or a frame" +
+           (can_.Baud == 0 ? "; perhaps it needs a --bit-rate" : "");
+  }
+  return gone_;
+}
+
+std::vector<pollfd> SlcanHost::wake_ups() {
+  const std::uint8_t* bytes = nullptr;
+  const bool is_waiting = COSlcanPending(&can_, &bytes) != 0;
+  return {{fd_, static_cast<short>(is_waiting ? POLLIN | POLLOUT : POLLIN), 0}};
+}
+
+void SlcanHost::receive() {
+  send();
+  std::array<std::uint8_t, 256> bytes{};
+  static_assert(bytes.size() / shortest_line < std::tuple_size<decltype(frames_)>::value);
+  if (fd_ < 0 || CORingCount(&can_.Frames) + bytes.size() / shortest_line >= frames_.size()) {
+    return;  // the rest waits in the kernel
+  }
+  const ssize_t size = ::read(fd_, bytes.data(), bytes.size());
+  if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
+    lose(size == 0 ? "the other end is closed" : words(errno));
+  }
+  for (ssize_t n = 0; n < size; ++n) {
+    COSlcanReceive(&can_, bytes[static_cast<std::size_t>(n)]);
+  }
+}
+
+void SlcanHost::send() {
+  const std::uint8_t* bytes = nullptr;
+  std::uint32_t size = COSlcanPending(&can_, &bytes);
+  while (fd_ >= 0 && size != 0) {
+    const ssize_t sent = put(fd_, bytes, size);
+    if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
+      return;
+    }
+    if (sent < 0) {
+      lose(words(errno));
+      return;
+    }
+    COSlcanSent(&can_, static_cast<std::uint32_t>(sent));
+    size = COSlcanPending(&can_, &bytes);
+  }
+}
+
+void SlcanHost::lose(const std::string& why) {
+  ::close(fd_);
+  fd_ = -1;
+  gone_ = "slcan adapter '" + path_ + "': " + why;
+}
+
+}  // namespace demo

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file table.hpp
+/// What a node is made of, in the form in which CO_NODE_SPEC takes it.
+#pragma once
+
+#include <cstdint>
+
+#include "co_core.h"
+
+namespace demo {
+
+struct Table {
+  CO_OBJ* first;
+  std::uint16_t length;
+};
+
+/// Errors that a device can have.
+struct Errors {
+  CO_EMCY_TBL* first;
+  std::uint16_t number;
+};
+
+constexpr std::uint8_t no_node_id = 255;
+
+/// Bytes that a node takes from the begin of its memory for its node-ID and bit rate.
+#if USE_LSS && USE_PARA
+constexpr std::uint32_t lss_memory_size = CO_PARA_SPACE(8U, 1U, 1U);
+#else
+constexpr std::uint32_t lss_memory_size = 0;
+#endif
+
+}  // namespace demo

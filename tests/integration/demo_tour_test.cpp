@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tour of the demo's master with a clock that is not in its program.
+#include "co_cfg.h"
+
+#if USE_CSDO  // which the demo's master needs
+#include <doctest/doctest.h>
+
+#include <array>
+#include <sstream>
+#include <string>
+
+#include "co_nvm_ram.h"
+#include "demo_simulation.hpp"
+#include "host/exit.hpp"
+#include "linux_master/tour.hpp"
+#include "linux_node/clock.hpp"
+
+namespace {
+
+using demo::second;
+
+struct Elsewhere {
+  Elsewhere() {
+    CONvmRamClear(&ram);
+    host.others = [this] { return is_there && live(); };
+  }
+  int take_tour() { return demo::take_tour_with(5, host, {}, out); }
+  /// The clock has its own time: it does not sleep as long as the master does.
+  bool live() {
+    if (!clock.node().process()) {
+      host.pass(demo::millisecond);
+    }
+    return true;
+  }
+  bool shows(const char* text) const { return out.str().find(text) != std::string::npos; }
+
+  test::SimulatedHost host;
+  std::ostringstream out;
+  bool is_there = true;
+  std::array<std::uint8_t, demo::clock_memory_size> bytes{};
+  CO_NVM_RAM ram{bytes.data(), demo::clock_memory_size};
+  demo::Clock clock{5, host.device_can(), host.device_timer(), {}, {&RamNvmDriver, &ram}};
+};
+
+}  // namespace
+
+TEST_CASE("demo: the master takes the tour with a clock elsewhere on the bus") {
+  Elsewhere elsewhere;
+  REQUIRE(elsewhere.clock.start());
+  CHECK(elsewhere.take_tour() == demo::exit_ok);
+  INFO(elsewhere.out.str());
+  CHECK(elsewhere.shows("node    705  00                       boot-up"));
+  CHECK(elsewhere.shows("master  605  40 08 10 00 00 00 00 00  SDO upload 1008h:00 device name"));
+  CHECK(elsewhere.shows("ok  4608 bytes written"));
+  CHECK(elsewhere.shows("ok  73728 bytes read, all as written"));
+#if USE_PARA
+  CHECK(elsewhere.shows("ok  time zone 60 min, as stored"));
+#endif
+  CHECK(elsewhere.shows(", all as expected"));
+}
+
+TEST_CASE("demo: the master lets a clock boot again that has booted before it was there") {
+  Elsewhere elsewhere;
+  REQUIRE(elsewhere.clock.start());
+  elsewhere.clock.node().process();
+  elsewhere.host.pass(second / 2);
+  CHECK(elsewhere.take_tour() == demo::exit_ok);
+  CHECK(elsewhere.shows("master  000  81 05                    NMT reset node, node 5"));
+}
+
+TEST_CASE("demo: a tour without a clock goes wrong, and ends") {
+  Elsewhere elsewhere;
+  elsewhere.is_there = false;
+  CHECK(elsewhere.take_tour() == demo::exit_failed);
+  CHECK(elsewhere.shows("FAILED  node 5 does not boot"));
+  CHECK(elsewhere.shows("not as expected"));
+}
+
+TEST_CASE("demo: a tour whose bus is lost says so, one that is interrupted says that") {
+  Elsewhere lost;
+  REQUIRE(lost.clock.start());
+  lost.host.fault = "the adapter is gone";
+  lost.host.lost = true;
+  lost.host.interrupted_at = second / 2;
+  CHECK(lost.take_tour() == demo::exit_failed);
+  CHECK(lost.shows("FAILED  the adapter is gone"));
+
+  Elsewhere interrupted;
+  REQUIRE(interrupted.clock.start());
+  interrupted.host.interrupted_at = second / 2;
+  CHECK(interrupted.take_tour() == demo::exit_interrupted);
+}
+#endif

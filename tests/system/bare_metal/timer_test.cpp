@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The timer driver of a board on the board: alarms of all lengths, one after the other, and its clock beside another
+// one. Time is that of the emulator's instructions (-icount), so every run is the same; it does not sleep, as QEMU may
+// let time go on before it wakes a CPU.
+#include "bare_metal/parts.hpp"
+#include "board.hpp"
+#include "reference.hpp"
+
+namespace {
+
+using demo::BoardTimer;
+
+constexpr std::uint32_t ticks_per_second = 1000000;
+constexpr std::uint32_t latest = 50;  // ticks: what interrupt and driver take, with a margin
+constexpr std::uint32_t duration = 5 * ticks_per_second;
+
+BoardTimer timer;
+volatile std::uint32_t due;
+volatile std::uint32_t came;  // when
+volatile bool waiting;
+
+std::uint32_t now() { return timer.driver->Now(timer.context); }
+
+// As numbers of a loop through all of them.
+std::uint32_t random_number() {
+  static std::uint32_t state = 1;
+  state = state * 1664525u + 1013904223u;
+  return state >> 8;
+}
+
+// Mostly short: 200 us, 20 ms; now and then beyond the steps of a driver: 2 s.
+std::uint32_t random_delay() {
+  switch (random_number() % 32) {
+    case 0: return random_number() % 2000000u + 1;
+    case 1:
+    case 2:
+    case 3:
+    case 4: return random_number() % 20000u + 1;
+    default: return random_number() % 200u + 1;
+  }
+}
+
+void wait_for(std::uint32_t delay) {
+  const std::uint32_t before = board::disable_interrupts();
+  due = now() + delay;
+  waiting = true;
+  timer.driver->Alarm(timer.context, delay);
+  board::restore_interrupts(before);
+  while (waiting) {
+    test::look_at_reference();
+  }
+}
+
+[[noreturn]] void fail(const char* what, std::uint32_t delay, std::uint32_t ticks) {
+  board::print(what);
+  board::print(": delay ");
+  board::print_hex(delay);
+  board::print("h ticks, off by ");
+  board::print_hex(ticks);
+  board::print("h\n");
+  board::leave(1);
+}
+
+}  // namespace
+
+namespace board {
+
+void on_uart() {}
+
+// As COTmrService() does: an interrupt that comes before its time is a step of the driver.
+void on_timer() {
+  demo::timer_interrupt();
+  const std::uint32_t time = now();
+  const std::uint32_t left = due - time;
+  if (waiting && left != 0 && left <= UINT32_MAX / 2) {
+    timer.driver->Alarm(timer.context, left);
+    return;
+  }
+  came = time;
+  waiting = false;
+  timer.driver->Alarm(timer.context, 0);
+}
+
+}  // namespace board
+
+int main() {
+  board::disable_interrupts();
+  timer = demo::board_timer();
+  timer.driver->Init(timer.context, ticks_per_second);
+  board::enable_interrupts();
+  test::start_reference();
+  const std::uint32_t begin = now();
+  std::uint32_t alarms = 0;
+  while (now() - begin < duration) {
+    const std::uint32_t delay = random_delay();
+    wait_for(delay);
+    ++alarms;
+    const std::uint32_t late = came - due;
+    if (late > latest) {
+      fail(late > UINT32_MAX / 2 ? "early" : "late", delay, late);
+    }
+  }
+  const std::uint32_t other = test::reference_ticks();
+  const std::uint32_t drift = now() - begin - other;
+  board::print_hex(alarms);
+  board::print("h alarms, drift ");
+  board::print_hex(drift);
+  board::print("h ticks\n");
+  return drift + test::drift_allowed <= 2 * test::drift_allowed ? 0 : 1;
+}
