@@ -5,7 +5,23 @@ packages=("${build_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=ca
 optional=yes
 
 lane() {
+  local check=$results/driver_check_socketcan
   build_preset release || return
+  driver_check "$check" >"$results/driver_check_socketcan.log" 2>&1 || {
+    fail "build of the driver check" "$results/driver_check_socketcan.log"
+    return
+  }
   run_tap "$root/tests/system/vcan/run" "$build/release/demo/linux_node/lexican-demo-node" \
-    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_tests"
+    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_tests" "$check"
+}
+
+driver_check() {  # PROGRAM
+  local from=$root/tests/driver_check includes=(-I "$root/include" -I "$root/config" -I "$root/tests/driver_check"
+    -I "$root/drivers/can/socketcan") source objects=()
+  for source in "$from"/driver_check*.c; do
+    objects+=("$1-$(basename "$source").o")
+    gcc -std=c11 -O2 "${includes[@]}" -c "$source" -o "${objects[-1]}" || return
+  done
+  g++ -std=c++17 -O2 "${includes[@]}" "$from/host/socketcan.cpp" "${objects[@]}" \
+    "$build/release/drivers/liblexican_can_socketcan.a" "$build/release/src/liblexican.a" -o "$1"
 }

@@ -447,4 +447,15 @@ summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"
 verdict $? "the SocketCAN driver on real interfaces: 10 cases" "$summary"
 
+checked() {  # OTHER-END NAME
+  lexican-driver-check vcan0 "$1" >/tmp/check 2>&1
+  verdict $? "driver check of SocketCAN, $2" "$(grep -v ^ok /tmp/check | head -n 3)"
+}
+
+checked peer "two sockets"
+sh /bin/feed vcan0 >/tmp/fed 2>&1 &
+tries=500
+until grep -q "vcan0.* raw" /proc/net/can/rcvlist_all || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
+checked feed "the script feed as the other end"
+
 echo "1..$cases"

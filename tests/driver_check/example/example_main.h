@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file example_main.h
+/// A loop without an operating system that sleeps whenever there is nothing to do.
+#ifndef EXAMPLE_MAIN_H_
+#define EXAMPLE_MAIN_H_
+
+#include "example_board.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern CO_NODE Node;
+
+/// False: the node's error tells why, and nothing is sent.
+bool NodeStart(CO_NODE_SPEC* spec);
+/// To be called for ever: one turn of the loop.
+void NodeTurn(void);
+
+void CAN_IRQHandler(void);
+void TIMER_IRQHandler(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board that is simulated: a clock of ticks, a timer with a compare match, interrupts that can be kept away, a paced
+// bus with two controllers, memories. Its drivers are those that a port would have; mutants.hpp spoils them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "co_driver_check.h"
+#include "co_nvm_ram.h"
+#include "virtual_bus.hpp"
+
+namespace check {
+
+constexpr std::uint32_t frequency = 100000;  // ticks per second: a tick is 10 us
+constexpr std::uint32_t late = 3;            // ticks that an interrupt may take
+
+// The compare match of a free running counter, and when its interrupt comes.
+struct Compare {
+  std::uint64_t at = 0;
+  bool armed = false;
+  bool matched = false;
+};
+
+class Board {
+ public:
+  Board();
+
+  std::uint64_t time = 0xFFFF0000;  // ticks
+  std::uint32_t latency = 1;        // of the interrupt, ticks
+  bool locked = false;
+  bool cyclic = false;  // an interrupt with every tick
+  Compare compare;
+  std::function<void()> interrupt;  // of the timer
+
+  co::VirtualBus bus;
+  co::VirtualBus::Port& port;
+  co::VirtualBus::Port& peer;
+  std::function<void()> each_turn;  // what else goes on
+
+  void step();
+};
+
+// What the checks have said.
+struct Report {
+  std::vector<std::string> lines;
+  [[nodiscard]] std::map<std::string, std::string> verdicts() const;  // ok, not ok or skipped, by name
+};
+
+// Everything that a check needs, ready to be changed by a case.
+struct Setting {
+  Setting();
+  Board board;
+  Report report;
+  CO_IF_DRV plain = {};
+  CO_NODE_EXT ext = {};
+  CO_NODE_EXT peer = {};
+  CO_DRIVER_CHECK check = {};
+};
+
+// Drivers without context work on the board that was made last.
+extern const CO_IF_CAN_DRV PlainCanDriver;
+extern const CO_IF_TIMER_DRV PlainTimerDriver;  // delta
+extern const CO_IF_NVM_DRV PlainNvmDriver;
+constexpr std::uint32_t plain_nvm_size = 1000;
+
+// A driver with a clock; its context is a Board.
+extern const CO_IF_TIMER_DRV_EX ClockDriver;
+
+// Flash; its context is a Flash.
+struct Flash {
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(4096, 0);
+  CO_NVM_SHAPE shape = {4096, 8, 512};
+};
+extern const CO_IF_NVM_DRV_EX FlashDriver;
+
+}  // namespace check

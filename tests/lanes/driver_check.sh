@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+about="the driver check of docs/porting.md on our own drivers, and on drivers that break a promise, each of which it must find"
+packages=("${build_packages[@]}" "${clang_packages[@]}" "${arm_packages[@]}")
+
+lane() {
+  local tree=$build/driver_check log=$results/build-driver_check.log
+  { cmake -S "$root/tests/driver_check" -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_WARNINGS_AS_ERRORS=ON -DLEXICAN_SANITIZE=address,undefined &&
+    cmake --build "$tree" --target driver_check_host; } >"$log" 2>&1 || { fail "build of driver_check" "$log"; return; }
+  local files
+  files=$(mktemp -d)
+  run_tap "$tree/driver_check_host" "$files"
+  rm -r "$files"
+  check "on Cortex-M0 it needs nothing of the C library but string.h" needs_only_string_h
+  check "the script feed answers as the check expects" feed_answers
+}
+
+needs_only_string_h() {
+  local object=$results/driver_check.o source needed
+  local sources=("$root"/tests/driver_check/driver_check*.c) objects=()
+  for source in "${sources[@]}"; do
+    objects+=("$results/$(basename "$source").o")
+    arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -Wall -Wextra -Wconversion -Wcast-align -Werror \
+      -I "$root/include" -I "$root/config" -c "$source" -o "${objects[-1]}" || return
+  done
+  arm-none-eabi-ld -r -o "$object" "${objects[@]}" || return
+  arm-none-eabi-size "$object"
+  needed=$(arm-none-eabi-nm --undefined-only -f posix "$object" | cut -d ' ' -f 1 |
+    grep -vxE 'mem(cpy|set|cmp)|COTmrLock|COTmrUnlock|__aeabi_u?idiv(mod)?|__gnu_thumb1_case_[a-z]+')
+  [ -z "$needed" ] || { echo "needs $needed"; return 1; }
+}
+
+# The programs of can-utils are replaced by some that write down how they were called.
+feed_answers() {
+  local work
+  work=$(mktemp -d)
+  printf '#!/bin/sh\ncat "%s"\n' "$work/heard" >"$work/candump"
+  printf '#!/bin/sh\necho "cansend $*" >>"%s"\n' "$work/said" >"$work/cansend"
+  printf '#!/bin/sh\necho "cangen $*" >>"%s"\n' "$work/said" >"$work/cangen"
+  chmod +x "$work"/can*
+  printf '(1.0) can0 %s\n' 122#A5C2 123#A5C2 1FFFFFFE#01 7FE# 702#R 7F0#10 7F1#0102030405060708 >"$work/heard"
+  PATH=$work:$PATH "$root/tests/driver_check/feed" can0 || return
+  diff - "$work/said" <<'SAID' && rm -r "$work"
+cansend can0 123#A5C2
+cansend can0 1FFFFFFF#01
+cansend can0 7FF#
+cansend can0 703#R
+cangen can0 -g 0 -p 1000 -I 7F1 -L 8 -D i -n 16
+SAID
+}

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+about="docs/porting.md: its code is that of files which compile, for this machine and for Cortex-M0; so do the templates"
+packages=(python3 gcc clang "${arm_packages[@]}")
+
+strict=(-std=c11 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes -Werror)
+
+lane() {
+  run_tap python3 "$root/tests/porting/excerpts.py" "$root" docs/porting.md
+  run_tap python3 "$root/tests/porting/excerpts.py" --self-test
+  local source
+  for source in $(sources tests/porting tests/driver_check/example drivers/template -name '*.c'); do
+    compiles "$source" gcc
+    compiles "$source" clang
+    compiles "$source" arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Wcast-align
+  done
+  check "the example is linked for Cortex-M0, within the promised size of the check" links_for_arm
+  check "what the page names is there" names_what_exists
+}
+
+includes=(-I "$root/include" -I "$root/config" -I "$root/tests/driver_check" -I "$root/tests/driver_check/example")
+
+compiles() {  # SOURCE COMPILER...
+  local source=$1
+  shift
+  check "$source with $1" "$@" "${strict[@]}" "${includes[@]}" -c "$root/$source" -o /dev/null
+}
+
+# The size that docs/porting.md tells of the driver check: flash and RAM in bytes.
+flash=14500 ram=2000
+
+links_for_arm() {
+  local program=$results/check_my_port sources=("$root"/tests/driver_check/driver_check*.c)
+  printf '%s\n' '#include "example_board.h"' 'EXAMPLE_CAN ExampleCan; EXAMPLE_TIMER ExampleTimer;' \
+    'bool ExampleEepromRead(uint32_t a, uint8_t* b, uint32_t n) { (void)a; (void)b; (void)n; return false; }' \
+    'bool ExampleEepromWrite(uint32_t a, const uint8_t* b, uint32_t n) { (void)a; (void)b; (void)n; return false; }' \
+    'void COTmrLock(void) {}' 'void COTmrUnlock(void) {}' \
+    'bool CORingInit(CO_RING* r, CO_IF_FRM* m, uint16_t n) { (void)r; (void)m; return n == 0; }' \
+    'bool CORingGet(CO_RING* r, CO_IF_FRM* f) { (void)r; (void)f; return false; }' \
+    'uint16_t CheckMyPort(void (*print)(void*, const char*));' 'int main(void) { return CheckMyPort(0); }' >"$program.c"
+  arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -ffunction-sections -fdata-sections "${includes[@]}" "$program.c" \
+    "$root/tests/porting/check_my_port.c" "$root"/tests/driver_check/example/example_{can,timer,nvm}.c "${sources[@]}" \
+    -nostartfiles --specs=nano.specs --specs=nosys.specs -Wl,--gc-sections -Wl,-e,main -o "$program" || return
+  arm-none-eabi-size "$program" | tee /dev/stderr |
+    awk -v flash="$flash" -v ram="$ram" 'NR == 2 { exit !($1 + $2 <= flash && $2 + $3 <= ram) }'
+}
+
+# Files in `code` that look like paths of this project, and the checks of the table.
+names_what_exists() {
+  local name missing=
+  for name in $(grep -oE '`(tests|docs|drivers)/[a-z_/.]+' "$root/docs/porting.md" | tr -d '`' | sort -u); do
+    [ -e "$root/$name" ] || missing+=" $name"
+  done
+  for name in $(grep -ohE '"(can|timer|nvm)\.[a-z0-9]+"' "$root"/tests/driver_check/*.c | tr -d '"' | sort -u); do
+    grep -q "^|.*\`$name\`.*|" "$root/docs/porting.md" || missing+=" $name"
+  done
+  [ -z "$missing" ] || { echo "missing:$missing"; return 1; }
+}

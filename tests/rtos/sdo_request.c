@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sdo_request.h"
+
+#define TIME_OUT 5000u  // ms, for each answer
+
+// Of each client: who waits, and what came. Touched with the lock of the node held.
+static struct {
+  TaskHandle_t Waits;
+  uint32_t Code;
+  bool Over;
+} Requests[CO_CSDO_N];
+
+// In the task of the node, with the lock held.
+static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
+  CO_UNUSED(index);
+  CO_UNUSED(sub);
+  for (uint8_t n = 0; n < CO_CSDO_N; ++n) {
+    if (COCSdoFind(client->Node, n) == client) {
+      Requests[n].Code = code;
+      Requests[n].Over = true;
+      (void)xTaskNotifyGive(Requests[n].Waits);
+    }
+  }
+}
+
+static CO_ERR Start(SDO_REQUEST* self, CO_CSDO* client, uint32_t key, uint8_t* buffer, uint32_t size, bool reads) {
+  Requests[self->Client].Waits = xTaskGetCurrentTaskHandle();
+  Requests[self->Client].Over = false;
+  return reads ? COCSdoRequestUpload(client, key, buffer, size, Done, TIME_OUT)
+               : COCSdoRequestDownload(client, key, buffer, size, Done, TIME_OUT);
+}
+
+// The notification may have come for something else: what counts is Over.
+static uint32_t Transfer(SDO_REQUEST* self, uint32_t key, uint8_t* buffer, uint32_t size, uint32_t* num, bool reads) {
+  NodeTaskLock(self->Node);
+  CO_CSDO* const client = COCSdoFind(&self->Node->Node, self->Client);
+  const bool started = Start(self, client, key, buffer, size, reads) == CO_ERR_NONE;
+  while (started && !Requests[self->Client].Over) {
+    NodeTaskUnlock(self->Node);
+    (void)ulTaskNotifyTake(pdTRUE, portMAX_DELAY);
+    NodeTaskLock(self->Node);
+  }
+  const uint32_t code = started ? Requests[self->Client].Code : CO_SDO_ERR_TOS_STATE;
+  *num = COCSdoGetNum(client);
+  NodeTaskUnlock(self->Node);
+  return code;
+}
+
+uint32_t SdoRead(SDO_REQUEST* self, uint32_t key, uint8_t* buffer, uint32_t size, uint32_t* num) {
+  return Transfer(self, key, buffer, size, num, true);
+}
+
+uint32_t SdoWrite(SDO_REQUEST* self, uint32_t key, const uint8_t* buffer, uint32_t size) {
+  uint32_t num = 0;
+  return Transfer(self, key, (uint8_t*)buffer, size, &num, false);
+}
