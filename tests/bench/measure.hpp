@@ -35,6 +35,9 @@ std::uint64_t ticks_of(const char* name, What& what, unsigned number) {
   std::uint64_t ticks = 0;
   what.set_up();
   for (unsigned n = 0; n < 2 * number; ++n) {
+    if (n == number) {
+      forget_count();
+    }
     what.arrange(n);
     const std::uint32_t before = clock_of_machine();
     what.run();
@@ -48,30 +51,16 @@ std::uint64_t ticks_of(const char* name, What& what, unsigned number) {
   return ticks;
 }
 
-/// Ticks of reading the clock once.
-std::uint32_t ticks_of_clock();
-
-/// Prints a line: the name, a tabulator, instructions of an operation.
+/// Tells how many instructions an operation takes.
 template <class What>
 void measure(const char* name, What what, unsigned number = usual_number) {
-  const std::uint64_t ticks = ticks_of(name, what, number);
-  print(name);
-  print("\t");
-  print((tenths_of(ticks - std::uint64_t{number} * ticks_of_clock(), number) + 5) / 10);
-  print("\n");
+  report(name, ticks_of(name, what, number), number, number);
 }
 
-/// The same for a byte of operations that carry several, with a decimal.
+/// The same for a byte of operations that carry several.
 template <class What>
 void measure_byte(const char* name, What what, unsigned number, unsigned size) {
-  const std::uint64_t ticks = ticks_of(name, what, number);
-  const std::uint32_t tenths = tenths_of(ticks - std::uint64_t{number} * ticks_of_clock(), number * size);
-  print(name);
-  print("\t");
-  print(tenths / 10);
-  print(".");
-  print(tenths % 10);
-  print("\n");
+  report(name, ticks_of(name, what, number), number, number * size);
 }
 
 }  // namespace bench

@@ -55,6 +55,15 @@ class Aside {
   Input& input_;
 };
 
+/// For who watches a target: the frame that the node is given, and whether nothing else acts on the node meanwhile.
+struct Given {
+  std::uint32_t identifier = 0;
+  std::uint8_t length = 0;
+  const std::uint8_t* data = nullptr;
+  bool alone = false;
+};
+inline Given given;
+
 /// Ends the program, which is a finding.
 inline void require(bool holds, const char* promise) {
   if (!holds) {

@@ -222,6 +222,7 @@ class Bench {
     const std::vector<std::uint32_t> mapped = may_be_pdo ? network_.written_by_pdos() : std::vector<std::uint32_t>{};
     const std::uint64_t sent = bus_.sent;
     const std::size_t waiting = node_.TxQueue.Num;
+    fuzz::given = {frame.Identifier, frame.DLC, frame.Data, true};
     ++depth_;
     CONodeProcess(&node_);
     --depth_;
@@ -267,6 +268,7 @@ class Bench {
     };
     ++depth_;
     meddled_ = true;
+    fuzz::given.alone = false;
     if (kind >= 0xE0) {
       network_.act(kind);
     } else {
@@ -484,7 +486,7 @@ class Bench {
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
     require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");
-    require(timers_in_lists() <= most_timers, "no timer is in two lists");
+    require(timers_in_list() <= most_timers, "no timer is in two lists");
     for (const CO_SDO& server : node_.Sdo) {
       require(server.State == 0 || server.Obj != nullptr || fuzz::source.has_moved,
               "an open transfer has an object, unless that has moved");
@@ -501,12 +503,10 @@ class Bench {
   static constexpr unsigned most_timers = own_timers + 3U + CO_CSDO_N + CO_RPDO_N + CO_TPDO_N +
                                           12U;  // heartbeat, servers, guarding, clients, PDOs; EMCY, SYNC, TIME, LED
 
-  unsigned timers_in_lists() const {
+  unsigned timers_in_list() const {
     unsigned number = 0;
-    for (const CO_TMR_MEM* list : {node_.Tmr.Use.First, node_.Tmr.Due.First}) {
-      for (; list != nullptr && number <= most_timers; list = list->Next) {
-        ++number;
-      }
+    for (const CO_TMR_MEM* timer = node_.Tmr.First; timer != nullptr && number <= most_timers; timer = timer->Next) {
+      ++number;
     }
     return number;
   }

@@ -96,6 +96,7 @@ constexpr CO_OBJ_TYPE_EX source_type = {
 }  // namespace
 
 std::vector<CO_OBJ> dictionary(Objects& o) {
+  constexpr bool holds_64_bits = sizeof(CO_DATA) == sizeof(std::uint64_t);
   std::vector<CO_OBJ> table = {
       {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0x191)},
       {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&o.error_register)},
@@ -141,7 +142,8 @@ std::vector<CO_OBJ> dictionary(Objects& o) {
       {CO_KEY(0x2200, 3, CO_OBJ____PRW), &moody_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 4, CO_OBJ_____RW), &moody_stream_type, (CO_DATA)(1)},
       {CO_KEY(0x2200, 5, CO_OBJ_____RW), &empty_type, (CO_DATA)(1)},
-      {CO_KEY(0x2200, 6, CO_OBJ_D___RW | CO_OBJ____P__), CO_TUNSIGNED64, (CO_DATA)(7)},
+      {CO_KEY(0x2200, 6, (holds_64_bits ? CO_OBJ_D_____ : 0U) | CO_OBJ____PRW), CO_TUNSIGNED64,
+       holds_64_bits ? (CO_DATA)(7) : (CO_DATA)(&o.direct)},
       {CO_KEY(0x2200, 7, CO_OBJ_____RW), &source_type.Type, (CO_DATA)(1)},
   };
   add_network(table, o.network);

@@ -40,6 +40,7 @@ struct Objects {
   std::uint64_t u40 = 5;
   std::uint64_t u56 = 6;
   std::uint64_t u64 = 7;
+  std::uint64_t direct = 7;  // of an entry that has its value in itself where a pointer has 64 bits
   std::int32_t s24 = -1;
   float real32 = 1.0F;
   double real64 = 1.0;

@@ -307,6 +307,7 @@ class Client {
     request.DLC = length;
     expect_waiting();
     device_.receive(request);
+    fuzz::given = {request.Identifier, request.DLC, request.Data, true};
     device_.process();
     if (length >= 8) {
       expect(model_.answer(bytes));

@@ -120,19 +120,21 @@ run_ctest() {
 
 junit_count() { grep -oE "\b$1=\"[0-9]+\"" "$2" | head -n 1 | grep -oE '[0-9]+'; }
 
-# Counts the lines "ok …" and "not ok …" of a program that also says how many there should be ("1..N"). With status 77
-# it says, in its last line, why it cannot be run here: run_tap COMMAND...
+# Counts the lines "ok …" ("ok … # SKIP why" was not run) and "not ok …" of a program that also says how many there should
+# be ("1..N"). With status 77 it says, in its last line, why it cannot be run here: run_tap COMMAND...
 run_tap() {
   local log=$results/$lane_name.tap
   "$@" >"$log" 2>&1
-  local status=$? ok bad planned
+  local status=$? ok bad unrun planned
   if [ $status -eq 77 ]; then
     skip_rest "$(tail -n 1 "$log")"
     return
   fi
   ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log")
+  unrun=$(grep -c '^ok .*# SKIP ' "$log")
   planned=$(sed -n 's/^1\.\.\([0-9][0-9]*\)$/\1/p' "$log" | head -n 1)
-  passed=$((passed + ok)) failed=$((failed + bad))
+  passed=$((passed + ok - unrun)) failed=$((failed + bad)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  sed -n 's/^ok .*# SKIP /   SKIPPED /p' "$log" | sort | uniq -c
   sed -n 's/^not ok/   FAILED/p' "$log"
   if [ "${planned:-0}" -ne $((ok + bad)) ]; then
     fail "$lane_name: $((ok + bad)) of ${planned:-an unknown number of} cases came back (status $status)" "$log"

@@ -1,51 +1,56 @@
 # SPDX-License-Identifier: Apache-2.0
-about="instructions of operations and bytes of whole nodes on Cortex-M3 and Cortex-M0+ (emulated), and that docs/speed.md tells them"
-packages=(cmake ninja-build=ninja "${arm_packages[@]}" qemu-system-arm python3)
+about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on the host, and that docs/speed.md tells them"
+packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 
 # Each instruction takes the same time on the clock of the emulated machine: every host counts the same.
 lane() {
-  count_on m3 cortex-m3 RelWithDebInfo && count_on m0plus cortex-m0plus MinSizeRel || return
-  local of=$results/instructions
-  run_tap python3 "$root/tests/bench/report.py" ${update_instructions:+--update} \
-    --counts "$root/tests/bench/instructions.txt" --page "$root/docs/speed.md" \
-    --compiler "$(arm-none-eabi-g++ -dumpfullversion)" \
-    --m3 "$of-m3-lexican" "$of-m3-lexican_many_pdos" "$of-m3-bytes" \
-    --m0plus "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" "$of-m0plus-bytes"
+  count_on_arm m3 cortex-m3 RelWithDebInfo && count_on_arm m0plus cortex-m0plus MinSizeRel && count_on_host || return
+  local of=$results/instructions arm host
+  arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)"
+  host="$(g++ -dumpmachine)-g++ $(g++ -dumpfullversion)"
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} \
+    --committed "$root/tests/bench/instructions.txt" --page "$root/docs/speed.md" --table instructions --title operation \
+    --percent 5 \
+    --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" \
+    --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" \
+    --column "host -O2" "$host" "$of-host-lexican" "$of-host-lexican_many_pdos"
 }
 
-bare_metal=(-DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF
-  -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake")
+programs=(lexican lexican_many_pdos)
 
-count_on() {  # NAME CPU CMAKE-BUILD-TYPE: -O2 or -Os
-  build_tree "bench-$1" -DLEXICAN_PRESET=slave -DLEXICAN_BENCH=ON "${bare_metal[@]}" -DLEXICAN_CPU="$2" \
-    -DCMAKE_BUILD_TYPE="$3" || return
+build_bench() {  # NAME CMAKE-BUILD-TYPE CMAKE-ARGUMENT...
+  build_tree "bench-$1" -DLEXICAN_PRESET=slave -DLEXICAN_BENCH=ON -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF \
+    -DLEXICAN_DRIVERS=OFF -DCMAKE_BUILD_TYPE="$2" "${@:3}"
+}
+
+count_on_arm() {  # NAME CPU CMAKE-BUILD-TYPE: -O2 or -Os
+  build_bench "$1" "$3" -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_CPU="$2" || return
   local program
-  for program in lexican lexican_many_pdos; do
-    count "$build/bench-$1/tests/bench/${program}_instructions" "$results/instructions-$1-$program" || return
+  for program in "${programs[@]}"; do
+    run_counting "$results/instructions-$1-$program" timeout 300 qemu-system-arm -M mps2-an385 -display none \
+      -monitor none -serial none -chardev stdio,id=host -semihosting-config enable=on,target=native,chardev=host \
+      -icount shift=10 -kernel "$build/bench-$1/tests/bench/${program}_instructions" || return
   done
-  link minimal 1 "smallest node" "$@" >"$results/instructions-$1-bytes" &&
-    link slave 0 "full node" "$@" >>"$results/instructions-$1-bytes"
 }
 
-count() {  # PROGRAM RESULT
-  timeout 300 qemu-system-arm -M mps2-an385 -display none -monitor none -serial none -chardev stdio,id=host \
-    -semihosting-config enable=on,target=native,chardev=host -icount shift=10 -kernel "$1" >"$2" 2>&1 || {
-    fail "${1##*/}" "$2"
-    return 1
-  }
+count_on_host() {
+  build_bench host RelWithDebInfo -DCMAKE_CXX_COMPILER=g++ -DCMAKE_C_COMPILER=gcc || return
+  local program of
+  for program in "${programs[@]}"; do
+    of=$results/callgrind-$program
+    rm -f "$of".[0-9]*
+    run_counting "$of.reports" timeout 300 valgrind --quiet --tool=callgrind --collect-atstart=no \
+      --callgrind-out-file="$of" "$build/bench-host/tests/bench/${program}_instructions" &&
+      run_counting "$results/instructions-host-$program" python3 "$root/tests/bench/callgrind/read.py" "$of.reports" \
+        "$of".[0-9]* || return
+  done
 }
 
-# Prints the bytes of a linked node: drivers and C library are part of it as far as they are used.
-link() {  # PRESET IS-SMALLEST WHAT NAME CPU CMAKE-BUILD-TYPE
-  local tree=$build/bytes-$1-$4 program=$build/bytes-$1-$4/whole_node log=$results/link.log
-  build_tree "bytes-$1-$4" -DLEXICAN_PRESET="$1" "${bare_metal[@]}" -DLEXICAN_CPU="$5" -DCMAKE_BUILD_TYPE="$6" >&2 || return
-  arm-none-eabi-gcc -mcpu="$5" -mthumb -Os -ffunction-sections -fdata-sections -DCO_CFG_PRESET="\"presets/$1.h\"" \
-    -DCO_NODE_IS_SMALLEST="$2" -I "$root/include" -I "$root/config" "$root/tests/bench/whole_node.c" \
-    "$tree/src/liblexican.a" -nostartfiles --specs=nano.specs --specs=nosys.specs -Wl,--gc-sections -Wl,-e,main \
-    -o "$program" >"$log" 2>&1 || {
-    fail "link of the $3" "$log" >&2
+run_counting() {  # RESULT COMMAND...
+  local result=$1
+  shift
+  "$@" >"$result" 2>&1 || {
+    fail "${result##*/}" "$result"
     return 1
   }
-  arm-none-eabi-size "$program" |
-    awk -v what="$3" 'NR == 2 { print what ", bytes of flash\t" $1 + $2; print what ", bytes of RAM\t" $2 + $3 }'
 }

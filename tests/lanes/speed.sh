@@ -6,6 +6,6 @@ packages=("${build_packages[@]}")
 lane() {
   build_preset release || return
   local program=$build/release/tests/speed/lexican_speed page=$root/docs/speed.md
-  [ -z "${update_speed:-}" ] || "$program" --update "$page" || fail "the table is not written"
+  [ -z "${update_numbers:-}" ] || "$program" --update "$page" || fail "the table is not written"
   run_tap "$program" --check "$page"
 }

@@ -97,7 +97,7 @@ bool print_verdicts(std::ostream& out, const std::vector<Row>& rows, const std::
                                           speed_of(row, row.ideal_micros));
     }
   }
-  verdicts.add(with_table(page, table_of(rows)) == page, "docs/speed.md has this table (tests/run --update-speed)");
+  verdicts.add(with_table(page, table_of(rows)) == page, "docs/speed.md has this table (tests/run --update-numbers)");
   return verdicts.end();
 }
 

@@ -7,7 +7,7 @@ static uint8_t ErrorRegister;
 static uint16_t Heartbeat;
 static uint32_t EmcyId = 0x80;
 static uint8_t Values[8];
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
 static uint32_t History[2];
 static uint8_t HistoryNum;
 static uint32_t Consumer = 0x000203E8;
@@ -18,7 +18,7 @@ static uint8_t Answer[4];
 
 static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0},
                                     {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)&ErrorRegister},
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
                                     {CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, (CO_DATA)&HistoryNum},
                                     {CO_KEY(0x1003, 1, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[0]},
                                     {CO_KEY(0x1003, 2, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[1]},
@@ -27,7 +27,7 @@ static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIG
                                     {CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)&Group},
 #endif
                                     {CO_KEY(0x1014, 0, CO_OBJ__N__R_), CO_TEMCY_ID, (CO_DATA)&EmcyId},
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
                                     {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)&Consumer},
 #endif
                                     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)&Heartbeat},
@@ -35,7 +35,7 @@ static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIG
                                     {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)2},
                                     {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)3},
                                     {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)4},
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
                                     {CO_KEY(0x1280, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x602},
                                     {CO_KEY(0x1280, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x582},
                                     {CO_KEY(0x1280, 3, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
@@ -66,7 +66,7 @@ static const CO_IF_TIMER_DRV Timer = {Take, Take, Ticks, Nothing, Nothing, Elaps
 static CO_IF_DRV Drivers = {&Can, &Timer, 0};
 static CO_EMCY_TBL Errors[2] = {{0, 0x1000}, {1, 0x2000}};
 
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
 static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
   (void)client;
   (void)index;
@@ -78,14 +78,14 @@ static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
 int main(void) {
   CO_NODE_SPEC spec = {
       1, 250000, (CO_OBJ*)Dictionary, sizeof(Dictionary) / sizeof(Dictionary[0]), Errors, 0, 0, 1000, &Drivers, 0};
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
   spec.SdoBuf = SdoBuffer;
 #endif
   CONodeInit(&Node, &spec);
   CONodeStart(&Node);
   COEmcySet(&Node.Emcy, 0, 0);
   COEmcyClr(&Node.Emcy, 0);
-#if !CO_NODE_IS_SMALLEST
+#if !NODE_IS_SMALLEST
   COCSdoRequestUpload(COCSdoFind(&Node, 0), CO_DEV(0x1000, 0), Answer, sizeof(Answer), Done, 1000);
 #endif
   for (;;) {

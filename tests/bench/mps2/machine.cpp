@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "measure.hpp"
 #include "operations.hpp"
 
 extern "C" {
@@ -34,6 +35,18 @@ void ask_host(std::uint32_t operation, const void* argument) {
   asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
 }
 
+void print(const char* text) { ask_host(write_text, text); }
+
+void print(std::uint32_t number) {
+  char digits[11] = {};
+  char* first = std::end(digits) - 1;
+  do {
+    *--first = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number != 0);
+  print(first);
+}
+
 constexpr std::uint32_t probe_instructions = 1000;
 constexpr std::uint32_t probe_ticks = 25600;  // 2^10 ns each, 40 ns a tick
 
@@ -47,6 +60,19 @@ std::uint32_t ticks_of_probe() {
   const std::uint32_t begin = clock_of_machine();
   run_probe<instructions>();
   return ticks_between(begin, clock_of_machine());
+}
+
+// Ticks as tenths of an instruction, for each of the units.
+std::uint32_t tenths_of(std::uint64_t ticks, std::uint32_t units) {
+  const std::uint64_t all = std::uint64_t{probe_ticks} * units;
+  return static_cast<std::uint32_t>((ticks * probe_instructions * 10 + all / 2) / all);
+}
+
+// Of reading the clock once.
+std::uint32_t ticks_of_clock() {
+  constexpr unsigned number = 16;
+  Operation nothing;
+  return static_cast<std::uint32_t>(ticks_of("clock", nothing, number) / number);
 }
 
 // Where a Cortex-M0+ faults, so does this machine then.
@@ -72,21 +98,18 @@ void check_clock() {
   }
 }
 
-std::uint32_t tenths_of(std::uint64_t ticks, std::uint32_t operations) {
-  const std::uint64_t all = std::uint64_t{probe_ticks} * operations;
-  return static_cast<std::uint32_t>((ticks * probe_instructions * 10 + all / 2) / all);
-}
-
-void print(const char* text) { ask_host(write_text, text); }
-
-void print(std::uint32_t number) {
-  char digits[11] = {};
-  char* first = std::end(digits) - 1;
-  do {
-    *--first = static_cast<char>('0' + number % 10);
-    number /= 10;
-  } while (number != 0);
-  print(first);
+void report(const char* name, std::uint64_t ticks, std::uint32_t operations, std::uint32_t units) {
+  const std::uint32_t tenths = tenths_of(ticks - std::uint64_t{operations} * ticks_of_clock(), units);
+  print(name);
+  print("\t");
+  if (units == operations) {
+    print((tenths + 5) / 10);
+  } else {
+    print(tenths / 10);
+    print(".");
+    print(tenths % 10);
+  }
+  print("\n");
 }
 
 void fail(const char* where, const char* what) {

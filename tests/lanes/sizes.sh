@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: Apache-2.0
+about="bytes of flash and RAM of whole nodes, their rooms, switches, and one more of a thing, and that docs/sizes.md tells them"
+packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
+  picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
+
+presets=(minimal slave full)
+switches=(USE_CSDO=0 USE_SDO_BLOCK=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_SYNC=0 USE_TIME=1
+  USE_EMCY=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1 USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0)
+of=$results/sizes
+
+lane() {
+  local cpu preset
+  for cpu in rv32 m4 m0plus; do
+    choose_cpu $cpu
+    build_library $cpu || return
+    rm -f "$of-$cpu" "$of-$cpu-lto"
+    for preset in "${presets[@]}"; do
+      size_of_node $cpu "$preset" || return
+    done
+  done
+  size_of_switches && size_of_memory && size_of_things || return
+  report_nodes
+  report_rooms
+  report_memory
+  report_things
+  report_switches
+  self_test
+}
+
+# The tools of the functions below. Machine code and what link-time optimisation needs are in the same objects.
+choose_cpu() {  # CPU
+  local core
+  case $1 in
+    m0plus) tools=arm-none-eabi core=cortex-m0plus toolchain=arm-none-eabi ;;
+    m4) tools=arm-none-eabi core=cortex-m4 toolchain=arm-none-eabi ;;
+    rv32) tools=riscv64-unknown-elf core=rv32imac toolchain=riscv32-none-elf ;;
+  esac
+  case $1 in
+    rv32) compile=($tools-gcc -march=$core -mabi=ilp32 --specs=picolibc.specs) specs=() ;;
+    *) compile=($tools-gcc -mcpu=$core -mthumb) specs=(--specs=nano.specs --specs=nosys.specs) ;;
+  esac
+  configure=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$toolchain.cmake" -DLEXICAN_CPU=$core)
+  compile+=(-Os -ffunction-sections -fdata-sections)
+  lto=(-flto -ffat-lto-objects)
+}
+
+build_library() {  # CPU
+  local compared=
+  [ "$1" != m0plus ] || compared=$(IFS=';'; echo "${switches[*]}")
+  build_tree "sizes-$1" -DLEXICAN_PRESET=slave -DLEXICAN_SIZES=ON -DLEXICAN_SWITCHES="$compared" "${configure[@]}" \
+    -DCMAKE_BUILD_TYPE=MinSizeRel -DCMAKE_CXX_FLAGS_MINSIZEREL="-Os -DNDEBUG ${lto[*]}" \
+    -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF
+}
+
+objects_of() {  # CPU CONFIGURATION
+  if [ "$2" = slave ]; then
+    echo "$build/sizes-$1/src/CMakeFiles/lexican.dir"
+  else
+    echo "$build/sizes-$1/tests/sizes/CMakeFiles/lexican_$2.dir"
+  fi
+}
+
+compile_c() {  # SOURCE OUTPUT FLAG...
+  "${compile[@]}" -std=c11 -I "$root/include" -I "$root/config" -c "$root/tests/sizes/$1" -o "$2" "${@:3}"
+}
+
+preset_flag() { echo "-DCO_CFG_PRESET=\"presets/$1.h\""; }  # PRESET
+
+size_of_node() {  # CPU PRESET
+  local program=$build/sizes-$1/node-$2 smallest=0 everything=
+  [ "$2" != minimal ] || smallest=1
+  [ "$2" != full ] || everything=yes
+  compile_c whole_node.c "$program.o" "$(preset_flag "$2")" -DNODE_IS_SMALLEST=$smallest "${lto[@]}" >"$of.log" 2>&1 &&
+    link_node "$(objects_of "$1" "$2")" "$program" "$everything" -fno-lto -Wl,-Map="$program.map" &&
+    link_node "$(objects_of "$1" "$2")" "$program" "$everything" -flto=2 -o "$program-lto" ||
+    { fail "link of $2 for $1" "$of.log"; return 1; }
+  python3 "$root/tests/sizes/rooms.py" "$program.map" >"$of-$1-$2-rooms" || return
+  size_lines "$2" "$program" "$(awk '/^all rooms/ { print $NF }' "$of-$1-$2-rooms")" >>"$of-$1"
+  size_lines "$2" "$program-lto" >>"$of-$1-lto"
+}
+
+# With everything: all that an application can name is kept.
+link_node() {  # OBJECTS PROGRAM EVERYTHING FLAG...: links PROGRAM.o
+  local objects keep=()
+  mapfile -t objects < <(find "$1" -name '*.o*' | sort)
+  [ -z "$3" ] || mapfile -t keep < <("$tools-nm" -fposix "${objects[@]}" 2>/dev/null |
+    awk '$1 ~ /^CO/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }' | sort)
+  "${compile[@]}" "${specs[@]}" -o "$2" "${@:4}" "$2.o" "${objects[@]}" "${keep[@]}" -nostartfiles -Wl,--gc-sections \
+    -Wl,-e,main >"$of.log" 2>&1
+}
+
+size_lines() {  # WHAT PROGRAM [BYTES-OF-ALL-ROOMS]
+  local flash ram
+  read -r flash ram < <(bytes_of "$2")
+  printf '%s, flash\t%d\n' "$1" "$flash"
+  [ -z "${3:-}" ] || printf '%s, flash of the stack alone\t%d\n' "$1" "$3"
+  printf '%s, RAM\t%d\n' "$1" "$ram"
+}
+
+# Prints the bytes of flash and of RAM, without those that a linker script reserves for the CPU's stack.
+bytes_of() {  # OBJECT-OR-PROGRAM
+  local reserved
+  reserved=$("$tools-size" -A "$1" | awk '$1 == ".stack" { print $2 }')
+  "$tools-size" "$1" | awk -v reserved="${reserved:-0}" 'NR == 2 { print $1 + $2, $2 + $3 - reserved }'
+}
+
+# Everything kept: with a switch the other way, less with presets/slave.h.
+size_of_switches() {
+  local switch before after
+  rm -f "$of-switches-flash" "$of-switches-ram"
+  before=($(size_with slave)) || return
+  for switch in "${switches[@]}"; do
+    after=($(size_with "${switch/=/_}" -D"$switch")) || return
+    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[0] - before[0])) >>"$of-switches-flash"
+    printf '%s %s\t%d\n' "${switch%=*}" "${switch#*=}" $((after[1] - before[1])) >>"$of-switches-ram"
+  done
+}
+
+size_with() {  # CONFIGURATION FLAG...: prints the bytes of flash and of RAM
+  local program=$build/sizes-m0plus/node-$1
+  compile_c memory.c "$program.o" -DMAIN "${@:2}" >"$of.log" 2>&1 &&
+    link_node "$(objects_of m0plus "$1")" "$program" yes -fno-lto ||
+    { fail "link with $1" "$of.log" >&2; return 1; }
+  local linked alone
+  linked=($(bytes_of "$program")) alone=($(bytes_of "$program.o"))
+  echo "${linked[0]} ${alone[1]}"
+}
+
+size_of_memory() {
+  local preset
+  for preset in "${presets[@]}"; do
+    compile_c memory.c "$of.o" "$(preset_flag "$preset")" -DROOMS >"$of.log" 2>&1 ||
+      { fail "memory of the rooms, $preset" "$of.log"; return 1; }
+    "$tools-nm" -fposix -td "$of.o" | awk '{ sub("room_", "", $1); print $1 "\t" $4 + 0; all += $4 }
+      END { print "all rooms\t" all }' >"$of-memory-$preset"
+  done
+}
+
+# Bytes of what a node consists of, with a number of something and with 16 more of it: a sixteenth of the difference.
+size_of_things() {
+  rm -f "$of-things-flash" "$of-things-ram"
+  thing "dictionary entry" -DENTRIES=4 -- -DENTRIES=20 &&
+    thing "timer of the application" -DTIMERS=4 -- -DTIMERS=20 &&
+    thing "RPDO" -DCO_RPDO_N=4 -- -DCO_RPDO_N=20 &&
+    thing "TPDO" -DCO_TPDO_N=4 -- -DCO_TPDO_N=20 &&
+    thing "RPDO and TPDO" -DCO_RPDO_N=4 -DCO_TPDO_N=4 -- -DCO_RPDO_N=20 -DCO_TPDO_N=20 &&
+    thing "RPDO and TPDO, with their 24 entries" -DCO_RPDO_N=4 -DCO_TPDO_N=4 -DENTRIES=4 -- \
+      -DCO_RPDO_N=20 -DCO_TPDO_N=20 -DENTRIES=388 &&
+    thing "RPDO and TPDO that can map single bits" -DUSE_PDO_BITS=1 -DCO_RPDO_N=4 -DCO_TPDO_N=4 -- \
+      -DUSE_PDO_BITS=1 -DCO_RPDO_N=20 -DCO_TPDO_N=20 &&
+    thing "SDO server without its buffer" -DWITHOUT_BUFFER -DCO_SSDO_N=4 -- -DWITHOUT_BUFFER -DCO_SSDO_N=20 &&
+    thing "segment in the buffer of an SDO server" -DCO_SDO_BUF_SEG=4 -- -DCO_SDO_BUF_SEG=20 &&
+    thing "SDO client" -DCO_CSDO_N=4 -- -DCO_CSDO_N=20 &&
+    thing "heartbeat consumer, with its entry and value" -DCO_HBCONS_N=4 -DENTRIES=4 -DVALUES=4 -- \
+      -DCO_HBCONS_N=20 -DENTRIES=20 -DVALUES=20 &&
+    thing "EMCY consumer, with its entry and value" -DCO_EMCY_CONS_N=4 -DENTRIES=4 -DVALUES=4 -- \
+      -DCO_EMCY_CONS_N=20 -DENTRIES=20 -DVALUES=20 &&
+    thing "8 errors of the application" -DCO_EMCY_N=32 -- -DCO_EMCY_N=160 &&
+    thing "EMCY message that waits" -DCO_EMCY_QUEUE_N=4 -- -DCO_EMCY_QUEUE_N=20 &&
+    thing "place in the EMCY history, with its entry and value" -DENTRIES=4 -DVALUES=4 -- -DENTRIES=20 -DVALUES=20 &&
+    thing "object that the scanner list names" -DUSE_MPDO=1 -DCO_MPDO_SCAN_N=4 -- -DUSE_MPDO=1 -DCO_MPDO_SCAN_N=20 &&
+    thing "entry of the dispatching list" -DUSE_MPDO=1 -DCO_MPDO_DISPATCH_N=4 -- -DUSE_MPDO=1 -DCO_MPDO_DISPATCH_N=20 &&
+    thing "frame that waits for the controller" -DCO_TX_QUEUE_N=4 -- -DCO_TX_QUEUE_N=20
+}
+
+thing() {  # NAME FLAG... -- FLAG...: with a number, with 16 more
+  local name=$1 before=() after
+  shift
+  while [ "$1" != -- ]; do
+    before+=("$1")
+    shift
+  done
+  shift
+  before=($(bytes_with "${before[@]}")) && after=($(bytes_with "$@")) || { fail "size of: $name" "$of.log"; return 1; }
+  awk -v what="$name" "BEGIN { print what \"\\t\" (${after[0]} - ${before[0]}) / 16 }" >>"$of-things-flash"
+  awk -v what="$name" "BEGIN { print what \"\\t\" (${after[1]} - ${before[1]}) / 16 }" >>"$of-things-ram"
+}
+
+bytes_with() {  # FLAG...: of memory.c
+  compile_c memory.c "$of.o" "$@" >"$of.log" 2>&1 && bytes_of "$of.o"
+}
+
+report() {  # TABLE TITLE ARGUMENT...
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/sizes/$1.txt" \
+    --page "$root/docs/sizes.md" --table "$1" --title "$2" "${@:3}"
+}
+
+arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion 2>/dev/null)"
+riscv="riscv64-unknown-elf-g++ $(riscv64-unknown-elf-g++ -dumpfullversion 2>/dev/null)"
+
+report_nodes() {
+  report nodes "program" --percent 1 --slack 16 \
+    --column "Cortex-M0+" "$arm" "$of-m0plus" --column "with LTO" "$arm" "$of-m0plus-lto" \
+    --column "Cortex-M4" "$arm" "$of-m4" --column "with LTO" "$arm" "$of-m4-lto" \
+    --column "rv32imac" "$riscv" "$of-rv32" --column "with LTO" "$riscv" "$of-rv32-lto"
+}
+
+report_rooms() {
+  local preset columns=()
+  for preset in "${presets[@]}"; do
+    columns+=(--column "Cortex-M0+, $preset" "$arm" "$of-m0plus-$preset-rooms"
+      --column "Cortex-M4, $preset" "$arm" "$of-m4-$preset-rooms"
+      --column "rv32imac, $preset" "$riscv" "$of-rv32-$preset-rooms")
+  done
+  report rooms "room" --percent 1 --slack 16 "${columns[@]}"
+}
+
+report_memory() {
+  report memory "room" --column minimal "$arm" "$of-memory-minimal" --column slave "$arm" "$of-memory-slave" \
+    --column full "$arm" "$of-memory-full"
+}
+
+report_things() {
+  report things "one more" --column "flash" "$arm" "$of-things-flash" --column "RAM" "$arm" "$of-things-ram"
+}
+
+report_switches() {
+  report switches "switch" --percent 1 --slack 32 \
+    --column "flash" "$arm" "$of-switches-flash" --column "RAM" "$arm" "$of-switches-ram"
+}
+
+# What numbers.py is there for must be found, in any lane.
+self_test() {
+  planted "a number that has grown" '{ $2 += NR == 1; print }'
+  planted "a number that was not measured" 'NR > 1'
+  planted "a number that is not committed" '{ print } NR == 1 { print "another", 1 }'
+  sed 's/^| dictionary entry | 12/| dictionary entry | 13/' "$root/docs/sizes.md" >"$of-planted.md"
+  check "found: a page with other numbers" is_refused "$of-planted.md" "$of-things-flash"
+}
+
+planted() {  # WHAT AWK-PROGRAM: changes what was measured
+  awk -F '\t' -v OFS='\t' "$2" "$of-things-flash" >"$of-planted"
+  check "found: $1" is_refused "$root/docs/sizes.md" "$of-planted"
+}
+
+is_refused() {  # PAGE FLASH
+  ! python3 "$root/tests/lanes/numbers.py" --committed "$root/tests/sizes/things.txt" --page "$1" --table things \
+    --title "one more" --column flash "$arm" "$2" --column RAM "$arm" "$of-things-ram"
+}

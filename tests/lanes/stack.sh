@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+about="how deep the stack gets in every function of the API, on a Cortex-M0+, and that docs/sizes.md tells it"
+packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}")
+
+lane() {
+  local tree=$build/stack of=$results/stack
+  build_tree stack -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF -DCMAKE_BUILD_TYPE=MinSizeRel \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/arm-none-eabi.cmake" -DLEXICAN_CPU=cortex-m0plus \
+    -DCMAKE_CXX_FLAGS_MINSIZEREL="-Os -DNDEBUG -fstack-usage -fcallgraph-info=su,da" || return
+  link_everything "$tree" "$of.elf" || return
+  measure_depths "$tree" "$of" "$root/tests/stack/calls.txt"
+  [ -f "$of-depths" ] || return
+  self_test "$tree" "$of"
+  run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} --committed "$root/tests/stack/depths.txt" \
+    --page "$root/docs/sizes.md" --table stack --title function --remark "by way of" \
+    --column "bytes" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of-depths"
+}
+
+measure_depths() {  # TREE RESULT CALLS
+  rm -f "$2-depths"
+  run_tap depths_of "$@"
+}
+
+depths_of() {  # TREE RESULT CALLS
+  python3 -B "$root/tests/stack/depth.py" --objects "$1/src" --sources "$root/src" --calls "$3" --program "$results/stack.elf" \
+    --tools arm-none-eabi- --depths "$2-depths" --ways "$2-ways"
+}
+
+# The functions of the run time whose instructions are looked at.
+link_everything() {  # TREE PROGRAM
+  local objects
+  mapfile -t objects < <(find "$1/src" -name '*.o*')
+  arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb "${objects[@]}" -nostartfiles --specs=nano.specs --specs=nosys.specs \
+    -Wl,-e,CONodeProcess -o "$2" >"$2.log" 2>&1 || { fail "link of the library" "$2.log"; return 1; }
+}
+
+# A call that nobody has thought of, and functions that call themselves, must be found.
+self_test() {  # TREE RESULT
+  grep -v '^core/timer.cpp' "$root/tests/stack/calls.txt" >"$2-planted"
+  check "found: a call without a line" is_refused "$@" "nobody has said what timer.Func() may lead to"
+  grep -v '^limit' "$root/tests/stack/calls.txt" >"$2-planted"
+  check "found: a function that calls itself" is_refused "$@" "leads to a function that calls itself"
+}
+
+is_refused() {  # TREE RESULT WHY
+  ! depths_of "$1" "$2-of-planted" "$2-planted" >"$2-refused" && grep "^not ok .*$3" "$2-refused"
+}
