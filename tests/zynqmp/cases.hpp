@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file cases.hpp
+/// All cases, a table for each file.
+#pragma once
+
+#include "check.hpp"
+
+namespace zynqmp {
+
+Cases nmt_cases();
+Cases sdo_cases();
+Cases pdo_cases();
+Cases emcy_cases();
+Cases master_cases();
+Cases driver_cases();
+
+}  // namespace zynqmp
