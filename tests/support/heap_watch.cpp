@@ -2,6 +2,7 @@
 #include "heap_watch.hpp"
 
 #include <cstddef>
+#include <cstdlib>
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define LEXICAN_SANITIZER 1
@@ -14,9 +15,15 @@
 namespace test {
 namespace {
 
+#ifdef __NEWLIB__
+// No threads; variables of threads would come from malloc() there.
+int depth = 0;
+std::uint64_t requests = 0;
+#else
 // No initialisation at run time: malloc() may run before anything else of a thread does.
 thread_local int depth __attribute__((tls_model("initial-exec"))) = 0;
 thread_local std::uint64_t requests __attribute__((tls_model("initial-exec"))) = 0;
+#endif
 
 void note() {
   if (depth > 0) {
@@ -68,6 +75,53 @@ void* realloc(void* old, std::size_t size) {
   return __libc_realloc(old, size);
 }
 void free(void* old) { __libc_free(old); }
+}
+
+#elif defined(__PICOLIBC__)
+
+// Linked with --wrap for each of them.
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
+void* __real_realloc(void* old, std::size_t size);
+
+void* __wrap_malloc(std::size_t size) {
+  test::note();
+  return __real_malloc(size);
+}
+void* __wrap_calloc(std::size_t count, std::size_t size) {
+  test::note();
+  return __real_calloc(count, size);
+}
+void* __wrap_realloc(void* old, std::size_t size) {
+  test::note();
+  return __real_realloc(old, size);
+}
+}
+
+#elif defined(__NEWLIB__)
+
+extern "C" {
+struct _reent;
+extern struct _reent* _impure_ptr;
+void* _malloc_r(struct _reent* self, std::size_t size);
+void* _calloc_r(struct _reent* self, std::size_t count, std::size_t size);
+void* _realloc_r(struct _reent* self, void* old, std::size_t size);
+void _free_r(struct _reent* self, void* old);
+
+void* malloc(std::size_t size) {
+  test::note();
+  return _malloc_r(_impure_ptr, size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  test::note();
+  return _calloc_r(_impure_ptr, count, size);
+}
+void* realloc(void* old, std::size_t size) {
+  test::note();
+  return _realloc_r(_impure_ptr, old, size);
+}
+void free(void* old) { _free_r(_impure_ptr, old); }
 }
 
 #endif
