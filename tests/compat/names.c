@@ -223,7 +223,11 @@ static void test_sdo_clients_and_transfers_have_their_numbers(void) {
 
 static void test_an_extended_type_begins_with_a_type(void) {
   CO_OBJ_TYPE_EX extended;
+#if USE_OBJ_EX
   CO_OBJ_RESET_FUNC reset = COObjTypeExReset;
+#else
+  CO_OBJ_RESET_FUNC reset = NULL;
+#endif
   CO_OBJ_BEGIN_FUNC begin = NULL;
   CO_OBJ_END_FUNC end = NULL;
   extended.Type.Reset = reset;
@@ -231,7 +235,7 @@ static void test_an_extended_type_begins_with_a_type(void) {
   extended.Begin = begin;
   extended.End = end;
   TEST_ASSERT_EQUAL_PTR(&extended, &extended.Type);
-  TEST_ASSERT_TRUE(extended.Type.Reset == COObjTypeExReset);
+  TEST_ASSERT_TRUE(extended.Type.Reset == reset);
 }
 
 static void test_heartbeat_codes_are_those_of_the_standard(void) {

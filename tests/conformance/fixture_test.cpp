@@ -200,8 +200,9 @@ TEST_CASE("fixture: an open transfer that no timer watches fails" * doctest::sho
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.call([&] {
-    node->Tmr.Use = {};
-    node->SdoTmr.State = 0;
+    node->Tmr.First = nullptr;
+    node->Tmr.Armed = node->Tmr.End = &node->Tmr.First;
+    node->SdoTmr.Running = 0;
   });
   node.rx("601#8008100000000000");
 }

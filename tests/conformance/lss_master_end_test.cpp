@@ -117,7 +117,7 @@ TEST_CASE("LSS master: arguments out of range start nothing") {
   for (const unsigned id : {0U, 128U, 200U, 254U}) {
     CHECK(node.start(COLssmConfigureNodeId, static_cast<std::uint8_t>(id)) == CO_ERR_BAD_ARG);
   }
-  for (const std::uint32_t rate : {0U, 1U, 100000U, 1000001U, UINT32_MAX}) {
+  for (const std::uint32_t rate : std::initializer_list<std::uint32_t>{0, 1, 100000, 1000001, UINT32_MAX}) {
     CHECK(node.start(COLssmConfigureBitTiming, rate) == CO_ERR_BAD_ARG);
   }
   for (const unsigned part : {4U, 5U, 255U}) {

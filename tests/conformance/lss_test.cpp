@@ -356,7 +356,7 @@ TEST_CASE("LSS: identify remote slave: equal vendor-ID and product code, revisio
       requests[n] = wrong[n];
       identify(node, requests);
       node.silent();
-      requests.erase(requests.begin() + n);
+      requests.erase(requests.begin() + static_cast<std::ptrdiff_t>(n));
       identify(node, requests);
       node.silent();
     }

@@ -137,7 +137,7 @@ TEST_CASE("SDO block upload: numbers of one to eight bytes, lowest byte first") 
     CAPTURE(width);
     const BlockResult result = node.block_upload(static_cast<std::uint16_t>(0x2000 + width), 0);
     CHECK(result.abort == 0);
-    CHECK(result.data == Bytes(all.begin(), all.begin() + width));
+    CHECK(result.data == Bytes(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(width)));
   }
 }
 

@@ -78,7 +78,7 @@ CO_ERR image_begin(CO_OBJ*, CO_NODE*, CO_OBJ_TRANSFER transfer, uint32_t size) {
 CO_ERR image_end(CO_OBJ*, CO_NODE*, CO_OBJ_TRANSFER transfer, uint32_t abort) {
   const OutsideStack outside;
   char code[16];
-  std::snprintf(code, sizeof code, "%08X", abort);
+  std::snprintf(code, sizeof code, "%08X", static_cast<unsigned>(abort));
   image.calls.push_back(std::string(transfer == CO_OBJ_UPLOAD ? "end upload " : "end download ") + code);
   return image.end;
 }

@@ -58,7 +58,7 @@ TEST_CASE("SDO client: segmented upload, the size announced, into buffers of tha
 
 TEST_CASE("SDO client: segmented upload, the size not announced [301:7.2.4.3.5]") {
   for (const Upload& one : uploads) {
-    for (const std::uint32_t size : {one.length, 28U}) {
+    for (const std::uint32_t size : std::initializer_list<std::uint32_t>{one.length, 28}) {
       CAPTURE(one.length);
       CAPTURE(size);
       SdoClient node;

@@ -5,7 +5,7 @@
 
 #include "support/logged_stream.hpp"
 
-#if CO_SSDO_N >= 2
+#if CO_SSDO_N >= 2 && USE_OBJ_EX
 
 namespace {
 

@@ -6,6 +6,8 @@
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 
+#if USE_OBJ_EX
+
 namespace {
 
 using namespace test;
@@ -394,3 +396,5 @@ TEST_CASE("SDO stream types: a code of its own in End without an error has no ef
 }
 
 }  // namespace
+
+#endif

@@ -5,6 +5,8 @@
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 
+#if USE_OBJ_EX
+
 namespace {
 
 using namespace test;
@@ -140,3 +142,5 @@ TEST_CASE("SDO stream types: End at the end of a channel, not of another one") {
 #endif
 
 }  // namespace
+
+#endif

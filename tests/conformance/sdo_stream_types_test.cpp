@@ -6,6 +6,8 @@
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 
+#if USE_OBJ_EX
+
 namespace {
 
 using namespace test;
@@ -348,3 +350,25 @@ TEST_CASE("SDO stream types: a longer one without Reset cannot go back: a block 
 #endif
 
 }  // namespace
+
+#else
+
+namespace {
+
+using namespace test;
+
+TEST_CASE("SDO stream types: without USE_OBJ_EX an object that does not know its length is not read") {
+  struct Stream : LoggedStream, Fixture {
+    Stream() : Fixture(Setup().only_small().with(plain(0x3001))) {}
+  } node;
+  node.data = {1, 2, 3};
+  node.ask("601#4001300000000000", "581#4701300001020300");
+  node.knows_size = false;
+  node.take_log();
+  node.ask("601#4001300000000000", "581#8001300020000008");
+  CHECK(node.take_log().empty());
+}
+
+}  // namespace
+
+#endif

@@ -107,12 +107,7 @@ bool is_open(const CO_NODE& node) {
 }  // namespace
 
 std::vector<const CO_TMR_MEM*> Fixture::armed() const {
-  std::vector<const CO_TMR_MEM*> all;
-  for (const CO_TMR_MEM* list : {node.Tmr.Use.First, node.Tmr.Due.First}) {
-    const auto part = members(list, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));  // those of the stack are in it
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  return members(node.Tmr.First, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));  // those of the stack are in it
 }
 
 unsigned Fixture::armed_timers() const { return static_cast<unsigned>(armed().size()); }

@@ -15,8 +15,6 @@ CO_ERR result(const std::function<CO_ERR(CO_OBJ*, CO_NODE*)>& function, CO_OBJ* 
   return function ? function(obj, node) : CO_ERR_NONE;
 }
 
-std::string direction(CO_OBJ_TRANSFER transfer) { return transfer == CO_OBJ_UPLOAD ? "up " : "down "; }
-
 std::uint32_t size(CO_OBJ* obj, CO_NODE*, std::uint32_t width) {
   const LoggedStream& stream = of(obj);
   if (width != 0) {
@@ -32,7 +30,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
   stream.log.push_back("read " + std::to_string(size));
   stream.position = std::min(stream.position, static_cast<std::uint32_t>(stream.data.size()));
   const std::uint32_t filled = std::min(size, static_cast<std::uint32_t>(stream.data.size()) - stream.position);
-  std::copy_n(stream.data.begin() + stream.position, filled, static_cast<std::uint8_t*>(buffer));
+  std::copy_n(stream.data.data() + stream.position, filled, static_cast<std::uint8_t*>(buffer));
   stream.position += filled;
   stream.at_end = stream.at_end || filled < size;
   return result(size == 0 ? stream.on_open : stream.on_piece, obj, node);
@@ -57,6 +55,9 @@ CO_ERR reset(CO_OBJ* obj, CO_NODE* node, std::uint32_t position) {
   return result(stream.on_reset, obj, node);
 }
 
+#if USE_OBJ_EX
+std::string direction(CO_OBJ_TRANSFER transfer) { return transfer == CO_OBJ_UPLOAD ? "up " : "down "; }
+
 CO_ERR begin(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, std::uint32_t size) {
   const OutsideStack outside;
   LoggedStream& stream = of(obj);
@@ -70,20 +71,23 @@ CO_ERR end(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, std::uint32_t a
   const OutsideStack outside;
   LoggedStream& stream = of(obj);
   char code[9];
-  std::snprintf(code, sizeof code, abort == 0 ? "%u" : "%08X", abort);
+  std::snprintf(code, sizeof code, abort == 0 ? "%u" : "%08X", static_cast<unsigned>(abort));
   stream.log.push_back("end " + direction(transfer) + code);
   return result(stream.on_end, obj, node);
 }
 
 const CO_OBJ_TYPE_EX extended_type = {{size, nullptr, read, write, COObjTypeExReset}, reset, begin, end};
+#endif
 const CO_OBJ_TYPE plain_type = {size, nullptr, read, write, reset};
 const CO_OBJ_TYPE value_type = {size, nullptr, read, write, nullptr};
 
 }  // namespace
 
+#if USE_OBJ_EX
 CO_OBJ LoggedStream::extended(std::uint16_t index) {
   return {CO_KEY(index, 0, CO_OBJ_____RW), &extended_type.Type, CO_DATA(this)};
 }
+#endif
 
 CO_OBJ LoggedStream::plain(std::uint16_t index) {
   return {CO_KEY(index, 0, CO_OBJ_____RW), &plain_type, CO_DATA(this)};

@@ -55,7 +55,7 @@ CO_IF_FRM frame(std::string_view text) {
 
 std::string notation(const CO_IF_FRM& frm) {
   const bool wide = (frm.Identifier & (CO_IF_FRM_EXT | CO_IF_FRM_ERROR)) != 0;
-  const std::uint32_t id = frm.Identifier & ~(CO_IF_FRM_EXT | CO_IF_FRM_RTR);
+  const auto id = static_cast<unsigned>(frm.Identifier & ~(CO_IF_FRM_EXT | CO_IF_FRM_RTR));
   char text[16];
   std::snprintf(text, sizeof text, wide ? "%08X#" : "%03X#", id);
   std::string all = text;

@@ -162,7 +162,7 @@ std::vector<std::uint32_t> PdoModel::words() const { return {pdo_.map.begin(), p
 std::string PdoModel::identifier() const {
   char text[16];
   const bool wide = (pdo_.cob_id & 0x20000000U) != 0;
-  std::snprintf(text, sizeof text, wide ? "%08X" : "%03X", pdo_.cob_id & 0x1FFFFFFFU);
+  std::snprintf(text, sizeof text, wide ? "%08X" : "%03X", static_cast<unsigned>(pdo_.cob_id & 0x1FFFFFFFU));
   return text;
 }
 

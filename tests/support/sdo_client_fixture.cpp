@@ -177,10 +177,8 @@ void SdoClient::note(unsigned client, std::uint16_t index, std::uint8_t sub, std
 }
 
 bool SdoClient::is_watched(unsigned client) const {
-  for (const CO_TMR_MEM* timer : {node.Tmr.Use.First, node.Tmr.Due.First}) {
-    for (; timer != nullptr; timer = timer->Next) {
-      if (timer == &node.CSdo[client].Tmr) return true;
-    }
+  for (const CO_TMR_MEM* timer = node.Tmr.First; timer != nullptr; timer = timer->Next) {
+    if (timer == &node.CSdo[client].Tmr) return true;
   }
   return false;
 }

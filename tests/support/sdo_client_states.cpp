@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
+
+#include "words.hpp"
 
 namespace test {
 namespace {
@@ -17,8 +18,9 @@ constexpr std::uint32_t done = 0;
 // The client gives up: it says so to the server and to its caller. Codes are sent low byte first.
 ClientReaction abort(const std::string& commands, std::uint32_t code) {
   char text[24];
-  std::snprintf(text, sizeof text, "605#80002005%02X%02X%02X%02X", code & 0xFFU, (code >> 8) & 0xFFU,
-                (code >> 16) & 0xFFU, code >> 24);
+  const auto bytes = static_cast<unsigned>(code);
+  std::snprintf(text, sizeof text, "605#80002005%02X%02X%02X%02X", bytes & 0xFFU, (bytes >> 8) & 0xFFU,
+                (bytes >> 16) & 0xFFU, bytes >> 24);
   return {commands, {text}, code};
 }
 
@@ -289,8 +291,7 @@ States make_states() {
 }
 
 bool names(const std::string& commands, unsigned command) {
-  std::istringstream words(commands);
-  for (std::string word; words >> word;) {
+  for (const std::string& word : words_of(commands)) {
     const unsigned long first = std::stoul(word, nullptr, 16);
     const unsigned long last = word.size() > 2 ? std::stoul(word.substr(3), nullptr, 16) : first;
     if (command >= first && command <= last) {

@@ -5,31 +5,14 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 #include <utility>
+
+#include "words.hpp"
 
 namespace test {
 namespace {
 
 using Words = std::vector<std::string>;
-
-Words words_of(const std::string& text) {
-  std::istringstream stream(text);
-  Words words;
-  for (std::string word; stream >> word;) {
-    words.push_back(word);
-  }
-  return words;
-}
-
-Words parts_of(const std::string& text, char separator) {
-  std::istringstream stream(text);
-  Words parts;
-  for (std::string part; std::getline(stream, part, separator);) {
-    parts.push_back(part);
-  }
-  return parts;
-}
 
 // A row of the table: what it says of each object's multiplexers is filled in later.
 struct Row {
@@ -54,8 +37,7 @@ std::string hex(unsigned byte) {
 class Reader {
  public:
   explicit Reader(std::string_view table) {
-    std::istringstream lines{std::string(table)};
-    for (std::string line; std::getline(lines, line);) {
+    for (const std::string& line : parts_of(table, '\n')) {
       read(line);
     }
     finish_state();
