@@ -9,7 +9,7 @@
 #include CO_CFG_PRESET
 #endif
 
-/// SDO servers (1200h, 1201h, …): 1…128. Each costs 56 bytes of RAM (32-bit CPU),
+/// SDO servers (1200h, 1201h, …): 1…128. Each costs 66 bytes of RAM (32-bit CPU),
 /// besides its part of CO_NODE_SPEC.SdoBuf.
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
@@ -25,7 +25,7 @@
 #define USE_OBJ_EX 1
 #endif
 
-/// SDO clients (1280h, 1281h, …): 0 or 1, and how many: 1…100. Each costs 76 bytes of RAM (32-bit CPU).
+/// SDO clients (1280h, 1281h, …): 0 or 1, and how many: 1…100. Each costs 86 bytes of RAM (32-bit CPU).
 #ifndef USE_CSDO
 #define USE_CSDO 1
 #endif
@@ -36,8 +36,7 @@
 #error "CO_CSDO_N: 1...100 SDO clients"
 #endif
 
-/// Block transfer of servers and clients: 0 or 1. 0 saves about 1.7 KB of flash in the server and
-/// 1 KB in the client (Cortex-M0+, -Os).
+/// Block transfer of servers and clients: 0 or 1. 0 saves 3.3 KB of flash (Cortex-M0+, -Os) where both are used.
 #ifndef USE_SDO_BLOCK
 #define USE_SDO_BLOCK 1
 #endif
@@ -62,7 +61,7 @@
 #error "CO_SDO_TIMEOUT: 0...60000 ms"
 #endif
 
-/// PDOs (1400h…, 1800h…): 0…512 of each. Each RPDO costs 78 and each TPDO 80 bytes of RAM (32-bit CPU).
+/// PDOs (1400h…, 1800h…): 0…512 of each. Each costs 78 bytes of RAM (32-bit CPU).
 #ifndef CO_RPDO_N
 #define CO_RPDO_N 4
 #endif
@@ -179,7 +178,7 @@
 #define USE_NMT_MASTER 0
 #endif
 
-/// Status LEDs of CiA 303-3: 0 or 1. 1 costs 36 bytes of RAM (32-bit CPU) and 1 KB of flash (Cortex-M0+, -Os).
+/// Status LEDs of CiA 303-3: 0 or 1. 1 costs 36 bytes of RAM (32-bit CPU) and 1.2 KB of flash (Cortex-M0+, -Os).
 #ifndef USE_LED
 #define USE_LED 0
 #endif
