@@ -29,7 +29,7 @@ class Column:
         for line in (line for file in files for line in Path(file).read_text(encoding="utf-8").splitlines()):
             name, number, *remark = line.split("\t")
             self.numbers[name] = number
-            self.remarks[name] = remark[0] if remark else ""
+            self.remarks[name] = remark[0].strip() if remark else ""
 
 
 class Row:
