@@ -88,8 +88,8 @@ typedef struct CO_PDO_MAP_T {
   uint8_t Length;                    ///< bytes, with USE_PDO_BITS bits; 0: the PDO does not exist
   uint8_t Span;                      ///< entries lie less than 2^Span behind Entry[0], modulo 2^16
   uint8_t Passed[CO_PDO_MAP_N / 8];  ///< a bit for each object: sent or received since the application has asked
-  uint8_t Step[CO_PDO_MAP_N];    ///< copied in one, in units of Length; 0: with the object before. Bit 7 of the first:
-                                 ///< each by its type
+  uint8_t Step[CO_PDO_MAP_N];  ///< copied in one, in units of Length; 0: with the object before. A bit more: it is not
+                               ///< aligned in the frame. Bit 7 of the first: each by its type
   uint16_t Entry[CO_PDO_MAP_N];  ///< numbers of the entries in the dictionary; FFFFh: none, or a static data type
 } CO_PDO_MAP;
 

@@ -58,11 +58,11 @@ bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap
 
 uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
 
-// Is the value nothing but the bytes of its variable, which can be copied in one access? position: in the frame. What a
-// change has to be noticed of (flag A) is written by its type.
-bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned position, unsigned bytes) {
+// Is the value nothing but the bytes of its variable, which can be accessed at once? What a change has to be noticed of
+// (flag A) is written by its type.
+bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned bytes) {
   constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
-  const bool aligned = ((address_of(obj) | position) & (bytes - 1U)) == 0;
+  const bool aligned = (address_of(obj) & (bytes - 1U)) == 0;
   const bool in_variable = aligned && (obj.Key & typed) == 0 && is_number(obj.Type);
   if (!wire::host_is_little_endian || !in_variable || is_numbered_anew(node)) {
     return false;
@@ -85,7 +85,11 @@ void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
       begin = position;
       distance = address - position;
     }
-    position += map.Step[place] / one_byte;
+    const unsigned bytes = map.Step[place] / one_byte;
+    if ((position & (bytes - 1U)) != 0) {
+      map.Step[place] |= shifted;
+    }
+    position += bytes;
     if ((begin | distance | position) % sizeof(Word) == 0) {
       __builtin_memset(map.Step + first, 0, place - first + 1);
       map.Step[first] = static_cast<uint8_t>((position - begin) * one_byte);
@@ -101,31 +105,55 @@ void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned place, const CO_OBJ* obj
   }
 }
 
-// Both are aligned: no number is torn.
-inline void copy_access(void* to, const void* from, unsigned bytes) {
-  if (bytes == 1) {
+// What is not aligned in the frame, a 16- or 32-bit number. Returns the bytes.
+template <Direction direction>
+inline unsigned copy_shifted(void* variable, uint8_t* data, unsigned bytes) {
+  uint32_t value = 0;
+  if (direction == Direction::transmit) {
+    value = bytes == sizeof(Half) ? *static_cast<Half*>(variable) : *static_cast<Word*>(variable);
+    for (unsigned n = 0; n != bytes; ++n, value >>= 8) {
+      data[n] = static_cast<uint8_t>(value);
+    }
+    return bytes;
+  }
+  for (unsigned n = bytes; n != 0; --n) {
+    value = (value << 8) | data[n - 1];
+  }
+  if (bytes == sizeof(Half)) {
+    *static_cast<Half*>(variable) = static_cast<uint16_t>(value);
+  } else {
+    *static_cast<Word*>(variable) = value;
+  }
+  return bytes;
+}
+
+// Variables are aligned: no number is torn. Returns the bytes.
+template <Direction direction>
+inline unsigned copy_access(void* variable, uint8_t* data, unsigned step) {
+  constexpr bool receives = direction == Direction::receive;
+  void* const to = receives ? variable : data;
+  const void* const from = receives ? data : variable;
+  if (step == one_byte) {
     *static_cast<uint8_t*>(to) = *static_cast<const uint8_t*>(from);
-  } else if (bytes == sizeof(Half)) {
+  } else if (step == sizeof(Half) * one_byte) {
     *static_cast<Half*>(to) = *static_cast<const Half*>(from);
-  } else if (bytes != 0) {
+  } else if ((step & shifted) != 0) {
+    return copy_shifted<direction>(variable, data, (step - shifted) / one_byte);
+  } else if (step != 0) {
     static_cast<Word*>(to)[0] = static_cast<const Word*>(from)[0];
-    if (bytes != sizeof(Word)) {
+    if (step != sizeof(Word) * one_byte) {
       static_cast<Word*>(to)[1] = static_cast<const Word*>(from)[1];
     }
   }
+  return step / one_byte;
 }
 
 template <Direction direction>
 CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data) {
-  constexpr bool receives = direction == Direction::receive;
   const uint16_t* entry = map.Entry;
-  unsigned left = length_of(map);
-  for (const uint8_t* step = map.Step; left != 0; ++step, ++entry) {
-    const unsigned bytes = *step / one_byte;
-    auto* const variable = data_of<uint8_t>(root[*entry]);
-    copy_access(receives ? variable : data, receives ? data : variable, bytes);
-    data += bytes;
-    left -= bytes;
+  const uint8_t* const end = data + length_of(map);
+  for (const uint8_t* step = map.Step; data != end; ++step, ++entry) {
+    data += copy_access<direction>(data_of<void>(root[*entry]), data, *step);
   }
   return CO_ERR_NONE;
 }
@@ -271,7 +299,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
     }
     const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node.Dict, mapping);
     const unsigned length = mapping & 0xFFU;
-    plain = plain && obj != nullptr && is_plain(node, *obj, direction, bits / 8, length / 8);
+    plain = plain && obj != nullptr && is_plain(node, *obj, direction, length / 8);
     add(node, map, place, obj);
     map.Step[place] = static_cast<uint8_t>(length / unit);
     bits += length;

@@ -65,6 +65,7 @@ class Lock {
 constexpr bool maps_bits = USE_PDO_BITS != 0;
 constexpr uint8_t one_byte = maps_bits ? 8 : 1;  // in units of CO_PDO_MAP.Length and Step
 constexpr uint8_t by_type = 0x80;                // in Step
+constexpr uint8_t shifted = maps_bits ? 1 : 16;  // in Step of a number: it is not aligned in the frame
 
 typedef volatile uint32_t Word __attribute__((may_alias));
 typedef volatile uint16_t Half __attribute__((may_alias));
