@@ -85,7 +85,7 @@ void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
       begin = position;
       distance = address - position;
     }
-    const unsigned bytes = map.Step[place] / one_byte;
+    const unsigned bytes = unsigned{map.Step[place]} / one_byte;
     if ((position & (bytes - 1U)) != 0) {
       map.Step[place] |= shifted;
     }
