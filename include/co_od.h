@@ -1,0 +1,647 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_od.h
+/// The second way into the object dictionary (USE_OD, co_cfg.h): variables of any length in pieces, functions of the
+/// application that take the place of an object's own, and what has passed by PDO. docs/od-access.md tells what it is
+/// for, with examples; names, signatures and results are those of the interface that applications of CANopenNode know.
+///
+/// The dictionary stays the sorted table of CO_OBJ. What OD_find() searches is an array of OD_entry_t in the memory of
+/// the application, one for each index, which OD_init() fills from that table:
+///
+///     static OD_entry_t List[OD_LIST_N(40)];
+///     static OD_t Od;
+///     OD_init(&Od, List, OD_LIST_N(40), &Node, Table, TableLen);   // before CONodeInitEx()
+///     static const CO_NODE_EXT Ext = { .Size = sizeof(Ext), .Od = &Od };
+///     CONodeInitEx(&Node, &Spec, &Ext);
+///
+/// An object can be extended if its entries in the table say so, by their types:
+///
+///     { CO_KEY(0x2100, 1, CO_OBJ____PRW), OD_TUNSIGNED32, (CO_DATA)(&Speed) },
+///
+/// or all of a table, by `#define OD_ALL` before this file is included there. Entries that do not say so cost nothing.
+///
+/// Context: the loop, as all of the stack (co_core.h). Where several threads use the node (CO_NODE_EXT.Enter), any of
+/// them, between CO_LOCK_OD() and CO_UNLOCK_OD(). The functions that read and write values need a node that is
+/// initialised, unless the stream is plain memory; the others do not.
+#ifndef CO_OD_H_
+#define CO_OD_H_
+
+#include "co_cfg.h"
+#include "co_domain.h"
+#include "co_integer16.h"
+#include "co_integer32.h"
+#include "co_integer64.h"
+#include "co_integer8.h"
+#include "co_obj.h"
+#include "co_para.h"
+#include "co_real.h"
+#include "co_string.h"
+#include "co_time_of_day.h"
+#include "co_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct CO_NODE_T;
+
+/// \name Numbers
+/// An application that has these types already defines CO_OD_OWN_TYPES, and then gives all of them.
+/// \{
+#ifndef CO_OD_OWN_TYPES
+typedef uint32_t OD_size_t;  ///< bytes: a length, or a position in a variable
+typedef uint8_t OD_attr_t;   ///< bits ODA_…
+typedef bool bool_t;
+typedef float float32_t;
+typedef double float64_t;
+#endif
+/// \}
+
+/// Bytes of flags in an extension: the sub-indexes 0…8n-1 have one. 0…32.
+#ifndef OD_FLAGS_PDO_SIZE
+#define OD_FLAGS_PDO_SIZE 4
+#endif
+#if OD_FLAGS_PDO_SIZE < 0 || OD_FLAGS_PDO_SIZE > 32
+#error "OD_FLAGS_PDO_SIZE: 0...32 bytes"
+#endif
+
+/// What definitions of constant objects are marked with.
+#ifndef CO_PROGMEM
+#define CO_PROGMEM const
+#endif
+
+/// \name Attributes of a variable
+/// From the flags of the entry and its type. They bind the network only: no function of this file asks them, except
+/// OD_mappable(). The rights of safety-relevant PDOs are never set: the stack has none.
+/// \{
+typedef enum OD_attributes_T {
+  ODA_SDO_R = 0x01,  ///< flag R
+  ODA_SDO_W = 0x02,  ///< flag W
+  ODA_SDO_RW = ODA_SDO_R | ODA_SDO_W,
+  ODA_TPDO = 0x04,  ///< flags P and R
+  ODA_RPDO = 0x08,  ///< flags P and W
+  ODA_TRPDO = ODA_TPDO | ODA_RPDO,
+  ODA_TSRDO = 0x10,
+  ODA_RSRDO = 0x20,
+  ODA_TRSRDO = ODA_TSRDO | ODA_RSRDO,
+  ODA_MB = 0x40,  ///< a number of more than one byte: CPU order here, little-endian on the bus
+  ODA_STR = 0x80  ///< text: a shorter value may be written, the first zero ends it
+} OD_attributes_t;
+/// \}
+
+/// Results. Each from ODR_OUT_OF_MEM on has an SDO abort code (OD_getSDOabCode()).
+typedef enum ODR_T {
+  ODR_PARTIAL = -1,  ///< there is more: call again
+  ODR_OK = 0,
+  ODR_OUT_OF_MEM = 1,       ///< 0504 0005h
+  ODR_UNSUPP_ACCESS = 2,    ///< 0601 0000h: the extension has no such function, or the object cannot be extended
+  ODR_WRITEONLY = 3,        ///< 0601 0001h
+  ODR_READONLY = 4,         ///< 0601 0002h
+  ODR_IDX_NOT_EXIST = 5,    ///< 0602 0000h
+  ODR_NO_MAP = 6,           ///< 0604 0041h
+  ODR_MAP_LEN = 7,          ///< 0604 0042h
+  ODR_PAR_INCOMPAT = 8,     ///< 0604 0043h
+  ODR_DEV_INCOMPAT = 9,     ///< 0604 0047h: also a null argument
+  ODR_HW = 10,              ///< 0606 0000h
+  ODR_TYPE_MISMATCH = 11,   ///< 0607 0010h
+  ODR_DATA_LONG = 12,       ///< 0607 0012h
+  ODR_DATA_SHORT = 13,      ///< 0607 0013h
+  ODR_SUB_NOT_EXIST = 14,   ///< 0609 0011h: also a variable that has no memory and no extension
+  ODR_INVALID_VALUE = 15,   ///< 0609 0030h
+  ODR_VALUE_HIGH = 16,      ///< 0609 0031h
+  ODR_VALUE_LOW = 17,       ///< 0609 0032h
+  ODR_MAX_LESS_MIN = 18,    ///< 0609 0036h
+  ODR_NO_RESOURCE = 19,     ///< 060A 0023h
+  ODR_GENERAL = 20,         ///< 0800 0000h
+  ODR_DATA_TRANSF = 21,     ///< 0800 0020h
+  ODR_DATA_LOC_CTRL = 22,   ///< 0800 0021h
+  ODR_DATA_DEV_STATE = 23,  ///< 0800 0022h: also a stream type of the application that an SDO transfer has open
+  ODR_OD_MISSING = 24,      ///< 0800 0023h
+  ODR_NO_DATA = 25,         ///< 0800 0024h
+  ODR_COUNT = 26,           ///< number of results from ODR_OK on
+  /// \cond internal
+  ODR_ANY_NUMBER = 0x7FFFFFFF  // functions of the application may answer any
+  /// \endcond
+} ODR_t;
+
+/// The abort code of a result; 0 of ODR_OK, 0604 0047h of any number that is no result. [301:7.2.4.3.17]
+uint32_t OD_getSDOabCode(ODR_t returnCode);
+
+/// What a read or write function knows of the access: which variable, and how far it is. Each access has its own: an
+/// SDO channel, a PDO, each OD_IO_t of the application.
+typedef struct OD_stream_T {
+  void* dataOrig;        ///< the variable's memory; null: it has none, or only its type knows where
+  void* object;          ///< OD_extension_t.object; null for original functions
+  OD_size_t dataLength;  ///< bytes of the variable, 0: not known beforehand. In a write: once the last piece comes, the
+                         ///< bytes of all
+  OD_size_t dataOffset;  ///< bytes that have passed; 0: an access begins. Kept by the read or write function
+  OD_attr_t attribute;   ///< ODA_…
+  uint16_t index;
+  uint8_t subIndex;
+  /// \cond internal
+  struct CO_OBJ_T* Entry;  // null: plain memory at dataOrig
+  struct CO_NODE_T* Owner;
+  /// \endcond
+} OD_stream_t;
+
+/// \name Functions that read and write
+/// \a buf: any alignment; a number lies there in the byte order of the CPU. Both may be called by SDO, PDO and the
+/// application, always within CO_LOCK_OD(), which they must not take themselves.
+///
+/// Read: fills \a buf with up to \a count bytes, says in \a countRead how many, and ODR_OK if these were the last, so
+/// that the next call begins anew (dataOffset 0); ODR_PARTIAL, only with all of \a buf filled, if there is more.
+///
+/// Write: takes all \a count bytes of \a buf, says so in \a countWritten, and ODR_OK if the variable is complete
+/// (dataOffset 0) or ODR_PARTIAL if it wants more; or takes none and says why. It has to check before it changes
+/// anything: what earlier calls have written stays written. Writing ends when dataOffset + \a count is dataLength.
+/// \{
+typedef ODR_t (*OD_read_t)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+typedef ODR_t (*OD_write_t)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
+/// \}
+
+/// A variable with its functions, to be kept for repeated access: OD_getSub() searches, a read does not.
+///
+///     if (OD_getSub(OD_find(&Od, 0x1008), 0, &io, false) == ODR_OK) {
+///       r = io.read(&io.stream, name, sizeof name, &n);
+///     }
+typedef struct OD_IO_T {
+  OD_stream_t stream;
+  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+  ODR_t (*write)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
+} OD_IO_t;
+
+/// What the application puts in the place of an object's own functions. It is the application's and must live as long
+/// as it is in use; the stack writes flagsPDO only. OD_readOriginal and OD_writeOriginal may be given here, too; a null
+/// function refuses the access with ODR_UNSUPP_ACCESS.
+typedef struct OD_extension_T {
+  void* object;  ///< for the application: becomes OD_stream_t.object
+  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+  ODR_t (*write)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
+#if OD_FLAGS_PDO_SIZE > 0
+  uint8_t
+      flagsPDO[OD_FLAGS_PDO_SIZE];  ///< a bit for each sub-index: 0: a TPDO was requested and has not been seen sent
+#endif
+} OD_extension_t;
+
+/// \name Kinds of objects (OD_entry_t.odObjectType)
+/// \{
+typedef enum OD_objectTypes_T {
+  ODT_VAR = 0x01,  ///< sub-index 0 alone
+  ODT_ARR = 0x02,  ///< sub-indexes 0…n without gaps, all from 1 on of one type
+  ODT_REC = 0x03,  ///< anything else
+  ODT_TYPE_MASK = 0x0F,
+  ODT_TABLE = 0x80  ///< odObject is the OD_t: the object lies in its table of CO_OBJ. Set by OD_init()
+} OD_objectTypes_t;
+/// \}
+
+/// An object: 12 bytes on a 32-bit CPU.
+typedef struct OD_entry_T {
+  uint16_t index;
+  uint8_t subEntriesCount;    ///< sub-indexes that it has, 0 included; 255 for 256
+  uint8_t odObjectType;       ///< ODT_…
+  const void* odObject;       ///< by odObjectType
+  OD_extension_t* extension;  ///< null: none
+} OD_entry_t;
+
+/// An SDO transfer of an extended object, or the application's access to one by CODict… and COObj… functions.
+/// \cond internal
+typedef struct OD_TRANSFER_T {
+  const struct CO_OBJ_T* Entry;  // null: free
+  OD_size_t Offset;              // dataOffset between two calls
+  OD_size_t Length;              // dataLength between two calls
+  OD_size_t Passed;              // bytes
+  OD_size_t Total;               // bytes that were announced, or CO_OBJ_SIZE_UNKNOWN
+  uint8_t State;
+  uint8_t Held;  // second half of a character
+} OD_TRANSFER;
+/// \endcond
+
+/// Accesses that extended streams have at a time: each SDO server's, one of a client to the own node, one of the
+/// application through co_dict.h and co_obj.h.
+#define OD_TRANSFER_N (CO_SSDO_N + 2)
+
+/// A dictionary. Zero before OD_init(). The application may read size and list.
+typedef struct OD_T_ {
+  uint16_t size;     ///< objects in list
+  OD_entry_t* list;  ///< by ascending index, with an entry of zeros behind the last
+  /// \cond internal
+  struct CO_NODE_T* Node;
+  struct CO_OBJ_T* Table;
+  uint16_t TableLen;
+  OD_TRANSFER Transfer[OD_TRANSFER_N];
+  /// \endcond
+} OD_t;
+
+/// Length of the array that OD_init() needs for \a n indexes.
+#define OD_LIST_N(n) ((n) + 1)
+
+/// Fills \a list, of \a num entries, with the objects of \a table (\a tableLen entries, sorted as CODictInit() wants
+/// it) and takes it into use; \a node need not be initialised yet. Extensions are kept where \a list already had the
+/// object: call it again when the table of a running node has changed, after CODictInit().
+/// ODR_OUT_OF_MEM: \a num is less than OD_LIST_N(indexes in the table), od->size then tells how many these are, and
+/// nothing is found; ODR_DEV_INCOMPAT: an argument is null, or the table is not ascending.
+ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, struct CO_NODE_T* node, struct CO_OBJ_T* table,
+              uint16_t tableLen);
+
+/// The object with this index, by halving; null: there is none, or \a od is null or empty.
+OD_entry_t* OD_find(OD_t* od, uint16_t index);
+
+/// Fills \a io for a variable, with its beginning as position. \a odOrig: the original functions also where the object
+/// is extended. For what was not extended, or whose entry cannot be (see OD_TYPE), these are OD_readOriginal() and
+/// OD_writeOriginal(), and object is null.
+/// ODR_IDX_NOT_EXIST: \a entry is null, or names no object; ODR_SUB_NOT_EXIST: no such sub-index; ODR_DEV_INCOMPAT:
+/// \a io is null, or the object is of no known kind.
+///
+/// dataLength: of numbers their bytes; of strings that can be written their capacity; of CO_TSTRING the text's length;
+/// of domains their size; of types of the application what Size answers, 0 for CO_OBJ_SIZE_UNKNOWN.
+ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t odOrig);
+
+/// 0 if \a entry is null.
+uint16_t OD_getIndex(const OD_entry_t* entry);
+
+/// May the variable be mapped into any kind of PDO? False if \a stream is null.
+bool_t OD_mappable(const OD_stream_t* stream);
+
+/// Lets the next call begin anew: needed only to break off an access that was PARTIAL. Null is allowed.
+void OD_rwRestart(OD_stream_t* stream);
+
+/// \name Original functions
+/// What an object does by its type, or a stream without entry by its memory. ODR_DEV_INCOMPAT: an argument is null, or
+/// dataOffset lies behind the end; ODR_SUB_NOT_EXIST: the variable has no memory.
+///
+/// A number is written as soon as any bytes of it come: the others keep their values, and its type is asked each time.
+/// A shorter string is written by lowering dataLength beforehand. Of a text, bytes behind its end are read as 0; an
+/// OCTET_STRING ends with ODR_OK and fewer bytes. More than the variable takes: ODR_DATA_LONG, nothing of this call is
+/// written. What a type answers becomes the result with the same abort code; ODR_GENERAL if there is none.
+///
+/// A type of the application that is a stream belongs to one at a time: ODR_DATA_DEV_STATE while SDO has it open. One
+/// that cannot go back (CO_OBJ_TYPE_EX without Reset), and a value of more than 8 bytes, pass in one call only:
+/// ODR_UNSUPP_ACCESS for a second. Begin and End are not called.
+/// \{
+ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
+/// \}
+
+/// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. An
+/// SDO transfer of the object that is open is aborted at its next frame (0800 0022h).
+/// ODR_IDX_NOT_EXIST: \a entry is null; ODR_UNSUPP_ACCESS: no entry of the object can be extended (see OD_TYPE): the
+/// network would not notice it. Extensions with nothing but the original functions are accepted for any object.
+ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension);
+
+/// \name Values of a known length
+/// OD_getSub(), then one read or write of \a len bytes, without regard to the network's rights. Errors: as these;
+/// ODR_DEV_INCOMPAT: \a val is null; ODR_TYPE_MISMATCH: the variable has another length.
+/// \{
+ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);
+ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);
+
+/// \cond internal
+#define OD_GET_SET(name, type, pointer)                                                                      \
+  static inline ODR_t OD_get_##name(const OD_entry_t* entry, uint8_t subIndex, pointer val, bool_t odOrig) { \
+    return OD_get_value(entry, subIndex, val, (OD_size_t)sizeof(type), odOrig);                              \
+  }                                                                                                          \
+  static inline ODR_t OD_set_##name(const OD_entry_t* entry, uint8_t subIndex, type val, bool_t odOrig) {    \
+    return OD_set_value(entry, subIndex, &val, (OD_size_t)sizeof(type), odOrig);                             \
+  }
+/// \endcond
+
+/// OD_get_i8(entry, subIndex, &value, odOrig), OD_set_i8(entry, subIndex, value, odOrig), and so on.
+OD_GET_SET(i8, int8_t, int8_t*)
+OD_GET_SET(i16, int16_t, int16_t*)
+OD_GET_SET(i32, int32_t, int32_t*)
+OD_GET_SET(i64, int64_t, int64_t*)
+OD_GET_SET(u8, uint8_t, uint8_t*)
+OD_GET_SET(u16, uint16_t, uint16_t*)
+OD_GET_SET(u32, uint32_t, uint32_t*)
+OD_GET_SET(u64, uint64_t, uint64_t*)
+OD_GET_SET(f32, float32_t, float32_t*)
+OD_GET_SET(f64, float64_t, float64_t*)
+OD_GET_SET(r32, float32_t, float32_t*)  ///< the name of the first draft
+OD_GET_SET(r64, float64_t, float64_t*)
+#undef OD_GET_SET
+/// \}
+
+/// Address of a variable's original memory, whatever extends it. \a len: its bytes, 0: do not check. Null on error,
+/// which \a err (may be null) tells: as OD_getSub(); ODR_DEV_INCOMPAT: no memory, or of unknown length;
+/// ODR_TYPE_MISMATCH: another length.
+/// Values with flag N lie there without the node-ID; those with flag D in the table, which may be read-only memory;
+/// numbers of 3, 5, 6 and 7 bytes in the wider variable. A change is not noticed by flag A.
+void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err);
+
+/// \name What passes by PDO
+/// No extension is needed for it. The flags are those of CORPdoObjWasReceived() and COTPdoObjWasSent() (co_pdo.h),
+/// which these functions look at without clearing them: ask an object's flags one way or the other.
+/// \{
+
+/// Every TPDO of type 0, 254 or 255 that maps the variable is sent: now, or as soon as its inhibit time has passed, or
+/// with the next SYNC (type 0). What keeps one from being sent is the node's error (COTPdoRequest()).
+void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex);
+
+/// Has a TPDO with the variable been sent since OD_requestTPDO()? False for what no TPDO maps.
+bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex);
+
+/// Bit 0: written by an RPDO, bit n: sent by TPDO n (from 1), each since the bit was cleared.
+typedef uint32_t OD_flagsPDO_t;
+
+OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex);
+
+/// Clears the bits that are set in \a flags; the TPDOs among them that map the variable are sent as by
+/// OD_requestTPDO().
+void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags);
+/// \}
+
+/// \name Groups that are stored, by name
+/// A group is a CO_PARA (co_para.h) whose Ident names it; its place among the others is its sub-index of 1010h and
+/// 1011h. What co_para.h promises holds: with a driver that tells the shape of its memory, a group is never torn.
+///
+///     static const CO_PARA Comm = OD_GROUP("PERSIST_COMM", OD_PERSIST_COMM, OD_PERSIST_COMM_default, 0, CO_RESET_COM,
+///                                          CO_PARA___E);
+///     { CO_KEY(0x1010, 2, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)(&Comm) },
+///     { CO_KEY(0x1011, 2, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)(&Comm) },
+///
+/// Memory is stored as it is: no extension is asked.
+/// \{
+
+/// Initialises a CO_PARA. \a name: a string; \a variable: the group's memory; \a defaults: a variable of the same type;
+/// \a offset: in the non-volatile memory; \a reset: CO_RESET_COM or CO_RESET_NODE; \a value: CO_PARA_…
+#define OD_GROUP(name, variable, defaults, offset, reset, value)                                                \
+  {                                                                                                             \
+    (offset), (uint32_t)sizeof(variable), (uint8_t*)&(variable), (uint8_t*)&(defaults), (reset), (void*)(name), \
+        (value)                                                                                                 \
+  }
+
+#if USE_PARA
+/// The sub-index of 1010h of the group with this name, 1…127; 0: there is none.
+uint8_t OD_findStorageGroup(const OD_t* od, const char* name);
+
+/// The sub-index of 1010h of the group that the variable's original memory lies in; 0: it is not stored.
+uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex);
+
+/// Its name; null: there is no such group, or it has none.
+const char* OD_getStorageName(const OD_t* od, uint8_t group);
+
+/// Stores the group, or lets it get its default values at the reset of its type, as "save" and "load" of the network
+/// do: 1, where others follow it, is all. ODR_SUB_NOT_EXIST: no such group; ODR_HW: the memory does not hold it, the
+/// old values stay; ODR_DATA_TRANSF: it is not stored on command; ODR_OD_MISSING: the node does not use this
+/// dictionary.
+ODR_t OD_storeGroup(const OD_t* od, uint8_t group);
+ODR_t OD_restoreGroup(const OD_t* od, uint8_t group);
+#endif
+/// \}
+
+/// \name Locks
+/// All three are one lock, so that their order cannot be wrong: the turn of the node, CO_NODE_EXT.Enter and Leave, of
+/// which co_core.h says who takes it. Each thread takes it around every call of the stack that does not take it by
+/// itself, and around accesses to objects; never within another, nor in a function that the stack calls (read and write
+/// functions, callbacks, types, timer actions, drivers), which has the turn already.
+///
+/// Without Enter and Leave there is one context, and the lock is CO_NODE_EXT.OdLock and OdUnlock: for accesses of the
+/// loop that interrupts and threads which only touch variables must see together. May be taken again inside.
+///
+/// Not before CONodeInit(); not needed until there is a second thread, nor for variables that nobody else touches.
+/// \a node: CO_NODE*, what the snippets of the documents call CANmodule.
+/// \{
+#ifndef CO_LOCK_OD
+#define CO_LOCK_OD(node) OD_lock(node)
+#define CO_UNLOCK_OD(node) OD_unlock(node)
+#endif
+#ifndef CO_LOCK_CAN_SEND
+#define CO_LOCK_CAN_SEND(node) OD_lock(node)
+#define CO_UNLOCK_CAN_SEND(node) OD_unlock(node)
+#endif
+#ifndef CO_LOCK_EMCY
+#define CO_LOCK_EMCY(node) OD_lock(node)
+#define CO_UNLOCK_EMCY(node) OD_unlock(node)
+#endif
+
+void OD_lock(struct CO_NODE_T* node);
+void OD_unlock(struct CO_NODE_T* node);  ///< under OdLock: sends what changes have asked for meanwhile
+/// \}
+
+/// \name Types of entries that can be extended
+/// An OD_TYPE stands in front of the type that an entry would have otherwise, whose Data it keeps: OD_TUNSIGNED32 in
+/// front of CO_TUNSIGNED32. Without an extension it is that type, but for the time it takes to look. With one, the
+/// application's functions serve SDO, PDO, CODict… and COObj…: a number in one call, a stream in the pieces in which it
+/// comes; what they answer becomes the abort code. Its numbers do not pass PDOs as plain copies, and BOOLEAN maps as a
+/// byte.
+/// \{
+typedef enum OD_WITHOUT_T {
+  OD_ORIGINAL = 0,  ///< without an extension the entry is what its original type makes of it
+  OD_DISABLED = 1   ///< without one it can be neither read nor written: 0601 0001h, 0601 0002h
+} OD_WITHOUT;
+
+typedef struct OD_TYPE_T {
+  CO_OBJ_TYPE_EX Ex;            ///< Ex.Type.Init: ODTypeInit, by which it is known
+  const CO_OBJ_TYPE* Original;  ///< null: no memory
+  OD_WITHOUT Without;
+} OD_TYPE;
+
+/// Initialise an OD_TYPE in front of a type of the application (not of CO_TPARA_…, whose entries are known by their
+/// type; never of an OD_TYPE, which every CO_T… of a file with OD_ALL is: &COTInt32 is not). Value: a type without
+/// Reset function, of up to 8 bytes, stream: one with. \a original: its address; it is called with the entry, whose
+/// Type is the OD_TYPE.
+///
+///     static const OD_TYPE FileType = OD_STREAM(&File.Type, OD_DISABLED);
+///     { CO_KEY(0x2200, 0, CO_OBJ_____RW), &FileType.Ex.Type, (CO_DATA)(&file) },
+#define OD_VALUE(original, without) \
+  { {{ODValueSize, ODTypeInit, ODValueRead, ODValueWrite, 0}, 0, 0, 0}, (original), (without) }
+#define OD_STREAM(original, without)                                            \
+  {                                                                             \
+    {{ODStreamSize, ODTypeInit, ODStreamRead, ODStreamWrite, COObjTypeExReset}, \
+     ODStreamReset,                                                             \
+     ODStreamBegin,                                                             \
+     ODStreamEnd},                                                              \
+        (original), (without)                                                   \
+  }
+
+/// \cond internal
+uint32_t ODValueSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width);
+uint32_t ODStreamSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width);
+CO_ERR ODTypeInit(struct CO_OBJ_T* obj, struct CO_NODE_T* node);
+CO_ERR ODValueRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
+CO_ERR ODValueWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
+CO_ERR ODStreamRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
+CO_ERR ODStreamWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
+CO_ERR ODStreamReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t position);
+CO_ERR ODStreamBegin(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size);
+CO_ERR ODStreamEnd(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort);
+/// \endcond
+
+extern const OD_TYPE ODTInt8, ODTInt16, ODTInt32, ODTInt64, ODTBoolean, ODTReal32, ODTReal64, ODTTimeOfDay;
+extern const OD_TYPE ODTUnsigned24, ODTUnsigned40, ODTUnsigned48, ODTUnsigned56;
+extern const OD_TYPE ODTSigned24, ODTSigned40, ODTSigned48, ODTSigned56;
+extern const OD_TYPE ODTString, ODTVisibleString, ODTOctetString, ODTUnicodeString, ODTDomain;
+extern const OD_TYPE ODTNumber, ODTStream;
+
+#define OD_TUNSIGNED8 (&ODTInt8.Ex.Type)
+#define OD_TUNSIGNED16 (&ODTInt16.Ex.Type)
+#define OD_TUNSIGNED24 (&ODTUnsigned24.Ex.Type)
+#define OD_TUNSIGNED32 (&ODTInt32.Ex.Type)
+#define OD_TUNSIGNED40 (&ODTUnsigned40.Ex.Type)
+#define OD_TUNSIGNED48 (&ODTUnsigned48.Ex.Type)
+#define OD_TUNSIGNED56 (&ODTUnsigned56.Ex.Type)
+#define OD_TUNSIGNED64 (&ODTInt64.Ex.Type)
+#define OD_TSIGNED8 (&ODTInt8.Ex.Type)
+#define OD_TSIGNED16 (&ODTInt16.Ex.Type)
+#define OD_TSIGNED24 (&ODTSigned24.Ex.Type)
+#define OD_TSIGNED32 (&ODTInt32.Ex.Type)
+#define OD_TSIGNED40 (&ODTSigned40.Ex.Type)
+#define OD_TSIGNED48 (&ODTSigned48.Ex.Type)
+#define OD_TSIGNED56 (&ODTSigned56.Ex.Type)
+#define OD_TSIGNED64 (&ODTInt64.Ex.Type)
+#define OD_TBOOLEAN (&ODTBoolean.Ex.Type)
+#define OD_TREAL32 (&ODTReal32.Ex.Type)
+#define OD_TREAL64 (&ODTReal64.Ex.Type)
+#define OD_TTIME_OF_DAY (&ODTTimeOfDay.Ex.Type)
+#define OD_TTIME_DIFFERENCE (&ODTTimeOfDay.Ex.Type)
+#define OD_TSTRING (&ODTString.Ex.Type)
+#define OD_TVISIBLE_STRING (&ODTVisibleString.Ex.Type)
+#define OD_TOCTET_STRING (&ODTOctetString.Ex.Type)
+#define OD_TUNICODE_STRING (&ODTUnicodeString.Ex.Type)
+#define OD_TDOMAIN (&ODTDomain.Ex.Type)
+/// A number that only the extension has; Data: its bytes, 1…8. Disabled until there is one.
+#define OD_TNUMBER (&ODTNumber.Ex.Type)
+/// Bytes that only the extension has; Data: their number, 0: not known beforehand. Disabled until there is one.
+#define OD_TSTREAM (&ODTStream.Ex.Type)
+/// \}
+
+/// \name Objects that are nothing but memory
+/// For dictionaries defined in the way of the document, as an array of OD_entry_t that names these: find, read and
+/// write them by the functions above. The network does not see them: it sees the table of CO_OBJ.
+/// \{
+typedef struct OD_obj_var_T {
+  union {
+    void* dataOrig;  ///< null: no memory
+    void* data;      ///< the same
+  };
+  OD_attr_t attribute;
+  OD_size_t dataLength;
+} OD_obj_var_t;
+
+typedef struct OD_obj_array_T {
+  uint8_t* dataOrig0;  ///< sub-index 0
+  void* dataOrig;      ///< sub-index 1; null: no memory
+  OD_attr_t attribute0;
+  OD_attr_t attribute;
+  OD_size_t dataElementLength;  ///< bytes of each element
+  OD_size_t dataElementSizeof;  ///< bytes from each to the next
+} OD_obj_array_t;
+
+typedef struct OD_obj_record_T {
+  union {
+    void* dataOrig;  ///< null: no memory
+    void* data;      ///< the same
+  };
+  uint8_t subIndex;  ///< ascending, gaps are allowed
+  OD_attr_t attribute;
+  OD_size_t dataLength;
+} OD_obj_record_t;
+/// \}
+
+/// Indexes of the communication profile. [301:7.5.2]
+typedef enum OD_ObjDicId_30x_T {
+  OD_H1000_DEV_TYPE = 0x1000,
+  OD_H1001_ERR_REG = 0x1001,
+  OD_H1002_MANUF_STATUS_REG = 0x1002,
+  OD_H1003_PREDEF_ERR_FIELD = 0x1003,
+  OD_H1005_COBID_SYNC = 0x1005,
+  OD_H1006_COMM_CYCL_PERIOD = 0x1006,
+  OD_H1007_SYNC_WINDOW_LEN = 0x1007,
+  OD_H1008_MANUF_DEV_NAME = 0x1008,
+  OD_H1009_MANUF_HW_VERSION = 0x1009,
+  OD_H100A_MANUF_SW_VERSION = 0x100A,
+  OD_H100C_GUARD_TIME = 0x100C,
+  OD_H100D_LIFETIME_FACTOR = 0x100D,
+  OD_H1010_STORE_PARAM_FUNC = 0x1010,
+  OD_H1011_REST_PARAM_FUNC = 0x1011,
+  OD_H1012_COBID_TIME = 0x1012,
+  OD_H1013_HIGH_RES_TIMESTAMP = 0x1013,
+  OD_H1014_COBID_EMERGENCY = 0x1014,
+  OD_H1015_INHIBIT_TIME_MSG = 0x1015,
+  OD_H1016_CONSUMER_HB_TIME = 0x1016,
+  OD_H1017_PRODUCER_HB_TIME = 0x1017,
+  OD_H1018_IDENTITY_OBJECT = 0x1018,
+  OD_H1019_SYNC_CNT_OVERFLOW = 0x1019,
+  OD_H1020_VERIFY_CONFIG = 0x1020,
+  OD_H1021_STORE_EDS = 0x1021,
+  OD_H1022_STORE_FORMAT = 0x1022,
+  OD_H1023_OS_CMD = 0x1023,
+  OD_H1024_OS_CMD_MODE = 0x1024,
+  OD_H1025_OS_DBG_INTERFACE = 0x1025,
+  OD_H1026_OS_PROMPT = 0x1026,
+  OD_H1027_MODULE_LIST = 0x1027,
+  OD_H1028_EMCY_CONSUMER = 0x1028,
+  OD_H1029_ERR_BEHAVIOR = 0x1029,
+  OD_H1200_SDO_SERVER_1_PARAM = 0x1200,
+  OD_H1280_SDO_CLIENT_1_PARAM = 0x1280,
+  OD_H1300_GFC_PARAM = 0x1300,
+  OD_H1301_SRDO_1_PARAM = 0x1301,
+  OD_H1381_SRDO_1_MAPPING = 0x1381,
+  OD_H13FE_SRDO_VALID = 0x13FE,
+  OD_H13FF_SRDO_CHECKSUM = 0x13FF,
+  OD_H1400_RXPDO_1_PARAM = 0x1400,
+  OD_H1600_RXPDO_1_MAPPING = 0x1600,
+  OD_H1800_TXPDO_1_PARAM = 0x1800,
+  OD_H1A00_TXPDO_1_MAPPING = 0x1A00
+} OD_ObjDicId_30x_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+
+// Each time it is included: all entries of the table that is compiled now can be extended.
+#ifdef OD_ALL
+#undef CO_TUNSIGNED8
+#undef CO_TUNSIGNED16
+#undef CO_TUNSIGNED24
+#undef CO_TUNSIGNED32
+#undef CO_TUNSIGNED40
+#undef CO_TUNSIGNED48
+#undef CO_TUNSIGNED56
+#undef CO_TUNSIGNED64
+#undef CO_TSIGNED8
+#undef CO_TSIGNED16
+#undef CO_TSIGNED24
+#undef CO_TSIGNED32
+#undef CO_TSIGNED40
+#undef CO_TSIGNED48
+#undef CO_TSIGNED56
+#undef CO_TSIGNED64
+#undef CO_TBOOLEAN
+#undef CO_TREAL32
+#undef CO_TREAL64
+#undef CO_TTIME_OF_DAY
+#undef CO_TTIME_DIFFERENCE
+#undef CO_TSTRING
+#undef CO_TVISIBLE_STRING
+#undef CO_TOCTET_STRING
+#undef CO_TUNICODE_STRING
+#undef CO_TDOMAIN
+#define CO_TUNSIGNED8 OD_TUNSIGNED8
+#define CO_TUNSIGNED16 OD_TUNSIGNED16
+#define CO_TUNSIGNED24 OD_TUNSIGNED24
+#define CO_TUNSIGNED32 OD_TUNSIGNED32
+#define CO_TUNSIGNED40 OD_TUNSIGNED40
+#define CO_TUNSIGNED48 OD_TUNSIGNED48
+#define CO_TUNSIGNED56 OD_TUNSIGNED56
+#define CO_TUNSIGNED64 OD_TUNSIGNED64
+#define CO_TSIGNED8 OD_TSIGNED8
+#define CO_TSIGNED16 OD_TSIGNED16
+#define CO_TSIGNED24 OD_TSIGNED24
+#define CO_TSIGNED32 OD_TSIGNED32
+#define CO_TSIGNED40 OD_TSIGNED40
+#define CO_TSIGNED48 OD_TSIGNED48
+#define CO_TSIGNED56 OD_TSIGNED56
+#define CO_TSIGNED64 OD_TSIGNED64
+#define CO_TBOOLEAN OD_TBOOLEAN
+#define CO_TREAL32 OD_TREAL32
+#define CO_TREAL64 OD_TREAL64
+#define CO_TTIME_OF_DAY OD_TTIME_OF_DAY
+#define CO_TTIME_DIFFERENCE OD_TTIME_DIFFERENCE
+#define CO_TSTRING OD_TSTRING
+#define CO_TVISIBLE_STRING OD_TVISIBLE_STRING
+#define CO_TOCTET_STRING OD_TOCTET_STRING
+#define CO_TUNICODE_STRING OD_TUNICODE_STRING
+#define CO_TDOMAIN OD_TDOMAIN
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file co_od_2020.h
+/// The names of the first draft (2020) of the interface of co_od.h, for files that were written for it. Inline
+/// functions over co_od.h, without code of their own; a file includes one or the other. Differences that remain: the
+/// dictionary is an OD_t of co_od.h; flags are asked by OD_getFlagsPDO() and OD_clearFlagsPDO().
+#ifndef CO_OD_2020_H_
+#define CO_OD_2020_H_
+
+#include "co_od.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct OD_IO2020_T;
+
+/// A position in a variable, with what reads and writes it.
+typedef struct OD_stream2020_T {
+  OD_IO_t Now;
+} OD_stream2020_t;
+
+/// Bytes that have passed; the result in \a returnCode.
+typedef OD_size_t (*OD_read2020_t)(OD_stream2020_t* stream, uint8_t subIndex, void* buf, OD_size_t count,
+                                   ODR_t* returnCode);
+typedef OD_size_t (*OD_write2020_t)(OD_stream2020_t* stream, uint8_t subIndex, const void* buf, OD_size_t count,
+                                    ODR_t* returnCode);
+
+typedef struct OD_IO2020_T {
+  OD_stream2020_t stream;
+  OD_read2020_t read;
+  OD_write2020_t write;
+} OD_IO2020_t;
+
+/// What OD_getSub() tells of a variable.
+typedef struct OD_subEntry_T {
+  uint16_t index;
+  uint8_t subIndex;
+  uint8_t maxSubIndex;
+  uint8_t storageGroup;  ///< sub-index of 1010h, 0: not stored
+  OD_attr_t attribute;
+  OD_read2020_t read;
+  OD_write2020_t write;
+} OD_subEntry_t;
+
+static inline OD_size_t OD_read2020(OD_stream2020_t* stream, uint8_t subIndex, void* buf, OD_size_t count,
+                                    ODR_t* returnCode) {
+  OD_size_t passed = 0;
+  const ODR_t result = stream->Now.stream.subIndex != subIndex
+                           ? ODR_SUB_NOT_EXIST
+                           : stream->Now.read(&stream->Now.stream, buf, count, &passed);
+  *returnCode = result;
+  return result == ODR_OK || result == ODR_PARTIAL ? passed : 0;
+}
+
+static inline OD_size_t OD_write2020(OD_stream2020_t* stream, uint8_t subIndex, const void* buf, OD_size_t count,
+                                     ODR_t* returnCode) {
+  OD_size_t passed = 0;
+  const ODR_t result = stream->Now.stream.subIndex != subIndex
+                           ? ODR_SUB_NOT_EXIST
+                           : stream->Now.write(&stream->Now.stream, buf, count, &passed);
+  *returnCode = result;
+  return result == ODR_OK || result == ODR_PARTIAL ? passed : 0;
+}
+
+static inline ODR_t OD_getSub2020(const OD_entry_t* entry, uint8_t subIndex, OD_subEntry_t* subEntry,
+                                  OD_stream2020_t* stream, bool_t odOrig) {
+  const OD_subEntry_t none = {0, 0, 0, 0, 0, OD_read2020, OD_write2020};
+  ODR_t result = ODR_DEV_INCOMPAT;
+  if (subEntry != 0) {
+    *subEntry = none;
+  }
+  if (subEntry != 0 && stream != 0) {
+    result = OD_getSub(entry, subIndex, &stream->Now, odOrig);
+  } else if (entry == 0) {
+    result = ODR_IDX_NOT_EXIST;
+  }
+  if (result == ODR_OK) {
+    subEntry->index = entry->index;
+    subEntry->subIndex = subIndex;
+    subEntry->maxSubIndex = (uint8_t)(entry->subEntriesCount - 1u);
+#if USE_PARA
+    subEntry->storageGroup = OD_getStorageGroup(entry, subIndex);
+#endif
+    subEntry->attribute = stream->Now.stream.attribute;
+  }
+  return result;
+}
+
+/// The dictionary was constant.
+static inline const OD_entry_t* OD_find2020(const OD_t* od, uint16_t index) { return OD_find((OD_t*)od, index); }
+
+/// \name Typed addresses: null, and why
+/// \{
+#define OD_GET_PTR(name, type)                                                                  \
+  static inline ODR_t OD_getPtr_##name(const OD_entry_t* entry, uint8_t subIndex, type** val) { \
+    ODR_t result = ODR_DEV_INCOMPAT;                                                            \
+    if (val != 0) {                                                                             \
+      *val = (type*)OD_getPtr(entry, subIndex, (OD_size_t)sizeof(type), &result);               \
+    }                                                                                           \
+    return result;                                                                              \
+  }
+OD_GET_PTR(i8, int8_t)
+OD_GET_PTR(i16, int16_t)
+OD_GET_PTR(i32, int32_t)
+OD_GET_PTR(i64, int64_t)
+OD_GET_PTR(u8, uint8_t)
+OD_GET_PTR(u16, uint16_t)
+OD_GET_PTR(u32, uint32_t)
+OD_GET_PTR(u64, uint64_t)
+OD_GET_PTR(r32, float32_t)
+OD_GET_PTR(r64, float64_t)
+#undef OD_GET_PTR
+/// \}
+
+#ifdef __cplusplus
+}
+#endif
+
+#define OD_stream_t OD_stream2020_t
+#define OD_IO_t OD_IO2020_t
+#define OD_find OD_find2020
+#define OD_getSub OD_getSub2020
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has passed by PDO, of one object.
+#include "od/list.hpp"
+#include "service/pdo/mpdo.hpp"
+#include "service/pdo/pdo.hpp"
+
+#if USE_OD
+
+namespace co::od {
+namespace {
+
+[[maybe_unused]] constexpr unsigned most_tpdos = 8 * sizeof(OD_flagsPDO_t) - 1;
+constexpr OD_flagsPDO_t received = 1;
+constexpr OD_flagsPDO_t sent = ~received;
+
+// An entry of the table that the node uses now, or null.
+CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
+  if (entry == nullptr || !is_of_table(*entry)) {
+    return nullptr;
+  }
+  const OD_t& od = owner_of(*entry);
+  return od.Node->Dict.Root == od.Table ? find_in_table(*entry, sub) : nullptr;
+}
+
+constexpr uint8_t bit_of(unsigned place) { return static_cast<uint8_t>(1U << (place % 8U)); }
+
+// Where a PDO notes that it has passed with an object.
+struct Note {
+  uint8_t* byte;  // null: it does not have the object
+  uint8_t bit;
+
+  [[nodiscard]] bool is_set() const { return byte != nullptr && (*byte & bit) != 0; }
+  void clear() const {
+    if (byte != nullptr) {
+      *byte = static_cast<uint8_t>(*byte & ~bit);
+    }
+  }
+};
+
+[[maybe_unused]] Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
+  return {place < num ? &bytes[place / 8U] : nullptr, bit_of(place)};
+}
+
+[[maybe_unused]] Note note_in(CO_PDO_MAP& map, uint16_t number) {
+  return note_of(map.Passed, pdo::find(map, number), CO_PDO_MAP_N);
+}
+
+#if CO_TPDO_N > 0
+Note note_in(CO_NODE& node, CO_TPDO& pdo, uint16_t number) {
+#if USE_MPDO
+  if (mpdo::is_sam(pdo.Map)) {
+    CO_MPDO& lists = node.Mpdo;
+    unsigned place = 0;
+    while (place < lists.ScanNum && lists.Scan[place] != number) {
+      ++place;
+    }
+    return note_of(lists.Passed, place, lists.ScanNum);
+  }
+#endif
+  (void)node;
+  return note_in(pdo.Map, number);
+}
+#endif
+
+OD_flagsPDO_t flags_of([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+  OD_flagsPDO_t flags = 0;
+#if CO_RPDO_N > 0
+  for (CO_RPDO& pdo : node.RPdo) {
+    flags |= note_in(pdo.Map, number).is_set() ? received : 0U;
+  }
+#endif
+#if CO_TPDO_N > 0
+  for (unsigned n = 0; n < CO_TPDO_N && n < most_tpdos; ++n) {
+    flags |= note_in(node, node.TPdo[n], number).is_set() ? OD_flagsPDO_t{2} << n : 0U;
+  }
+#endif
+  return flags;
+}
+
+void forget_received([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+#if CO_RPDO_N > 0
+  for (CO_RPDO& pdo : node.RPdo) {
+    note_in(pdo.Map, number).clear();
+  }
+#endif
+}
+
+void forget_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+#if CO_TPDO_N > 0
+  for (CO_TPDO& pdo : node.TPdo) {
+    note_in(node, pdo, number).clear();
+  }
+#endif
+}
+
+// All TPDOs, those beyond the flags included.
+bool was_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+#if CO_TPDO_N > 0
+  for (CO_TPDO& pdo : node.TPdo) {
+    if (note_in(node, pdo, number).is_set()) {
+      return true;
+    }
+  }
+#endif
+  return false;
+}
+
+void take_error(CO_NODE& node, CO_ERR err) { node.Error = err != CO_ERR_NONE ? err : node.Error; }
+
+void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [[maybe_unused]] unsigned tpdo) {
+#if CO_TPDO_N > 0
+  const Note note = tpdo < CO_TPDO_N ? note_in(node, node.TPdo[tpdo], number) : Note{nullptr, 0};
+  if (note.byte == nullptr) {
+    return;
+  }
+  note.clear();
+  if (mpdo::is_sam(node.TPdo[tpdo].Map)) {
+    mpdo::mark(node, number);
+  }
+  take_error(node, pdo::request(node, static_cast<uint16_t>(tpdo)));
+#endif
+}
+
+// The bit in the extension is for those who look at it there.
+void mirror([[maybe_unused]] const OD_entry_t& entry, [[maybe_unused]] uint8_t sub, [[maybe_unused]] bool is_sent) {
+#if OD_FLAGS_PDO_SIZE > 0
+  if (entry.extension == nullptr || sub / 8 >= OD_FLAGS_PDO_SIZE) {
+    return;
+  }
+  uint8_t& flags = entry.extension->flagsPDO[sub / 8];
+  flags = static_cast<uint8_t>(is_sent ? flags | bit_of(sub) : flags & ~bit_of(sub));
+#endif
+}
+
+}  // namespace
+}  // namespace co::od
+
+using namespace co;
+
+extern "C" {
+
+void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
+  CO_OBJ* const obj = od::mapped(entry, subIndex);
+  if (obj == nullptr) {
+    return;
+  }
+  CO_NODE& node = *od::owner_of(*entry).Node;
+  od::mirror(*entry, subIndex, false);
+  od::forget_sent(node, pdo::number_of(node, *obj));
+  od::take_error(node, pdo::change_object(node, *obj));
+}
+
+bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
+  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  if (obj == nullptr) {
+    return false;
+  }
+  CO_NODE& node = *od::owner_of(*entry).Node;
+  const bool is_sent = od::was_sent(node, pdo::number_of(node, *obj));
+  if (is_sent) {
+    od::mirror(*entry, subIndex, true);
+  }
+  return is_sent;
+}
+
+OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) {
+  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  if (obj == nullptr) {
+    return 0;
+  }
+  CO_NODE& node = *od::owner_of(*entry).Node;
+  return od::flags_of(node, pdo::number_of(node, *obj));
+}
+
+// A request may run functions of the application, which may change anything.
+void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) {
+  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  if (obj == nullptr) {
+    return;
+  }
+  CO_NODE& node = *od::owner_of(*entry).Node;
+  const uint16_t number = pdo::number_of(node, *obj);
+  if ((flags & od::received) != 0) {
+    od::forget_received(node, number);
+  }
+  OD_flagsPDO_t left = (flags & od::sent) >> 1;
+  for (unsigned tpdo = 0; left != 0; ++tpdo, left >>= 1) {
+    if ((left & 1U) != 0) {
+      od::request(node, number, tpdo);
+    }
+  }
+}
+
+}  // extern "C"
+
+#endif

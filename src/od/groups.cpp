@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parameter groups by name.
+#include "service/para/groups.hpp"
+
+#include "core/obj.hpp"
+#include "object/place.hpp"
+#include "od/list.hpp"
+#include "od/result.hpp"
+
+#if USE_OD && USE_PARA
+
+namespace co::od {
+namespace {
+
+constexpr uint8_t last_group = 127;
+constexpr uint32_t save_signature = 0x65766173;
+constexpr uint32_t load_signature = 0x64616F6C;
+
+const CO_PARA* group_at(const OD_t& od, uint8_t sub) {
+  const CO_OBJ* const obj = sub == 0 ? nullptr : find_in_table(od, CO_DEV(para::store_index, sub));
+  const bool is_group = obj != nullptr && obj->Type == CO_TPARA_STORE && CO_IS_DIRECT(obj->Key) == 0;
+  return is_group ? data_of<const CO_PARA>(*obj) : nullptr;
+}
+
+const char* name_of(const CO_PARA& group) { return static_cast<const char*>(group.Ident); }
+
+bool is_named(const CO_PARA& group, const char* name) {
+  const char* own = name_of(group);
+  if (own == nullptr) {
+    return false;
+  }
+  while (*own != 0 && *own == *name) {
+    ++own;
+    ++name;
+  }
+  return *own == *name;
+}
+
+bool holds(const CO_PARA& group, const void* memory) {
+  const auto start = reinterpret_cast<uintptr_t>(static_cast<uint8_t*>(group.Start));
+  return reinterpret_cast<uintptr_t>(memory) - start < group.Size;
+}
+
+// As the network does it.
+ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
+  CO_OBJ* const obj = od == nullptr || group_at(*od, sub) == nullptr ? nullptr : find_in_table(*od, CO_DEV(index, sub));
+  if (obj == nullptr) {
+    return ODR_SUB_NOT_EXIST;
+  }
+  CO_NODE& node = *od->Node;
+  if (node.Dict.Root != od->Table) {
+    return ODR_OD_MISSING;
+  }
+  return result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
+}
+
+}  // namespace
+}  // namespace co::od
+
+using namespace co;
+
+extern "C" {
+
+uint8_t OD_findStorageGroup(const OD_t* od, const char* name) {
+  if (od == nullptr || name == nullptr) {
+    return 0;
+  }
+  for (uint8_t sub = 1; sub <= od::last_group; ++sub) {
+    const CO_PARA* const group = od::group_at(*od, sub);
+    if (group != nullptr && od::is_named(*group, name)) {
+      return sub;
+    }
+  }
+  return 0;
+}
+
+// Sub-index 1 is a group only where it is alone.
+uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) {
+  const void* const memory = OD_getPtr(entry, subIndex, 0, nullptr);
+  if (memory == nullptr || !od::is_of_table(*entry)) {
+    return 0;
+  }
+  const OD_t& od = od::owner_of(*entry);
+  bool has_others = false;
+  for (uint8_t sub = 2; sub <= od::last_group; ++sub) {
+    const CO_PARA* const group = od::group_at(od, sub);
+    has_others |= group != nullptr;
+    if (group != nullptr && od::holds(*group, memory)) {
+      return sub;
+    }
+  }
+  const CO_PARA* const alone = has_others ? nullptr : od::group_at(od, 1);
+  return alone != nullptr && od::holds(*alone, memory) ? 1 : 0;
+}
+
+const char* OD_getStorageName(const OD_t* od, uint8_t group) {
+  const CO_PARA* const found = od == nullptr ? nullptr : od::group_at(*od, group);
+  return found == nullptr ? nullptr : od::name_of(*found);
+}
+
+ODR_t OD_storeGroup(const OD_t* od, uint8_t group) {
+  return od::command(od, group, para::store_index, od::save_signature);
+}
+
+ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) {
+  return od::command(od, group, para::restore_index, od::load_signature);
+}
+
+}  // extern "C"
+
+#endif

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "od/kind.hpp"
+
+#if USE_OD
+
+#include "core/obj.hpp"
+#include "object/place.hpp"
+#include "object/stream.hpp"
+#include "wire/bytes.hpp"
+
+// Comparing with a type does not link it.
+#pragma weak COTInt8
+#pragma weak COTInt16
+#pragma weak COTInt32
+#pragma weak COTInt64
+#pragma weak COTBoolean
+#pragma weak COTReal32
+#pragma weak COTReal64
+#pragma weak COTUnsigned24
+#pragma weak COTUnsigned40
+#pragma weak COTUnsigned48
+#pragma weak COTUnsigned56
+#pragma weak COTSigned24
+#pragma weak COTSigned40
+#pragma weak COTSigned48
+#pragma weak COTSigned56
+#pragma weak COTString
+#pragma weak COTVisibleString
+#pragma weak COTOctetString
+#pragma weak COTUnicodeString
+#pragma weak COTDomain
+#pragma weak ODTNumber
+
+namespace co::od {
+namespace {
+
+constexpr uint32_t longest_number = 8;
+
+bool is_wide(const CO_OBJ_TYPE* type) {
+  return type == &COTInt64 || type == &COTReal64 || type == &COTUnsigned40 || type == &COTUnsigned48 ||
+         type == &COTUnsigned56 || type == &COTSigned40 || type == &COTSigned48 || type == &COTSigned56;
+}
+
+// Bytes of the variable of a number; 0: the type is none of ours.
+unsigned storage_of(const CO_OBJ_TYPE* type) {
+  if (type == &COTInt8 || type == &COTBoolean) {
+    return 1;
+  }
+  if (type == &COTInt16) {
+    return 2;
+  }
+  if (type == &COTInt32 || type == &COTReal32 || type == &COTUnsigned24 || type == &COTSigned24) {
+    return 4;
+  }
+  return is_wide(type) ? longest_number : 0;
+}
+
+// Flag D: the lowest bytes of the word.
+void* place_of(CO_OBJ& obj, unsigned storage) {
+  if (storage == 0) {
+    return nullptr;
+  }
+  if (CO_IS_DIRECT(obj.Key) == 0) {
+    return data_of<void>(obj);
+  }
+  const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
+  return reinterpret_cast<uint8_t*>(&obj.Data) + above;
+}
+
+OD_attr_t rights_of(const CO_OBJ& obj) {
+  const bool mappable = CO_IS_PDOMAP(obj.Key) != 0;
+  unsigned rights = 0;
+  if (CO_IS_READ(obj.Key) != 0) {
+    rights |= mappable ? unsigned{ODA_SDO_R} | ODA_TPDO : unsigned{ODA_SDO_R};
+  }
+  if (CO_IS_WRITE(obj.Key) != 0) {
+    rights |= mappable ? unsigned{ODA_SDO_W} | ODA_RPDO : unsigned{ODA_SDO_W};
+  }
+  return static_cast<OD_attr_t>(rights);
+}
+
+uint32_t size_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type) {
+  const uint32_t size = type.Size == nullptr ? 0 : type.Size(&obj, &node, 0);
+  return size == CO_OBJ_SIZE_UNKNOWN ? 0 : size;
+}
+
+Kind kind_of_stream(const CO_OBJ_TYPE* type) {
+  if (type == &COTVisibleString || type == &COTUnicodeString) {
+    return Kind::text;
+  }
+  if (type == &COTOctetString) {
+    return Kind::octets;
+  }
+  if (type == &COTString) {
+    return Kind::constant_text;
+  }
+  return type == &COTDomain ? Kind::domain : Kind::foreign;
+}
+
+void add(Shape& shape, OD_attributes_t attribute) {
+  shape.attribute = static_cast<OD_attr_t>(shape.attribute | attribute);
+}
+
+void describe_string(const CO_OBJ& obj, Shape& shape) {
+  const auto* const string = data_of<const CO_OBJ_STR_RW>(obj);
+  if (string != nullptr) {
+    shape.memory = string->Start;
+    shape.length = string->Capacity;
+  }
+}
+
+Kind kind_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE* type) {
+  if (type == nullptr) {
+    return Kind::none;
+  }
+  if (type->Reset != nullptr) {
+    return kind_of_stream(type);
+  }
+  return size_of(obj, node, *type) <= longest_number ? Kind::number : Kind::long_value;
+}
+
+}  // namespace
+
+bool can_seek(const CO_OBJ_TYPE& type) {
+  const CO_OBJ_TYPE_EX* const transfer = transfer_type(&type);
+  return transfer == nullptr ? type.Reset != nullptr : transfer->Reset != nullptr;
+}
+
+CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position) {
+  const CO_OBJ_TYPE_EX* const transfer = transfer_type(&type);
+  const CO_OBJ_RESET_FUNC reset = transfer == nullptr ? type.Reset : transfer->Reset;
+  return reset == nullptr ? CO_ERR_NONE : reset(&obj, &node, position);
+}
+
+unsigned bytes_of_character(const CO_OBJ_TYPE& type) { return &type == &COTUnicodeString ? 2 : 1; }
+
+Shape shape_of(CO_OBJ& obj, CO_NODE& node) {
+  const CO_OBJ_TYPE* const type = original_type(obj);
+  Shape shape = {kind_of(obj, node, type), type, nullptr, 0, rights_of(obj)};
+  switch (shape.kind) {
+    case Kind::none: shape.length = static_cast<OD_size_t>(uintptr_t{obj.Data}); break;
+    case Kind::text: add(shape, ODA_STR); [[fallthrough]];
+    case Kind::octets: describe_string(obj, shape); break;
+    case Kind::constant_text:
+      add(shape, ODA_STR);
+      if (const auto* const text = data_of<const CO_OBJ_STR>(obj); text != nullptr) {
+        shape.memory = const_cast<uint8_t*>(text->Start);
+      }
+      shape.length = size_of(obj, node, *shape.type);
+      break;
+    case Kind::domain:
+      if (const auto* const domain = data_of<const CO_OBJ_DOM>(obj); domain != nullptr) {
+        shape.memory = domain->Start;
+        shape.length = domain->Size;
+      }
+      break;
+    default:
+      shape.memory = place_of(obj, storage_of(shape.type));
+      shape.length = size_of(obj, node, *shape.type);
+      break;
+  }
+  const bool is_number = shape.kind == Kind::number || obj.Type == &ODTNumber.Ex.Type;
+  if (is_number && shape.length > 1) {
+    add(shape, ODA_MB);
+  }
+  return shape;
+}
+
+OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node) {
+  const Shape shape = shape_of(obj, node);
+  OD_stream_t stream = {};
+  stream.dataOrig = shape.memory;
+  stream.dataLength = shape.length;
+  stream.attribute = shape.attribute;
+  stream.index = CO_GET_IDX(obj.Key);
+  stream.subIndex = CO_GET_SUB(obj.Key);
+  stream.Entry = &obj;
+  stream.Owner = &node;
+  return stream;
+}
+
+}  // namespace co::od
+
+#endif

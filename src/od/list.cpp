@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "od/list.hpp"
+
+#if USE_OD
+
+namespace co::od {
+namespace {
+
+static_assert(sizeof(void*) != 4 || sizeof(OD_entry_t) == 12);
+
+uint16_t index_at(const CO_OBJ* table, unsigned place) { return CO_GET_IDX(table[place].Key); }
+
+// Entries in use: up to the end mark.
+uint16_t length_of(const CO_OBJ* table, uint16_t max) {
+  uint16_t num = 0;
+  while (num < max && table[num].Key != 0) {
+    ++num;
+  }
+  return num;
+}
+
+bool is_ascending(const CO_OBJ* table, uint16_t num) {
+  uint16_t place = 1;
+  while (place < num && table[place - 1].Key >> 8 < table[place].Key >> 8) {
+    ++place;
+  }
+  return place >= num;
+}
+
+uint16_t count_objects(const CO_OBJ* table, uint16_t num) {
+  uint16_t objects = num != 0 ? 1 : 0;
+  for (uint16_t place = 1; place < num; ++place) {
+    objects = static_cast<uint16_t>(objects + (index_at(table, place) != index_at(table, place - 1U) ? 1 : 0));
+  }
+  return objects;
+}
+
+// num entries of one object.
+uint8_t kind_of(const CO_OBJ* first, unsigned num) {
+  if (num == 1 && CO_GET_SUB(first->Key) == 0) {
+    return ODT_VAR;
+  }
+  unsigned sub = 0;
+  while (sub < num && CO_GET_SUB(first[sub].Key) == sub && (sub < 2 || first[sub].Type == first[1].Type)) {
+    ++sub;
+  }
+  return sub == num ? ODT_ARR : ODT_REC;
+}
+
+OD_entry_t* find(const OD_t& od, uint16_t index) {
+  unsigned from = 0;
+  unsigned to = od.size;
+  while (from < to) {
+    const unsigned middle = (from + to) / 2;
+    if (od.list[middle].index < index) {
+      from = middle + 1;
+    } else {
+      to = middle;
+    }
+  }
+  return from < od.size && od.list[from].index == index ? &od.list[from] : nullptr;
+}
+
+// Moves the entries to the front that have an extension and are still in the table. Returns their number.
+uint16_t keep_extended(OD_t& od) {
+  uint16_t kept = 0;
+  for (uint16_t n = 0; n < od.size; ++n) {
+    const OD_entry_t& entry = od.list[n];
+    const auto* const from = static_cast<const CO_OBJ*>(od.Table);
+    uint16_t place = 0;
+    while (place < od.TableLen && index_at(from, place) != entry.index) {
+      ++place;
+    }
+    if (entry.extension != nullptr && place < od.TableLen) {
+      od.list[kept++] = entry;
+    }
+  }
+  return kept;
+}
+
+// From the last object to the first: what was kept at the front is not overwritten before it is found again.
+void fill(OD_t& od, uint16_t objects, uint16_t kept) {
+  unsigned end = od.TableLen;
+  for (unsigned place = objects; place != 0; --place) {
+    unsigned first = end - 1;
+    while (first != 0 && index_at(od.Table, first - 1) == index_at(od.Table, first)) {
+      --first;
+    }
+    const uint16_t index = index_at(od.Table, first);
+    OD_extension_t* extension = nullptr;
+    if (kept != 0 && od.list[kept - 1].index == index) {
+      extension = od.list[--kept].extension;
+    }
+    const unsigned num = end - first;
+    od.list[place - 1] = {index, static_cast<uint8_t>(num < UINT8_MAX ? num : UINT8_MAX),
+                          static_cast<uint8_t>(kind_of(od.Table + first, num) | ODT_TABLE), &od, extension};
+    end = first;
+  }
+  od.list[objects] = {};
+  od.size = objects;
+}
+
+}  // namespace
+
+CO_OBJ* find_in_table(const OD_t& od, uint32_t key) {
+  unsigned from = 0;
+  unsigned to = od.TableLen;
+  while (from < to) {
+    const unsigned middle = (from + to) / 2;
+    if (CO_GET_DEV(od.Table[middle].Key) < key) {
+      from = middle + 1;
+    } else {
+      to = middle;
+    }
+  }
+  return from < od.TableLen && CO_GET_DEV(od.Table[from].Key) == key ? &od.Table[from] : nullptr;
+}
+
+OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj) {
+  const OD_entry_t* const entry = OD_find(node.Ext->Od, CO_GET_IDX(obj.Key));
+  return entry == nullptr ? nullptr : entry->extension;
+}
+
+}  // namespace co::od
+
+using namespace co;
+
+extern "C" {
+
+ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_T* table, uint16_t tableLen) {
+  if (od == nullptr || list == nullptr || node == nullptr || table == nullptr) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const uint16_t entries = od::length_of(table, tableLen);
+  if (!od::is_ascending(table, entries)) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const uint16_t before = od->list == list ? od->size : static_cast<uint16_t>(0);
+  const uint16_t objects = od::count_objects(table, entries);
+  if (od->Node != node) {  // transfers of the same go on
+    *od = {};
+  }
+  od->Node = node;
+  od->Table = table;
+  od->TableLen = entries;
+  if (num <= objects) {
+    od->size = objects;
+    od->list = nullptr;
+    return ODR_OUT_OF_MEM;
+  }
+  od->list = list;
+  od->size = before;
+  od::fill(*od, objects, od::keep_extended(*od));
+  return ODR_OK;
+}
+
+OD_entry_t* OD_find(OD_t* od, uint16_t index) {
+  return od == nullptr || od->list == nullptr ? nullptr : od::find(*od, index);
+}
+
+uint16_t OD_getIndex(const OD_entry_t* entry) { return entry == nullptr ? static_cast<uint16_t>(0) : entry->index; }
+
+}  // extern "C"
+
+#endif

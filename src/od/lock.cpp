@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lock of the application's side: the turn of a node that has several threads, else that of mapped objects.
+#include "core/port.hpp"
+#include "service/pdo/pdo.hpp"
+
+#if USE_OD
+
+namespace co::od {
+namespace {
+
+[[nodiscard]] bool has_turns([[maybe_unused]] const CO_NODE& node) {
+#if USE_REAL_TIME
+  return node.Ext->Enter != nullptr;
+#else
+  return false;
+#endif
+}
+
+void lock_objects(CO_NODE& node) {
+  if (node.OdLocked++ == 0 && node.Ext->OdLock != nullptr) {
+    node.Ext->OdLock(node.Ext->User);
+  }
+}
+
+void unlock_objects(CO_NODE& node) {
+  if (node.OdLocked == 0 || --node.OdLocked != 0) {
+    return;
+  }
+  if (node.Ext->OdUnlock != nullptr) {
+    node.Ext->OdUnlock(node.Ext->User);
+  }
+  pdo::settle_touched(node);
+}
+
+}  // namespace
+}  // namespace co::od
+
+using namespace co;
+
+extern "C" {
+
+void OD_lock(CO_NODE_T* node) {
+  ASSERT_PTR_FATAL(node);
+  od::has_turns(*node) ? port::enter(*node) : od::lock_objects(*node);
+}
+
+void OD_unlock(CO_NODE_T* node) {
+  ASSERT_PTR_FATAL(node);
+  od::has_turns(*node) ? port::leave(*node, node->Ext) : od::unlock_objects(*node);
+}
+
+}  // extern "C"
+
+#endif

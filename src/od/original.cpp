@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// What objects do by their types, in pieces of any length.
+#include "core/access.hpp"
+#include "core/events.hpp"
+#include "object/place.hpp"
+#include "object/stream.hpp"
+#include "od/kind.hpp"
+#include "od/result.hpp"
+#include "od/types.hpp"
+#include "wire/bytes.hpp"
+
+#if USE_OD
+
+namespace co::od {
+namespace {
+
+constexpr uint32_t longest_number = 8;
+
+uint8_t* bytes_at(void* memory, OD_size_t position) { return static_cast<uint8_t*>(memory) + position; }
+
+// A piece of what has a known end.
+struct Piece {
+  OD_size_t position;
+  OD_size_t bytes;
+  OD_size_t end;
+};
+
+bool is_last(const Piece& piece) { return piece.position + piece.bytes == piece.end; }
+
+// Only what is empty may be read at its end.
+bool is_inside(const OD_stream_t& stream, OD_size_t end) {
+  return stream.dataOffset < end || (end == 0 && stream.dataOffset == 0);
+}
+
+// The piece has passed.
+ODR_t go_on(OD_stream_t& stream, const Piece& piece, OD_size_t& passed) {
+  passed = piece.bytes;
+  stream.dataOffset = is_last(piece) ? 0 : piece.position + piece.bytes;
+  return is_last(piece) ? ODR_OK : ODR_PARTIAL;
+}
+
+CO_ERR call(CO_OBJ_READ_FUNC function, const OD_stream_t& stream, void* data, uint32_t n) {
+  return function == nullptr ? CO_ERR_OBJ_ACC : function(stream.Entry, stream.Owner, data, n);
+}
+
+// Type functions may change what they are given, but not the buffer of the caller. Nothing is written, too: it empties
+// what varies.
+CO_ERR write_copy(const CO_OBJ_TYPE& type, const OD_stream_t& stream, const uint8_t* from, uint32_t n) {
+  uint8_t copy[32];
+  CO_ERR err = CO_ERR_NONE;
+  do {
+    const uint32_t part = n < sizeof copy ? n : static_cast<uint32_t>(sizeof copy);
+    wire::copy(copy, from, part);
+    err = call(type.Write, stream, copy, part);
+    from += part;
+    n -= part;
+  } while (n != 0 && err == CO_ERR_NONE);
+  return err;
+}
+
+uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
+  return type.Size == nullptr ? 0 : type.Size(stream.Entry, stream.Owner, 0);
+}
+
+// A stream of the application belongs to one at a time: to SDO, which may be what calls.
+bool is_foreign_and_taken(const OD_stream_t& stream) {
+  const CO_NODE& node = *stream.Owner;
+  return node.Served != stream.Entry && access::is_taken(node, *stream.Entry, nullptr);
+}
+
+// Sets the position of a stream of the application. Its first access opens it.
+ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC function) {
+  if (is_foreign_and_taken(stream)) {
+    return ODR_DATA_DEV_STATE;
+  }
+  if (stream.dataOffset != 0 && !can_seek(type)) {
+    return ODR_UNSUPP_ACCESS;
+  }
+  CO_ERR err = seek(*stream.Entry, *stream.Owner, type, stream.dataOffset);
+  if (err == CO_ERR_NONE && stream.dataOffset == 0) {
+    uint8_t nothing = 0;
+    err = call(function, stream, &nothing, 0);
+  }
+  return result_of(*stream.Owner, *stream.Entry, err);
+}
+
+// Only an extension has it, or nobody.
+bool is_missing(const Shape& shape) {
+  const bool is_memory = shape.kind >= Kind::text && shape.kind <= Kind::domain;
+  return shape.kind == Kind::none || (is_memory && shape.memory == nullptr);
+}
+
+// Reading -------------------------------------------------------------------------------------------------------------
+
+CO_ERR read_number(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
+  uint8_t value[longest_number] = {};
+  const CO_ERR err = call(type.Read, stream, value, piece.end);
+  if (err == CO_ERR_NONE) {
+    wire::copy(to, value + piece.position, piece.bytes);
+  }
+  return err;
+}
+
+// Behind the end of the text there are zeros.
+CO_ERR read_text(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
+  const co::stream::KeptPosition kept(*stream.Entry);
+  const uint32_t length = size_of(stream, type);
+  const uint32_t left = piece.position < length ? length - piece.position : 0;
+  __builtin_memset(to, 0, piece.bytes);
+  const CO_ERR err = seek(*stream.Entry, *stream.Owner, type, piece.position);
+  return err != CO_ERR_NONE ? err : call(type.Read, stream, to, left < piece.bytes ? left : piece.bytes);
+}
+
+CO_ERR read_stream(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
+  const co::stream::KeptPosition kept(*stream.Entry);
+  const CO_ERR err = seek(*stream.Entry, *stream.Owner, type, piece.position);
+  return err != CO_ERR_NONE ? err : call(type.Read, stream, to, piece.bytes);
+}
+
+ODR_t read_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
+  if (piece.position != 0 || !is_last(piece)) {
+    return ODR_UNSUPP_ACCESS;
+  }
+  const CO_ERR err = call(type.Read, stream, to, 0);
+  return result_of(*stream.Owner, *stream.Entry, err != CO_ERR_NONE ? err : call(type.Read, stream, to, piece.bytes));
+}
+
+ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD_size_t count, OD_size_t& passed) {
+  const ODR_t opened = open(stream, type, type.Read);
+  if (opened != ODR_OK) {
+    return opened;
+  }
+  uint32_t size = size_of(stream, type);
+  const OD_size_t position = stream.dataOffset;
+  const bool unknown = size == CO_OBJ_SIZE_UNKNOWN;
+  if (!unknown && position > size) {
+    return ODR_DEV_INCOMPAT;
+  }
+  OD_size_t bytes = unknown || count < size - position ? count : size - position;
+  const CO_ERR err = bytes == 0 ? CO_ERR_NONE : call(type.Read, stream, to, bytes);
+  if (err != CO_ERR_NONE) {
+    return result_of(*stream.Owner, *stream.Entry, err);
+  }
+  size = unknown ? size_of(stream, type) : size;
+  if (size == CO_OBJ_SIZE_UNKNOWN) {
+    size = UINT32_MAX;
+  } else if (size - position < bytes) {
+    bytes = size - position;
+  }
+  return go_on(stream, {position, bytes, size}, passed);
+}
+
+ODR_t read_piece(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind, const Piece& piece, uint8_t* to) {
+  switch (kind) {
+    case Kind::number: return result_of(*stream.Owner, *stream.Entry, read_number(stream, type, piece, to));
+    case Kind::text: return result_of(*stream.Owner, *stream.Entry, read_text(stream, type, piece, to));
+    case Kind::long_value: return read_long(stream, type, piece, to);
+    default: return result_of(*stream.Owner, *stream.Entry, read_stream(stream, type, piece, to));
+  }
+}
+
+// Bytes that there are to be read.
+OD_size_t end_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind) {
+  return kind == Kind::text ? stream.dataLength : size_of(stream, type);
+}
+
+ODR_t read_object(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& passed) {
+  const Shape shape = shape_of(*stream.Entry, *stream.Owner);
+  if (is_missing(shape)) {
+    return ODR_SUB_NOT_EXIST;
+  }
+  const CO_OBJ_TYPE& type = *shape.type;
+  if (type.Read == nullptr) {
+    return ODR_WRITEONLY;
+  }
+  if (shape.kind == Kind::foreign) {
+    return read_foreign(stream, type, to, count, passed);
+  }
+  const OD_size_t end = end_of(stream, type, shape.kind);
+  if (!is_inside(stream, end)) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const OD_size_t left = end - stream.dataOffset;
+  const Piece piece = {stream.dataOffset, count < left ? count : left, end};
+  const ODR_t result = read_piece(stream, type, shape.kind, piece, to);
+  return result != ODR_OK ? result : go_on(stream, piece, passed);
+}
+
+ODR_t read_memory(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& passed) {
+  if (stream.dataOrig == nullptr) {
+    return ODR_SUB_NOT_EXIST;
+  }
+  if (stream.dataOffset >= stream.dataLength) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const OD_size_t left = stream.dataLength - stream.dataOffset;
+  const Piece piece = {stream.dataOffset, count < left ? count : left, stream.dataLength};
+  wire::copy(to, bytes_at(stream.dataOrig, piece.position), piece.bytes);
+  return go_on(stream, piece, passed);
+}
+
+// Writing -------------------------------------------------------------------------------------------------------------
+
+// The other bytes keep their values.
+CO_ERR write_number(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+  uint8_t value[longest_number] = {};
+  const bool whole = piece.position == 0 && is_last(piece);
+  CO_ERR err = whole ? CO_ERR_NONE : call(type.Read, stream, value, piece.end);
+  if (err == CO_ERR_NONE) {
+    wire::copy(value + piece.position, from, piece.bytes);
+    err = call(type.Write, stream, value, piece.end);
+  }
+  return err;
+}
+
+CO_ERR write_stream(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+  const co::stream::KeptPosition kept(*stream.Entry);
+  const CO_ERR err = seek(*stream.Entry, *stream.Owner, type, piece.position);
+  return err != CO_ERR_NONE ? err : write_copy(type, stream, from, piece.bytes);
+}
+
+bool is_zero(const uint8_t* character, unsigned bytes) { return character[0] == 0 && character[bytes - 1] == 0; }
+
+// Zeros that a caller has put behind a text do not belong to it.
+CO_ERR write_text(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+  const CO_ERR err = write_stream(stream, type, piece, from);
+  if (err != CO_ERR_NONE || !is_last(piece)) {
+    return err;
+  }
+  auto& string = *data_of<CO_OBJ_STR_RW>(*stream.Entry);
+  const unsigned character = bytes_of_character(type);
+  while (string.Size >= character && is_zero(string.Start + string.Size - character, character)) {
+    string.Size -= character;
+  }
+  return CO_ERR_NONE;
+}
+
+ODR_t write_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+  if (piece.position != 0 || !is_last(piece)) {
+    return ODR_UNSUPP_ACCESS;
+  }
+  uint8_t nothing = 0;
+  const CO_ERR err = call(type.Write, stream, &nothing, 0);
+  return result_of(*stream.Owner, *stream.Entry,
+                   err != CO_ERR_NONE ? err : write_copy(type, stream, from, piece.bytes));
+}
+
+ODR_t write_foreign(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
+  const ODR_t opened = open(stream, type, type.Write);
+  return opened != ODR_OK ? opened
+                          : result_of(*stream.Owner, *stream.Entry, write_copy(type, stream, from, piece.bytes));
+}
+
+ODR_t write_piece(const OD_stream_t& stream, const Shape& shape, const Piece& piece, const uint8_t* from) {
+  const CO_OBJ_TYPE& type = *shape.type;
+  switch (shape.kind) {
+    case Kind::number: return result_of(*stream.Owner, *stream.Entry, write_number(stream, type, piece, from));
+    case Kind::text: return result_of(*stream.Owner, *stream.Entry, write_text(stream, type, piece, from));
+    case Kind::long_value: return write_long(stream, type, piece, from);
+    case Kind::foreign: return write_foreign(stream, type, piece, from);
+    default: return result_of(*stream.Owner, *stream.Entry, write_stream(stream, type, piece, from));
+  }
+}
+
+// Bytes that the value will have: what the caller says, where that may be less than the object can hold.
+OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape) {
+  const bool varies = shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
+  if (shape.kind == Kind::foreign) {
+    return stream.dataLength == 0 ? UINT32_MAX : stream.dataLength;
+  }
+  return varies && stream.dataLength < shape.length ? stream.dataLength : shape.length;
+}
+
+ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
+  const Shape shape = shape_of(*stream.Entry, *stream.Owner);
+  if (is_missing(shape)) {
+    return ODR_SUB_NOT_EXIST;
+  }
+  if (shape.type->Write == nullptr) {
+    return ODR_READONLY;
+  }
+  const OD_size_t end = end_of_write(stream, shape);
+  if (!is_inside(stream, end)) {
+    return ODR_DEV_INCOMPAT;
+  }
+  if (count > end - stream.dataOffset) {
+    return ODR_DATA_LONG;
+  }
+  const Piece piece = {stream.dataOffset, count, end};
+  const ODR_t result = write_piece(stream, shape, piece, from);
+  return result != ODR_OK ? result : go_on(stream, piece, passed);
+}
+
+ODR_t write_memory(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
+  if (stream.dataOrig == nullptr) {
+    return ODR_SUB_NOT_EXIST;
+  }
+  if (stream.dataOffset >= stream.dataLength) {
+    return ODR_DEV_INCOMPAT;
+  }
+  if (count > stream.dataLength - stream.dataOffset) {
+    return ODR_DATA_LONG;
+  }
+  const Piece piece = {stream.dataOffset, count, stream.dataLength};
+  wire::copy(bytes_at(stream.dataOrig, piece.position), from, piece.bytes);
+  return go_on(stream, piece, passed);
+}
+
+}  // namespace
+
+ODR_t write_original(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) {
+  if (stream == nullptr || buf == nullptr || countWritten == nullptr) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const auto* const from = static_cast<const uint8_t*>(buf);
+  return stream->Entry == nullptr ? write_memory(*stream, from, count, *countWritten)
+                                  : write_object(*stream, from, count, *countWritten);
+}
+
+}  // namespace co::od
+
+using namespace co::od;
+
+extern "C" {
+
+ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead) {
+  if (stream == nullptr || buf == nullptr || countRead == nullptr) {
+    return ODR_DEV_INCOMPAT;
+  }
+  auto* const to = static_cast<uint8_t*>(buf);
+  return stream->Entry == nullptr ? read_memory(*stream, to, count, *countRead)
+                                  : read_object(*stream, to, count, *countRead);
+}
+
+ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) {
+  CO_NODE* const node = stream == nullptr || stream->Entry == nullptr ? nullptr : stream->Owner;
+  const ODR_t result = write_original(stream, buf, count, countWritten);
+  if (node != nullptr) {
+    co::event::settle(*node);
+  }
+  return result;
+}
+
+}  // extern "C"
+
+#endif

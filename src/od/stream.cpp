@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types of entries that can be extended: streams.
+#include "object/stream.hpp"
+#include "core/access.hpp"
+#include "core/obj.hpp"
+#include "od/transfer.hpp"
+#include "od/types.hpp"
+#include "wire/bytes.hpp"
+
+#if USE_OD
+
+// Comparing with a type does not link it.
+#pragma weak COTUnicodeString
+
+namespace co::od {
+namespace {
+
+// A piece of an access passes. Functions of the application may begin another at the same place: state is this one's.
+struct Access {
+  CO_OBJ& obj;
+  CO_NODE& node;
+  const OD_extension_t& extension;
+  OD_TRANSFER& place;
+  OD_TRANSFER state;
+  OD_stream_t stream;
+};
+
+Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place) {
+  Access access = {obj, node, extension, place, place, stream_of(obj, node)};
+  access.stream.object = extension.object;
+  access.stream.dataOffset = place.Offset;
+  access.stream.dataLength = place.Length;
+  set(place, inside);
+  return access;
+}
+
+void leave(Access& access) {
+  access.state.Offset = access.stream.dataOffset;
+  access.state.Length = access.stream.dataLength;
+  if (access.place.Entry != nullptr) {
+    access.place = access.state;
+  }
+}
+
+// A function may take itself away.
+bool is_valid(const Access& access) { return extension_of(access.node, access.obj) == &access.extension; }
+
+bool is_good(ODR_t result) { return result == ODR_OK || result == ODR_PARTIAL; }
+
+bool is_text(const OD_stream_t& stream) { return (stream.attribute & ODA_STR) != 0; }
+
+unsigned bytes_of_character(const Access& access) {
+  return is_text(access.stream) && original_type(access.obj) == &COTUnicodeString ? 2 : 1;
+}
+
+// Lengths -------------------------------------------------------------------------------------------------------------
+
+// Of a download: what varies may have any length up to what there is room for.
+uint32_t size_of_original(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
+  const CO_OBJ_TYPE* const type = original_type(obj);
+  if (type != nullptr) {
+    return type->Size == nullptr ? 0 : type->Size(&obj, &node, width);
+  }
+  const auto length = static_cast<uint32_t>(uintptr_t{obj.Data});
+  return length == 0 ? width : length;
+}
+
+// Of an upload, as far as it is known beforehand: strings may be shorter than they can be.
+uint32_t length_of(CO_OBJ& obj, CO_NODE& node) {
+  const Shape shape = shape_of(obj, node);
+  const bool varies = (shape.attribute & ODA_STR) != 0 || shape.kind == Kind::octets || shape.length == 0;
+  return varies ? CO_OBJ_SIZE_UNKNOWN : shape.length;
+}
+
+uint32_t size_to_read(CO_OBJ& obj, CO_NODE& node) {
+  const OD_TRANSFER* const transfer = find_access(*node.Ext->Od, node, obj);
+  return transfer != nullptr && is_ended(*transfer) ? transfer->Passed : length_of(obj, node);
+}
+
+// What was announced to the client, or what the object has.
+uint32_t bytes_to_read(const Access& access) {
+  return is_of_application(*access.node.Ext->Od, access.place) ? length_of(access.obj, access.node)
+                                                               : access.state.Total;
+}
+
+// Bytes that the download has, as far as that is known: with the last piece it is. The application writes in one piece
+// what may have that length.
+uint32_t bytes_to_write(const Access& access, uint32_t behind) {
+  if (is_of_application(*access.node.Ext->Od, access.place)) {
+    return size_of_original(access.obj, access.node, behind);
+  }
+  return access.state.Total != CO_OBJ_SIZE_UNKNOWN ? access.state.Total : access::total_of(access.node, access.obj);
+}
+
+// Reading -------------------------------------------------------------------------------------------------------------
+
+// Fills the buffer as far as the function gives. One that gives nothing, or too much, is wrong.
+ODR_t call_read(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) {
+  const OD_read_t function = access.extension.read;
+  ODR_t result = ODR_PARTIAL;
+  passed = 0;
+  while (result == ODR_PARTIAL && passed < size) {
+    if (passed != 0 && !is_valid(access)) {
+      return ODR_DATA_DEV_STATE;
+    }
+    OD_size_t n = 0;
+    result = function(&access.stream, to + passed, size - passed, &n);
+    if (is_good(result) && (n > size - passed || (n == 0 && result == ODR_PARTIAL))) {
+      return ODR_DEV_INCOMPAT;
+    }
+    passed += is_good(result) ? n : 0;
+  }
+  return result;
+}
+
+// Of a character of two bytes the second is read, too: the text ends where both are zero.
+ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) {
+  OD_TRANSFER& state = access.state;
+  OD_size_t held = 0;
+  if (has(state, holds)) {
+    to[held++] = state.Held;
+    clear(state, holds);
+  }
+  ODR_t result = has(state, exhausted) ? ODR_OK : ODR_PARTIAL;
+  passed = 0;
+  if (result == ODR_PARTIAL && held < size) {
+    result = call_read(access, to + held, size - held, passed);
+  }
+  passed += held;
+  if (result == ODR_PARTIAL && (state.Passed + passed) % bytes_of_character(access) != 0) {
+    OD_size_t ahead = 0;
+    result = call_read(access, &state.Held, 1, ahead);
+    if (is_good(result) && ahead != 0) {
+      set(state, holds);
+    }
+  }
+  return result;
+}
+
+bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t at) {
+  if (data[at] != 0 || bytes_of_character(access) == 1) {
+    return data[at] == 0;
+  }
+  return at + 1 < n ? data[at + 1] == 0 : has(access.state, holds) && access.state.Held == 0;
+}
+
+// A text ends at its first zero, but has at least one character. Returns its bytes among these.
+OD_size_t cut(Access& access, const uint8_t* data, OD_size_t n) {
+  const unsigned character = bytes_of_character(access);
+  OD_size_t at = access.state.Passed % character;
+  while (at < n && !is_zero(access, data, n, at)) {
+    at += character;
+  }
+  if (at >= n) {
+    return n;
+  }
+  set(access.state, exhausted);
+  if (access.state.Passed == 0 && at == 0) {
+    at = character;
+  }
+  if (at > n) {
+    return n;
+  }
+  clear(access.state, holds);
+  return at;
+}
+
+// Is this the length that was announced? Texts are as long as they are.
+ODR_t check_read(const Access& access, ODR_t result) {
+  const uint32_t announced = is_text(access.stream) ? CO_OBJ_SIZE_UNKNOWN : bytes_to_read(access);
+  if (announced == CO_OBJ_SIZE_UNKNOWN || !is_good(result)) {
+    return result;
+  }
+  if (result == ODR_OK) {
+    return access.state.Passed == announced ? ODR_OK : ODR_DEV_INCOMPAT;
+  }
+  return access.state.Passed < announced ? ODR_PARTIAL : ODR_DATA_LONG;
+}
+
+ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint8_t* to,
+           uint32_t size) {
+  if (extension.read == nullptr) {
+    return ODR_UNSUPP_ACCESS;
+  }
+  if (size == 0 || is_ended(place)) {
+    return ODR_OK;
+  }
+  Access access = enter(obj, node, extension, place);
+  OD_size_t passed = 0;
+  const ODR_t result = read_piece(access, to, size, passed);
+  if (result == ODR_OK) {
+    set(access.state, exhausted);
+  }
+  if (is_good(result)) {
+    passed = is_text(access.stream) ? cut(access, to, passed) : passed;
+    __builtin_memset(to + passed, 0, size - passed);  // what the function may have left there
+    access.state.Passed += passed;
+  }
+  leave(access);
+  return check_read(access, result);
+}
+
+// Writing -------------------------------------------------------------------------------------------------------------
+
+constexpr uint32_t short_text = 8;
+
+// Tells the function where the end is. A text has a zero behind it where there is room. Returns the bytes of that.
+unsigned announce(Access& access, uint32_t total) {
+  const OD_size_t capacity = is_text(access.stream) ? shape_of(access.obj, access.node).length : 0;
+  const unsigned character = bytes_of_character(access);
+  const unsigned zeros = total + character <= capacity ? character : 0;
+  access.stream.dataLength = total + zeros;
+  return zeros;
+}
+
+// The function takes all or nothing.
+ODR_t call_once(Access& access, const uint8_t* from, uint32_t size) {
+  OD_size_t passed = 0;
+  const ODR_t result = without_settling(access.extension.write)(&access.stream, from, size, &passed);
+  return is_good(result) && passed != size ? ODR_DEV_INCOMPAT : result;
+}
+
+ODR_t call_write(Access& access, const uint8_t* from, uint32_t size, unsigned zeros) {
+  uint8_t copy[short_text + 2] = {};
+  if (zeros == 0) {
+    return call_once(access, from, size);
+  }
+  if (size <= short_text) {
+    wire::copy(copy, from, size);
+    return call_once(access, copy, size + zeros);
+  }
+  const ODR_t result = call_once(access, from, size);
+  if (result != ODR_PARTIAL) {
+    return result;
+  }
+  return is_valid(access) ? call_once(access, copy, zeros) : ODR_DATA_DEV_STATE;
+}
+
+ODR_t check_write(ODR_t result, bool is_last) {
+  if (result == ODR_PARTIAL) {
+    return is_last ? ODR_DATA_SHORT : ODR_PARTIAL;
+  }
+  return result == ODR_OK && !is_last ? ODR_DATA_LONG : result;
+}
+
+// Before the function knows that it is all: a length that the object cannot have never reaches it.
+ODR_t check_total(const Access& access, uint32_t total) {
+  const uint32_t possible = total == 0 ? 0 : size_of_original(access.obj, access.node, total);
+  if (total == possible) {
+    return ODR_OK;
+  }
+  return total > possible ? ODR_DATA_LONG : ODR_DATA_SHORT;
+}
+
+// A change is told while functions of the application count as running: a TPDO may read the object.
+ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t total) {
+  const uint32_t behind = access.state.Passed + size;
+  const bool is_last = behind == total;
+  if (behind > total) {
+    return ODR_DATA_LONG;
+  }
+  ODR_t result = is_last ? check_total(access, total) : ODR_OK;
+  if (result != ODR_OK) {
+    return result;
+  }
+  const OD_write_t function = access.extension.write;
+  result = check_write(call_write(access, from, size, is_last ? announce(access, total) : 0), is_last);
+  if (is_good(result)) {
+    access.state.Passed = behind;
+  }
+  if (result == ODR_OK) {
+    set(access.state, exhausted);
+    tell_change(access.node, access.obj, function);
+  }
+  return result;
+}
+
+ODR_t write(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, const uint8_t* from,
+            uint32_t size) {
+  if (extension.write == nullptr) {
+    return ODR_UNSUPP_ACCESS;
+  }
+  if (size == 0) {
+    return ODR_OK;
+  }
+  if (has(place, exhausted)) {
+    return ODR_DATA_LONG;
+  }
+  Access access = enter(obj, node, extension, place);
+  const ODR_t result = pass_write(access, from, size, bytes_to_write(access, place.Passed + size));
+  leave(access);
+  return result;
+}
+
+// All has come, and the function does not know it: the last piece was empty.
+CO_ERR finish(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
+  const OD_extension_t* const extension = extension_of(node, obj);
+  if (extension == nullptr || extension->write == nullptr || has(place, exhausted)) {
+    return CO_ERR_NONE;
+  }
+  constexpr uint8_t nothing = 0;
+  Access access = enter(obj, node, *extension, place);
+  const ODR_t result = pass_write(access, &nothing, 0, access.state.Passed);
+  leave(access);
+  return answer(obj, node, result, CO_OBJ_DOWNLOAD);
+}
+
+// Position ------------------------------------------------------------------------------------------------------------
+
+// A function knows no way back but to the beginning: what is not wanted is read once more.
+ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
+  restart(place, stream_of(obj, node).dataLength);
+  while (place.Passed < position) {
+    uint8_t unwanted[32];
+    const uint32_t before = place.Passed;
+    const uint32_t left = position - before;
+    const ODR_t result = read(obj, node, extension, place, unwanted,
+                              left < sizeof unwanted ? left : static_cast<uint32_t>(sizeof unwanted));
+    if (!is_good(result)) {
+      return result;
+    }
+    if (place.Passed == before || extension_of(node, obj) != &extension) {
+      return ODR_DATA_DEV_STATE;
+    }
+  }
+  return ODR_OK;
+}
+
+CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, uint32_t position) {
+  OD_t& od = *node.Ext->Od;
+  const bool by_application = !is_served(od, node, obj);
+  OD_TRANSFER* const place = by_application && position == 0 ? &begin_access(od, obj) : find_access(od, node, obj);
+  if (place == nullptr) {
+    return answer(obj, node, ODR_DATA_DEV_STATE, CO_OBJ_UPLOAD);
+  }
+  if (position > place->Passed) {
+    return CO_ERR_TYPE_RESET;
+  }
+  if (!by_application) {
+    bind(*place, node);
+  }
+  const bool is_there = position == place->Passed && position != 0;
+  return is_there ? CO_ERR_NONE : answer(obj, node, go_to(obj, node, extension, *place, position), CO_OBJ_UPLOAD);
+}
+
+// The original --------------------------------------------------------------------------------------------------------
+
+OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
+  OD_t* const od = node.Ext->Od;
+  return od != nullptr && is_served(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;
+}
+
+// Our own streams get their position before each piece of a transfer: the application may have used them in between.
+CO_ERR pass_at(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, uint32_t position, void* buffer, uint32_t size) {
+  const stream::KeptPosition kept(obj);
+  const CO_ERR err = stream::seek(obj, position);
+  return err != CO_ERR_NONE ? err : function(&obj, &node, buffer, size);
+}
+
+CO_ERR pass_original(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size, CO_OBJ_TRANSFER direction) {
+  const CO_OBJ_TYPE* const type = type_without(*extensible(obj));
+  const CO_OBJ_READ_FUNC function = type == nullptr ? nullptr : (direction == CO_OBJ_UPLOAD ? type->Read : type->Write);
+  if (function == nullptr) {
+    return refuse(obj, node, direction);
+  }
+  OD_TRANSFER* const transfer = transfer_of_original(obj, node);
+  if (transfer == nullptr || type->Reset != stream::reset) {
+    return function(&obj, &node, buffer, size);
+  }
+  const uint32_t position = transfer->Passed;
+  transfer->Passed += size;
+  return pass_at(obj, node, function, position, buffer, size);
+}
+
+CO_ERR set_original_position(CO_OBJ& obj, CO_NODE& node, uint32_t position) {
+  const CO_OBJ_TYPE* const type = type_without(*extensible(obj));
+  if (OD_TRANSFER* const transfer = transfer_of_original(obj, node); transfer != nullptr) {
+    transfer->Passed = position;
+    bind(*transfer, node);
+    if (type != nullptr && type->Reset == stream::reset) {
+      return CO_ERR_NONE;
+    }
+  }
+  return type == nullptr ? CO_ERR_NONE : seek(obj, node, *type, position);
+}
+
+CO_ERR begin_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
+  const CO_OBJ_TYPE_EX* const type = transfer_type(original_type(obj));
+  return type == nullptr || type->Begin == nullptr ? CO_ERR_NONE : type->Begin(&obj, &node, transfer, size);
+}
+
+CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+  const CO_OBJ_TYPE_EX* const type = transfer_type(original_type(obj));
+  return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
+}
+
+}  // namespace
+}  // namespace co::od
+
+using namespace co;
+using namespace co::od;
+
+extern "C" {
+
+// A width is that of a download.
+uint32_t ODStreamSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  const bool is_original = extension == nullptr || extension->read == OD_readOriginal;
+  return width != 0 || is_original ? size_of_original(*obj, *node, width) : size_to_read(*obj, *node);
+}
+
+CO_ERR ODStreamRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  if (extension == nullptr) {
+    return pass_original(*obj, *node, buffer, size, CO_OBJ_UPLOAD);
+  }
+  OD_TRANSFER* const place = find_access(*node->Ext->Od, *node, *obj);
+  const ODR_t result = place == nullptr ? ODR_DATA_DEV_STATE
+                                        : read(*obj, *node, *extension, *place, static_cast<uint8_t*>(buffer), size);
+  return answer(*obj, *node, result, CO_OBJ_UPLOAD);
+}
+
+CO_ERR ODStreamWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  if (extension == nullptr) {
+    return pass_original(*obj, *node, buffer, size, CO_OBJ_DOWNLOAD);
+  }
+  OD_TRANSFER* const place = find_access(*node->Ext->Od, *node, *obj);
+  const ODR_t result = place == nullptr
+                           ? ODR_DATA_DEV_STATE
+                           : write(*obj, *node, *extension, *place, static_cast<const uint8_t*>(buffer), size);
+  return answer(*obj, *node, result, CO_OBJ_DOWNLOAD);
+}
+
+CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  return extension == nullptr ? set_original_position(*obj, *node, position)
+                              : set_position(*obj, *node, *extension, position);
+}
+
+CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size) {
+  OD_t* const od = node->Ext->Od;
+  OD_TRANSFER* const place = od == nullptr ? nullptr : begin_transfer(*od, *node, *obj, size);
+  if (od == nullptr || place == nullptr) {
+    return od == nullptr ? begin_original(*obj, *node, transfer, size) : CO_ERR_OBJ_STATE;
+  }
+  set(*place, inside);
+  const CO_ERR err = begin_original(*obj, *node, transfer, size);
+  clear(*place, inside);
+  if (err != CO_ERR_NONE) {
+    end_transfer(*place);
+  }
+  return err;
+}
+
+// Nothing ends for the original that has not ended for the extension.
+CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
+  OD_t* const od = node->Ext->Od;
+  OD_TRANSFER* const place = od == nullptr ? nullptr : first_transfer(*od, *obj);
+  if (place == nullptr) {
+    return end_original(*obj, *node, transfer, abort);
+  }
+  CO_ERR err = CO_ERR_NONE;
+  if (transfer == CO_OBJ_DOWNLOAD && abort == no_abort) {
+    err = finish(*obj, *node, *place);
+  }
+  set(*place, inside);
+  const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? abort : access::abort_for(*node, err));
+  end_transfer(*place);
+  return err != CO_ERR_NONE ? err : end;
+}
+
+}  // extern "C"
+
+#endif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types of entries that can be extended: values.
+#include "od/types.hpp"
+
+#if USE_OD
+
+#include "core/abort_code.hpp"
+#include "core/events.hpp"
+#include "core/obj.hpp"
+
+namespace co::od {
+namespace {
+
+CO_ERR error_of(ODR_t result, CO_OBJ_TRANSFER transfer) {
+  switch (result) {
+    case ODR_UNSUPP_ACCESS:
+    case ODR_WRITEONLY:
+    case ODR_READONLY: return CO_ERR_OBJ_ACC;
+    case ODR_INVALID_VALUE:
+    case ODR_VALUE_HIGH:
+    case ODR_VALUE_LOW: return CO_ERR_OBJ_RANGE;
+    case ODR_DATA_DEV_STATE: return CO_ERR_OBJ_STATE;
+    case ODR_NO_DATA: return CO_ERR_OBJ_NO_DATA;
+    default: return transfer == CO_OBJ_UPLOAD ? CO_ERR_TYPE_RD : CO_ERR_TYPE_WR;
+  }
+}
+
+// A number passes in one call, or it is no number.
+ODR_t whole(ODR_t result, OD_size_t passed, OD_size_t size, ODR_t partial) {
+  if (result == ODR_PARTIAL) {
+    return partial;
+  }
+  return result == ODR_OK && passed != size ? ODR_DEV_INCOMPAT : result;
+}
+
+CO_ERR read_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, void* buffer, uint32_t size) {
+  OD_stream_t stream = stream_of(obj, node);
+  OD_size_t passed = 0;
+  stream.object = extension.object;
+  const ODR_t result = extension.read == nullptr ? ODR_UNSUPP_ACCESS : extension.read(&stream, buffer, size, &passed);
+  return answer(obj, node, whole(result, passed, size, ODR_DEV_INCOMPAT), CO_OBJ_UPLOAD);
+}
+
+CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, const void* buffer, uint32_t size) {
+  OD_stream_t stream = stream_of(obj, node);
+  OD_size_t passed = 0;
+  stream.object = extension.object;
+  const OD_write_t write = extension.write;
+  ODR_t result = write == nullptr ? ODR_UNSUPP_ACCESS : without_settling(write)(&stream, buffer, size, &passed);
+  result = whole(result, passed, size, ODR_DATA_SHORT);
+  if (result == ODR_OK) {
+    tell_change(node, obj, write);
+  }
+  return answer(obj, node, result, CO_OBJ_DOWNLOAD);
+}
+
+constexpr OD_TYPE value(const CO_OBJ_TYPE& original) { return OD_VALUE(&original, OD_ORIGINAL); }
+constexpr OD_TYPE stream(const CO_OBJ_TYPE& original) { return OD_STREAM(&original, OD_ORIGINAL); }
+
+}  // namespace
+
+// What an original function inside has named more exactly stays.
+CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer) {
+  if (result == ODR_OK || result == ODR_PARTIAL) {
+    COObjTypeUserSDOAbort(&obj, &node, no_abort);
+    return CO_ERR_NONE;
+  }
+  if (node.UserAbort == no_abort || result_of(node.UserAbort) != result) {
+    COObjTypeUserSDOAbort(&obj, &node, OD_getSDOabCode(result));
+  }
+  return error_of(result, transfer);
+}
+
+CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer) {
+  return answer(obj, node, transfer == CO_OBJ_UPLOAD ? ODR_WRITEONLY : ODR_READONLY, transfer);
+}
+
+void tell_change(CO_NODE& node, const CO_OBJ& obj, OD_write_t by) {
+  if (CO_IS_ASYNC(obj.Key) != 0 && by != OD_writeOriginal) {
+    event::change_object(node, obj);
+  }
+}
+
+}  // namespace co::od
+
+using namespace co;
+using namespace co::od;
+
+extern "C" {
+
+CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
+  const CO_OBJ_TYPE* const type = original_type(*obj);
+  return type == nullptr || type->Init == nullptr ? CO_ERR_NONE : type->Init(obj, node);
+}
+
+uint32_t ODValueSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
+  const CO_OBJ_TYPE* const type = original_type(*obj);
+  if (type == nullptr) {
+    return static_cast<uint32_t>(uintptr_t{obj->Data});
+  }
+  return type->Size == nullptr ? 0 : type->Size(obj, node, width);
+}
+
+CO_ERR ODValueRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  if (extension != nullptr) {
+    return size == ODValueSize(obj, node, size) ? read_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
+  }
+  const CO_OBJ_TYPE* const type = type_without(*extensible(*obj));
+  return type == nullptr || type->Read == nullptr ? refuse(*obj, *node, CO_OBJ_UPLOAD)
+                                                  : type->Read(obj, node, buffer, size);
+}
+
+CO_ERR ODValueWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(*node, *obj);
+  if (extension != nullptr) {
+    return size == ODValueSize(obj, node, size) ? write_number(*obj, *node, *extension, buffer, size) : CO_ERR_BAD_ARG;
+  }
+  const CO_OBJ_TYPE* const type = type_without(*extensible(*obj));
+  return type == nullptr || type->Write == nullptr ? refuse(*obj, *node, CO_OBJ_DOWNLOAD)
+                                                   : type->Write(obj, node, buffer, size);
+}
+
+const OD_TYPE ODTInt8 = value(COTInt8);
+const OD_TYPE ODTInt16 = value(COTInt16);
+const OD_TYPE ODTInt32 = value(COTInt32);
+const OD_TYPE ODTInt64 = value(COTInt64);
+const OD_TYPE ODTBoolean = value(COTBoolean);
+const OD_TYPE ODTReal32 = value(COTReal32);
+const OD_TYPE ODTReal64 = value(COTReal64);
+const OD_TYPE ODTTimeOfDay = value(COTTimeOfDay);
+const OD_TYPE ODTUnsigned24 = value(COTUnsigned24);
+const OD_TYPE ODTUnsigned40 = value(COTUnsigned40);
+const OD_TYPE ODTUnsigned48 = value(COTUnsigned48);
+const OD_TYPE ODTUnsigned56 = value(COTUnsigned56);
+const OD_TYPE ODTSigned24 = value(COTSigned24);
+const OD_TYPE ODTSigned40 = value(COTSigned40);
+const OD_TYPE ODTSigned48 = value(COTSigned48);
+const OD_TYPE ODTSigned56 = value(COTSigned56);
+const OD_TYPE ODTString = stream(COTString);
+const OD_TYPE ODTVisibleString = stream(COTVisibleString);
+const OD_TYPE ODTOctetString = stream(COTOctetString);
+const OD_TYPE ODTUnicodeString = stream(COTUnicodeString);
+const OD_TYPE ODTDomain = stream(COTDomain);
+const OD_TYPE ODTNumber = OD_VALUE(nullptr, OD_DISABLED);
+const OD_TYPE ODTStream = OD_STREAM(nullptr, OD_DISABLED);
+
+}  // extern "C"
+
+#endif
