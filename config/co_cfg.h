@@ -18,11 +18,36 @@
 #error "CO_SSDO_N: 1...128 SDO servers"
 #endif
 
+/// Check of the dictionary while the node runs, by CODictInit() and the Init functions of types: 0 or 1. C++ tables can
+/// be proven by the compiler instead (CO_OD_CHECK()), C tables by a build with 1. With 0 a wrong table is taken as it
+/// is: what is in the wrong place may not be found, or do nothing, and numbers of services that are not configured
+/// reach no memory; but each Type must be there, and Data must be what it asks for. 0 saves 670 bytes of flash
+/// (Cortex-M0+, -Os) and 4 bytes of RAM.
+#ifndef USE_DICT_CHECK
+#define USE_DICT_CHECK 1
+#endif
+
+/// Code that is there for speed alone: 0 or 1. With 0 the dictionary and the routes of frames are searched by a loop,
+/// and every object of a PDO passes through the Read or Write function of its type. 0 saves 950 bytes of flash
+/// (Cortex-M0+, -Os) and 28 bytes of RAM.
+#ifndef USE_FAST_PATHS
+#define USE_FAST_PATHS 1
+#endif
+
 /// Types that take part in the whole SDO transfer (CO_OBJ_TYPE_EX), and uploads of objects whose length is not known
 /// beforehand (CO_OBJ_SIZE_UNKNOWN): 0 or 1. Without them there is no COObjTypeExReset(), and an upload of unknown
 /// length is refused (0800 0020h). 0 saves 400 bytes of flash (Cortex-M0+, -Os).
 #ifndef USE_OBJ_EX
 #define USE_OBJ_EX 1
+#endif
+
+/// The second way into the dictionary (co_od.h): 0 or 1. Objects that do not use it cost nothing; each object in the
+/// index of OD_init() costs 12 bytes of RAM (32-bit CPU).
+#ifndef USE_OD
+#define USE_OD 0
+#endif
+#if USE_OD && !USE_OBJ_EX
+#error "USE_OD needs USE_OBJ_EX"
 #endif
 
 /// SDO clients (1280h, 1281h, …): 0 or 1, and how many: 1…100. Each costs 86 bytes of RAM (32-bit CPU).
@@ -215,6 +240,12 @@
 #error "CO_STORE_BUFFER: 8...1024 bytes"
 #endif
 
+/// Several threads use a node in turns, one of them for SYNC and PDOs alone (CO_NODE_EXT.Enter, CONodeRealTime()): 0
+/// or 1. 1 costs 1.2 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+#ifndef USE_REAL_TIME
+#define USE_REAL_TIME 0
+#endif
+
 /// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
 /// bring more memory.
 #ifndef CO_TX_QUEUE_N
@@ -230,6 +261,15 @@
 #endif
 #if CO_SDO_BUF_SEG < 1 || CO_SDO_BUF_SEG > 127
 #error "CO_SDO_BUF_SEG: 1...127 segments"
+#endif
+
+/// Segments of block transfers that CONodeProcess() sends at most in one call, by servers and clients together: 1…127.
+/// 32 are 4 ms at 1 Mbit/s. No cost.
+#ifndef CO_SDO_BLOCK_PACE
+#define CO_SDO_BLOCK_PACE 32
+#endif
+#if CO_SDO_BLOCK_PACE < 1 || CO_SDO_BLOCK_PACE > 127
+#error "CO_SDO_BLOCK_PACE: 1...127 segments"
 #endif
 
 #endif

@@ -3,7 +3,8 @@
 /// A CANopen node: everything an application includes, except co_ver.h.
 ///
 /// Contexts: all functions of the stack belong to one context, the loop (or one task), with two exceptions:
-/// COTmrService() (timer interrupt) and CORingPut() (producer end of a driver's queue).
+/// COTmrService() (timer interrupt) and CORingPut() (producer end of a driver's queue). With USE_REAL_TIME several
+/// threads may use a node, in turns: see CO_NODE_EXT.Enter.
 ///
 /// Null pointers: a function that returns CO_ERR answers CO_ERR_BAD_ARG; others call CONodeFatalError() and return,
 /// unless they say otherwise.
@@ -77,6 +78,10 @@
 #endif
 #include "co_tmr.h"
 
+#if USE_OD
+#include "co_od.h"
+#endif
+
 #include "co_err.h"
 #include "co_obj.h"
 
@@ -141,6 +146,25 @@ typedef struct CO_NODE_EXT_T {
   void (*OdLock)(void* user);
   void (*OdUnlock)(void* user);
   uint16_t EmcyNum;  ///< errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
+#if USE_REAL_TIME
+  /// The lock of the node, both or none; a mutex, or what keeps an interrupt away. Who holds it has the turn: the node
+  /// works in turns only, so any threads may use it. It is taken by
+  ///   - the stack, in CONodeProcess(), CONodeRealTime(), COTmrProcess() (for each action) and CONodeNextDeadline();
+  ///   - the application, around every other call and every access to what the node may use: CO_LOCK_OD(),
+  ///     CO_LOCK_CAN_SEND() and CO_LOCK_EMCY() of co_od.h are three names of it.
+  /// Callbacks, timer actions, the functions of types and of drivers run in a turn and must not take another, nor call
+  /// one of those four functions: calls do not nest. Nobody need take it before there is a second thread, nor may a
+  /// driver block: others wait for the turn. But while a memory driver that tells its shape reads, writes or erases,
+  /// the turn is given up. So what stores, loads or resets belongs to one thread.
+  void (*Enter)(void* user);
+  void (*Leave)(void* user);
+  /// Where CONodeRealTime() leaves the frames that it does not serve, and CONodeProcess() finds them. Prepared by
+  /// CORingInit(), touched by nobody else. Null: no real-time thread.
+  CO_RING* Mainline;
+#endif
+#if USE_OD
+  struct OD_T_* Od;  ///< the index of the dictionary (co_od.h), or null: no object is extended
+#endif
 } CO_NODE_EXT;
 
 /// \cond internal
@@ -154,8 +178,11 @@ typedef uint16_t CO_ROUTE_NUM;
 typedef uint8_t CO_ROUTE_NUM;
 #endif
 
+#define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
+
 typedef struct CO_ROUTES_T {  ///< who gets the frames of an identifier
-  CO_ROUTE_NUM Start[18];  ///< first route of each function code (CAN-ID >> 7), of the 29-bit identifiers, and the end
+  /// First route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, or of all, and the end.
+  CO_ROUTE_NUM Start[CO_ROUTE_CLASS_N + 1];
   uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, and an end that is none
   uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
@@ -174,7 +201,9 @@ typedef struct CO_NODE_T {
   uint8_t NodeId;
   uint8_t State;       ///< runs, serves a frame, changes its NMT state: bits
   uint8_t Pending;     ///< what is to be done when it has been answered
-  uint8_t Paused;      ///< a block transfer waits for the controller
+  uint8_t Paused;      ///< a block transfer waits for the controller, or for the next call
+  uint8_t Burst;       ///< segments of block transfers in this call
+  uint8_t Turn;        ///< whose turn it is when a block transfer may go on
   uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
   uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
   uint8_t Held;        ///< nothing may be sent: the bit rate is being switched
@@ -182,8 +211,10 @@ typedef struct CO_NODE_T {
 #if USE_PARA
   uint8_t Verified;  ///< 1020h is not 0
 #endif
+#if USE_REAL_TIME
+  uint8_t InTurn;  ///< CO_NODE_EXT.Enter has been called
+#endif
   CO_NMT Nmt;
-  uint16_t Turn;       ///< whose turn it is when a block transfer may go on
   uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
   uint16_t RPdoLast;
   uint16_t TPdoFirst;  ///< of the synchronous TPDOs, by CO_TPDO.Next
@@ -269,6 +300,19 @@ CO_ERR CONodeGetErr(CO_NODE* node);
 /// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver.
 /// Blocks only if the driver's Read does.
 void CONodeProcess(CO_NODE* node);
+
+#if USE_REAL_TIME
+/// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
+/// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
+/// and the timers of SYNC and PDOs. Callbacks of PDOs run in this thread. The driver's Read must not block. All in one
+/// turn, for which it waits, at most, for a frame or a timer action of another thread, or for what the application does
+/// in a turn.
+///
+/// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
+/// among the frames of either. Resets that the application asks for in this function wait for CONodeProcess(). A frame
+/// that finds the ring full is lost: CONodeCanEvent(), CO_CAN_OVERRUN.
+void CONodeRealTime(CO_NODE* node);
+#endif
 
 /// Ticks until COTmrService() and COTmrProcess(), or CONodeProcess() for frames that wait to be sent (again after 1
 /// ms), have something to do: 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait sooner.

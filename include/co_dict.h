@@ -6,6 +6,7 @@
 #ifndef CO_DICT_H_
 #define CO_DICT_H_
 
+#include "co_cfg.h"
 #include "co_obj.h"
 
 #ifdef __cplusplus
@@ -13,6 +14,7 @@ extern "C" {
 #endif
 
 /// What makes CODictInit() refuse a table. The same checks run at compile time with CO_OD_CHECK() (co/dictionary.hpp).
+/// Without USE_DICT_CHECK they run there alone, and nothing is refused: see there.
 typedef enum CO_DICT_FAULT_T {
   CO_DICT_OK = 0,
   CO_DICT_NOT_ASCENDING,   ///< key not greater than the one before it
@@ -28,15 +30,21 @@ typedef enum CO_DICT_FAULT_T {
 } CO_DICT_FAULT;
 
 typedef struct CO_DICT_T {
-  struct CO_OBJ_T* Root;   ///< first entry
+  struct CO_OBJ_T* Root;  ///< first entry
+#if USE_FAST_PATHS
   struct CO_OBJ_T* Split;  ///< first entry of the upper half of a search
   struct CO_OBJ_T* Last;   ///< last entry
   struct CO_OBJ_T*
-      Next;       ///< entry behind the one found last: the next sub-index is found without a search; null: no entries
-  uint16_t Num;   ///< entries in use
+      Next;  ///< entry behind the one found last: the next sub-index is found without a search; null: no entries
+#endif
+  uint16_t Num;  ///< entries in use
+#if USE_FAST_PATHS
   uint8_t Steps;  ///< halvings that a search needs in either half
-  uint8_t Fault;  ///< CO_DICT_FAULT of CODictInit() or of a type's Init function
-  uint32_t FaultKey;       ///< key of the entry with that fault
+#endif
+#if USE_DICT_CHECK
+  uint8_t Fault;      ///< CO_DICT_FAULT of CODictInit() or of a type's Init function
+  uint32_t FaultKey;  ///< key of the entry with that fault
+#endif
   struct CO_NODE_T* Node;  ///< owner
 } CO_DICT;
 
@@ -79,7 +87,7 @@ CO_ERR CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t m
 CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 
 /// What CODictInit(), or the Init function of a basic type, found; \a key (may be null) receives the key of the entry.
-/// Also legal after a CONodeInit() that ended with CO_ERR_DICT_INIT.
+/// Also legal after a CONodeInit() that ended with CO_ERR_DICT_INIT. Without USE_DICT_CHECK: CO_DICT_OK.
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
 
 #ifdef __cplusplus

@@ -33,7 +33,8 @@ typedef struct CO_TMR_MEM_T {
   void* Para;
   uint32_t At;      ///< clock at expiry
   uint32_t Cycle;   ///< ticks, 0: runs once
-  uint16_t Id;      ///< of those of the pool: number in it in the low bits, generation above
+  uint16_t Id;      ///< of those of the pool: number in it in the low bits, generation above; of others: 1: it belongs
+                    ///< to SYNC or a PDO (CONodeRealTime())
   uint8_t Running;  ///< armed, or elapsed and still to be run
   uint8_t Pooled;   ///< 1: belongs to the pool and has an id; 0: part of its owner
 } CO_TMR_MEM;

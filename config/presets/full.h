@@ -9,6 +9,8 @@
 #define CO_RPDO_N 8
 #define CO_TPDO_N 8
 #define USE_MPDO 1
+#define USE_REAL_TIME 1
+#define USE_OD 1
 #define USE_TIME 1
 #define CO_EMCY_CONS_N 8
 #define CO_HBCONS_N 16

@@ -6,6 +6,8 @@
 #define CO_PRESET_MINIMAL_H_
 
 #define CO_SSDO_N 1
+#define USE_DICT_CHECK 0
+#define USE_FAST_PATHS 0
 #define USE_OBJ_EX 0
 #define USE_CSDO 0
 #define USE_SDO_BLOCK 0

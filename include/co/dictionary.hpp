@@ -39,6 +39,9 @@
 #include "co_integer8.h"
 #include "co_nmt_startup.h"
 #include "co_obj.h"
+#if USE_OD
+#include "co_od.h"
+#endif
 #include "co_para.h"
 #include "co_pdo_dispatch.h"
 #include "co_pdo_event.h"
@@ -172,11 +175,56 @@ inline constexpr Type types[] = {
 /// knows only that an address is equal to itself. That is enough: what it does not know to be equal is not.
 constexpr bool is_same(const CO_OBJ_TYPE* a, const CO_OBJ_TYPE* b) { return __builtin_constant_p(a == b) && a == b; }
 
+#if USE_OD
+/// Types of extensible entries (co_od.h), and those whose rules they follow.
+struct Extensible {
+  const CO_OBJ_TYPE* type;
+  const CO_OBJ_TYPE* original;
+};
+
+inline constexpr Extensible extensible[] = {
+    {&ODTBoolean.Ex.Type, &COTBoolean},
+    {&ODTInt8.Ex.Type, &COTInt8},
+    {&ODTInt16.Ex.Type, &COTInt16},
+    {&ODTInt32.Ex.Type, &COTInt32},
+    {&ODTInt64.Ex.Type, &COTInt64},
+    {&ODTUnsigned24.Ex.Type, &COTUnsigned24},
+    {&ODTUnsigned40.Ex.Type, &COTUnsigned40},
+    {&ODTUnsigned48.Ex.Type, &COTUnsigned48},
+    {&ODTUnsigned56.Ex.Type, &COTUnsigned56},
+    {&ODTSigned24.Ex.Type, &COTSigned24},
+    {&ODTSigned40.Ex.Type, &COTSigned40},
+    {&ODTSigned48.Ex.Type, &COTSigned48},
+    {&ODTSigned56.Ex.Type, &COTSigned56},
+    {&ODTReal32.Ex.Type, &COTReal32},
+    {&ODTReal64.Ex.Type, &COTReal64},
+    {&ODTTimeOfDay.Ex.Type, &COTTimeOfDay},
+    {&ODTString.Ex.Type, &COTString},
+    {&ODTVisibleString.Ex.Type, &COTVisibleString},
+    {&ODTOctetString.Ex.Type, &COTOctetString},
+    {&ODTUnicodeString.Ex.Type, &COTUnicodeString},
+    {&ODTDomain.Ex.Type, &COTDomain},
+};
+#endif
+
+/// The type that an entry would have if it could not be extended.
+constexpr const CO_OBJ_TYPE* original(const CO_OBJ_TYPE* type) {
+#if USE_OD
+  for (const Extensible& known : extensible) {
+    if (is_same(known.type, type)) {
+      return known.original;
+    }
+  }
+#endif
+  return type;
+}
+
 /// The row of an entry's type: the one for its place, where a type has a row for each of several.
 constexpr Type type_of(const CO_OBJ& entry) {
-  Type found{entry.Type, rules::variable, Value::of_application, 0};
+  const CO_OBJ_TYPE* const type = original(entry.Type);
+  Type found{type, rules::variable, Value::of_application, 0};
   for (const Type& known : types) {
-    if (!is_same(known.type, entry.Type)) {
+    if (!is_same(known.type, type)) {
       continue;
     }
     found = known;
@@ -211,6 +259,20 @@ constexpr CO_DICT_FAULT check_content(std::uint32_t key, Content content) {
   return direct && rules::has(key, CO_OBJ______W) ? CO_DICT_DIRECT_CONST : CO_DICT_OK;
 }
 
+/// Types that the library does not know. Where only an extension has the object, Data is a length.
+constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, [[maybe_unused]] Content content) {
+#if USE_OD
+  const bool is_number = is_same(type, OD_TNUMBER);
+  if (is_number && content == Content::null) {
+    return CO_DICT_NO_DATA;
+  }
+  if ((is_number || is_same(type, OD_TSTREAM)) && content == Content::address) {
+    return CO_DICT_DIRECT_ADDRESS;
+  }
+#endif
+  return CO_DICT_OK;
+}
+
 template <const auto& Od>
 constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   const CO_OBJ& entry = Od[position];
@@ -219,7 +281,7 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   const CO_DICT_FAULT fault = rules::check_entry(previous, entry.Key, !is_same(entry.Type, nullptr), has_data);
   const Type type = type_of(entry);
   if (fault != CO_DICT_OK || type.value == Value::of_application) {
-    return fault;
+    return fault != CO_DICT_OK ? fault : check_unknown(entry.Type, data);
   }
   const CO_DICT_FAULT of_type = rules::check_type(type.rule, entry.Key, has_data);
   return of_type != CO_DICT_OK ? of_type : check_content(entry.Key, data);

@@ -53,6 +53,17 @@ bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
   return false;
 }
 
+#if USE_OD
+uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj) {
+  for (const CO_SDO& channel : node.Sdo) {
+    if (channel.Obj == &obj) {
+      return channel.Size;
+    }
+  }
+  return 0;
+}
+#endif
+
 // A stream may always be emptied.
 uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
   if (length == 0 && obj::is_stream(obj)) {

@@ -29,6 +29,11 @@ void lose_moved(CO_NODE& node);
 // Does an SDO server channel other than this one have the object open?
 [[nodiscard]] bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
 
+#if USE_OD
+// Bytes of the download to the object that a server channel has open, once its last piece comes; 0: there is none.
+[[nodiscard]] uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj);
+#endif
+
 // length against the nearest one that is possible: an abort code.
 [[nodiscard]] constexpr uint32_t compare_length(uint32_t length, uint32_t need) {
   if (length == need) {

@@ -10,6 +10,69 @@
 namespace co::dict {
 namespace {
 
+// The number of the first entry that has this key or a higher one.
+uint32_t first_from(const CO_DICT& dict, uint32_t key) {
+  uint32_t from = 0;
+  uint32_t to = dict.Num;
+  while (from < to) {
+    const uint32_t middle = (from + to) / 2;
+    if (dict.Root[middle].Key < key) {
+      from = middle + 1;
+    } else {
+      to = middle;
+    }
+  }
+  return from;
+}
+
+uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
+  uint16_t num = 0;
+  while (num < max && root[num].Key != 0) {
+    ++num;
+  }
+  return num;
+}
+
+#if USE_DICT_CHECK
+CO_ERR check(CO_DICT& dict) {
+  uint32_t key_before = 0;
+  for (uint16_t n = 0; n < dict.Num; ++n) {
+    const CO_OBJ& entry = dict.Root[n];
+    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, uintptr_t{entry.Data} != 0);
+    if (dict.Fault != CO_DICT_OK) {
+      dict.FaultKey = entry.Key;
+      return CO_ERR_DICT_INIT;
+    }
+    key_before = entry.Key;
+  }
+  return CO_ERR_NONE;
+}
+#else
+CO_ERR check(CO_DICT&) { return CO_ERR_NONE; }
+#endif
+
+CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
+              CO_ERR (*run)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
+  if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  CO_OBJ* const found = find(*dict, key);
+  if (found == nullptr) {
+    return CO_ERR_OBJ_NOT_FOUND;
+  }
+  if (obj::size(*found, *dict->Node, width) != width) {
+    return CO_ERR_OBJ_SIZE;
+  }
+  const CO_ERR err = obj::seek(*found, *dict->Node, 0);
+  return err != CO_ERR_NONE ? err : run(*found, *dict->Node, value, width);
+}
+
+}  // namespace
+
+#if USE_FAST_PATHS
+
+namespace {
+
 // Highest key that an entry of this index and sub-index can have: flags do not count.
 constexpr uint32_t bound_of(uint32_t key) { return key | 0xFFU; }
 
@@ -49,28 +112,6 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
   return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
 }
 
-uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
-  uint16_t num = 0;
-  while (num < max && root[num].Key != 0) {
-    ++num;
-  }
-  return num;
-}
-
-CO_ERR check(CO_DICT& dict) {
-  uint32_t key_before = 0;
-  for (uint16_t n = 0; n < dict.Num; ++n) {
-    const CO_OBJ& entry = dict.Root[n];
-    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, uintptr_t{entry.Data} != 0);
-    if (dict.Fault != CO_DICT_OK) {
-      dict.FaultKey = entry.Key;
-      return CO_ERR_DICT_INIT;
-    }
-    key_before = entry.Key;
-  }
-  return CO_ERR_NONE;
-}
-
 // The table is searched as two halves that overlap, each of the largest power of two that fits.
 void prepare_search(CO_DICT& dict) {
   uint32_t half = 1;
@@ -81,22 +122,6 @@ void prepare_search(CO_DICT& dict) {
   dict.Split = dict.Root + (dict.Num - half);
   dict.Last = dict.Root + (dict.Num - 1);
   dict.Next = dict.Root;
-}
-
-CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
-              CO_ERR (*run)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
-  if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
-    return CO_ERR_BAD_ARG;
-  }
-  CO_OBJ* const found = find(*dict, key);
-  if (found == nullptr) {
-    return CO_ERR_OBJ_NOT_FOUND;
-  }
-  if (obj::size(*found, *dict->Node, width) != width) {
-    return CO_ERR_OBJ_SIZE;
-  }
-  const CO_ERR err = obj::seek(*found, *dict->Node, 0);
-  return err != CO_ERR_NONE ? err : run(*found, *dict->Node, value, width);
 }
 
 }  // namespace
@@ -117,22 +142,29 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   return found;
 }
 
-// Only asked when a look-up has failed: the plain search is small.
-bool has_index(const CO_DICT& dict, uint32_t key) {
-  const uint32_t first_key = CO_DEV(CO_GET_IDX(key), 0);
-  uint32_t from = 0;
-  uint32_t to = dict.Num;
-  while (from < to) {
-    const uint32_t middle = (from + to) / 2;
-    if (dict.Root[middle].Key < first_key) {
-      from = middle + 1;
-    } else {
-      to = middle;
-    }
-  }
-  return from < dict.Num && CO_GET_IDX(dict.Root[from].Key) == CO_GET_IDX(key);
+#else
+
+namespace {
+
+void prepare_search(CO_DICT&) {}
+
+}  // namespace
+
+CO_OBJ* find(CO_DICT& dict, uint32_t key) {
+  const uint32_t place = first_from(dict, CO_GET_DEV(key));
+  CO_OBJ* const found = &dict.Root[place];
+  return place < dict.Num && CO_GET_DEV(found->Key) == CO_GET_DEV(key) ? found : nullptr;
 }
 
+#endif
+
+// Only asked when a look-up has failed: the plain search is small.
+bool has_index(const CO_DICT& dict, uint32_t key) {
+  const uint32_t place = first_from(dict, CO_DEV(CO_GET_IDX(key), 0));
+  return place < dict.Num && CO_GET_IDX(dict.Root[place].Key) == CO_GET_IDX(key);
+}
+
+#if USE_DICT_CHECK
 CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
   const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
   if (fault == CO_DICT_OK) {
@@ -144,6 +176,7 @@ CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
   }
   return CO_ERR_TYPE_INIT;
 }
+#endif
 
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
   return access(&dict, key, &value, sizeof value, obj::read);
@@ -159,6 +192,10 @@ uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise) {
 
 CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value) {
   return access(&dict, key, &value, sizeof value, obj::read);
+}
+
+CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value) {
+  return access(&dict, key, &value, sizeof value, obj::write);
 }
 
 }  // namespace co::dict
@@ -190,6 +227,7 @@ CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   }
   access::lose_moved(*node);
   event::defer(*node, event::remap);
+  event::settle(*node);
   return err;
 }
 
@@ -210,9 +248,9 @@ CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {
     return CO_DICT_OK;
   }
   if (key != nullptr) {
-    *key = cod->FaultKey;
+    *key = dict::fault_key_of(*cod);
   }
-  return static_cast<CO_DICT_FAULT>(cod->Fault);
+  return dict::fault_of(*cod);
 }
 
 CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key) { return find_entry(cod, key); }
@@ -230,15 +268,15 @@ CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val) {
 }
 
 CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write);
+  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write);
+  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val) {
-  return dict::access(cod, key, &val, sizeof val, obj::write);
+  return dict::access(cod, key, &val, sizeof val, obj::write_for_application);
 }
 
 CO_ERR CODictRdBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len) {

@@ -14,11 +14,47 @@ namespace co::dict {
 
 // For the Init functions of types: CO_ERR_TYPE_INIT if the entry breaks the type's rule. The first one that does is
 // named by CODictGetFault(), and keeps the node from starting.
+#if USE_DICT_CHECK
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
+#else
+[[nodiscard]] inline CO_ERR check_type(const CO_OBJ&, CO_NODE_T&, const rules::Rule&) { return CO_ERR_NONE; }
+#endif
+
+// What was found so, and where.
+[[nodiscard]] inline CO_DICT_FAULT fault_of([[maybe_unused]] const CO_DICT& dict) {
+#if USE_DICT_CHECK
+  return static_cast<CO_DICT_FAULT>(dict.Fault);
+#else
+  return CO_DICT_OK;
+#endif
+}
+[[nodiscard]] inline uint32_t fault_key_of([[maybe_unused]] const CO_DICT& dict) {
+#if USE_DICT_CHECK
+  return dict.FaultKey;
+#else
+  return 0;
+#endif
+}
+
+template <const rules::Rule& rule>
+CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
+  return check_type(*obj, *node, rule);
+}
+
+// The Init function of a type whose entries have a rule and nothing else to be initialised.
+template <const rules::Rule& rule>
+inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> : nullptr;
+
+// For types that reach memory by the number that an entry's place gives, from 0: where nobody checks the dictionary it
+// may be any.
+[[nodiscard]] constexpr bool is_number(unsigned number, unsigned count) {
+  return USE_DICT_CHECK != 0 || number < count;
+}
 
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
 // The COB-ID of an object, or what it is without an entry; wire::cob_invalid if it cannot be used.
 [[nodiscard]] uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise);
 [[nodiscard]] CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value);
+CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value);
 
 }  // namespace co::dict

@@ -32,7 +32,8 @@ class Serving {
   uint8_t before_;
 };
 
-// Things that wait until the frame being processed has been answered (CO_NODE.Pending); done at once if none is.
+// Things that wait (CO_NODE.Pending) until the function of the API that has led to them is over; where that is called
+// while a frame is processed, until that has been answered.
 enum Pending : uint8_t {
   reset_node = 0x01,
   reset_communication = 0x02,
@@ -40,7 +41,7 @@ enum Pending : uint8_t {
   configure_sdo = 0x08,
   remap = 0x10,  // CODictInit() has numbered the entries anew
 };
-void defer(CO_NODE& node, uint8_t what);
+inline void defer(CO_NODE& node, uint8_t what) { node.Pending = static_cast<uint8_t>(node.Pending | what); }
 
 // A reset asked for while the node is being initialised or started is part of that.
 inline void forget_resets(CO_NODE& node) { node.Pending &= configure_sdo | remap; }
@@ -101,7 +102,8 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 #endif
 }
 
-// Does what waits, unless a frame is being processed or the mode is being changed.
+// Does what waits, unless a frame is being processed or the mode is being changed. Every function of the API that may
+// lead to something that waits ends so, and nothing else does.
 void settle_pending(CO_NODE& node);
 [[gnu::always_inline]] inline void settle(CO_NODE& node) {
   if (node.Pending != 0) {

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/obj.hpp"
 
+#include "core/events.hpp"
+
 namespace co::obj {
+
+CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
+  const CO_ERR err = write(obj, node, buffer, size);
+  event::settle(node);
+  return err;
+}
 
 CO_ERR begin(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_TRANSFER transfer, uint32_t size) {
   const CO_OBJ_TYPE_EX* const type = extended(obj);
@@ -57,7 +65,8 @@ CO_ERR COObjRdBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t si
 }
 
 CO_ERR COObjWrBufCont(CO_OBJ* obj, CO_NODE_T* node, uint8_t* buffer, uint32_t size) {
-  return is_complete(obj, node) && buffer != nullptr ? obj::write(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  return is_complete(obj, node) && buffer != nullptr ? obj::write_for_application(*obj, *node, buffer, size)
+                                                     : CO_ERR_BAD_ARG;
 }
 
 CO_ERR COObjRdValue(CO_OBJ* obj, CO_NODE_T* node, void* value, uint8_t width) {

@@ -19,6 +19,8 @@ namespace co::obj {
 [[nodiscard]] inline CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
   return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
 }
+// The same for a function of the API.
+[[nodiscard]] CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
 [[nodiscard]] inline CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
   return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
 }

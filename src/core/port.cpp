@@ -30,6 +30,15 @@ void call(const CO_NODE& node, void (*CO_IF_CAN_DRV_EX::*with_context)(void*), v
   ext.Can != nullptr ? (ext.Can->*with_context)(ext.CanCtx) : (node.If.Drv->Can->*plain)();
 }
 
+// What waits for CONodeProcess() is part of the driver's queue.
+void forget_received([[maybe_unused]] const CO_NODE& node) {
+#if USE_REAL_TIME
+  CO_IF_FRM frame;
+  while (CORingGet(node.Ext->Mainline, &frame)) {
+  }
+#endif
+}
+
 }  // namespace
 
 const CO_IF_DRV no_plain_drivers = {nullptr, nullptr, nullptr};
@@ -51,9 +60,20 @@ void init(CO_NODE& node) {
   can_init(node);
 }
 
-void can_init(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Init, &CO_IF_CAN_DRV::Init); }
-void can_reset(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Reset, &CO_IF_CAN_DRV::Reset); }
-void can_close(const CO_NODE& node) { call(node, &CO_IF_CAN_DRV_EX::Close, &CO_IF_CAN_DRV::Close); }
+void can_init(const CO_NODE& node) {
+  call(node, &CO_IF_CAN_DRV_EX::Init, &CO_IF_CAN_DRV::Init);
+  forget_received(node);
+}
+
+void can_reset(const CO_NODE& node) {
+  call(node, &CO_IF_CAN_DRV_EX::Reset, &CO_IF_CAN_DRV::Reset);
+  forget_received(node);
+}
+
+void can_close(const CO_NODE& node) {
+  call(node, &CO_IF_CAN_DRV_EX::Close, &CO_IF_CAN_DRV::Close);
+  forget_received(node);
+}
 
 void can_enable(const CO_NODE& node, uint32_t baud) {
   node.Ext->Can != nullptr ? node.Ext->Can->Enable(node.Ext->CanCtx, baud) : node.If.Drv->Can->Enable(baud);

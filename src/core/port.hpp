@@ -21,6 +21,42 @@ void init(CO_NODE& node);
 inline void lock(CO_NODE& node) { node.Ext->Lock != nullptr ? node.Ext->Lock(node.Ext->User) : COTmrLock(); }
 inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlock(node.Ext->User) : COTmrUnlock(); }
 
+// A turn of the node (CO_NODE_EXT.Enter) for as long as it lives. Turns do not nest.
+#if USE_REAL_TIME
+inline void enter(CO_NODE& node) {
+  if (node.Ext != nullptr && node.Ext->Enter != nullptr) {
+    node.Ext->Enter(node.Ext->User);
+    node.InTurn = 1;
+  }
+}
+inline void leave(CO_NODE& node, const CO_NODE_EXT* ext) {
+  if (ext != nullptr && ext->Leave != nullptr) {
+    node.InTurn = 0;
+    ext->Leave(ext->User);
+  }
+}
+
+class Turn {
+ public:
+  explicit Turn(CO_NODE& node) : node_(node), ext_(node.Ext) { enter(node); }
+  ~Turn() { leave(node_, ext_); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  CO_NODE& node_;
+  const CO_NODE_EXT* ext_;
+};
+#else
+inline void enter(CO_NODE&) {}
+inline void leave(CO_NODE&, const CO_NODE_EXT*) {}
+
+class Turn {
+ public:
+  explicit Turn(const CO_NODE&) {}
+};
+#endif
+
 // Timer drivers with a context have a clock; the others count down and tell what is left.
 [[nodiscard]] inline bool has_clock(const CO_NODE& node) { return node.Ext->Timer != nullptr; }
 [[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }

@@ -7,7 +7,7 @@
 namespace co::routes {
 namespace {
 
-constexpr uint8_t end = 17;
+constexpr uint8_t end = CO_ROUTE_CLASS_N;
 
 constexpr uint16_t owner(Service service, uint16_t number) {
   return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);

@@ -57,9 +57,12 @@ void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number
 // Gives the identifiers to a driver that filters.
 void publish(const CO_NODE& node);
 
-// Function code of an identifier; all 29-bit identifiers have one of their own.
+// Function code of an identifier; all 29-bit identifiers have one of their own. 0 where one search is enough.
 [[nodiscard]] constexpr uint8_t class_of(uint32_t identifier) {
   constexpr uint8_t extended_class = 16;
+  if (CO_ROUTE_CLASS_N == 1) {
+    return 0;
+  }
   return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
 }
 
@@ -80,7 +83,7 @@ inline constexpr uint32_t no_identifier = ~0U;
   const uint8_t fc = class_of(identifier);
   unsigned first = routes.Start[fc];
   unsigned last = routes.Start[fc + 1];
-  while (last - first > short_search) {
+  while (CO_ROUTE_N > short_search && last - first > short_search) {
     const unsigned middle = (first + last) / 2;
     if (routes.Id[middle] < identifier) {
       first = middle + 1;

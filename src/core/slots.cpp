@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/slots.hpp"
 
+#include "core/events.hpp"
 #include "core/port.hpp"
 #include "wire/crc32.hpp"
 
@@ -59,6 +60,35 @@ wire::Crc32 crc_of(const Header& header) {
   return crc;
 }
 
+// Memory is slow: the node gives up its turn while the driver works, if it has one. What others ask for meanwhile
+// waits. Nothing but memory that nobody else knows may be given to the driver then.
+#if USE_REAL_TIME
+class Outside {
+ public:
+  explicit Outside(const CO_NODE& node)
+      : node_(const_cast<CO_NODE&>(node)), serving_(node_), ext_(node.InTurn != 0 ? node.Ext : nullptr) {
+    port::leave(node_, ext_);
+  }
+  ~Outside() {
+    if (ext_ != nullptr) {
+      port::enter(node_);
+    }
+  }
+  Outside(const Outside&) = delete;
+  Outside& operator=(const Outside&) = delete;
+
+ private:
+  CO_NODE& node_;
+  event::Serving serving_;
+  const CO_NODE_EXT* ext_;
+};
+#else
+class Outside {
+ public:
+  explicit Outside(const CO_NODE&) {}
+};
+#endif
+
 // Work memory, in whole units of programming.
 class Buffer {
  public:
@@ -72,6 +102,7 @@ class Buffer {
 };
 
 bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
+  const Outside outside(node);
   return port::nvm_read(node, start, static_cast<uint8_t*>(to), size) == size;
 }
 
@@ -139,9 +170,10 @@ struct Slots {
   Slot other;
 };
 
+// To where the application has its data: in the node's turn.
 bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to) {
   wire::Crc32 crc = crc_of(slot.header);
-  if (!read(node, slot.start + header_size(node), to, record.size)) {
+  if (port::nvm_read(node, slot.start + header_size(node), to, record.size) != record.size) {
     return false;
   }
   crc.add(to, record.size);
@@ -177,6 +209,11 @@ bool is_stored(const CO_NODE& node, const Record& record, const Slot& slot, cons
   return slot.found == Found::data && is_equal(node, slot.start + header_size(node), data, record.size);
 }
 
+bool program(const CO_NODE& node, uint32_t start, uint8_t* bytes, uint32_t size) {
+  const Outside outside(node);
+  return port::nvm_write(node, start, bytes, size) == size;
+}
+
 // Writes bytes, the last unit filled up. They may change meanwhile: the CRC is of what is written.
 bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
   Buffer buffer(node);
@@ -186,7 +223,7 @@ bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t s
     __builtin_memcpy(buffer.bytes(), bytes, piece);
     __builtin_memset(buffer.bytes() + piece, erased, whole - piece);
     crc.add(buffer.bytes(), piece);
-    if (port::nvm_write(node, start, buffer.bytes(), whole) != whole) {
+    if (!program(node, start, buffer.bytes(), whole)) {
       return false;
     }
     start += piece;
@@ -197,6 +234,7 @@ bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t s
 }
 
 bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
+  const Outside outside(node);
   return port::nvm_shape(node).EraseSize == 0 || port::nvm_erase(node, start, size);
 }
 

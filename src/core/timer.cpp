@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "core/count.hpp"
+#include "core/events.hpp"
 #include "core/port.hpp"
 
 namespace co::tmr {
@@ -170,13 +171,12 @@ void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FU
   insert(t, timer, synchronise(t), start == 0 ? cycle : start);
 }
 
-// The timer that has elapsed first, armed again or released, its action still to be run.
-const CO_TMR_MEM& take_due(CO_TMR& t) {
-  const Lock lock(t);
-  CO_TMR_MEM& timer = *t.First;
-  t.First = timer.Next;
+// The elapsed timer at a link is armed again or released, its action still to be run.
+const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
+  CO_TMR_MEM& timer = *link;
+  link = timer.Next;
   if (t.Armed == &timer.Next) {
-    t.Armed = &t.First;
+    t.Armed = &link;
   }
   if (timer.Cycle != 0) {
     rearm(t, timer, timer.Cycle);
@@ -189,6 +189,12 @@ const CO_TMR_MEM& take_due(CO_TMR& t) {
   return timer;
 }
 
+// The one that has elapsed first.
+const CO_TMR_MEM& take_due(CO_TMR& t) {
+  const Lock lock(t);
+  return take(t, t.First);
+}
+
 // A timer management that was never initialised seems to have such timers. What elapses while actions run waits for the
 // next call.
 [[gnu::noinline]] void run_due(CO_TMR& t) {
@@ -198,8 +204,77 @@ const CO_TMR_MEM& take_due(CO_TMR& t) {
   do {
     const CO_TMR_MEM& timer = take_due(t);
     timer.Func(timer.Para);
+    event::settle(*t.Node);
   } while (has_due(t) && t.First->At - first <= span);
 }
+
+#if USE_REAL_TIME
+
+// Whose the timers are: with a real-time thread some are that one's, the others the mainline's.
+enum class Share : uint8_t { all, mainline, real_time };
+
+bool is_of(const CO_TMR_MEM& timer, Share share) {
+  const bool real_time = timer.Pooled == 0 && timer.Id != 0;
+  return share == Share::all || real_time == (share == Share::real_time);
+}
+
+Share share_of_mainline(const CO_TMR& t) { return t.Node->Ext->Mainline != nullptr ? Share::mainline : Share::all; }
+
+// The link to the first elapsed timer of a share, or to the first that is armed.
+CO_TMR_MEM** first_due(CO_TMR& t, Share share) {
+  CO_TMR_MEM** link = &t.First;
+  while (link != t.Armed && !is_of(**link, share)) {
+    link = &(*link)->Next;
+  }
+  return link;
+}
+
+// Runs one that has elapsed before a moment, or then. False: there is none.
+bool run_one(CO_TMR& t, Share share, uint32_t moment) {
+  const CO_TMR_MEM* timer = nullptr;
+  {
+    const Lock lock(t);
+    CO_TMR_MEM** const link = first_due(t, share);
+    if (link == t.Armed || moment - (*link)->At > INT32_MAX) {
+      return false;
+    }
+    timer = &take(t, *link);
+  }
+  timer->Func(timer->Para);
+  event::settle(*t.Node);
+  return true;
+}
+
+bool has_turns(const CO_TMR& t) {
+  const CO_NODE_EXT* const ext = t.Node == nullptr ? nullptr : t.Node->Ext;
+  return ext != nullptr && (ext->Enter != nullptr || ext->Mainline != nullptr);
+}
+
+// Each action in a turn of its own.
+void run_in_turns(CO_TMR& t) {
+  const Share share = share_of_mainline(t);
+  uint32_t moment = 0;
+  {
+    const port::Turn turn(*t.Node);
+    if (!has_due(t)) {
+      return;
+    }
+    moment = owner_of(t.Armed).At;
+  }
+  for (bool more = true; more;) {
+    const port::Turn turn(*t.Node);
+    more = run_one(t, share, moment);
+  }
+}
+
+// What COTmrProcess() has to run.
+bool has_work(CO_TMR& t) { return has_turns(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
+
+#else
+
+bool has_work(const CO_TMR& t) { return has_due(t); }
+
+#endif
 
 CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
   const uint32_t number = static_cast<uint32_t>(id) & (t.IdStep - 1U);
@@ -267,11 +342,20 @@ uint32_t now(CO_TMR& timers) {
 uint32_t next_deadline(CO_TMR& timers) {
   const Lock lock(timers);
   const uint32_t now = synchronise(timers);
-  if (has_due(timers) || is_pending(timers, now)) {
+  if (has_work(timers) || is_pending(timers, now)) {
     return 0;
   }
-  return timers.First == nullptr ? UINT32_MAX : timers.First->At - now;
+  const CO_TMR_MEM* const next = USE_REAL_TIME != 0 ? *timers.Armed : timers.First;
+  return next == nullptr ? UINT32_MAX : next->At - now;
 }
+
+#if USE_REAL_TIME
+void run_real_time(CO_TMR& timers) {
+  const uint32_t moment = owner_of(timers.Armed).At;
+  while (has_due(timers) && run_one(timers, Share::real_time, moment)) {
+  }
+}
+#endif
 
 }  // namespace co::tmr
 
@@ -365,6 +449,12 @@ int16_t COTmrService(CO_TMR* tmr) {
 
 void COTmrProcess(CO_TMR* tmr) {
   ASSERT_PTR_FATAL(tmr);
+#if USE_REAL_TIME
+  if (tmr::has_turns(*tmr)) {
+    tmr::run_in_turns(*tmr);
+    return;
+  }
+#endif
   if (tmr::has_due(*tmr)) {
     tmr::run_due(*tmr);
   }

@@ -3,6 +3,7 @@
 // they have elapsed. A cyclic timer is armed again from its expiry: its phase does not depend on when it is run.
 #pragma once
 
+#include "co_cfg.h"
 #include "co_tmr.h"
 
 namespace co::tmr {
@@ -20,6 +21,15 @@ void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 
 // Stops a timer that is part of its owner; a stopped one stays stopped.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
+
+// A timer of SYNC or of a PDO: run_real_time() runs it where there is a real-time thread. For a timer that is part of
+// its owner, once.
+#if USE_REAL_TIME
+inline void give_to_real_time(CO_TMR_MEM& timer) { timer.Id = 1; }
+void run_real_time(CO_TMR& timers);
+#else
+inline void give_to_real_time(CO_TMR_MEM&) {}
+#endif
 
 [[nodiscard]] inline bool is_running(const CO_TMR_MEM& timer) { return timer.Running != 0; }
 

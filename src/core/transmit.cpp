@@ -131,9 +131,12 @@ bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
-  const bool sent = try_now(node, frame);
-  node.Paused = sent ? node.Paused : 1;
-  return sent;
+  if (node.Burst == CO_SDO_BLOCK_PACE || !try_now(node, frame)) {
+    node.Paused = 1;
+    return false;
+  }
+  ++node.Burst;
+  return true;
 }
 
 void flush(CO_NODE& node) {

@@ -29,8 +29,12 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 // boot-up message.
 [[nodiscard]] CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier);
 
-// Sends a frame now or not at all: for those that can be made again. False: see Service::on_free.
+// Sends a frame now or not at all, and no more than CO_SDO_BLOCK_PACE in a call of CONodeProcess(): for those that can
+// be made again. False: see Service::on_free.
 [[nodiscard]] bool offer(CO_NODE& node, const CO_IF_FRM& frame);
+
+// Does a frame that was offered wait for nothing but the next call?
+[[nodiscard]] inline bool is_paced(const CO_NODE& node) { return node.Paused != 0 && node.Burst == CO_SDO_BLOCK_PACE; }
 
 // Would send() lose a frame now?
 [[nodiscard]] bool is_full(CO_NODE& node);

@@ -19,6 +19,9 @@ namespace {
 
 // Objects that every device has. [301:7.5.1] Without them the node runs, and says so.
 void check_mandatory_objects(CO_NODE& node) {
+  if (USE_DICT_CHECK == 0) {
+    return;
+  }
   if (dict::find(node.Dict, CO_DEV(0x1001, 0)) == nullptr) {
     node.Error = CO_ERR_CFG_1001_0;
   }
@@ -130,12 +133,18 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 #if CO_RPDO_N > 0
   for (CO_RPDO& pdo : node.RPdo) {
     pdo.Node = &node;
+    tmr::give_to_real_time(pdo.Tmr);
   }
 #endif
 #if CO_TPDO_N > 0
   for (CO_TPDO& pdo : node.TPdo) {
     pdo.Node = &node;
+    tmr::give_to_real_time(pdo.Tmr);
   }
+#endif
+#if USE_SYNC
+  tmr::give_to_real_time(node.Sync.Tmr);
+  tmr::give_to_real_time(node.Sync.WindowTmr);
 #endif
 }
 
@@ -152,12 +161,23 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   return node.Nmt.Mode != CO_INVALID;
 }
 
+[[gnu::noinline]] void report(CO_NODE& node, CO_CAN_EVENT event) {
+  count(node.Count.CanEvents[event]);
+  event::report_can(node, event);
+  CONodeCanChange(&node, event);
+}
+
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
   for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
     if (wire::reports(frame, static_cast<CO_CAN_EVENT>(event))) {
-      CONodeCanEvent(&node, static_cast<CO_CAN_EVENT>(event));
+      report(node, static_cast<CO_CAN_EVENT>(event));
     }
   }
+}
+
+void normalise(CO_IF_FRM& frame) {
+  frame.Identifier = wire::normalised(frame.Identifier);
+  frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
 }
 
 void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
@@ -166,8 +186,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
       report_error(node, frame);
       return;
     }
-    frame.Identifier = wire::normalised(frame.Identifier);
-    frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
+    normalise(frame);
   }
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
   if (place != routes::nowhere && services::dispatch(node, frame, place)) {
@@ -177,6 +196,53 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   if (event::is_allowed(node, CO_NMT_ALLOWED)) {
     COIfCanReceive(&frame);
   }
+}
+
+// The frame that CONodeProcess() serves. False: there is none.
+bool receive(CO_NODE& node, CO_IF_FRM& frame) {
+#if USE_REAL_TIME
+  if (node.Ext->Mainline != nullptr) {
+    return CORingGet(node.Ext->Mainline, &frame);
+  }
+#endif
+  if (port::can_read(node, frame) <= 0) {
+    return false;
+  }
+  count(node.Count.Received);
+  return true;
+}
+
+#if USE_REAL_TIME
+// What the NMT state forbids now is lost: kept for CONodeProcess() it would come behind newer ones.
+bool serve_at_once(CO_NODE& node, CO_IF_FRM frame) {
+  if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
+    return false;
+  }
+  normalise(frame);
+  const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
+  if (place == routes::nowhere || !services::is_real_time(node, place)) {
+    return false;
+  }
+  if (!services::dispatch(node, frame, place)) {
+    count(node.Count.Unclaimed);
+  }
+  return true;
+}
+
+void share_out(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!serve_at_once(node, frame) && !CORingPut(node.Ext->Mainline, &frame)) {
+    report(node, CO_CAN_OVERRUN);
+  }
+}
+#endif
+
+// Has CONodeRealTime() left something to CONodeProcess()?
+bool is_awaited([[maybe_unused]] const CO_NODE& node) {
+#if USE_REAL_TIME
+  return node.Ext->Mainline != nullptr && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
+#else
+  return false;
+#endif
 }
 
 }  // namespace
@@ -194,11 +260,6 @@ void event::settle_pending(CO_NODE& node) {
       node::reconfigure(node, (pending & remap) != 0);
     }
   }
-}
-
-void event::defer(CO_NODE& node, uint8_t what) {
-  node.Pending = static_cast<uint8_t>(node.Pending | what);
-  settle(node);
 }
 
 }  // namespace co
@@ -239,7 +300,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
     event::forget_resets(*node);
   }
   event::settle(*node);
-  if (node->Dict.Fault != CO_DICT_OK) {
+  if (dict::fault_of(node->Dict) != CO_DICT_OK) {
     event::change_mode(*node, CO_INVALID);
     node->Error = CO_ERR_DICT_INIT;
     return;
@@ -256,6 +317,7 @@ void CONodeStart(CO_NODE* node) {
   if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_serving(*node)) {
     node::start(*node);
   }
+  event::settle(*node);
 }
 
 void CONodeStop(CO_NODE* node) {
@@ -264,6 +326,7 @@ void CONodeStop(CO_NODE* node) {
     return;
   }
   event::change_mode(*node, CO_INVALID);
+  event::settle(*node);
 }
 
 CO_ERR CONodeGetErr(CO_NODE* node) {
@@ -275,28 +338,59 @@ CO_ERR CONodeGetErr(CO_NODE* node) {
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
+  const port::Turn turn(*node);
+  if constexpr (USE_REAL_TIME != 0) {
+    event::settle(*node);  // what CONodeRealTime() has left
+  }
   if (node->State != event::running) {
     return;
   }
+  node->Burst = 0;
   if ((transmit::is_waiting(*node) || node->Paused != 0) && !node::go_on(*node)) {
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(0, 0);
-  if (port::can_read(*node, frame) <= 0) {
+  if (!node::receive(*node, frame)) {
     return;
   }
-  count(node->Count.Received);
   node->State = event::running | event::serving;
   node::dispatch(*node, frame);
   node->State &= static_cast<uint8_t>(~event::serving);
   event::settle(*node);
 }
 
+#if USE_REAL_TIME
+// The node is serving all the time: what waits is the mainline's.
+void CONodeRealTime(CO_NODE* node) {
+  ASSERT_PTR_FATAL(node);
+  const port::Turn turn(*node);
+  if ((node->State & event::running) == 0 || node->Ext->Mainline == nullptr) {
+    return;
+  }
+  const event::Serving serving(*node);
+  (void)COTmrService(&node->Tmr);
+  transmit::flush(*node);
+  CO_IF_FRM frame = wire::empty_frame(0, 0);
+  while ((node->State & event::running) != 0 && port::can_read(*node, frame) > 0) {
+    count(node->Count.Received);
+    node::share_out(*node, frame);
+  }
+  tmr::run_real_time(node->Tmr);
+}
+#endif
+
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
+  const port::Turn turn(*node);
+  if (node::is_awaited(*node)) {
+    return 0;
+  }
   const uint32_t timers = tmr::next_deadline(node->Tmr);
   if (!transmit::is_waiting(*node) && node->Paused == 0) {
     return timers;
+  }
+  if (transmit::is_paced(*node)) {
+    return 0;
   }
   const uint32_t retry = tmr::ticks(node->Tmr, 1, CO_TMR_UNIT_1MS);
   return retry < timers ? retry : timers;
@@ -305,9 +399,8 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
   if (event < CO_CAN_EVENT_NUM) {
-    count(node->Count.CanEvents[event]);
-    event::report_can(*node, event);
-    CONodeCanChange(node, event);
+    node::report(*node, event);
+    event::settle(*node);
   }
 }
 

@@ -98,6 +98,7 @@ constexpr uint16_t count_streams() {
   return all;
 }
 constexpr uint16_t streams = count_streams();
+static_assert(streams <= UINT8_MAX, "CO_NODE.Turn");
 
 bool go_on(CO_NODE& node, uint16_t stream) {
   for (const Service& service : table) {
@@ -121,45 +122,44 @@ void take_node_id(CO_NODE& node) { lss::take_node_id(node); }
 void begin_lss(CO_NODE& node) { lss::begin(node); }
 bool awaits_node_id(CO_NODE& node) { return lss::awaits_node_id(node); }
 bool is_started(const CO_NODE& node) { return node.Lss.Started != 0; }
-#else
-void begin_lss(CO_NODE&) {}
-void load_node_id(CO_NODE&) {}
-void take_node_id(CO_NODE&) {}
-bool awaits_node_id(CO_NODE&) { return false; }
-bool is_started(const CO_NODE&) { return false; }
 #endif
 
 #if USE_PARA
 void load(CO_NODE& node, CO_NMT_RESET type) { (void)para::load(node, type); }
 void save_changes(CO_NODE& node) { para::save_changes(node); }
-#else
-void load(CO_NODE&, CO_NMT_RESET) {}
-void save_changes(CO_NODE&) {}
 #endif
 
 #if USE_EMCY
 void forget_application(CO_NODE& node) { emcy::forget_application(node); }
-#else
-void forget_application(CO_NODE&) {}
 #endif
 
 void configure(CO_NODE& node) { run(node, &Service::configure); }
 
 void remap(CO_NODE& node) { pdo::remap(node); }
 
-// In turns, a frame each. Whom the controller refuses is the first the next time.
+// In turns, each as many frames as the controller takes. Whom it refuses the first is the first the next time.
 void on_free(CO_NODE& node) {
-  uint16_t idle = 0;
+  unsigned idle = 0;
   node.Paused = 0;
-  while (idle < streams) {
+  while (idle < streams && node.Paused == 0) {
     const bool sent = go_on(node, node.Turn);
-    if (node.Paused != 0) {
-      return;
+    if (sent || node.Paused == 0) {
+      node.Turn = static_cast<uint8_t>(node.Turn + 1U < streams ? node.Turn + 1U : 0);
     }
-    idle = sent ? 0 : static_cast<uint16_t>(idle + 1);
-    node.Turn = static_cast<uint16_t>(node.Turn + 1 < streams ? node.Turn + 1 : 0);
+    idle = sent ? 0 : idle + 1;
   }
 }
+
+#if USE_REAL_TIME
+bool is_real_time(const CO_NODE& node, unsigned place) {
+  constexpr unsigned own = CO_SYNC_ALLOWED | CO_PDO_ALLOWED;
+  const uint32_t id = node.Routes.Id[place];
+  while (routes::is_at(node, place, id) && (table[routes::service_of(node.Routes.Owner[place])].allowed & own) != 0) {
+    ++place;
+  }
+  return !routes::is_at(node, place, id);
+}
+#endif
 
 // Whom a frame reaches may change the routes.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
@@ -296,7 +296,6 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
     }
   }
   node.State &= static_cast<uint8_t>(~changing);
-  event::settle(node);
 }
 
 }  // namespace co

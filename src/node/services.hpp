@@ -21,23 +21,40 @@ namespace services {
 
 void init(CO_NODE& node);
 
-// LSS: node-ID and bit rate as they were stored, for the node that is being initialised, and for the next reset.
+// LSS: node-ID and bit rate as they were stored, for the node that is being initialised, and for the next reset. Does
+// the node that is started have to wait for a node-ID? Was it started so?
+#if USE_LSS
 void begin_lss(CO_NODE& node);
 void load_node_id(CO_NODE& node);
 void take_node_id(CO_NODE& node);
-
-// Does the node that is started have to wait for a node-ID? Was it started so?
 [[nodiscard]] bool awaits_node_id(CO_NODE& node);
 [[nodiscard]] bool is_started(const CO_NODE& node);
+#else
+inline void begin_lss(CO_NODE&) {}
+inline void load_node_id(CO_NODE&) {}
+inline void take_node_id(CO_NODE&) {}
+[[nodiscard]] inline bool awaits_node_id(CO_NODE&) { return false; }
+[[nodiscard]] inline bool is_started(const CO_NODE&) { return false; }
+#endif
 
-// Loads the parameters of a reset.
+// Loads the parameters of a reset. What is stored autonomously is safe.
+#if USE_PARA
 void load(CO_NODE& node, CO_NMT_RESET type);
-
-// What is stored autonomously is safe.
 void save_changes(CO_NODE& node);
+#else
+inline void load(CO_NODE&, CO_NMT_RESET) {}
+inline void save_changes(CO_NODE&) {}
+#endif
 
 // The application starts anew: what it has told the services is no more.
+#if USE_EMCY
 void forget_application(CO_NODE& node);
+#else
+inline void forget_application(CO_NODE&) {}
+#endif
+
+// Are the routes that begin at this place those of SYNC and PDOs alone?
+[[nodiscard]] bool is_real_time(const CO_NODE& node, unsigned place);
 
 // Gives a frame to the services whose routes begin at this place. False: none may have it.
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);

@@ -141,14 +141,13 @@ struct Word {
   static constexpr rules::Rule rule = rules::integer(bytes);
 
   static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, bytes) == nullptr ? 0 : bytes; }
-  static CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rule); }
   static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return size == bytes ? read_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
   }
   static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return size == bytes ? write_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
   }
-  static constexpr CO_OBJ_TYPE table = {size, init, read, write, nullptr};
+  static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
 };
 
 // All others.
@@ -172,21 +171,14 @@ struct Wide {
   static constexpr rules::Rule rule = rules::integer(storage);
 
   static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, storage) == nullptr ? 0 : bytes; }
-  static CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rule); }
   static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return size == bytes ? read_wide(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
   }
   static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return size == bytes ? write_wide(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
   }
-  static constexpr CO_OBJ_TYPE table = {size, init, read, write, nullptr};
+  static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
 };
-
-// Flag N means nothing for them, and is refused.
-template <const rules::Rule& rule>
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, rule);
-}
 
 using Byte = Word<1>;
 using Real32 = Word<4>;
@@ -201,6 +193,7 @@ CO_ERR write_boolean(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
+uint16_t get_u16(const void* from) { return static_cast<uint16_t>(load<uint32_t>(from, sizeof(uint16_t))); }
 uint32_t get_u32(const void* from) { return load<uint32_t>(from, sizeof(uint32_t)); }
 void put_u32(void* to, uint32_t value) { store(to, value, sizeof value); }
 
@@ -223,8 +216,9 @@ const CO_OBJ_TYPE COTSigned24 = Wide<3, 4, true>::table;
 const CO_OBJ_TYPE COTSigned40 = Wide<5, 8, true>::table;
 const CO_OBJ_TYPE COTSigned48 = Wide<6, 8, true>::table;
 const CO_OBJ_TYPE COTSigned56 = Wide<7, 8, true>::table;
-const CO_OBJ_TYPE COTReal32 = {Real32::size, init<rules::variable>, Real32::read, Real32::write, nullptr};
-const CO_OBJ_TYPE COTReal64 = {Real64::size, init<rules::variable>, Real64::read, Real64::write, nullptr};
-const CO_OBJ_TYPE COTBoolean = {Byte::size, init<rules::boolean>, Byte::read, write_boolean, nullptr};
+// Flag N means nothing for these, and is refused.
+const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
+const CO_OBJ_TYPE COTReal64 = {Real64::size, dict::checked_by<rules::variable>, Real64::read, Real64::write, nullptr};
+const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};
 
 }  // extern "C"

@@ -26,6 +26,24 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
   return CO_ERR_NONE;
 }
 
+// Somebody passes a piece: whoever goes on with COObj…Cont() finds the position where it was.
+class KeptPosition {
+ public:
+  explicit KeptPosition(const CO_OBJ& obj)
+      : offset_(data_of<uint32_t>(obj)), before_(offset_ == nullptr ? 0 : *offset_) {}
+  KeptPosition(const KeptPosition&) = delete;
+  KeptPosition& operator=(const KeptPosition&) = delete;
+  ~KeptPosition() {
+    if (offset_ != nullptr) {
+      *offset_ = before_;
+    }
+  }
+
+ private:
+  uint32_t* offset_;
+  uint32_t before_;
+};
+
 // The same as Reset function.
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 

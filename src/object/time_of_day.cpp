@@ -12,8 +12,6 @@ constexpr uint32_t bytes = co::wire::time_bytes;
 
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return co::data_of<CO_TIME_OF_DAY>(*obj) == nullptr ? 0 : bytes; }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return co::dict::check_type(*obj, *node, co::rules::variable); }
-
 CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
   const auto* const time = co::data_of<const CO_TIME_OF_DAY>(*obj);
   if (size != bytes || time == nullptr) {
@@ -42,4 +40,4 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTTimeOfDay = {size, init, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTTimeOfDay = {size, co::dict::checked_by<co::rules::variable>, read, write, nullptr};

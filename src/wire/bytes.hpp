@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "co_cfg.h"
+
 namespace co::wire {
 
 inline constexpr bool host_is_little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
@@ -54,7 +56,7 @@ inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from)
 // Any number of bytes, most often those of a segment: cheaper than a call of memcpy for few bytes, and for many that
 // are not aligned.
 [[gnu::noinline]] inline void copy(uint8_t* to, const uint8_t* from, uint32_t n) {
-  for (; n >= segment_bytes; n -= segment_bytes) {
+  for (; USE_FAST_PATHS != 0 && n >= segment_bytes; n -= segment_bytes) {
     copy_segment(to, from);
     to += segment_bytes;
     from += segment_bytes;

@@ -15,16 +15,19 @@ inline constexpr uint8_t controller_overflow = 0x01;        // of received frame
 inline constexpr uint8_t controller_passive = 0x10 | 0x20;  // receiving, transmitting
 inline constexpr uint8_t controller_active = 0x40;
 
+// What reports an event: a class, or a status of the controller.
+struct ErrorBits {
+  uint16_t error_class;
+  uint8_t status;
+};
+inline constexpr ErrorBits error_bits[CO_CAN_EVENT_NUM] = {
+    {0, controller_overflow}, {0, controller_passive}, {error_bus_off, 0}, {error_restarted, controller_active}};
+
 // Does an error frame report this event? It may report several.
 constexpr bool reports(const CO_IF_FRM& frame, CO_CAN_EVENT event) {
-  const uint8_t status = (frame.Identifier & error_controller) != 0 ? frame.Data[1] : static_cast<uint8_t>(0);
-  switch (event) {
-    case CO_CAN_OVERRUN: return (status & controller_overflow) != 0;
-    case CO_CAN_PASSIVE: return (status & controller_passive) != 0;
-    case CO_CAN_BUS_OFF: return (frame.Identifier & error_bus_off) != 0;
-    case CO_CAN_RECOVERED: return (frame.Identifier & error_restarted) != 0 || (status & controller_active) != 0;
-    default: return false;
-  }
+  const ErrorBits& bits = error_bits[event];
+  const unsigned status = (frame.Identifier & error_controller) != 0 ? frame.Data[1] : 0U;
+  return (frame.Identifier & bits.error_class) != 0 || (status & bits.status) != 0;
 }
 
 static_assert(reports({0x20000040, {}, 8}, CO_CAN_BUS_OFF) && !reports({0x20000040, {}, 8}, CO_CAN_RECOVERED));

@@ -27,6 +27,8 @@ void sync_directory(const std::string& path) {
   }
 }
 
+off_t place(std::uint32_t start, std::uint32_t at) { return static_cast<off_t>(start) + static_cast<off_t>(at); }
+
 // Repeats pread/pwrite until everything is done, nothing is left, or it fails. Returns the bytes done.
 template <typename Access>
 std::uint32_t all(std::uint32_t size, Access access) {
@@ -75,8 +77,8 @@ void FileNvm::close() {
 std::uint32_t FileNvm::read(std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
   const std::uint32_t wanted = inside(start, size);
   errno = 0;
-  const std::uint32_t done = all(
-      wanted, [&](std::uint32_t at) { return ::pread(fd_, buffer + at, wanted - at, static_cast<off_t>(start) + at); });
+  const std::uint32_t done =
+      all(wanted, [&](std::uint32_t at) { return ::pread(fd_, buffer + at, wanted - at, place(start, at)); });
   if (done < wanted) {
     fail("cannot be read");
   }
@@ -130,8 +132,7 @@ std::uint32_t FileNvm::inside(std::uint32_t start, std::uint32_t size) const {
 }
 
 std::uint32_t FileNvm::put(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
-  return all(size,
-             [&](std::uint32_t at) { return ::pwrite(fd_, buffer + at, size - at, static_cast<off_t>(start) + at); });
+  return all(size, [&](std::uint32_t at) { return ::pwrite(fd_, buffer + at, size - at, place(start, at)); });
 }
 
 bool FileNvm::fail(const char* action) {

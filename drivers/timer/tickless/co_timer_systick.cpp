@@ -55,9 +55,12 @@ uint32_t cycle(const CO_SYSTICK& t) {
   return value - regs.Value;
 }
 
-// The counter is 0 for a cycle before it is loaded, and longer in an emulator: behind it, 0 is the end of the slice.
+// The counter is 0 for a cycle before it is loaded: behind it, 0 is the end of the slice. In an emulator it is so for
+// longer, as another thread loads it, which a CPU that reads registers without a pause holds up.
 void await_begin(const CO_SYSTICK& t) {
   while (t.Regs->Value == 0) {
+    for (volatile uint32_t pause = 0; pause != 1000; pause = pause + 1) {
+    }
   }
 }
 
@@ -73,6 +76,15 @@ void begin_longest(CO_SYSTICK& t) {
   await_begin(t);
 }
 
+// Whoever was held up here for longer than the slice (a CPU by a debugger, or by another program where it is emulated)
+// finds that what followed it is as short: instead, one of 2^24 cycles begins now. The time in between is lost.
+void end_slice(CO_SYSTICK& t) {
+  t.Begin += t.Slice;
+  t.Slice = 0;
+  exchange(*t.Regs, most - 1);
+  await_begin(t);
+}
+
 // Out of one that is far from its end: there is no interrupt that would have to be told from that of the new slice.
 void begin_slice(CO_SYSTICK& t, uint32_t end) {
   const uint32_t left = end - (t.Begin + t.Slice - t.Regs->Value + t.Start);
@@ -81,6 +93,9 @@ void begin_slice(CO_SYSTICK& t, uint32_t end) {
   t.Slice = slice;
   await_begin(t);
   t.Regs->Reload = most - 1;
+  if (has_wrapped(t)) {
+    end_slice(t);
+  }
 }
 
 void init(void* ctx, uint32_t freq) {

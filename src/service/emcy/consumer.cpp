@@ -23,12 +23,11 @@ void listen(CO_NODE& node, uint8_t node_id) {
 
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) { return cob_id::may_replace(before, value); }
 
-CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::emcy_consumer); }
-
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
-  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID) {
-    listen(*node, CO_GET_SUB(obj->Key));
+  const uint8_t node_id = CO_GET_SUB(obj->Key);
+  if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
+    listen(*node, node_id);
     routes::publish(*node);
   }
   return err;
@@ -53,7 +52,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
 
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::cob_id::size, co::emcy::init_entry, co::cob_id::read, co::emcy::write,
-                                            nullptr};
+extern "C" const CO_OBJ_TYPE COTEmcyCons = {co::cob_id::size, co::dict::checked_by<co::rules::emcy_consumer>,
+                                            co::cob_id::read, co::emcy::write, nullptr};
 
 #endif

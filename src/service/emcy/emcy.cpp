@@ -239,7 +239,7 @@ void init(CO_NODE& node) {
   init_history(node);
   (void)CODictRdByte(&node.Dict, key_register, &node.Emcy.Register);
   update_register(node);
-  if (node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
+  if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
     node.Error = CO_ERR_CFG_1014_0;
   }
 }

@@ -21,8 +21,6 @@ bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   return value == before || (is_usable && !(is_valid(before) && is_valid(value)));
 }
 
-CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::emcy_cob_id); }
-
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const uint32_t before = identifier(*node);
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
@@ -35,7 +33,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 }  // namespace
 }  // namespace co::emcy
 
-extern "C" const CO_OBJ_TYPE COTEmcyId = {co::cob_id::size, co::emcy::init_entry, co::cob_id::read, co::emcy::write,
-                                          nullptr};
+extern "C" const CO_OBJ_TYPE COTEmcyId = {co::cob_id::size, co::dict::checked_by<co::rules::emcy_cob_id>,
+                                          co::cob_id::read, co::emcy::write, nullptr};
 
 #endif

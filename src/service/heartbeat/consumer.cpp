@@ -161,6 +161,9 @@ CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
   if (!entry || err != CO_ERR_NONE) {
     return err;
   }
+  if (!dict::is_number(CO_GET_SUB(obj->Key) - 1U, CO_HBCONS_N)) {
+    return CO_ERR_TYPE_INIT;
+  }
   CO_HB_WATCH& watch = node->HbCons[CO_GET_SUB(obj->Key) - 1];
   CO_HBCONS& cons = *data_of<CO_HBCONS>(*obj);
   cons.Node = node;

@@ -5,6 +5,7 @@
 #include "core/events.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
+#include "object/integer.hpp"
 #include "wire/nmt.hpp"
 
 namespace co::heartbeat {
@@ -31,18 +32,15 @@ void restart(CO_NODE& node, uint32_t ticks) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::heartbeat_producer); }
-
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED16->Read(obj, node, buffer, size);
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  uint16_t ms = 0;
-  if (size != sizeof ms) {
+  if (size != sizeof(uint16_t)) {
     return CO_ERR_BAD_ARG;
   }
-  __builtin_memcpy(&ms, buffer, sizeof ms);
+  const uint16_t ms = integer::get_u16(buffer);
   const uint32_t ticks = period(*node, ms);
   if (ms != 0 && ticks == 0) {
     return CO_ERR_OBJ_RANGE;
@@ -70,5 +68,5 @@ void on_mode(CO_NODE& node) {
 
 }  // namespace co::heartbeat
 
-extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::heartbeat::size, co::heartbeat::init, co::heartbeat::read,
-                                             co::heartbeat::write, nullptr};
+extern "C" const CO_OBJ_TYPE COTNmtHbProd = {co::heartbeat::size, co::dict::checked_by<co::rules::heartbeat_producer>,
+                                             co::heartbeat::read, co::heartbeat::write, nullptr};

@@ -37,8 +37,6 @@ using namespace co;
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED8->Size(obj, node, width); }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::error_behaviour); }
-
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED8->Read(obj, node, buffer, size);
 }
@@ -52,4 +50,4 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTErrorBehaviour = {size, init, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTErrorBehaviour = {size, dict::checked_by<rules::error_behaviour>, read, write, nullptr};

@@ -64,13 +64,10 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 }
 
 void boot(CO_NODE& node) {
-  {
-    const event::Serving serving(node);
-    transmit::send_ahead(node, wire::boot_up(node.NodeId));
-    event::change_mode(node, CO_PREOP);
-    event::forget_resets(node);
-  }
-  event::settle(node);
+  const event::Serving serving(node);
+  transmit::send_ahead(node, wire::boot_up(node.NodeId));
+  event::change_mode(node, CO_PREOP);
+  event::forget_resets(node);
 }
 
 }  // namespace co::nmt
@@ -87,6 +84,7 @@ void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type) {
   } else if (type == CO_RESET_COM) {
     event::defer(*nmt->Node, event::reset_communication);
   }
+  event::settle(*nmt->Node);
 }
 
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
@@ -102,10 +100,12 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   }
   if (nmt->Mode == CO_INIT) {
     nmt::boot(node);
+    event::settle(node);
   }
   if (nmt->Mode != CO_INVALID) {  // CONmtModeChange() has not stopped the node
     event::change_mode(node, mode);
   }
+  event::settle(node);
 }
 
 CO_MODE CONmtGetMode(CO_NMT* nmt) {

@@ -34,8 +34,6 @@ using namespace co;
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::nmt_startup); }
-
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED32->Read(obj, node, buffer, size);
 }
@@ -56,4 +54,4 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTNmtStartup = {size, init, read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTNmtStartup = {size, dict::checked_by<rules::nmt_startup>, read, write, nullptr};

@@ -140,8 +140,8 @@ void on_write(CO_NODE& node, const CO_OBJ& obj) {
     return;
   }
   node.Verified = 0;
-  (void)CODictWrLong(&node.Dict, CO_DEV(verify_index, 1), 0);
-  (void)CODictWrLong(&node.Dict, CO_DEV(verify_index, 2), 0);
+  dict::write_u32(node.Dict, CO_DEV(verify_index, 1), 0);
+  dict::write_u32(node.Dict, CO_DEV(verify_index, 2), 0);
 }
 
 void on_mode(CO_NODE& node) {

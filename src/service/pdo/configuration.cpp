@@ -76,13 +76,10 @@ bool may_exist(Direction direction, uint32_t cob_id, uint8_t type) {
   return cob_id::is_free(cob_id) && is_type(direction, type);
 }
 
-}  // namespace
-
-void configure(CO_NODE& node, unsigned index) {
+// Not inlined, as it needs a lot of the CPU's stack, and ending a PDO does, too.
+[[gnu::noinline]] void begin(CO_NODE& node, CO_PDO& pdo, unsigned index) {
   const Direction direction = direction_of(index);
   const bool receives = direction == Direction::receive;
-  CO_PDO& pdo = pdo_at(node, index);
-  receives ? end_rpdo(node, pdo) : end_tpdo(node, pdo);
   const uint32_t cob_id = read_number(node, CO_DEV(index, 1), sizeof cob_id, wire::cob_invalid);
   const uint32_t event = read_time(node, CO_DEV(index, 5), CO_TMR_UNIT_1MS);
   uint32_t identifier = wire::no_frame;
@@ -105,6 +102,14 @@ void configure(CO_NODE& node, unsigned index) {
   }
   pdo.Own.Time = {read_time(node, CO_DEV(index, 3), CO_TMR_UNIT_100US), event};
   begin_tpdo(pdo, number_of(index), identifier, (cob_id & CO_TPDO_COBID_REMOTE) == 0);
+}
+
+}  // namespace
+
+void configure(CO_NODE& node, unsigned index) {
+  CO_PDO& pdo = pdo_at(node, index);
+  direction_of(index) == Direction::receive ? end_rpdo(node, pdo) : end_tpdo(node, pdo);
+  begin(node, pdo, index);
 }
 
 void init(CO_NODE& node) {

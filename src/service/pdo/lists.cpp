@@ -114,11 +114,6 @@ CO_ERR read_entry(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return number.Read(obj, node, buffer, size);
 }
 
-template <const rules::Rule& rule>
-CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, rule);
-}
-
 // An entry that does not fit into the node's memory is taken back.
 template <class T, const CO_OBJ_TYPE& number, CO_ERR (*resolve)(CO_NODE&)>
 CO_ERR write_entry(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
@@ -162,10 +157,10 @@ using namespace co;
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoScan = {mpdo::size_entry<COTInt32>, mpdo::init_entry<rules::pdo_scan>,
+const CO_OBJ_TYPE COTPdoScan = {mpdo::size_entry<COTInt32>, dict::checked_by<rules::pdo_scan>,
                                 mpdo::read_entry<COTInt32>, mpdo::write_entry<uint32_t, COTInt32, mpdo::resolve_scan>,
                                 nullptr};
-const CO_OBJ_TYPE COTPdoDispatch = {mpdo::size_entry<COTInt64>, mpdo::init_entry<rules::pdo_dispatch>,
+const CO_OBJ_TYPE COTPdoDispatch = {mpdo::size_entry<COTInt64>, dict::checked_by<rules::pdo_dispatch>,
                                     mpdo::read_entry<COTInt64>,
                                     mpdo::write_entry<uint64_t, COTInt64, mpdo::resolve_dispatch>, nullptr};
 

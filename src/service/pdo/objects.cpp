@@ -29,7 +29,15 @@ bool exists(CO_NODE& node, const CO_OBJ& obj) {
   return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
 }
 
+bool is_configured(const CO_OBJ& obj) {
+  constexpr unsigned configured[] = {CO_RPDO_N, CO_TPDO_N};
+  return dict::is_number(number_of(obj), configured[is_tpdo(obj) ? 1 : 0]);
+}
+
 void configure(CO_NODE& node, const CO_OBJ& obj) {
+  if (!is_configured(obj)) {
+    return;
+  }
   pdo::configure(node, communication_of(obj));
   routes::publish(node);
 }
@@ -42,11 +50,6 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 template <const CO_OBJ_TYPE& number>
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return number.Read(obj, node, buffer, size);
-}
-
-template <const rules::Rule& rule>
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, rule);
 }
 
 // The value before a write. False: it is not of this length, or cannot be read.
@@ -71,14 +74,19 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   return !asked && (same || cob_id::may_replace(before, value));
 }
 
+// Not inlined: nothing of it is on the CPU's stack while the PDO is configured.
+[[gnu::noinline]] bool can_exist(CO_NODE& node, const CO_OBJ& obj) {
+  CO_PDO_MAP map;
+  return pdo::resolve(node, communication_of(obj), map) == CO_ERR_NONE;
+}
+
 CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint32_t)) {
     return CO_ERR_BAD_ARG;
   }
   const auto value = value_in<uint32_t>(buffer);
   const bool is_new = !exists(*node, *obj) && (value & wire::cob_invalid) == 0;
-  CO_PDO_MAP map;
-  if (is_new && pdo::resolve(*node, communication_of(*obj), map) != CO_ERR_NONE) {
+  if (is_new && !can_exist(*node, *obj)) {
     return CO_ERR_OBJ_RANGE;
   }
   uint32_t before = 0;
@@ -148,7 +156,7 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_RANGE;
   }
   const CO_ERR err = COTInt16.Write(obj, node, buffer, size);
-  if (err != CO_ERR_NONE) {
+  if (err != CO_ERR_NONE || !is_configured(*obj)) {
     return err;
   }
 #if CO_TPDO_N > 0
@@ -198,14 +206,17 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTPdoId = {cob_id::size, init<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
-const CO_OBJ_TYPE COTPdoType = {size<COTInt8>, init<rules::pdo_type>, read<COTInt8>, write_type, nullptr};
-const CO_OBJ_TYPE COTPdoInhibit = {size<COTInt16>, init<rules::pdo_inhibit>, read<COTInt16>,
+const CO_OBJ_TYPE COTPdoId = {cob_id::size, dict::checked_by<rules::pdo_cob_id>, cob_id::read, write_cob_id, nullptr};
+const CO_OBJ_TYPE COTPdoType = {size<COTInt8>, dict::checked_by<rules::pdo_type>, read<COTInt8>, write_type, nullptr};
+const CO_OBJ_TYPE COTPdoInhibit = {size<COTInt16>, dict::checked_by<rules::pdo_inhibit>, read<COTInt16>,
                                    write_fixed<uint16_t, COTInt16, UINT16_MAX>, nullptr};
-const CO_OBJ_TYPE COTPdoEvent = {size<COTInt16>, init<rules::pdo_event>, read<COTInt16>, write_event, nullptr};
-const CO_OBJ_TYPE COTPdoStart = {size<COTInt8>, init<rules::pdo_start>, read<COTInt8>,
+const CO_OBJ_TYPE COTPdoEvent = {size<COTInt16>, dict::checked_by<rules::pdo_event>, read<COTInt16>, write_event,
+                                 nullptr};
+const CO_OBJ_TYPE COTPdoStart = {size<COTInt8>, dict::checked_by<rules::pdo_start>, read<COTInt8>,
                                  write_fixed<uint8_t, COTInt8, pdo::last_synchronous_type>, nullptr};
-const CO_OBJ_TYPE COTPdoNum = {size<COTInt8>, init<rules::pdo_number>, read<COTInt8>, write_number, nullptr};
-const CO_OBJ_TYPE COTPdoMap = {size<COTInt32>, init<rules::pdo_mapping>, read<COTInt32>, write_mapping, nullptr};
+const CO_OBJ_TYPE COTPdoNum = {size<COTInt8>, dict::checked_by<rules::pdo_number>, read<COTInt8>, write_number,
+                               nullptr};
+const CO_OBJ_TYPE COTPdoMap = {size<COTInt32>, dict::checked_by<rules::pdo_mapping>, read<COTInt32>, write_mapping,
+                               nullptr};
 
 }  // extern "C"

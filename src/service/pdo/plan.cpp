@@ -18,8 +18,9 @@ namespace {
 
 constexpr uint16_t no_entry = 0xFFFF;
 constexpr unsigned all_bits = 64;
-constexpr unsigned unit = 8 / one_byte;  // bits
-constexpr unsigned longest_number = 4;   // bytes, that callbacks of the application do not get
+constexpr unsigned unit = 8 / one_byte;                                      // bits
+constexpr bool copies = USE_FAST_PATHS != 0 && wire::host_is_little_endian;  // plain numbers, else by their types
+constexpr unsigned longest_number = 4;  // bytes, that callbacks of the application do not get
 
 // BOOLEAN, INTEGER8, 16, 32, UNSIGNED8, 16, 32: objects that are never written, only skipped. [301:7.4.1 table 44]
 constexpr uint8_t static_type_bits[] = {1, 8, 16, 32, 8, 16, 32};
@@ -64,7 +65,7 @@ bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsig
   constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
   const bool aligned = (address_of(obj) & (bytes - 1U)) == 0;
   const bool in_variable = aligned && (obj.Key & typed) == 0 && is_number(obj.Type);
-  if (!wire::host_is_little_endian || !in_variable || is_numbered_anew(node)) {
+  if (!copies || !in_variable || is_numbered_anew(node)) {
     return false;
   }
   return direction == Direction::transmit ||
@@ -157,6 +158,8 @@ CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data) {
   }
   return CO_ERR_NONE;
 }
+
+bool is_copied(const CO_PDO_MAP& map) { return copies && map.Step[0] < by_type; }
 
 CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data, Direction direction) {
   return direction == Direction::receive ? copy_plain<Direction::receive>(root, map, data)
@@ -252,8 +255,8 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
   if (is_numbered_anew(node)) {
     return CO_ERR_TPDO_COM_OBJ;
   }
-  return map.Step[0] < by_type ? copy_plain(node.Dict.Root, map, frame.Data, direction)
-                               : copy_by_types(node, map, frame, direction);
+  return is_copied(map) ? copy_plain(node.Dict.Root, map, frame.Data, direction)
+                        : copy_by_types(node, map, frame, direction);
 }
 
 }  // namespace
@@ -281,7 +284,7 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
 CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
-  bool plain = true;
+  bool plain = copies;
   map.Length = 0;
   mpdo::set_mode(map, 0);
   if (num > CO_PDO_MAP_N) {
@@ -317,7 +320,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
 }
 
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
-  const bool at_once = map.Step[0] < by_type && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
+  const bool at_once = is_copied(map) && node.Ext->OdLock == nullptr && !is_numbered_anew(node);
   return at_once ? copy_plain(node.Dict.Root, map, frame.Data, direction) : copy_locked(node, map, frame, direction);
 }
 

@@ -53,7 +53,10 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
     wire::swap_host(value, client.Size);
     from = value;
   } else {
-    err = COObjWrBufStart(&obj, &node, client.Buf, 0);
+    err = obj::seek(obj, node, 0);
+    if (err == CO_ERR_NONE) {
+      err = obj::write(obj, node, client.Buf, 0);
+    }
   }
   if (err == CO_ERR_NONE) {
     err = obj::write(obj, node, from, client.Size);

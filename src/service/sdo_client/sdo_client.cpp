@@ -65,15 +65,12 @@ void listen_on(CO_CSDO& client) {
 // What type functions ask for waits until the access is over; a change of the NMT state has ended it already.
 void take_turn(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
-  {
-    const event::Serving serving(node);
-    set_state(client, State::own_served);
-    const uint32_t code = access_own(client);
-    const bool is_over = state_of(client) == State::own_ended;
-    set_state(client, State::own);
-    finish(client, is_over ? client.Ticks : code);
-  }
-  event::settle(node);
+  const event::Serving serving(node);
+  set_state(client, State::own_served);
+  const uint32_t code = access_own(client);
+  const bool is_over = state_of(client) == State::own_ended;
+  set_state(client, State::own);
+  finish(client, is_over ? client.Ticks : code);
 }
 
 void on_time(void* client_pointer) {
@@ -216,10 +213,13 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
   return start(*client, timeout);
 }
 
-void send_segments(CO_CSDO& client) {
+// Returns whether it has sent any.
+bool send_segments(CO_CSDO& client) {
+  bool sent = false;
   while (send_segment(client)) {
+    sent = true;
   }
-  await(client);
+  return sent;
 }
 
 // Not inlined: a client by itself lies within reach of short loads.
@@ -238,6 +238,7 @@ void send_segments(CO_CSDO& client) {
     finish(client, step.result);
   } else if (state_of(client) == State::block_download) {
     send_segments(client);
+    await(client);
   } else if (!step.silent) {
     client.Silence = 0;
     await(client);
@@ -317,7 +318,7 @@ void on_mode(CO_NODE& node) {
 
 bool on_free(CO_NODE& node, uint16_t number) {
   CO_CSDO& client = node.CSdo[number];
-  const bool sent = USE_SDO_BLOCK != 0 && send_segment(client);
+  const bool sent = USE_SDO_BLOCK != 0 && send_segments(client);
   if (sent) {
     await(client);
   }

@@ -143,6 +143,7 @@ uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM
   if (has(channel, crc) && channel.Crc != wire::get_u16(request.Data + 1)) {
     return CO_SDO_ERR_CRC;
   }
+  tell_total(channel, n);
   abort = hand_over(channel, n);
   answer.Data[0] = wire::confirm_block;
   return abort == no_abort ? finish_download(channel) : abort;

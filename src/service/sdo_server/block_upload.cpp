@@ -60,11 +60,11 @@ void fill(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
 
 }  // namespace
 
-uint32_t send_segments(CO_SDO& channel, unsigned most) {
+uint32_t send_segments(CO_SDO& channel) {
   uint32_t abort = no_abort;
   uint32_t position = channel.Num + channel.Seq * wire::segment_bytes;
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
-  for (; most != 0 && channel.Seq != channel.BlkSize && provide(channel, position, abort); --most) {
+  while (channel.Seq != channel.BlkSize && provide(channel, position, abort)) {
     const uint32_t left = channel.Read - position;
     fill(frame, buffer_of(channel) + channel.Fill - left, left);
     position += smaller(wire::segment_bytes, left);
@@ -106,7 +106,7 @@ void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
 uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
   silence(answer);
   set_state(channel, State::block_upload);
-  return send_segments(channel, wire::max_blksize);
+  return send_segments(channel);
 }
 
 uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
@@ -130,7 +130,7 @@ uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&
   channel.Seq = 0;
   clear(channel, last_sent);
   silence(answer);
-  return send_segments(channel, wire::max_blksize);
+  return send_segments(channel);
 }
 
 uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {

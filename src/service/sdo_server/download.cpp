@@ -112,6 +112,9 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   if (n > channel.Size - channel.Num) {
     return CO_SDO_ERR_LEN_HIGH;
   }
+  if (wire::is_last_segment(command)) {
+    tell_total(channel, n);
+  }
   CO_IF_FRM segment = request;  // a type function may change what it is given
   abort = pass(channel, channel.Num, segment.Data + 1, n);
   channel.Num = channel.Read;

@@ -29,8 +29,6 @@ bool is_allowed(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   return !is_valid(before) && wire::fits_format(value) && may_use(obj, value & wire::extended_ids);
 }
 
-CO_ERR init(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::sdo_cob_id); }
-
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, is_allowed);
   if (err == CO_ERR_NONE) {
@@ -41,4 +39,5 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-extern "C" const CO_OBJ_TYPE COTSdoId = {cob_id::size, init, cob_id::read, write, nullptr};
+extern "C" const CO_OBJ_TYPE COTSdoId = {cob_id::size, dict::checked_by<rules::sdo_cob_id>, cob_id::read, write,
+                                         nullptr};

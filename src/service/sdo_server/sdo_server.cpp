@@ -111,7 +111,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) 
 #if USE_SDO_BLOCK
 uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
   silence(answer);
-  return send_segments(channel, 1);
+  return send_segments(channel);
 }
 #endif
 

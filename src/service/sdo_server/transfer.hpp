@@ -108,6 +108,14 @@ void abort_transfer(CO_SDO& channel, uint32_t code);
 // All bytes are there: hands over a value, and closes.
 [[nodiscard]] uint32_t finish_download(CO_SDO& channel);
 
+// The last piece has n bytes: for types that are told how much a download has been (co_od.h). What was announced stays,
+// and is compared afterwards.
+inline void tell_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_t n) {
+  if (USE_OD != 0 && !has(channel, sized)) {
+    channel.Size = channel.Num + n;
+  }
+}
+
 // Read or write in the direction of the transfer; both return an abort code. begin_data: the first bytes of all, or
 // none, which opens a stream. pass: a piece, up to position Read: fewer than n bytes where the end of an object of
 // unknown size is found.
@@ -135,9 +143,8 @@ void abort_transfer(CO_SDO& channel, uint32_t code);
 void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
 void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
-// Sends segments of a block upload, as many as there are and as the controller takes, but not more than most. Returns
-// an abort code.
-[[nodiscard]] uint32_t send_segments(CO_SDO& channel, unsigned most);
+// Sends segments of a block upload, as many as there are and transmit::offer() takes. Returns an abort code.
+[[nodiscard]] uint32_t send_segments(CO_SDO& channel);
 
 // Keeps a segment of a block download. True: it ends the block, and end_block() answers.
 [[nodiscard]] bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment);

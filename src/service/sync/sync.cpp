@@ -54,12 +54,9 @@ void produce(void* node_pointer) {
   sync.Counter = static_cast<uint8_t>(sync.Counter + (counted ? 1 : 0));
   CO_IF_FRM frame = wire::empty_frame(sync.Identifier, counted ? 1 : 0);
   frame.Data[0] = sync.Counter;
-  {
-    const event::Serving serving(node);
-    transmit::send_latest(node, frame);
-    take(node, sync.Counter);
-  }
-  event::settle(node);
+  const event::Serving serving(node);
+  transmit::send_latest(node, frame);
+  take(node, sync.Counter);
 }
 
 // The first SYNC comes after a period. The counter goes on where only the period has changed.
@@ -96,11 +93,6 @@ void configure(CO_NODE& node) {
 }
 
 // Objects ------------------------------------------------------------------------------------------------------------
-
-template <const rules::Rule& rule>
-CO_ERR init_object(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, rule);
-}
 
 uint32_t size_long(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
 CO_ERR read_long(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
@@ -210,11 +202,11 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTSyncId = {co::cob_id::size, co::sync::init_object<co::rules::sync_cob_id>, co::cob_id::read,
+const CO_OBJ_TYPE COTSyncId = {co::cob_id::size, co::dict::checked_by<co::rules::sync_cob_id>, co::cob_id::read,
                                co::sync::write_id, nullptr};
-const CO_OBJ_TYPE COTSyncCycle = {co::sync::size_long, co::sync::init_object<co::rules::sync_cycle>,
-                                  co::sync::read_long, co::sync::write_cycle, nullptr};
-const CO_OBJ_TYPE COTSyncCount = {co::sync::size_byte, co::sync::init_object<co::rules::sync_counter>,
+const CO_OBJ_TYPE COTSyncCycle = {co::sync::size_long, co::dict::checked_by<co::rules::sync_cycle>, co::sync::read_long,
+                                  co::sync::write_cycle, nullptr};
+const CO_OBJ_TYPE COTSyncCount = {co::sync::size_byte, co::dict::checked_by<co::rules::sync_counter>,
                                   co::sync::read_byte, co::sync::write_counter, nullptr};
 
 }  // extern "C"

@@ -14,8 +14,6 @@ using namespace co;
 
 // COB-ID TIME. [301:7.5.2.15]
 
-CO_ERR init_id(CO_OBJ* obj, CO_NODE* node) { return dict::check_type(*obj, *node, rules::time_cob_id); }
-
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   constexpr uint32_t exists = CO_TIME_COBID_CONSUME | CO_TIME_COBID_PRODUCE;
   if ((before & exists) != 0) {
@@ -62,7 +60,7 @@ CO_ERR write(CO_OBJ*, CO_NODE* node, void* buffer, uint32_t size) {
 
 extern "C" {
 
-const CO_OBJ_TYPE COTTimeId = {cob_id::size, init_id, cob_id::read, write_id, nullptr};
+const CO_OBJ_TYPE COTTimeId = {cob_id::size, dict::checked_by<rules::time_cob_id>, cob_id::read, write_id, nullptr};
 const CO_OBJ_TYPE COTTimeClock = {size, nullptr, read, write, nullptr};
 
 }  // extern "C"
