@@ -32,11 +32,14 @@ volatile std::uint32_t& at(std::uint32_t offset) {
   return *reinterpret_cast<volatile std::uint32_t*>(board::uart_base + offset);
 }
 
-// Returns whether the event has happened, and forgets it.
+// Returns whether the event has happened, and forgets it: only then, as it may happen between the two accesses, and a
+// byte that is received without its event is never taken, nor are those behind it.
 bool take(std::uint32_t event) {
-  const bool happened = at(event) != 0;
+  if (at(event) == 0) {
+    return false;
+  }
   at(event) = 0;
-  return happened;
+  return true;
 }
 
 }  // namespace

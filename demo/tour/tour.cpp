@@ -86,6 +86,7 @@ Finding read_name(Tour& tour) { return expect_text("the device name", tour.sdo.u
 
 Finding set_clock(Tour& tour) {
   const std::uint8_t figures[] = {set_time.hour, set_time.minute, set_time.second};
+  const Micros begin = tour.master.loop().now();
   for (std::uint8_t sub = 1; sub <= 3; ++sub) {
     const Transfer transfer = tour.sdo.download(0x2100, sub, {figures[sub - 1]});
     if (!transfer.done()) {
@@ -93,7 +94,7 @@ Finding set_clock(Tour& tour) {
     }
   }
   tour.set_to = set_time;
-  tour.set_at = tour.master.loop().now();
+  tour.set_at = begin;
   return {true, text("the clock is set to %02u:%02u:%02u", set_time.hour, set_time.minute, set_time.second)};
 }
 
@@ -168,6 +169,9 @@ Finding enter_pre_operational(Tour& tour) {
 }
 
 Finding read_clock(Tour& tour) {
+  if (tour.set_at == 0) {
+    return {false, "the clock could not be set before"};
+  }
   std::uint32_t figure[3] = {};
   for (std::uint8_t sub = 1; sub <= 3; ++sub) {
     const Transfer transfer = tour.sdo.upload(0x2100, sub);
@@ -179,9 +183,9 @@ Finding read_clock(Tour& tour) {
   const auto passed = static_cast<std::uint32_t>((tour.master.loop().now() - tour.set_at) / second);
   const std::uint32_t set = seconds_of(tour.set_to);
   const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
-  // The clock was set somewhere within one of its seconds; one that is elsewhere, some time before we knew.
+  // The clock was set somewhere within one of its seconds, and one that is elsewhere some time after we have begun to.
   const std::uint32_t seconds = (shown + seconds_per_day - set) % seconds_per_day;
-  const bool right = seconds <= passed + tour.traits.patience && seconds + tour.traits.patience > passed;
+  const bool right = seconds <= passed + 1 && seconds + tour.traits.patience >= passed;
   return {right, text("%02u:%02u:%02u, %u s after it was set", figure[0], figure[1], figure[2], passed)};
 }
 
@@ -195,16 +199,17 @@ struct Step {
   const char* title;
   const char* shown;  // in the summary
   Finding (*take)(Tour& tour);
+  State begin = State::pre_operational;  // where those before leave the node; boot_up: it is not known yet
 };
 
 constexpr Step configured[] = {
-    {"The node boots", "boot-up", boot},
+    {"The node boots", "boot-up", boot, State::boot_up},
 };
 
 #if USE_LSS_MASTER
 constexpr Step unconfigured[] = {
-    {"A node without node-ID: LSS fastscan finds out who it is", "LSS fastscan", find_unconfigured},
-    {"It gets a node-ID, stores it, and boots", "LSS configuration", give_node_id},
+    {"A node without node-ID: LSS fastscan finds out who it is", "LSS fastscan", find_unconfigured, State::boot_up},
+    {"It gets a node-ID, stores it, and boots", "LSS configuration", give_node_id, State::boot_up},
 };
 #endif
 
@@ -234,15 +239,34 @@ constexpr Step further_steps[] = {
     {"A picture for the clock: block download", "block download", send_picture},
     {"And back, every byte compared: block upload", "block upload", fetch_picture},
     {"Start the node, and wait for its heartbeat", "NMT start, heartbeat", start},
-    {"TPDO1 tells the time, each second", "event-driven TPDO", hear_time},
-    {"Set the clock by RPDO1: TPDO1 tells it, when its inhibit time is over", "RPDO", set_clock_by_pdo},
-    {"A time that no clock shows: an emergency, until it is right again", "EMCY", set_nonsense_by_pdo},
-    {"The node produces SYNC, and sends TPDO1 with each of them", "SYNC, synchronous TPDO", produce_sync},
-    {"Stop the node: SDO is silent now", "NMT stop", stop},
-    {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational},
+    {"TPDO1 tells the time, each second", "event-driven TPDO", hear_time, State::operational},
+    {"Set the clock by RPDO1: TPDO1 tells it, when its inhibit time is over", "RPDO", set_clock_by_pdo,
+     State::operational},
+    {"A time that no clock shows: an emergency, until it is right again", "EMCY", set_nonsense_by_pdo,
+     State::operational},
+    {"The node produces SYNC, and sends TPDO1 with each of them", "SYNC, synchronous TPDO", produce_sync,
+     State::operational},
+    {"Stop the node: SDO is silent now", "NMT stop", stop, State::operational},
+    {"Back to pre-operational", "NMT enter pre-operational", enter_pre_operational, State::stopped},
     {"Meanwhile the clock has run", "a cyclic timer", read_clock},
     {"Reset the node", "NMT reset node", reset},
 };
+
+Nmt command_to(State state) {
+  switch (state) {
+    case State::operational: return Nmt::start;
+    case State::stopped: return Nmt::stop;
+    default: return Nmt::enter_pre_operational;
+  }
+}
+
+/// A step that went wrong may have left the node in another state than the next one expects.
+Finding take(const Step& step, bool after_failure, Tour& tour) {
+  const bool is_ready =
+      !after_failure || step.begin == State::boot_up ||
+      (tour.master.command(command_to(step.begin)) && tour.master.await_state(step.begin, heartbeat_timeout));
+  return is_ready ? step.take(tour) : Finding{false, "the node does not get back to where this begins"};
+}
 
 template <std::size_t Number>
 void append(std::vector<Step>& all, const Step (&some)[Number]) {
@@ -287,15 +311,17 @@ TourResult take_tour(Device& device, Master& master, View& view) {
   TourResult result;
   result.of = all.size();
   const Micros begin = master.loop().now();
+  bool has_failed = false;  // the step before
   for (const Step& step : all) {
     view.heading(result.steps + 1, step.title);
-    const Finding finding = step.take(tour);
+    const Finding finding = take(step, has_failed, tour);
     master.loop().run_for(millisecond);  // what was sent last is still seen in this step
     if (master.loop().interrupted()) {
       result.interrupted = true;
       break;
     }
     view.finding(finding.good, finding.text);
+    has_failed = !finding.good;
     ++result.steps;
     if (finding.good) {
       result.shown.emplace_back(step.shown);

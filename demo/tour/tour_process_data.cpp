@@ -87,24 +87,29 @@ Finding hear_time(Tour& tour) {
 }
 
 Finding set_clock_by_pdo(Tour& tour) {
+  const Micros sent_at = tour.master.loop().now();
   if (!send_time(tour, noon)) {
     return {false, "the bus takes no frames"};
   }
-  tour.set_to = noon;
-  tour.set_at = tour.master.loop().now();
   const auto answer = await_time_after(tour, noon);
   if (!answer) {
     return {false, "no TPDO1 comes"};
   }
-  return {is_just_after(noon, time_in(*answer)), "TPDO1 tells " + words(time_in(*answer))};
+  const bool good = is_just_after(noon, time_in(*answer));
+  if (good) {
+    tour.set_to = noon;
+    tour.set_at = sent_at;
+  }
+  return {good, "TPDO1 tells " + words(time_in(*answer))};
 }
 
 Finding set_nonsense_by_pdo(Tour& tour) {
   const bool sent = send_time(tour, {24, 0, 0});
   const auto raised = sent ? await_emcy(tour) : std::nullopt;
+  tour.set_to = noon;
+  tour.set_at = tour.master.loop().now();
   const bool sent_again = send_time(tour, noon);
   const auto gone = sent_again ? await_emcy(tour) : std::nullopt;
-  tour.set_at = tour.master.loop().now();
   const bool good = raised == CO_EMCY_CODE_SW_DATASET_ERR && gone == CO_EMCY_CODE_NO_ERR;
   return {good, good ? "EMCY 6300h, and 0000h when the time is right again" : "not the EMCY messages that should come"};
 }
@@ -115,12 +120,12 @@ Finding produce_sync(Tour& tour) {
   const Transfer on = apply(tour, {{0x1800, 2, {1}},
                                    {0x1006, 0, bytes_of(std::uint32_t{second / 4})},
                                    {0x1005, 0, bytes_of(id | CO_SYNC_COBID_ON)}});
+  tour.master.forget();
+  const unsigned right = on.done() ? count_synchronous(tour, messages) : 0;
+  const Transfer off = apply(tour, {{0x1005, 0, bytes_of(id)}, {0x1006, 0, bytes_of(0u)}, {0x1800, 2, {255}}});
   if (!on.done()) {
     return failure("switching SYNC on", on);
   }
-  tour.master.forget();
-  const unsigned right = count_synchronous(tour, messages);
-  const Transfer off = apply(tour, {{0x1005, 0, bytes_of(id)}, {0x1006, 0, bytes_of(0u)}, {0x1800, 2, {255}}});
   if (!off.done()) {
     return failure("switching SYNC off", off);
   }

@@ -24,7 +24,7 @@ struct Tour {
   SdoClient& sdo = master.sdo();
   const DeviceTraits& traits = device.traits();
   TimeOfDay set_to = {};  // the clock
-  Micros set_at = 0;      // when
+  Micros set_at = 0;      // when; 0: not yet
 };
 
 constexpr char station_name[] = "Central Station";

@@ -6,7 +6,7 @@
 #   mps2-an386    Cortex-M4F      the same with LEXICAN_CPU=cortex-m4 and LEXICAN_FLOAT_ABI=hard
 #   virt          RISC-V rv32     -D CMAKE_TOOLCHAIN_FILE=cmake/toolchains/riscv32-none-elf.cmake
 #
-# LARGE gives a program on mps2-… 8 MiB of code and 8 MiB of RAM. main() takes no arguments; its result is QEMU's
+# LARGE gives a program on mps2-… 7 MiB of code and 9 MiB of RAM. main() takes no arguments; its result is QEMU's
 # exit status. What a program may ask of its board: board.hpp.
 # To run it: lexican_board_command(<variable> <board>) gives the command that the path of the program is appended to.
 set(LEXICAN_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})

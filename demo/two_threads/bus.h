@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A virtual CAN bus between nodes that run in different threads.
+#ifndef DEMO_TWO_THREADS_BUS_H_
+#define DEMO_TWO_THREADS_BUS_H_
+
+#include "co_if_can.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+extern const CO_IF_CAN_DRV_EX BusDriver;
+
+// A new controller: the context of the driver.
+void* BusAttach(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two nodes on a virtual bus: a device with two threads, and its partner, which gives it a fixed amount of work. Ends
+// with 0 when all of it is done and nothing was lost or torn, however long that takes.
+#include <stdio.h>
+
+#include "bus.h"
+#include "clock.h"
+#include "device.h"
+#include "partner.h"
+
+#define ROUNDS 20u
+#define PDOS 200u
+#define PATIENCE 60000000u  // µs
+
+static unsigned Failures;
+
+static void Check(bool good, const char* what) {
+  if (!good) {
+    ++Failures;
+    printf("FAILED: %s\n", what);
+  }
+}
+
+// Callbacks of both nodes.
+void COPdoUpdate(CO_RPDO* pdo) {
+  if (IsDevice(pdo->Node)) {
+    DeviceUpdate();
+  } else {
+    PartnerUpdate(pdo);
+  }
+}
+
+void COEmcyReceived(CO_NODE* node, uint8_t nodeId, uint16_t code, uint8_t reg, const uint8_t msef[5]) {
+  CO_UNUSED(node);
+  CO_UNUSED(code);
+  CO_UNUSED(reg);
+  CO_UNUSED(msef);
+  PartnerHearError(nodeId);
+}
+
+// Waits until a counter of the partner has come so far.
+static bool Reaches(const uint32_t* counter, uint32_t number) {
+  const uint32_t start = ClockMicroseconds();
+  while (*counter < number && ClockMicroseconds() - start < PATIENCE) {
+    PartnerTurn();
+  }
+  return *counter >= number;
+}
+
+static void WriteParameters(uint32_t round) {
+  static uint8_t profile[PROFILE_SIZE];
+  for (uint32_t n = 0; n < PROFILE_SIZE; ++n) {
+    profile[n] = (uint8_t)(n * round);
+  }
+  Check(PartnerWrite(CO_DEV(0x2100, 0), &round, sizeof(round)), "a number is written");
+  Check(PartnerWrite(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are written");
+  Check(PartnerWrite(CO_DEV(0x1010, 1), "save", 4), "and stored");
+  Check(PartnerFinds(CO_DEV(0x2100, 0), &round, sizeof(round)), "the number is read back");
+  Check(PartnerFinds(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are read back");
+}
+
+static void GiveAlarm(uint32_t round, uint8_t alarm) {
+  const uint32_t number = 2 * round - alarm;  // of alarms, and ends of them
+  Check(PartnerWrite(CO_DEV(0x2102, 0), &alarm, 1), "the alarm is written");
+  Check(Reaches(&Partner.Errors, number), "an EMCY message tells of it");
+  Check(Reaches(&Partner.Events, number), "a PDO, too");
+}
+
+int main(void) {
+  Check(PartnerStart(BusAttach()) == CO_ERR_NONE, "the partner starts");
+  Check(DeviceStart(BusAttach()) == CO_ERR_NONE, "the device starts");
+  PartnerStartNetwork();
+  for (uint32_t round = 1; round <= ROUNDS && Failures == 0; ++round) {
+    WriteParameters(round);
+    GiveAlarm(round, 1);
+    GiveAlarm(round, 0);
+  }
+  Check(Reaches(&Partner.Pdos, PDOS), "PDOs come with each SYNC");
+  const DEVICE_REPORT device = DeviceStop();
+  PartnerStop();
+  Check(device.Received >= PDOS / 2, "the device gets the partner's PDOs");
+  Check(device.Torn == 0 && Partner.Torn == 0, "what belongs together is seen together");
+  Check(device.Lost == 0, "no frame is lost");
+  Check(DeviceStoredLimit() == ROUNDS, "what was stored last is loaded at the next start");
+  printf("%u cycles of 1 ms, the longest %u us; PDOs %u and %u, EMCY %u, stored %u times: %s\n",
+         (unsigned)device.Cycles, (unsigned)device.LongestCycle, (unsigned)Partner.Pdos, (unsigned)device.Received,
+         (unsigned)Partner.Errors, (unsigned)ROUNDS, Failures == 0 ? "all right" : "FAILED");
+  return Failures == 0 ? 0 : 1;
+}
