@@ -23,7 +23,11 @@ void measure_usual_node() {
 void run_all() {
   start_clock();
   check_clock();
-  CO_RPDO_N > 4 ? measure_many_pdos() : measure_usual_node();
+  if (USE_OD != 0) {
+    measure_index();
+  } else {
+    CO_RPDO_N > 4 ? measure_many_pdos() : measure_usual_node();
+  }
 }
 
 }  // namespace bench

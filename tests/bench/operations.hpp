@@ -22,4 +22,7 @@ void measure_timers();
 /// With 512 PDOs in each direction.
 void measure_many_pdos();
 
+/// With USE_OD.
+void measure_index();
+
 }  // namespace bench

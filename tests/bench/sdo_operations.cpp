@@ -56,11 +56,18 @@ CO_IF_FRM segment(std::uint32_t id, std::uint8_t specifier, const std::uint8_t* 
   return made;
 }
 
+// As often as a block transfer asks for it at once.
+void process_all() {
+  do {
+    CONodeProcess(&node);
+  } while (CONodeNextDeadline(&node) == 0);
+}
+
 // Frames that only prepare.
 void process(const CO_IF_FRM& frame) {
   forget_sent();
   receive(frame);
-  CONodeProcess(&node);
+  process_all();
 }
 
 void expect(const CO_IF_FRM& answer) {
@@ -164,7 +171,7 @@ class SegmentedDownload : public Exchange {
 constexpr unsigned blocks = 8;
 constexpr std::uint32_t block_upload_bytes = (2 * blocks + 1) * block_bytes;
 
-// A block, from the confirmation of the one before.
+// A block, from the confirmation of the one before, in as many calls as it takes.
 class BlockUpload : public Operation {
  public:
   void set_up() {
@@ -178,7 +185,11 @@ class BlockUpload : public Operation {
     forget_sent();
     receive(request(0xA2, block_segments, block_segments));
   }
-  void run() { CONodeProcess(&node); }
+  void run() {
+    do {
+      CONodeProcess(&node);
+    } while (sent() < block_segments);
+  }
   bool is_done(unsigned n) {
     const std::uint8_t* const block = data + (n + 1) * block_bytes;
     bool done = sent() == block_segments;

@@ -155,7 +155,9 @@ void TimePasses(CO_NODE* node, uint32_t ticks) {
   }
 }
 
-void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len) {
+void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len) { NodeUpEx(node, dict, len, NULL); }
+
+void NodeUpEx(CO_NODE* node, const CO_OBJ* dict, uint16_t len, const CO_NODE_EXT* ext) {
   static CO_IF_DRV drivers;
   static uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
   CO_NODE_SPEC spec = {1, 250000, (CO_OBJ*)dict, len, NULL, NULL, 0, 1000, &drivers, sdo_buffer};
@@ -163,7 +165,11 @@ void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len) {
   drivers.Timer = &FakeCyclicTimerDriver;
   drivers.Nvm = &FakeNvmDriver;
   FakesReset();
-  CONodeInit(node, &spec);
+  if (ext == NULL) {
+    CONodeInit(node, &spec);
+  } else {
+    CONodeInitEx(node, &spec, ext);
+  }
   TEST_ASSERT_EQUAL_HEX32(CO_ERR_NONE, CONodeGetErr(node));
   CONodeStart(node);
   TEST_ASSERT_SENT("701#00");

@@ -45,6 +45,9 @@ void TimePasses(CO_NODE* node, uint32_t ticks);
 /// bus.
 void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len);
 
+/// The same with what CONodeInitEx() is given besides.
+void NodeUpEx(CO_NODE* node, const CO_OBJ* dict, uint16_t len, const CO_NODE_EXT* ext);
+
 #ifdef __cplusplus
 }
 #endif

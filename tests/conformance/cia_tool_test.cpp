@@ -130,7 +130,7 @@ TEST_CASE("CiA tool: SDO, servers and clients that do not exist [SDO 28]-[SDO 30
 
 TEST_CASE("CiA tool: garbage written to every entry that takes it is survived [State 01]") {
   Fixture node(Setup().only_small());
-  for (unsigned index = 0x1000; index < 0x2000; ++index) {
+  for (unsigned index = 0x1000; index < 0x2000; index += index < 0x1030 ? 1 : stride(41)) {
     if (index == 0x1017) continue;
     CO_IF_FRM write = frame("601#23000000DEADBEEF");
     CO_SET_WORD(&write, index, 1);

@@ -71,7 +71,7 @@ TEST_CASE("1014h: restricted CAN-IDs are refused, with bit 31 and without [E5] [
     EmcyNode node;
     node.ask(write(0x80000081), done);
     unsigned wrong = 0;
-    for (std::uint32_t id = 0; id <= 0x7FF; ++id) {
+    for (std::uint32_t id = 0; id <= 0x7FF; id += stride(31)) {
       node.rx(write(valid | id));
       const std::vector<std::string> answer = node.frames();
       wrong += answer != std::vector<std::string>{is_forbidden(id) ? refused : done} ? 1U : 0U;

@@ -181,8 +181,8 @@ TEST_CASE("EMCY consumer: a flood of messages is heard frame by frame, the node 
   callbacks().emcy_received = [&](CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*) {
     ++heard;
   };
-  for (unsigned n = 0; n < 10000; ++n) node.rx("082#1081110102030405");
-  CHECK(heard == 10000);
+  for (unsigned n = 0; n < 10000 / stride(20); ++n) node.rx("082#1081110102030405");
+  CHECK(heard == 10000 / stride(20));
   node.ask("601#4000100000000000", "581#4300100091010F00");
 }
 
@@ -199,6 +199,8 @@ TEST_CASE("EMCY consumer: without 1028h nothing is heard") {
   CHECK(heard == 0);
 }
 
+#if USE_DICT_CHECK
+
 TEST_CASE("EMCY consumer: 1028h in a wrong place, or beyond CO_EMCY_CONS_N, does not start") {
   const struct {
     CO_OBJ entry;
@@ -214,6 +216,8 @@ TEST_CASE("EMCY consumer: 1028h in a wrong place, or beyond CO_EMCY_CONS_N, does
     CHECK(CODictGetFault(&node->Dict, nullptr) == one.fault);
   }
 }
+
+#endif
 
 }  // namespace
 

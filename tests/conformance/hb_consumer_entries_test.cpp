@@ -222,6 +222,8 @@ TEST_CASE("1016h: an entry that the table lacks, and 1016h:0 as a variable") {
   node.ask("601#4016100100000000", "581#8016100111000906");
 }
 
+#if USE_DICT_CHECK
+
 TEST_CASE("1016h: entries at the wrong place, or with the value in themselves, are refused at start") {
   static CO_HBCONS entry{nullptr, nullptr, CO_INVALID, 0, 100, 5, 0};
   const auto fault = [](CO_OBJ obj) {
@@ -234,6 +236,8 @@ TEST_CASE("1016h: entries at the wrong place, or with the value in themselves, a
   CHECK(fault({CO_KEY(0x2016, 1, CO_OBJ_____RW), CO_THB_CONS, &entry}) == CO_DICT_WRONG_PLACE);
   CHECK(fault({CO_KEY(0x1016, CO_HBCONS_N + 1, CO_OBJ_____RW), CO_THB_CONS, &entry}) == CO_DICT_NOT_CONFIGURED);
 }
+
+#endif
 
 // Casts as firmware writes them.
 #pragma GCC diagnostic push

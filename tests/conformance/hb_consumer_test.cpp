@@ -237,7 +237,7 @@ std::string expected_of(unsigned byte, unsigned dlc, CO_MODE& state) {
 
 TEST_CASE("heartbeat consumer: every state byte in frames of every length [H4] [N5]") {
   for (unsigned dlc = 0; dlc <= 8; ++dlc) {
-    for (unsigned byte = 0; byte < 256; ++byte) {
+    for (unsigned byte = 0; byte < 256; byte += dlc == 1 ? 1 : stride(31)) {
       CAPTURE(dlc);
       CAPTURE(byte);
       Monitor node({{5, 100}}, Setup().only_small());

@@ -136,7 +136,7 @@ TEST_CASE("heartbeat or guarding: random settings, requests and times never give
   Fixture& node = both.node;
   bool heartbeat = false;
   bool toggle = false;
-  for (int step = 0; step < 5000; ++step) {
+  for (unsigned step = 0; step < 5000 / stride(10); ++step) {
     CAPTURE(step);
     switch (below(4)) {
       case 0:

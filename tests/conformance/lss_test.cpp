@@ -174,7 +174,7 @@ TEST_CASE("LSS: configure bit timing: table 0, index 0…8 without 5; any other 
   const std::map<unsigned, std::uint32_t> rates = {{0, 1000000}, {1, 800000}, {2, 500000}, {3, 250000},
                                                    {4, 125000},  {6, 50000},  {7, 20000},  {8, 10000}};
   for (const unsigned table : {0U, 1U, 128U, 255U}) {
-    for (unsigned index = 0; index <= 255; ++index) {
+    for (unsigned index = 0; index <= 255; index += index < 10 ? 1 : stride(35)) {
       Configured device;
       CO_IF_FRM request = frame("7E5#1300000000000000");
       request.Data[1] = static_cast<std::uint8_t>(table);

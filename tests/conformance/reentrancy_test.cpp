@@ -422,4 +422,78 @@ TEST_CASE("re-entrancy: the table moves during a transfer: a new initiate is ser
   CHECK(two.objects.u64 == 0x0807060504030201);
 }
 
+// A reset that the callback asks for, whenever the node enters a mode.
+struct Resetting {
+  explicit Resetting(CO_MODE mode) {
+    callbacks().mode_change = [this, mode](CO_NMT* nmt, CO_MODE next) {
+      resets += next == CO_INIT ? 1U : 0U;
+      if (next == mode && resets == 0) CONmtReset(nmt, CO_RESET_COM);
+    };
+  }
+  unsigned resets = 0;
+};
+
+TEST_CASE("reentrancy: a reset asked for while a function changes the mode is done when that returns") {
+  Fixture node;
+  Resetting application(CO_OPERATIONAL);
+  node.call([&] {
+    CONmtSetMode(&node->Nmt, CO_OPERATIONAL);
+    CHECK(application.resets == 1);
+  });
+  node.tx("701#00");
+  CHECK(node.mode() == CO_PREOP);
+}
+
+TEST_CASE("reentrancy: a reset asked for at a bus-off is done when that has been told") {
+  Fixture node;
+  node.rx("000#0101");
+  Resetting application(CO_PREOP);
+  node.call([&] {
+    CONodeCanEvent(&node.node, CO_CAN_BUS_OFF);
+    CHECK(application.resets == 1);
+  });
+  node.tx("701#00");
+}
+
+#if CO_HBCONS_N > 0
+
+TEST_CASE("reentrancy: a reset asked for in a timer's action is done when that is over") {
+  CO_HBCONS entry{nullptr, nullptr, CO_INVALID, 0, 100, 5, 0};
+  Fixture node(Setup().with({CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, &entry}));
+  node.rx("705#05");
+  node.rx("000#0101");
+  Resetting application(CO_PREOP);
+  node.elapse_only(101ms);
+  node.call([&] {
+    COTmrProcess(&node->Tmr);
+    CHECK(application.resets == 1);
+  });
+  CHECK(node.mode() == CO_PREOP);
+  CHECK(node.frames().back() == "701#00");
+}
+
+#endif
+
+#if CO_TPDO_N > 0
+
+TEST_CASE("reentrancy: when CODictInit() returns, PDOs find their objects again") {
+  std::uint8_t value = 0x12;
+  std::vector<CO_OBJ> table = {{CO_KEY(0x1800, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x40000181},
+                               {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 1},
+                               {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, CO_LINK(0x2000, 0, 8)},
+                               {CO_KEY(0x2000, 0, CO_OBJ____PR_), CO_TUNSIGNED8, &value}};
+  Fixture node;
+  node.call([&] { CODictInit(&node->Dict, &node.node, table.data(), static_cast<std::uint16_t>(table.size())); });
+  node.ask("000#8201", "701#00");
+  node.rx("000#0101");
+  table.insert(table.begin(), {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
+  node.call([&] {
+    CODictInit(&node->Dict, &node.node, table.data(), static_cast<std::uint16_t>(table.size()));
+    CHECK(COTPdoRequest(&node.node, 0) == CO_ERR_NONE);
+  });
+  node.tx("181#12");
+}
+
+#endif
+
 }  // namespace

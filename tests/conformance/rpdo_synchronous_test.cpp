@@ -15,7 +15,7 @@ SyncTable with_type(std::uint8_t type) {
 }
 
 TEST_CASE("synchronous RPDO: every type 0 to 240 is written at the next SYNC, regardless of the number [X2]") {
-  for (unsigned type = 0; type <= 240; ++type) {
+  for (unsigned type = 0; type <= 240; type += stride(16)) {
     CAPTURE(type);
     SyncNode node(with_type(static_cast<std::uint8_t>(type)));
     node.start();

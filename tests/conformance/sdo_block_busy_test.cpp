@@ -285,17 +285,74 @@ TEST_CASE("SDO block download: answers that the controller refuses come later, n
   }
 }
 
-TEST_CASE("SDO block: the number of frames in one call is that of a block at most [Q2]") {
+// What one call sends, with a received frame or without.
+std::vector<std::string> call_once(Fixture& node, std::string_view received = {}) {
+  node.calls(1);
+  received.empty() ? node.loop() : node.rx(received);
+  node.calls(Fixture::enough_calls);
+  return node.frames();
+}
+
+constexpr std::size_t pace = CO_SDO_BLOCK_PACE;
+
+TEST_CASE(
+    "SDO block upload: a call sends some segments, however many the controller takes; the rest is due [T17] [Q2]") {
   Fixture node(Setup().only_small().with_mebibyte());
   node.ask("601#A40521007F000000", "581#C605210000001000");
-  node.rx("601#A300000000000000");
-  CHECK(node.frames().size() == 127);
-  node.loop();
-  node.silent();
+  std::vector<std::string> sent = call_once(node, "601#A300000000000000");
+  for (std::size_t number = sent.size(); number < 127; number += sent.size()) {
+    CAPTURE(number);
+    CHECK(sent.size() <= pace);
+    CHECK(CONodeNextDeadline(&node.node) == 0);
+    sent = call_once(node);
+    REQUIRE(sent.size() == std::min(pace, 127 - number));
+  }
+  CHECK(CONodeNextDeadline(&node.node) != 0);
+  CHECK(call_once(node).empty());
   node.rx("601#A27F010000000000");
   CHECK(node.frames().size() == 1);
   node.rx("601#8005210000000008");
 }
+
+TEST_CASE("SDO block upload: what is sent between two of its calls does not wait for its end [T17] [Q4]") {
+  Fixture node(Setup().only_small().with_mebibyte());
+  node.ask("601#A40521007F000000", "581#C605210000001000");
+  CHECK(call_once(node, "601#A300000000000000").size() == pace);
+  CO_IF_FRM urgent = frame("181#01");
+  node.call([&] { COIfCanSend(&node->If, &urgent); });
+  node.tx("181#01");
+  node.loop();
+  CHECK(node.frames().size() == 127 - std::min<std::size_t>(pace, 127));
+  node.rx("601#8005210000000008");
+}
+
+#if CO_SSDO_N > 1
+TEST_CASE("SDO block upload: servers share the segments of a call, and take turns [T17] [D20]") {
+  Fixture node(Setup().before_init([](Objects& objects) {
+    objects.sdo2_rx = 0x640;
+    objects.sdo2_tx = 0x5C0;
+  }));
+  node.ask("601#A00421007F000000", "581#C60421007A030000");
+  node.ask("640#A00321007F000000", "5C0#C603210078030000");
+  std::vector<std::string> first = call_once(node, "601#A300000000000000");
+  std::vector<std::string> all = call_once(node, "640#A300000000000000");
+  CHECK(first.size() == pace);
+  CHECK(all.size() <= pace);
+  for (unsigned calls = 0; calls < 300 && first.size() + all.size() < 254; ++calls) {
+    const std::vector<std::string> sent = call_once(node);
+    CHECK(sent.size() <= pace);
+    CHECK(!sent.empty());
+    if (first.size() + all.size() < 127) {
+      CHECK(sent.front().substr(0, 3) == sent.back().substr(0, 3));
+      CHECK(sent.front().substr(0, 3) != all.back().substr(0, 3));
+    }
+    all.insert(all.end(), sent.begin(), sent.end());
+  }
+  CHECK(first.size() + all.size() == 254);
+  node.rx("601#8000000000000008");
+  node.rx("640#8000000000000008");
+}
+#endif
 
 }  // namespace
 

@@ -144,7 +144,7 @@ TEST_CASE("SDO block upload: more acknowledged than the last block had") {
 
 TEST_CASE("SDO block download: a wrong CRC changes nothing, whichever bit is wrong [D14]") {
   Fixture node;
-  for (unsigned bit = 0; bit < 16; ++bit) {
+  for (unsigned bit = 0; bit < 16; bit += stride(5)) {
     CAPTURE(bit);
     BlockOptions options;
     options.crc_error = static_cast<std::uint16_t>(1U << bit);
@@ -219,7 +219,7 @@ TEST_CASE("SDO block download: the sizes announced, sent and possible in every c
     const std::uint32_t later = announced == sent ? 0 : sent > announced ? too_long : too_short;
     return at_once != 0 ? at_once : sized ? later : fits(target, sent);
   };
-  Fixture node(Setup().without(0x2102, 0));
+  Fixture node;
   for (const Target& target : targets) {
     for (const std::uint32_t sent : {0U, 1U, 3U, 4U, 5U, 7U, 8U, 889U, 890U, 1800U}) {
       for (const std::uint32_t announced : {0U, 1U, 3U, 4U, 5U, 7U, 8U, 889U, 890U, 0x80000000U, 0xFFFFFFFFU}) {

@@ -63,7 +63,7 @@ unsigned aborts(Target& target, Transfer transfer, Faults faults, BlockOptions o
   const bool by_client = faults != &BlockOptions::lost_answers;
   const unsigned frames = by_client ? undisturbed.requests : undisturbed.answers;
   unsigned aborted = 0;
-  for (unsigned n = 0; n < frames; ++n) {
+  for (unsigned n = 0; n<frames; n += frames> 20 ? stride(37) : 1) {
     CAPTURE(n);
     options.*faults = {n};
     const BlockResult result = (target.*transfer)(options);
@@ -166,11 +166,11 @@ TEST_CASE("SDO block: any two frames are lost, of up to 30 segments [T11]") {
         CAPTURE(size);
         CAPTURE(first);
         BlockOptions options;
-        for (unsigned second = first + 1; second < undisturbed.requests; ++second) {
+        for (unsigned second = first + 1; second < undisturbed.requests; second += stride(11)) {
           options.lost_requests = {first, second};
           (target.*transfer)(options);
         }
-        for (unsigned second = 0; second < undisturbed.answers; ++second) {
+        for (unsigned second = 0; second < undisturbed.answers; second += stride(11)) {
           options.lost_requests = {first};
           options.lost_answers = {second};
           (target.*transfer)(options);
@@ -187,7 +187,7 @@ TEST_CASE("SDO block upload: any two frames of the server are lost, of up to 30 
     options.blksizes = blksizes;
     const unsigned frames = target.upload(options).answers;
     for (unsigned first = 0; first < frames; ++first) {
-      for (unsigned second = first + 1; second < frames; ++second) {
+      for (unsigned second = first + 1; second < frames; second += stride(11)) {
         CAPTURE(first);
         CAPTURE(second);
         options.lost_answers = {first, second};

@@ -66,7 +66,9 @@ TEST_CASE("SDO block: an initiate in every state but a sub-block starts a new tr
       {"601#4004100000000000", "581#8004100000000206"}, {"601#C600100004000000", "581#8000100002000106"},
       {"601#A408100000000000", "581#8008100002000405"},
   };
+  unsigned round = 0;
   for (const Row& row : rows) {
+    if (round++ % stride(3) != 0) continue;
     CAPTURE(std::string(row.request));
     in_every_state([&](Fixture& node, const BlockState& state) {
       if (state.in_sub_block) return;

@@ -167,10 +167,11 @@ TEST_CASE("SDO block upload: the value that is sent is the one at the initiate")
 }
 
 TEST_CASE("SDO block upload: data of every size come as they are, whatever the client's blocks are [D12]") {
-  Fixture node;
+  Fixture node(Setup().with_70000());
   for (const std::uint32_t size : {0U, 1U, 4U, 7U, 8U, 14U, 15U, 888U, 889U, 890U, 70000U}) {
     for (const std::vector<std::uint8_t>& blksizes : {Bytes{127}, Bytes{1}, Bytes{2, 126}, Bytes{64, 1, 127}}) {
       for (const bool crc : {false, true}) {
+        if (size > 1000 && stride(2) > 1 && !(crc && blksizes.size() == 3)) continue;
         CAPTURE(size);
         CAPTURE(blksizes.size());
         BlockOptions options;
@@ -186,14 +187,15 @@ TEST_CASE("SDO block upload: data of every size come as they are, whatever the c
 
 TEST_CASE("SDO block upload: a mebibyte [D12]") {
   Fixture node(Setup().only_small().with_mebibyte());
+  node.objects.domain[mebibyte].Size = mebibyte / stride(16);
   const BlockResult result = node.block_upload(0x2105, 0);
   CHECK(result.abort == 0);
-  CHECK(result.data == counting(mebibyte));
+  CHECK(result.data == counting(mebibyte / stride(16)));
 }
 
 TEST_CASE("SDO block upload: every length of the last segment after every number of segments [D12]") {
-  Fixture node(Setup().without(0x2102, 0));
-  for (std::uint32_t size = 1; size <= 890; ++size) {
+  Fixture node;
+  for (std::uint32_t size = 1; size <= 890; size += stride(37)) {
     CAPTURE(size);
     node.objects.domain[890].Size = size;
     const BlockResult result = node.block_upload(0x2104, 0);

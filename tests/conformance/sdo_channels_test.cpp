@@ -92,7 +92,7 @@ TEST_CASE("SDO channels: a server that makes itself invalid answers that request
 TEST_CASE("SDO channels: restricted identifiers are refused, all others taken [D16] [D26]") {
   Fixture node(Setup().only_small());
   for (const unsigned sub : {1U, 2U}) {
-    for (unsigned id = 0; id < 0x800; ++id) {
+    for (unsigned id = 0; id < 0x800; id += stride(31)) {
       CAPTURE(sub);
       CAPTURE(id);
       CO_IF_FRM write = frame(sub == 1 ? "601#2301120100000000" : "601#2301120200000000");

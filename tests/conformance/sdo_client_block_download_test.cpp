@@ -286,7 +286,7 @@ TEST_CASE("SDO client: block downloads of lengths around those that matter arriv
 }
 
 TEST_CASE("SDO client: block downloads of 70000 bytes and of 1 MiB") {
-  for (const std::size_t length : {std::size_t{70000}, std::size_t{1} << 20U}) {
+  for (const std::size_t length : {std::size_t{70000}, std::size_t{mebibyte / stride(16)}}) {
     SdoClient node;
     SdoPeer peer({});
     node.start_download(0x2000, 5, counted(length, 9));

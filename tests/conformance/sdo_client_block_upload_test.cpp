@@ -375,12 +375,13 @@ TEST_CASE("SDO client: block uploads of every length around those that matter, a
 
 TEST_CASE("SDO client: block upload of 1 MiB") {
   SdoClient node;
-  SdoPeer peer(counted(1U << 20U, 9));
-  node.start_upload(0x2000, 5, 1U << 20U);
+  constexpr std::uint32_t size = mebibyte / stride(16);
+  SdoPeer peer(counted(size, 9));
+  node.start_upload(0x2000, 5, size);
   CHECK(serve(node, peer));
   CHECK(peer.fault == "");
   CHECK(peer.is_done);
-  CHECK(node.has_read(counted(1U << 20U, 9)).total == 1U << 20U);
+  CHECK(node.has_read(counted(size, 9)).total == size);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others tha
   };
   SdoClient node(small(), off());
   for (const unsigned sub : {1U, 2U}) {
-    for (unsigned id = 0; id < 0x800; ++id) {
+    for (unsigned id = 0; id < 0x800; id += stride(31)) {
       CAPTURE(sub);
       CAPTURE(id);
       CO_IF_FRM write = frame(sub == 1 ? "601#2380120100000000" : "601#2380120200000000");

@@ -116,7 +116,7 @@ TEST_CASE("SDO client, own node: an object that does not fit into the buffer: 05
 }
 
 TEST_CASE("SDO client, own node: strings and domains of every length, into buffers of that size and more") {
-  Local node(Setup{});
+  Local node(Setup().with_70000());
   for (const unsigned length : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U}) {
     for (const unsigned more : {0U, 1U, 20U}) {
       CAPTURE(length);
@@ -135,7 +135,7 @@ TEST_CASE("SDO client, own node: strings and domains of every length, into buffe
 }
 
 TEST_CASE("SDO client, own node: strings and domains are written") {
-  Local node(Setup{});
+  Local node(Setup().with_70000());
   CHECK(node.write(0x2110, 0, {'l', 'o', 'n', 'g', 'e', 'r'}).code == 0);
   CHECK(node.read(0x2110, 0, 100).data == Bytes{'l', 'o', 'n', 'g', 'e', 'r'});
   CHECK(node.write(0x2111, 0, {9, 8}).code == 0);

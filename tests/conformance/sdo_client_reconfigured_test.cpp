@@ -152,6 +152,7 @@ TEST_CASE("SDO client: transfers that end with their COB-IDs again and again hav
     }
     --depth;
   };
+  node.frames_per_call(100);
   node.rx("601#2380120100000080");
   CHECK(ended == 50);
   CHECK(node.ends.size() == 50);

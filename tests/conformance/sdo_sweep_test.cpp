@@ -149,10 +149,11 @@ std::string deviation(Sweep& node, unsigned command) {
 std::string at(const Frames& lines, std::size_t n) { return n < lines.size() ? lines[n] : ""; }
 
 void check_reactions(const std::vector<SdoState>& states, bool block) {
+  unsigned round = 0;
   for (const SdoState& state : states) {
     Sweep node(state, block);
     Frames wrong;
-    for (unsigned command = 0; command < 256; ++command) {
+    for (unsigned command = round++ % stride(61); command < 256; command += stride(61)) {
       const std::string deviates = deviation(node, command);
       if (!deviates.empty()) wrong.push_back(deviates);
     }
@@ -238,10 +239,11 @@ TEST_CASE("SDO server: the table of reactions names 61 states, and one reaction 
 }
 
 TEST_CASE("SDO server: the table of reactions is that of the model, with block transfer and without [T6]") {
+  unsigned round = 0;
   for (const bool block : {true, false}) {
     for (const SdoState& state : sdo_states(golden, block)) {
       CAPTURE(state.name);
-      for (unsigned command = 0; command < 256; ++command) {
+      for (unsigned command = round++ % stride(61); command < 256; command += stride(61)) {
         CHECK(deviation_of_model(state, command, block) == "");
       }
     }
@@ -257,6 +259,7 @@ TEST_CASE("SDO server: without a buffer, the reaction to every command byte is t
 }
 
 TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any state [T6] [D1]") {
+  unsigned round = 0;
   for (const SdoState& state : sdo_states(golden, has_block)) {
     CAPTURE(state.name);
     Sweep node(state);
@@ -264,14 +267,15 @@ TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any 
     const std::uint32_t malformed = node.counters().Malformed;
     const Bytes before = image(node.objects);
     unsigned answered = 0;
-    for (unsigned command = 0; command < 256; ++command) {
-      for (unsigned dlc = 0; dlc < 8; ++dlc) {
+    std::uint32_t number = 0;
+    for (unsigned command = round++ % stride(61); command < 256; command += stride(61)) {
+      for (unsigned dlc = 0; dlc < 8; ++dlc, ++number) {
         node.rx(request_in(state, command, dlc));
         answered += node.frames().empty() ? 0U : 1U;
       }
     }
     CHECK(answered == 0);
-    CHECK(node.counters().Malformed == malformed + 256 * 8);
+    CHECK(node.counters().Malformed == malformed + number);
     CHECK(image(node.objects) == before);
     CHECK(node.open_transfer() == (state.enter.empty() ? "" : state.transfer));
   }
@@ -279,10 +283,11 @@ TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any 
 
 // Within a sub-block a read looks like a segment: its client has to end the transfer first. [D23]
 TEST_CASE("SDO server: whatever the command byte was, in whatever state, the next read is answered [T6] [D8]") {
+  unsigned round = 0;
   for (const SdoState& state : sdo_states(golden, has_block)) {
     CAPTURE(state.name);
     Sweep node(state);
-    for (unsigned command = 0; command < 256; ++command) {
+    for (unsigned command = round++ % stride(61); command < 256; command += stride(61)) {
       node.enter();
       node.rx(request_in(state, command));
       node.frames();

@@ -102,7 +102,7 @@ TEST_CASE("SDO upload: writable strings are sent with their present length") {
 }
 
 TEST_CASE("SDO upload: data of every size come as they are [D4]") {
-  Fixture node;
+  Fixture node(Setup().with_70000());
   for (const std::uint32_t size : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U}) {
     CAPTURE(size);
     CHECK(node.upload(0x2100, static_cast<std::uint8_t>(size)).size() == size);
@@ -112,7 +112,7 @@ TEST_CASE("SDO upload: data of every size come as they are [D4]") {
 }
 
 TEST_CASE("SDO upload: the size of 70000 bytes is announced in 32 bits [D3]") {
-  Fixture node;
+  Fixture node(Setup().with_70000());
   node.ask("601#4002210000000000", "581#4102210070110100");
   node.rx("601#8002210000000000");
   node.silent();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Event-driven TPDOs, types 254 and 255, and events of type 0: flag A, COTPdoTrigPdo(), COTPdoTrigObj() and
 // COTPdoRequest(). [301:7.2.2.5]
+#include <cstring>
+
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 0
@@ -83,7 +85,7 @@ TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [N15]") {
 }
 
 TEST_CASE("TPDO event: COTPdoRequest of a type that knows no events: nothing now and nothing later [N15] [D42]") {
-  for (unsigned type = 0; type < 254; ++type) {
+  for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed || type == 0) {
       continue;
@@ -104,7 +106,8 @@ TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends 
   static CO_ERR answer;
   static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 2; }, nullptr,
                                    [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {
-                                     *static_cast<std::uint8_t*>(buffer) = 0x5A;
+                                     const std::uint16_t value = 0x005A;
+                                     std::memcpy(buffer, &value, sizeof value);
                                      return answer;
                                    },
                                    nullptr, nullptr};

@@ -46,7 +46,7 @@ TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [N13] [
   PdoNode node(timed(10), [=](Setup& setup) { setup.rate(300).clock(0xFFFFFF00U); });
   node.start();
   const std::uint64_t begin = node.now();
-  for (unsigned second = 1; second <= 1000; ++second) {
+  for (unsigned second = 1; second <= 1000 / stride(50); ++second) {
     node.after(1000ms);
     REQUIRE(node.can.sent.size() == 100);
     CHECK(node.can.sent.back().tick == begin + 300U * second);
@@ -59,7 +59,7 @@ TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [N1
   node.start();
   const std::uint64_t begin = node.now();
   unsigned sent = 0;
-  for (unsigned i = 0; i < 10000; ++i) {
+  for (unsigned i = 0; i < 10000 / stride(10); ++i) {
     node.jump(std::chrono::milliseconds{1 + i * 11 % 10});
     sent += static_cast<unsigned>(node.frames().size());
   }
@@ -79,7 +79,7 @@ TEST_CASE("TPDO event timer: a loop that is late by many periods sends one PDO a
 }
 
 TEST_CASE("TPDO event timer: only event-driven PDOs have it [X7]") {
-  for (unsigned type = 0; type < 254; ++type) {
+  for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed) {
       continue;

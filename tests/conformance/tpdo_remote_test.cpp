@@ -31,7 +31,7 @@ TEST_CASE("remote TPDO: types 253, 254 and 255 sample and send [X13] [PDO 03] [S
 }
 
 TEST_CASE("remote TPDO: types 0 to 240 and 252 send what the last SYNC has sampled [X13]") {
-  for (unsigned type = 0; type <= 252; ++type) {
+  for (unsigned type = 0; type <= 252; type += type < 240 ? stride(16) : 1) {
     if (type > 240 && type < 252) {
       continue;
     }
@@ -75,7 +75,7 @@ TEST_CASE("remote TPDO: a request leaves the count of SYNCs alone") {
 }
 
 TEST_CASE("remote TPDO: with bit 30 requests are ignored, whatever the type [X11]") {
-  for (unsigned type = 0; type <= 255; ++type) {
+  for (unsigned type = 0; type <= 255; type += type < 240 ? stride(16) : 1) {
     if (type > 240 && type < 252) {
       continue;
     }

@@ -43,7 +43,7 @@ std::vector<unsigned> every(unsigned n, unsigned first, unsigned last) {
 using List = std::vector<unsigned>;
 
 TEST_CASE("synchronous TPDO: types 1 to 240 are sent with every n-th SYNC [X1] [PDO 06] [SYNC 03]") {
-  for (unsigned type = 1; type <= 240; ++type) {
+  for (unsigned type = 1; type <= 240; type += type < 5 ? 1 : stride(47)) {
     CAPTURE(type);
     SyncNode node(with(static_cast<std::uint8_t>(type)));
     node.start();

@@ -33,9 +33,11 @@ void __cyg_profile_func_exit(void* function, void* caller);
 
 namespace {
 
+constexpr unsigned name_length = 12;  // of an input, as pack.py cuts it
+
 constexpr std::uint32_t ticks_per_10_instructions = 256;  // -icount shift=10: 1024 ns each, at 25 MHz
 
-enum class Kind { nmt, sync, emcy, pdo, sdo, error_control, other, error_frame, after_others, count };
+enum class Kind { nmt, sync, emcy, pdo, sdo, error_control, lss, other, error_frame, after_others, count };
 
 constexpr const char* names[] = {
     "NMT",
@@ -44,6 +46,7 @@ constexpr const char* names[] = {
     "PDO",
     "SDO",
     "error control",
+    "LSS",
     "other CAN-IDs",
     "CAN error frame",
     "any, and frames that had to wait are sent",
@@ -65,7 +68,7 @@ Kind kind_of(std::uint32_t identifier) {
     case 12:
     case 13: return Kind::sdo;  // 680h…: of another server of the target
     case 14: return Kind::error_control;
-    case 15: return Kind::other;
+    case 15: return id == CO_LSS_RX_ID || id == CO_LSS_TX_ID ? Kind::lss : Kind::other;
     default: return Kind::pdo;
   }
 }
@@ -76,12 +79,12 @@ struct Worst {
   std::uint8_t length;
   std::uint8_t data[8];
   CO_MODE mode;
-  char input[9];
+  char input[name_length + 1];
 };
 
 Worst worst[static_cast<unsigned>(Kind::count)];
 unsigned frames = 0;
-char input[9] = "";
+char input[name_length + 1] = "";
 
 bool counts = false;
 unsigned depth = 0;  // of the target's functions
@@ -145,7 +148,7 @@ void print(const char* name, const Worst& known) {
   for (unsigned n = 0; id == known.identifier && n < known.length && n < sizeof known.data; ++n) {
     std::printf("%02X", known.data[n]);
   }
-  std::printf("` in %s, input %s\n", name_of(known.mode), known.input);
+  std::printf("` in %s, " TARGET ": %s\n", name_of(known.mode), known.input);
 }
 
 }  // namespace
@@ -191,10 +194,11 @@ int main() {
   unsigned number = 0;
   for (const std::uint8_t* next = inputs_begin; next != inputs_end; ++number) {
     std::uint32_t size = 0;
-    std::memcpy(input, next, 8);
-    std::memcpy(&size, next + 8, sizeof size);
-    LLVMFuzzerTestOneInput(next + 12, size);
-    next += 12 + size;
+    std::memcpy(input, next, name_length);
+    std::memcpy(&size, next + name_length, sizeof size);
+    next += name_length + sizeof size;
+    LLVMFuzzerTestOneInput(next, size);
+    next += size;
   }
   for (unsigned n = 0; n < static_cast<unsigned>(Kind::count); ++n) {
     if (worst[n].instructions != 0) {

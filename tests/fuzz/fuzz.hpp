@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "co_core.h"
+
 namespace fuzz {
 
 /// Bytes of chance. Behind the end all are 0, so that everything that depends on them comes to rest.
@@ -63,6 +65,14 @@ struct Given {
   bool alone = false;
 };
 inline Given given;
+
+/// CONodeProcess(), as often as a block transfer wants it at once.
+inline void process(CO_NODE& node) {
+  unsigned calls = 127 * (CO_SSDO_N + CO_CSDO_N);
+  do {
+    CONodeProcess(&node);
+  } while (node.Paused != 0 && CONodeNextDeadline(&node) == 0 && --calls != 0);
+}
 
 /// Ends the program, which is a finding.
 inline void require(bool holds, const char* promise) {

@@ -30,7 +30,6 @@ constexpr std::uint16_t own_timers = 6;
 constexpr std::uint32_t frequency = 1000;                                // ticks per second
 constexpr std::uint32_t patience = 20 + 8 * ((CO_SDO_TIMEOUT + 7) / 8);  // ticks, longer than the time-out
 constexpr unsigned max_depth = 3;                                        // of calls out of calls
-constexpr unsigned longest_block = 127;                                  // segments
 
 enum class TimerDriver { clock, clock_without_alarm, cyclic, delta };
 
@@ -147,6 +146,7 @@ class Bench {
     const CO_NODE_SPEC spec{first_node_id, 250000,     table_.data(), length,    fuzz::errors(),
                             timers_,       own_timers, frequency,     &drivers_, sdo_buffer_.get()};
     forget_requests();
+    make_index();
     ++depth_;  // type functions call the stack
     CONodeInitEx(&node_, &spec, &ext_);
     --depth_;
@@ -154,6 +154,20 @@ class Bench {
       id = -1;
     }
     watch();
+  }
+
+  void make_index() {
+#if USE_OD
+    const auto length = static_cast<std::uint16_t>(table_.size());
+    index_list_.resize(OD_LIST_N(table_.size()));
+    const auto list_length = static_cast<std::uint16_t>(index_list_.size());
+    require(OD_init(&index_, index_list_.data(), list_length, &node_, table_.data(), length) == ODR_OK,
+            "the table has an index");
+    if (ext_.Od == nullptr) {
+      ext_.Od = &index_;
+      require(OD_extension_init(OD_find(&index_, 0x2000), &fuzz::extension) == ODR_OK, "an object is extended");
+    }
+#endif
   }
 
   // An initialisation forgets everything.
@@ -230,7 +244,7 @@ class Bench {
       return;
     }
     constexpr unsigned channels = CO_SSDO_N + CO_CSDO_N;
-    constexpr unsigned answers = channels * (1U + longest_block) + CO_TPDO_N + CO_EMCY_QUEUE_N + 2U;
+    constexpr unsigned answers = channels + CO_SDO_BLOCK_PACE + CO_TPDO_N + CO_EMCY_QUEUE_N + 2U;
     require(bus_.sent - sent <= waiting + answers, "a frame has a bounded number of answers");
     for (const std::uint32_t dev : memory_.changed()) {
       if (dev == CO_DEV(0x1001, 0)) {  // the node itself writes it
@@ -255,7 +269,17 @@ class Bench {
     return devs;
   }
 
+  // Transfers of the object have lost it.
+  void change_extension() {
+#if USE_OD
+    OD_extension_t* const extension = input_.flag() ? &fuzz::extension : nullptr;
+    OD_extension_init(OD_find(&index_, 0x2000), extension);
+    fuzz::source.has_moved = true;
+#endif
+  }
+
   void act(std::uint8_t kind) {
+    constexpr std::uint8_t rarely = 0xC0;
     constexpr Action actions[] = {
         &Bench::reset_node,     &Bench::set_mode,     &Bench::stop,         &Bench::start,
         &Bench::short_time,     &Bench::run_timers,   &Bench::process,      &Bench::create_timer,
@@ -271,6 +295,8 @@ class Bench {
     fuzz::given.alone = false;
     if (kind >= 0xE0) {
       network_.act(kind);
+    } else if (kind == rarely) {
+      change_extension();
     } else {
       (this->*actions[(kind & 31U) % std::size(actions)])();
     }
@@ -415,6 +441,9 @@ class Bench {
     const auto length = static_cast<std::uint16_t>(table_.size());
     require(CODictInit(&node_.Dict, &node_, table_.data(), length) == CO_ERR_NONE, "the changed table is taken");
     fuzz::source.has_moved = true;
+    if (input_.flag()) {
+      make_index();
+    }
     watch();
   }
   void take_entry(std::size_t place) {
@@ -485,7 +514,7 @@ class Bench {
     require((node_.State & ~1) == 0 && node_.Pending == 0, "nothing is left to be done");
     require(node_.TxQueue.Num <= node_.TxQueue.Len, "the transmit queue fits its memory");
     require(node_.TxQueue.Fixed <= node_.TxQueue.Num, "no more frames are fixed than wait");
-    require(node_.Routes.Start[17] <= CO_ROUTE_N, "the routes fit their memory");
+    require(node_.Routes.Start[CO_ROUTE_CLASS_N] <= CO_ROUTE_N, "the routes fit their memory");
     require(timers_in_list() <= most_timers, "no timer is in two lists");
     for (const CO_SDO& server : node_.Sdo) {
       require(server.State == 0 || server.Obj != nullptr || fuzz::source.has_moved,
@@ -537,7 +566,7 @@ class Bench {
 
   void forget_transfers() {
     bus_.to_node.clear();
-    CONodeProcess(&node_);     // what has waited for the controller is sent
+    fuzz::process(node_);      // what has waited for the controller is sent
     COTmrProcess(&node_.Tmr);  // what has elapsed must not wait for the next interrupt
     const std::uint64_t end = clock_.now + patience;
     while (clock_.now < end) {
@@ -691,6 +720,10 @@ class Bench {
   Objects objects_;
   std::vector<CO_OBJ> table_;
   std::size_t end_of_table_ = 0;
+#if USE_OD
+  OD_t index_{};
+  std::vector<OD_entry_t> index_list_;
+#endif
   test::MemoryWatch memory_;
   Request requests_[2];
   unsigned ends_ = 0;  // callbacks of SDO clients

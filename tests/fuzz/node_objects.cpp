@@ -93,7 +93,44 @@ CO_ERR end_source(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER, std::uint32_t) {
 constexpr CO_OBJ_TYPE_EX source_type = {
     {size_of_source, nullptr, read_source, write_source, COObjTypeExReset}, reset_source, begin_source, end_source};
 
+#if USE_OD
+// What an extension says: usually what is so, else anything.
+ODR_t extension_answer(OD_stream_t* stream, OD_size_t count, OD_size_t* passed, bool is_last) {
+  const std::uint32_t what = chance(16);
+  *passed = what == 15 ? chance(256) : count;
+  stream->dataOffset = is_last ? 0 : stream->dataOffset + count;
+  if (what == 14) {
+    stream->dataOffset = chance(256);
+    stream->dataLength = chance(256);
+  }
+  if (what == 13) {
+    return static_cast<ODR_t>(static_cast<int>(chance(30)) - 2);
+  }
+  return is_last ? ODR_OK : ODR_PARTIAL;
+}
+// At least count bytes are there to be filled, or taken.
+ODR_t read_extended(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
+  meddle();
+  require(count != 0, "an extension is asked for a byte, at least");
+  std::memset(buf, static_cast<int>(chance(4)), count);
+  const std::uint32_t left = chance(64);
+  return left < 8 ? extension_answer(stream, left < count ? left : count, passed, true)
+                  : extension_answer(stream, count, passed, false);
+}
+ODR_t write_extended(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* passed) {
+  const std::vector<std::uint8_t> copy(static_cast<const std::uint8_t*>(buf),
+                                       static_cast<const std::uint8_t*>(buf) + count);
+  meddle();
+  return extension_answer(stream, static_cast<OD_size_t>(copy.size()), passed,
+                          stream->dataOffset + count == stream->dataLength);
+}
+#endif
+
 }  // namespace
+
+#if USE_OD
+OD_extension_t extension = {nullptr, read_extended, write_extended, {}};
+#endif
 
 std::vector<CO_OBJ> dictionary(Objects& o) {
   constexpr bool holds_64_bits = sizeof(CO_DATA) == sizeof(std::uint64_t);
@@ -146,6 +183,10 @@ std::vector<CO_OBJ> dictionary(Objects& o) {
        holds_64_bits ? (CO_DATA)(7) : (CO_DATA)(&o.direct)},
       {CO_KEY(0x2200, 7, CO_OBJ_____RW), &source_type.Type, (CO_DATA)(1)},
   };
+#if USE_OD
+  table.push_back({CO_KEY(0x2000, 14, CO_OBJ_____RW), OD_TSTREAM, (CO_DATA)(0)});
+  table.push_back({CO_KEY(0x2000, 15, CO_OBJ_____RW), OD_TVISIBLE_STRING, (CO_DATA)(&o.extended_text)});
+#endif
   add_network(table, o.network);
   std::sort(table.begin(), table.end(),
             [](const CO_OBJ& left, const CO_OBJ& right) { return CO_GET_DEV(left.Key) < CO_GET_DEV(right.Key); });

@@ -60,6 +60,10 @@ struct Objects {
   CO_OBJ_STR_RW octets{0, 9, 9, octets_memory.get()};
   CO_OBJ_STR_RW unicode{0, 16, 16, unicode_memory.get()};
   CO_OBJ_STR_RW nothing{0, 0, 0, nullptr};
+#if USE_OD
+  Memory extended_memory = std::make_unique<std::uint8_t[]>(10);
+  CO_OBJ_STR_RW extended_text{0, 0, 10, extended_memory.get()};
+#endif
   CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("hello device")};
 };
 
@@ -72,6 +76,11 @@ struct Source {
   bool has_moved = false;  ///< in the table: a transfer may have lost it, and End is not called then
 };
 extern Source source;
+
+#if USE_OD
+/// Of 2000h:14, a stream, and 2000h:15, a text: it keeps the contract, or not, as chance has it.
+extern OD_extension_t extension;
+#endif
 
 std::vector<CO_OBJ> dictionary(Objects& o);
 

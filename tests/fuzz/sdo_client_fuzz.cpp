@@ -133,6 +133,7 @@ class Bench {
       return;
     }
     ++depth_;
+    fuzz::given.alone = false;
     Peer& peer = peers_[byte & 1U];
     switch ((byte >> 1) & 7U) {
       case 0: cancel(peer); break;
@@ -370,12 +371,13 @@ class Bench {
 
   void receive(const CO_IF_FRM& frame) {
     received_ = frame;
-    CONodeProcess(&node_);
+    fuzz::given = {frame.Identifier, frame.DLC, frame.Data, true};
+    fuzz::process(node_);
   }
 
   void accept() {
     refuses_ = false;
-    CONodeProcess(&node_);
+    fuzz::process(node_);
   }
 
   // NMT --------------------------------------------------------------------------
@@ -455,7 +457,7 @@ class Bench {
       now_ += std::clamp<std::uint32_t>(CONodeNextDeadline(&node_), 1, end - now_);
       COTmrService(&node_.Tmr);
       COTmrProcess(&node_.Tmr);
-      CONodeProcess(&node_);
+      fuzz::process(node_);
     }
     passes_ = false;
   }

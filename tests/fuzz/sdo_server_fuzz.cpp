@@ -58,7 +58,7 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   void receive(const CO_IF_FRM& request) { received_ = request; }
-  void process() { CONodeProcess(&node_); }
+  void process() { fuzz::process(node_); }
   void pass(std::uint32_t ticks) {
     now_ += ticks;
     COTmrService(&node_.Tmr);

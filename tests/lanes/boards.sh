@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-# For the lanes that run tests/target on boards of QEMU (demo/bare_metal/boards). Their programs must all run the same
-# number of cases.
-packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-riscv64-unknown-elf=riscv64-unknown-elf-gcc
+# shellcheck shell=bash
+# For the lanes that run tests/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for another
+# CPU. All of them run the same cases.
+board_packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-riscv64-unknown-elf=riscv64-unknown-elf-gcc
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs
   qemu-system-misc=qemu-system-riscv32)
+powerpc_packages=(g++-powerpc-linux-gnu=powerpc-linux-gnu-g++ qemu-user-static=qemu-ppc-static)
 
-arm_tree() { board_tree arm arm-none-eabi cortex-m0 "$@"; }
-riscv_tree() { board_tree riscv riscv32-none-elf rv32imac "$@"; }
+# In build/target-CPU: arm_tree CPU CMAKE-ARGUMENT...
+arm_tree() { target_tree "$1" arm-none-eabi "$1" "-mno-unaligned-access" "${@:2}"; }
+riscv_tree() { target_tree "$1" riscv32-none-elf "$1" "-mstrict-align" "${@:2}"; }
+linux_tree() { target_tree "$1" "$1-linux-gnu" "$1" "" -DLEXICAN_TARGET_TESTS=ON "${@:2}"; }
 
-board_tree() {  # NAME TOOLCHAIN CPU TARGET...
-  local tree=$build/target-$1 log=$results/build-target-$1.log
-  if ! { cmake -S "$root" -B "$tree" -G Ninja -DLEXICAN_PRESET=full -DLEXICAN_DEMO=OFF -DLEXICAN_WARNINGS_AS_ERRORS=ON \
-    -DCMAKE_BUILD_TYPE=MinSizeRel -DLEXICAN_CPU="$3" \
-    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$2.cmake" && cmake --build "$tree" --target "${@:4}"; } >"$log" 2>&1; then
-    fail "build for $1" "$log"
-    return 1
-  fi
+# In build/target-doctest, with unaligned accesses, as the streams of the C++ library have them: doctest_tree CPU
+# CMAKE-ARGUMENT...
+doctest_tree() { target_tree doctest arm-none-eabi "$1" "" -DLEXICAN_TARGET_RUNNER=doctest "${@:2}"; }
+
+target_tree() {  # NAME TOOLCHAIN CPU OPTIONS CMAKE-ARGUMENT...
+  build_tree "target-$1" -DLEXICAN_DEMO=OFF -DLEXICAN_WARNINGS_AS_ERRORS=ON -DCMAKE_BUILD_TYPE=MinSizeRel \
+    -DCMAKE_C_FLAGS_MINSIZEREL="-Os -DNDEBUG $4" -DCMAKE_CXX_FLAGS_MINSIZEREL="-Os -DNDEBUG $4" -DLEXICAN_CPU="$3" \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$2.cmake" "${@:5}"
 }
 
 emulate() {  # BOARD PROGRAM [ARGUMENT...]
@@ -24,29 +28,45 @@ emulate() {  # BOARD PROGRAM [ARGUMENT...]
   for argument in "${@:3}"; do
     semihosting+=,arg=${argument//,/,,}
   done
-  timeout 900 "${emulator[@]}" -display none -monitor none -serial none -chardev stdio,id=host \
+  timeout 600 "${emulator[@]}" -display none -monitor none -serial none -chardev stdio,id=host \
     -semihosting-config "$semihosting" -kernel "$2"
 }
 
-# In two processes at the same time, which have half of the work each.
-doctest_on() {  # BOARD PROGRAM
-  local log=$results/$2 files='*/sdo_*'
-  emulate "$1" "$build/target-arm/tests/target/$2" --no-colors -sf="$files" >"$log-1.log" 2>&1 &
-  emulate "$1" "$build/target-arm/tests/target/$2" --no-colors -sfe="$files" >"$log-2.log" 2>&1
-  local status=$?
-  wait $! || status=$?
-  cat "$log-1.log" "$log-2.log" >"$log.log"
-  count_on "$2" "$status" "$log.log"
+# All cases in some processes at the same time, each with its share: suite_on WHAT COMMAND... -- SHARE...
+suite_on() {
+  local what=$1 log=$results/suite-$1.log command=() share process processes=() status=0
+  while shift && [ "$1" != -- ]; do
+    command+=("$1")
+  done
+  rm -f "$log".*
+  for share in "${@:2}"; do
+    "${command[@]}" "$share" >"$log.${#processes[@]}" 2>&1 &
+    processes+=($!)
+  done
+  for process in "${processes[@]}"; do
+    wait "$process" || status=$?
+  done
+  cat "$log".* >"$log"
+  count_suite "$what" $status "$log"
 }
 
-small_on() {  # BOARD PROGRAM: with the small runner
-  local log=$results/$2.log
-  emulate "$1" "$build/target-riscv/tests/target/$2" >"$log" 2>&1
-  count_on "$2" $? "$log"
+quarters=(-part=1/4 -part=2/4 -part=3/4 -part=4/4)
+
+# With the small runner. In fewer processes the board's memory is too small for what the tests leave in pieces.
+on_board() {  # CPU BOARD
+  suite_on "$1" emulate "$2" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
 }
 
-# Adds up the summaries of a program's processes. Each says how many cases it has not run: these are the other's.
-count_on() {  # PROGRAM STATUS LOG
+doctest_on_board() {  # BOARD: of doctest_tree
+  suite_on doctest emulate "$1" "$build/target-doctest/tests/target/lexican_target_tests" -- -sf='*/sdo_*' -sfe='*/sdo_*'
+}
+
+on_linux() {  # CPU EMULATOR
+  suite_on "$1" "$2" -L "/usr/$1-linux-gnu" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
+}
+
+# Adds up the summaries of the processes. Each says how many cases it has not run: these are the other's.
+count_suite() {  # WHAT STATUS LOG
   local ran=0 good=0 all=0 line summary='cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
   while read -r line; do
     [[ $line =~ $summary ]] || continue
@@ -57,19 +77,39 @@ count_on() {  # PROGRAM STATUS LOG
     fail "$1: $((ran - good)) cases, status $2" "$3"
   elif [ "$ran" -ne "$all" ] || [ "$ran" -eq 0 ]; then
     fail "$1: $ran of $all cases came back" "$3"
-  elif [ "${cases:=$ran}" -ne "$ran" ]; then
-    fail "$1 has run $ran cases, and the programs before it $cases"
+  else
+    compare_number "$1" "$ran"
   fi
 }
 
-smoke_on() {  # BOARD
-  local log=$results/smoke-$1.log tree=$build/target-arm ok bad planned
-  [ "$1" != virt ] || tree=$build/target-riscv
-  emulate "$1" "$tree/tests/target/lexican_smoke_$1" >"$log" 2>&1
+# Each program of each lane runs as many cases as are committed in tests/expected_counts for "every_target". The first
+# program of the lane target commits it (tests/run --update-counts).
+compare_number() {  # WHAT CASES
+  if [ -n "${update:-}" ] && [ "$lane_name" = target ] && [ -z "${committed:-}" ]; then
+    committed=yes
+    echo "$2 0 0 0" >"$results/every_target.count"
+    update_count every_target
+  fi
+  local expected
+  expected=$(expected_count every_target)
+  [ "$2" -eq "${expected:-0}" ] ||
+    fail "$1 has run $2 cases, and every target must run ${expected:-0}: tests/expected_counts"
+}
+
+smoke_on() {  # CPU BOARD
+  local log=$results/smoke-$2.log ok bad planned
+  emulate "$2" "$build/target-$1/tests/target/lexican_smoke_$2" >"$log" 2>&1
   local status=$?
   ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log") planned=$(sed -n 's/^1\.\.//p' "$log")
   passed=$((passed + ok))
   if [ $status -ne 0 ] || [ "$bad" -ne 0 ] || [ "$ok" -ne "${planned:-0}" ]; then
-    fail "smoke test on $1: $bad cases, status $status" "$log"
+    fail "smoke test on $2: $bad cases, status $status" "$log"
   fi
+}
+
+# That the tests mean something: an unaligned access ends the program as a fault does.
+fault_on() {  # CPU BOARD
+  local log=$results/fault-$1.log
+  emulate "$2" "$build/target-$1/tests/target/lexican_fault" >"$log" 2>&1
+  if [ $? -eq 99 ]; then pass; else fail "an unaligned access on $1 is no fault" "$log"; fi
 }

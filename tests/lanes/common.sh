@@ -21,7 +21,7 @@ fail() {  # WHAT [LOG]
 
 # Runs a command as one case: check WHAT COMMAND...
 check() {
-  local what=$1 log=$results/check.log
+  local what=$1 log=$results/$lane_name-check.log
   shift
   if "$@" >"$log" 2>&1; then
     pass
@@ -46,6 +46,13 @@ skip_rest() {  # REASON
   echo "   SKIPPED $1"
 }
 
+# Does the thread sanitizer find a race in what runs unprotected?
+finds_races() {  # PROGRAM
+  local said
+  said=$(TSAN_OPTIONS=halt_on_error=1 timeout 120 setarch -R "$1" 2>&1)
+  grep 'WARNING: ThreadSanitizer: data race' <<<"$said"
+}
+
 measure_lane() {
   trap 'echo "$passed $failed $skipped $excused" >"$results/$lane_name.count"' EXIT
   rm -f "$results/$lane_name.count"
@@ -53,12 +60,12 @@ measure_lane() {
   [ $((passed + failed + skipped)) -gt 0 ] || fail "$lane_name ran nothing"
 }
 
-# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... In the largest configuration, unless told otherwise: it has
-# several SDO servers.
+# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... All of it, or "${targets[@]}". In the largest configuration, unless
+# told otherwise: it has several SDO servers.
 build_tree() {
   local name=$1 log=$results/build-$1.log
   shift
-  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name"; } >"$log" 2>&1; then
+  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"; } >"$log" 2>&1; then
     fail "build of $name" "$log"
     return 1
   fi
@@ -71,27 +78,35 @@ build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
   (cd "$root" && build_tree "$name" --preset "$preset" "${@:2}")
 }
 
-# Counts the cases of a doctest program: run_doctest WHAT COMMAND...
+# Counts the cases of a doctest program: run_doctest WHAT COMMAND... In two processes at the same time, which have half of
+# the work each: the cases of SDO, and all others.
 run_doctest() {
-  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-}.log status
+  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} sdo='*/sdo_*' ran=0 all=0 status
   shift
-  ("$@" --no-colors >"$log" 2>&1) 2>>"$log"
+  ("$@" --no-colors -sf="$sdo" >"$log-1.log" 2>&1) 2>>"$log-1.log" &
+  ("$@" --no-colors -sfe="$sdo" >"$log-2.log" 2>&1) 2>>"$log-2.log"
   status=$?
+  count_doctest "$what" $status "$log-2.log"
+  wait $!
+  count_doctest "$what" $? "$log-1.log"
+  [ "$ran" -gt 0 ] || fail "$what: no test case"
+  skipped=$((skipped + all - ran)) excused=$((excused + all - ran))
+}
+
+# Adds what one process says that it ran to $ran; $all is what the program has.
+count_doctest() {  # WHAT STATUS LOG
   local summary='^\[doctest\] test cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
-  if ! [[ $(grep '^\[doctest\] test cases:' "$log") =~ $summary ]]; then
-    fail "$what: ended without a summary (status $status)" "$log"
+  if ! [[ $(grep '^\[doctest\] test cases:' "$3") =~ $summary ]]; then
+    fail "$1: ended without a summary (status $2)" "$3"
     return
   fi
-  [ "${BASH_REMATCH[1]}" -gt 0 ] || fail "$what: no test case"
-  local ok=${BASH_REMATCH[2]} bad=${BASH_REMATCH[3]} unrun=${BASH_REMATCH[4]}
-  # What a crash leaves undone was not skipped on purpose.
-  grep -q 'test case CRASHED' "$log" && bad=$((bad + unrun)) unrun=0
-  passed=$((passed + ok)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  local bad=${BASH_REMATCH[3]}
+  ran=$((ran + BASH_REMATCH[1])) all=$((BASH_REMATCH[1] + BASH_REMATCH[4])) passed=$((passed + BASH_REMATCH[2]))
   if [ "$bad" -gt 0 ]; then
-    fail "$what: $bad test cases" "$log"
+    fail "$1: $bad test cases" "$3"
     failed=$((failed + bad - 1))
-  elif [ $status -ne 0 ]; then
-    fail "$what: status $status" "$log"
+  elif [ "$2" -ne 0 ]; then
+    fail "$1: status $2" "$3"
   fi
 }
 

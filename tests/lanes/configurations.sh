@@ -11,10 +11,11 @@ lane() {
   configuration unsigned-char "-O2 -funsigned-char"
   configuration short-enums "-O2 -fshort-enums"
   configuration asserts "-O0 -UNDEBUG"
-  # The smallest buffers, the most channels, clients without block transfer.
+  # The smallest buffers, the most channels, the slowest block transfer, clients without it.
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
   configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
+  configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
   # Mapping of single bits, no remote requests, reserved CAN-IDs for everybody, the most PDOs.
   configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"

@@ -10,6 +10,8 @@ lane() {
 }
 
 on_cpu() {  # CPU EMULATOR
-  build_tree "$1" -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$1-linux-gnu.cmake" || return
+  local targets=(lexican_tests)
+  build_tree "$1" -DCMAKE_BUILD_TYPE=Release -DLEXICAN_THIN_SWEEPS=ON \
+    -DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$1-linux-gnu.cmake" || return
   run_doctest "$1" "$2" -L "/usr/$1-linux-gnu" "$build/$1/tests/lexican_tests"
 }

@@ -11,12 +11,12 @@ lane() {
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} \
     --committed "$root/tests/bench/instructions.txt" --page "$root/docs/speed.md" --table instructions --title operation \
     --percent 5 \
-    --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" \
-    --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" \
-    --column "host -O2" "$host" "$of-host-lexican" "$of-host-lexican_many_pdos"
+    --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" "$of-m3-lexican_od" \
+    --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" "$of-m0plus-lexican_od" \
+    --column "host -O2" "$host" "$of-host-lexican" "$of-host-lexican_many_pdos" "$of-host-lexican_od"
 }
 
-programs=(lexican lexican_many_pdos)
+programs=(lexican lexican_many_pdos lexican_od)
 
 build_bench() {  # NAME CMAKE-BUILD-TYPE CMAKE-ARGUMENT...
   build_tree "bench-$1" -DLEXICAN_PRESET=slave -DLEXICAN_BENCH=ON -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF \

@@ -13,12 +13,6 @@ lane() {
   check "the example is compiled for Cortex-M4" compiles_for_arm
 }
 
-finds_races() {  # PROGRAM
-  local said
-  said=$(TSAN_OPTIONS=halt_on_error=1 timeout 120 setarch -R "$1" 2>&1)
-  grep 'WARNING: ThreadSanitizer: data race' <<<"$said"
-}
-
 compiles_for_arm() {
   local source
   for source in node_task sdo_request; do

@@ -4,8 +4,9 @@ packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unkno
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
 
 presets=(minimal slave full)
-switches=(USE_CSDO=0 USE_SDO_BLOCK=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_SYNC=0 USE_TIME=1
-  USE_EMCY=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1 USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0)
+switches=(USE_DICT_CHECK=0 USE_FAST_PATHS=0 USE_CSDO=0 USE_SDO_BLOCK=0 CO_RPDO_N=0 CO_TPDO_N=0 USE_PDO_BITS=1 USE_PDO_RTR=0 USE_MPDO=1 USE_OD=1
+  USE_SYNC=0 USE_TIME=1 USE_EMCY=0 CO_EMCY_CONS_N=1 CO_HBCONS_N=0 USE_GUARDING=0 USE_NMT_MASTER=1 USE_LED=1 USE_LSS=0 USE_LSS_MASTER=1 USE_PARA=0
+  USE_REAL_TIME=1)
 of=$results/sizes
 
 lane() {
@@ -36,7 +37,7 @@ choose_cpu() {  # CPU
     rv32) tools=riscv64-unknown-elf core=rv32imac toolchain=riscv32-none-elf ;;
   esac
   case $1 in
-    rv32) compile=($tools-gcc -march=$core -mabi=ilp32 --specs=picolibc.specs) specs=() ;;
+    rv32) compile=($tools-gcc -march=$core -mabi=ilp32 --specs=picolibc.specs) specs=(-Wl,--defsym=__flash_size=0x100000) ;;
     *) compile=($tools-gcc -mcpu=$core -mthumb) specs=(--specs=nano.specs --specs=nosys.specs) ;;
   esac
   configure=(-DCMAKE_TOOLCHAIN_FILE="$root/cmake/toolchains/$toolchain.cmake" -DLEXICAN_CPU=$core)
@@ -84,7 +85,7 @@ link_node() {  # OBJECTS PROGRAM EVERYTHING FLAG...: links PROGRAM.o
   local objects keep=()
   mapfile -t objects < <(find "$1" -name '*.o*' | sort)
   [ -z "$3" ] || mapfile -t keep < <("$tools-nm" -fposix "${objects[@]}" 2>/dev/null |
-    awk '$1 ~ /^CO/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }' | sort)
+    awk '$1 ~ /^(CO|OD)/ && $2 ~ /^[TRD]$/ { print "-Wl,--undefined=" $1 }' | sort)
   "${compile[@]}" "${specs[@]}" -o "$2" "${@:4}" "$2.o" "${objects[@]}" "${keep[@]}" -nostartfiles -Wl,--gc-sections \
     -Wl,-e,main >"$of.log" 2>&1
 }
@@ -140,6 +141,7 @@ size_of_memory() {
 size_of_things() {
   rm -f "$of-things-flash" "$of-things-ram"
   thing "dictionary entry" -DENTRIES=4 -- -DENTRIES=20 &&
+    thing "object in the index of co_od.h" -DUSE_OD=1 -DOBJECTS=4 -- -DUSE_OD=1 -DOBJECTS=20 &&
     thing "timer of the application" -DTIMERS=4 -- -DTIMERS=20 &&
     thing "RPDO" -DCO_RPDO_N=4 -- -DCO_RPDO_N=20 &&
     thing "TPDO" -DCO_TPDO_N=4 -- -DCO_TPDO_N=20 &&

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases that need no host on a Cortex-M0, and a smoke test that fits the smallest board on all boards, emulated"
+# shellcheck shell=bash
+about="all doctest cases that need no host on a Cortex-M0 and on a big-endian CPU, a smoke test on all boards, emulated"
 . "$root/tests/lanes/boards.sh"
+packages=("${board_packages[@]}" "${powerpc_packages[@]}")
 
 # The code of a Cortex-M0 runs on a Cortex-M3, which has the memory for it, and faults as on a Cortex-M0.
 lane() {
-  arm_tree lexican_tests_m0 lexican_smoke_microbit lexican_smoke_mps2-an385 lexican_smoke_mps2-an386 || return
-  riscv_tree lexican_smoke_virt || return
-  doctest_on mps2-an385 lexican_tests_m0
+  arm_tree cortex-m0 || return
+  fault_on cortex-m0 mps2-an385
+  on_board cortex-m0 mps2-an385
   local board
-  for board in microbit mps2-an385 mps2-an386 virt; do
-    smoke_on "$board"
+  for board in microbit mps2-an385 mps2-an386; do
+    smoke_on cortex-m0 "$board"
   done
+  linux_tree powerpc && on_linux powerpc qemu-ppc-static
+  local targets=(lexican_smoke_virt)
+  riscv_tree rv32imac && smoke_on rv32imac virt
 }

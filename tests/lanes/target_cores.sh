@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the doctest cases of the lane target with the code of a Cortex-M3, a Cortex-M4F and a RISC-V, emulated"
+# shellcheck shell=bash
+about="the cases of the lane target on a Cortex-M3, a Cortex-M4F (by doctest itself, too) and a RISC-V, emulated"
 . "$root/tests/lanes/boards.sh"
+packages=("${board_packages[@]}")
 
 lane() {
-  arm_tree lexican_tests_m3 lexican_tests_m4f || return
-  riscv_tree lexican_tests_rv32 || return
-  doctest_on mps2-an385 lexican_tests_m3
-  doctest_on mps2-an386 lexican_tests_m4f
-  small_on virt lexican_tests_rv32
+  arm_tree cortex-m3 || return
+  fault_on cortex-m3 mps2-an385
+  on_board cortex-m3 mps2-an385
+  arm_tree cortex-m4 -DLEXICAN_FLOAT_ABI=hard || return
+  fault_on cortex-m4 mps2-an386
+  on_board cortex-m4 mps2-an386
+  riscv_tree rv32imac || return
+  on_board rv32imac virt
+  doctest_tree cortex-m4 -DLEXICAN_FLOAT_ABI=hard || return
+  doctest_on_board mps2-an386
 }

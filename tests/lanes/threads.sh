@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases under the thread sanitizer: interrupt ends of queues and timers"
+about="what has threads, under the thread sanitizer: the interrupt's and the loop's end of a ring, a node of two threads"
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 # Without address randomisation: the sanitizer's shadow needs its fixed place, which newer kernels may give away.
 lane() {
-  build_tree threads -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
-    -DLEXICAN_SANITIZE=thread || return
-  run_doctest threads setarch -R "$build/threads/tests/lexican_tests"
+  local targets=(lexican_thread_tests lexican-demo-two-threads lexican-demo-without-turns)
+  build_tree threads -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \
+    -DCMAKE_CXX_COMPILER=clang++ -DLEXICAN_SANITIZE=thread || return
+  run_doctest threads setarch -R "$build/threads/tests/lexican_thread_tests"
+  local demo=$build/threads/demo/two_threads
+  check "two threads use a node in turns" timeout 120 setarch -R "$demo/lexican-demo-two-threads"
+  check "the sanitizer finds races where turns are missing" finds_races "$demo/lexican-demo-without-turns"
 }

@@ -105,6 +105,9 @@ CO_TMR_MEM Timers[TIMERS];
 uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 #endif
 uint32_t Values[VALUES];
+#ifdef OBJECTS
+OD_entry_t Index[OBJECTS];
+#endif
 const CO_OBJ Dictionary[ENTRIES] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0}};
 
 #ifdef MAIN

@@ -67,10 +67,12 @@ class Depths:
         self.limits = {}  # title → number of the limit that it is one of
         for number, (pattern, _) in enumerate(targets.limits):
             self.limits.update((each.title, number) for each in functions if fnmatchcase(each.name, pattern))
-        self.nevers = {}  # title → number of the "never" that begins with it
+        self.nevers = {}  # title → numbers of the "never" that begin with it
         self.forbidden = [targets.of_words(words, "") for _, words in targets.nevers]
         for number, (pattern, _) in enumerate(targets.nevers):
-            self.nevers.update((each.title, number) for each in functions if fnmatchcase(each.name, pattern))
+            for each in functions:
+                if fnmatchcase(each.name, pattern):
+                    self.nevers.setdefault(each.title, []).append(number)
         self.top = (0,) * (len(targets.limits) + len(targets.nevers))
         self.known = {}  # place, what is above it → bytes, next place
         self.way_here = []
@@ -128,8 +130,8 @@ class Depths:
             if above[limit] == self.targets.limits[limit][1]:
                 return None
             now[limit] += 1
-        if title in self.nevers:
-            now[len(self.targets.limits) + self.nevers[title]] = 1
+        for number in self.nevers.get(title, []):
+            now[len(self.targets.limits) + number] = 1
         return tuple(now)
 
     def is_forbidden(self, place, above):

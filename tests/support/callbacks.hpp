@@ -34,6 +34,8 @@ struct Callbacks {
   std::function<void()> unlock;
   std::function<void()> od_lock;    ///< CO_NODE_EXT.OdLock
   std::function<void()> od_unlock;  ///< CO_NODE_EXT.OdUnlock
+  std::function<void()> enter;      ///< CO_NODE_EXT.Enter
+  std::function<void()> leave;      ///< CO_NODE_EXT.Leave
   unsigned fatal_errors = 0;        ///< CONodeFatalError() is counted and returns
 };
 

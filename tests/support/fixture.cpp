@@ -7,11 +7,7 @@
 #include <iterator>
 
 namespace test {
-namespace {
-
-constexpr unsigned patience = 200;  // calls of CONodeProcess() without progress: more is a hang
-
-}  // namespace
+namespace {}  // namespace
 
 void FakeCan::refuse_next(std::uint64_t number, std::int16_t with) {
   refuse_from = attempts + 1;
@@ -109,6 +105,29 @@ struct Fixture::Drivers {
     }
   }
 
+  static void enter(void* ctx) {
+    const OutsideStack outside;
+    Fixture& self = of(ctx);
+    if (self.in_turn_) {
+      self.violations_.emplace_back("Enter is nested");
+    }
+    self.in_turn_ = true;
+    if (callbacks().enter) {
+      callbacks().enter();
+    }
+  }
+  static void leave(void* ctx) {
+    const OutsideStack outside;
+    Fixture& self = of(ctx);
+    if (!self.in_turn_) {
+      self.violations_.emplace_back("Leave without Enter");
+    }
+    self.in_turn_ = false;
+    if (callbacks().leave) {
+      callbacks().leave();
+    }
+  }
+
   static bool is_sdo(const Fixture& self, const CO_IF_FRM& frm) {
     const bool by_default = frm.Identifier > 0x580 && frm.Identifier <= 0x5FF;
     return by_default || std::any_of(std::begin(self.node.Sdo), std::end(self.node.Sdo),
@@ -174,12 +193,24 @@ Fixture::Fixture(Setup setup)
   for (const auto& [index, sub] : setup_.may_change_) {
     may_change(index, sub);
   }
+  index();
   (void)callbacks();  // what is made at its first use must not be counted as the stack's
   call([this] { init(); });
   if (setup_.start_) {
     call([this] { CONodeStart(&node); });
     trace();
   }
+}
+
+// For co_od.h.
+void Fixture::index() {
+#if USE_OD
+  od_list_.resize(OD_LIST_N(dictionary_.size()));
+  const auto length = static_cast<std::uint16_t>(dictionary_.size());
+  const auto list_length = static_cast<std::uint16_t>(od_list_.size());
+  REQUIRE(OD_init(&od, od_list_.data(), list_length, &node, dictionary_.data(), length) == ODR_OK);
+  ext_.Od = &od;
+#endif
 }
 
 void Fixture::init() {
@@ -194,6 +225,11 @@ void Fixture::init() {
   ext_.NvmCtx = setup_.nvm_context_;
   ext_.OdLock = Drivers::od_lock;
   ext_.OdUnlock = Drivers::od_unlock;
+#if USE_REAL_TIME
+  ext_.Enter = setup_.turns_ ? Drivers::enter : nullptr;
+  ext_.Leave = setup_.turns_ ? Drivers::leave : nullptr;
+  ext_.Mainline = setup_.mainline_;
+#endif
   ext_.EmcyNum = static_cast<std::uint16_t>(setup_.emergencies_.size());
   CO_NODE_SPEC spec;
   spec.NodeId = setup_.node_id_;
@@ -252,18 +288,20 @@ void Fixture::loop(Where at) {
   call([this] { process_frames(); }, at);
 }
 
-// One call for each received frame, and more while frames wait for the driver.
+// One call for each received frame, and more while frames wait for the driver, or for the next call.
 void Fixture::process_frames() {
-  for (unsigned calls = 0; calls < patience; ++calls) {
+  for (unsigned calls = 0; calls < calls_; ++calls) {
     const std::size_t sent = can.sent.size();
     const std::size_t segments = segments_;
     const std::size_t waiting = node.TxQueue.Num;
     CONodeProcess(&node);
     const OutsideStack outside;
-    if (can.sent.size() - sent > waiting + frames_per_call_ + segments_ - segments) {
+    const std::size_t paced = std::min<std::size_t>(segments_ - segments, CO_SDO_BLOCK_PACE);
+    if (can.sent.size() - sent > waiting + frames_per_call_ + paced) {
       violations_.push_back(std::to_string(can.sent.size() - sent) + " frames in one call");
     }
-    if (can.to_node.empty() && (node.TxQueue.Num == 0 || can.sent.size() == sent)) {
+    const bool is_due = node.Paused != 0 && CONodeNextDeadline(&node) == 0;
+    if (can.to_node.empty() && !is_due && (node.TxQueue.Num == 0 || can.sent.size() == sent)) {
       return;
     }
   }
@@ -272,9 +310,13 @@ void Fixture::process_frames() {
 void Fixture::call(const std::function<void()>& api, Where at) {
   memory_.remember();
   heap_before_ = heap_requests();
+  const bool in_turn = in_turn_;
   {
     const InsideStack inside;
     api();
+  }
+  if (in_turn_ != in_turn) {
+    violations_.emplace_back("a turn has no end");
   }
   check_properties(at);
 }

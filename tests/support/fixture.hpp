@@ -32,6 +32,7 @@
 #include "invariants.hpp"
 #include "notation.hpp"
 #include "sdo_observer.hpp"
+#include "stride.hpp"
 
 template <>
 struct doctest::StringMaker<std::vector<std::string>> {
@@ -111,11 +112,16 @@ class Setup {
   Setup& with(CO_OBJ entry);  ///< adds an entry to the dictionary, or replaces it
   Setup& without(std::uint16_t index, std::uint8_t sub);
   Setup& only_small();          ///< without the domains of more than 15 bytes: fast, for sweeps
+  Setup& with_70000();          ///< a domain of that size: looking at it after each frame takes its time
   Setup& with_mebibyte();       ///< a domain of that size, which is not watched
   Setup& without_sdo_buffer();  ///< CO_NODE_SPEC.SdoBuf is null
   Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
   Setup& nvm(const CO_IF_NVM_DRV_EX& driver, void* context);  ///< must outlive the fixture
   Setup& no_nvm();
+#if USE_REAL_TIME
+  Setup& turns();                ///< CO_NODE_EXT.Enter and Leave
+  Setup& mainline(CO_RING& of);  ///< CO_NODE_EXT.Mainline; must outlive the fixture
+#endif
   Setup& may_change(std::uint16_t index, std::uint8_t sub);  ///< the node itself writes this object
   Setup& before_init(std::function<void(Objects&)> change);
 
@@ -126,7 +132,7 @@ class Setup {
   /// 1200h, 1201h and 1202h (rw, invalid) where the configuration has that many servers;
   /// 200wh (rw) a number of w bytes, 2020h BOOLEAN, 2024h REAL32, 2028h REAL64, 2026h TIME_OF_DAY;
   /// 2030h write-only, 2031h read-only, 2032h without any right, 2033h only sub 1, 2034h relative to the node-ID;
-  /// 2100h:n domain of n bytes (0…9, 14, 15), 2101h of 889, 2102h of 70000, 2103h of 888, 2104h of 890 bytes, and 2105h
+  /// 2100h:n domain of n bytes (0…9, 14, 15), 2101h of 889, 2103h of 888, 2104h of 890 bytes; 2102h with_70000(), 2105h
   /// with_mebibyte(); byte i holds i + 1 modulo 256;
   /// 2110h VISIBLE_STRING of 16, 2111h OCTET_STRING of 10, 2112h UNICODE_STRING of 8 bytes.
   std::vector<CO_OBJ> dictionary(Objects& objects) const;
@@ -142,6 +148,7 @@ class Setup {
   bool start_ = true;
   bool nmt_master_ = false;
   bool large_domains_ = true;
+  bool long_ = false;
   bool mebibyte_ = false;
   bool sdo_buffer_ = true;
   std::map<std::uint32_t, CO_OBJ> with_;
@@ -150,6 +157,8 @@ class Setup {
   std::function<void(Objects&)> before_init_;
   const CO_IF_NVM_DRV_EX* nvm_ = nullptr;
   void* nvm_context_ = nullptr;
+  bool turns_ = false;
+  CO_RING* mainline_ = nullptr;
   std::vector<std::pair<std::uint16_t, std::uint8_t>> may_change_ = {{0x1001, 0}};
 };
 
@@ -233,8 +242,11 @@ class Fixture {
   Time sdo_time_out() const { return std::chrono::milliseconds{CO_SDO_TIMEOUT} + 8 * Time{1000000 / setup_.rate_ + 1}; }
 
   void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, from now on
-  /// Segments of block uploads are not counted.
+  /// Segments of block uploads, as many as a call may send, are not counted.
   void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
+  /// Of CONodeProcess() in rx() and loop(), while there is something to be done.
+  void calls(unsigned limit) { calls_ = limit; }
+  static constexpr unsigned enough_calls = 200;  ///< without progress; more is a hang
   /// Memory behind an entry of a type of the test.
   void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size, bool stream = false);
 
@@ -242,6 +254,7 @@ class Fixture {
   CO_ERR error() { return CONodeGetErr(&node); }
   CO_OBJ* find(std::uint16_t index, std::uint8_t sub);
   CO_MODE mode() const { return node.Nmt.Mode; }
+  bool in_turn() const { return in_turn_; }  ///< between CO_NODE_EXT.Enter and Leave
   CO_NODE* operator->() { return &node; }
 
   /// Same protocol state as \a other: mode, servers, routes, queue, timers. Empty if so, else what differs.
@@ -251,12 +264,16 @@ class Fixture {
   Objects objects;
   FakeCan can;
   CO_NODE node;
+#if USE_OD
+  OD_t od{};  ///< the index of its dictionary
+#endif
 
  private:
   struct Drivers;
   friend struct Drivers;
 
   void init();
+  void index();
   void process_frames();
   void wake_up(Where at);
   void run_until(std::uint64_t end, Where at);
@@ -272,6 +289,9 @@ class Fixture {
 
   Setup setup_;
   std::vector<CO_OBJ> dictionary_;
+#if USE_OD
+  std::vector<OD_entry_t> od_list_;
+#endif
   std::vector<CO_TMR_MEM> timers_;
   std::vector<CO_IF_FRM> tx_queue_;
   Bytes sdo_buffer_;
@@ -284,9 +304,11 @@ class Fixture {
   std::uint64_t alarm_ = never;
   std::uint64_t heap_before_ = 0;
   unsigned frames_per_call_ = 1;
-  bool od_locked_ = false;    // CO_NODE_EXT.OdLock has been called
-  bool guarded_ = false;      // by a remote frame: the answers have a toggle bit
-  std::size_t segments_ = 0;  // of block uploads, sent
+  unsigned calls_ = enough_calls;  // in rx() and loop()
+  bool od_locked_ = false;         // CO_NODE_EXT.OdLock has been called
+  bool in_turn_ = false;           // CO_NODE_EXT.Enter has been called
+  bool guarded_ = false;           // by a remote frame: the answers have a toggle bit
+  std::size_t segments_ = 0;       // of block uploads, sent
   std::vector<std::string> violations_;
 };
 

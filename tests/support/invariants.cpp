@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "notation.hpp"
+#include "stride.hpp"
 
 namespace test {
 namespace {
@@ -134,7 +135,7 @@ void MemoryWatch::add(std::uint32_t key, const void* memory, std::size_t size, b
 
 namespace {
 
-constexpr std::size_t largest_watched = 100000;  // more would take too long after every frame
+constexpr std::size_t largest_watched = 100000 / stride(20);  // more would take too long after every frame
 
 struct Width {
   const CO_OBJ_TYPE* type;

@@ -45,7 +45,7 @@ Setup SdoClient::with_entries(Setup setup) {
 
 SdoClient::SdoClient(Setup setup, const ClientEntries& entries)
     : ClientEntries(entries), Fixture(with_entries(std::move(setup))) {
-  frames_per_call(128);  // a block
+  frames_per_call(1 + CO_SDO_BLOCK_PACE);
 }
 
 SdoClient::~SdoClient() {

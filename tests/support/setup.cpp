@@ -20,6 +20,7 @@ Setup& Setup::nmt_master() { return nmt_master_ = true, *this; }
 Setup& Setup::with(CO_OBJ entry) { return with_[CO_GET_DEV(entry.Key)] = entry, *this; }
 Setup& Setup::without(std::uint16_t index, std::uint8_t sub) { return without_.push_back(CO_DEV(index, sub)), *this; }
 Setup& Setup::only_small() { return large_domains_ = false, *this; }
+Setup& Setup::with_70000() { return long_ = true, *this; }
 Setup& Setup::with_mebibyte() { return mebibyte_ = true, *this; }
 Setup& Setup::without_sdo_buffer() { return sdo_buffer_ = false, *this; }
 Setup& Setup::writable(std::function<bool(const void*, std::uint32_t)> may_write) {
@@ -30,6 +31,10 @@ Setup& Setup::nvm(const CO_IF_NVM_DRV_EX& driver, void* context) {
   nvm_context_ = context;
   return *this;
 }
+#if USE_REAL_TIME
+Setup& Setup::turns() { return turns_ = true, *this; }
+Setup& Setup::mainline(CO_RING& of) { return mainline_ = &of, *this; }
+#endif
 Setup& Setup::no_nvm() { return nvm_ = nullptr, *this; }
 Setup& Setup::may_change(std::uint16_t index, std::uint8_t sub) {
   may_change_.emplace_back(index, sub);
@@ -112,7 +117,6 @@ CO_OBJ_DOM* make_domain(Objects& o, std::uint32_t size) {
 
 void add_large_domains(Table& table, Objects& o) {
   table.push_back(entry(0x2101, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 889)));
-  table.push_back(entry(0x2102, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 70000)));
   table.push_back(entry(0x2103, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 888)));
   table.push_back(entry(0x2104, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(o, 890)));
 }
@@ -138,6 +142,9 @@ std::vector<CO_OBJ> Setup::dictionary(Objects& objects) const {
   add_streams(table, objects);
   if (large_domains_) {
     add_large_domains(table, objects);
+  }
+  if (long_) {
+    table.push_back(entry(0x2102, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(objects, 70000)));
   }
   if (mebibyte_) {
     table.push_back(entry(0x2105, 0, CO_OBJ_____RW, CO_TDOMAIN, make_domain(objects, mebibyte)));

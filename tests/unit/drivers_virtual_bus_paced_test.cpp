@@ -12,6 +12,7 @@
 
 #include "frame_bits.hpp"
 #include "support/notation.hpp"
+#include "support/stride.hpp"
 #include "virtual_bus.hpp"
 
 namespace {
@@ -131,7 +132,7 @@ TEST_CASE("frame bits: DLC 9 to 15 stand for 8 bytes [ISO 11898-1]") {
 TEST_CASE("frame bits: 8 bytes take 111 to 135 bits, 114 on average") {
   std::mt19937 random(1);
   std::uint64_t all = 0;
-  constexpr unsigned frames = 20000;
+  constexpr unsigned frames = 20000 / test::stride(10);
   for (unsigned n = 0; n < frames; ++n) {
     CO_IF_FRM frame{static_cast<std::uint32_t>(random() & 0x7FF), {}, 8};
     std::generate_n(frame.Data, 8, [&] { return static_cast<std::uint8_t>(random()); });
@@ -176,7 +177,7 @@ TEST_CASE("paced bus: frames that follow one another do not drift, at whatever r
     CAPTURE(rate);
     Bench bench(static_cast<std::uint32_t>(rate));
     send(bench.a, "080#");
-    for (std::uint64_t n = 1; n <= 3000; ++n) {
+    for (std::uint64_t n = 1; n <= 3000 / test::stride(20); ++n) {
       send(bench.a, "080#");
       const std::uint64_t bit_micros = (51 * n - 3) * 1000000;  // times the rate
       REQUIRE(bench.bus.next_due() == Time{(bit_micros + rate - 1) / rate});

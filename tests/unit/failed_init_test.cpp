@@ -64,16 +64,18 @@ struct Failure {
 
 const std::vector<Failure>& failures() {
   static const std::vector<Failure> all = {
-      {"node-ID 0", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 0; }},
-      {"node-ID 128", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 128; }},
-      {"no drivers", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Drv = nullptr; }},
-      {"no CAN driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Can = nullptr; }},
-      {"no timer driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Timer = nullptr; }},
-      {"extension without size", CO_ERR_BAD_ARG, [](Device& d) { d.ext.Size = 0; }},
-      {"no dictionary", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Dict = nullptr; }},
-      {"doubled entry", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Key = d.dictionary[0].Key; }},
-      {"entry without type", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Type = nullptr; }},
-      {"type at a wrong index", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[2].Type = CO_THB_PROD; }},
+    {"node-ID 0", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 0; }},
+    {"node-ID 128", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 128; }},
+    {"no drivers", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Drv = nullptr; }},
+    {"no CAN driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Can = nullptr; }},
+    {"no timer driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Timer = nullptr; }},
+    {"extension without size", CO_ERR_BAD_ARG, [](Device& d) { d.ext.Size = 0; }},
+    {"no dictionary", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Dict = nullptr; }},
+#if USE_DICT_CHECK
+    {"doubled entry", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Key = d.dictionary[0].Key; }},
+    {"entry without type", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Type = nullptr; }},
+    {"type at a wrong index", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[2].Type = CO_THB_PROD; }},
+#endif
   };
   return all;
 }

@@ -164,6 +164,8 @@ TEST_CASE("node: what a node cannot do without") {
   }
 }
 
+#if USE_DICT_CHECK
+
 TEST_CASE("node: missing mandatory objects are told, and the node runs [Q7]") {
   OldNode n;
   n.dictionary[1] = CO_OBJ{CO_KEY(0x1017, 0, CO_OBJ_D___R_), CO_THB_PROD, 0};
@@ -176,6 +178,8 @@ TEST_CASE("node: missing mandatory objects are told, and the node runs [Q7]") {
   CONodeStart(&m.node);
   CHECK(bus.sent.size() == 1);
 }
+
+#endif
 
 TEST_CASE("node: an object whose Init function fails is told, and the node runs [Q7]") {
   const auto fails = [](CO_OBJ*, CO_NODE*) -> CO_ERR { return CO_ERR_TYPE_INIT; };

@@ -102,7 +102,7 @@ TEST_CASE("transmit queue: an error of the driver is told and the frame is kept"
 
 TEST_CASE("transmit queue: random frames against a model") {
   std::mt19937 random(7);
-  for (int round = 0; round < 100; ++round) {
+  for (unsigned round = 0; round < 100 / stride(10); ++round) {
     Fixture node(Setup().tx_queue(30).only_small());
     std::vector<CO_IF_FRM> waiting;
     for (int step = 0; step < 60; ++step) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the cases of doctest/doctest.h, and ends with the two lines that doctest ends with.
+// Runs the cases of doctest/doctest.h, and ends with the two lines that doctest ends with. Its arguments:
+//   -part=N/M   only every M-th case, from the N-th on
+//   -d          tells the time that each took
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "program.hpp"
+#include "../arguments.hpp"
 
 namespace doctest::detail {
 namespace {
@@ -87,19 +89,17 @@ bool add(Case& one) {
   return true;
 }
 
-void check(bool good, const char* file, int line, const char* text) {
+void pass() { ++asserts; }
+
+void fail(const char* file, int line, const char* text) {
   ++asserts;
-  if (!good) {
-    ++run.failures;
-    tell(file, line, text);
-  }
+  ++run.failures;
+  tell(file, line, text);
 }
 
-void require(bool good, const char* file, int line, const char* text) {
-  check(good, file, line, text);
-  if (!good) {
-    std::longjmp(run.start, 1);
-  }
+void end(const char* file, int line, const char* text) {
+  fail(file, line, text);
+  std::longjmp(run.start, 1);
 }
 
 Subcase::Subcase(const char* name, int line) {
@@ -126,13 +126,55 @@ Subcase::~Subcase() {
   run.way.pop_back();
 }
 
+namespace {
+
+struct Options {
+  unsigned part = 1;
+  unsigned parts = 1;
+  bool tells_time = false;
+};
+
+Options options_of(const Arguments& arguments) {
+  Options options;
+  for (int n = 1; n < arguments.number(); ++n) {
+    const char* const word = arguments.words()[n];
+    if (std::sscanf(word, "-part=%u/%u", &options.part, &options.parts) == 0) {
+      options.tells_time = options.tells_time || std::strcmp(word, "-d") == 0;
+    }
+  }
+  return options;
+}
+
+unsigned hundredths() {
+  constexpr std::uint32_t clock = 0x10;
+  return static_cast<unsigned>(board::ask_host(clock, nullptr));
+}
+
+bool passes_in_time(const Case& one, bool tells_time) {
+  const unsigned begin = tells_time ? hundredths() : 0;
+  const bool good = passes(one);
+  if (tells_time) {
+    const unsigned time = hundredths() - begin;
+    char text[30];
+    std::snprintf(text, sizeof text, "%u.%02u s: ", time / 100, time % 100);
+    print(text);
+    print(one.name);
+    print("\n");
+  }
+  return good;
+}
+
+}  // namespace
 }  // namespace doctest::detail
 
 int main() {
   using namespace doctest::detail;
+  const Options options = options_of(Arguments());
   Totals totals;
+  unsigned number = 0;
   for (const Case* one = first; one != nullptr; one = one->next) {
-    ++(one->skipped ? totals.skipped : passes(*one) ? totals.passed : totals.failed);
+    const bool skipped = one->skipped || number++ % options.parts != options.part - 1;
+    ++(skipped ? totals.skipped : passes_in_time(*one, options.tells_time) ? totals.passed : totals.failed);
   }
   const unsigned all = totals.passed + totals.failed;
   char line[200];

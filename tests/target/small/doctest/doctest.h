@@ -92,8 +92,10 @@ class Message {
   std::string text_;
 };
 
-void check(bool good, const char* file, int line, const char* text);
-void require(bool good, const char* file, int line, const char* text);
+/// What an assertion does: it holds, it fails, or it fails and ends the case.
+void pass();
+void fail(const char* file, int line, const char* text);
+void end(const char* file, int line, const char* text);
 
 /// Entered once in all runs of the case for each way through the sub-cases.
 class Subcase {
@@ -123,19 +125,18 @@ class Subcase {
 #define TEST_CASE(...) DOCTEST_CASE_(DOCTEST_JOIN(doctest_case_, __COUNTER__), __VA_ARGS__)
 #define SUBCASE(name) if (const doctest::detail::Subcase doctest_subcase{name, __LINE__})
 
-#define CHECK(...) doctest::detail::check(static_cast<bool>(__VA_ARGS__), __FILE__, __LINE__, #__VA_ARGS__)
-#define CHECK_FALSE(...) \
-  doctest::detail::check(!static_cast<bool>(__VA_ARGS__), __FILE__, __LINE__, "not " #__VA_ARGS__)
-#define CHECK_MESSAGE(good, ...) \
-  doctest::detail::check(static_cast<bool>(good), __FILE__, __LINE__, DOCTEST_TEXT(__VA_ARGS__))
-#define REQUIRE(...) doctest::detail::require(static_cast<bool>(__VA_ARGS__), __FILE__, __LINE__, #__VA_ARGS__)
-#define REQUIRE_FALSE(...) \
-  doctest::detail::require(!static_cast<bool>(__VA_ARGS__), __FILE__, __LINE__, "not " #__VA_ARGS__)
-#define REQUIRE_MESSAGE(good, ...) \
-  doctest::detail::require(static_cast<bool>(good), __FILE__, __LINE__, DOCTEST_TEXT(__VA_ARGS__))
-#define ADD_FAIL_CHECK_AT(file, line, ...) doctest::detail::check(false, file, line, DOCTEST_TEXT(__VA_ARGS__))
+// A message is put together only for an assertion that fails.
+#define DOCTEST_ASSERT(how, good, text) \
+  (static_cast<bool>(good) ? doctest::detail::pass() : doctest::detail::how(__FILE__, __LINE__, text))
+#define CHECK(...) DOCTEST_ASSERT(fail, (__VA_ARGS__), #__VA_ARGS__)
+#define CHECK_FALSE(...) DOCTEST_ASSERT(fail, !(__VA_ARGS__), "not " #__VA_ARGS__)
+#define CHECK_MESSAGE(good, ...) DOCTEST_ASSERT(fail, good, DOCTEST_TEXT(__VA_ARGS__))
+#define REQUIRE(...) DOCTEST_ASSERT(end, (__VA_ARGS__), #__VA_ARGS__)
+#define REQUIRE_FALSE(...) DOCTEST_ASSERT(end, !(__VA_ARGS__), "not " #__VA_ARGS__)
+#define REQUIRE_MESSAGE(good, ...) DOCTEST_ASSERT(end, good, DOCTEST_TEXT(__VA_ARGS__))
+#define ADD_FAIL_CHECK_AT(file, line, ...) doctest::detail::fail(file, line, DOCTEST_TEXT(__VA_ARGS__))
 #define FAIL_CHECK(...) ADD_FAIL_CHECK_AT(__FILE__, __LINE__, __VA_ARGS__)
-#define FAIL(...) doctest::detail::require(false, __FILE__, __LINE__, DOCTEST_TEXT(__VA_ARGS__))
+#define FAIL(...) doctest::detail::end(__FILE__, __LINE__, DOCTEST_TEXT(__VA_ARGS__))
 #define DOCTEST_TEXT(...) (doctest::detail::Message{} << __VA_ARGS__).text()
 #define CAPTURE(value) static_cast<void>(value)
 #define INFO(...) static_cast<void>(0)

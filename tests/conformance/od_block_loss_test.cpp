@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Block transfers of extended streams (co_od.h) that lose frames: an upload goes back, also beyond the buffer, where
+// the function begins anew; a download asks for the rest. [301:7.2.4.3.9-15]
+#include "support/block_frames.hpp"
+#include "support/logged_extension.hpp"
+
+#if USE_OD && USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
+
+namespace {
+
+using namespace test;
+
+// 3000h of unknown length, 3001h a domain of 2000 bytes, 3002h a text of up to 2000.
+struct Node : Fixture {
+  Bytes domain_memory = Bytes(2000);
+  CO_OBJ_DOM domain{0, 2000, domain_memory.data()};
+  Bytes text_memory = Bytes(2000);
+  CO_OBJ_STR_RW text{0, 0, 2000, text_memory.data()};
+  LoggedExtension extension;
+
+  Node()
+      : Fixture(Setup()
+                    .only_small()
+                    .with({CO_KEY(0x3000, 0, CO_OBJ_____RW), OD_TSTREAM, CO_DATA(0)})
+                    .with({CO_KEY(0x3001, 0, CO_OBJ_____RW), OD_TDOMAIN, CO_DATA(&domain)})
+                    .with({CO_KEY(0x3002, 0, CO_OBJ_____RW), OD_TVISIBLE_STRING, CO_DATA(&text)})) {
+    for (std::uint16_t index = 0x3000; index <= 0x3002; ++index) {
+      extension.put_at(*this, index);
+    }
+  }
+};
+
+// Bytes that are no zeros.
+Bytes letters(std::size_t size) {
+  Bytes data = counting(size);
+  for (std::uint8_t& byte : data) {
+    byte = static_cast<std::uint8_t>(byte | 0x80U);
+  }
+  return data;
+}
+
+TEST_CASE(
+    "OD block loss: an upload goes back beyond the buffer: the function begins anew and what is known is dropped") {
+  Node node;
+  node.extension.data = counting(1000);
+  node.ask("601#A400300064000000", "581#C400300000000000");
+  CHECK(node.extension.take_log().empty());
+  node.rx("601#A300000000000000");
+  expect_segments(node, counting(1000), 0, 100);
+  CHECK(node.extension.take_log() == Log{"read 889 at 0 of 0"});
+  node.rx("601#A2641E0000000000");
+  expect_segments(node, counting(1000), 100, 30);
+  CHECK(node.extension.take_log() == Log{"read 889 at 889 of 0"});
+  node.rx("601#A2057F0000000000");  // segments 105 and on are lost: byte 735
+  Log log = node.extension.take_log();
+  CHECK(log.size() == 735 / 32 + 2);
+  CHECK(log.front() == "read 32 at 0 of 0");
+  CHECK(log[735 / 32] == "read 31 at 704 of 0");
+  CHECK(log.back() == "read 265 at 735 of 0");  // the length is known now
+  expect_segments(node, counting(1000), 105, 38);
+  node.rx("601#A2267F0000000000");
+  node.tx(notation(block_end(0x581, counting(1000))));
+  node.rx("601#A100000000000000");
+  CHECK(node.extension.take_log().empty());
+}
+
+TEST_CASE("OD block loss: uploads that lose any one frame have the right bytes, or are aborted") {
+  for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x3000, 0x3001, 0x3002}) {
+    for (const std::uint8_t blksize : std::initializer_list<std::uint8_t>{20, 100, 127}) {
+      Node node;
+      node.extension.data = letters(2000);
+      BlockOptions options;
+      options.blksizes = {blksize};
+      const unsigned answers = node.block_upload(index, 0, options).answers;
+      CHECK(answers > 280);
+      for (unsigned n = 1; n + 4 < answers; n += 3) {
+        CAPTURE(index);
+        CAPTURE(n);
+        options.lost_answers = {n, n + 2};
+        const BlockResult result = node.block_upload(index, 0, options);
+        CHECK(result.abort == 0);
+        CHECK(result.data == letters(2000));
+      }
+    }
+  }
+}
+
+TEST_CASE("OD block loss: an extension that gives other bytes the second time is found out by the CRC") {
+  Node node;
+  node.extension.data = letters(1000);
+  node.ask("601#A404300064000000", "581#8004300000000206");
+  node.ask("601#A400300064000000", "581#C400300000000000");
+  node.rx("601#A300000000000000");
+  expect_segments(node, letters(1000), 0, 100);
+  node.rx("601#A2641E0000000000");
+  expect_segments(node, letters(1000), 100, 30);
+  node.extension.data = counting(1000, 3);
+  node.rx("601#A2057F0000000000");
+  expect_segments(node, counting(1000, 3), 105, 38);
+  node.rx("601#A2267F0000000000");
+  CHECK(node.frames().size() == 1);
+  node.rx("601#8000300004000405");
+}
+
+TEST_CASE("OD block loss: a function that does not come as far as before, or refuses to begin anew, ends the upload") {
+  for (const bool shorter : {true, false}) {
+    Node node;
+    node.extension.data = counting(1000);
+    node.ask("601#A400300064000000", "581#C400300000000000");
+    node.rx("601#A300000000000000");
+    expect_segments(node, counting(1000), 0, 100);
+    node.rx("601#A2641E0000000000");
+    expect_segments(node, counting(1000), 100, 30);
+    if (shorter) {
+      node.extension.data = counting(500);
+    } else {
+      node.extension.answer = ODR_DATA_LOC_CTRL;
+    }
+    node.rx("601#A2057F0000000000");
+    node.tx(shorter ? "581#8000300022000008" : "581#8000300021000008");
+    node.extension.answer = ODR_OK;
+    node.extension.data = counting(20);
+    CHECK(node.upload(0x3000, 0) == counting(20));
+  }
+}
+
+TEST_CASE("OD block loss: downloads that lose any one frame reach the extension once, whole and in order") {
+  for (const bool announced : {true, false}) {
+    Node node;
+    const Bytes data = counting(1900, 5);
+    BlockOptions options;
+    options.sized = announced;
+    for (unsigned n = 1; n < 280; n += 9) {
+      CAPTURE(n);
+      options.lost_requests = {n};
+      node.extension.take_log();
+      CHECK(node.block_download(0x3000, 0, data, options).abort == 0);
+      CHECK(node.extension.data == data);
+      CHECK(node.extension.take_log() ==
+            Log{"write 889 at 0 of 0", "write 889 at 889 of 0", "write 122 at 1778 of 1900"});
+    }
+  }
+}
+
+TEST_CASE("OD block loss: a download with a wrong CRC or a wrong length never tells the extension an end") {
+  Node node;
+  node.extension.data = {1};
+  BlockOptions options;
+  options.crc_error = 1;
+  CHECK(node.block_download(0x3000, 0, counting(1000), options).abort == 0x05040004);
+  CHECK(node.extension.take_log() == Log{"write 889 at 0 of 0"});
+  options.crc_error = 0;
+  options.announced_more = 5;
+  CHECK(node.block_download(0x3000, 0, counting(1000), options).abort == 0x06070013);
+  CHECK(node.extension.data == Bytes{1});
+}
+
+}  // namespace
+
+#endif

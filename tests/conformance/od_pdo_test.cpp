@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// Extended objects in PDOs (co_od.h): the functions are called for each PDO; what they refuse is the node's error, and
+// keeps a TPDO from being sent.
+#include <cstring>
+
+#include "support/logged_extension.hpp"
+#include "support/pdo_fixture.hpp"
+
+#if USE_OD && CO_RPDO_N > 0 && CO_TPDO_N > 0
+
+namespace {
+
+using namespace test;
+
+// 3000h UNSIGNED8, 3001h UNSIGNED16, 3002h UNSIGNED32, 3003h UNSIGNED64, 3004h BOOLEAN, 3005h 4 bytes and 3006h of
+// unknown length that only the extension has, 3007h UNSIGNED32 with flag A, 3008h a number of 3 bytes of the extension.
+struct Variables {
+  std::uint8_t byte = 0x11;
+  std::uint16_t half = 0x2211;
+  std::uint32_t word = 0x44332211;
+  std::uint64_t wide = 0;
+  std::uint8_t flag = 0;
+  std::uint32_t watched = 0;
+
+  void add_to(Setup& setup) {
+    setup.with({CO_KEY(0x3000, 0, CO_OBJ____PRW), OD_TUNSIGNED8, CO_DATA(&byte)})
+        .with({CO_KEY(0x3001, 0, CO_OBJ____PRW), OD_TUNSIGNED16, CO_DATA(&half)})
+        .with({CO_KEY(0x3002, 0, CO_OBJ____PRW), OD_TUNSIGNED32, CO_DATA(&word)})
+        .with({CO_KEY(0x3003, 0, CO_OBJ____PRW), OD_TUNSIGNED64, CO_DATA(&wide)})
+        .with({CO_KEY(0x3004, 0, CO_OBJ____PRW), OD_TBOOLEAN, CO_DATA(&flag)})
+        .with({CO_KEY(0x3005, 0, CO_OBJ____PRW), OD_TSTREAM, CO_DATA(4)})
+        .with({CO_KEY(0x3006, 0, CO_OBJ____PRW), OD_TSTREAM, CO_DATA(0)})
+        .with({CO_KEY(0x3007, 0, CO_OBJ___APRW), OD_TUNSIGNED32, CO_DATA(&watched)})
+        .with({CO_KEY(0x3008, 0, CO_OBJ____PRW), OD_TNUMBER, CO_DATA(3)});
+  }
+};
+
+struct Node : Variables, PdoNode {
+  explicit Node(const PdoTable& table) : PdoNode(table, [this](Setup& setup) { this->Variables::add_to(setup); }) {}
+};
+
+PdoTable table_of(std::initializer_list<std::uint32_t> words, std::uint8_t type = 255) {
+  PdoTable table;
+  table.rpdo[0].on(0x201, type, words);
+  table.tpdo[0].on(0x40000181, type, words);
+  return table;
+}
+
+TEST_CASE("OD PDO: without an extension they pass as what their original types make of them") {
+  Node node(table_of({0x30000008, 0x30010010, 0x30020020}));
+  node.start();
+  node.rx("201#01020304050607");
+  CHECK(node.byte == 1);
+  CHECK(node.half == 0x0302);
+  CHECK(node.word == 0x07060504);
+  node.trigger(0);
+  node.tx("181#01020304050607");
+}
+
+TEST_CASE("OD PDO: an extension is called for each PDO, with the whole value, and the others in it are as ever") {
+  Node node(table_of({0x30000008, 0x30010010, 0x30020020}));
+  LoggedExtension extension;
+  extension.put_at(node, 0x3001);
+  extension.data = number_of({0xA1, 0xA2});
+  node.start();
+  node.trigger(0);
+  node.tx("181#11A1A211223344");
+  CHECK(extension.take_log() == Log{"read 2 at 0 of 2"});
+  node.rx("201#01020304050607");
+  CHECK(extension.take_log() == Log{"write 2 at 0 of 2"});
+  CHECK(extension.data == number_of({2, 3}));
+  CHECK(node.byte == 1);
+  CHECK(node.half == 0x2211);
+  CHECK(node.word == 0x07060504);
+}
+
+TEST_CASE("OD PDO: it acts whether it was given before the PDOs were configured, in Operational, or is taken away") {
+  Node node(table_of({0x30020020}));
+  node.start();
+  node.trigger(0);
+  node.tx("181#11223344");
+  LoggedExtension extension;
+  extension.put_at(node, 0x3002);
+  extension.data = number_of({1, 2, 3, 4});
+  node.trigger(0);
+  node.tx("181#01020304");
+  CHECK(node.remap_tpdo(0, {0x30020020}, 0x40000181) == 0);
+  node.trace();
+  node.trigger(0);
+  node.tx("181#01020304");
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3002), nullptr) == ODR_OK); });
+  node.trigger(0);
+  node.tx("181#11223344");
+}
+
+TEST_CASE("OD PDO: numbers of 64 bits, of the extension alone, BOOLEAN as a byte, streams of a fixed length") {
+  LoggedExtension extension;
+  struct {
+    std::uint32_t word;
+    std::size_t bytes;
+  } const objects[] = {{0x30030040, 8}, {0x30080018, 3}, {0x30040008, 1}, {0x30050020, 4}};
+  for (const auto& object : objects) {
+    CAPTURE(object.word);
+    Node node(table_of({object.word}));
+    extension.put_at(node, static_cast<std::uint16_t>(object.word >> 16));
+    node.start();
+    CO_IF_FRM received{0x201, {1, 0, 1, 7, 5, 6, 7, 8}, static_cast<std::uint8_t>(object.bytes)};
+    std::fill(received.Data + object.bytes, received.Data + 8, std::uint8_t{0});
+    node.rx(received);
+    const Bytes bytes(received.Data, received.Data + object.bytes);
+    const bool is_stream = object.word >> 16 == 0x3005;
+    CHECK(extension.data == (is_stream ? bytes : number_of(bytes)));
+    node.trigger(0);
+    received.Identifier = 0x181;
+    node.tx(notation(received));
+  }
+}
+
+TEST_CASE("OD PDO: what has no known length cannot be mapped: 0604 0041h [301:7.5.2.36]") {
+  Node node(table_of({}));
+  LoggedExtension extension;
+  extension.put_at(node, 0x3006);
+  extension.data = {1, 2, 3, 4};
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  CHECK(node.set(0x1A00, 0, 1, 0) == 0);
+  CHECK(node.set(0x1A00, 1, 4, 0x30060020) == 0x06040041);
+  CHECK(node.set(0x1A00, 1, 4, 0x30050020) == 0);
+  CHECK(node.set(0x1A00, 1, 4, 0x30050018) == 0x06040041);
+  CHECK(node.set(0x1A00, 1, 4, 0x30020010) == 0x06040041);
+}
+
+TEST_CASE("OD PDO: what read refuses keeps the TPDO from being sent, and is the node's error; later it is sent again") {
+  Node node(table_of({0x30000008, 0x30020020}));
+  LoggedExtension extension;
+  extension.put_at(node, 0x3002);
+  extension.data = number_of({1, 2, 3, 4});
+  node.start();
+  for (const ODR_t answer : {ODR_HW, ODR_PARTIAL, ODR_DATA_DEV_STATE, ODR_VALUE_HIGH}) {
+    node.error();
+    extension.answer = answer;
+    node.trigger(0);
+    node.silent();
+    CHECK(node.error() != CO_ERR_NONE);
+  }
+  extension.answer = ODR_OK;
+  extension.data = number_of({1, 2, 3});
+  node.trigger(0);
+  node.silent();
+  extension.data = number_of({1, 2, 3, 4});
+  node.trigger(0);
+  node.tx("181#1101020304");
+}
+
+TEST_CASE("OD PDO: what write refuses is the node's error, the rest of the RPDO is applied") {
+  Node node(table_of({0x30000008, 0x30020020, 0x30010010}));
+  LoggedExtension extension;
+  extension.put_at(node, 0x3002);
+  extension.answer = ODR_VALUE_HIGH;
+  node.start();
+  node.error();
+  node.rx("201#01020304050607");
+  CHECK(node.error() == CO_ERR_OBJ_RANGE);
+  CHECK(node.byte == 1);
+  CHECK(node.half == 0x0706);
+  CHECK(node.word == 0x44332211);
+  CHECK(extension.data.empty());
+}
+
+TEST_CASE("OD PDO: a null function: a TPDO is not sent, an RPDO writes nothing") {
+  Node node(table_of({0x30020020}));
+  OD_extension_t nothing{};
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3002), &nothing) == ODR_OK); });
+  node.start();
+  node.trigger(0);
+  node.silent();
+  node.rx("201#01020304");
+  CHECK(node.word == 0x44332211);
+}
+
+TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the original function tells a change only") {
+  Node node(table_of({0x30070020}));
+  node.frames_per_call(3);
+  LoggedExtension extension;
+  extension.put_at(node, 0x3007);
+  node.start();
+  node.rx("601#2307300001020304");
+  node.tx({"181#01020304", "581#6007300000000000"});
+  node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x3007, 0), 5) == CO_ERR_NONE); });
+  node.tx("181#05000000");
+  OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &original) == ODR_OK); });
+  node.rx("601#2307300009000000");
+  node.tx({"181#09000000", "581#6007300000000000"});
+  node.ask("601#2307300009000000", "581#6007300000000000");
+  extension.put_at(node, 0x3007);
+  extension.answer = ODR_HW;
+  node.ask("601#2307300001020304", "581#8007300000000606");
+}
+
+TEST_CASE("OD PDO: synchronous ones sample and apply through the extension [301:7.2.2.3]") {
+  PdoTable table = table_of({0x30020020}, 1);
+  LoggedExtension extension;
+  Variables variables;
+  std::uint32_t sync = 0x80;
+  PdoNode node(table, [&](Setup& setup) {
+    variables.add_to(setup);
+    setup.with({CO_KEY(0x1005, 0, CO_OBJ_____RW), CO_TSYNC_ID, CO_DATA(&sync)});
+  });
+  extension.put_at(node, 0x3002);
+  extension.data = number_of({1, 2, 3, 4});
+  node.start();
+  node.rx("201#05060708");
+  CHECK(extension.take_log().empty());
+  node.rx("080#");
+  node.tx("181#01020304");
+  CHECK(extension.take_log() == Log{"read 4 at 0 of 4", "write 4 at 0 of 4"});
+  CHECK(extension.data == number_of({5, 6, 7, 8}));
+}
+
+TEST_CASE("OD PDO: an extension that stops the node, or changes the dictionary, within a PDO") {
+  for (const unsigned what : {0U, 1U, 2U, 3U}) {
+    for (const bool receives : {true, false}) {
+      PdoTable table = table_of({0x30020020, 0x30000008});
+      table.tpdo[0].type = 1;
+      Variables variables;
+      std::uint32_t sync = 0x80;
+      PdoNode node(table, [&](Setup& setup) {
+        variables.add_to(setup);
+        setup.with({CO_KEY(0x1005, 0, CO_OBJ_____RW), CO_TSYNC_ID, CO_DATA(&sync)});
+      });
+      LoggedExtension extension;
+      extension.data = number_of({1, 2, 3, 4});
+      extension.put_at(node, 0x3002);
+      node.start();
+      const auto act = [&](OD_stream_t*) {
+        switch (what) {
+          case 0: CONodeStop(&node.node); break;
+          case 1: CONmtReset(&node->Nmt, CO_RESET_NODE); break;
+          case 2: CODictInit(&node->Dict, &node.node, node->Dict.Root, node->Dict.Num); break;
+          default: OD_extension_init(OD_find(&node.od, 0x3002), nullptr); break;
+        }
+        return ODR_OK;
+      };
+      extension.on_read = act;
+      extension.on_write = act;
+      if (receives) {
+        node.rx("201#0102030405");
+      } else {
+        node.rx("080#");
+      }
+      node.loop();
+      node.frames();
+      CHECK((node.mode() == CO_INVALID) == (what == 0));
+    }
+  }
+}
+
+}  // namespace
+
+#endif

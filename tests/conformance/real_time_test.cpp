@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+// CONodeRealTime(): SYNC and PDOs in one thread, everything else in another.
+#include "support/real_time_fixture.hpp"
+
+#if USE_REAL_TIME && USE_SYNC && CO_TPDO_N > 0 && CO_RPDO_N > 0
+
+namespace {
+
+using namespace test;
+
+SyncTable pdos() {
+  SyncTable table;
+  table.rpdo[0].on(0x201, 255, {0x22010108});
+  table.tpdo[0].on(0x40000181, 255, {0x22010308});
+  table.rpdo[1].on(0x301, 1, {0x22010208});
+  table.tpdo[1].on(0x40000281, 1, {0x22010408});
+  return table;
+}
+
+std::uint64_t waiting(const RealTimeNode& node) { return CORingCount(&node.ring); }
+
+TEST_CASE("real time: RPDOs and SYNC are served by CONodeRealTime, which reads all frames, and nothing by the other") {
+  RealTimeNode node(pdos());
+  node.start();
+  for (const char* text : {"201#AA", "301#BB", "080#"}) node.arrive(text);
+  node.mainline();
+  CHECK(node.u8[0] == 0x11);
+  node.silent();
+  node.real_time();
+  node.tx("281#41");
+  CHECK(node.u8[0] == 0xAA);
+  CHECK(node.u8[1] == 0xBB);
+  CHECK(waiting(node) == 0);
+  CHECK(node.counters().Received == 4);
+}
+
+TEST_CASE("real time: frames of other services wait for CONodeProcess, in their order") {
+  RealTimeNode node(pdos());
+  for (const char* text : {"601#4000100000000000", "000#0101", "601#4001100000000000", "123#"}) node.arrive(text);
+  node.real_time();
+  node.silent();
+  CHECK(node.mode() == CO_PREOP);
+  CHECK(waiting(node) == 4);
+  node.call([&] { CONodeProcess(&node.node); });
+  node.tx("581#4300100091010F00");
+  CHECK(node.mode() == CO_PREOP);
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.mainline();
+  node.tx("581#4F01100000000000");
+  CHECK(node.counters().Received == 4);
+  CHECK(node.counters().Unclaimed == 1);
+}
+
+TEST_CASE("real time: a PDO that the NMT state forbids is lost, and comes at no later time behind a newer one") {
+  RealTimeNode node(pdos());
+  for (const char* text : {"000#0101", "201#AA"}) node.arrive(text);
+  node.real_time();
+  CHECK(node.counters().Unclaimed == 1);
+  CHECK(waiting(node) == 1);
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.arrive("201#BB");
+  node.real_time();
+  CHECK(node.u8[0] == 0xBB);
+  node.mainline();
+  CHECK(node.u8[0] == 0xBB);
+}
+
+TEST_CASE("real time: the mainline need not sleep while frames or a reset wait for it") {
+  RealTimeNode node(pdos());
+  node.start();
+  CHECK(CONodeNextDeadline(&node.node) != 0);
+  node.arrive("601#4000100000000000");
+  node.real_time();
+  CHECK(CONodeNextDeadline(&node.node) == 0);
+  node.mainline();
+  node.tx("581#4300100091010F00");
+  CHECK(CONodeNextDeadline(&node.node) != 0);
+  callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
+  node.arrive("201#AA");
+  node.real_time();
+  CHECK(CONodeNextDeadline(&node.node) == 0);
+  node.mainline();
+  node.tx("701#00");
+}
+
+TEST_CASE("real time: a node that is stopped forgets the frames that wait: the mainline comes to an end") {
+  RealTimeNode node(pdos());
+  node.start();
+  callbacks().pdo_update = [&](CO_RPDO*) { CONodeStop(&node.node); };
+  for (const char* text : {"601#4000100000000000", "201#AA"}) node.arrive(text);
+  node.real_time();
+  CHECK(node.mode() == CO_INVALID);
+  CHECK(waiting(node) == 0);
+  node.mainline();
+  node.silent();
+}
+
+#if CO_EMCY_CONS_N >= 2
+TEST_CASE("real time: an identifier that a PDO shares with another service is not real-time") {
+  SyncTable table;
+  table.rpdo[0].on(0x301, 255, {0x22010108});
+  RealTimeNode node(table, [](Setup& setup) {
+    setup.with({CO_KEY(0x1028, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 2});
+    setup.with({CO_KEY(0x1028, 1, CO_OBJ_D___RW), CO_TEMCY_CONS, 0x80000000});
+    setup.with({CO_KEY(0x1028, 2, CO_OBJ_D___RW), CO_TEMCY_CONS, 0x301});
+  });
+  unsigned emergencies = 0;
+  callbacks().emcy_received = [&](CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*) {
+    ++emergencies;
+  };
+  node.start();
+  node.arrive("301#3412050000000000");
+  node.real_time();
+  CHECK(emergencies == 0);
+  CHECK(node.u8[0] == 0x11);
+  node.mainline();
+  CHECK(emergencies == 1);
+  CHECK(node.u8[0] == 0x34);
+  node.frames();
+}
+
+#endif
+
+TEST_CASE("real time: identifiers of 29 bits, remote frames, and a DLC beyond 8") {
+  SyncTable table;
+  table.rpdo[0].on(0x20012345, 255, {0x22080140});
+  table.tpdo[0].on(0x181, 253, {0x22010308});
+  RealTimeNode node(table);
+  node.start();
+  CO_IF_FRM frm = frame("00012345#0102030405060708");
+  frm.DLC = 15;
+  node.can.to_node.push_back(frm);
+  if (USE_PDO_RTR != 0) {
+    node.arrive("181#R");
+  }
+  node.real_time();
+  CHECK(node.u64[0] == 0x0807060504030201);
+  if (USE_PDO_RTR != 0) {
+    node.tx("181#31");
+  }
+  CHECK(waiting(node) == 0);
+  node.mainline();
+  node.frames();
+}
+
+TEST_CASE("real time: reports of the controller are for CONodeProcess") {
+  RealTimeNode node(pdos());
+  unsigned events = 0;
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
+  CO_IF_FRM report{};
+  report.Identifier = CO_IF_FRM_ERROR | 0x40;
+  report.DLC = 8;
+  node.can.to_node.push_back(report);
+  node.real_time();
+  CHECK(events == 0);
+  node.mainline();
+  CHECK(events == 1);
+  node.frames();
+}
+
+TEST_CASE("real time: a frame that finds the ring full is lost, as one that the controller has lost") {
+  RealTimeNode node(pdos());
+  for (int n = 0; n < 8; ++n) node.arrive("123#");
+  node.real_time();
+  node.silent();
+  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
+  node.arrive("123#");
+  node.arrive("124#");
+  node.real_time();
+  CHECK(node.frames() == reports({emcy(0x8110)}));
+  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 2);
+  CHECK(CORingLost(&node.ring) == 2);
+  node.mainline();
+}
+
+TEST_CASE("real time: the SYNC producer and the window are timers of CONodeRealTime [301:7.2.5]") {
+  SyncTable table = pdos();
+  table.sync_id = 0x40000080;
+  table.cycle = 10000;
+  table.window = 4000;
+  RealTimeNode node(table);
+  node.start();
+  node.pass(10ms);
+  node.mainline();
+  node.silent();
+  node.real_time();
+  node.tx({"080#", "281#41"});
+  node.pass(4ms);
+  CHECK(node->WindowOver == 0);
+  node.mainline();
+  CHECK(node->WindowOver == 0);
+  node.real_time();
+  CHECK(node->WindowOver == 1);
+}
+
+TEST_CASE("real time: event time, inhibit time and deadline of PDOs are timers of CONodeRealTime [301:7.2.2.6]") {
+  SyncTable table = pdos();
+  table.tpdo[0].event = 20;
+  table.tpdo[0].inhibit = 50;
+  table.rpdo[0].event = 30;
+  RealTimeNode node(table);
+  node.start();
+  node.trigger(0);
+  node.tx("181#31");
+  node.trigger(0);
+  node.arrive("201#AA");
+  node.real_time();
+  node.pass(5ms);
+  node.mainline();
+  node.silent();
+  node.real_time();
+  node.tx("181#31");
+  node.pass(5ms);
+  node.real_time();
+  node.silent();
+  node.pass(15ms);
+  node.mainline();
+  node.silent();
+  node.real_time();
+  node.tx("181#31");
+  node.pass(5ms);
+  node.mainline();
+  node.silent();
+  node.real_time();
+  CHECK(node.frames() == reports({emcy(0x8250, 1)}));
+}
+
+TEST_CASE("real time: all other timers are COTmrProcess()'s, in their order, whatever elapses between them") {
+  SyncTable table = pdos();
+  table.tpdo[0].event = 1;
+  RealTimeNode node(table, [](Setup& setup) { setup.heartbeat(3); });
+  node.start();
+  node.frames();
+  static std::vector<int> runs;
+  runs.clear();
+  const auto note_number = [](void* number) {
+    const OutsideStack outside;
+    runs.push_back(*static_cast<int*>(number));
+  };
+  static int numbers[] = {1, 2, 3};
+  node.call([&] {
+    for (int& number : numbers) {
+      CHECK(COTmrCreate(&node->Tmr, static_cast<std::uint32_t>(number), 0, note_number, &number) >= 0);
+    }
+  });
+  node.trigger(0);
+  node.frames();
+  node.pass(3ms);
+  node.real_time();
+  node.tx("181#31");
+  CHECK(runs.empty());
+  node.real_time();
+  node.silent();
+  node.mainline();
+  node.tx("701#05");
+  CHECK(runs == std::vector<int>{1, 2, 3});
+}
+
+TEST_CASE("real time: the deadline is that of the mainline; what has elapsed for the other thread does not count") {
+  SyncTable table = pdos();
+  table.tpdo[0].event = 5;
+  RealTimeNode node(table, [](Setup& setup) { setup.heartbeat(50); });
+  node.start();
+  node.mainline();
+  node.trigger(0);
+  node.frames();
+  const auto deadline = [&] {
+    std::uint32_t ticks = 0;
+    node.call([&] { ticks = CONodeNextDeadline(&node.node); });
+    return ticks;
+  };
+  CHECK(deadline() == 5);
+  node.pass(5ms);
+  CHECK(deadline() == 45);
+  node.pass(45ms);
+  CHECK(deadline() == 0);
+  node.mainline();
+  node.tx("701#05");
+  node.real_time();
+  node.frames();
+}
+
+TEST_CASE("real time: PDOs that wait for the controller are sent by CONodeRealTime, too") {
+  RealTimeNode node(pdos());
+  node.start();
+  node.can.refuse_all();
+  node.trigger(0);
+  node.can.accept_all();
+  node.silent();
+  node.real_time();
+  node.tx("181#31");
+}
+
+TEST_CASE("real time: a reset that a callback of a PDO asks for waits for CONodeProcess") {
+  RealTimeNode node(pdos());
+  node.start();
+  callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
+  node.arrive("201#AA");
+  node.real_time();
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.mainline();
+  CHECK(node.mode() == CO_PREOP);
+  node.tx("701#00");
+}
+
+TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") {
+  RealTimeNode node(pdos());
+  node.start();
+  callbacks().pdo_update = [&](CO_RPDO*) { CONodeStop(&node.node); };
+  for (const char* text : {"201#AA", "201#BB", "123#"}) node.arrive(text);
+  node.real_time();
+  CHECK(node.mode() == CO_INVALID);
+  CHECK(node.u8[0] == 0xAA);
+  CHECK(node.can.to_node.size() == 2);
+  node.real_time();
+  node.mainline();
+  CHECK(node.can.to_node.size() == 2);
+}
+
+TEST_CASE("real time: a reset forgets the frames that wait, as the controller does") {
+  RealTimeNode node(pdos());
+  for (const char* text : {"000#8201", "601#4000100000000000"}) node.arrive(text);
+  node.real_time();
+  CHECK(waiting(node) == 2);
+  node.mainline();
+  node.tx("701#00");
+  CHECK(waiting(node) == 0);
+}
+
+TEST_CASE("real time: without a ring CONodeRealTime does nothing, and CONodeProcess everything") {
+  PdoTable table;
+  table.rpdo[0].on(0x201, 255, {0x22010108});
+  table.tpdo[0].on(0x40000181, 255, {0x22010308}).event = 5;
+  PdoNode node(table, [](Setup& setup) { setup.turns(); });
+  node.start();
+  node.can.to_node.push_back(frame("201#AA"));
+  node.call([&] { CONodeRealTime(&node.node); });
+  CHECK(node.u8[0] == 0x11);
+  node.loop();
+  CHECK(node.u8[0] == 0xAA);
+  node.trigger(0);
+  node.tx("181#31");
+  node.after(5ms);
+  node.tx("181#31");
+}
+
+}  // namespace
+
+#endif

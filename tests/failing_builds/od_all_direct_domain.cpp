@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_DIRECT_TYPE, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>
+// OD_ALL: the rules of the basic types hold.
+#define USE_OD 1
+#define OD_ALL
+#include "co/dictionary.hpp"
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x6000, 0x10, CO_OBJ_D___R_), CO_TDOMAIN, (CO_DATA)(1)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);

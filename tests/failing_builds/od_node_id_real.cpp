@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_NODEID_TYPE, co::Index<'6', '0', '0', '0'>, co::Sub<'1', '0'>
+// An extensible REAL32 is not relative to the node-ID, either.
+#define USE_OD 1
+#include "co/dictionary.hpp"
+
+float object;
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
+    {CO_KEY(0x6000, 0x10, CO_OBJ__N__RW), OD_TREAL32, (CO_DATA)(&object)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);

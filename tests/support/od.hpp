@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file od.hpp
+/// For tests of the second way into the dictionary (co_od.h).
+#pragma once
+
+#include <string>
+
+#include "co_od.h"
+#include "fixture.hpp"
+
+#if USE_OD
+
+namespace test {
+
+/// A variable of the fixture's dictionary, to be read and written.
+inline OD_IO_t variable(Fixture& node, std::uint16_t index, std::uint8_t sub = 0, bool original = false) {
+  OD_IO_t io{};
+  REQUIRE(OD_getSub(OD_find(&node.od, index), sub, &io, original) == ODR_OK);
+  return io;
+}
+
+/// One that is nothing but memory.
+inline OD_IO_t variable(Bytes& memory) {
+  OD_IO_t io{};
+  io.stream.dataOrig = memory.data();
+  io.stream.dataLength = static_cast<OD_size_t>(memory.size());
+  io.read = OD_readOriginal;
+  io.write = OD_writeOriginal;
+  return io;
+}
+
+/// What a read has answered. Behind its end the buffer must not have been touched.
+struct Given {
+  ODR_t result;
+  Bytes data;
+
+  friend bool operator==(const Given& a, const Given& b) { return a.result == b.result && a.data == b.data; }
+};
+
+inline Given read(OD_IO_t& io, OD_size_t count) {
+  Bytes buffer(count + 4U, 0xEE);
+  OD_size_t given = 0xEEEEEEEE;
+  const ODR_t result = io.read(&io.stream, buffer.data(), count, &given);
+  if (result != ODR_OK && result != ODR_PARTIAL) {
+    given = 0;
+  }
+  REQUIRE(given <= count);
+  CHECK(Bytes(buffer.begin() + count, buffer.end()) == Bytes(4, 0xEE));
+  buffer.resize(given);
+  return {result, buffer};
+}
+
+/// A write takes all or none, and leaves the buffer of its caller alone.
+inline ODR_t write(OD_IO_t& io, const Bytes& data) {
+  Bytes buffer = data;
+  buffer.push_back(0xEE);  // the address of an empty one is valid, too
+  const Bytes before = buffer;
+  OD_size_t taken = 0xEEEEEEEE;
+  const ODR_t result = io.write(&io.stream, buffer.data(), static_cast<OD_size_t>(data.size()), &taken);
+  CHECK(buffer == before);
+  CHECK(taken == (result == ODR_OK || result == ODR_PARTIAL ? data.size() : 0xEEEEEEEE));
+  return result;
+}
+
+}  // namespace test
+
+template <>
+struct doctest::StringMaker<test::Given> {
+  static String convert(const test::Given& given) {
+    std::string text = "result " + std::to_string(given.result) + ":";
+    for (const std::uint8_t byte : given.data) {
+      text += " " + std::to_string(byte);
+    }
+    return text.c_str();
+  }
+};
+
+#endif

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a word that is not aligned, which must end the program by a fault where the tests rely on that.
+#include <cstdint>
+
+#include "board.hpp"
+
+int main() {
+  static std::uint32_t words[2];
+  std::uintptr_t address = reinterpret_cast<std::uintptr_t>(words) + 2;
+  asm volatile("" : "+r"(address));
+  const std::uint32_t word = *reinterpret_cast<volatile std::uint32_t*>(address);
+  board::print("read what is not aligned\n");
+  return word == 0 ? 0 : 1;
+}

@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: Apache-2.0
+// OD_writeOriginal(): variables of every kind in pieces of every length.
+
+// Tables and casts are those that firmware writes.
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+
+#include "support/od_variables.hpp"
+
+#if USE_OD
+
+namespace {
+
+using namespace test;
+
+// Other bytes than were there; no zeros.
+Bytes other_than(const Bytes& value) {
+  Bytes other = value;
+  for (std::uint8_t& byte : other) {
+    byte = static_cast<std::uint8_t>(byte ^ 0x80U);
+  }
+  return other;
+}
+
+Bytes piece(const Bytes& all, std::size_t from, std::size_t count) {
+  const std::size_t to = std::min(all.size(), from + count);
+  return {all.begin() + static_cast<std::ptrdiff_t>(from), all.begin() + static_cast<std::ptrdiff_t>(to)};
+}
+
+// The first bytes of one, the others of the other.
+Bytes mixed(const Bytes& first, const Bytes& rest, std::size_t at) {
+  Bytes all = rest;
+  std::copy_n(first.begin(), at, all.begin());
+  return all;
+}
+
+Bytes now(const Variable& one) {
+  OD_IO_t io = one.io;
+  OD_rwRestart(&io.stream);
+  return read(io, static_cast<OD_size_t>(one.value.size())).data;
+}
+
+// Of an OCTET_STRING or domain: what is behind the last piece is not its value any more.
+bool keeps_the_rest(const Variable& one) { return one.name != "OCTET_STRING"; }
+
+Bytes text_of(const CO_OBJ_STR_RW& text) { return {text.Start, text.Start + text.Size}; }
+
+}  // namespace
+
+TEST_CASE("OD_writeOriginal: a null argument is ODR_DEV_INCOMPAT") {
+  Bytes memory(4);
+  OD_IO_t io = variable(memory);
+  const std::uint8_t buffer[4] = {1, 2, 3, 4};
+  OD_size_t taken = 77;
+  CHECK(OD_writeOriginal(nullptr, buffer, 4, &taken) == ODR_DEV_INCOMPAT);
+  CHECK(OD_writeOriginal(&io.stream, nullptr, 4, &taken) == ODR_DEV_INCOMPAT);
+  CHECK(OD_writeOriginal(&io.stream, buffer, 4, nullptr) == ODR_DEV_INCOMPAT);
+  CHECK(taken == 77);
+  CHECK(memory == Bytes(4));
+}
+
+TEST_CASE("OD_writeOriginal: a variable without memory is ODR_SUB_NOT_EXIST") {
+  Bytes memory(4);
+  OD_IO_t io = variable(memory);
+  io.stream.dataOrig = nullptr;
+  CHECK(write(io, {1, 2, 3, 4}) == ODR_SUB_NOT_EXIST);
+  Variables variables;
+  OD_IO_t number = variable(variables.node, 0x400A, 0);
+  OD_IO_t stream = variable(variables.node, 0x400A, 1);
+  CHECK(write(number, {1, 2, 3, 4}) == ODR_SUB_NOT_EXIST);
+  CHECK(write(stream, {1, 2, 3, 4}) == ODR_SUB_NOT_EXIST);
+  OD_IO_t text = variable(variables.node, 0x2110);
+  variables.node.objects.text.Start = nullptr;
+  CHECK(write(text, {1}) == ODR_SUB_NOT_EXIST);
+}
+
+TEST_CASE("OD_writeOriginal: an offset at the end or behind it is ODR_DEV_INCOMPAT, and nothing is written") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    CAPTURE(one.name);
+    for (const OD_size_t behind : {0U, 1U, 1000U}) {
+      one.io.stream.dataOffset = static_cast<OD_size_t>(one.value.size()) + behind;
+      CHECK(write(one.io, {0x99}) == ODR_DEV_INCOMPAT);
+      CHECK(now(one) == one.value);
+    }
+  }
+}
+
+TEST_CASE("OD_writeOriginal: all bytes in one call are ODR_OK, and the next call begins anew") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    CAPTURE(one.name);
+    CHECK(write(one.io, other_than(one.value)) == ODR_OK);
+    CHECK(one.io.stream.dataOffset == 0);
+    CHECK(now(one) == other_than(one.value));
+    CHECK(write(one.io, one.value) == ODR_OK);
+    CHECK(now(one) == one.value);
+  }
+}
+
+TEST_CASE("OD_writeOriginal: fewer bytes are ODR_PARTIAL, the last of them ODR_OK, and each is there at once") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    CAPTURE(one.name);
+    const std::size_t length = one.value.size();
+    for (std::size_t count = 1; count < length; ++count) {
+      CAPTURE(count);
+      const Bytes before = now(one);
+      const Bytes next = other_than(before);
+      std::size_t at = 0;
+      for (; length - at > count; at += count) {
+        CHECK(write(one.io, piece(next, at, count)) == ODR_PARTIAL);
+        CHECK(one.io.stream.dataOffset == at + count);
+        if (keeps_the_rest(one)) {
+          CHECK(now(one) == mixed(next, before, at + count));
+        }
+      }
+      CHECK(write(one.io, piece(next, at, count)) == ODR_OK);
+      CHECK(one.io.stream.dataOffset == 0);
+      CHECK(now(one) == next);
+    }
+  }
+}
+
+TEST_CASE("OD_writeOriginal: more than remains is ODR_DATA_LONG: nothing of it is written, what came before stays") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    CAPTURE(one.name);
+    const Bytes next = other_than(one.value);
+    Bytes too_long = next;
+    too_long.push_back(0x99);
+    CHECK(write(one.io, too_long) == ODR_DATA_LONG);
+    CHECK(one.io.stream.dataOffset == 0);
+    CHECK(now(one) == one.value);
+    if (one.value.size() < 2) {
+      continue;
+    }
+    CHECK(write(one.io, piece(next, 0, 1)) == ODR_PARTIAL);
+    CHECK(write(one.io, next) == ODR_DATA_LONG);
+    CHECK(one.io.stream.dataOffset == 1);
+    if (keeps_the_rest(one)) {
+      CHECK(now(one) == mixed(next, one.value, 1));
+    }
+    CHECK(write(one.io, piece(next, 1, 100)) == ODR_OK);
+    CHECK(now(one) == next);
+  }
+}
+
+TEST_CASE("OD_writeOriginal: no bytes are ODR_PARTIAL and change nothing") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    CAPTURE(one.name);
+    if (keeps_the_rest(one)) {
+      CHECK(write(one.io, {}) == ODR_PARTIAL);
+      CHECK(now(one) == one.value);
+    }
+  }
+}
+
+TEST_CASE("OD_rwRestart: an unfinished write begins anew, what was written stays") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    if (one.value.size() < 2 || !keeps_the_rest(one)) {
+      continue;
+    }
+    CAPTURE(one.name);
+    const Bytes next = other_than(one.value);
+    CHECK(write(one.io, piece(next, 0, 1)) == ODR_PARTIAL);
+    OD_rwRestart(&one.io.stream);
+    CHECK(now(one) == mixed(next, one.value, 1));
+    CHECK(write(one.io, one.value) == ODR_OK);
+    CHECK(now(one) == one.value);
+  }
+}
+
+TEST_CASE("OD_writeOriginal: accesses to one variable do not move one another") {
+  Variables variables;
+  for (Variable& one : variables.writable()) {
+    if (one.value.size() < 3 || !keeps_the_rest(one)) {
+      continue;
+    }
+    CAPTURE(one.name);
+    const Bytes next = other_than(one.value);
+    OD_IO_t other = one.io;
+    CHECK(write(one.io, piece(next, 0, 2)) == ODR_PARTIAL);
+    CHECK(write(other, piece(one.value, 0, 1)) == ODR_PARTIAL);
+    CHECK(write(one.io, piece(next, 2, 100)) == ODR_OK);
+    CHECK(write(other, piece(one.value, 1, 100)) == ODR_OK);
+    CHECK(now(one) == one.value);
+  }
+}
+
+// Numbers -------------------------------------------------------------------------------------------------------------
+
+TEST_CASE("OD_writeOriginal: a signed number of 3 bytes keeps its sign in the variable") {
+  std::int32_t memory = 0;
+  Fixture node(Setup().only_small().with({CO_KEY(0x4000, 0, CO_OBJ_____RW), CO_TSIGNED24, (CO_DATA)(&memory)}));
+  OD_IO_t io = variable(node, 0x4000);
+  CHECK(write(io, bytes_of(std::uint32_t{0xFFFFFE}, 3)) == ODR_OK);
+  CHECK(memory == -2);
+  CHECK(write(io, bytes_of(std::uint32_t{0x000123}, 3)) == ODR_OK);
+  CHECK(memory == 0x123);
+}
+
+TEST_CASE("OD_writeOriginal: a value relative to the node-ID is stored without it") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4006);
+  CHECK(write(io, bytes_of(std::uint32_t{0x601})) == ODR_OK);
+  CHECK(variables.relative == 0x600);
+  CHECK(read(io, 4) == Given{ODR_OK, bytes_of(std::uint32_t{0x601})});
+}
+
+TEST_CASE(
+    "OD_writeOriginal: a number that comes in pieces is written as a whole with each, so its type is asked each time") {
+  Variables variables;
+  static unsigned writes;
+  writes = 0;
+  static const CO_OBJ_TYPE counted = {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{2}; }, nullptr,
+                                      [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t size) {
+                                        __builtin_memset(buffer, 0x10, size);
+                                        return CO_ERR_NONE;
+                                      },
+                                      [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t size) {
+                                        ++writes;
+                                        const auto* const bytes = static_cast<const std::uint8_t*>(buffer);
+                                        return size == 2 && bytes[0] <= 0x20 ? CO_ERR_NONE : CO_ERR_OBJ_RANGE;
+                                      },
+                                      nullptr};
+  Fixture node(Setup().only_small().with({CO_KEY(0x4000, 0, CO_OBJ_____RW), &counted, CO_DATA(&variables)}));
+  OD_IO_t io = variable(node, 0x4000);
+  CHECK(write(io, {0x20}) == ODR_PARTIAL);
+  CHECK(write(io, {0xFF}) == ODR_OK);
+  CHECK(writes == 2);
+  CHECK(write(io, {0x21}) == ODR_INVALID_VALUE);
+  CHECK(io.stream.dataOffset == 0);
+  CHECK(write(io, {0x21, 0x00}) == ODR_INVALID_VALUE);
+  CHECK(writes == 4);
+}
+
+TEST_CASE("OD_writeOriginal: a change of a number with flag A sends its TPDO, and one that changes nothing does not") {
+  std::uint8_t memory = 1;
+  std::uint32_t cob_id = 0x40000181;
+  std::uint8_t type = 254;
+  std::uint8_t mapped = 1;
+  std::uint32_t mapping = CO_LINK(0x4000, 0, 8);
+  Fixture node(Setup()
+                   .only_small()
+                   .may_change(0x4000, 0)
+                   .with({CO_KEY(0x1800, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(2)})
+                   .with({CO_KEY(0x1800, 1, CO_OBJ_____RW), CO_TPDO_ID, (CO_DATA)(&cob_id)})
+                   .with({CO_KEY(0x1800, 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)(&type)})
+                   .with({CO_KEY(0x1A00, 0, CO_OBJ_____RW), CO_TPDO_NUM, (CO_DATA)(&mapped)})
+                   .with({CO_KEY(0x1A00, 1, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA)(&mapping)})
+                   .with({CO_KEY(0x4000, 0, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)(&memory)}));
+  node.rx("000#0101");
+  node.trace();
+  const OD_entry_t* const entry = OD_find(&node.od, 0x4000);
+  node.call([entry] { CHECK(OD_set_u8(entry, 0, 1, false) == ODR_OK); });
+  node.silent();
+  node.call([entry] { CHECK(OD_set_u8(entry, 0, 2, false) == ODR_OK); });
+  node.tx("181#02");
+}
+
+// Texts, octets and streams -------------------------------------------------------------------------------------------
+
+TEST_CASE(
+    "OD_writeOriginal: a text shorter than its capacity is ODR_PARTIAL, ODR_OK where the caller has said its length") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x2110);
+  const CO_OBJ_STR_RW& text = variables.node.objects.text;
+  CHECK(write(io, {'a', 'b', 'c'}) == ODR_PARTIAL);
+  OD_rwRestart(&io.stream);
+  io.stream.dataLength = 2;
+  CHECK(write(io, {'d', 'e'}) == ODR_OK);
+  CHECK(text_of(text) == Bytes{'d', 'e'});
+  io.stream.dataLength = 3;
+  CHECK(write(io, {'f', 'g', 'h', 'i'}) == ODR_DATA_LONG);
+  CHECK(text_of(text) == Bytes{'d', 'e'});
+  io.stream.dataLength = 100;  // more than there is room for
+  CHECK(write(io, Bytes(17, 'x')) == ODR_DATA_LONG);
+  CHECK(write(io, Bytes(16, 'x')) == ODR_OK);
+  CHECK(text_of(text) == Bytes(16, 'x'));
+}
+
+TEST_CASE("OD_writeOriginal: a zero that ends a text does not belong to it") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x2110);
+  const CO_OBJ_STR_RW& text = variables.node.objects.text;
+  io.stream.dataLength = 4;
+  CHECK(write(io, {'a', 'b'}) == ODR_PARTIAL);
+  CHECK(write(io, {'c', 0}) == ODR_OK);
+  CHECK(text_of(text) == Bytes{'a', 'b', 'c'});
+  CHECK(variables.node.upload(0x2110, 0) == Bytes{'a', 'b', 'c'});
+  CHECK(write(io, {0, 0, 0, 0}) == ODR_OK);
+  CHECK(text_of(text).empty());
+  io.stream.dataLength = 16;
+  CHECK(write(io, {'a', 0, 'b', 'c', 'd', 'e', 'f', 'g', 'h', 'i', 'j', 0, 0, 0, 0, 0}) == ODR_OK);
+  CHECK(text.Size == 11);
+}
+
+TEST_CASE("OD_writeOriginal: of a UNICODE_STRING two zeros end it, and a character keeps its zero") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x2112);
+  const CO_OBJ_STR_RW& text = variables.node.objects.unicode;
+  io.stream.dataLength = 4;
+  CHECK(write(io, {'A', 0, 'B', 0}) == ODR_OK);
+  CHECK(text.Size == 4);
+  CHECK(variables.node.upload(0x2112, 0) == Bytes{'A', 0, 'B', 0});
+  io.stream.dataLength = 6;
+  CHECK(write(io, {'A', 0, 0, 1, 0, 0}) == ODR_OK);
+  CHECK(text.Size == 4);
+  CHECK(variables.node.upload(0x2112, 0) == Bytes{'A', 0, 0, 1});
+}
+
+TEST_CASE("OD_writeOriginal: zeros belong to an OCTET_STRING, which may be shorter") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x2111);
+  io.stream.dataLength = 3;
+  CHECK(write(io, {9, 0, 0}) == ODR_OK);
+  CHECK(text_of(variables.node.objects.octets) == Bytes{9, 0, 0});
+}
+
+TEST_CASE("OD_writeOriginal: a domain may be written up to a length that the caller says") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x2100, 15);
+  io.stream.dataLength = 2;
+  CHECK(write(io, {0x91}) == ODR_PARTIAL);
+  CHECK(write(io, {0x92}) == ODR_OK);
+  CHECK(piece(variables.node.objects.memory[15], 0, 3) == Bytes{0x91, 0x92, 3});
+}
+
+TEST_CASE("OD_writeOriginal: what cannot be written is ODR_READONLY, memory that must not be ODR_UNSUPP_ACCESS") {
+  Variables variables;
+  OD_IO_t text = variable(variables.node, 0x1008);
+  CHECK(write(text, {'x'}) == ODR_READONLY);
+  Fixture protected_node(Setup().only_small().writable([](const void*, std::uint32_t) { return false; }));
+  OD_IO_t number = variable(protected_node, 0x2004);
+  OD_IO_t octets = variable(protected_node, 0x2111);
+  CHECK(write(number, {1, 2, 3, 4}) == ODR_UNSUPP_ACCESS);
+  CHECK(write(octets, {1}) == ODR_UNSUPP_ACCESS);
+  CHECK(protected_node.objects.u32 == 0x44332211);
+}
+
+TEST_CASE("OD_writeOriginal: a stream of the application of unknown length ends where the caller says") {
+  Variables variables;
+  variables.plain.knows_size = false;
+  OD_IO_t io = variable(variables.node, 0x4000);
+  REQUIRE(io.stream.dataLength == 0);
+  CHECK(write(io, {1, 2, 3}) == ODR_PARTIAL);
+  CHECK(write(io, Bytes(40, 4)) == ODR_PARTIAL);
+  io.stream.dataLength = 45;
+  CHECK(write(io, {5, 6, 7}) == ODR_DATA_LONG);
+  CHECK(write(io, {5, 6}) == ODR_OK);
+  CHECK(io.stream.dataOffset == 0);
+  Bytes expected = {1, 2, 3};
+  expected.resize(43, 4);
+  expected.insert(expected.end(), {5, 6});
+  CHECK(variables.plain.data == expected);
+}
+
+TEST_CASE("OD_writeOriginal: a stream of the application in pieces of any length") {
+  for (std::size_t count = 1; count <= 20; ++count) {
+    CAPTURE(count);
+    Variables variables;
+    const Bytes next = other_than(variables.plain.data);
+    OD_IO_t io = variable(variables.node, 0x4000);
+    REQUIRE(io.stream.dataLength == 20);
+    for (std::size_t at = 0; at < 20; at += count) {
+      CHECK(write(io, piece(next, at, count)) == (at + count < 20 ? ODR_PARTIAL : ODR_OK));
+    }
+    CHECK(variables.plain.data == next);
+  }
+}
+
+TEST_CASE("OD_writeOriginal: Begin and End of a type belong to transfers of the network") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4001);
+  variables.extended.take_log();
+  CHECK(write(io, Bytes(20, 1)) == ODR_PARTIAL);
+  CHECK(write(io, {2}) == ODR_OK);
+  CHECK(variables.extended.take_log() == Log{"reset 0", "write 0", "write 20", "reset 20", "write 1"});
+}
+
+TEST_CASE("OD_writeOriginal: a value of more than 8 bytes is written in one call") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4009);
+  CHECK(write(io, Bytes(11, 0x99)) == ODR_UNSUPP_ACCESS);
+  CHECK(write(io, Bytes(13, 0x99)) == ODR_DATA_LONG);
+  CHECK(variables.long_value[0] == 1);
+  CHECK(write(io, Bytes(12, 0x99)) == ODR_OK);
+  CHECK(variables.long_value[11] == 0x99);
+}
+
+#endif
