@@ -2,7 +2,8 @@
 about="the configurations of config/presets (full is that of all other lanes)"
 packages=("${build_packages[@]}")
 
-# The smallest configuration is built for size, so that each preset of CMakePresets.json is used, too.
+# The smallest configuration is built for size, so that each preset of CMakePresets.json is used, too. Lane gcc makes the
+# whole sweeps.
 lane() {
   test_preset size minimal
   test_preset release slave
@@ -10,7 +11,7 @@ lane() {
 
 test_preset() {  # CMAKE-PRESET CONFIGURATION
   local targets=(lexican_tests tests/compat/all)
-  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" || return
+  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_THIN_SWEEPS=ON || return
   run_doctest "preset-$2" "$build/preset-$2/tests/lexican_tests"
   run_ctest "preset-$2-compat" "$build/preset-$2/tests/compat"
 }

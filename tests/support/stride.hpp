@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file stride.hpp
-/// Sweeps try everything on hosts. On an emulated CPU (LEXICAN_THIN_SWEEPS) the long ones try a part of it, always the
-/// same: each n-th, or so many times less.
+/// Sweeps try everything. On an emulated CPU, and where other lanes make them whole (LEXICAN_THIN_SWEEPS), the long
+/// ones try a part of it, always the same: each n-th, or so many times less.
 #pragma once
 
 namespace test {

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: Apache-2.0
+about="all doctest cases with their whole sweeps, clang with address and undefined behaviour sanitizers"
+packages=("${build_packages[@]}" "${clang_packages[@]}")
+
+lane() {
+  local targets=(lexican_tests)
+  build_preset development sweeps || return
+  run_doctest sweeps "$build/sweeps/tests/lexican_tests"
+}
