@@ -309,8 +309,8 @@ void CONodeProcess(CO_NODE* node);
 /// in a turn.
 ///
 /// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
-/// among the frames of either. Resets that the application asks for in this function wait for CONodeProcess(). A frame
-/// that finds the ring full is lost: CONodeCanEvent(), CO_CAN_OVERRUN.
+/// among the frames of either. Resets (CONmtReset()) are the mainline's, too: whoever asks for one, and wherever, it
+/// waits for CONodeProcess(). A frame that finds the ring full is lost: CONodeCanEvent(), CO_CAN_OVERRUN.
 void CONodeRealTime(CO_NODE* node);
 #endif
 

@@ -65,7 +65,8 @@ typedef struct CO_NMT_T {
 /// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is
 /// initialised by the same code as in CONodeInit(). Ends with boot-up and Pre-operational (or Operational, see
 /// co_nmt_startup.h), except in CO_INIT, where the node waits for CONodeStart(). Timers of the application go on. \a
-/// type other than CO_RESET_NODE and CO_RESET_COM, and a node in CO_INVALID, are ignored.
+/// type other than CO_RESET_NODE and CO_RESET_COM, and a node in CO_INVALID, are ignored. Where there is a real-time
+/// thread (CO_NODE_EXT.Mainline), all that waits for the next CONodeProcess().
 void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
 
 /// Changes the NMT state, as a command of the NMT master would. A node in CO_INVALID, and modes other than CO_PREOP,

@@ -21,6 +21,15 @@ void init(CO_NODE& node);
 inline void lock(CO_NODE& node) { node.Ext->Lock != nullptr ? node.Ext->Lock(node.Ext->User) : COTmrLock(); }
 inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlock(node.Ext->User) : COTmrUnlock(); }
 
+// Has the node a real-time thread?
+[[nodiscard]] inline bool has_mainline([[maybe_unused]] const CO_NODE& node) {
+#if USE_REAL_TIME
+  return node.Ext != nullptr && node.Ext->Mainline != nullptr;
+#else
+  return false;
+#endif
+}
+
 // A turn of the node (CO_NODE_EXT.Enter) for as long as it lives. Turns do not nest.
 #if USE_REAL_TIME
 inline void enter(CO_NODE& node) {

@@ -107,6 +107,21 @@ void reconfigure(CO_NODE& node, bool entries_have_moved) {
   routes::publish(node);
 }
 
+void settle(CO_NODE& node, uint8_t what) {
+  while ((node.Pending & what) != 0 && (node.State & (event::serving | event::changing)) == 0) {
+    const auto pending = static_cast<uint8_t>(node.Pending & what);
+    node.Pending = static_cast<uint8_t>(node.Pending & ~what);
+    if ((pending & event::resets) != 0) {
+      settle_reset(node, pending);
+    } else if (node.Nmt.Mode != CO_INVALID) {
+      reconfigure(node, (pending & event::remap) != 0);
+    }
+  }
+}
+
+// For CONodeProcess(): what others have left to it, too.
+void settle_all(CO_NODE& node) { USE_REAL_TIME != 0 ? settle(node, UINT8_MAX) : event::settle(node); }
+
 bool has_drivers(const CO_NODE& node) {
   const bool can = node.Ext->Can != nullptr || node.If.Drv->Can != nullptr;
   const bool timer = node.Ext->Timer != nullptr || node.If.Drv->Timer != nullptr;
@@ -156,7 +171,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
       const event::Serving serving(node);
       services::on_free(node);
     }
-    event::settle(node);
+    settle_all(node);
   }
   return node.Nmt.Mode != CO_INVALID;
 }
@@ -201,7 +216,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
 // The frame that CONodeProcess() serves. False: there is none.
 bool receive(CO_NODE& node, CO_IF_FRM& frame) {
 #if USE_REAL_TIME
-  if (node.Ext->Mainline != nullptr) {
+  if (port::has_mainline(node)) {
     return CORingGet(node.Ext->Mainline, &frame);
   }
 #endif
@@ -236,10 +251,10 @@ void share_out(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 #endif
 
-// Has CONodeRealTime() left something to CONodeProcess()?
+// Has CONodeProcess() something to do that others have left to it?
 bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
-  return node.Ext->Mainline != nullptr && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
+  return port::has_mainline(node) && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
 #else
   return false;
 #endif
@@ -251,15 +266,7 @@ bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 namespace co {
 
 void event::settle_pending(CO_NODE& node) {
-  while (node.Pending != 0 && (node.State & (serving | changing)) == 0) {
-    const uint8_t pending = node.Pending;
-    node.Pending = 0;
-    if ((pending & (reset_node | reset_communication)) != 0) {
-      node::settle_reset(node, pending);
-    } else if (node.Nmt.Mode != CO_INVALID) {
-      node::reconfigure(node, (pending & remap) != 0);
-    }
-  }
+  node::settle(node, static_cast<uint8_t>(port::has_mainline(node) ? ~resets : UINT8_MAX));
 }
 
 }  // namespace co
@@ -340,7 +347,7 @@ void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::Turn turn(*node);
   if constexpr (USE_REAL_TIME != 0) {
-    event::settle(*node);  // what CONodeRealTime() has left
+    node::settle_all(*node);
   }
   if (node->State != event::running) {
     return;
@@ -356,7 +363,7 @@ void CONodeProcess(CO_NODE* node) {
   node->State = event::running | event::serving;
   node::dispatch(*node, frame);
   node->State &= static_cast<uint8_t>(~event::serving);
-  event::settle(*node);
+  node::settle_all(*node);
 }
 
 #if USE_REAL_TIME

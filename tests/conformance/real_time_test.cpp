@@ -305,6 +305,65 @@ TEST_CASE("real time: a reset that a callback of a PDO asks for waits for CONode
   node.tx("701#00");
 }
 
+TEST_CASE("real time: only CONodeProcess carries out a reset, whatever the threads call meanwhile") {
+  RealTimeNode node(pdos());
+  node.start();
+  callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
+  node.arrive("201#AA");
+  node.real_time();
+  callbacks().pdo_update = nullptr;
+  node.call([&] {
+    CHECK(CODictWrByte(&node->Dict, CO_DEV(0x2201, 1), 7) == CO_ERR_NONE);
+    CONodeCanEvent(&node.node, CO_CAN_RECOVERED);
+    COTmrProcess(&node->Tmr);
+#if USE_OD
+    CHECK(OD_set_u16(OD_find(&node.od, 0x2202), 1, 8, false) == ODR_OK);
+    CO_LOCK_OD(&node.node);
+    CO_UNLOCK_OD(&node.node);
+#endif
+  });
+  node.real_time();
+  CHECK(node.mode() == CO_OPERATIONAL);
+  node.silent();
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(node.mode() == CO_PREOP);
+  node.tx("701#00");
+}
+
+TEST_CASE("real time: a reset that is asked for outside of the threads' functions, or by a timer, waits, too") {
+  RealTimeNode node(pdos());
+  node.start();
+  node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
+  CHECK(node.mode() == CO_OPERATIONAL);
+  CHECK(CONodeNextDeadline(&node.node) == 0);
+  node.mainline();
+  node.tx("701#00");
+  node.call([&] {
+    const auto reset = [](void* nmt) { CONmtReset(static_cast<CO_NMT*>(nmt), CO_RESET_COM); };
+    CHECK(COTmrCreate(&node->Tmr, 5, 0, reset, &node->Nmt) >= 0);
+  });
+  node.elapse_only(5ms);
+  node.call([&] { COTmrProcess(&node->Tmr); });
+  node.silent();
+  node.mainline();
+  node.tx("701#00");
+}
+
+TEST_CASE("real time: a reset that is left to CONodeProcess does not keep other things waiting") {
+  RealTimeNode node(pdos());
+  node.start();
+  node.may_change(0x1201, 1);
+  node.may_change(0x1201, 2);
+  node.call([&] {
+    CONmtReset(&node->Nmt, CO_RESET_COM);
+    CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1201, 1), 0x241) == CO_ERR_NONE);
+    CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1201, 2), 0x1C1) == CO_ERR_NONE);
+  });
+  CHECK(node->Sdo[1].RxId == 0x241);
+  node.mainline();
+  node.tx("701#00");
+}
+
 TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") {
   RealTimeNode node(pdos());
   node.start();
