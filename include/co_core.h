@@ -121,7 +121,7 @@ typedef struct CO_NODE_COUNTERS_T {
   uint32_t Dropped;                      ///< frames that found a queue full, or that a reset or NMT state threw away
   uint32_t SdoAborts;                    ///< SDO transfers that the server aborted
   uint32_t TimerExhausted;               ///< COTmrCreate() without a free timer
-  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< what CONodeCanEvent() was told
+  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< what CONodeCanEvent() was told, or CONodeProcess() has found
 } CO_NODE_COUNTERS;
 
 /// Everything that CO_NODE_SPEC has no place for. Initialise it with zero, set Size, then what you need; it is only
@@ -161,6 +161,9 @@ typedef struct CO_NODE_EXT_T {
   /// Where CONodeRealTime() leaves the frames that it does not serve, and CONodeProcess() finds them. Prepared by
   /// CORingInit(), touched by nobody else. Null: no real-time thread.
   CO_RING* Mainline;
+  /// Are frames that no service of the node wants left there, too? For applications with COIfCanReceive(). false: they
+  /// take no place in the ring; they are counted (Unclaimed) and gone.
+  bool Foreign;
 #endif
 #if USE_OD
   struct OD_T_* Od;  ///< the index of the dictionary (co_od.h), or null: no object is extended
@@ -304,13 +307,20 @@ void CONodeProcess(CO_NODE* node);
 #if USE_REAL_TIME
 /// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
 /// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
-/// and the timers of SYNC and PDOs. Callbacks of PDOs run in this thread. The driver's Read must not block. All in one
-/// turn, for which it waits, at most, for a frame or a timer action of another thread, or for what the application does
-/// in a turn.
+/// and the timers of SYNC and PDOs. The driver's Read must not block. All in one turn, for which it waits, at most, for
+/// a frame or a timer action of another thread, or for what the application does in a turn.
 ///
 /// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
 /// among the frames of either. Resets (CONmtReset()) are the mainline's, too: whoever asks for one, and wherever, it
-/// waits for CONodeProcess(). A frame that finds the ring full is lost: CONodeCanEvent(), CO_CAN_OVERRUN.
+/// waits for CONodeProcess(). So does the report of frames that found the ring full, once for all that are lost since
+/// the last (CORingLost() counts them): CO_CAN_OVERRUN, with EMCY 8110h and CONodeCanChange().
+///
+/// Callbacks run where what they tell of happens: in this function COPdoReceive(), COPdoUpdate(), COPdoSyncUpdate(),
+/// and COPdoTransmit() of PDOs that a SYNC, a timer or a remote request sends. COPdoTransmit() also runs in the
+/// mainline, or wherever the application asks for a PDO: by COTPdoRequest() and its like, an object with flag A, the
+/// NMT state. PDOs that share their identifier with another service are the mainline's altogether. Read and Write
+/// functions of mapped types, COLedChange(), and what a callback leads to by itself (CONmtModeChange() by
+/// CONmtSetMode()) run in either. All other callbacks are the mainline's.
 void CONodeRealTime(CO_NODE* node);
 #endif
 
@@ -319,8 +329,8 @@ void CONodeRealTime(CO_NODE* node);
 uint32_t CONodeNextDeadline(CO_NODE* node);
 
 /// To be called by a CAN driver or the loop: the controller has changed its state. Counts it and calls
-/// CONodeCanChange(). SocketCAN error frames read by the driver are turned into it by the node itself.
-/// Context: the loop.
+/// CONodeCanChange(). SocketCAN error frames read by the driver are turned into it by the node itself, in
+/// CONodeProcess(). Context: the loop; of several threads the mainline.
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event);
 
 /// A copy of the counters; all 0 if \a node is null.
@@ -332,7 +342,8 @@ void* CONodeGetUser(const CO_NODE* node);
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{
 
-/// A frame that no service of the node has claimed; not called in CO_INIT and CO_INVALID.
+/// A frame that no service of the node has claimed; not called in CO_INIT and CO_INVALID. Where there is a real-time
+/// thread: see CO_NODE_EXT.Foreign.
 void COIfCanReceive(CO_IF_FRM* frm);
 
 /// The CAN controller has changed its state.

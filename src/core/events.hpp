@@ -39,12 +39,14 @@ enum Pending : uint8_t {
   reset_communication = 0x02,
   commanded = 0x04,  // the reset was commanded by the NMT master
   configure_sdo = 0x08,
-  remap = 0x10,  // CODictInit() has numbered the entries anew
+  remap = 0x10,    // CODictInit() has numbered the entries anew
+  overrun = 0x20,  // CONodeRealTime() has lost frames
 };
 inline void defer(CO_NODE& node, uint8_t what) { node.Pending = static_cast<uint8_t>(node.Pending | what); }
 
 // A reset asked for while the node is being initialised or started is part of that.
 inline constexpr uint8_t resets = reset_node | reset_communication | commanded;
+inline constexpr uint8_t of_mainline = resets | overrun;
 inline void forget_resets(CO_NODE& node) { node.Pending &= static_cast<uint8_t>(~resets); }
 
 // What can go wrong on the bus: an EMCY message with its code, and the bits of the error register. [301:7.2.7]
@@ -104,8 +106,8 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 }
 
 // Does what waits, unless a frame is being processed or the mode is being changed. Every function of the API that may
-// lead to something that waits ends so, and nothing else does. Where there is a real-time thread, resets are left to
-// CONodeProcess(): they belong to the mainline, and any thread may have asked for them.
+// lead to something that waits ends so, and nothing else does. Where there is a real-time thread, what belongs to the
+// mainline is left to CONodeProcess(), whichever thread has asked for it.
 void settle_pending(CO_NODE& node);
 [[gnu::always_inline]] inline void settle(CO_NODE& node) {
   if (node.Pending != 0) {

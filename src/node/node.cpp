@@ -119,9 +119,6 @@ void settle(CO_NODE& node, uint8_t what) {
   }
 }
 
-// For CONodeProcess(): what others have left to it, too.
-void settle_all(CO_NODE& node) { USE_REAL_TIME != 0 ? settle(node, UINT8_MAX) : event::settle(node); }
-
 bool has_drivers(const CO_NODE& node) {
   const bool can = node.Ext->Can != nullptr || node.If.Drv->Can != nullptr;
   const bool timer = node.Ext->Timer != nullptr || node.If.Drv->Timer != nullptr;
@@ -163,6 +160,26 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 #endif
 }
 
+[[gnu::noinline]] void report(CO_NODE& node, CO_CAN_EVENT event) {
+  count(node.Count.CanEvents[event]);
+  event::report_can(node, event);
+  CONodeCanChange(&node, event);
+}
+
+// For CONodeProcess(): what others have left to it, too.
+#if USE_REAL_TIME
+void settle_all(CO_NODE& node) {
+  const uint8_t pending = node.Pending;
+  node.Pending &= static_cast<uint8_t>(~event::overrun);
+  if ((pending & event::overrun) != 0 && node.Nmt.Mode != CO_INVALID) {
+    report(node, CO_CAN_OVERRUN);
+  }
+  settle(node, static_cast<uint8_t>(~event::overrun));
+}
+#else
+void settle_all(CO_NODE& node) { event::settle(node); }
+#endif
+
 // What has found the controller full: frames, then block transfers and multiplex PDOs. False: the node was stopped.
 [[nodiscard]] bool go_on(CO_NODE& node) {
   transmit::flush(node);
@@ -174,12 +191,6 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
     settle_all(node);
   }
   return node.Nmt.Mode != CO_INVALID;
-}
-
-[[gnu::noinline]] void report(CO_NODE& node, CO_CAN_EVENT event) {
-  count(node.Count.CanEvents[event]);
-  event::report_can(node, event);
-  CONodeCanChange(&node, event);
 }
 
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -229,25 +240,30 @@ bool receive(CO_NODE& node, CO_IF_FRM& frame) {
 
 #if USE_REAL_TIME
 // What the NMT state forbids now is lost: kept for CONodeProcess() it would come behind newer ones.
-bool serve_at_once(CO_NODE& node, CO_IF_FRM frame) {
+void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+  if (place == routes::nowhere || !services::dispatch(node, frame, place)) {
+    count(node.Count.Unclaimed);
+  }
+}
+
+void leave(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!CORingPut(node.Ext->Mainline, &frame)) {
+    event::defer(node, event::overrun);
+  }
+}
+
+bool is_for_mainline(const CO_NODE& node, unsigned place) {
+  return place == routes::nowhere ? node.Ext->Foreign : !services::is_real_time(node, place);
+}
+
+void share_out(CO_NODE& node, CO_IF_FRM frame) {
   if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-    return false;
+    leave(node, frame);
+    return;
   }
   normalise(frame);
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
-  if (place == routes::nowhere || !services::is_real_time(node, place)) {
-    return false;
-  }
-  if (!services::dispatch(node, frame, place)) {
-    count(node.Count.Unclaimed);
-  }
-  return true;
-}
-
-void share_out(CO_NODE& node, const CO_IF_FRM& frame) {
-  if (!serve_at_once(node, frame) && !CORingPut(node.Ext->Mainline, &frame)) {
-    report(node, CO_CAN_OVERRUN);
-  }
+  is_for_mainline(node, place) ? leave(node, frame) : serve_at_once(node, frame, place);
 }
 #endif
 
@@ -266,7 +282,7 @@ bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 namespace co {
 
 void event::settle_pending(CO_NODE& node) {
-  node::settle(node, static_cast<uint8_t>(port::has_mainline(node) ? ~resets : UINT8_MAX));
+  node::settle(node, static_cast<uint8_t>(port::has_mainline(node) ? ~of_mainline : UINT8_MAX));
 }
 
 }  // namespace co

@@ -35,7 +35,7 @@ TEST_CASE("real time: RPDOs and SYNC are served by CONodeRealTime, which reads a
 }
 
 TEST_CASE("real time: frames of other services wait for CONodeProcess, in their order") {
-  RealTimeNode node(pdos());
+  RealTimeNode node(pdos(), [](Setup& setup) { setup.foreign(); });
   for (const char* text : {"601#4000100000000000", "000#0101", "601#4001100000000000", "123#"}) node.arrive(text);
   node.real_time();
   node.silent();
@@ -50,6 +50,36 @@ TEST_CASE("real time: frames of other services wait for CONodeProcess, in their 
   node.tx("581#4F01100000000000");
   CHECK(node.counters().Received == 4);
   CHECK(node.counters().Unclaimed == 1);
+}
+
+TEST_CASE("real time: frames that nobody wants take no place in the ring") {
+  RealTimeNode node(pdos());
+  unsigned seen = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++seen; };
+  for (int n = 0; n < 20; ++n) node.arrive("123#");
+  node.arrive("601#4000100000000000");
+  for (const char* text : {"602#4000100000000000", "123#R", "00012345#"}) node.arrive(text);
+  node.real_time();
+  CHECK(waiting(node) == 1);
+  CHECK(node.counters().Unclaimed == 23);
+  node.mainline();
+  node.tx("581#4300100091010F00");
+  CHECK(seen == 0);
+  CHECK(node.counters().Received == 24);
+  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
+}
+
+TEST_CASE("real time: COIfCanReceive() gets them in the mainline where the node is told to leave them there") {
+  RealTimeNode node(pdos(), [](Setup& setup) { setup.foreign(); });
+  std::vector<std::string> seen;
+  callbacks().can_receive = [&](CO_IF_FRM* frm) { seen.push_back(notation(*frm)); };
+  for (const char* text : {"123#", "201#AA", "602#40", "00012345#"}) node.arrive(text);
+  node.real_time();
+  CHECK(seen.empty());
+  CHECK(waiting(node) == 3);
+  node.mainline();
+  CHECK(seen == std::vector<std::string>{"123#", "602#40", "00012345#"});
+  CHECK(node.counters().Unclaimed == 4);
 }
 
 TEST_CASE("real time: a PDO that the NMT state forbids is lost, and comes at no later time behind a newer one") {
@@ -160,19 +190,81 @@ TEST_CASE("real time: reports of the controller are for CONodeProcess") {
   node.frames();
 }
 
-TEST_CASE("real time: a frame that finds the ring full is lost, as one that the controller has lost") {
+TEST_CASE("real time: frames that find the ring full are lost, and CONodeProcess reports it, once") {
   RealTimeNode node(pdos());
-  for (int n = 0; n < 8; ++n) node.arrive("123#");
+  unsigned events = 0;
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT event) { events += event == CO_CAN_OVERRUN ? 1U : 100U; };
+  for (int n = 0; n < 8; ++n) node.arrive("000#0102");
   node.real_time();
-  node.silent();
-  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
-  node.arrive("123#");
-  node.arrive("124#");
+  CHECK(CORingLost(&node.ring) == 0);
+  node.arrive("000#0102");
+  node.arrive("000#0102");
   node.real_time();
-  CHECK(node.frames() == reports({emcy(0x8110)}));
-  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 2);
   CHECK(CORingLost(&node.ring) == 2);
+  node.call([&] {
+    COTmrProcess(&node->Tmr);
+    CHECK(CODictWrByte(&node->Dict, CO_DEV(0x2201, 1), 7) == CO_ERR_NONE);
+  });
+  CHECK(events == 0);
+  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
+  node.silent();
+  CHECK(CONodeNextDeadline(&node.node) == 0);
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(node.frames() == reports({emcy(0x8110)}));
+  CHECK(events == 1);
+  CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 1);
+  CHECK(waiting(node) == 7);
   node.mainline();
+  CHECK(events == 1);
+  node.real_time();
+  node.mainline();
+  CHECK(events == 1);
+  node.frames();
+}
+
+TEST_CASE("real time: an overrun and a reset that wait are both carried out, and a stopped node waits for neither") {
+  RealTimeNode node(pdos());
+  node.start();
+  unsigned events = 0;
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
+  callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
+  const auto lose = [&] {
+    for (int n = 0; n < 9; ++n) node.arrive("000#0102");
+    node.arrive("201#AA");
+    node.real_time();
+  };
+  lose();
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(events == 1);
+  CHECK(node.mode() == CO_PREOP);
+  CHECK(node.frames().back() == "701#00");
+  node.start();
+  lose();
+  node.call([&] {
+    CONodeStop(&node.node);
+    CONodeProcess(&node.node);
+  });
+  CHECK(CONodeNextDeadline(&node.node) != 0);
+  node.silent();
+}
+
+TEST_CASE("real time: COPdoTransmit is called by whoever has the event: SYNC and timers, or the mainline") {
+  SyncTable table = pdos();
+  table.tpdo[2].on(0x40000381, 255, {0x22110108});
+  RealTimeNode node(table);
+  node.start();
+  unsigned sent = 0;
+  callbacks().pdo_transmit = [&](CO_IF_FRM*) { ++sent; };
+  node.arrive("080#");
+  node.real_time();
+  CHECK(sent == 1);
+  node.may_change(0x2211, 1);
+  node.arrive("601#2F11220155000000");
+  node.real_time();
+  CHECK(sent == 1);
+  node.mainline();
+  CHECK(sent == 2);
+  CHECK(node.frames().size() == 3);
 }
 
 TEST_CASE("real time: the SYNC producer and the window are timers of CONodeRealTime [301:7.2.5]") {

@@ -229,6 +229,7 @@ void Fixture::init() {
   ext_.Enter = setup_.turns_ ? Drivers::enter : nullptr;
   ext_.Leave = setup_.turns_ ? Drivers::leave : nullptr;
   ext_.Mainline = setup_.mainline_;
+  ext_.Foreign = setup_.foreign_;
 #endif
   ext_.EmcyNum = static_cast<std::uint16_t>(setup_.emergencies_.size());
   CO_NODE_SPEC spec;

@@ -121,6 +121,7 @@ class Setup {
 #if USE_REAL_TIME
   Setup& turns();                ///< CO_NODE_EXT.Enter and Leave
   Setup& mainline(CO_RING& of);  ///< CO_NODE_EXT.Mainline; must outlive the fixture
+  Setup& foreign();              ///< CO_NODE_EXT.Foreign
 #endif
   Setup& may_change(std::uint16_t index, std::uint8_t sub);  ///< the node itself writes this object
   Setup& before_init(std::function<void(Objects&)> change);
@@ -159,6 +160,7 @@ class Setup {
   void* nvm_context_ = nullptr;
   bool turns_ = false;
   CO_RING* mainline_ = nullptr;
+  bool foreign_ = false;
   std::vector<std::pair<std::uint16_t, std::uint8_t>> may_change_ = {{0x1001, 0}};
 };
 

@@ -34,6 +34,7 @@ Setup& Setup::nvm(const CO_IF_NVM_DRV_EX& driver, void* context) {
 #if USE_REAL_TIME
 Setup& Setup::turns() { return turns_ = true, *this; }
 Setup& Setup::mainline(CO_RING& of) { return mainline_ = &of, *this; }
+Setup& Setup::foreign() { return foreign_ = true, *this; }
 #endif
 Setup& Setup::no_nvm() { return nvm_ = nullptr, *this; }
 Setup& Setup::may_change(std::uint16_t index, std::uint8_t sub) {

@@ -70,7 +70,7 @@ TEST_CASE("turn: COTmrProcess takes one for each action") {
 }
 
 TEST_CASE("turn: CONodeNextDeadline and CONodeRealTime take one") {
-  RealTimeNode node;
+  RealTimeNode node({}, [](Setup& setup) { setup.foreign(); });
   const Diary diary;
   node.call([&] { (void)CONodeNextDeadline(&node.node); });
   CHECK(Diary::take() == Entries{"enter", "leave"});
