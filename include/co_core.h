@@ -308,7 +308,8 @@ void CONodeProcess(CO_NODE* node);
 /// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
 /// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
 /// and the timers of SYNC and PDOs. The driver's Read must not block. All in one turn, for which it waits, at most, for
-/// a frame or a timer action of another thread, or for what the application does in a turn.
+/// a frame or a timer action of another thread, or for what the application does in a turn. After CONodeStop() it is
+/// COTmrService() alone: the timers of the application go on.
 ///
 /// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
 /// among the frames of either. Resets (CONmtReset()) are the mainline's, too: whoever asks for one, and wherever, it

@@ -387,11 +387,14 @@ void CONodeProcess(CO_NODE* node) {
 void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::Turn turn(*node);
-  if ((node->State & event::running) == 0 || node->Ext->Mainline == nullptr) {
+  if (!port::has_mainline(*node)) {
+    return;
+  }
+  (void)COTmrService(&node->Tmr);
+  if ((node->State & event::running) == 0) {
     return;
   }
   const event::Serving serving(*node);
-  (void)COTmrService(&node->Tmr);
   transmit::flush(*node);
   CO_IF_FRM frame = wire::empty_frame(0, 0);
   while ((node->State & event::running) != 0 && port::can_read(*node, frame) > 0) {

@@ -470,6 +470,27 @@ TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") 
   CHECK(node.can.to_node.size() == 2);
 }
 
+TEST_CASE("real time: timers of the application go on in a node that was stopped, as with a single thread") {
+  RealTimeNode node(pdos());
+  node.start();
+  static unsigned runs;
+  runs = 0;
+  const auto count = [](void*) { ++runs; };
+  node.call([&] { CHECK(COTmrCreate(&node->Tmr, 10, 5, count, nullptr) >= 0); });
+  node.call([&] { CONodeStop(&node.node); });
+  for (int n = 0; n < 4; ++n) {
+    node.idle(5ms);
+    node.real_time();
+    node.mainline();
+  }
+  CHECK(runs == 3);
+  node.silent();
+  node.arrive("201#AA");
+  node.real_time();
+  CHECK(node.u8[0] == 0x11);
+  CHECK(node.can.to_node.size() == 1);
+}
+
 TEST_CASE("real time: a reset forgets the frames that wait, as the controller does") {
   RealTimeNode node(pdos());
   for (const char* text : {"000#8201", "601#4000100000000000"}) node.arrive(text);

@@ -220,6 +220,7 @@ class Fixture {
   void jump(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});   ///< … during which the loop does not run
   /// Time passes, the timer interrupt comes, but not the loop. COTmrService() then tells 1 (\a elapsed).
   void elapse_only(Time time, std::int16_t elapsed = 1, Where at = {__builtin_FILE(), __builtin_LINE()});
+  void idle(Time time);                       ///< Time passes, and nothing comes, not even the timer interrupt.
   std::uint64_t ticks(Time time) const;       ///< rounded up
   std::uint64_t now() const { return now_; }  ///< ticks since the fixture was made
 

@@ -64,9 +64,13 @@ void Fixture::jump(Time time, Where at) {
   wake_up(at);
 }
 
-void Fixture::elapse_only(Time time, std::int16_t elapsed, Where at) {
+void Fixture::idle(Time time) {
   began_ = now_;
   now_ += ticks(time);
+}
+
+void Fixture::elapse_only(Time time, std::int16_t elapsed, Where at) {
+  idle(time);
   call(
       [&] {
         const std::int16_t result = COTmrService(&node.Tmr);
