@@ -232,7 +232,9 @@
 #error "CO_PARA_PERIOD: 1...65535 ms"
 #endif
 
-/// Bytes of stack for a piece of what is stored: 8…1024, at least the ProgramSize of the memory.
+/// Bytes of stack for a piece of what is stored: 8…1024, at least the ProgramSize of the memory. With USE_REAL_TIME a
+/// multiple of 8, and of ProgramSize: between two pieces another thread has its turn and may change what is stored, so
+/// no number may lie in both. That holds for numbers at a multiple of their size behind the begin of their group.
 #ifndef CO_STORE_BUFFER
 #define CO_STORE_BUFFER 32
 #endif
@@ -244,6 +246,9 @@
 /// or 1. 1 costs 1.2 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
 #ifndef USE_REAL_TIME
 #define USE_REAL_TIME 0
+#endif
+#if USE_REAL_TIME && CO_STORE_BUFFER % 8 != 0
+#error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be torn"
 #endif
 
 /// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
