@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has passed by PDO, of one object.
+#include "core/events.hpp"
 #include "od/list.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
@@ -148,6 +149,7 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
   od::mirror(*entry, subIndex, false);
   od::forget_sent(node, pdo::number_of(node, *obj));
   od::take_error(node, pdo::change_object(node, *obj));
+  event::settle(node);
 }
 
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
@@ -189,6 +191,7 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
       od::request(node, number, tpdo);
     }
   }
+  event::settle(node);
 }
 
 }  // extern "C"

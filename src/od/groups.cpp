@@ -2,6 +2,7 @@
 // Parameter groups by name.
 #include "service/para/groups.hpp"
 
+#include "core/events.hpp"
 #include "core/obj.hpp"
 #include "object/place.hpp"
 #include "od/list.hpp"
@@ -51,7 +52,9 @@ ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
   if (node.Dict.Root != od->Table) {
     return ODR_OD_MISSING;
   }
-  return result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
+  const ODR_t result = result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
+  event::settle(node);
+  return result;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lock of the application's side: the turn of a node that has several threads, else that of mapped objects.
+#include "core/events.hpp"
 #include "core/port.hpp"
 #include "service/pdo/pdo.hpp"
 
@@ -30,6 +31,12 @@ void unlock_objects(CO_NODE& node) {
     node.Ext->OdUnlock(node.Ext->User);
   }
   pdo::settle_touched(node);
+  event::settle(node);
+}
+
+void end_turn(CO_NODE& node) {
+  event::settle(node);
+  port::leave(node, node.Ext);
 }
 
 }  // namespace
@@ -46,7 +53,7 @@ void OD_lock(CO_NODE_T* node) {
 
 void OD_unlock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
-  od::has_turns(*node) ? port::leave(*node, node->Ext) : od::unlock_objects(*node);
+  od::has_turns(*node) ? od::end_turn(*node) : od::unlock_objects(*node);
 }
 
 }  // extern "C"
