@@ -370,7 +370,9 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
   }
 
 #if USE_PARA
-/// The sub-index of 1010h of the group with this name, 1…127; 0: there is none.
+/// The sub-index of 1010h of the group with this name, 1…127; 0: there is none. Looks at Ident of all groups of 1010h,
+/// so whoever calls it gives each of them a string that ends with a zero, or null; firmware that has put anything else
+/// there does not call it, nor OD_getStorageName().
 uint8_t OD_findStorageGroup(const OD_t* od, const char* name);
 
 /// The sub-index of 1010h of the group that the variable's original memory lies in; 0: it is not stored.

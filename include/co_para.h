@@ -71,7 +71,7 @@ typedef struct CO_PARA_T {
   CO_PARA_MEM Start;         ///< the parameters
   CO_PARA_MEM Default;       ///< their default values, or null
   enum CO_NMT_RESET_T Type;  ///< the reset that loads them
-  void* Ident;               ///< for the application
+  void* Ident;               ///< for the application; where it calls OD_findStorageGroup(), a name or null
   uint32_t Value;            ///< CO_PARA_…, plus CO_PARA_VERSION()
 } CO_PARA;
 

@@ -104,6 +104,20 @@ TEST_CASE("OD groups: a name is found at its sub-index of 1010h, and told by it"
   }
 }
 
+TEST_CASE("OD groups: a group whose Ident is null is found by no name, and keeps none from being found") {
+  Device device;
+  for (CO_PARA* const group : {&device.everything, &device.first, &device.nameless}) group->Ident = nullptr;
+  Fixture node(device.setup());
+  for (const char* name : {"", "PERSIST_COMM", "(null)"}) {
+    CAPTURE(name);
+    CHECK(OD_findStorageGroup(&node.od, name) == 0);
+  }
+  CHECK(OD_findStorageGroup(&node.od, "PERSIST_APP") == 3);
+  CHECK(OD_findStorageGroup(&node.od, "AUTO") == 5);
+  CHECK(OD_findStorageGroup(&node.od, nullptr) == 0);
+  CHECK(OD_getStorageName(&node.od, 2) == nullptr);
+}
+
 TEST_CASE("OD groups: an object is in the group that its memory lies in; what has none is not stored") {
   Device device;
   Fixture node(device.setup());
