@@ -229,13 +229,32 @@ CO_TMR_MEM** first_due(CO_TMR& t, Share share) {
   return link;
 }
 
-// Runs one that has elapsed before a moment, or then. False: there is none.
-bool run_one(CO_TMR& t, Share share, uint32_t moment) {
+// The expiries that a call runs: from the first that has elapsed of a share to the last of all. What elapses meanwhile
+// comes behind them, and waits for the next call.
+struct Span {
+  uint32_t first;
+  uint32_t ticks;
+};
+
+// False: none has elapsed.
+bool find_span(CO_TMR& t, Share share, Span& span) {
+  const Lock lock(t);
+  CO_TMR_MEM** const link = first_due(t, share);
+  if (link == t.Armed) {
+    return false;
+  }
+  span.first = (*link)->At;
+  span.ticks = owner_of(t.Armed).At - span.first;
+  return true;
+}
+
+// Runs the first of a span. False: there is none any more.
+bool run_one(CO_TMR& t, Share share, const Span& span) {
   const CO_TMR_MEM* timer = nullptr;
   {
     const Lock lock(t);
     CO_TMR_MEM** const link = first_due(t, share);
-    if (link == t.Armed || moment - (*link)->At > INT32_MAX) {
+    if (link == t.Armed || (*link)->At - span.first > span.ticks) {
       return false;
     }
     timer = &take(t, *link);
@@ -253,17 +272,15 @@ bool has_turns(const CO_TMR& t) {
 // Each action in a turn of its own.
 void run_in_turns(CO_TMR& t) {
   const Share share = share_of_mainline(t);
-  uint32_t moment = 0;
+  Span span = {};
+  bool more = false;
   {
     const port::Turn turn(*t.Node);
-    if (!has_due(t)) {
-      return;
-    }
-    moment = owner_of(t.Armed).At;
+    more = find_span(t, share, span);
   }
-  for (bool more = true; more;) {
+  while (more) {
     const port::Turn turn(*t.Node);
-    more = run_one(t, share, moment);
+    more = run_one(t, share, span);
   }
 }
 
@@ -351,8 +368,9 @@ uint32_t next_deadline(CO_TMR& timers) {
 
 #if USE_REAL_TIME
 void run_real_time(CO_TMR& timers) {
-  const uint32_t moment = owner_of(timers.Armed).At;
-  while (has_due(timers) && run_one(timers, Share::real_time, moment)) {
+  Span span = {};
+  for (bool more = find_span(timers, Share::real_time, span); more;) {
+    more = run_one(timers, Share::real_time, span);
   }
 }
 #endif

@@ -350,6 +350,36 @@ TEST_CASE("real time: all other timers are COTmrProcess()'s, in their order, wha
   CHECK(runs == std::vector<int>{1, 2, 3});
 }
 
+TEST_CASE("real time: timers of PDOs do not depend on how long the mainline has been away") {
+  SyncTable table = pdos();
+  table.tpdo[0].event = 10;
+  table.tpdo[2].on(0x40000381, 255, {0x22010508}).event = 10;
+  RealTimeNode node(table);
+  node.start();
+  node.call([&] {
+    const auto nothing = [](void*) {};
+    CHECK(COTmrCreate(&node->Tmr, 2, 0, nothing, nullptr) >= 0);
+  });
+  node.trigger(0);
+  node.tx("181#31");
+  std::uint64_t now = 0;
+  const auto serve_at = [&](std::uint64_t tick) {
+    node.idle(std::chrono::milliseconds{tick - now});
+    now = tick;
+    node.real_time();
+  };
+  serve_at(2);
+  node.trigger(2);
+  node.tx("381#51");
+  constexpr std::uint64_t round = 0x100000000;
+  serve_at(round / 2 + 3);
+  node.tx({"181#31", "381#51"});
+  serve_at(round - 5);
+  node.tx({"381#51", "181#31"});
+  serve_at(round + 5);  // one has elapsed less than a round of the clock behind the timer of the mainline, one more
+  node.tx({"381#51", "181#31"});
+}
+
 TEST_CASE("real time: the deadline is that of the mainline; what has elapsed for the other thread does not count") {
   SyncTable table = pdos();
   table.tpdo[0].event = 5;

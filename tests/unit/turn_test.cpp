@@ -69,6 +69,52 @@ TEST_CASE("turn: COTmrProcess takes one for each action") {
                                  "timer", "leave", "enter", "leave"});
 }
 
+// Timers that elapse one tick from now and far behind that, while the mainline is away; the timer interrupt comes.
+enum class Threads { one, turns, real_time };
+
+Runs run_late(Threads threads, std::uint32_t start, std::uint32_t far, std::uint32_t cycle) {
+  CO_IF_FRM memory[4];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, memory, 4));
+  Setup setup;
+  setup.clock(start);
+  if (threads != Threads::one) setup.turns();
+  if (threads == Threads::real_time) setup.mainline(ring);
+  Timers node(setup);
+  const auto ms = [](std::uint64_t ticks) { return std::chrono::milliseconds{ticks}; };
+  CHECK(node.create(1, 0, 1) >= 0);
+  CHECK(node.create(far, cycle, 2) >= 0);
+  node.elapse_only(ms(1));
+  node.elapse_only(ms(far / 2));
+  node.elapse_only(ms(far - far / 2 - 1));
+  node.call([&] { COTmrProcess(&node->Tmr); });
+  Runs all = runs();
+  if (cycle != 0) {
+    node.elapse_only(ms(cycle / 2), 0);
+    node.elapse_only(ms(cycle - cycle / 2));
+    node.call([&] { COTmrProcess(&node->Tmr); });
+    CHECK(runs().size() == all.size() + 1);
+  }
+  return all;
+}
+
+TEST_CASE("turn: timers run in their order, however far apart they have elapsed, and wherever the clock starts") {
+  constexpr std::uint32_t half = 0x80000000U;
+  for (const std::uint32_t start : {0U, half - 1U, half, 0U - 2U, 0U - 1U}) {
+    for (const std::uint32_t far : {2U, half - 1U, half, half + 1U, half + 2U, 0xFFFFFFFEU, 0xFFFFFFFFU}) {
+      for (const std::uint32_t cycle : {0U, half - 1U, half, half + 1U, 0xFFFFFFFFU}) {
+        for (const Threads threads : {Threads::one, Threads::turns, Threads::real_time}) {
+          CAPTURE(start);
+          CAPTURE(far);
+          CAPTURE(cycle);
+          CAPTURE(threads);
+          CHECK(run_late(threads, start, far, cycle) == Runs{1, 2});
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("turn: CONodeNextDeadline and CONodeRealTime take one") {
   RealTimeNode node({}, [](Setup& setup) { setup.foreign(); });
   const Diary diary;
