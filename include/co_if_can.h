@@ -31,21 +31,24 @@ typedef struct CO_IF_FRM_T {
 #define CO_SET_ID(f, id) ((f)->Identifier = (uint32_t)(id))
 #define CO_SET_DLC(f, n) ((f)->DLC = (uint8_t)(n))
 #define CO_SET_BYTE(f, value, pos) ((f)->Data[(pos)&7] = (uint8_t)(value))
-#define CO_SET_WORD(f, value, pos)                       \
-  do {                                                   \
-    CO_SET_BYTE(f, (uint32_t)(value), (pos));            \
-    CO_SET_BYTE(f, (uint32_t)(value) >> 8, ((pos) + 1)); \
-  } while (0)
-#define CO_SET_LONG(f, value, pos)                        \
-  do {                                                    \
-    CO_SET_WORD(f, (uint32_t)(value), (pos));             \
-    CO_SET_WORD(f, (uint32_t)(value) >> 16, ((pos) + 2)); \
-  } while (0)
+#define CO_SET_WORD(f, value, pos) COFrmSetWord((f), (uint32_t)(value), (uint32_t)(pos))
+#define CO_SET_LONG(f, value, pos) COFrmSetLong((f), (uint32_t)(value), (uint32_t)(pos))
 #define CO_GET_ID(f) ((f)->Identifier)
 #define CO_GET_DLC(f) ((f)->DLC)
 #define CO_GET_BYTE(f, pos) ((f)->Data[(pos)&7])
 #define CO_GET_WORD(f, pos) ((uint16_t)(CO_GET_BYTE(f, (pos)) | ((uint32_t)CO_GET_BYTE(f, (pos) + 1) << 8)))
 #define CO_GET_LONG(f, pos) ((uint32_t)(CO_GET_WORD(f, (pos)) | ((uint32_t)CO_GET_WORD(f, (pos) + 2) << 16)))
+
+/// \cond internal
+static inline void COFrmSetWord(CO_IF_FRM* frm, uint32_t value, uint32_t pos) {
+  CO_SET_BYTE(frm, value, pos);
+  CO_SET_BYTE(frm, value >> 8, pos + 1u);
+}
+static inline void COFrmSetLong(CO_IF_FRM* frm, uint32_t value, uint32_t pos) {
+  COFrmSetWord(frm, value, pos);
+  COFrmSetWord(frm, value >> 16, pos + 2u);
+}
+/// \endcond
 /// \}
 
 /// A CAN driver without context: one table, one controller. All functions run in the loop context and must not block,

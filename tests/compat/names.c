@@ -84,6 +84,21 @@ static void test_frames_are_little_endian_and_positions_wrap(void) {
   TEST_ASSERT_EQUAL_HEX32(0x34111234, CO_GET_LONG(frm, 6));
 }
 
+static void test_values_are_put_into_a_frame_once(void) {
+  const uint8_t bytes[] = {5, 0, 6, 0, 0, 0, 7, 8};
+  CO_IF_FRM frames[2] = {{0, {0, 0, 0, 0, 0, 0, 7, 8}, 8}, {0, {0}, 0}};
+  CO_IF_FRM* frm = frames;
+  uint8_t next = 5;
+  uint8_t pos = 0;
+  CO_SET_WORD(frm, next++, pos++);
+  TEST_ASSERT_EQUAL(6, next);
+  TEST_ASSERT_EQUAL(1, pos);
+  CO_SET_LONG(frm++, next++, 2);
+  TEST_ASSERT_EQUAL(7, next);
+  TEST_ASSERT_EQUAL_PTR(&frames[1], frm);
+  TEST_ASSERT_EQUAL_HEX8_ARRAY(bytes, frames[0].Data, 8);
+}
+
 static void test_cob_ids_say_whether_they_are_valid(void) {
   TEST_ASSERT_EQUAL_HEX32(0x00000601, CO_COBID_SDO_STD(1, 0, 0x601));
   TEST_ASSERT_EQUAL_HEX32(0x80000601, CO_COBID_SDO_STD(0, 0, 0x601));
@@ -337,6 +352,7 @@ int main(void) {
   RUN_TEST(test_combined_flags_have_their_bits);
   RUN_TEST(test_flags_of_a_key_are_asked);
   RUN_TEST(test_frames_are_little_endian_and_positions_wrap);
+  RUN_TEST(test_values_are_put_into_a_frame_once);
   RUN_TEST(test_cob_ids_say_whether_they_are_valid);
   RUN_TEST(test_argument_checks_leave_the_function);
   RUN_TEST(test_argument_checks_let_good_arguments_pass);
