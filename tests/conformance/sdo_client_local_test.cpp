@@ -326,6 +326,69 @@ TEST_CASE("SDO client, own node: a value that a remote client is just reading or
   CHECK(node.objects.u64 == 0x0102030405060708);
 }
 
+// Types whose functions an SDO transfer of the network calls, and which let the own client work meanwhile.
+struct Nested {
+  Local* node;
+  std::uint16_t index;  // of the object that the own client reads
+  std::uint32_t code;   // the transfer's own abort code, 0: none
+  bool is_early;        // it is given before the other access
+};
+Nested nested;
+
+void give_code(CO_OBJ* obj, CO_NODE* node) {
+  if (nested.code != 0) {
+    COObjTypeUserSDOAbort(obj, node, nested.code);
+  }
+}
+
+CO_ERR write_nested(CO_OBJ* obj, CO_NODE* node, void*, std::uint32_t) {
+  if (nested.is_early) {
+    give_code(obj, node);
+  }
+  CHECK(nested.node->try_upload(nested.index, 0, 4) == CO_ERR_NONE);
+  nested.node->idle(1ms);
+  COTmrService(&node->Tmr);
+  COTmrProcess(&node->Tmr);
+  CHECK(nested.node->ends.size() == 1);
+  if (!nested.is_early) {
+    give_code(obj, node);
+  }
+  return CO_ERR_TYPE_WR;
+}
+
+CO_ERR refuse_read(CO_OBJ* obj, CO_NODE* node, void*, std::uint32_t) {
+  COObjTypeUserSDOAbort(obj, node, 0x08007777);
+  return CO_ERR_TYPE_RD;
+}
+
+TEST_CASE("SDO client, own node: an access within a transfer of the network leaves that its abort code") {
+  const auto four = [](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{4}; };
+  const CO_OBJ_TYPE nesting = {four, nullptr, nullptr, write_nested, nullptr};
+  const CO_OBJ_TYPE refusing = {four, nullptr, refuse_read, nullptr, nullptr};
+  Local node(Setup()
+                 .only_small()
+                 .with({CO_KEY(0x3000, 0, CO_OBJ______W), &nesting, 0})
+                 .with({CO_KEY(0x3001, 0, CO_OBJ_____R_), &refusing, 0}));
+  const auto write = [&](std::uint16_t index, std::uint32_t code, bool is_early, std::uint32_t read_code) {
+    nested = {&node, index, code, is_early};
+    node.rx("601#2300300001000000");
+    REQUIRE(node.ends.size() == 1);
+    CHECK(node.ends.front().code == read_code);
+    node.ends.clear();
+  };
+  for (const bool is_early : {false, true}) {
+    CAPTURE(is_early);
+    write(0x2001, 0x08001234, is_early, 0);
+    node.tx("581#8000300034120008");
+    write(0x3001, 0x08001234, is_early, 0x08007777);
+    node.tx("581#8000300034120008");
+  }
+  write(0x2001, 0, false, 0);
+  node.tx("581#8000300020000008");
+  write(0x3001, 0, false, 0x08007777);
+  node.tx("581#8000300020000008");
+}
+
 }  // namespace
 
 #endif

@@ -101,8 +101,11 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
 
 }  // namespace
 
+// A type function of another transfer may have led here.
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
+  CO_OBJ* const other = node.Served;
+  const uint32_t others_abort = node.UserAbort;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
   access::serve(node, nullptr);
   uint32_t abort = access::open(node, client.Key, direction);
@@ -111,7 +114,8 @@ uint32_t access_own(CO_CSDO& client) {
     const bool taken = obj::is_stream(obj) && access::is_taken(node, obj, nullptr);
     abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, obj, direction);
   }
-  node.Served = nullptr;
+  node.Served = other;
+  node.UserAbort = others_abort;
   return abort;
 }
 
