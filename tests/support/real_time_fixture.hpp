@@ -6,7 +6,7 @@
 ///     node.start();                     // Operational
 ///     node.arrive("201#2A");            // the controller has it
 ///     node.real_time();                 // CONodeRealTime()
-///     node.mainline();                  // CONodeProcess() until its ring is empty, and COTmrProcess()
+///     node.mainline();                  // CONodeProcess() for what its ring holds and once more, COTmrProcess()
 #pragma once
 
 #include "sync_fixture.hpp"
@@ -39,9 +39,9 @@ class RealTimeNode : public MainlineRing, public SyncNode {
   void mainline(Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call(
         [this] {
-          do {
+          for (unsigned calls = CORingCount(&ring) + 1U; calls != 0; --calls) {
             CONodeProcess(&node);
-          } while (CORingCount(&ring) != 0);
+          }
           COTmrProcess(&node.Tmr);
         },
         at);

@@ -124,7 +124,7 @@ TEST_CASE("turn: CONodeNextDeadline and CONodeRealTime take one") {
   node.real_time();
   CHECK(Diary::take() == Entries{"enter", "leave"});
   node.mainline();
-  CHECK(Diary::take() == Entries{"enter", "can", "leave", "enter", "can", "leave", "enter", "leave"});
+  CHECK(Diary::take() == Entries{"enter", "can", "leave", "enter", "can", "leave", "enter", "leave", "enter", "leave"});
 }
 
 TEST_CASE("turn: no other function takes one") {
