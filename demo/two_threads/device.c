@@ -146,12 +146,13 @@ static void Watch(void) {
   CO_UNLOCK_CAN_SEND(&Node);
 }
 
-// Asleep it would not see the frames that the real-time thread leaves to it: it looks every millisecond, too.
+// Asleep it would not see the frames that the real-time thread leaves to it: it looks every millisecond, too. Those
+// that come while it works are for the next round: timers must not wait for them.
 static void* Mainline(void* unused) {
   while (!atomic_load(&Stops)) {
-    do {
+    for (unsigned calls = CORingCount(&Ring) + 1u; calls != 0; --calls) {
       CONodeProcess(&Node);
-    } while (CORingCount(&Ring) != 0);
+    }
     COTmrProcess(&Node.Tmr);
     Watch();
     ClockWait(1000);

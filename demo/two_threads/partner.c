@@ -114,6 +114,7 @@ void PartnerUpdate(const CO_RPDO* pdo) {
   }
   ++Partner.Pdos;
   Partner.Torn += Input[1] == ~Input[0] ? 0 : 1;
+  Partner.Answers += Input[0] == Output[0] + 1u ? 1 : 0;
   Output[0] = Input[0] * 3u;
   Output[1] = ~Output[0];
 }

@@ -8,10 +8,11 @@
 
 // What has come from the device.
 typedef struct PARTNER_REPORT_T {
-  uint32_t Pdos;    // with each SYNC
-  uint32_t Events;  // event-driven PDOs
-  uint32_t Torn;    // what belongs together was seen apart
-  uint32_t Errors;  // EMCY messages of an error, and that it is gone
+  uint32_t Pdos;     // with each SYNC
+  uint32_t Answers;  // of these: the device has got what the partner has sent
+  uint32_t Events;   // event-driven PDOs
+  uint32_t Torn;     // what belongs together was seen apart
+  uint32_t Errors;   // EMCY messages of an error, and that it is gone
 } PARTNER_REPORT;
 
 extern PARTNER_REPORT Partner;
