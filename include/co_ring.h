@@ -28,6 +28,9 @@ bool CORingPut(CO_RING* ring, const CO_IF_FRM* frm);
 /// Consumer end. Returns false if the ring is empty.
 bool CORingGet(CO_RING* ring, CO_IF_FRM* frm);
 
+/// Consumer end. Takes out all frames that the ring holds now; those that come meanwhile stay. Null: nothing happens.
+void CORingClear(CO_RING* ring);
+
 /// Frames in the ring. From either end: a snapshot.
 uint16_t CORingCount(const CO_RING* ring);
 

@@ -12,12 +12,6 @@ static CO_RING ReceiveQueue;
 static uint16_t ReportedLost;         // frames that found the queue full, as reported to the node
 static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
 
-static void ForgetReceived(void) {
-  CO_IF_FRM old;
-  while (CORingGet(&ReceiveQueue, &old)) {
-  }
-}
-
 // Context: the loop, in CONodeInit(). Prepare the controller (clock, pins, interrupt), but stay off the bus: the bit
 // rate is not known yet. Called again, before Enable, when LSS changes the bit rate.
 static void Init(void) {
@@ -54,13 +48,13 @@ static int16_t Send(CO_IF_FRM* frm) {
 // Context: the loop, at an NMT reset. Clear errors and queues, and go back on the bus (leave bus-off).
 static void Reset(void) {
   // Here: drop what waits in the transmit mailboxes, restart the controller if it is in bus-off.
-  ForgetReceived();
+  CORingClear(&ReceiveQueue);
 }
 
 // Context: the loop, in CONodeStop(), and when LSS changes the bit rate. Go off the bus.
 static void Close(void) {
   // Here: interrupts off, controller in its initialisation mode, transmit mailboxes empty.
-  ForgetReceived();
+  CORingClear(&ReceiveQueue);
 }
 
 const CO_IF_CAN_DRV TemplateCanDriver = {Init, Enable, Read, Send, Reset, Close};

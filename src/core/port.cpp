@@ -30,14 +30,10 @@ void call(const CO_NODE& node, void (*CO_IF_CAN_DRV_EX::*with_context)(void*), v
   ext.Can != nullptr ? (ext.Can->*with_context)(ext.CanCtx) : (node.If.Drv->Can->*plain)();
 }
 
-// What waits for CONodeProcess() is part of the driver's queue. What comes now is not: another thread may go on
-// storing.
+// What waits for CONodeProcess() is part of the driver's queue.
 void forget_received([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
-  CO_IF_FRM frame;
-  for (uint16_t waiting = CORingCount(node.Ext->Mainline); waiting != 0; --waiting) {
-    (void)CORingGet(node.Ext->Mainline, &frame);
-  }
+  CORingClear(node.Ext->Mainline);
 #endif
 }
 

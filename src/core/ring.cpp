@@ -57,6 +57,12 @@ bool CORingGet(CO_RING* ring, CO_IF_FRM* frm) {
   return true;
 }
 
+void CORingClear(CO_RING* ring) {
+  if (ring != nullptr) {
+    store(ring->Tail, load(ring->Head));
+  }
+}
+
 uint16_t CORingCount(const CO_RING* ring) {
   return ring == nullptr ? static_cast<uint16_t>(0) : used(*ring, load(ring->Head), load(ring->Tail));
 }

@@ -23,10 +23,8 @@ static int16_t Send(void* ctx, const CO_IF_FRM* frame) {
 
 // Empties the ring from the task's end: the interrupt may go on filling it.
 static void Reset(void* ctx) {
-  CO_IF_FRM old;
   TaskOf(ctx)->Can->Restart(TaskOf(ctx)->CanCtx);
-  while (CORingGet(&TaskOf(ctx)->Received, &old)) {
-  }
+  CORingClear(&TaskOf(ctx)->Received);
 }
 
 static void Close(void* ctx) { TaskOf(ctx)->Can->Stop(TaskOf(ctx)->CanCtx); }

@@ -219,6 +219,7 @@ TEST_CASE("ring: null pointers are answered, and touch nothing") {
   CHECK_FALSE(CORingGet(nullptr, &frm));
   REQUIRE(CORingPut(&ring, &frm));
   CHECK_FALSE(CORingGet(&ring, nullptr));
+  CORingClear(nullptr);
   CHECK(CORingCount(nullptr) == 0);
   CHECK(CORingLost(nullptr) == 0);
   CHECK(CORingCount(&ring) == 1);

@@ -100,6 +100,30 @@ TEST_CASE("ring: the largest size") {
   CHECK(CORingLost(&ring) == 3);
 }
 
+TEST_CASE("ring: clearing takes out what it holds, wherever that lies, and what was lost stays counted") {
+  CO_IF_FRM mem[3];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem, 3));
+  CO_IF_FRM frm;
+  for (std::uint32_t n = 0; n < 20; ++n) {
+    const unsigned held = n % 4;
+    for (unsigned k = 0; k < held; ++k) {
+      frm = numbered(n);
+      CHECK(CORingPut(&ring, &frm));
+    }
+    CORingClear(&ring);
+    CHECK(CORingCount(&ring) == 0);
+    CHECK_FALSE(CORingGet(&ring, &frm));
+    frm = numbered(n + 100);
+    CHECK(CORingPut(&ring, &frm));
+    REQUIRE(CORingGet(&ring, &frm));
+    CHECK(is_numbered(frm, n + 100));
+  }
+  for (int k = 0; k < 4; ++k) CORingPut(&ring, &frm);
+  CORingClear(&ring);
+  CHECK(CORingLost(&ring) == 1);
+}
+
 TEST_CASE("ring: the count of lost frames saturates [Q10]") {
   CO_IF_FRM mem[1];
   CO_RING ring;

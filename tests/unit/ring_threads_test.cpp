@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <thread>
 
 #include "co_ring.h"
@@ -36,6 +37,40 @@ TEST_CASE("ring: one thread puts while another gets, nothing is torn, lost or ou
   }
   producer.join();
   CHECK(wrong == 0);
+}
+
+TEST_CASE("ring: one thread puts while another gets and clears, what comes behind is whole and in order") {
+  constexpr std::uint32_t number = 50000;
+  CO_IF_FRM mem[16];
+  CO_RING ring;
+  REQUIRE(CORingInit(&ring, mem, 16));
+  std::atomic<bool> ends = false;
+  std::thread producer([&] {
+    for (std::uint32_t n = 0; n < number; ++n) {
+      const CO_IF_FRM frm = numbered(n);
+      while (!CORingPut(&ring, &frm)) {
+        std::this_thread::yield();
+      }
+    }
+    ends = true;
+  });
+  std::uint32_t wrong = 0;
+  std::uint32_t next = 0;
+  for (std::uint32_t call = 0; !ends || CORingCount(&ring) != 0; ++call) {
+    CO_IF_FRM frm;
+    if (call % 8 == 0) {
+      CORingClear(&ring);
+    } else if (CORingGet(&ring, &frm)) {
+      while (next < number && !is_numbered(frm, next)) ++next;
+      wrong += next < number ? 0U : 1U;
+      ++next;
+    } else {
+      std::this_thread::yield();
+    }
+  }
+  producer.join();
+  CHECK(wrong == 0);
+  CHECK(CORingCount(&ring) == 0);
 }
 
 }  // namespace

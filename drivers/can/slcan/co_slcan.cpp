@@ -238,13 +238,7 @@ void start(const CO_SLCAN& can) {
 
 CO_SLCAN& slcan(void* ctx) { return *static_cast<CO_SLCAN*>(ctx); }
 
-void drain(CO_SLCAN& can) {
-  CO_IF_FRM old;
-  while (CORingGet(&can.Frames, &old)) {
-  }
-}
-
-void reset(void* ctx) { drain(slcan(ctx)); }
+void reset(void* ctx) { CORingClear(&slcan(ctx).Frames); }
 
 void close(void* ctx) {
   CO_SLCAN& can = slcan(ctx);
@@ -257,12 +251,12 @@ void close(void* ctx) {
 
 void init(void* ctx) {
   store(slcan(ctx).Open, static_cast<uint8_t>(0));
-  drain(slcan(ctx));
+  CORingClear(&slcan(ctx).Frames);
 }
 
 void enable(void* ctx, uint32_t baud) {
   CO_SLCAN& can = slcan(ctx);
-  drain(can);
+  CORingClear(&can.Frames);
   store(can.Open, static_cast<uint8_t>(1));
   if (CO_SLCAN_TX_BYTES - waiting(can) < 7) {
     return;  // nobody takes what is sent

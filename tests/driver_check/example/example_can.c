@@ -44,20 +44,16 @@ static int16_t Send(CO_IF_FRM* frm) {
 }
 
 static void Reset(void) {
-  CO_IF_FRM old;
   ExampleCan.Control = EXAMPLE_CAN_INTERRUPTS;  // off the bus and on again: ends bus-off
   ExampleCan.Transmit.Request = 0;
-  while (CORingGet(&ReceiveQueue, &old)) {
-  }
+  CORingClear(&ReceiveQueue);
   ExampleCan.Control = EXAMPLE_CAN_ON | EXAMPLE_CAN_INTERRUPTS;
 }
 
 static void Close(void) {
-  CO_IF_FRM old;
   ExampleCan.Control = 0;
   ExampleCan.Transmit.Request = 0;
-  while (CORingGet(&ReceiveQueue, &old)) {
-  }
+  CORingClear(&ReceiveQueue);
 }
 
 const CO_IF_CAN_DRV ExampleCanDriver = {Init, Enable, Read, Send, Reset, Close};
