@@ -36,6 +36,7 @@ links_for_arm() {
     'void COTmrLock(void) {}' 'void COTmrUnlock(void) {}' \
     'bool CORingInit(CO_RING* r, CO_IF_FRM* m, uint16_t n) { (void)r; (void)m; return n == 0; }' \
     'bool CORingGet(CO_RING* r, CO_IF_FRM* f) { (void)r; (void)f; return false; }' \
+    'void CORingClear(CO_RING* r) { (void)r; }' \
     'uint16_t CheckMyPort(void (*print)(void*, const char*));' 'int main(void) { return CheckMyPort(0); }' >"$program.c"
   arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c11 -ffunction-sections -fdata-sections "${includes[@]}" "$program.c" \
     "$root/tests/porting/check_my_port.c" "$root"/tests/driver_check/example/example_{can,timer,nvm}.c "${sources[@]}" \
