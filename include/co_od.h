@@ -226,6 +226,7 @@ typedef struct OD_T_ {
   /// \cond internal
   struct CO_NODE_T* Node;
   struct CO_OBJ_T* Table;
+  struct OD_WRITING_T* Writing;  // an extension's write function that runs now
   uint16_t TableLen;
   OD_TRANSFER Transfer[OD_TRANSFER_N];
   /// \endcond
@@ -283,6 +284,8 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
 
 /// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. An
 /// SDO transfer of the object that is open is aborted at its next frame (0800 0022h).
+/// With flag A the TPDOs that map the object are sent when a write is over, once: if the write function of a number has
+/// called the original, by a change of its value only, else by each write that was accepted.
 /// ODR_IDX_NOT_EXIST: \a entry is null; ODR_UNSUPP_ACCESS: no entry of the object can be extended (see OD_TYPE): the
 /// network would not notice it. Extensions with nothing but the original functions are accepted for any object.
 ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension);

@@ -7,6 +7,7 @@
 #include "od/kind.hpp"
 #include "od/result.hpp"
 #include "od/types.hpp"
+#include "service/pdo/plan.hpp"
 #include "wire/bytes.hpp"
 
 #if USE_OD
@@ -262,13 +263,31 @@ ODR_t write_piece(const OD_stream_t& stream, const Shape& shape, const Piece& pi
   }
 }
 
+bool is_in_memory(const Shape& shape) {
+  return shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
+}
+
 // Bytes that the value will have: what the caller says, where that may be less than the object can hold.
 OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape) {
-  const bool varies = shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
   if (shape.kind == Kind::foreign) {
     return stream.dataLength == 0 ? UINT32_MAX : stream.dataLength;
   }
-  return varies && stream.dataLength < shape.length ? stream.dataLength : shape.length;
+  return is_in_memory(shape) && stream.dataLength < shape.length ? stream.dataLength : shape.length;
+}
+
+// The write function of the object's extension, if that is what calls.
+OD_WRITING_T* extension_of(const OD_stream_t& stream) {
+  const OD_t* const od = stream.Owner->Ext->Od;
+  OD_WRITING_T* const writing = od == nullptr ? nullptr : od->Writing;
+  return writing != nullptr && &writing->obj == stream.Entry ? writing : nullptr;
+}
+
+// What is told of a change waits while objects are locked.
+ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Shape& shape, const Piece& piece,
+                          const uint8_t* from) {
+  const pdo::Lock lock(*stream.Owner);
+  writing.by_original = !is_in_memory(shape);
+  return write_piece(stream, shape, piece, from);
 }
 
 ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
@@ -287,7 +306,9 @@ ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
     return ODR_DATA_LONG;
   }
   const Piece piece = {stream.dataOffset, count, end};
-  const ODR_t result = write_piece(stream, shape, piece, from);
+  OD_WRITING_T* const writing = extension_of(stream);
+  const ODR_t result = writing == nullptr ? write_piece(stream, shape, piece, from)
+                                          : write_for_extension(*writing, stream, shape, piece, from);
   return result != ODR_OK ? result : go_on(stream, piece, passed);
 }
 

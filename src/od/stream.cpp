@@ -263,15 +263,15 @@ ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t to
   if (result != ODR_OK) {
     return result;
   }
-  const OD_write_t function = access.extension.write;
+  const Writing writing(access.node, access.obj);
   result = check_write(call_write(access, from, size, is_last ? announce(access, total) : 0), is_last);
   if (is_good(result)) {
     access.state.Passed = behind;
   }
   if (result == ODR_OK) {
     set(access.state, exhausted);
-    tell_change(access.node, access.obj, function);
   }
+  tell_change(access.node, access.obj, result == ODR_OK, writing.by_original());
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "core/abort_code.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
+#include "service/pdo/pdo.hpp"
 
 namespace co::od {
 namespace {
@@ -45,12 +46,13 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   OD_stream_t stream = stream_of(obj, node);
   OD_size_t passed = 0;
   stream.object = extension.object;
-  const OD_write_t write = extension.write;
-  ODR_t result = write == nullptr ? ODR_UNSUPP_ACCESS : without_settling(write)(&stream, buffer, size, &passed);
-  result = whole(result, passed, size, ODR_DATA_SHORT);
-  if (result == ODR_OK) {
-    tell_change(node, obj, write);
+  if (extension.write == nullptr) {
+    return answer(obj, node, ODR_UNSUPP_ACCESS, CO_OBJ_DOWNLOAD);
   }
+  const Writing writing(node, obj);
+  ODR_t result = without_settling(extension.write)(&stream, buffer, size, &passed);
+  result = whole(result, passed, size, ODR_DATA_SHORT);
+  tell_change(node, obj, result == ODR_OK, writing.by_original());
   return answer(obj, node, result, CO_OBJ_DOWNLOAD);
 }
 
@@ -75,10 +77,11 @@ CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer) {
   return answer(obj, node, transfer == CO_OBJ_UPLOAD ? ODR_WRITEONLY : ODR_READONLY, transfer);
 }
 
-void tell_change(CO_NODE& node, const CO_OBJ& obj, OD_write_t by) {
-  if (CO_IS_ASYNC(obj.Key) != 0 && by != OD_writeOriginal) {
+void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original) {
+  if (complete && !by_original && CO_IS_ASYNC(obj.Key) != 0) {
     event::change_object(node, obj);
   }
+  pdo::settle_touched(node);
 }
 
 }  // namespace co::od

@@ -6,6 +6,13 @@
 #include "od/list.hpp"
 #include "od/result.hpp"
 
+// The write function of an extension runs, for this object. Who tells of a change (flag A)? The original, if the
+// function has called it: it knows whether there is one. Streams in memory do not look.
+struct OD_WRITING_T {
+  const CO_OBJ& obj;
+  bool by_original;
+};
+
 namespace co::od {
 
 // The result of a function of the application becomes the answer of the type, and the abort code of the transfer that
@@ -24,7 +31,25 @@ ODR_t write_original(OD_stream_t* stream, const void* buf, OD_size_t count, OD_s
   return function == OD_writeOriginal ? write_original : function;
 }
 
-// An extension has written it: only that knows whether it has changed (flag A). OD_writeOriginal() has told already.
-void tell_change(CO_NODE& node, const CO_OBJ& obj, OD_write_t by);
+// What is told while the function runs waits until it is over: a TPDO reads the object by the extension.
+class Writing {
+ public:
+  Writing(CO_NODE& node, const CO_OBJ& obj) : od_(*node.Ext->Od), before_(od_.Writing), now_{obj, false} {
+    od_.Writing = &now_;
+  }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+  ~Writing() { od_.Writing = before_; }
+
+  [[nodiscard]] bool by_original() const { return now_.by_original; }
+
+ private:
+  OD_t& od_;
+  OD_WRITING_T* before_;
+  OD_WRITING_T now_;
+};
+
+// It is over; complete: the object has its new value.
+void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od

@@ -2,6 +2,7 @@
 // Extended objects in PDOs (co_od.h): the functions are called for each PDO; what they refuse is the node's error, and
 // keeps a TPDO from being sent.
 #include <cstring>
+#include <functional>
 
 #include "support/logged_extension.hpp"
 #include "support/pdo_fixture.hpp"
@@ -195,6 +196,114 @@ TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the ori
   extension.put_at(node, 0x3007);
   extension.answer = ODR_HW;
   node.ask("601#2307300001020304", "581#8007300000000606");
+}
+
+// An extension that ends in the original, as most do.
+struct Checking {
+  OD_extension_t extension{this, OD_readOriginal, write, {}};
+  ODR_t verdict = ODR_OK;          // behind the original
+  bool as_application = false;     // writes the original by another stream than its own
+  std::function<void()> on_write;  // behind the original
+
+  static ODR_t write(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* written) {
+    auto& self = *static_cast<Checking*>(stream->object);
+    OD_stream_t copy = *stream;
+    const ODR_t result = OD_writeOriginal(self.as_application ? &copy : stream, buf, count, written);
+    if (self.on_write) {
+      self.on_write();
+    }
+    return self.verdict != ODR_OK ? self.verdict : result;
+  }
+};
+
+TEST_CASE("OD PDO: flag A: an extension that writes the original sends the TPDO once, and only by a change") {
+  for (const bool as_application : {false, true}) {
+    Node node(table_of({0x30070020}));
+    node.frames_per_call(3);
+    Checking checking;
+    checking.as_application = as_application;
+    node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &checking.extension) == ODR_OK); });
+    node.start();
+    node.rx("601#2307300001020304");
+    node.tx({"181#01020304", "581#6007300000000000"});
+    node.ask("601#2307300001020304", "581#6007300000000000");
+    node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x3007, 0), 5) == CO_ERR_NONE); });
+    node.tx("181#05000000");
+    node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x3007, 0), 5) == CO_ERR_NONE); });
+    node.silent();
+    node.call([&] { CHECK(OD_set_u32(OD_find(&node.od, 0x3007), 0, 6, false) == ODR_OK); });
+    node.tx("181#06000000");
+    node.rx("201#06000000");
+    node.silent();
+    node.rx("201#07000000");
+    node.tx("181#07000000");
+  }
+}
+
+TEST_CASE("OD PDO: flag A: the TPDO is sent once the write function is over: it has the value that read then gives") {
+  Node node(table_of({0x30070020}));
+  node.frames_per_call(3);
+  Checking checking;
+  std::uint32_t shown = 0;
+  checking.extension.read = [](OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
+    const ODR_t result = OD_readOriginal(stream, buf, count, passed);
+    std::memset(buf, 0x77, count);
+    return result;
+  };
+  bool inside = false;
+  checking.on_write = [&] {
+    const OutsideStack outside;
+    inside = node.frames().empty();
+    shown = node.watched;
+  };
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &checking.extension) == ODR_OK); });
+  node.start();
+  node.rx("601#2307300001020304");
+  CHECK(inside);
+  CHECK(shown == 0x04030201);
+  node.tx({"181#77777777", "581#6007300000000000"});
+}
+
+TEST_CASE("OD PDO: flag A: what the original has changed before the extension refuses is sent as it is") {
+  Node node(table_of({0x30070020}));
+  node.frames_per_call(3);
+  Checking checking;
+  checking.verdict = ODR_HW;
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3007), &checking.extension) == ODR_OK); });
+  node.start();
+  node.rx("601#2307300001020304");
+  node.tx({"181#01020304", "581#8007300000000606"});
+  node.ask("601#2307300001020304", "581#8007300000000606");
+}
+
+TEST_CASE("OD PDO: flag A: an extension that keeps the value elsewhere: each write that it accepts is a change") {
+  Node node(table_of({0x30070020}));
+  node.frames_per_call(3);
+  LoggedExtension extension;
+  extension.put_at(node, 0x3007);
+  node.start();
+  for (unsigned n = 0; n < 2; ++n) {
+    node.rx("601#2307300001020304");
+    node.tx({"181#01020304", "581#6007300000000000"});
+  }
+  node.rx("201#01020304");
+  node.tx("181#01020304");
+}
+
+TEST_CASE("OD PDO: flag A: an extension that writes another object tells of both") {
+  PdoTable table = table_of({0x30070020});
+  table.tpdo[1].on(0x40000281, 255, {0x22140120});
+  Node node(table);
+  node.frames_per_call(4);
+  LoggedExtension extension;
+  extension.on_write = [&](OD_stream_t*) {
+    CHECK(CODictWrLong(&node->Dict, CO_DEV(0x2214, 1), 0x04030201) == CO_ERR_NONE);
+    return ODR_OK;
+  };
+  extension.put_at(node, 0x3007);
+  node.start();
+  node.rx("601#2307300009000000");
+  node.tx({"281#01020304", "181#09000000", "581#6007300000000000"});
 }
 
 TEST_CASE("OD PDO: synchronous ones sample and apply through the extension [301:7.2.2.3]") {
