@@ -282,8 +282,10 @@ ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 /// \}
 
-/// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. An
-/// SDO transfer of the object that is open is aborted at its next frame (0800 0022h).
+/// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. What
+/// is open ends: an SDO transfer of the object is aborted (0800 0022h) at its next frame, or at once if one of its own
+/// functions calls this, and a CO_OBJ_TYPE_EX behind the extension is told that end, once. COObj…Cont() of an access
+/// that has begun before answers CO_ERR_OBJ_STATE. An OD_IO_t keeps the functions that it was filled with: get it anew.
 /// With flag A the TPDOs that map the object are sent when a write is over, once: if the write function of a number has
 /// called the original, by a change of its value only, else by each write that was accepted.
 /// ODR_IDX_NOT_EXIST: \a entry is null; ODR_UNSUPP_ACCESS: no entry of the object can be extended (see OD_TYPE): the

@@ -37,6 +37,9 @@ Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRA
 void leave(Access& access) {
   access.state.Offset = access.stream.dataOffset;
   access.state.Length = access.stream.dataLength;
+  if (has(access.place, lost)) {
+    set(access.state, lost);
+  }
   if (access.place.Entry != nullptr) {
     access.place = access.state;
   }
@@ -394,6 +397,38 @@ CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32
   return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
 }
 
+// Both ways ---------------------------------------------------------------------------------------------------------
+
+CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(node, obj);
+  if (extension == nullptr) {
+    return pass_original(obj, node, buffer, size, CO_OBJ_UPLOAD);
+  }
+  OD_TRANSFER* const place = find_access(*node.Ext->Od, node, obj);
+  const ODR_t result =
+      place == nullptr ? ODR_DATA_DEV_STATE : read(obj, node, *extension, *place, static_cast<uint8_t*>(buffer), size);
+  return answer(obj, node, result, CO_OBJ_UPLOAD);
+}
+
+CO_ERR pass_down(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
+  const OD_extension_t* const extension = extension_of(node, obj);
+  if (extension == nullptr) {
+    return pass_original(obj, node, buffer, size, CO_OBJ_DOWNLOAD);
+  }
+  OD_TRANSFER* const place = find_access(*node.Ext->Od, node, obj);
+  const ODR_t result = place == nullptr
+                           ? ODR_DATA_DEV_STATE
+                           : write(obj, node, *extension, *place, static_cast<const uint8_t*>(buffer), size);
+  return answer(obj, node, result, CO_OBJ_DOWNLOAD);
+}
+
+// A transfer is refused once its object has got another extension, which may have come from within.
+template <class Function>
+CO_ERR unless_lost(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, Function function) {
+  const CO_ERR err = is_lost(node, obj) ? CO_ERR_NONE : function();
+  return is_lost(node, obj) ? answer(obj, node, ODR_DATA_DEV_STATE, transfer) : err;
+}
+
 }  // namespace
 }  // namespace co::od
 
@@ -410,32 +445,19 @@ uint32_t ODStreamSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
 }
 
 CO_ERR ODStreamRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
-  if (extension == nullptr) {
-    return pass_original(*obj, *node, buffer, size, CO_OBJ_UPLOAD);
-  }
-  OD_TRANSFER* const place = find_access(*node->Ext->Od, *node, *obj);
-  const ODR_t result = place == nullptr ? ODR_DATA_DEV_STATE
-                                        : read(*obj, *node, *extension, *place, static_cast<uint8_t*>(buffer), size);
-  return answer(*obj, *node, result, CO_OBJ_UPLOAD);
+  return unless_lost(*obj, *node, CO_OBJ_UPLOAD, [=] { return pass_up(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
-  if (extension == nullptr) {
-    return pass_original(*obj, *node, buffer, size, CO_OBJ_DOWNLOAD);
-  }
-  OD_TRANSFER* const place = find_access(*node->Ext->Od, *node, *obj);
-  const ODR_t result = place == nullptr
-                           ? ODR_DATA_DEV_STATE
-                           : write(*obj, *node, *extension, *place, static_cast<const uint8_t*>(buffer), size);
-  return answer(*obj, *node, result, CO_OBJ_DOWNLOAD);
+  return unless_lost(*obj, *node, CO_OBJ_DOWNLOAD, [=] { return pass_down(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
-  const OD_extension_t* const extension = extension_of(*node, *obj);
-  return extension == nullptr ? set_original_position(*obj, *node, position)
-                              : set_position(*obj, *node, *extension, position);
+  return unless_lost(*obj, *node, CO_OBJ_UPLOAD, [=] {
+    const OD_extension_t* const extension = extension_of(*node, *obj);
+    return extension == nullptr ? set_original_position(*obj, *node, position)
+                                : set_position(*obj, *node, *extension, position);
+  });
 }
 
 CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size) {
@@ -461,8 +483,9 @@ CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uin
     return end_original(*obj, *node, transfer, abort);
   }
   CO_ERR err = CO_ERR_NONE;
-  if (transfer == CO_OBJ_DOWNLOAD && abort == no_abort) {
-    err = finish(*obj, *node, *place);
+  if (abort == no_abort) {
+    err = unless_lost(*obj, *node, transfer,
+                      [=] { return transfer == CO_OBJ_DOWNLOAD ? finish(*obj, *node, *place) : CO_ERR_NONE; });
   }
   set(*place, inside);
   const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? abort : access::abort_for(*node, err));

@@ -4,6 +4,9 @@
 #if USE_OD
 
 #include "core/access.hpp"
+#include "core/obj.hpp"
+#include "od/kind.hpp"
+#include "service/sdo_server/transfer.hpp"
 
 namespace co::od {
 namespace {
@@ -18,6 +21,25 @@ unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
     ++n;
   }
   return n;
+}
+
+// Is it an entry of the object, and one that an extension serves? Nothing is looked at that is none of the table.
+bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
+  unsigned n = 0;
+  while (n < od.TableLen && &od.Table[n] != obj) {
+    ++n;
+  }
+  return n < od.TableLen && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
+}
+
+// The type is told now, the client at its next frame.
+void end_transfer(CO_NODE& node, CO_SDO& channel) {
+  CO_OBJ& obj = *channel.Obj;
+  const bool is_download = sdo_server::has(channel, sdo_server::download);
+  channel.Obj = nullptr;
+  if (sdo_server::is_told(channel)) {
+    (void)obj::end(obj, node, is_download ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD, CO_SDO_ERR_TOS_STATE);
+  }
 }
 
 bool is_free(const CO_NODE& node, const OD_TRANSFER& place) {
@@ -80,6 +102,34 @@ void bind(OD_TRANSFER& transfer, const CO_NODE& node) {
 }
 
 void end_transfer(OD_TRANSFER& transfer) { transfer = {}; }
+
+void end_accesses(OD_t& od, uint16_t index) {
+  CO_NODE& node = *od.Node;
+  CO_OBJ* const served = is_extensible_of(od, index, node.Served) ? node.Served : nullptr;
+  OD_TRANSFER* const running = served == nullptr ? nullptr : first_transfer(od, *served);
+  if (running != nullptr) {
+    set(*running, lost);
+  }
+  OD_TRANSFER& own = od.Transfer[application];
+  if (is_extensible_of(od, index, own.Entry)) {
+    own = {};
+  }
+  for (CO_SDO& channel : node.Sdo) {
+    const bool is_running = running != nullptr && channel.Obj == served;
+    if (!is_running && is_extensible_of(od, index, channel.Obj)) {
+      end_transfer(node, channel);
+    }
+  }
+}
+
+bool is_lost(const CO_NODE& node, const CO_OBJ& obj) {
+  OD_t* const od = node.Ext->Od;
+  if (od == nullptr || !is_served(*od, node, obj)) {
+    return false;
+  }
+  const OD_TRANSFER* const transfer = first_transfer(*od, obj);
+  return transfer != nullptr && has(*transfer, lost);
+}
 
 OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj) {
   OD_TRANSFER& own = od.Transfer[application];

@@ -14,6 +14,7 @@ enum Flag : uint8_t {
   inside = 0x02,     // a function of the application runs: what that accesses is none of the transfer
   by_server = 0x04,  // it ends as soon as no channel has the object open
   holds = 0x08,      // Held is the next byte
+  lost = 0x10,       // the object has got another extension: whatever comes next is refused
 };
 
 [[nodiscard]] inline bool has(const OD_TRANSFER& transfer, Flag flag) { return (transfer.State & flag) != 0; }
@@ -47,6 +48,14 @@ void bind(OD_TRANSFER& transfer, const CO_NODE& node);
 [[nodiscard]] OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, uint32_t total);
 void end_transfer(OD_TRANSFER& transfer);
 [[nodiscard]] OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj);
+
+// The object has got another extension: all that goes on with it ends. SDO transfers are aborted (0800 0022h), at their
+// next frame, or as soon as the function of the application is over that runs for one. The node need not be
+// initialised.
+void end_accesses(OD_t& od, uint16_t index);
+
+// Has that happened to the SDO transfer that is being served?
+[[nodiscard]] bool is_lost(const CO_NODE& node, const CO_OBJ& obj);
 
 [[nodiscard]] inline bool is_of_application(const OD_t& od, const OD_TRANSFER& transfer) {
   return &transfer == &od.Transfer[OD_TRANSFER_N - 1];

@@ -2,6 +2,7 @@
 // Variables: found, and read or written as a whole.
 #include "od/kind.hpp"
 #include "od/list.hpp"
+#include "od/transfer.hpp"
 
 #if USE_OD
 
@@ -98,26 +99,6 @@ bool has_extensible(const OD_entry_t& entry) {
   return false;
 }
 
-// Is it an entry of the object, and one that an extension serves?
-bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
-  unsigned n = 0;
-  while (n < od.TableLen && &od.Table[n] != obj) {
-    ++n;
-  }
-  return n < od.TableLen && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
-}
-
-// Their next frame aborts them. The node need not be initialised: nothing that it may name is looked at.
-void end_transfers(const OD_entry_t& entry) {
-  if (!is_of_table(entry)) {
-    return;
-  }
-  const OD_t& od = owner_of(entry);
-  for (CO_SDO& channel : od.Node->Sdo) {
-    channel.Obj = is_extensible_of(od, entry.index, channel.Obj) ? nullptr : channel.Obj;
-  }
-}
-
 bool changes_nothing(const OD_extension_t& extension) {
   return extension.read == OD_readOriginal && extension.write == OD_writeOriginal;
 }
@@ -173,10 +154,11 @@ ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) {
   if (extension != nullptr && !changes_nothing(*extension) && !has_extensible(*entry)) {
     return ODR_UNSUPP_ACCESS;
   }
-  if (entry->extension != extension) {
-    end_transfers(*entry);
-  }
+  const bool is_other = entry->extension != extension;
   entry->extension = extension;
+  if (is_other && is_of_table(*entry)) {
+    end_accesses(owner_of(*entry), entry->index);
+  }
   return ODR_OK;
 }
 
