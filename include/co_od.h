@@ -228,6 +228,7 @@ typedef struct OD_T_ {
   struct CO_OBJ_T* Table;
   struct OD_WRITING_T* Writing;  // an extension's write function that runs now
   uint16_t TableLen;
+  uint16_t Changes;  // how often an object has got another extension
   OD_TRANSFER Transfer[OD_TRANSFER_N];
   /// \endcond
 } OD_t;

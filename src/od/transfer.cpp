@@ -110,6 +110,7 @@ void end_accesses(OD_t& od, uint16_t index) {
   if (running != nullptr) {
     set(*running, lost);
   }
+  ++od.Changes;
   OD_TRANSFER& own = od.Transfer[application];
   if (is_extensible_of(od, index, own.Entry)) {
     own = {};

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <functional>
 
+#include "support/block_frames.hpp"
 #include "support/logged_extension.hpp"
 #include "support/pdo_fixture.hpp"
 
@@ -362,6 +363,117 @@ TEST_CASE("OD PDO: an extension that stops the node, or changes the dictionary, 
       CHECK((node.mode() == CO_INVALID) == (what == 0));
     }
   }
+}
+
+// Partial accesses of the application --------------------------------------------------------------------------------
+
+// 3010h 20 bytes that only the extension has; 3011h to 3013h domains of 4 bytes: extensible, with an extension that is
+// the original, plain.
+struct Streams : Variables {
+  Bytes memory = counting(12);
+  CO_OBJ_DOM domains[3] = {{0, 4, memory.data()}, {0, 4, memory.data() + 4}, {0, 4, memory.data() + 8}};
+
+  void add_to(Setup& setup) {
+    Variables::add_to(setup);
+    setup.with({CO_KEY(0x3010, 0, CO_OBJ_____RW), OD_TSTREAM, CO_DATA(20)})
+        .with({CO_KEY(0x3011, 0, CO_OBJ____PRW), OD_TDOMAIN, CO_DATA(&domains[0])})
+        .with({CO_KEY(0x3012, 0, CO_OBJ____PRW), OD_TDOMAIN, CO_DATA(&domains[1])})
+        .with({CO_KEY(0x3013, 0, CO_OBJ____PRW), CO_TDOMAIN, CO_DATA(&domains[2])})
+        .may_change(0x3011, 0)
+        .may_change(0x3012, 0)
+        .may_change(0x3013, 0);
+  }
+};
+
+struct StreamNode : Streams, PdoNode {
+  OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
+  LoggedExtension extension;
+  LoggedExtension mapped;
+
+  explicit StreamNode(std::uint32_t word)
+      : PdoNode(table_of({word}), [this](Setup& setup) { this->Streams::add_to(setup); }) {
+    call([&] { CHECK(OD_extension_init(OD_find(&od, 0x3012), &original) == ODR_OK); });
+    extension.put_at(*this, 0x3010);
+    mapped.put_at(*this, 0x3005);
+    extension.data = counting(20);
+    mapped.data = counting(4);
+    start();
+  }
+  void pass(bool receives) {
+    if (receives) {
+      rx("201#01020304");
+    } else {
+      trigger(0);
+    }
+    frames();
+    error();
+  }
+};
+
+TEST_CASE("OD PDO: between two pieces of the application's access a PDO passes a stream: both are whole") {
+  for (const std::uint32_t word :
+       std::initializer_list<std::uint32_t>{0x30050020, 0x30110020, 0x30120020, 0x30130020}) {
+    for (const bool receives : {true, false}) {
+      for (const std::uint16_t index :
+           {std::uint16_t{0x3010}, static_cast<std::uint16_t>(word >> 16)}) {  // another object, the same
+        CAPTURE(word);
+        CAPTURE(receives);
+        CAPTURE(index);
+        StreamNode node(word);
+        const std::uint32_t size = index == 0x3010 ? 20 : 4;
+        std::uint8_t bytes[20] = {};
+        node.pass(receives);
+        CO_OBJ* const obj = node.find(index, 0);
+        node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, bytes, 2) == CO_ERR_NONE); });
+        node.pass(receives);
+        node.call([&] { CHECK(COObjRdBufCont(obj, &node.node, bytes + 2, size - 2) == CO_ERR_NONE); });
+        std::uint8_t again[20] = {};
+        node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, again, size) == CO_ERR_NONE); });
+        CHECK(std::equal(bytes, bytes + 20, again));
+        if (index == 0x3012 || (index == 0x3005 && receives)) {
+          continue;  // it is written at once; the test's extension knows one download at a time
+        }
+        node.call([&] { CHECK(COObjWrBufStart(obj, &node.node, again, 2) == CO_ERR_NONE); });
+        node.pass(receives);
+        node.call([&] { CHECK(COObjWrBufCont(obj, &node.node, again + 2, size - 2) == CO_ERR_NONE); });
+        std::uint8_t written[20] = {};
+        node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, written, size) == CO_ERR_NONE); });
+        CHECK(std::equal(bytes, bytes + 20, written));
+      }
+    }
+  }
+}
+
+TEST_CASE("OD PDO: within the read function of a PDO the application reads another stream, and goes on with its own") {
+  StreamNode node(0x30050020);
+  std::uint8_t other[20] = {};
+  node.mapped.on_read = [&](OD_stream_t*) {
+    CHECK(COObjRdBufStart(node.find(0x3010, 0), &node.node, other, 6) == CO_ERR_NONE);
+    CHECK(COObjRdBufCont(node.find(0x3010, 0), &node.node, other + 6, 14) == CO_ERR_NONE);
+    return ODR_OK;
+  };
+  std::uint8_t bytes[20] = {};
+  CO_OBJ* const obj = node.find(0x3010, 0);
+  node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, bytes, 6) == CO_ERR_NONE); });
+  node.trigger(0);
+  node.tx("181#01020304");
+  node.call([&] { CHECK(COObjRdBufCont(obj, &node.node, bytes + 6, 14) == CO_ERR_NONE); });
+  CHECK(Bytes(bytes, bytes + 20) == counting(20));
+  CHECK(Bytes(other, other + 20) == counting(20));
+}
+
+TEST_CASE("OD PDO: an access whose object gets another extension within a PDO is over all the same") {
+  StreamNode node(0x30050020);
+  node.mapped.on_read = [&](OD_stream_t*) {
+    CHECK(OD_extension_init(OD_find(&node.od, 0x3010), &node.original) == ODR_OK);
+    return ODR_OK;
+  };
+  std::uint8_t bytes[20] = {};
+  CO_OBJ* const obj = node.find(0x3010, 0);
+  node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, bytes, 6) == CO_ERR_NONE); });
+  node.trigger(0);
+  node.tx("181#01020304");
+  node.call([&] { CHECK(COObjRdBufCont(obj, &node.node, bytes + 6, 14) == CO_ERR_OBJ_STATE); });
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
+#include "object/whole.hpp"
 #include "service/pdo/configuration.hpp"
 #include "wire/mpdo.hpp"
 
@@ -115,10 +116,7 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame) 
   if (!obj::is_stream(obj)) {
     wire::swap_host(value, bytes);
   }
-  CO_ERR err = obj::seek(obj, node, 0);
-  if (err == CO_ERR_NONE) {
-    err = obj::write(obj, node, value, bytes);
-  }
+  const CO_ERR err = obj::pass_whole(obj, node, obj.Type->Write, value, bytes);
   if (err != CO_ERR_NONE) {
     node.Error = err;
   }
@@ -197,10 +195,7 @@ CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame) {
   if (bytes > sizeof value) {
     return CO_ERR_OBJ_SIZE;
   }
-  CO_ERR err = obj::seek(*obj, node, 0);
-  if (err == CO_ERR_NONE) {
-    err = obj::read(*obj, node, value, bytes);
-  }
+  const CO_ERR err = obj::pass_whole(*obj, node, obj->Type->Read, value, bytes);
   if (!obj::is_stream(*obj)) {
     wire::swap_host(value, bytes);
   }

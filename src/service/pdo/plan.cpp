@@ -6,6 +6,7 @@
 #include "core/obj.hpp"
 #include "core/port.hpp"
 #include "object/place.hpp"
+#include "object/whole.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "wire/bytes.hpp"
 
@@ -189,13 +190,10 @@ void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_
 CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
   const uint32_t bytes = bytes_of(part);
   const uint32_t number = obj::is_stream(part.obj) ? 0 : bytes;
-  CO_ERR err = obj::seek(part.obj, node, 0);
   if (direction == Direction::receive) {
     wire::swap_host(value, number);
   }
-  if (err == CO_ERR_NONE) {
-    err = function_of(part.obj, direction)(&part.obj, &node, value, bytes);
-  }
+  const CO_ERR err = obj::pass_whole(part.obj, node, function_of(part.obj, direction), value, bytes);
   if (direction == Direction::transmit) {
     wire::swap_host(value, number);
   }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "object/whole.hpp"
+
+#include "co_core.h"
+#include "core/obj.hpp"
+#include "object/stream.hpp"
+#if USE_OD
+#include "co_od.h"
+
+// Comparing with it does not link it.
+#pragma weak ODTypeInit
+#endif
+
+namespace co::obj {
+namespace {
+
+#if USE_OD
+
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
+  const bool is_extensible = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
+  return is_extensible ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
+}
+
+// Extended streams have one place for the application, until one of them gets another extension.
+class KeptAccess {
+ public:
+  explicit KeptAccess(const CO_NODE& node) : od_(node.Ext->Od) {
+    if (od_ != nullptr) {
+      changes_ = od_->Changes;
+      before_ = od_->Transfer[OD_TRANSFER_N - 1];
+    }
+  }
+  KeptAccess(const KeptAccess&) = delete;
+  KeptAccess& operator=(const KeptAccess&) = delete;
+  ~KeptAccess() {
+    if (od_ != nullptr && od_->Changes == changes_) {
+      od_->Transfer[OD_TRANSFER_N - 1] = before_;
+    }
+  }
+
+ private:
+  OD_t* od_;
+  uint16_t changes_ = 0;
+  OD_TRANSFER before_ = {};
+};
+
+#else
+
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
+
+class KeptAccess {
+ public:
+  explicit KeptAccess(const CO_NODE&) {}
+};
+
+#endif
+
+CO_ERR pass_at_beginning(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
+  const CO_ERR err = seek(obj, node, 0);
+  return err != CO_ERR_NONE ? err : function(&obj, &node, data, bytes);
+}
+
+[[gnu::noinline]] CO_ERR pass_stream(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, void* data,
+                                     uint32_t bytes) {
+  const CO_OBJ_TYPE* const type = original_type(obj);
+  const KeptAccess access(node);
+  if (type == nullptr || type->Reset != stream::reset) {
+    return pass_at_beginning(obj, node, function, data, bytes);
+  }
+  const stream::KeptPosition position(obj);
+  return pass_at_beginning(obj, node, function, data, bytes);
+}
+
+}  // namespace
+
+CO_ERR pass_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
+  return is_stream(obj) ? pass_stream(obj, node, function, data, bytes) : function(&obj, &node, data, bytes);
+}
+
+}  // namespace co::obj
