@@ -103,6 +103,7 @@ typedef enum CO_ERR_T {
   CO_ERR_OBJ_NO_DATA,   ///< there is no data to give (SDO abort 0800 0024h)
   CO_ERR_LSS_BUSY,      ///< a service of the LSS master is going on
   CO_ERR_LSS_NO_STORE,  ///< node-ID and bit rate cannot be stored
+  CO_ERR_TYPE_AGAIN,    ///< a Reset function that has not come to the position yet (co_obj.h)
 } CO_ERR;
 
 #ifdef __cplusplus

@@ -138,8 +138,9 @@ typedef struct CO_OBJ_TYPE_T {
 /// exactly once for each Begin that succeeded. A piece has at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in
 /// a block transfer; a block download of up to CO_SDO_BUF_BYTE bytes is written after its CRC and length were found
 /// right, in one piece. A longer one streams: what was written may still be taken back by End. After a lost frame of a
-/// block upload Reset may go back to any position that was already read. CODict… and COObj… functions of the
-/// application call neither Begin nor End, and an entry that CODictInit() has moved is told no End.
+/// block upload Reset may go back to any position that was already read; while it needs more time for it than a call of
+/// CONodeProcess() may take, it answers CO_ERR_TYPE_AGAIN and is called again in the next one. CODict… and COObj…
+/// functions of the application call neither Begin nor End, and an entry that CODictInit() has moved is told no End.
 /// \{
 
 /// What Size answers to width 0 while the length of an upload is not known. As soon as a Read has reached the end, and

@@ -310,9 +310,10 @@ CO_ERR finish(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
 
 // Position ------------------------------------------------------------------------------------------------------------
 
-// A function knows no way back but to the beginning: what is not wanted is read once more.
-ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
-  restart(place, stream_of(obj, node).dataLength);
+// Bytes that are read again at a time: as many as a block transfer reads ahead. The application wants all.
+constexpr uint32_t most_again = CO_SDO_BUF_BYTE;
+
+ODR_t skip(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
   while (place.Passed < position) {
     uint8_t unwanted[32];
     const uint32_t before = place.Passed;
@@ -329,6 +330,21 @@ ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRAN
   return ODR_OK;
 }
 
+// A function knows no way back but to the beginning: what is not wanted is read once more. ODR_PARTIAL: not all yet.
+ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
+  if (!has(place, returns) || position < place.Passed) {
+    restart(place, stream_of(obj, node).dataLength);
+    set(place, returns);
+  }
+  const bool is_near = position - place.Passed <= most_again || is_of_application(*node.Ext->Od, place);
+  const ODR_t result = skip(obj, node, extension, place, is_near ? position : place.Passed + most_again);
+  if (result == ODR_OK && !is_near) {
+    return ODR_PARTIAL;
+  }
+  clear(place, returns);
+  return result;
+}
+
 CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, uint32_t position) {
   OD_t& od = *node.Ext->Od;
   const bool by_application = !is_served(od, node, obj);
@@ -336,14 +352,17 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   if (place == nullptr) {
     return answer(obj, node, ODR_DATA_DEV_STATE, CO_OBJ_UPLOAD);
   }
-  if (position > place->Passed) {
+  if (position > place->Passed && !has(*place, returns)) {
     return CO_ERR_TYPE_RESET;
   }
   if (!by_application) {
     bind(*place, node);
   }
-  const bool is_there = position == place->Passed && position != 0;
-  return is_there ? CO_ERR_NONE : answer(obj, node, go_to(obj, node, extension, *place, position), CO_OBJ_UPLOAD);
+  if (position == place->Passed && position != 0 && !has(*place, returns)) {
+    return CO_ERR_NONE;
+  }
+  const ODR_t result = go_to(obj, node, extension, *place, position);
+  return result == ODR_PARTIAL ? CO_ERR_TYPE_AGAIN : answer(obj, node, result, CO_OBJ_UPLOAD);
 }
 
 // The original --------------------------------------------------------------------------------------------------------

@@ -54,6 +54,7 @@ void restart(OD_TRANSFER& transfer, OD_size_t length) {
   transfer.Passed = 0;
   clear(transfer, exhausted);
   clear(transfer, holds);
+  clear(transfer, returns);
 }
 
 bool is_served(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {

@@ -15,6 +15,7 @@ enum Flag : uint8_t {
   by_server = 0x04,  // it ends as soon as no channel has the object open
   holds = 0x08,      // Held is the next byte
   lost = 0x10,       // the object has got another extension: whatever comes next is refused
+  returns = 0x20,    // it reads again what has passed, to come to a position
 };
 
 [[nodiscard]] inline bool has(const OD_TRANSFER& transfer, Flag flag) { return (transfer.State & flag) != 0; }

@@ -64,6 +64,81 @@ TEST_CASE(
   CHECK(node.extension.take_log().empty());
 }
 
+// Bytes that the extension has been asked for since the last look.
+std::uint32_t bytes_read(LoggedExtension& extension) {
+  std::uint32_t bytes = 0;
+  for (const std::string& line : extension.take_log()) {
+    bytes += line.substr(0, 5) == "read " ? static_cast<std::uint32_t>(std::stoul(line.substr(5))) : 0;
+  }
+  return bytes;
+}
+
+// An upload of 20000 bytes that has come so far that going back reads 17780 of them again.
+void upload_to_the_end(Node& node, const Bytes& data) {
+  node.extension.data = data;
+  node.ask("601#A400300064000000", "581#C400300000000000");
+  node.rx("601#A300000000000000");
+  unsigned segment = 0;
+  for (; segment < 2600; segment += 100) {
+    expect_segments(node, data, segment, 100);
+    node.rx("601#A264640000000000");
+  }
+  node.frames();  // segments 2601 to 2700
+  node.extension.take_log();
+}
+
+TEST_CASE("OD block loss: a call of CONodeProcess() reads no more again than a block has, however long the stream is") {
+  Node node;
+  const Bytes data = letters(20000);
+  upload_to_the_end(node, data);
+  node.calls(1);
+  node.rx("601#A2017F0000000000");  // segment 2602 and on are lost: byte 18207, and the buffer begins at 18669
+  unsigned calls = 0;
+  while (node->Paused != 0 && node.can.sent.empty()) {
+    CHECK(bytes_read(node.extension) <= 2 * CO_SDO_BUF_BYTE);
+    node.loop();
+    ++calls;
+  }
+  CHECK(calls == 18207 / CO_SDO_BUF_BYTE);
+  node.calls(Fixture::enough_calls);
+  node.loop();
+  expect_segments(node, data, 2601, 127);
+  node.rx("601#8000300000000008");
+}
+
+TEST_CASE("OD block loss: while it reads again other channels and the application are served, and a new request, too") {
+  Node node;
+  const Bytes data = letters(20000);
+  upload_to_the_end(node, data);
+  node.calls(1);
+  node.rx("601#A2007F0000000000");
+  REQUIRE(node.can.sent.empty());
+  node.call([&] {
+    std::uint8_t bytes[5] = {};
+    CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x3000, 0), bytes, 5) == CO_ERR_NONE);
+    CHECK(std::equal(bytes, bytes + 5, data.data()));
+  });
+  node.calls(Fixture::enough_calls);
+  node.loop();
+  expect_segments(node, data, 2600, 127);
+  node.rx("601#8000300000000008");
+  node.extension.data = counting(20);
+  CHECK(node.upload(0x3000, 0) == counting(20));
+}
+
+TEST_CASE("OD block loss: the application goes back by COObjReset() at once") {
+  Node node;
+  node.extension.data = letters(5000);
+  Bytes bytes(5000);
+  CO_OBJ* const obj = node.find(0x3000, 0);
+  node.call([&] {
+    CHECK(COObjRdBufStart(obj, &node.node, bytes.data(), 5000) == CO_ERR_NONE);
+    CHECK(COObjReset(obj, &node.node, 4000) == CO_ERR_NONE);
+    CHECK(COObjRdBufCont(obj, &node.node, bytes.data(), 2) == CO_ERR_NONE);
+  });
+  CHECK(bytes[0] == letters(5000)[4000]);
+}
+
 TEST_CASE("OD block loss: uploads that lose any one frame have the right bytes, or are aborted") {
   for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x3000, 0x3001, 0x3002}) {
     for (const std::uint8_t blksize : std::initializer_list<std::uint8_t>{20, 100, 127}) {

@@ -24,6 +24,12 @@ void sum(CO_SDO& channel, uint32_t position) {
   channel.Summed = channel.Read;
 }
 
+// This call of CONodeProcess() has done enough.
+void pause(CO_NODE& node) {
+  node.Paused = 1;
+  node.Burst = CO_SDO_BLOCK_PACE;
+}
+
 uint32_t load(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
@@ -31,6 +37,11 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // what a type does not fill is not old data
   const uint32_t abort = pass(channel, position, buffer_of(channel), n);
+  if (abort == again) {
+    channel.Fill = 0;
+    pause(*channel.Node);
+    return abort;
+  }
   channel.Fill = static_cast<uint16_t>(channel.Read - position);
   if (abort == no_abort) {
     sum(channel, position);
@@ -44,7 +55,9 @@ bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
     return true;
   }
   abort = load(channel, position);
-  return abort == no_abort && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
+  const bool is_there = abort == no_abort;
+  abort = abort == again ? no_abort : abort;
+  return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
 
 // The segment, of which so many bytes are in the buffer.

@@ -180,6 +180,9 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
       return CO_SDO_ERR_TOS_STATE;
     }
     err = seek_piece(channel, *channel.Obj, position);
+    if (has_block && err == CO_ERR_TYPE_AGAIN) {
+      return again;
+    }
     if (err == CO_ERR_NONE && channel.Obj != nullptr) {
       err = run(channel, *channel.Obj, data, n);
     }

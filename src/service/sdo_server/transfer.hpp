@@ -116,9 +116,12 @@ inline void tell_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32
   }
 }
 
+// In place of an abort code: the type needs another call to find the position.
+constexpr uint32_t again = 1;
+
 // Read or write in the direction of the transfer; both return an abort code. begin_data: the first bytes of all, or
-// none, which opens a stream. pass: a piece, up to position Read: fewer than n bytes where the end of an object of
-// unknown size is found.
+// none, which opens a stream. pass: a piece, up to position Read, or again where it goes back: fewer than n bytes where
+// the end of an object of unknown size is found.
 [[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
 [[nodiscard]] uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
