@@ -226,6 +226,7 @@ typedef struct OD_T_ {
   /// \cond internal
   struct CO_NODE_T* Node;
   struct CO_OBJ_T* Table;
+  OD_entry_t* Filled;            // the list that has the extensions
   struct OD_WRITING_T* Writing;  // an extension's write function that runs now
   uint16_t TableLen;
   uint16_t Changes;  // how often an object has got another extension
@@ -237,10 +238,11 @@ typedef struct OD_T_ {
 #define OD_LIST_N(n) ((n) + 1)
 
 /// Fills \a list, of \a num entries, with the objects of \a table (\a tableLen entries, sorted as CODictInit() wants
-/// it) and takes it into use; \a node need not be initialised yet. Extensions are kept where \a list already had the
-/// object: call it again when the table of a running node has changed, after CODictInit().
-/// ODR_OUT_OF_MEM: \a num is less than OD_LIST_N(indexes in the table), od->size then tells how many these are, and
-/// nothing is found; ODR_DEV_INCOMPAT: an argument is null, or the table is not ascending.
+/// it) and takes it into use; \a node need not be initialised yet. Objects that \a od already had keep their
+/// extensions, also in another list: call it again when the table of a running node has changed, after CODictInit(). An
+/// OD_IO_t is of the table that it was filled from: after that get it anew. ODR_OUT_OF_MEM: \a num is less than
+/// OD_LIST_N(indexes in the table), od->size then tells how many these are, and nothing is found until it is called
+/// with a list that is long enough; ODR_DEV_INCOMPAT: an argument is null, or the table is not ascending.
 ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, struct CO_NODE_T* node, struct CO_OBJ_T* table,
               uint16_t tableLen);
 
@@ -277,7 +279,8 @@ void OD_rwRestart(OD_stream_t* stream);
 ///
 /// A type of the application that is a stream belongs to one at a time: ODR_DATA_DEV_STATE while SDO has it open. One
 /// that cannot go back (CO_OBJ_TYPE_EX without Reset), and a value of more than 8 bytes, pass in one call only:
-/// ODR_UNSUPP_ACCESS for a second. Begin and End are not called.
+/// ODR_UNSUPP_ACCESS for a second. Begin and End are not called. Write of a type gets copies of up to 32 bytes, one
+/// behind the other: if it refuses one, those before it are written.
 /// \{
 ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
@@ -295,7 +298,8 @@ ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension);
 
 /// \name Values of a known length
 /// OD_getSub(), then one read or write of \a len bytes, without regard to the network's rights. Errors: as these;
-/// ODR_DEV_INCOMPAT: \a val is null; ODR_TYPE_MISMATCH: the variable has another length.
+/// ODR_DEV_INCOMPAT: \a val is null, or an extension has taken fewer bytes and is content; ODR_TYPE_MISMATCH: the
+/// variable has another length, nothing is read or written.
 /// \{
 ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);
 ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);

@@ -8,15 +8,13 @@
 #include "wire/cob_id.hpp"
 
 namespace co::dict {
-namespace {
 
-// The number of the first entry that has this key or a higher one.
-uint32_t first_from(const CO_DICT& dict, uint32_t key) {
+uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key) {
   uint32_t from = 0;
-  uint32_t to = dict.Num;
+  uint32_t to = num;
   while (from < to) {
     const uint32_t middle = (from + to) / 2;
-    if (dict.Root[middle].Key < key) {
+    if (root[middle].Key < key) {
       from = middle + 1;
     } else {
       to = middle;
@@ -32,6 +30,8 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
   }
   return num;
 }
+
+namespace {
 
 #if USE_DICT_CHECK
 CO_ERR check(CO_DICT& dict) {
@@ -151,7 +151,7 @@ void prepare_search(CO_DICT&) {}
 }  // namespace
 
 CO_OBJ* find(CO_DICT& dict, uint32_t key) {
-  const uint32_t place = first_from(dict, CO_GET_DEV(key));
+  const uint32_t place = first_from(dict.Root, dict.Num, CO_GET_DEV(key));
   CO_OBJ* const found = &dict.Root[place];
   return place < dict.Num && CO_GET_DEV(found->Key) == CO_GET_DEV(key) ? found : nullptr;
 }
@@ -160,7 +160,7 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
 
 // Only asked when a look-up has failed: the plain search is small.
 bool has_index(const CO_DICT& dict, uint32_t key) {
-  const uint32_t place = first_from(dict, CO_DEV(CO_GET_IDX(key), 0));
+  const uint32_t place = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
   return place < dict.Num && CO_GET_IDX(dict.Root[place].Key) == CO_GET_IDX(key);
 }
 

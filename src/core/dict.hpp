@@ -9,6 +9,10 @@ namespace co::dict {
 
 [[nodiscard]] CO_OBJ* find(CO_DICT& dict, uint32_t key);
 
+// Of a table: its entries, up to the end mark; the number of the first that has this key or a higher one.
+[[nodiscard]] uint16_t count_entries(const CO_OBJ* root, uint16_t max);
+[[nodiscard]] uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key);
+
 // Is there an entry with this index, at whatever sub-index?
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 

@@ -3,21 +3,14 @@
 
 #if USE_OD
 
+#include "core/dict.hpp"
+
 namespace co::od {
 namespace {
 
 static_assert(sizeof(void*) != 4 || sizeof(OD_entry_t) == 12);
 
 uint16_t index_at(const CO_OBJ* table, unsigned place) { return CO_GET_IDX(table[place].Key); }
-
-// Entries in use: up to the end mark.
-uint16_t length_of(const CO_OBJ* table, uint16_t max) {
-  uint16_t num = 0;
-  while (num < max && table[num].Key != 0) {
-    ++num;
-  }
-  return num;
-}
 
 bool is_ascending(const CO_OBJ* table, uint16_t num) {
   uint16_t place = 1;
@@ -61,18 +54,15 @@ OD_entry_t* find(const OD_t& od, uint16_t index) {
   return from < od.size && od.list[from].index == index ? &od.list[from] : nullptr;
 }
 
-// Moves the entries to the front that have an extension and are still in the table. Returns their number.
-uint16_t keep_extended(OD_t& od) {
+// Moves the entries of the list before to the front of the new one, which may be the same, that have an extension and
+// are still in the table. Returns their number.
+uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
   uint16_t kept = 0;
-  for (uint16_t n = 0; n < od.size; ++n) {
-    const OD_entry_t& entry = od.list[n];
-    const auto* const from = static_cast<const CO_OBJ*>(od.Table);
-    uint16_t place = 0;
-    while (place < od.TableLen && index_at(from, place) != entry.index) {
-      ++place;
-    }
-    if (entry.extension != nullptr && place < od.TableLen) {
-      od.list[kept++] = entry;
+  for (const OD_entry_t* entry = od.Filled; entry != nullptr && entry->odObject != nullptr; ++entry) {
+    const uint32_t place = dict::first_from(od.Table, od.TableLen, CO_DEV(entry->index, 0));
+    const bool is_there = place < od.TableLen && index_at(od.Table, place) == entry->index;
+    if (entry->extension != nullptr && is_there) {
+      list[kept++] = *entry;
     }
   }
   return kept;
@@ -103,17 +93,8 @@ void fill(OD_t& od, uint16_t objects, uint16_t kept) {
 }  // namespace
 
 CO_OBJ* find_in_table(const OD_t& od, uint32_t key) {
-  unsigned from = 0;
-  unsigned to = od.TableLen;
-  while (from < to) {
-    const unsigned middle = (from + to) / 2;
-    if (CO_GET_DEV(od.Table[middle].Key) < key) {
-      from = middle + 1;
-    } else {
-      to = middle;
-    }
-  }
-  return from < od.TableLen && CO_GET_DEV(od.Table[from].Key) == key ? &od.Table[from] : nullptr;
+  const uint32_t place = dict::first_from(od.Table, od.TableLen, key);
+  return place < od.TableLen && CO_GET_DEV(od.Table[place].Key) == key ? &od.Table[place] : nullptr;
 }
 
 OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj) {
@@ -131,11 +112,10 @@ ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_
   if (od == nullptr || list == nullptr || node == nullptr || table == nullptr) {
     return ODR_DEV_INCOMPAT;
   }
-  const uint16_t entries = od::length_of(table, tableLen);
+  const uint16_t entries = dict::count_entries(table, tableLen);
   if (!od::is_ascending(table, entries)) {
     return ODR_DEV_INCOMPAT;
   }
-  const uint16_t before = od->list == list ? od->size : static_cast<uint16_t>(0);
   const uint16_t objects = od::count_objects(table, entries);
   if (od->Node != node) {  // transfers of the same go on
     *od = {};
@@ -148,9 +128,10 @@ ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_
     od->list = nullptr;
     return ODR_OUT_OF_MEM;
   }
+  const uint16_t kept = od::keep_extended(*od, list);
   od->list = list;
-  od->size = before;
-  od::fill(*od, objects, od::keep_extended(*od));
+  od->Filled = list;
+  od::fill(*od, objects, kept);
   return ODR_OK;
 }
 

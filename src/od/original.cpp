@@ -143,6 +143,9 @@ ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD
     return result_of(*stream.Owner, *stream.Entry, err);
   }
   size = unknown ? size_of(stream, type) : size;
+  if (size < position) {
+    return ODR_DEV_INCOMPAT;
+  }
   if (size == CO_OBJ_SIZE_UNKNOWN) {
     size = UINT32_MAX;
   } else if (size - position < bytes) {
@@ -268,9 +271,11 @@ bool is_in_memory(const Shape& shape) {
 }
 
 // Bytes that the value will have: what the caller says, where that may be less than the object can hold.
-OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape) {
+// A stream of the application of unknown length is emptied by nothing.
+OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape, OD_size_t count) {
+  const bool is_unknown = stream.dataLength == 0 && (count != 0 || stream.dataOffset != 0);
   if (shape.kind == Kind::foreign) {
-    return stream.dataLength == 0 ? UINT32_MAX : stream.dataLength;
+    return is_unknown ? UINT32_MAX : stream.dataLength;
   }
   return is_in_memory(shape) && stream.dataLength < shape.length ? stream.dataLength : shape.length;
 }
@@ -298,7 +303,7 @@ ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
   if (shape.type->Write == nullptr) {
     return ODR_READONLY;
   }
-  const OD_size_t end = end_of_write(stream, shape);
+  const OD_size_t end = end_of_write(stream, shape, count);
   if (!is_inside(stream, end)) {
     return ODR_DEV_INCOMPAT;
   }
@@ -306,6 +311,9 @@ ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
     return ODR_DATA_LONG;
   }
   const Piece piece = {stream.dataOffset, count, end};
+  if (count == 0 && !is_last(piece)) {
+    return go_on(stream, piece, passed);
+  }
   OD_WRITING_T* const writing = extension_of(stream);
   const ODR_t result = writing == nullptr ? write_piece(stream, shape, piece, from)
                                           : write_for_extension(*writing, stream, shape, piece, from);

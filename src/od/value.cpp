@@ -192,7 +192,8 @@ ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
     return ODR_TYPE_MISMATCH;
   }
   OD_size_t passed = len;
-  return io.write(&io.stream, val, len, &passed);
+  const ODR_t result = io.write(&io.stream, val, len, &passed);
+  return whole(result, passed, len, ODR_DEV_INCOMPAT);
 }
 
 void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err) {

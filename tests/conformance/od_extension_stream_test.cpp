@@ -690,6 +690,17 @@ TEST_CASE("OD extension, stream: the original functions of such a type within th
   CHECK(node.download(0x3000, 0, counting(20)) == 0x08000022);
 }
 
+TEST_CASE("OD extension, stream: an empty download through the original functions empties such a type") {
+  ImageNode node;
+  OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
+  node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3000), &original) == ODR_OK); });
+  for (const bool announced : {true, false}) {
+    image.data = counting(9);
+    CHECK(node.download(0x3000, 0, {}, announced) == 0);
+    CHECK(image.data.empty());
+  }
+}
+
 TEST_CASE("OD extension, stream: an end that the extension refuses is an abort for the type behind it") {
   ImageNode node;
   LoggedExtension extension;

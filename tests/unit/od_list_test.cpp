@@ -190,9 +190,27 @@ TEST_CASE("OD_init: extensions stay with their objects when the table has change
     REQUIRE(index.init(od, entries) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000)->extension == nullptr);
   }
-  SUBCASE("another list begins without") {
+  SUBCASE("another list gets them, too") {
     OD_entry_t list[OD_LIST_N(objects)];
     REQUIRE(OD_init(&index.od, list, OD_LIST_N(objects), &index.node, const_cast<CO_OBJ*>(od), entries) == ODR_OK);
+    CHECK(OD_find(&index.od, 0x2000) == &list[3]);
+    CHECK(list[3].extension == &extension);
+    CHECK(list[6].extension == &other);
+    CHECK(list[0].extension == nullptr);
+  }
+  SUBCASE("a list that is too short does not lose them") {
+    OD_entry_t another[OD_LIST_N(objects)];
+    for (OD_entry_t* const list : {index.list, another}) {
+      REQUIRE(index.init(od, entries, objects) == ODR_OUT_OF_MEM);
+      CHECK(OD_find(&index.od, 0x2000) == nullptr);
+      REQUIRE(OD_init(&index.od, list, OD_LIST_N(objects), &index.node, const_cast<CO_OBJ*>(od), entries) == ODR_OK);
+      CHECK(OD_find(&index.od, 0x2000)->extension == &extension);
+      CHECK(OD_find(&index.od, 0xFFFF)->extension == &other);
+    }
+  }
+  SUBCASE("another node begins without") {
+    CO_NODE node;
+    REQUIRE(OD_init(&index.od, index.list, 40, &node, const_cast<CO_OBJ*>(od), entries) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000)->extension == nullptr);
   }
 }

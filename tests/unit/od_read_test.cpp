@@ -221,6 +221,17 @@ TEST_CASE("OD_readOriginal: a stream of unknown length says at its end how long 
   CHECK(io.stream.dataOffset == 0);
 }
 
+TEST_CASE("OD_readOriginal: a stream that turns out shorter than what was read of it is ODR_DEV_INCOMPAT") {
+  Variables variables;
+  variables.plain.knows_size = false;
+  OD_IO_t io = variable(variables.node, 0x4000);
+  CHECK(read(io, 12).result == ODR_PARTIAL);
+  variables.plain.data.resize(5);
+  OD_size_t given = 0;
+  std::uint8_t buffer[12] = {};
+  CHECK(io.read(&io.stream, buffer, 12, &given) == ODR_DEV_INCOMPAT);
+}
+
 TEST_CASE("OD_readOriginal: a stream that an SDO transfer has open is ODR_DATA_DEV_STATE until that ends") {
   Variables variables;
   for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x4000, 0x4001}) {

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "support/od.hpp"
+#include "support/od_variables.hpp"
 
 #if USE_OD
 
@@ -89,6 +89,40 @@ TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH, and 
   CHECK(node.objects.u32 == 0x44332211);
   CHECK(OD_set_value(entry, 0, nullptr, 4, false) == ODR_DEV_INCOMPAT);
   CHECK(OD_get_value(entry, 0, nullptr, 4, false) == ODR_DEV_INCOMPAT);
+}
+
+TEST_CASE("OD_get_value, OD_set_value: of variables of every kind another length is ODR_TYPE_MISMATCH") {
+  Variables variables;
+  for (const Variable& one : variables.all()) {
+    if (one.io.stream.Entry == nullptr) {
+      continue;
+    }
+    CAPTURE(one.name);
+    const OD_entry_t* const entry = OD_find(&variables.node.od, one.io.stream.index);
+    const auto size = static_cast<OD_size_t>(one.value.size());
+    Bytes data(size + 40U, 0x5A);
+    for (const OD_size_t len : {OD_size_t{0}, size - 1, size + 1, size + 33}) {
+      CHECK(OD_set_value(entry, one.io.stream.subIndex, data.data(), len, false) == ODR_TYPE_MISMATCH);
+      CHECK(OD_get_value(entry, one.io.stream.subIndex, data.data(), len, false) == ODR_TYPE_MISMATCH);
+    }
+    CHECK(data == Bytes(size + 40U, 0x5A));
+    OD_IO_t io = one.io;
+    CHECK(read(io, size) == Given{ODR_OK, one.value});
+  }
+}
+
+TEST_CASE("OD_set_value: an extension that takes fewer bytes is told from one that takes all") {
+  std::uint32_t memory = 1;
+  Fixture node(Setup().only_small().with({CO_KEY(0x2000, 0, CO_OBJ_____RW), OD_TUNSIGNED32, (CO_DATA)(&memory)}));
+  OD_extension_t extension{nullptr,
+                           OD_readOriginal,
+                           [](OD_stream_t*, const void*, OD_size_t, OD_size_t* written) {
+                             *written = 2;
+                             return ODR_OK;
+                           },
+                           {}};
+  REQUIRE(OD_extension_init(OD_find(&node.od, 0x2000), &extension) == ODR_OK);
+  CHECK(OD_set_u32(OD_find(&node.od, 0x2000), 0, 5, false) == ODR_DEV_INCOMPAT);
 }
 
 TEST_CASE("OD_get_value, OD_set_value: the rights of the network are not asked") {

@@ -371,6 +371,74 @@ TEST_CASE("OD_writeOriginal: a stream of the application in pieces of any length
   }
 }
 
+TEST_CASE("OD_writeOriginal: nothing empties a stream of the application, where it is all") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4000);
+  CHECK(write(io, {}) == ODR_PARTIAL);
+  CHECK(variables.plain.data.size() == 20);
+  io.stream.dataLength = 0;
+  variables.plain.take_log();
+  CHECK(write(io, {}) == ODR_OK);
+  CHECK(variables.plain.take_log() == Log{"reset 0", "write 0", "write 0"});
+  CHECK(variables.plain.data.empty());
+}
+
+TEST_CASE("OD_writeOriginal: a type is not asked for a piece of no bytes") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4000);
+  CHECK(write(io, {1}) == ODR_PARTIAL);
+  variables.plain.take_log();
+  CHECK(write(io, {}) == ODR_PARTIAL);
+  CHECK(variables.plain.take_log().empty());
+}
+
+TEST_CASE("OD_writeOriginal: strings, domains and streams of every length around those of the copies that types get") {
+  for (const std::size_t capacity : std::initializer_list<std::size_t>{5, 31, 32, 33, 64, 100}) {
+    for (std::size_t length = 1; length <= 101; ++length) {
+      CAPTURE(capacity);
+      CAPTURE(length);
+      Bytes memory(3 * capacity, 0x55);
+      const auto room = static_cast<std::uint32_t>(capacity);
+      CO_OBJ_STR_RW text{0, room, room, memory.data()};
+      CO_OBJ_STR_RW octets{0, room, room, memory.data() + capacity};
+      CO_OBJ_DOM domain{0, room, memory.data() + 2 * capacity};
+      Fixture node(Setup()
+                       .only_small()
+                       .with({CO_KEY(0x4000, 0, CO_OBJ_____RW), CO_TVISIBLE_STRING, (CO_DATA)(&text)})
+                       .with({CO_KEY(0x4001, 0, CO_OBJ_____RW), OD_TOCTET_STRING, (CO_DATA)(&octets)})
+                       .with({CO_KEY(0x4002, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&domain)}));
+      Bytes data(length);
+      for (std::size_t n = 0; n < length; ++n) {
+        data[n] = static_cast<std::uint8_t>(n + 1);
+      }
+      const bool fits = length <= capacity;
+      for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x4000, 0x4001, 0x4002}) {
+        OD_IO_t io = variable(node, index);
+        io.stream.dataLength = static_cast<OD_size_t>(length);
+        CHECK(write(io, data) == (fits ? ODR_OK : ODR_DATA_LONG));
+      }
+      CHECK(text.Size == (fits ? length : capacity));
+      CHECK(octets.Size == (fits ? length : capacity));
+      for (std::size_t n = 0; n < 3 * capacity; ++n) {
+        const std::size_t at = n % capacity;
+        const bool is_end = n < capacity && at == length;  // of a text
+        CHECK(memory[n] == (fits && at < length ? at + 1 : (is_end ? 0U : 0x55U)));
+      }
+    }
+  }
+}
+
+TEST_CASE("OD_writeOriginal: what a type refuses in the second copy has its first one written") {
+  Variables variables;
+  OD_IO_t io = variable(variables.node, 0x4000);
+  io.stream.dataLength = 40;
+  variables.plain.on_piece = [&](CO_OBJ*, CO_NODE*) {
+    return variables.plain.position > 32 ? CO_ERR_OBJ_RANGE : CO_ERR_NONE;
+  };
+  CHECK(write(io, Bytes(40, 7)) == ODR_INVALID_VALUE);
+  CHECK(io.stream.dataOffset == 0);
+}
+
 TEST_CASE("OD_writeOriginal: Begin and End of a type belong to transfers of the network") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4001);
