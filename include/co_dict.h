@@ -18,7 +18,7 @@ extern "C" {
 typedef enum CO_DICT_FAULT_T {
   CO_DICT_OK = 0,
   CO_DICT_NOT_ASCENDING,   ///< key not greater than the one before it
-  CO_DICT_NO_TYPE,         ///< Type is null
+  CO_DICT_NO_TYPE,         ///< Type is null, or an OD_TYPE in front of an OD_TYPE (co_od.h)
   CO_DICT_NO_DATA,         ///< a basic type without flag D needs the address of its variable
   CO_DICT_DIRECT_TYPE,     ///< flag D with a type that needs an address, or that does not fit into a pointer
   CO_DICT_NODEID_TYPE,     ///< flag N with a type that has no node-ID relative values

@@ -448,21 +448,21 @@ typedef struct OD_TYPE_T {
 } OD_TYPE;
 
 /// Initialise an OD_TYPE in front of a type of the application (not of CO_TPARA_…, whose entries are known by their
-/// type; never of an OD_TYPE, which every CO_T… of a file with OD_ALL is: &COTInt32 is not). Value: a type without
-/// Reset function, of up to 8 bytes, stream: one with. \a original: its address; it is called with the entry, whose
-/// Type is the OD_TYPE.
+/// type; never of an OD_TYPE, which every CO_T… of a file with OD_ALL is: &COTInt32 is not. In C++ that does not
+/// compile, else the node does not start: CO_DICT_NO_TYPE). Value: a type without Reset function, of up to 8 bytes,
+/// stream: one with. \a original: its address; it is called with the entry, whose Type is the OD_TYPE.
 ///
 ///     static const OD_TYPE FileType = OD_STREAM(&File.Type, OD_DISABLED);
 ///     { CO_KEY(0x2200, 0, CO_OBJ_____RW), &FileType.Ex.Type, (CO_DATA)(&file) },
 #define OD_VALUE(original, without) \
-  { {{ODValueSize, ODTypeInit, ODValueRead, ODValueWrite, 0}, 0, 0, 0}, (original), (without) }
+  { {{ODValueSize, ODTypeInit, ODValueRead, ODValueWrite, 0}, 0, 0, 0}, OD_BEHIND(original), (without) }
 #define OD_STREAM(original, without)                                            \
   {                                                                             \
     {{ODStreamSize, ODTypeInit, ODStreamRead, ODStreamWrite, COObjTypeExReset}, \
      ODStreamReset,                                                             \
      ODStreamBegin,                                                             \
      ODStreamEnd},                                                              \
-        (original), (without)                                                   \
+        OD_BEHIND(original), (without)                                          \
   }
 
 /// \cond internal
@@ -510,6 +510,31 @@ extern const OD_TYPE ODTNumber, ODTStream;
 #define OD_TOCTET_STRING (&ODTOctetString.Ex.Type)
 #define OD_TUNICODE_STRING (&ODTUnicodeString.Ex.Type)
 #define OD_TDOMAIN (&ODTDomain.Ex.Type)
+/// \cond internal
+#ifdef __cplusplus
+inline void OD_TYPE_in_front_of_an_OD_TYPE(void) {}  // no constant expression
+
+constexpr const CO_OBJ_TYPE* OD_BEHIND(const CO_OBJ_TYPE* original) {
+  if (!__builtin_is_constant_evaluated()) {
+    return original;
+  }
+  const CO_OBJ_TYPE* const all[] = {
+      OD_TUNSIGNED8,    OD_TUNSIGNED16,     OD_TUNSIGNED32, OD_TUNSIGNED64,  OD_TBOOLEAN,    OD_TREAL32,
+      OD_TREAL64,       OD_TUNSIGNED24,     OD_TUNSIGNED40, OD_TUNSIGNED48,  OD_TUNSIGNED56, OD_TSIGNED24,
+      OD_TSIGNED40,     OD_TSIGNED48,       OD_TSIGNED56,   OD_TTIME_OF_DAY, OD_TSTRING,     OD_TVISIBLE_STRING,
+      OD_TOCTET_STRING, OD_TUNICODE_STRING, OD_TDOMAIN};
+  for (const CO_OBJ_TYPE* const type : all) {
+    if (original == type) {
+      OD_TYPE_in_front_of_an_OD_TYPE();
+    }
+  }
+  return original;
+}
+#else
+#define OD_BEHIND(original) (original)
+#endif
+/// \endcond
+
 /// A number that only the extension has; Data: its bytes, 1…8. Disabled until there is one.
 #define OD_TNUMBER (&ODTNumber.Ex.Type)
 /// Bytes that only the extension has; Data: their number, 0: not known beforehand. Disabled until there is one.

@@ -165,16 +165,17 @@ bool has_index(const CO_DICT& dict, uint32_t key) {
 }
 
 #if USE_DICT_CHECK
-CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
-  const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
-  if (fault == CO_DICT_OK) {
-    return CO_ERR_NONE;
-  }
+CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
   if (node.Dict.Fault == CO_DICT_OK) {
     node.Dict.Fault = fault;
     node.Dict.FaultKey = obj.Key;
   }
   return CO_ERR_TYPE_INIT;
+}
+
+CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
+  const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
+  return fault == CO_DICT_OK ? CO_ERR_NONE : refuse(obj, node, fault);
 }
 #endif
 

@@ -17,10 +17,12 @@ namespace co::dict {
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 
 // For the Init functions of types: CO_ERR_TYPE_INIT if the entry breaks the type's rule. The first one that does is
-// named by CODictGetFault(), and keeps the node from starting.
+// named by CODictGetFault(), and keeps the node from starting. refuse: for what the rules do not know.
 #if USE_DICT_CHECK
+CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
 #else
+inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_TYPE_INIT; }
 [[nodiscard]] inline CO_ERR check_type(const CO_OBJ&, CO_NODE_T&, const rules::Rule&) { return CO_ERR_NONE; }
 #endif
 

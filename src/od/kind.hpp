@@ -27,9 +27,11 @@ struct Shape {
   OD_attr_t attribute;
 };
 
+[[nodiscard]] inline bool is_extensible(const CO_OBJ_TYPE& type) { return type.Init == ODTypeInit; }
+
 // The type that lets the entry be extended; null: it cannot be.
 [[nodiscard]] inline const OD_TYPE* extensible(const CO_OBJ& obj) {
-  return obj.Type->Init == ODTypeInit ? reinterpret_cast<const OD_TYPE*>(obj.Type) : nullptr;
+  return is_extensible(*obj.Type) ? reinterpret_cast<const OD_TYPE*>(obj.Type) : nullptr;
 }
 
 [[nodiscard]] inline const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {

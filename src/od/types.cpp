@@ -5,6 +5,7 @@
 #if USE_OD
 
 #include "core/abort_code.hpp"
+#include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
 #include "service/pdo/pdo.hpp"
@@ -93,7 +94,10 @@ extern "C" {
 
 CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
   const CO_OBJ_TYPE* const type = original_type(*obj);
-  return type == nullptr || type->Init == nullptr ? CO_ERR_NONE : type->Init(obj, node);
+  if (type == nullptr || type->Init == nullptr) {
+    return CO_ERR_NONE;
+  }
+  return is_extensible(*type) ? dict::refuse(*obj, *node, CO_DICT_NO_TYPE) : type->Init(obj, node);
 }
 
 uint32_t ODValueSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {

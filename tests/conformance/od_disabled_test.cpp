@@ -130,6 +130,27 @@ TEST_CASE("OD disabled: a node without an index takes extensible types for their
   CHECK(memory == counting(20, 7));
 }
 
+#if USE_DICT_CHECK
+
+// What a C compiler does not find out.
+TEST_CASE("OD disabled: an OD_TYPE in front of an OD_TYPE keeps the node from starting, and is named") {
+  static const CO_OBJ_TYPE* const number = OD_TUNSIGNED32;
+  static const OD_TYPE twice = OD_VALUE(number, OD_ORIGINAL);
+  static const OD_TYPE itself = OD_VALUE(&itself.Ex.Type, OD_DISABLED);
+  std::uint32_t memory = 0;
+  for (const OD_TYPE* const type : {&twice, &itself}) {
+    const Fixture node(
+        Setup().only_small().with({CO_KEY(0x3000, 5, CO_OBJ_____RW), &type->Ex.Type, CO_DATA(&memory)}).stay_in_init());
+    std::uint32_t key = 0;
+    CHECK(CODictGetFault(&node.node.Dict, &key) == CO_DICT_NO_TYPE);
+    CHECK(key == CO_KEY(0x3000, 5, CO_OBJ_____RW));
+    CHECK(node.mode() == CO_INVALID);
+    CHECK(CONodeGetErr(const_cast<CO_NODE*>(&node.node)) == CO_ERR_DICT_INIT);
+  }
+}
+
+#endif
+
 }  // namespace
 
 #endif
