@@ -337,15 +337,6 @@ ODR_t write_memory(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
 
 }  // namespace
 
-ODR_t write_original(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) {
-  if (stream == nullptr || buf == nullptr || countWritten == nullptr) {
-    return ODR_DEV_INCOMPAT;
-  }
-  const auto* const from = static_cast<const uint8_t*>(buf);
-  return stream->Entry == nullptr ? write_memory(*stream, from, count, *countWritten)
-                                  : write_object(*stream, from, count, *countWritten);
-}
-
 }  // namespace co::od
 
 using namespace co::od;
@@ -361,11 +352,19 @@ ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t
                                   : read_object(*stream, to, count, *countRead);
 }
 
+// In an extension, whoever has called that settles.
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) {
-  CO_NODE* const node = stream == nullptr || stream->Entry == nullptr ? nullptr : stream->Owner;
-  const ODR_t result = write_original(stream, buf, count, countWritten);
-  if (node != nullptr) {
-    co::event::settle(*node);
+  if (stream == nullptr || buf == nullptr || countWritten == nullptr) {
+    return ODR_DEV_INCOMPAT;
+  }
+  const auto* const from = static_cast<const uint8_t*>(buf);
+  if (stream->Entry == nullptr) {
+    return write_memory(*stream, from, count, *countWritten);
+  }
+  CO_NODE& node = *stream->Owner;
+  const ODR_t result = write_object(*stream, from, count, *countWritten);
+  if (node.Ext->Od == nullptr || node.Ext->Od->Writing == nullptr) {
+    co::event::settle(node);
   }
   return result;
 }

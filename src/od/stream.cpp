@@ -219,7 +219,7 @@ unsigned announce(Access& access, uint32_t total) {
 // The function takes all or nothing.
 ODR_t call_once(Access& access, const uint8_t* from, uint32_t size) {
   OD_size_t passed = 0;
-  const ODR_t result = without_settling(access.extension.write)(&access.stream, from, size, &passed);
+  const ODR_t result = access.extension.write(&access.stream, from, size, &passed);
   return is_good(result) && passed != size ? ODR_DEV_INCOMPAT : result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of entries that can be extended: values.
+// Types of entries that can be extended: what all have, and values.
 #include "od/types.hpp"
 
 #if USE_OD
@@ -51,14 +51,11 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
     return answer(obj, node, ODR_UNSUPP_ACCESS, CO_OBJ_DOWNLOAD);
   }
   const Writing writing(node, obj);
-  ODR_t result = without_settling(extension.write)(&stream, buffer, size, &passed);
+  ODR_t result = extension.write(&stream, buffer, size, &passed);
   result = whole(result, passed, size, ODR_DATA_SHORT);
   tell_change(node, obj, result == ODR_OK, writing.by_original());
   return answer(obj, node, result, CO_OBJ_DOWNLOAD);
 }
-
-constexpr OD_TYPE value(const CO_OBJ_TYPE& original) { return OD_VALUE(&original, OD_ORIGINAL); }
-constexpr OD_TYPE stream(const CO_OBJ_TYPE& original) { return OD_STREAM(&original, OD_ORIGINAL); }
 
 }  // namespace
 
@@ -127,30 +124,6 @@ CO_ERR ODValueWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size)
   return type == nullptr || type->Write == nullptr ? refuse(*obj, *node, CO_OBJ_DOWNLOAD)
                                                    : type->Write(obj, node, buffer, size);
 }
-
-const OD_TYPE ODTInt8 = value(COTInt8);
-const OD_TYPE ODTInt16 = value(COTInt16);
-const OD_TYPE ODTInt32 = value(COTInt32);
-const OD_TYPE ODTInt64 = value(COTInt64);
-const OD_TYPE ODTBoolean = value(COTBoolean);
-const OD_TYPE ODTReal32 = value(COTReal32);
-const OD_TYPE ODTReal64 = value(COTReal64);
-const OD_TYPE ODTTimeOfDay = value(COTTimeOfDay);
-const OD_TYPE ODTUnsigned24 = value(COTUnsigned24);
-const OD_TYPE ODTUnsigned40 = value(COTUnsigned40);
-const OD_TYPE ODTUnsigned48 = value(COTUnsigned48);
-const OD_TYPE ODTUnsigned56 = value(COTUnsigned56);
-const OD_TYPE ODTSigned24 = value(COTSigned24);
-const OD_TYPE ODTSigned40 = value(COTSigned40);
-const OD_TYPE ODTSigned48 = value(COTSigned48);
-const OD_TYPE ODTSigned56 = value(COTSigned56);
-const OD_TYPE ODTString = stream(COTString);
-const OD_TYPE ODTVisibleString = stream(COTVisibleString);
-const OD_TYPE ODTOctetString = stream(COTOctetString);
-const OD_TYPE ODTUnicodeString = stream(COTUnicodeString);
-const OD_TYPE ODTDomain = stream(COTDomain);
-const OD_TYPE ODTNumber = OD_VALUE(nullptr, OD_DISABLED);
-const OD_TYPE ODTStream = OD_STREAM(nullptr, OD_DISABLED);
 
 }  // extern "C"
 

@@ -6,6 +6,8 @@
 #include "od/list.hpp"
 #include "od/result.hpp"
 
+#if USE_OD
+
 // The write function of an extension runs, for this object. Who tells of a change (flag A)? The original, if the
 // function has called it: it knows whether there is one. Streams in memory do not look.
 struct OD_WRITING_T {
@@ -24,12 +26,6 @@ namespace co::od {
   return type.Without == OD_DISABLED ? nullptr : type.Original;
 }
 [[nodiscard]] CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer);
-
-// OD_writeOriginal() in an extension: what waits is settled by whoever has called the type.
-ODR_t write_original(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
-[[nodiscard]] inline OD_write_t without_settling(OD_write_t function) {
-  return function == OD_writeOriginal ? write_original : function;
-}
 
 // What is told while the function runs waits until it is over: a TPDO reads the object by the extension.
 class Writing {
@@ -53,3 +49,5 @@ class Writing {
 void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od
+
+#endif

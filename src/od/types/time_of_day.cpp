@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// TIME_OF_DAY and TIME_DIFFERENCE that can be extended.
+#include "co_od.h"
+
+#if USE_OD
+
+extern "C" {
+
+const OD_TYPE ODTTimeOfDay = OD_VALUE(&COTTimeOfDay, OD_ORIGINAL);
+
+}  // extern "C"
+
+#endif
