@@ -23,23 +23,22 @@ CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
   return od.Node->Dict.Root == od.Table ? find_in_table(*entry, sub) : nullptr;
 }
 
-constexpr uint8_t bit_of(unsigned place) { return static_cast<uint8_t>(1U << (place % 8U)); }
-
 // Where a PDO notes that it has passed with an object.
 struct Note {
   uint8_t* byte;  // null: it does not have the object
   uint8_t bit;
 
   [[nodiscard]] bool is_set() const { return byte != nullptr && (*byte & bit) != 0; }
-  void clear() const {
+  void put(bool value) const {
     if (byte != nullptr) {
-      *byte = static_cast<uint8_t>(*byte & ~bit);
+      *byte = static_cast<uint8_t>(value ? *byte | bit : *byte & ~bit);
     }
   }
+  void clear() const { put(false); }
 };
 
 [[maybe_unused]] Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
-  return {place < num ? &bytes[place / 8U] : nullptr, bit_of(place)};
+  return {place < num ? &bytes[place / 8U] : nullptr, static_cast<uint8_t>(1U << (place % 8U))};
 }
 
 [[maybe_unused]] Note note_in(CO_PDO_MAP& map, uint16_t number) {
@@ -125,11 +124,9 @@ void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [
 // The bit in the extension is for those who look at it there.
 void mirror([[maybe_unused]] const OD_entry_t& entry, [[maybe_unused]] uint8_t sub, [[maybe_unused]] bool is_sent) {
 #if OD_FLAGS_PDO_SIZE > 0
-  if (entry.extension == nullptr || sub / 8 >= OD_FLAGS_PDO_SIZE) {
-    return;
+  if (entry.extension != nullptr) {
+    note_of(entry.extension->flagsPDO, sub, 8 * OD_FLAGS_PDO_SIZE).put(is_sent);
   }
-  uint8_t& flags = entry.extension->flagsPDO[sub / 8];
-  flags = static_cast<uint8_t>(is_sent ? flags | bit_of(sub) : flags & ~bit_of(sub));
 #endif
 }
 

@@ -132,7 +132,9 @@ CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t positi
   return reset == nullptr ? CO_ERR_NONE : reset(&obj, &node, position);
 }
 
-unsigned bytes_of_character(const CO_OBJ_TYPE& type) { return &type == &COTUnicodeString ? 2 : 1; }
+unsigned bytes_of_character(const CO_OBJ_TYPE* original) {
+  return original != nullptr && original == &COTUnicodeString ? 2 : 1;
+}
 
 Shape shape_of(CO_OBJ& obj, CO_NODE& node) {
   const CO_OBJ_TYPE* const type = original_type(obj);

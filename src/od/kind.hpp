@@ -47,8 +47,8 @@ struct Shape {
 [[nodiscard]] bool can_seek(const CO_OBJ_TYPE& type);
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position);
 
-// Of a text.
-[[nodiscard]] unsigned bytes_of_character(const CO_OBJ_TYPE& type);
+// Of a string; null: only an extension has it.
+[[nodiscard]] unsigned bytes_of_character(const CO_OBJ_TYPE* original);
 
 [[nodiscard]] Shape shape_of(CO_OBJ& obj, CO_NODE& node);
 

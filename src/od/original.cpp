@@ -232,7 +232,7 @@ CO_ERR write_text(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piec
     return err;
   }
   auto& string = *data_of<CO_OBJ_STR_RW>(*stream.Entry);
-  const unsigned character = bytes_of_character(type);
+  const unsigned character = bytes_of_character(&type);
   while (string.Size >= character && is_zero(string.Start + string.Size - character, character)) {
     string.Size -= character;
   }

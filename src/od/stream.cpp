@@ -9,9 +9,6 @@
 
 #if USE_OD
 
-// Comparing with a type does not link it.
-#pragma weak COTUnicodeString
-
 namespace co::od {
 namespace {
 
@@ -52,9 +49,7 @@ bool is_good(ODR_t result) { return result == ODR_OK || result == ODR_PARTIAL; }
 
 bool is_text(const OD_stream_t& stream) { return (stream.attribute & ODA_STR) != 0; }
 
-unsigned bytes_of_character(const Access& access) {
-  return is_text(access.stream) && original_type(access.obj) == &COTUnicodeString ? 2 : 1;
-}
+unsigned bytes_of_character(const Access& access) { return od::bytes_of_character(original_type(access.obj)); }
 
 // Lengths -------------------------------------------------------------------------------------------------------------
 

@@ -25,11 +25,8 @@ unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
 
 // Is it an entry of the object, and one that an extension serves? Nothing is looked at that is none of the table.
 bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
-  unsigned n = 0;
-  while (n < od.TableLen && &od.Table[n] != obj) {
-    ++n;
-  }
-  return n < od.TableLen && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
+  const auto place = reinterpret_cast<uintptr_t>(obj) - reinterpret_cast<uintptr_t>(od.Table);
+  return place < od.TableLen * sizeof(CO_OBJ) && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
 }
 
 // The type is told now, the client at its next frame.

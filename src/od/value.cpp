@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Variables: found, and read or written as a whole.
+#include "core/dict.hpp"
 #include "od/kind.hpp"
 #include "od/list.hpp"
 #include "od/transfer.hpp"
@@ -91,12 +92,12 @@ bool has_extensible(const OD_entry_t& entry) {
     return true;
   }
   const OD_t& od = owner_of(entry);
-  for (unsigned n = 0; n < od.TableLen; ++n) {
-    if (CO_GET_IDX(od.Table[n].Key) == entry.index && extensible(od.Table[n]) != nullptr) {
-      return true;
-    }
+  uint32_t place = dict::first_from(od.Table, od.TableLen, CO_DEV(entry.index, 0));
+  while (place < od.TableLen && CO_GET_IDX(od.Table[place].Key) == entry.index &&
+         extensible(od.Table[place]) == nullptr) {
+    ++place;
   }
-  return false;
+  return place < od.TableLen && CO_GET_IDX(od.Table[place].Key) == entry.index;
 }
 
 bool changes_nothing(const OD_extension_t& extension) {
