@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/access.hpp"
+
+#include <array>
+
+#include "text/number.hpp"
+
+namespace lexican::codict {
+
+namespace {
+
+// In the order of Access.
+constexpr std::array<std::string_view, 8> access_words = {"unknown", "no", "ro", "wo", "rw", "rwr", "rww", "const"};
+constexpr std::array<std::string_view, 5> mapping_words = {"no", "optional", "default", "TPDO", "RPDO"};
+
+}  // namespace
+
+std::string_view name_of(Access access) { return access_words[static_cast<std::size_t>(access)]; }
+
+Access access_named(std::string_view word) {
+  for (std::size_t n = 1; n < access_words.size(); ++n) {
+    if (equal_ignoring_case(word, access_words[n])) {
+      return static_cast<Access>(n);
+    }
+  }
+  return Access::unknown;
+}
+
+std::string_view name_of(PdoMapping mapping) { return mapping_words[static_cast<std::size_t>(mapping)]; }
+
+std::string_view name_of(ObjectCode code) {
+  switch (code) {
+    case ObjectCode::null: return "NULL";
+    case ObjectCode::domain: return "DOMAIN";
+    case ObjectCode::deftype: return "DEFTYPE";
+    case ObjectCode::defstruct: return "DEFSTRUCT";
+    case ObjectCode::variable: return "VAR";
+    case ObjectCode::array: return "ARRAY";
+    case ObjectCode::record: return "RECORD";
+  }
+  return {};
+}
+
+}  // namespace lexican::codict

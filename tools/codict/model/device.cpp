@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/device.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace lexican::codict {
+
+namespace {
+
+// Iterator to the element whose key is searched, or the end.
+template <typename Elements, typename Key, typename KeyOf>
+auto find_sorted(Elements& elements, Key key, KeyOf key_of) {
+  const auto place = std::lower_bound(elements.begin(), elements.end(), key,
+                                      [key_of](const auto& element, Key wanted) { return key_of(element) < wanted; });
+  return place != elements.end() && key_of(*place) == key ? place : elements.end();
+}
+
+template <typename Object>
+auto* find_sub(Object& object, std::uint8_t sub_index) {
+  const auto place = find_sorted(object.subs, sub_index, [](const Sub& sub) { return sub.sub_index; });
+  return place != object.subs.end() ? &*place : nullptr;
+}
+
+template <typename Device>
+auto* find_object(Device& device, std::uint16_t index) {
+  const auto place = find_sorted(device.objects, index, [](const Object& object) { return object.index; });
+  return place != device.objects.end() ? &*place : nullptr;
+}
+
+constexpr DataType structure{0, TypeKind::structure, 0, "", "", ""};
+
+}  // namespace
+
+std::string_view text_in(const std::vector<Label>& labels, std::string_view language) {
+  for (const Label& label : labels) {
+    if (equal_ignoring_case(label.language, language)) {
+      return label.text.text;
+    }
+  }
+  return labels.empty() ? std::string_view() : std::string_view(labels.front().text.text);
+}
+
+std::string_view name_of(Format format) {
+  constexpr std::array<std::string_view, 10> names = {"EDS",     "DCF", "XDD 1.0", "XDD 1.1",         "XDC 1.0",
+                                                      "XDC 1.1", "XPD", "NXDD",    "CANopenNode XML", "XML"};
+  return names[static_cast<std::size_t>(format)];
+}
+
+const Sub* Object::find(std::uint8_t sub_index) const { return find_sub(*this, sub_index); }
+Sub* Object::find(std::uint8_t sub_index) { return find_sub(*this, sub_index); }
+
+const Object* Device::find(std::uint16_t index) const { return find_object(*this, index); }
+Object* Device::find(std::uint16_t index) { return find_object(*this, index); }
+
+const Entry* Device::find(std::uint16_t index, std::uint8_t sub_index) const {
+  const Object* object = find(index);
+  if (object == nullptr) {
+    return nullptr;
+  }
+  if (object->subs.empty() && !has_sub_objects(object->object_code.value)) {
+    return sub_index == 0 ? object : nullptr;
+  }
+  return object->find(sub_index);
+}
+
+void for_each_variable(const Device& device,
+                       const std::function<void(std::uint16_t, std::uint8_t, const Entry&)>& call) {
+  for (const Object& object : device.objects) {
+    if (object.subs.empty() && !has_sub_objects(object.object_code.value)) {
+      call(object.index, 0, object);
+    }
+    for (const Sub& sub : object.subs) {
+      call(object.index, sub.sub_index, sub);
+    }
+  }
+}
+
+ListKind list_of(std::uint16_t index) {
+  if (index == 0x1000 || index == 0x1001 || index == 0x1018) {
+    return ListKind::mandatory;
+  }
+  return index >= 0x2000 && index < 0x6000 ? ListKind::manufacturer : ListKind::optional;
+}
+
+const DataType& data_type_of(const Device& device, std::uint16_t code) {
+  const DataType& basic = data_type(code);
+  const Object* own = basic.kind == TypeKind::unknown ? device.find(code) : nullptr;
+  if (own == nullptr) {
+    return basic;
+  }
+  const bool is_structure = own->object_code.value == ObjectCode::defstruct || !own->subs.empty();
+  return is_structure ? structure : data_type(own->data_type.value);
+}
+
+Integer Value::integer_for(std::uint8_t node_id) const {
+  if (!adds_node_id) {
+    return integer;
+  }
+  if (!integer.is_negative) {
+    return integer.magnitude + node_id;
+  }
+  return integer.magnitude <= node_id ? Integer(node_id - integer.magnitude)
+                                      : Integer(integer.magnitude - node_id, true);
+}
+
+}  // namespace lexican::codict

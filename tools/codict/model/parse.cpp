@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "model/parse.hpp"
+
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace lexican::codict {
+
+namespace rules {
+
+const Rule value_number{"od-value-number", Severity::error, "A value of a number type is a number."};
+const Rule value_octal_digit{"od-value-octal-digit", Severity::error,
+                             "A number that begins with 0 is octal, and has no 8 and no 9."};
+const Rule value_suffix{"od-value-suffix", Severity::error,
+                        "Numbers have no suffix as they have in C: it is left out."};
+const Rule value_comment{"od-value-comment", Severity::error,
+                         "There are no comments behind values: the text behind the number is left out."};
+const Rule value_fraction{"od-value-fraction", Severity::error, "An integer has no decimal point."};
+const Rule value_word{"od-value-word", Severity::error, "true and false are written 1 and 0."};
+const Rule value_octal{"od-value-octal", Severity::warning,
+                       "A number that begins with 0 is octal: few people who write one know that."};
+const Rule value_range{"od-value-range", Severity::error, "A value fits its data type."};
+const Rule value_bit_pattern{"od-value-bit-pattern", Severity::note,
+                             "A negative number is written with its sign: its bit pattern is taken for it."};
+const Rule value_node_id_form{"od-value-nodeid-form", Severity::warning,
+                              "What depends on the node-ID is written $NODEID+number, without blanks."};
+const Rule value_node_id_type{"od-value-nodeid-type", Severity::warning, "Only an integer depends on the node-ID."};
+const Rule value_real_bits{"od-value-real-bits", Severity::warning,
+                           "A hexadecimal value of a REAL is taken for its bit pattern."};
+const Rule value_real_integer{"od-value-real-integer", Severity::note,
+                              "A value of a REAL without decimal point is taken for a number, not for a bit pattern."};
+const Rule value_decimal_comma{"od-value-decimal-comma", Severity::warning,
+                               "A decimal point is a point, whatever the language."};
+const Rule value_octets{"od-value-octets", Severity::error, "Octets are pairs of hexadecimal digits."};
+const Rule value_quotes{"od-value-quotes", Severity::note, "Quotes around a string are a part of it."};
+
+}  // namespace rules
+
+const std::vector<const Rule*>& value_rules() {
+  using namespace rules;
+  static const std::vector<const Rule*> all = {
+      &value_number,       &value_octal_digit,   &value_suffix,       &value_comment,
+      &value_fraction,     &value_word,          &value_octal,        &value_range,
+      &value_bit_pattern,  &value_node_id_form,  &value_node_id_type, &value_real_bits,
+      &value_real_integer, &value_decimal_comma, &value_octets,       &value_quotes};
+  return all;
+}
+
+namespace {
+
+Span from(const Text& text, std::size_t offset) {
+  const auto at = static_cast<std::uint32_t>(offset);
+  return at < text.span.size() ? Span{text.span.begin + at, text.span.end} : text.span;
+}
+
+// Says what is wrong with a number; false if it cannot be taken for one.
+bool accept_number(const ParsedInteger& number, const Text& text, Findings& findings) {
+  const Span rest = from(text, number.fault_at);
+  switch (number.fault) {
+    case NumberFault::none: return true;
+    case NumberFault::empty:
+    case NumberFault::no_number: findings.add(rules::value_number, rest, "this is no number"); return false;
+    case NumberFault::octal_digit:
+      findings.add(rules::value_octal_digit, rest, "8 and 9 are no octal digits, and a leading 0 means octal",
+                   "leave out the leading 0, or write 0x");
+      return false;
+    case NumberFault::too_large: findings.add(rules::value_range, text.span, "larger than 64 bits"); return false;
+    case NumberFault::suffix:
+      findings.add(rules::value_suffix, rest, "a number has no suffix: ignored", "leave it out");
+      return true;
+    case NumberFault::comment:
+      findings.add(rules::value_comment, rest, "text behind the number: ignored",
+                   "put it into a line of its own that begins with ;");
+      return true;
+    case NumberFault::fraction:
+      findings.add(rules::value_fraction, rest, "an integer has no decimal point");
+      return false;
+    case NumberFault::zero_fraction:
+      findings.add(rules::value_fraction, rest, "an integer has no decimal point: ignored", "leave it out");
+      return true;
+    case NumberFault::word:
+      findings.add(rules::value_word, text.span, "true and false are written 1 and 0");
+      return true;
+  }
+  return false;
+}
+
+void warn_of_octal(const ParsedInteger& number, const Text& text, Findings& findings) {
+  if (number.base == Base::octal) {
+    findings.add(rules::value_octal, text.span, "a leading 0 means octal: " + std::to_string(number.value.magnitude),
+                 "write it without the 0, or with 0x");
+  }
+}
+
+// A number that fits; a bit pattern becomes what it means.
+bool fit(Integer& number, const DataType& type, const Value& value, Findings& findings) {
+  const bool is_signed = type.kind == TypeKind::signed_integer;
+  if (is_signed ? fits_signed(number, type.bits) : fits_unsigned(number, type.bits)) {
+    return true;
+  }
+  if (is_signed && fits_unsigned(number, type.bits)) {
+    number = sign_extended(number.magnitude, type.bits);
+    findings.add(rules::value_bit_pattern, value.span, "a bit pattern is taken for a negative number");
+    return true;
+  }
+  findings.add(rules::value_range, value.span, "does not fit " + std::string(type.name));
+  return false;
+}
+
+void interpret_integer(Value& value, const DataType& type, Findings& findings) {
+  const ParsedFormula formula = parse_formula(value.text);
+  value.kind = Value::Kind::malformed;
+  if (!accept_number(formula.number, value, findings)) {
+    return;
+  }
+  warn_of_octal(formula.number, value, findings);
+  if (formula.has_node_id && !formula.is_standard) {
+    findings.add(rules::value_node_id_form, value.span, "not the standard's form of $NODEID+number");
+  }
+  value.adds_node_id = formula.has_node_id;
+  value.integer = formula.number.value;
+  if (fit(value.integer, type, value, findings)) {
+    value.kind = Value::Kind::integer;
+  }
+}
+
+void interpret_real(Value& value, const DataType& type, Findings& findings) {
+  const ParsedReal real = parse_real(value.text, type.bits);
+  value.real = real.value;
+  value.kind = real.form == RealForm::no_number ? Value::Kind::malformed : Value::Kind::real;
+  switch (real.form) {
+    case RealForm::decimal: break;
+    case RealForm::integer:
+      findings.add(rules::value_real_integer, value.span, "taken for a number, not for a bit pattern",
+                   "write a decimal point");
+      break;
+    case RealForm::bit_pattern:
+      findings.add(rules::value_real_bits, value.span, "taken for the bit pattern of a REAL", "write a decimal number");
+      break;
+    case RealForm::decimal_comma:
+      findings.add(rules::value_decimal_comma, value.span, "a decimal comma is taken for a point", "write a point");
+      break;
+    case RealForm::no_number:
+      findings.add(rules::value_number, value.span, "this is no " + std::string(type.name));
+      break;
+  }
+}
+
+// Pairs of digits, with or without blanks between them.
+bool read_octets(std::string_view text, std::string& octets) {
+  while (!(text = trimmed(text)).empty()) {
+    std::uint64_t octet = 0;
+    if (text.size() < 2 || !parse_hex(text.substr(0, 2), octet)) {
+      return false;
+    }
+    octets += static_cast<char>(octet);
+    text.remove_prefix(2);
+  }
+  return true;
+}
+
+void interpret_octets(Value& value, Findings& findings) {
+  value.kind = Value::Kind::octets;
+  if (!read_octets(value.text, value.octets)) {
+    value.kind = Value::Kind::malformed;
+    value.octets.clear();
+    findings.add(rules::value_octets, value.span, "these are no pairs of hexadecimal digits");
+  }
+}
+
+void interpret_text(Value& value, Findings& findings) {
+  value.kind = Value::Kind::text;
+  if (value.text.size() > 1 && value.text.front() == '"' && value.text.back() == '"') {
+    findings.add(rules::value_quotes, value.span, "the quotes are a part of the string");
+  }
+}
+
+void interpret_unknown(Value& value, Findings& findings) {
+  const ParsedFormula formula = parse_formula(value.text);
+  value.kind = Value::Kind::text;
+  if (formula.number.is_number() && (formula.has_node_id || !value.text.empty())) {
+    warn_of_octal(formula.number, value, findings);
+    value.kind = Value::Kind::integer;
+    value.adds_node_id = formula.has_node_id;
+    value.integer = formula.number.value;
+  }
+}
+
+}  // namespace
+
+void interpret(Value& value, const DataType& type, Findings& findings) {
+  value.kind = Value::Kind::none;
+  if (value.text.empty()) {
+    return;
+  }
+  switch (type.kind) {
+    case TypeKind::boolean:
+    case TypeKind::signed_integer:
+    case TypeKind::unsigned_integer: interpret_integer(value, type, findings); return;
+    case TypeKind::real: interpret_real(value, type, findings); break;
+    case TypeKind::octet_string:
+    case TypeKind::domain: interpret_octets(value, findings); break;
+    case TypeKind::visible_string:
+    case TypeKind::unicode_string: interpret_text(value, findings); break;
+    case TypeKind::time:
+    case TypeKind::structure:
+    case TypeKind::unknown: interpret_unknown(value, findings); return;
+  }
+  if (equal_ignoring_case(value.text.substr(0, 7), "$nodeid")) {
+    findings.add(rules::value_node_id_type, value.span, "only an integer depends on the node-ID");
+  }
+}
+
+template <typename T>
+void interpret_number(Field<T>& field, std::uint64_t largest, Findings& findings) {
+  if (field.text.empty()) {
+    return;
+  }
+  const ParsedInteger number = parse_integer(field.text);
+  if (!accept_number(number, field, findings)) {
+    return;
+  }
+  warn_of_octal(number, field, findings);
+  if (number.value.is_negative || number.value.magnitude > largest) {
+    findings.add(rules::value_range, field.span, "not between 0 and " + std::to_string(largest));
+    return;
+  }
+  field.value = static_cast<T>(number.value.magnitude);
+}
+
+template void interpret_number(Field<bool>&, std::uint64_t, Findings&);
+template void interpret_number(Field<std::uint8_t>&, std::uint64_t, Findings&);
+template void interpret_number(Field<std::uint16_t>&, std::uint64_t, Findings&);
+template void interpret_number(Field<std::uint32_t>&, std::uint64_t, Findings&);
+
+void interpret_flag(Field<bool>& field, Findings& findings) {
+  const bool is_word = equal_ignoring_case(field.text, "true") || equal_ignoring_case(field.text, "false");
+  if (is_word) {
+    findings.add(rules::value_word, field.span, "true and false are written 1 and 0");
+    field.value = to_lower(field.text.front()) == 't';
+    return;
+  }
+  interpret_number(field, 1, findings);
+}
+
+}  // namespace lexican::codict

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace lexican::codict {
+
+namespace {
+
+constexpr mode_t new_file = 0666;  // less the umask
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number, bool is_owned = true) : number_(number), is_owned_(is_owned) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  bool close() {
+    const bool closes = is_owned_ && number_ >= 0;
+    is_owned_ = false;
+    return !closes || ::close(number_) == 0;
+  }
+
+ private:
+  int number_;
+  bool is_owned_;
+};
+
+std::string reason(const std::string& path, int error) { return path + ": " + std::generic_category().message(error); }
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    bytes.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+// Not more than one byte beyond the limit.
+bool read_all(int file, std::string& bytes) {
+  std::array<char, 65536> block{};
+  while (bytes.size() <= Source::size_limit) {
+    const ssize_t got = ::read(file, block.data(), block.size());
+    if (got < 0 && errno != EINTR) {
+      return false;
+    }
+    if (got == 0) {
+      break;
+    }
+    bytes.append(block.data(), got < 0 ? 0 : static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+bool has_bytes(const std::string& path, std::string_view bytes) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) != bytes.size()) {
+    return false;
+  }
+  std::string why;
+  const std::optional<Source> present = read_file(path, why);
+  return present && present->bytes() == bytes;
+}
+
+// A new file takes the place, the name and the permissions of the old one; what a symbolic link names is replaced.
+bool replace_file(const std::string& path, std::string_view bytes) {
+  std::error_code error;
+  const std::filesystem::path canonical = std::filesystem::canonical(path, error);
+  const std::string target = error ? path : canonical.string();
+  std::string temporary = target + ".XXXXXX";
+  Descriptor file(::mkstemp(temporary.data()));
+  if (file.number() < 0) {
+    return false;
+  }
+  struct stat old {};
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  const mode_t mode = ::stat(target.c_str(), &old) == 0 ? old.st_mode & 07777U : new_file & ~mask;
+  const bool complete = write_all(file.number(), bytes) && ::fchmod(file.number(), mode) == 0 && file.close();
+  if (complete && ::rename(temporary.c_str(), target.c_str()) == 0) {
+    return true;
+  }
+  const int first_error = errno;
+  ::unlink(temporary.c_str());
+  errno = first_error;
+  return false;
+}
+
+}  // namespace
+
+std::optional<Source> read_file(const std::string& path, std::string& why) {
+  const bool is_standard = path == "-";
+  const Descriptor file(is_standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !is_standard);
+  std::string bytes;
+  if (file.number() < 0 || !read_all(file.number(), bytes)) {
+    why = reason(path, errno);
+    return std::nullopt;
+  }
+  if (bytes.size() > Source::size_limit) {
+    why = path + ": more than 64 MB: this is no device description";
+    return std::nullopt;
+  }
+  return Source(is_standard ? "<stdin>" : path, std::move(bytes));
+}
+
+Written write_file(const std::string& path, std::string_view bytes, std::string& why) {
+  if (path != "-" && has_bytes(path, bytes)) {
+    return Written::unchanged;
+  }
+  std::error_code error;
+  const bool is_stream =
+      path == "-" || (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error));
+  bool is_written = false;
+  if (path == "-") {
+    is_written = write_all(STDOUT_FILENO, bytes);
+  } else if (is_stream) {  // a device or a pipe has no other file put in its place
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    is_written = file.number() >= 0 && write_all(file.number(), bytes) && file.close();
+  } else {
+    is_written = replace_file(path, bytes);
+  }
+  if (!is_written) {
+    why = reason(path, errno);
+  }
+  return is_written ? Written::yes : Written::no;
+}
+
+}  // namespace lexican::codict
