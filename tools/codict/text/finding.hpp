@@ -34,9 +34,17 @@ struct Finding {
 /// The findings of one source, in the order in which they were made until they are sorted.
 class Findings {
  public:
+  /// More of them help nobody, and would need many times the memory of the source: they are counted only.
+  static constexpr std::size_t most = 100000;
+
   void add(const Rule& rule, Span span, std::string text, std::string hint = {}) {
-    all_.push_back({&rule, span, std::move(text), std::move(hint)});
+    if (all_.size() == most) {
+      ++dropped_;
+    } else {
+      all_.push_back({&rule, span, std::move(text), std::move(hint)});
+    }
   }
+  std::size_t dropped() const { return dropped_; }
 
   const std::vector<Finding>& all() const { return all_; }
   std::size_t count(const Rule& rule) const;
@@ -45,6 +53,7 @@ class Findings {
 
  private:
   std::vector<Finding> all_;
+  std::size_t dropped_ = 0;
 };
 
 /// Findings of one rule with one text: the first, and how many follow.

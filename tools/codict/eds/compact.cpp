@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compact storage: one section for all sub-objects of an ARRAY, and lists of their names and values. [306: 4.6.4]
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "eds/parts.hpp"
+#include "eds/rules.hpp"
+#include "model/parse.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+// Ten times as many as any device has: a small file must not fill the memory.
+constexpr std::size_t most_implied_subs = 50000;
+
+Sub implied_zero(std::uint8_t number) {
+  Sub zero;
+  zero.is_implied = true;
+  zero.name.text = "NrOfObjects";
+  zero.object_code.value = ObjectCode::variable;
+  zero.data_type.value = type_code::unsigned8;
+  zero.access.value = Access::ro;
+  zero.default_value.text = std::to_string(number);
+  zero.default_value.kind = Value::Kind::integer;
+  zero.default_value.integer = number;
+  return zero;
+}
+
+Sub implied_sub(const Object& object, std::uint8_t sub_index) {
+  Sub sub;
+  sub.sub_index = sub_index;
+  sub.is_implied = true;
+  sub.span = object.span;
+  sub.name.text = object.name.text + std::to_string(sub_index);
+  sub.object_code.value = ObjectCode::variable;
+  sub.data_type = object.data_type;
+  sub.access = object.access;
+  sub.pdo_mapping = object.pdo_mapping;
+  sub.default_value = object.default_value;
+  sub.flags = object.flags;
+  return sub;
+}
+
+// Where a section of names, values or denotations puts its text.
+Text& member_of(Sub& sub, SectionKind kind) {
+  return kind == SectionKind::names ? sub.name : kind == SectionKind::values ? sub.actual_value : sub.denotation;
+}
+
+Sub* find_sub(Object& object, std::uint32_t number) {
+  return number <= 0xFF ? object.find(static_cast<std::uint8_t>(number)) : nullptr;
+}
+
+void read_sub_list(Object& object, const NamedSection& addition, const Reader& reader) {
+  const NumberedList list = read_list(*addition.section, "NrOfEntries", "", Gaps::are_right, reader);
+  Kept rest = kept(reader.document, *addition.section);
+  rest.children.clear();
+  for (const NumberedKey& entry : list.entries) {
+    Sub* const sub = find_sub(object, entry.number);
+    const bool is_free = sub != nullptr && !member_of(*sub, addition.name.kind).is_given;
+    if (is_free) {
+      member_of(*sub, addition.name.kind) = text_of(reader.document, *entry.key);
+      continue;
+    }
+    rest.children.push_back(kept(reader.document, *entry.key));
+    reader.findings.add(rules::compact_entry, entry.key->name,
+                        sub == nullptr ? "there is no such sub-index: kept" : "its own section says it, too: kept");
+  }
+  for (const Key* key : list.others) {
+    keep_key(*key, rest.children, reader);
+  }
+  if (!rest.children.empty()) {
+    object.others.push_back(std::move(rest));
+  }
+}
+
+void read_links(Object& object, const Section& section, const Reader& reader) {
+  const NumberedList list = read_list(section, "ObjectLinks", "", Gaps::are_wrong, reader);
+  for (const NumberedKey& entry : list.entries) {
+    Field<std::uint16_t>& link = object.links.emplace_back();
+    static_cast<Text&>(link) = text_of(reader.document, *entry.key);
+    interpret_number(link, 0xFFFF, reader.findings);
+  }
+  for (const Key* key : list.others) {
+    keep_key(*key, object.others, reader);
+  }
+}
+
+}  // namespace
+
+void expand_compact(Object& object, const Reader& reader) {
+  const std::uint8_t number = object.compact.value;
+  if (number == 0) {
+    return;
+  }
+  if (reader.implied_subs + number > most_implied_subs) {
+    reader.findings.add(rules::compact_limit, object.compact.span,
+                        "more than " + std::to_string(most_implied_subs) + " sub-objects without sections: left out");
+    return;
+  }
+  reader.implied_subs += number;
+  std::vector<Sub> described = std::exchange(object.subs, {});
+  object.subs.push_back(implied_zero(number));
+  object.subs.front().span = object.span;
+  for (unsigned sub_index = 1; sub_index <= number; ++sub_index) {
+    object.subs.push_back(implied_sub(object, static_cast<std::uint8_t>(sub_index)));
+  }
+  for (Sub& sub : described) {  // a section of its own decides
+    if (Sub* const implied = object.find(sub.sub_index); implied != nullptr) {
+      *implied = std::move(sub);
+    } else {
+      object.subs.push_back(std::move(sub));  // behind the last one: they are sorted
+    }
+  }
+}
+
+void read_addition(const NamedSection& addition, const Reader& reader) {
+  Object* const object = reader.device.find(addition.name.index);
+  if (object == nullptr || addition.section->is_duplicate) {
+    if (object == nullptr) {
+      reader.findings.add(rules::section_orphan, addition.section->name, "a list for an object that has no section");
+    }
+    reader.device.others.push_back(kept(reader.document, *addition.section));
+  } else if (addition.name.kind == SectionKind::links) {
+    read_links(*object, *addition.section, reader);
+  } else {
+    read_sub_list(*object, addition, reader);
+  }
+}
+
+}  // namespace lexican::codict::eds

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/document.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "eds/rules.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+constexpr std::uint32_t standard_line = 255;
+
+// Of text that is part of the source: without blanks at its ends.
+Span trimmed_span(const Source& source, Span span) {
+  while (!span.is_empty() && is_blank(source.bytes()[span.begin])) {
+    ++span.begin;
+  }
+  while (!span.is_empty() && is_blank(source.bytes()[span.end - 1])) {
+    --span.end;
+  }
+  return span;
+}
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte < 0x20 && c != '\t') || byte == 0x7F;
+}
+
+std::string_view line_end_of(const Source& source, std::uint32_t line) {
+  const std::uint32_t begin = source.line(line).end;
+  const std::uint32_t next = line < source.lines() ? source.line(line + 1).begin : source.size();
+  return source.slice({begin, next});
+}
+
+void report_encoding(const Source& source, Encoding encoding, Findings& findings) {
+  const std::string_view bytes = source.bytes();
+  const auto mark = static_cast<std::uint32_t>(mark_size(bytes));
+  if (mark != 0) {
+    findings.add(rules::encoding_mark, {0, mark}, "a mark for UTF-8 at the beginning: passed over");
+  }
+  const auto first = std::find_if(bytes.begin() + mark, bytes.end(), [](char c) { return !is_ascii({&c, 1}); });
+  if (encoding == Encoding::ascii || first == bytes.end()) {
+    return;
+  }
+  const auto at = static_cast<std::uint32_t>(first - bytes.begin());
+  if (encoding == Encoding::utf8) {
+    findings.add(rules::encoding_utf8, {at, at + 1}, "not ASCII: read as UTF-8");
+  } else {
+    findings.add(rules::encoding_guess, {at, at + 1},
+                 "neither ASCII nor UTF-8: read as " + std::string(name_of(encoding)), "save the file as UTF-8");
+  }
+}
+
+void report_line_ends(const Source& source, Findings& findings) {
+  const std::string_view first = line_end_of(source, 1);
+  for (std::uint32_t line = 2; line < source.lines(); ++line) {
+    if (line_end_of(source, line) != first) {
+      const std::uint32_t end = source.line(line).end;
+      findings.add(rules::syntax_line_end, {end, end}, "lines end in different ways");
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+int compare_names(std::string_view a, std::string_view b) {
+  const auto pass_blanks = [](std::string_view text) {
+    while (!text.empty() && is_blank(text.front())) {
+      text.remove_prefix(1);
+    }
+    return text;
+  };
+  for (;;) {
+    a = pass_blanks(a);
+    b = pass_blanks(b);
+    if (a.empty() || b.empty()) {
+      return static_cast<int>(!a.empty()) - static_cast<int>(!b.empty());
+    }
+    const int difference =
+        static_cast<unsigned char>(to_lower(a.front())) - static_cast<unsigned char>(to_lower(b.front()));
+    if (difference != 0) {
+      return difference;
+    }
+    a.remove_prefix(1);
+    b.remove_prefix(1);
+  }
+}
+
+Document::Document(Source source, Findings& findings)
+    : source_(std::move(source)), encoding_(guess_encoding(source_.bytes())) {
+  report_encoding(source_, encoding_, findings);
+  report_line_ends(source_, findings);
+  for (std::uint32_t line = 1; line <= source_.lines(); ++line) {
+    read_line(line, findings);
+  }
+  if (!sections_.empty()) {
+    sections_.back().end = source_.lines() + 1;
+  }
+  find_duplicates(findings);
+}
+
+void Document::read_line(std::uint32_t number, Findings& findings) {
+  const Span all = source_.line(number);
+  if (all.size() > standard_line) {
+    findings.add(rules::syntax_length, {all.begin + standard_line, all.end}, "more than 255 characters in a line");
+  }
+  const std::string_view bytes = raw(all);
+  if (const auto found = std::find_if(bytes.begin(), bytes.end(), is_control); found != bytes.end()) {
+    const std::uint32_t at = all.begin + static_cast<std::uint32_t>(found - bytes.begin());
+    findings.add(rules::syntax_control, {at, at + 1}, "a control character");
+  }
+  Span line = trimmed_span(source_, all);
+  if (number == 1) {
+    line.begin += static_cast<std::uint32_t>(mark_size(raw(line)));
+  }
+  const std::string_view content = raw(line);
+  if (content.empty()) {
+    return;
+  }
+  const bool is_indented = line.begin != all.begin && number != 1;
+  if (content.front() == '#' || content.substr(0, 2) == "//") {
+    findings.add(rules::syntax_comment, line, "comments begin with ;: taken for one");
+  } else if (is_indented) {
+    findings.add(rules::syntax_indent, {all.begin, line.begin}, "blanks at the beginning of a line");
+  }
+  if (content.front() == '[') {
+    read_section(number, line, findings);
+  } else if (content.front() != ';' && content.front() != '#' && content.substr(0, 2) != "//") {
+    read_key(number, line, findings);
+  }
+}
+
+void Document::read_section(std::uint32_t number, Span line, Findings& findings) {
+  const std::string_view content = raw(line);
+  const std::size_t close = content.find(']');
+  Span name{line.begin + 1,
+            close == std::string_view::npos ? line.end : line.begin + static_cast<std::uint32_t>(close)};
+  if (close == std::string_view::npos) {
+    findings.add(rules::syntax_section, line, "a section's name ends with ]");
+  } else if (close + 1 != content.size()) {
+    findings.add(rules::syntax_section_tail, trimmed_span(source_, {name.end + 1, line.end}),
+                 "text behind the name of a section: passed over", "put it into a line of its own that begins with ;");
+  }
+  name = trimmed_span(source_, name);
+  if (name.is_empty()) {
+    findings.add(rules::syntax_section, line, "a section without a name");
+  }
+  if (!sections_.empty()) {
+    sections_.back().end = number;
+  }
+  sections_.push_back({name, number, number + 1, false, {}});
+}
+
+void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
+  const std::size_t equals = raw(line).find('=');
+  if (equals == std::string_view::npos) {
+    findings.add(rules::syntax_line, line, "neither a section nor a key with a value nor a comment: passed over");
+    return;
+  }
+  const std::uint32_t at = line.begin + static_cast<std::uint32_t>(equals);
+  const Span name = trimmed_span(source_, {line.begin, at});
+  const Span value = at + 1 == line.end ? Span{line.end, line.end} : trimmed_span(source_, {at + 1, line.end});
+  if (name.is_empty()) {
+    findings.add(rules::syntax_line, line, "a value without a key: passed over");
+    return;
+  }
+  if (raw(name).find_first_of(" \t\r") != std::string_view::npos) {
+    findings.add(rules::syntax_key, name, "blanks in the name of a key: left out", "write it without blanks");
+  }
+  if (sections_.empty()) {
+    findings.add(rules::syntax_outside, name, "a key before the first section: not used");
+    keys_outside_.push_back({name, value, number, false});
+  } else {
+    sections_.back().keys.push_back({name, value, number, false});
+  }
+}
+
+void Document::find_duplicates(Findings& findings) {
+  const auto before = [this](const auto& a, const auto& b) {
+    const int difference = compare_names(raw(a.name), raw(b.name));
+    return difference != 0 ? difference < 0 : a.name.begin < b.name.begin;
+  };
+  by_name_.resize(sections_.size());
+  std::iota(by_name_.begin(), by_name_.end(), 0U);
+  std::sort(by_name_.begin(), by_name_.end(),
+            [this, before](std::uint32_t a, std::uint32_t b) { return before(sections_[a], sections_[b]); });
+  for (std::size_t n = 1; n < by_name_.size(); ++n) {
+    Section& section = sections_[by_name_[n]];
+    if (compare_names(raw(sections_[by_name_[n - 1]].name), raw(section.name)) == 0) {
+      section.is_duplicate = true;
+      findings.add(rules::duplicate_section, section.name, "a second section of this name: the first one is used");
+    }
+  }
+  std::vector<Key*> keys;
+  for (Section& section : sections_) {
+    keys.clear();
+    for (Key& key : section.keys) {
+      keys.push_back(&key);
+    }
+    std::sort(keys.begin(), keys.end(), [before](const Key* a, const Key* b) { return before(*a, *b); });
+    for (std::size_t n = 1; n < keys.size(); ++n) {
+      if (compare_names(raw(keys[n - 1]->name), raw(keys[n]->name)) == 0) {
+        keys[n]->is_duplicate = true;
+        findings.add(rules::duplicate_key, keys[n]->name, "a second key of this name: the first one is used");
+      }
+    }
+  }
+}
+
+const Section* Document::find(std::string_view section) const {
+  const auto place = std::lower_bound(
+      by_name_.begin(), by_name_.end(), section,
+      [this](std::uint32_t n, std::string_view name) { return compare_names(raw(sections_[n].name), name) < 0; });
+  const bool is_found = place != by_name_.end() && compare_names(raw(sections_[*place].name), section) == 0;
+  return is_found ? &sections_[*place] : nullptr;
+}
+
+const Key* Document::find(const Section& section, std::string_view key) const {
+  const auto place = std::find_if(section.keys.begin(), section.keys.end(), [this, key](const Key& candidate) {
+    return compare_names(raw(candidate.name), key) == 0;
+  });
+  return place != section.keys.end() ? &*place : nullptr;
+}
+
+std::vector<Span> Document::comments(const Section& section) const {
+  std::vector<Span> found;
+  for (std::uint32_t number = section.line + 1; number < section.end; ++number) {
+    const Span line = trimmed_span(source_, source_.line(number));
+    if (raw(line).substr(0, 1) == ";") {
+      found.push_back({line.begin + 1, line.end});
+    }
+  }
+  return found;
+}
+
+bool Document::to_source(std::string_view text, std::string& bytes) const {
+  const bool has_line_end = text.find_first_of(std::string_view("\r\n\0", 3)) != std::string_view::npos;
+  return !has_line_end && from_utf8(text, encoding_ == Encoding::ascii ? Encoding::utf8 : encoding_, bytes);
+}
+
+bool Document::set_value(const Key& key, std::string_view text, Edits& edits) const {
+  std::string bytes;
+  if (!to_source(text, bytes)) {
+    return false;
+  }
+  edits.replace(key.value, std::move(bytes));
+  return true;
+}
+
+bool Document::add_key(const Section& section, std::string_view name, std::string_view text, Edits& edits) const {
+  std::string bytes;
+  if (!to_source(text, bytes)) {
+    return false;
+  }
+  const std::uint32_t neighbour = section.keys.empty() ? section.line : section.keys.back().line;
+  std::string_view end = line_end_of(source_, neighbour);
+  if (end.empty()) {
+    end = source_.lines() > 1 ? line_end_of(source_, 1) : "\n";
+  }
+  std::string between = "=";
+  if (!section.keys.empty() && !section.keys.back().value.is_empty()) {
+    const Key& last = section.keys.back();
+    between = raw({last.name.end, last.value.begin});
+  }
+  // In front of what ends the neighbour, which now ends the new line.
+  edits.insert(source_.line(neighbour).end, std::string(end) + std::string(name) + between + bytes);
+  return true;
+}
+
+}  // namespace lexican::codict::eds

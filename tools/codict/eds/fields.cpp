@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/fields.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <system_error>
+
+#include "eds/rules.hpp"
+#include "model/parse.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+Text text_of(const Document& document, const Key& key) { return {document.text(key.value), key.value, true}; }
+
+Kept kept(const Document& document, const Key& key) {
+  return {document.text(key.name), text_of(document, key), {}, {key.name.begin, key.value.end}};
+}
+
+Kept kept(const Document& document, const Section& section) {
+  Kept result;
+  result.name = document.text(section.name);
+  result.span = section.name;
+  for (const Key& key : section.keys) {
+    result.children.push_back(kept(document, key));
+  }
+  return result;
+}
+
+void report_length(const Text& text, std::size_t longest, Findings& findings) {
+  if (longest != 0 && text.span.size() > longest) {
+    findings.add(rules::key_length, text.span, "longer than " + std::to_string(longest) + " characters");
+  }
+}
+
+void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader) {
+  others.push_back(kept(reader.document, key));
+  if (!key.is_duplicate) {
+    reader.findings.add(rules::key_unknown, key.name, "an unknown key: kept");
+  }
+}
+
+bool number_of(std::string_view key, std::string_view word, std::uint32_t& number) {
+  if (key.size() <= word.size() || !equal_ignoring_case(key.substr(0, word.size()), word)) {
+    return false;
+  }
+  const std::string_view digits = key.substr(word.size());
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
+NumberedList read_list(const Section& section, std::string_view count_key, std::string_view word, Gaps gaps,
+                       const Reader& reader) {
+  const Document& document = reader.document;
+  NumberedList list;
+  for (const Key& key : section.keys) {
+    NumberedKey entry{0, &key};
+    if (key.is_duplicate) {
+      list.others.push_back(&key);
+    } else if (compare_names(document.raw(key.name), count_key) == 0) {
+      static_cast<Text&>(list.count) = text_of(document, key);
+      interpret_number(list.count, std::numeric_limits<std::uint32_t>::max(), reader.findings);
+    } else if (!number_of(document.raw(key.name), word, entry.number)) {
+      list.others.push_back(&key);
+    } else if (key.value.is_empty() && word.empty()) {
+      reader.findings.add(rules::list_entry, key.name, "an entry without a value");
+      list.others.push_back(&key);
+    } else {
+      list.entries.push_back(entry);
+    }
+  }
+  std::stable_sort(list.entries.begin(), list.entries.end(),
+                   [](const NumberedKey& a, const NumberedKey& b) { return a.number < b.number; });
+  const std::size_t size = list.entries.size();
+  if (list.count.value != size || !list.count.is_given) {
+    const Span place = list.count.is_given ? list.count.span : section.name;
+    reader.findings.add(rules::list_count, place, std::to_string(size) + " entries are there",
+                        std::string(count_key) + "=" + std::to_string(size));
+  }
+  for (std::size_t n = 0; n < size && gaps == Gaps::are_wrong; ++n) {
+    if (list.entries[n].number != n + 1) {
+      reader.findings.add(rules::list_numbers, list.entries[n].key->name, "entries are numbered from 1 without gaps");
+      break;
+    }
+  }
+  return list;
+}
+
+}  // namespace lexican::codict::eds

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The three lists of objects. The sections are the truth, the lists are checked against them. [306: 4.6.2]
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "eds/parts.hpp"
+#include "eds/rules.hpp"
+#include "model/parse.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+struct List {
+  std::string_view word;
+  ObjectList Device::*list;
+  ListKind kind;
+};
+
+constexpr std::array<List, 3> lists = {{{"MandatoryObjects", &Device::mandatory, ListKind::mandatory},
+                                        {"OptionalObjects", &Device::optional, ListKind::optional},
+                                        {"ManufacturerObjects", &Device::manufacturer, ListKind::manufacturer}}};
+
+void check_entry(const Field<std::uint16_t>& entry, ListKind kind, const Reader& reader) {
+  if (entry.value == 0) {
+    return;  // it is no number, which has been said
+  }
+  Object* const object = reader.device.find(entry.value);
+  if (object == nullptr) {
+    reader.findings.add(rules::list_no_section, entry.span, "this object has no section");
+    return;
+  }
+  if (object->is_listed) {
+    reader.findings.add(rules::list_twice, entry.span, "this object is in a list already");
+  }
+  object->is_listed = true;
+  if (list_of(entry.value) != kind) {
+    reader.findings.add(rules::list_wrong, entry.span, "this object belongs to another list");
+  }
+}
+
+}  // namespace
+
+ObjectList read_indexes(const Section& section, std::string_view count_key, const Reader& reader) {
+  const NumberedList numbered = read_list(section, count_key, "", Gaps::are_wrong, reader);
+  ObjectList list;
+  list.count = numbered.count;
+  list.is_given = true;
+  list.span = section.name;
+  for (const NumberedKey& entry : numbered.entries) {
+    Field<std::uint16_t>& index = list.indexes.emplace_back();
+    static_cast<Text&>(index) = text_of(reader.document, *entry.key);
+    interpret_number(index, 0xFFFF, reader.findings);
+  }
+  Kept rest{reader.document.text(section.name), {}, {}, section.name};
+  for (const Key* key : numbered.others) {
+    keep_key(*key, rest.children, reader);
+  }
+  if (!rest.children.empty()) {
+    reader.device.others.push_back(std::move(rest));
+  }
+  return list;
+}
+
+void read_object_list(const NamedSection& header, const Reader& reader) {
+  for (const List& list : lists) {
+    if (header.name.word == list.word) {
+      reader.device.*list.list = read_indexes(*header.section, "SupportedObjects", reader);
+    }
+  }
+}
+
+void check_lists(const Reader& reader) {
+  bool has_lists = false;
+  for (const List& list : lists) {
+    has_lists = has_lists || (reader.device.*list.list).is_given;
+    for (const Field<std::uint16_t>& entry : (reader.device.*list.list).indexes) {
+      check_entry(entry, list.kind, reader);
+    }
+  }
+  for (Object& object : reader.device.objects) {
+    const bool is_type = object.index < 0x1000;  // the lists begin with 1000h
+    if (!object.is_listed && !is_type) {
+      reader.findings.add(
+          rules::list_unlisted, object.span,
+          has_lists ? "this object is in no list: it is read" : "there are no lists: all objects are read");
+    }
+  }
+}
+
+}  // namespace lexican::codict::eds

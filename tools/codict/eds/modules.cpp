@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Modules of a bus coupler: what each adds to the dictionary. [306: 4.7]
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "eds/parts.hpp"
+#include "eds/rules.hpp"
+#include "model/parse.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+constexpr std::array<Slot<Module>, 4> module_slots = {{
+    {"ProductName", [](Module& m) -> Text& { return m.product_name; }},
+    {"ProductVersion", [](Module& m) -> Text& { return m.product_version; }},
+    {"ProductRevision", [](Module& m) -> Text& { return m.product_revision; }},
+    {"OrderCode", [](Module& m) -> Text& { return m.order_code; }},
+}};
+
+// "3" sub-objects, or "0;2": two bits.
+void interpret_count(SubExtension& extension, Findings& findings) {
+  const std::size_t semicolon = extension.count.text.find(';');
+  if (semicolon != std::string::npos) {
+    const auto offset = static_cast<std::uint32_t>(semicolon);
+    extension.bits.text = extension.count.text.substr(semicolon + 1);
+    extension.bits.span = {extension.count.span.begin + offset + 1, extension.count.span.end};
+    extension.bits.is_given = true;
+    extension.count.text.resize(semicolon);
+    extension.count.span.end = extension.count.span.begin + offset;
+    interpret_number(extension.bits, 0xFFFF, findings);
+  }
+  interpret_number(extension.count, 0xFFFF, findings);
+}
+
+SubExtension read_extension(const NamedSection& named, const Reader& reader) {
+  SubExtension extension;
+  extension.object.index = named.name.index;
+  read_entry(extension.object, *named.section, reader);
+  std::vector<Kept> others = std::exchange(extension.object.others, {});
+  for (Kept& other : others) {
+    if (compare_names(other.name, "Count") == 0 && !extension.count.is_given) {
+      static_cast<Text&>(extension.count) = other.text;
+    } else if (compare_names(other.name, "ObjExtend") == 0 && !extension.object_extension.is_given) {
+      static_cast<Text&>(extension.object_extension) = other.text;
+    } else {
+      extension.object.others.push_back(std::move(other));
+    }
+  }
+  interpret_count(extension, reader.findings);
+  interpret_number(extension.object_extension, 0xFFFFFFFF, reader.findings);
+  return extension;
+}
+
+void read_part(Module& module, const NamedSection& named, const Reader& reader) {
+  const Section& section = *named.section;
+  if (named.name.word == "ModuleInfo") {
+    read_section(module, section, module_slots, module.others, reader);
+  } else if (named.name.word == "FixedObjects") {
+    module.fixed_list = read_indexes(section, "NrOfEntries", reader);
+  } else if (named.name.word == "SubExtends") {
+    module.extension_list = read_indexes(section, "NrOfEntries", reader);
+  } else {
+    const NumberedList list = read_list(section, "Lines", "Line", Gaps::are_wrong, reader);
+    for (const NumberedKey& entry : list.entries) {
+      module.comments.push_back(text_of(reader.document, *entry.key));
+    }
+    for (const Key* key : list.others) {
+      keep_key(*key, module.others, reader);
+    }
+  }
+}
+
+}  // namespace
+
+void read_modules(const std::vector<NamedSection>& sections, const Reader& reader) {
+  std::map<std::uint16_t, Module> modules;
+  std::map<std::uint16_t, std::vector<NamedSection>> fixed;
+  for (const NamedSection& named : sections) {
+    Module& module = modules[named.name.module];
+    module.number = named.name.module;
+    if (named.section->is_duplicate) {
+      module.others.push_back(kept(reader.document, *named.section));
+    } else if (named.name.kind == SectionKind::module_fixed) {
+      fixed[named.name.module].push_back(named);
+    } else if (named.name.kind == SectionKind::module_extension) {
+      module.extensions.push_back(read_extension(named, reader));
+    } else {
+      read_part(module, named, reader);
+    }
+  }
+  for (auto& [number, module] : modules) {
+    module.fixed = read_objects(std::move(fixed[number]), module.others, reader);
+    for (Object& object : module.fixed) {
+      interpret_values(object, reader);
+    }
+    for (SubExtension& extension : module.extensions) {
+      interpret_values(static_cast<Entry&>(extension.object), reader);
+    }
+    reader.device.modules.push_back(std::move(module));
+  }
+  if (reader.device.module_count.value != modules.size() && reader.device.module_count.is_given) {
+    reader.findings.add(rules::list_count, reader.device.module_count.span,
+                        std::to_string(modules.size()) + " modules are described");
+  }
+}
+
+}  // namespace lexican::codict::eds

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/names.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "eds/document.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+constexpr std::array<std::string_view, 12> header_words = {
+    "FileInfo",
+    "DeviceInfo",
+    "DummyUsage",
+    "Comments",
+    "MandatoryObjects",
+    "OptionalObjects",
+    "ManufacturerObjects",
+    "DeviceComissioning",
+    "DeviceCommissioning",
+    "SupportedModules",
+    "ConnectedModules",
+    "DynamicChannels",
+};
+constexpr std::array<std::string_view, 4> module_words = {"ModuleInfo", "Comments", "FixedObjects", "SubExtends"};
+
+struct Suffix {
+  std::string_view word;
+  SectionKind kind;
+};
+constexpr std::array<Suffix, 4> suffixes = {{{"Name", SectionKind::names},
+                                             {"Value", SectionKind::values},
+                                             {"Denotation", SectionKind::denotations},
+                                             {"ObjectLinks", SectionKind::links}}};
+
+bool is_hex(char c) { return is_digit(c) || (to_lower(c) >= 'a' && to_lower(c) <= 'f'); }
+bool is_small(char c) { return c >= 'a' && c <= 'z'; }
+
+// At most four digits (1A00Denotation goes on with letters that might be more); fewer begin with a figure.
+std::string_view take_index(std::string_view& text) {
+  const std::string_view start = text.substr(0, 4);
+  const auto end = std::find_if_not(start.begin(), start.end(), is_hex);
+  const std::string_view digits = start.substr(0, static_cast<std::size_t>(end - start.begin()));
+  if (digits.size() < 4 && (digits.empty() || !is_digit(digits.front()))) {
+    return {};
+  }
+  text.remove_prefix(digits.size());
+  return digits;
+}
+
+bool to_number(std::string_view digits, std::uint64_t largest, std::uint64_t& number) {
+  return !digits.empty() && parse_hex(digits, number) && number <= largest;
+}
+
+// Behind an index: a sub-index, if anything; false if it is something else.
+bool take_sub(std::string_view rest, SectionName& name) {
+  constexpr std::string_view word = "sub";
+  std::string_view digits = rest.substr(std::min(word.size(), rest.size()));
+  std::uint64_t sub_index = 0;
+  if (!equal_ignoring_case(rest.substr(0, word.size()), word) || !to_number(digits, 0xFF, sub_index)) {
+    return false;
+  }
+  name.sub_index = static_cast<std::uint8_t>(sub_index);
+  name.is_sub = true;
+  name.has_odd_zeros = name.has_odd_zeros || (digits.size() > 1 && digits.front() == '0');
+  name.has_odd_case =
+      name.has_odd_case || rest.substr(0, word.size()) != word || std::any_of(digits.begin(), digits.end(), is_small);
+  return true;
+}
+
+// An index and what follows it; kind stays what it is if this is something else.
+void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub, SectionName& name) {
+  const std::string_view digits = take_index(text);
+  std::uint64_t index = 0;
+  if (!to_number(digits, 0xFFFF, index)) {
+    return;
+  }
+  SectionName read = name;
+  read.index = static_cast<std::uint16_t>(index);
+  read.has_odd_zeros = digits.size() != 4;
+  read.has_odd_case = std::any_of(digits.begin(), digits.end(), is_small);
+  if (text.empty()) {
+    read.kind = alone;
+  } else if (take_sub(text, read)) {
+    read.kind = with_sub;
+  } else if (alone == SectionKind::object) {
+    for (const Suffix& suffix : suffixes) {
+      if (equal_ignoring_case(text, suffix.word)) {
+        read.kind = suffix.kind;
+      }
+    }
+  }
+  if (read.kind != SectionKind::other) {
+    name = read;
+  }
+}
+
+void read_module(std::string_view text, SectionName& name) {
+  std::uint16_t number = 0;
+  std::size_t size = 0;
+  while (size < text.size() && size < 4 && is_digit(text[size])) {
+    number = static_cast<std::uint16_t>(number * 10 + (text[size] - '0'));
+    ++size;
+  }
+  if (size == 0) {
+    return;
+  }
+  text.remove_prefix(size);
+  name.module = number;
+  for (const std::string_view word : module_words) {
+    if (equal_ignoring_case(text, word)) {
+      name.kind = SectionKind::module;
+      name.word = word;
+      return;
+    }
+  }
+  constexpr std::string_view fixed = "Fixed";
+  constexpr std::string_view extension = "SubExt";
+  if (equal_ignoring_case(text.substr(0, fixed.size()), fixed)) {
+    read_indexed(text.substr(fixed.size()), SectionKind::module_fixed, SectionKind::module_fixed, name);
+  } else if (equal_ignoring_case(text.substr(0, extension.size()), extension)) {
+    read_indexed(text.substr(extension.size()), SectionKind::module_extension, SectionKind::other, name);
+  }
+}
+
+}  // namespace
+
+SectionName section_name(std::string_view text) {
+  SectionName name;
+  for (const std::string_view word : header_words) {
+    if (compare_names(text, word) == 0) {
+      name.kind = SectionKind::header;
+      name.word = word;
+      return name;
+    }
+  }
+  if (!text.empty() && to_lower(text.front()) == 'm') {
+    read_module(text.substr(1), name);
+  } else {
+    read_indexed(text, SectionKind::object, SectionKind::sub, name);
+  }
+  return name;
+}
+
+}  // namespace lexican::codict::eds

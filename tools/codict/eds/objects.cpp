@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects and sub-objects, each a section. [306: 4.6]
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "eds/parts.hpp"
+#include "eds/rules.hpp"
+#include "model/parse.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+constexpr std::array<Slot<Entry>, 14> entry_slots = {{
+    {"ParameterName", [](Entry& e) -> Text& { return e.name; }, 241},
+    {"ObjectType", [](Entry& e) -> Text& { return e.object_code; }},
+    {"DataType", [](Entry& e) -> Text& { return e.data_type; }},
+    {"AccessType", [](Entry& e) -> Text& { return e.access; }},
+    {"DefaultValue", [](Entry& e) -> Text& { return e.default_value; }},
+    {"PDOMapping", [](Entry& e) -> Text& { return e.pdo_mapping; }},
+    {"LowLimit", [](Entry& e) -> Text& { return e.low_limit; }},
+    {"HighLimit", [](Entry& e) -> Text& { return e.high_limit; }},
+    {"ObjFlags", [](Entry& e) -> Text& { return e.flags; }},
+    {"ParameterValue", [](Entry& e) -> Text& { return e.actual_value; }},
+    {"Denotation", [](Entry& e) -> Text& { return e.denotation; }},
+    {"UploadFile", [](Entry& e) -> Text& { return e.upload_file; }, 244},
+    {"DownloadFile", [](Entry& e) -> Text& { return e.download_file; }, 242},
+    {"ParamRefd", [](Entry& e) -> Text& { return e.parameter_reference; }},
+}};
+
+constexpr std::array<Slot<Object>, 2> object_slots = {{
+    {"SubNumber", [](Object& o) -> Text& { return o.sub_number; }},
+    {"CompactSubObj", [](Object& o) -> Text& { return o.compact; }},
+}};
+
+// What python-canopen adds to CiA 306.
+constexpr std::array<Slot<Entry>, 3> python_slots = {{
+    {"Unit", [](Entry& e) -> Text& { return e.unit.words.labels.emplace_back().text; }},
+    {"Factor", [](Entry& e) -> Text& { return e.multiplier; }},
+    {"Description", [](Entry& e) -> Text& { return e.words.descriptions.emplace_back().text; }},
+}};
+
+bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
+  if (!read_into(entry, key, python_slots, reader)) {
+    return false;
+  }
+  reader.findings.add(rules::dialect, key.name, "a key of python-canopen");
+  entry.unit.is_given = !entry.unit.words.labels.empty();
+  reader.device.dialect = "python-canopen";
+  return true;
+}
+
+// ";StorageLocation=PERSIST" of libEDSsharp.
+void read_comment(Entry& entry, Span comment, const Reader& reader) {
+  constexpr std::string_view word = "StorageLocation=";
+  const std::string_view content = reader.document.raw(comment);
+  if (entry.node.storage_group.is_given || !equal_ignoring_case(content.substr(0, word.size()), word)) {
+    return;
+  }
+  const Span value{comment.begin + static_cast<std::uint32_t>(word.size()), comment.end};
+  static_cast<Text&>(entry.node.storage_group) = {reader.document.text(value), value, true};
+  entry.node.storage_group.value = entry.node.storage_group.text;
+  reader.findings.add(rules::hidden_key, comment, "a storage group, as libEDSsharp hides it");
+}
+
+void interpret_object_code(Entry& entry, bool has_subs, Findings& findings) {
+  entry.object_code.value = has_subs ? ObjectCode::record : ObjectCode::variable;
+  if (entry.object_code.is_empty()) {
+    findings.add(rules::object_type_missing, entry.span,
+                 has_subs ? "ObjectType missing: RECORD" : "ObjectType missing: VAR");
+    return;
+  }
+  Field<std::uint8_t> number;
+  static_cast<Text&>(number) = entry.object_code;
+  interpret_number(number, 0xFF, findings);
+  const auto code = static_cast<ObjectCode>(number.value);
+  if (name_of(code).empty() || code == ObjectCode::null) {
+    findings.add(rules::object_type, entry.object_code.span, "this is no object type");
+  } else {
+    entry.object_code.value = code;
+  }
+}
+
+void interpret_access(Entry& entry, Findings& findings) {
+  if (entry.access.is_empty()) {
+    entry.access.value = entry.object_code.value == ObjectCode::domain ? Access::rw : Access::unknown;
+    return;
+  }
+  entry.access.value = access_named(entry.access.text);
+  if (entry.access.value == Access::unknown || entry.access.value == Access::none) {
+    entry.access.value = Access::unknown;
+    findings.add(rules::access_unknown, entry.access.span, "this is no access type", "ro, wo, rw, rwr, rww or const");
+  } else if (entry.access.text != name_of(entry.access.value)) {
+    findings.add(rules::access_case, entry.access.span, "access types are written in small letters");
+  }
+}
+
+// False keeps what the standard says where nothing is given.
+bool is_type_needed(const Entry& entry) {
+  const ObjectCode code = entry.object_code.value;
+  return code == ObjectCode::variable || code == ObjectCode::deftype;
+}
+
+void require(const Text& field, std::string_view key, const Entry& entry, Findings& findings) {
+  if (field.is_empty()) {
+    findings.add(rules::key_missing, entry.span, std::string(key) + " is missing");
+  }
+}
+
+void interpret_entry(Entry& entry, bool has_subs, Findings& findings) {
+  interpret_object_code(entry, has_subs, findings);
+  interpret_access(entry, findings);
+  if (entry.object_code.value == ObjectCode::domain) {
+    entry.data_type.value = type_code::domain;
+  }
+  interpret_number(entry.data_type, 0xFFFF, findings);
+  interpret_number(entry.flags, std::numeric_limits<std::uint32_t>::max(), findings);
+  Field<bool> mapping;
+  static_cast<Text&>(mapping) = entry.pdo_mapping;
+  interpret_flag(mapping, findings);
+  entry.pdo_mapping.value = mapping.value ? PdoMapping::optional : PdoMapping::no;
+  require(entry.name, "ParameterName", entry, findings);
+  if (is_type_needed(entry)) {
+    require(entry.data_type, "DataType", entry, findings);
+    require(entry.access, "AccessType", entry, findings);
+  }
+}
+
+void report_misplaced(const Text& field, std::string_view key, Findings& findings) {
+  if (!field.is_empty()) {
+    findings.add(rules::key_misplaced, field.span, std::string(key) + " does not belong to an object with sub-objects");
+  }
+}
+
+// What an ARRAY or RECORD says of its values, without compact storage.
+void report_misplaced_keys(const Object& object, Findings& findings) {
+  if (object.compact.value == 0) {
+    report_misplaced(object.data_type, "DataType", findings);
+    report_misplaced(object.access, "AccessType", findings);
+    report_misplaced(object.default_value, "DefaultValue", findings);
+    report_misplaced(object.pdo_mapping, "PDOMapping", findings);
+  }
+  report_misplaced(object.low_limit, "LowLimit", findings);
+  report_misplaced(object.high_limit, "HighLimit", findings);
+}
+
+void interpret_object(Object& object, Findings& findings) {
+  const bool has_subs = !object.subs.empty() || !object.sub_number.is_empty() || !object.compact.is_empty();
+  interpret_number(object.sub_number, 0xFF, findings);
+  interpret_number(object.compact, 0xFE, findings);
+  interpret_entry(object, has_subs, findings);
+  for (Sub& sub : object.subs) {
+    interpret_entry(sub, false, findings);
+    if (has_sub_objects(sub.object_code.value)) {
+      findings.add(rules::object_type, sub.object_code.span, "a sub-object has no sub-objects");
+    }
+  }
+  if (has_sub_objects(object.object_code.value)) {
+    report_misplaced_keys(object, findings);
+  } else if (!object.subs.empty()) {
+    findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
+                 "only ARRAY, RECORD and DEFSTRUCT have sub-objects");
+  }
+}
+
+void read_sub(Sub& sub, const Section& section, const Reader& reader) {
+  sub.span = section.name;
+  for (const Key& key : section.keys) {
+    if (key.is_duplicate ||
+        !(read_into(static_cast<Entry&>(sub), key, entry_slots, reader) || read_python_key(sub, key, reader))) {
+      keep_key(key, sub.others, reader);
+    }
+  }
+  for (const Span comment : reader.document.comments(section)) {
+    read_comment(sub, comment, reader);
+  }
+}
+
+// Without SubNumber, sub-index FFh and compact storage. [306: 4.6.3]
+void check_sub_number(const Object& object, Findings& findings) {
+  const auto number = static_cast<std::size_t>(
+      std::count_if(object.subs.begin(), object.subs.end(), [](const Sub& sub) { return sub.sub_index != 0xFF; }));
+  if (object.compact.value == 0 && object.sub_number.value != number) {
+    findings.add(rules::sub_number, object.sub_number.is_given ? object.sub_number.span : object.span,
+                 std::to_string(number) + " sub-objects are described", "SubNumber=" + std::to_string(number));
+  }
+}
+
+std::uint8_t highest_sub(const Object& object) {
+  std::uint8_t highest = 0;
+  for (const Sub& sub : object.subs) {
+    highest = sub.sub_index == 0xFF ? highest : sub.sub_index;
+  }
+  return highest;
+}
+
+void complete_sub_zero(Object& object, Findings& findings) {
+  if (object.subs.empty() || object.subs.front().sub_index != 0) {
+    findings.add(rules::sub_zero_missing, object.span, "there is no sub-index 0");
+    return;
+  }
+  Sub& zero = object.subs.front();
+  const std::uint8_t highest = highest_sub(object);
+  if (zero.default_value.is_empty() && zero.actual_value.is_empty()) {
+    findings.add(rules::sub_zero_value, zero.span, "sub-index 0 has no default: the highest sub-index is taken",
+                 "DefaultValue=" + std::to_string(highest));
+    zero.default_value.kind = Value::Kind::integer;
+    zero.default_value.integer = highest;
+  } else if (zero.default_value.is_integer() && zero.default_value.integer < Integer(highest)) {
+    findings.add(rules::sub_zero_small, zero.default_value.span, "there are higher sub-indexes");
+  }
+}
+
+const DataType& type_of(const Entry& entry, const Reader& reader) {
+  const std::uint16_t code = entry.data_type.value;
+  const DataType& type = data_type_of(reader.device, code);
+  const bool is_basic = type.kind != TypeKind::unknown && type.kind != TypeKind::structure && type.code == code;
+  if (is_basic || code == 0 || entry.data_type.is_empty()) {
+    return type;
+  }
+  if (type.kind != TypeKind::unknown || reader.device.find(code) != nullptr) {
+    reader.findings.add(rules::type_own, entry.data_type.span, "not a simple type of CiA 301");
+  } else {
+    reader.findings.add(rules::type_unknown, entry.data_type.span,
+                        "neither a type of CiA 301 nor an object of the device");
+  }
+  return type;
+}
+
+}  // namespace
+
+void read_entry(Object& object, const Section& section, const Reader& reader) {
+  object.span = section.name;
+  for (const Key& key : section.keys) {
+    if (key.is_duplicate || !(read_into(static_cast<Entry&>(object), key, entry_slots, reader) ||
+                              read_into(object, key, object_slots, reader) || read_python_key(object, key, reader))) {
+      keep_key(key, object.others, reader);
+    }
+  }
+  for (const Span comment : reader.document.comments(section)) {
+    read_comment(object, comment, reader);
+  }
+}
+
+std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader) {
+  const auto key_of = [](const NamedSection& part) {
+    return std::make_tuple(part.name.index, part.name.is_sub, part.name.sub_index);
+  };
+  std::stable_sort(parts.begin(), parts.end(),
+                   [key_of](const NamedSection& a, const NamedSection& b) { return key_of(a) < key_of(b); });
+  std::vector<Object> objects;
+  const NamedSection* before = nullptr;
+  for (const NamedSection& part : parts) {
+    if (before != nullptr && key_of(*before) == key_of(part)) {
+      if (!part.section->is_duplicate) {  // else that has been said
+        reader.findings.add(rules::duplicate_section, part.section->name,
+                            "a second section of this meaning: the first one is used");
+      }
+      others.push_back(kept(reader.document, *part.section));
+      continue;
+    }
+    before = &part;
+    const bool is_new = objects.empty() || objects.back().index != part.name.index;
+    Object& object = is_new ? objects.emplace_back() : objects.back();
+    object.index = part.name.index;
+    if (!part.name.is_sub) {
+      read_entry(object, *part.section, reader);
+      continue;
+    }
+    if (is_new) {
+      object.span = part.section->name;
+      reader.findings.add(rules::section_orphan, part.section->name, "a sub-object of an object that has no section");
+    }
+    Sub& sub = object.subs.emplace_back();
+    sub.sub_index = part.name.sub_index;
+    read_sub(sub, *part.section, reader);
+  }
+  for (Object& object : objects) {
+    interpret_object(object, reader.findings);
+    expand_compact(object, reader);
+  }
+  return objects;
+}
+
+void interpret_values(Entry& entry, const Reader& reader) {
+  const DataType& type = type_of(entry, reader);
+  for (Value* value : {&entry.default_value, &entry.actual_value, &entry.low_limit, &entry.high_limit}) {
+    interpret(*value, type, reader.findings);
+  }
+}
+
+void interpret_values(Object& object, const Reader& reader) {
+  if (!has_sub_objects(object.object_code.value) || object.compact.value != 0) {
+    interpret_values(static_cast<Entry&>(object), reader);
+  }
+  for (Sub& sub : object.subs) {
+    if (!sub.is_implied) {
+      interpret_values(static_cast<Entry&>(sub), reader);
+      continue;
+    }
+    if (sub.sub_index != 0) {
+      sub.default_value = object.default_value;
+    }
+    interpret(sub.actual_value, data_type_of(reader.device, sub.data_type.value), reader.findings);
+  }
+  if (has_sub_objects(object.object_code.value)) {
+    check_sub_number(object, reader.findings);
+    complete_sub_zero(object, reader.findings);
+  }
+}
+
+}  // namespace lexican::codict::eds

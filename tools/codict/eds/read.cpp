@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/read.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "eds/parts.hpp"
+#include "eds/rules.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+struct Sorted {
+  std::vector<NamedSection> headers;
+  std::vector<NamedSection> objects;
+  std::vector<NamedSection> additions;
+  std::vector<NamedSection> modules;
+  std::vector<NamedSection> others;
+};
+
+void report_form(const NamedSection& named, Findings& findings) {
+  if (named.name.has_odd_zeros) {
+    findings.add(rules::section_zeros, named.section->name, "an index has four digits, a sub-index no leading zeros");
+  }
+  if (named.name.has_odd_case) {
+    findings.add(rules::section_form, named.section->name, "digits are capital letters, sub is in small ones");
+  }
+}
+
+std::vector<NamedSection>& place_of(SectionKind kind, Sorted& sorted) {
+  switch (kind) {
+    case SectionKind::header: return sorted.headers;
+    case SectionKind::object:
+    case SectionKind::sub: return sorted.objects;
+    case SectionKind::names:
+    case SectionKind::values:
+    case SectionKind::denotations:
+    case SectionKind::links: return sorted.additions;
+    case SectionKind::module:
+    case SectionKind::module_fixed:
+    case SectionKind::module_extension: return sorted.modules;
+    case SectionKind::other: break;
+  }
+  return sorted.others;
+}
+
+Sorted sort_sections(const Reader& reader) {
+  Sorted sorted;
+  for (const Section& section : reader.document.sections()) {
+    const NamedSection named{section_name(reader.document.raw(section.name)), &section};
+    report_form(named, reader.findings);
+    place_of(named.name.kind, sorted).push_back(named);
+  }
+  return sorted;
+}
+
+void read_headers(const std::vector<NamedSection>& headers, const Reader& reader) {
+  for (const NamedSection& header : headers) {
+    if (header.section->is_duplicate) {
+      reader.device.others.push_back(kept(reader.document, *header.section));
+    } else {
+      read_header(header, reader);
+    }
+  }
+  check_headers(reader);
+}
+
+// [Tools] is of CiA 405, [ToolInfos] and [PreDefines] are of CANeds.
+void keep_others(const std::vector<NamedSection>& others, const Reader& reader) {
+  for (const NamedSection& named : others) {
+    const std::string_view name = reader.document.raw(named.section->name);
+    if (compare_names(name, "Tools") != 0 && !named.section->is_duplicate) {
+      reader.findings.add(rules::section_unknown, named.section->name, "an unknown section: kept");
+    }
+    reader.device.others.push_back(kept(reader.document, *named.section));
+  }
+  if (!reader.document.keys_outside().empty()) {
+    Kept outside;
+    for (const Key& key : reader.document.keys_outside()) {
+      outside.children.push_back(kept(reader.document, key));
+    }
+    reader.device.others.push_back(std::move(outside));
+  }
+}
+
+bool has_ending(std::string_view path, std::string_view ending) {
+  return path.size() > ending.size() && equal_ignoring_case(path.substr(path.size() - ending.size()), ending);
+}
+
+}  // namespace
+
+Description read(const Document& document, Findings& findings) {
+  Description description;
+  Device& device = description.devices.emplace_back();
+  std::size_t implied_subs = 0;
+  const Reader reader{document, device, findings, implied_subs};
+  Sorted sorted = sort_sections(reader);
+  read_headers(sorted.headers, reader);
+  device.objects = read_objects(std::move(sorted.objects), device.others, reader);
+  for (const NamedSection& addition : sorted.additions) {
+    read_addition(addition, reader);
+  }
+  for (Object& object : device.objects) {
+    interpret_values(object, reader);
+  }
+  read_modules(sorted.modules, reader);
+  check_lists(reader);
+  keep_others(sorted.others, reader);
+  const bool is_dcf = device.commissioning.is_given || device.file.last_eds.is_given;
+  device.format = is_dcf || has_ending(document.source().name(), ".dcf") ? Format::dcf : Format::eds;
+  findings.sort();
+  return description;
+}
+
+}  // namespace lexican::codict::eds
