@@ -90,9 +90,14 @@ void read_links(Object& object, const Section& section, const Reader& reader) {
 }  // namespace
 
 void expand_compact(Object& object, const Reader& reader) {
-  const std::uint8_t number = object.compact.value;
+  constexpr std::uint8_t highest_sub = 0xFE;
+  const std::uint8_t number = std::min(object.compact.value, highest_sub);
   if (number == 0) {
     return;
+  }
+  if (object.compact.value > highest_sub) {
+    reader.findings.add(codict::rules::value_range, object.compact.span,
+                        "sub-index FFh is the structure: 254 is taken");
   }
   if (reader.implied_subs + number > most_implied_subs) {
     reader.findings.add(rules::compact_limit, object.compact.span,

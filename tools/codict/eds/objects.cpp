@@ -91,11 +91,17 @@ void interpret_access(Entry& entry, Findings& findings) {
     entry.access.value = entry.object_code.value == ObjectCode::domain ? Access::rw : Access::unknown;
     return;
   }
-  entry.access.value = access_named(entry.access.text);
+  const std::string_view word = without_comment(entry.access.text);
+  if (word.size() != entry.access.text.size()) {
+    const auto size = static_cast<std::uint32_t>(word.size());
+    findings.add(codict::rules::value_comment, {entry.access.span.begin + size, entry.access.span.end},
+                 "text behind the access type: ignored", "put it into a line of its own that begins with ;");
+  }
+  entry.access.value = access_named(word);
   if (entry.access.value == Access::unknown || entry.access.value == Access::none) {
     entry.access.value = Access::unknown;
     findings.add(rules::access_unknown, entry.access.span, "this is no access type", "ro, wo, rw, rwr, rww or const");
-  } else if (entry.access.text != name_of(entry.access.value)) {
+  } else if (word != name_of(entry.access.value)) {
     findings.add(rules::access_case, entry.access.span, "access types are written in small letters");
   }
 }
@@ -152,7 +158,7 @@ void report_misplaced_keys(const Object& object, Findings& findings) {
 void interpret_object(Object& object, Findings& findings) {
   const bool has_subs = !object.subs.empty() || !object.sub_number.is_empty() || !object.compact.is_empty();
   interpret_number(object.sub_number, 0xFF, findings);
-  interpret_number(object.compact, 0xFE, findings);
+  interpret_number(object.compact, 0xFF, findings);
   interpret_entry(object, has_subs, findings);
   for (Sub& sub : object.subs) {
     interpret_entry(sub, false, findings);
@@ -181,38 +187,15 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
   }
 }
 
-// Without SubNumber, sub-index FFh and compact storage. [306: 4.6.3]
-void check_sub_number(const Object& object, Findings& findings) {
-  const auto number = static_cast<std::size_t>(
-      std::count_if(object.subs.begin(), object.subs.end(), [](const Sub& sub) { return sub.sub_index != 0xFF; }));
-  if (object.compact.value == 0 && object.sub_number.value != number) {
-    findings.add(rules::sub_number, object.sub_number.is_given ? object.sub_number.span : object.span,
-                 std::to_string(number) + " sub-objects are described", "SubNumber=" + std::to_string(number));
-  }
-}
-
-std::uint8_t highest_sub(const Object& object) {
-  std::uint8_t highest = 0;
-  for (const Sub& sub : object.subs) {
-    highest = sub.sub_index == 0xFF ? highest : sub.sub_index;
-  }
-  return highest;
-}
-
-void complete_sub_zero(Object& object, Findings& findings) {
-  if (object.subs.empty() || object.subs.front().sub_index != 0) {
-    findings.add(rules::sub_zero_missing, object.span, "there is no sub-index 0");
+// The default of sub-index 0 that is not given is the highest sub-index. [306: 4.6.3]
+void complete_sub_zero(Object& object) {
+  if (!has_sub_objects(object.object_code.value) || object.subs.empty() || object.subs.front().sub_index != 0) {
     return;
   }
-  Sub& zero = object.subs.front();
-  const std::uint8_t highest = highest_sub(object);
-  if (zero.default_value.is_empty() && zero.actual_value.is_empty()) {
-    findings.add(rules::sub_zero_value, zero.span, "sub-index 0 has no default: the highest sub-index is taken",
-                 "DefaultValue=" + std::to_string(highest));
-    zero.default_value.kind = Value::Kind::integer;
-    zero.default_value.integer = highest;
-  } else if (zero.default_value.is_integer() && zero.default_value.integer < Integer(highest)) {
-    findings.add(rules::sub_zero_small, zero.default_value.span, "there are higher sub-indexes");
+  Value& value = object.subs.front().default_value;
+  if (value.is_empty()) {
+    value.kind = Value::Kind::integer;
+    value.integer = highest_sub(object);
   }
 }
 
@@ -308,10 +291,7 @@ void interpret_values(Object& object, const Reader& reader) {
     }
     interpret(sub.actual_value, data_type_of(reader.device, sub.data_type.value), reader.findings);
   }
-  if (has_sub_objects(object.object_code.value)) {
-    check_sub_number(object, reader.findings);
-    complete_sub_zero(object, reader.findings);
-  }
+  complete_sub_zero(object);
 }
 
 }  // namespace lexican::codict::eds

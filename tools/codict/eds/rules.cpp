@@ -72,13 +72,6 @@ const Rule list_no_section{"eds-list-no-section", Severity::error, "Each object 
 const Rule list_twice{"eds-list-twice", Severity::warning, "An object is in a list once."};
 const Rule list_wrong{"eds-list-wrong", Severity::warning,
                       "1000h, 1001h and 1018h are mandatory, 2000h to 5FFFh the manufacturer's, all others optional."};
-const Rule sub_number{"eds-sub-number", Severity::warning,
-                      "SubNumber is the number of sub-objects, sub-index 0 with them: the sections decide."};
-const Rule sub_zero_missing{"eds-sub-zero-missing", Severity::warning, "An ARRAY or RECORD has a sub-index 0."};
-const Rule sub_zero_value{"eds-sub-zero-value", Severity::warning,
-                          "Sub-index 0 has the highest sub-index as its default: it is taken."};
-const Rule sub_zero_small{"eds-sub-zero-small", Severity::warning,
-                          "Sub-index 0 is not smaller than the highest sub-index that is there."};
 const Rule compact_entry{"eds-compact-entry", Severity::warning,
                          "A name or value of compact storage belongs to a sub-object that is there."};
 const Rule compact_limit{"eds-compact-limit", Severity::error, "Compact storage stands for 50000 sub-objects at most."};
@@ -131,10 +124,6 @@ const std::vector<const Rule*>& all_rules() {
                                                &list_no_section,
                                                &list_twice,
                                                &list_wrong,
-                                               &sub_number,
-                                               &sub_zero_missing,
-                                               &sub_zero_value,
-                                               &sub_zero_small,
                                                &compact_entry,
                                                &compact_limit};
   return all;

@@ -59,10 +59,6 @@ extern const Rule list_no_section;
 extern const Rule list_twice;
 extern const Rule list_wrong;
 // Sub-objects.
-extern const Rule sub_number;
-extern const Rule sub_zero_missing;
-extern const Rule sub_zero_value;
-extern const Rule sub_zero_small;
 extern const Rule compact_entry;
 extern const Rule compact_limit;
 }  // namespace rules

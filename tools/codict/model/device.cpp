@@ -50,6 +50,14 @@ std::string_view name_of(Format format) {
 const Sub* Object::find(std::uint8_t sub_index) const { return find_sub(*this, sub_index); }
 Sub* Object::find(std::uint8_t sub_index) { return find_sub(*this, sub_index); }
 
+std::uint8_t highest_sub(const Object& object) {
+  std::uint8_t highest = 0;
+  for (const Sub& sub : object.subs) {
+    highest = sub.sub_index == 0xFF ? highest : sub.sub_index;
+  }
+  return highest;
+}
+
 const Object* Device::find(std::uint16_t index) const { return find_object(*this, index); }
 Object* Device::find(std::uint16_t index) { return find_object(*this, index); }
 

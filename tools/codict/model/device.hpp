@@ -191,6 +191,9 @@ struct Object : Entry {
   Sub* find(std::uint8_t sub_index);
 };
 
+/// Below FFh, which describes the structure; 0 if there are no sub-objects.
+std::uint8_t highest_sub(const Object& object);
+
 /// A list of objects beside the objects themselves. [306]
 struct ObjectList {
   Field<std::uint32_t> count;

@@ -36,9 +36,20 @@ Digits read_digits(std::string_view text, int base) {
 }
 
 bool is_suffix(std::string_view rest) {
-  constexpr std::array<std::string_view, 6> suffixes = {"u", "l", "ul", "ll", "ull", "h"};
+  constexpr std::array<std::string_view, 5> suffixes = {"u", "l", "ul", "ll", "ull"};
   return std::any_of(suffixes.begin(), suffixes.end(),
                      [rest](std::string_view suffix) { return equal_ignoring_case(rest, suffix); });
+}
+
+// 0080h, as nobody but people write it.
+bool read_with_h(std::string_view text, ParsedInteger& parsed) {
+  std::uint64_t value = 0;
+  const bool has_form = text.size() > 1 && is_digit(text.front()) && to_lower(text.back()) == 'h';
+  if (!has_form || !parse_hex(text.substr(0, text.size() - 1), value)) {
+    return false;
+  }
+  parsed = {Integer(value), Base::hexadecimal, NumberFault::suffix, text.size() - 1};
+  return true;
 }
 
 NumberFault fault_of_rest(std::string_view rest, const ParsedInteger& parsed) {
@@ -48,8 +59,7 @@ NumberFault fault_of_rest(std::string_view rest, const ParsedInteger& parsed) {
   if (is_suffix(rest)) {
     return NumberFault::suffix;
   }
-  const std::string_view behind = trimmed(rest);
-  if (is_blank(rest.front()) && (behind.front() == ';' || behind.front() == '#' || behind.substr(0, 2) == "//")) {
+  if (without_comment(rest).empty()) {
     return NumberFault::comment;
   }
   if (rest.front() == '.' && parsed.base != Base::hexadecimal && rest.size() > 1 &&
@@ -124,6 +134,9 @@ ParsedInteger parse_integer(std::string_view text) {
   if (equal_ignoring_case(text, "true") || equal_ignoring_case(text, "false")) {
     parsed.fault = NumberFault::word;
     parsed.value = to_lower(text.front()) == 't' ? 1U : 0U;
+    return parsed;
+  }
+  if (read_with_h(text, parsed)) {
     return parsed;
   }
   std::size_t at = text.front() == '-' || text.front() == '+' ? 1 : 0;
@@ -213,6 +226,16 @@ ParsedReal parse_real(std::string_view text, unsigned bits) {
     return {};
   }
   return real;
+}
+
+std::string_view without_comment(std::string_view text) {
+  for (std::size_t n = 0; n + 1 < text.size(); ++n) {
+    const std::string_view rest = text.substr(n + 1);
+    if (is_blank(text[n]) && (rest.front() == ';' || rest.front() == '#' || rest.substr(0, 2) == "//")) {
+      return trimmed(text.substr(0, n));
+    }
+  }
+  return text;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -94,6 +94,8 @@ constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 std::string_view trimmed(std::string_view text);
+/// What is in front of a blank and one of ; # //
+std::string_view without_comment(std::string_view text);
 /// Of ASCII letters, whatever the locale.
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

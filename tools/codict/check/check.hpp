@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file check.hpp
+/// What is off in a device, whatever the format of its description: it is the model that is looked at.
+#pragma once
+
+#include <vector>
+
+#include "model/device.hpp"
+#include "text/finding.hpp"
+
+namespace lexican::codict::check {
+
+/// Objects, sub-objects, and their values. [301: 7.4]
+void check_objects(const Device& device, Findings& findings);
+
+/// What the description says of the whole device, against its objects.
+void check_device(const Device& device, Findings& findings);
+
+namespace rules {
+extern const Rule sub_number;
+extern const Rule sub_zero_missing;
+extern const Rule sub_zero_value;
+extern const Rule sub_zero_small;
+extern const Rule limit_order;
+extern const Rule limit;
+extern const Rule pdo_count;
+extern const Rule identity;
+}  // namespace rules
+
+const std::vector<const Rule*>& all_rules();
+
+}  // namespace lexican::codict::check
