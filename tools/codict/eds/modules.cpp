@@ -21,6 +21,11 @@ constexpr std::array<Slot<Module>, 4> module_slots = {{
     {"OrderCode", [](Module& m) -> Text& { return m.order_code; }},
 }};
 
+constexpr std::array<Slot<SubExtension>, 2> extension_slots = {{
+    {"Count", [](SubExtension& e) -> Text& { return e.count; }},
+    {"ObjExtend", [](SubExtension& e) -> Text& { return e.object_extension; }},
+}};
+
 // "3" sub-objects, or "0;2": two bits.
 void interpret_count(SubExtension& extension, Findings& findings) {
   const std::size_t semicolon = extension.count.text.find(';');
@@ -39,17 +44,13 @@ void interpret_count(SubExtension& extension, Findings& findings) {
 SubExtension read_extension(const NamedSection& named, const Reader& reader) {
   SubExtension extension;
   extension.object.index = named.name.index;
-  read_entry(extension.object, *named.section, reader);
-  std::vector<Kept> others = std::exchange(extension.object.others, {});
-  for (Kept& other : others) {
-    if (compare_names(other.name, "Count") == 0 && !extension.count.is_given) {
-      static_cast<Text&>(extension.count) = other.text;
-    } else if (compare_names(other.name, "ObjExtend") == 0 && !extension.object_extension.is_given) {
-      static_cast<Text&>(extension.object_extension) = other.text;
-    } else {
-      extension.object.others.push_back(std::move(other));
+  extension.object.span = named.section->name;
+  for (const Key& key : named.section->keys) {
+    if (key.is_duplicate || !read_into(extension, key, extension_slots, reader)) {
+      read_key(extension.object, key, reader);
     }
   }
+  interpret_entry(extension.object, false, reader.findings);
   interpret_count(extension, reader.findings);
   interpret_number(extension.object_extension, 0xFFFFFFFF, reader.findings);
   return extension;

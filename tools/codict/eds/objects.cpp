@@ -118,6 +118,8 @@ void require(const Text& field, std::string_view key, const Entry& entry, Findin
   }
 }
 
+}  // namespace
+
 void interpret_entry(Entry& entry, bool has_subs, Findings& findings) {
   interpret_object_code(entry, has_subs, findings);
   interpret_access(entry, findings);
@@ -137,6 +139,8 @@ void interpret_entry(Entry& entry, bool has_subs, Findings& findings) {
   }
 }
 
+namespace {
+
 void report_misplaced(const Text& field, std::string_view key, Findings& findings) {
   if (!field.is_empty()) {
     findings.add(rules::key_misplaced, field.span, std::string(key) + " does not belong to an object with sub-objects");
@@ -155,11 +159,18 @@ void report_misplaced_keys(const Object& object, Findings& findings) {
   report_misplaced(object.high_limit, "HighLimit", findings);
 }
 
+// There is one if it begins elsewhere than the first sub-object.
+bool has_section(const Object& object) { return object.subs.empty() || !(object.span == object.subs.front().span); }
+
 void interpret_object(Object& object, Findings& findings) {
   const bool has_subs = !object.subs.empty() || !object.sub_number.is_empty() || !object.compact.is_empty();
   interpret_number(object.sub_number, 0xFF, findings);
   interpret_number(object.compact, 0xFF, findings);
-  interpret_entry(object, has_subs, findings);
+  if (has_section(object)) {
+    interpret_entry(object, has_subs, findings);
+  } else {
+    object.object_code.value = ObjectCode::record;
+  }
   for (Sub& sub : object.subs) {
     interpret_entry(sub, false, findings);
     if (has_sub_objects(sub.object_code.value)) {
@@ -174,11 +185,23 @@ void interpret_object(Object& object, Findings& findings) {
   }
 }
 
+// A key that is the object's, not the sub-object's.
+bool keep_object_key(Sub& sub, const Key& key, const Reader& reader) {
+  const bool is_known = std::any_of(object_slots.begin(), object_slots.end(), [&](const Slot<Object>& slot) {
+    return compare_names(reader.document.raw(key.name), slot.key) == 0;
+  });
+  if (is_known) {
+    sub.others.push_back(kept(reader.document, key));
+    reader.findings.add(rules::key_misplaced, key.name, "a sub-object has no sub-objects");
+  }
+  return is_known;
+}
+
 void read_sub(Sub& sub, const Section& section, const Reader& reader) {
   sub.span = section.name;
   for (const Key& key : section.keys) {
-    if (key.is_duplicate ||
-        !(read_into(static_cast<Entry&>(sub), key, entry_slots, reader) || read_python_key(sub, key, reader))) {
+    if (key.is_duplicate || !(read_into(static_cast<Entry&>(sub), key, entry_slots, reader) ||
+                              keep_object_key(sub, key, reader) || read_python_key(sub, key, reader))) {
       keep_key(key, sub.others, reader);
     }
   }
@@ -217,18 +240,26 @@ const DataType& type_of(const Entry& entry, const Reader& reader) {
 
 }  // namespace
 
-void read_entry(Object& object, const Section& section, const Reader& reader) {
+void read_key(Object& object, const Key& key, const Reader& reader) {
+  if (key.is_duplicate || !(read_into(static_cast<Entry&>(object), key, entry_slots, reader) ||
+                            read_into(object, key, object_slots, reader) || read_python_key(object, key, reader))) {
+    keep_key(key, object.others, reader);
+  }
+}
+
+namespace {
+
+void read_object(Object& object, const Section& section, const Reader& reader) {
   object.span = section.name;
   for (const Key& key : section.keys) {
-    if (key.is_duplicate || !(read_into(static_cast<Entry&>(object), key, entry_slots, reader) ||
-                              read_into(object, key, object_slots, reader) || read_python_key(object, key, reader))) {
-      keep_key(key, object.others, reader);
-    }
+    read_key(object, key, reader);
   }
   for (const Span comment : reader.document.comments(section)) {
     read_comment(object, comment, reader);
   }
 }
+
+}  // namespace
 
 std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader) {
   const auto key_of = [](const NamedSection& part) {
@@ -252,7 +283,7 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Ke
     Object& object = is_new ? objects.emplace_back() : objects.back();
     object.index = part.name.index;
     if (!part.name.is_sub) {
-      read_entry(object, *part.section, reader);
+      read_object(object, *part.section, reader);
       continue;
     }
     if (is_new) {

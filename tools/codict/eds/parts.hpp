@@ -25,7 +25,8 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Ke
 /// Values get their meaning; all types must be known.
 void interpret_values(Object& object, const Reader& reader);
 void interpret_values(Entry& entry, const Reader& reader);
-void read_entry(Object& object, const Section& section, const Reader& reader);
+void interpret_entry(Entry& entry, bool has_subs, Findings& findings);
+void read_key(Object& object, const Key& key, const Reader& reader);
 
 // compact.cpp: names, values, denotations and links.
 void expand_compact(Object& object, const Reader& reader);

@@ -81,6 +81,9 @@ void add(ParsedInteger& sum, const ParsedInteger& summand, std::size_t offset) {
   const Integer& a = sum.value;
   const Integer& b = summand.value;
   if (a.is_negative == b.is_negative) {
+    if (a.magnitude > std::numeric_limits<std::uint64_t>::max() - b.magnitude && sum.fault == NumberFault::none) {
+      sum.fault = NumberFault::too_large;
+    }
     sum.value = Integer(a.magnitude + b.magnitude, a.is_negative);
   } else if (a.magnitude >= b.magnitude) {
     sum.value = Integer(a.magnitude - b.magnitude, a.is_negative);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is no EDS or DCF is refused, with one message that says what it is.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <utility>
+
+#include "eds/document.hpp"
+#include "eds/recognise.hpp"
+
+using namespace lexican::codict;
+
+namespace {
+
+std::string refusal_of(std::string bytes) {
+  const Source source("device.eds", std::move(bytes));
+  std::string why = eds::refusal(source);
+  if (why.empty()) {
+    Findings findings;
+    why = eds::refusal(eds::Document(source, findings));
+  }
+  return why;
+}
+
+bool says(const std::string& why, const char* word) { return why.find(word) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("no EDS: an empty file") {
+  CHECK(says(refusal_of(""), "empty"));
+  CHECK(says(refusal_of(" \r\n\t\n"), "empty"));
+  CHECK(says(refusal_of("\xEF\xBB\xBF\n"), "empty"));
+}
+
+TEST_CASE("no EDS: other characters, and no characters") {
+  CHECK(says(refusal_of(std::string("\xFF\xFE[\0F\0", 6)), "UTF-16"));
+  CHECK(says(refusal_of(std::string("[FileInfo]\0", 11)), "no text"));
+  CHECK(says(refusal_of("\xEF\xBB\xBF<?xml version=\"1.0\"?>"), "XML"));
+}
+
+TEST_CASE("no EDS: one of ODVA") {
+  CHECK(says(refusal_of("$ Made by hand\n[File]\n  DescText = \"x\";\n[Device]\n  VendCode = 1;\n"), "ODVA"));
+}
+
+TEST_CASE("no EDS: the name that a symbolic link had") {
+  CHECK(says(refusal_of("../../common/Motor.dcf"), "../../common/Motor.dcf"));
+}
+
+TEST_CASE("no EDS: constraints of an FPGA design") {
+  CHECK(says(refusal_of("###CLOCK\nset_property PACKAGE_PIN F19 [get_ports reset]\n"), "FPGA"));
+}
+
+TEST_CASE("no EDS: types as words, in the dialect of socanmatic") {
+  CHECK(says(refusal_of("[2000]\nParameterName=x\nObjectType=VAR\nDataType=UNSIGNED32\n"), "socanmatic"));
+}
+
+TEST_CASE("no EDS: the topology of a network") {
+  CHECK(says(refusal_of("[TOPOLOGY]\nNetName=None\nNodes=0x01\n"), "topology"));
+}
+
+TEST_CASE("no EDS: any other text") {
+  CHECK(says(refusal_of("[general]\nname=value\n"), "no section"));
+  CHECK(says(refusal_of("Dear reader,\nthis is a letter.\n"), "no section"));
+}
+
+TEST_CASE("no EDS: more than any device needs") {
+  CHECK(says(refusal_of(std::string(17 * 1024 * 1024, ';')), "16 MB"));
+  std::string sections;
+  for (int n = 0; n <= 100000; ++n) {
+    sections += "[1]\n";
+  }
+  CHECK(says(refusal_of(sections), "100000 sections"));
+}
+
+TEST_CASE("an EDS: one section that it knows is enough") {
+  CHECK(refusal_of("[deviceinfo]").empty());
+  CHECK(refusal_of("[1000]\n").empty());
+  CHECK(refusal_of("[1a00SUB1]\n").empty());
+}
