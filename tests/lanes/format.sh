@@ -9,7 +9,7 @@ lane() {
 
 formatted() {
   local files
-  mapfile -t files < <(sources include config src drivers demo tests -name '*.[ch]' -o -name '*.[ch]pp')
+  mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp')
   [ ${#files[@]} -gt 0 ] || return
   local unformatted
   unformatted=$(cd "$root" && clang-format-14 --dry-run -Werror "${files[@]}" 2>&1 | grep -oE '^[^: ]+:[0-9]+:.*error' |
@@ -19,7 +19,7 @@ formatted() {
 
 licensed() {
   local without
-  without=$(cd "$root" && sources include config src drivers demo tests cmake .ci \
+  without=$(cd "$root" && sources include config src drivers tools demo tests cmake .ci \
     -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt -o -name run |
     while read -r file; do head -n 2 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"; done)
   [ -z "$without" ] || { printf 'no licence line:\n%s\n' "$without"; return 1; }

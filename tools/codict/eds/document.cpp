@@ -66,6 +66,25 @@ void report_line_ends(const Source& source, Findings& findings) {
   }
 }
 
+// Of sections, or of keys: by name, and those of a name by place.
+template <typename Named>
+bool comes_before(const Source& source, const Named& a, const Named& b) {
+  const int difference = compare_names(source.slice(a.name), source.slice(b.name));
+  return difference != 0 ? difference < 0 : a.name.begin < b.name.begin;
+}
+
+// sorted: as comes_before() has it
+template <typename Named>
+void mark_duplicates(const Source& source, const std::vector<Named*>& sorted, const Rule& rule, const char* text,
+                     Findings& findings) {
+  for (std::size_t n = 1; n < sorted.size(); ++n) {
+    if (compare_names(source.slice(sorted[n - 1]->name), source.slice(sorted[n]->name)) == 0) {
+      sorted[n]->is_duplicate = true;
+      findings.add(rule, sorted[n]->name, text);
+    }
+  }
+}
+
 }  // namespace
 
 int compare_names(std::string_view a, std::string_view b) {
@@ -181,34 +200,23 @@ void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
 }
 
 void Document::find_duplicates(Findings& findings) {
-  const auto before = [this](const auto& a, const auto& b) {
-    const int difference = compare_names(raw(a.name), raw(b.name));
-    return difference != 0 ? difference < 0 : a.name.begin < b.name.begin;
-  };
   by_name_.resize(sections_.size());
   std::iota(by_name_.begin(), by_name_.end(), 0U);
   std::sort(by_name_.begin(), by_name_.end(),
-            [this, before](std::uint32_t a, std::uint32_t b) { return before(sections_[a], sections_[b]); });
-  for (std::size_t n = 1; n < by_name_.size(); ++n) {
-    Section& section = sections_[by_name_[n]];
-    if (compare_names(raw(sections_[by_name_[n - 1]].name), raw(section.name)) == 0) {
-      section.is_duplicate = true;
-      findings.add(rules::duplicate_section, section.name, "a second section of this name: the first one is used");
-    }
+            [this](std::uint32_t a, std::uint32_t b) { return comes_before(source_, sections_[a], sections_[b]); });
+  std::vector<Section*> sections;
+  for (const std::uint32_t place : by_name_) {
+    sections.push_back(&sections_[place]);
   }
-  std::vector<Key*> keys;
+  mark_duplicates(source_, sections, rules::duplicate_section, "a second section of this name: the first one is used",
+                  findings);
   for (Section& section : sections_) {
-    keys.clear();
+    std::vector<Key*> keys;
     for (Key& key : section.keys) {
       keys.push_back(&key);
     }
-    std::sort(keys.begin(), keys.end(), [before](const Key* a, const Key* b) { return before(*a, *b); });
-    for (std::size_t n = 1; n < keys.size(); ++n) {
-      if (compare_names(raw(keys[n - 1]->name), raw(keys[n]->name)) == 0) {
-        keys[n]->is_duplicate = true;
-        findings.add(rules::duplicate_key, keys[n]->name, "a second key of this name: the first one is used");
-      }
-    }
+    std::sort(keys.begin(), keys.end(), [this](const Key* a, const Key* b) { return comes_before(source_, *a, *b); });
+    mark_duplicates(source_, keys, rules::duplicate_key, "a second key of this name: the first one is used", findings);
   }
 }
 

@@ -57,18 +57,20 @@ NumberedList read_list(const Section& section, std::string_view count_key, std::
   NumberedList list;
   for (const Key& key : section.keys) {
     NumberedKey entry{0, &key};
-    if (key.is_duplicate) {
+    const std::string_view name = document.raw(key.name);
+    const bool is_count = compare_names(name, count_key) == 0;
+    const bool is_entry = number_of(name, word, entry.number);
+    const bool is_empty = is_entry && word.empty() && key.value.is_empty();
+    if (key.is_duplicate || is_empty || !(is_count || is_entry)) {
       list.others.push_back(&key);
-    } else if (compare_names(document.raw(key.name), count_key) == 0) {
+    } else if (is_entry) {
+      list.entries.push_back(entry);
+    } else {
       static_cast<Text&>(list.count) = text_of(document, key);
       interpret_number(list.count, std::numeric_limits<std::uint32_t>::max(), reader.findings);
-    } else if (!number_of(document.raw(key.name), word, entry.number)) {
-      list.others.push_back(&key);
-    } else if (key.value.is_empty() && word.empty()) {
+    }
+    if (is_empty) {
       reader.findings.add(rules::list_entry, key.name, "an entry without a value");
-      list.others.push_back(&key);
-    } else {
-      list.entries.push_back(entry);
     }
   }
   std::stable_sort(list.entries.begin(), list.entries.end(),

@@ -71,6 +71,14 @@ bool take_sub(std::string_view rest, SectionName& name) {
   return true;
 }
 
+// Behind the index of an object: the word of a list; other if it is something else.
+SectionKind list_kind(std::string_view rest) {
+  const auto* const found = std::find_if(suffixes.begin(), suffixes.end(), [rest](const Suffix& suffix) {
+    return equal_ignoring_case(rest, suffix.word);
+  });
+  return found != suffixes.end() ? found->kind : SectionKind::other;
+}
+
 // An index and what follows it; kind stays what it is if this is something else.
 void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub, SectionName& name) {
   const std::string_view digits = take_index(text);
@@ -87,11 +95,7 @@ void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub
   } else if (take_sub(text, read)) {
     read.kind = with_sub;
   } else if (alone == SectionKind::object) {
-    for (const Suffix& suffix : suffixes) {
-      if (equal_ignoring_case(text, suffix.word)) {
-        read.kind = suffix.kind;
-      }
-    }
+    read.kind = list_kind(text);
   }
   if (read.kind != SectionKind::other) {
     name = read;
@@ -128,21 +132,21 @@ void read_module(std::string_view text, SectionName& name) {
 
 }  // namespace
 
-SectionName section_name(std::string_view text) {
-  SectionName name;
+SectionName section_name(std::string_view name) {
+  SectionName result;
   for (const std::string_view word : header_words) {
-    if (compare_names(text, word) == 0) {
-      name.kind = SectionKind::header;
-      name.word = word;
-      return name;
+    if (compare_names(name, word) == 0) {
+      result.kind = SectionKind::header;
+      result.word = word;
+      return result;
     }
   }
-  if (!text.empty() && to_lower(text.front()) == 'm') {
-    read_module(text.substr(1), name);
+  if (!name.empty() && to_lower(name.front()) == 'm') {
+    read_module(name.substr(1), result);
   } else {
-    read_indexed(text, SectionKind::object, SectionKind::sub, name);
+    read_indexed(name, SectionKind::object, SectionKind::sub, result);
   }
-  return name;
+  return result;
 }
 
 }  // namespace lexican::codict::eds

@@ -76,7 +76,7 @@ void interpret_object_code(Entry& entry, bool has_subs, Findings& findings) {
     return;
   }
   Field<std::uint8_t> number;
-  static_cast<Text&>(number) = entry.object_code;
+  static_cast<Text&>(number) = static_cast<const Text&>(entry.object_code);
   interpret_number(number, 0xFF, findings);
   const auto code = static_cast<ObjectCode>(number.value);
   if (name_of(code).empty() || code == ObjectCode::null) {
@@ -129,7 +129,7 @@ void interpret_entry(Entry& entry, bool has_subs, Findings& findings) {
   interpret_number(entry.data_type, 0xFFFF, findings);
   interpret_number(entry.flags, std::numeric_limits<std::uint32_t>::max(), findings);
   Field<bool> mapping;
-  static_cast<Text&>(mapping) = entry.pdo_mapping;
+  static_cast<Text&>(mapping) = static_cast<const Text&>(entry.pdo_mapping);
   interpret_flag(mapping, findings);
   entry.pdo_mapping.value = mapping.value ? PdoMapping::optional : PdoMapping::no;
   require(entry.name, "ParameterName", entry, findings);
@@ -259,6 +259,32 @@ void read_object(Object& object, const Section& section, const Reader& reader) {
   }
 }
 
+// Parts come sorted: each belongs to the last object, or begins a new one.
+void read_part(const NamedSection& part, std::vector<Object>& objects, const Reader& reader) {
+  const bool is_new = objects.empty() || objects.back().index != part.name.index;
+  Object& object = is_new ? objects.emplace_back() : objects.back();
+  object.index = part.name.index;
+  if (!part.name.is_sub) {
+    read_object(object, *part.section, reader);
+    return;
+  }
+  if (is_new) {
+    object.span = part.section->name;
+    reader.findings.add(rules::section_orphan, part.section->name, "a sub-object of an object that has no section");
+  }
+  Sub& sub = object.subs.emplace_back();
+  sub.sub_index = part.name.sub_index;
+  read_sub(sub, *part.section, reader);
+}
+
+void keep_second(const NamedSection& part, std::vector<Kept>& others, const Reader& reader) {
+  if (!part.section->is_duplicate) {  // else that has been said
+    reader.findings.add(rules::duplicate_section, part.section->name,
+                        "a second section of this meaning: the first one is used");
+  }
+  others.push_back(kept(reader.document, *part.section));
+}
+
 }  // namespace
 
 std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader) {
@@ -271,28 +297,11 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Ke
   const NamedSection* before = nullptr;
   for (const NamedSection& part : parts) {
     if (before != nullptr && key_of(*before) == key_of(part)) {
-      if (!part.section->is_duplicate) {  // else that has been said
-        reader.findings.add(rules::duplicate_section, part.section->name,
-                            "a second section of this meaning: the first one is used");
-      }
-      others.push_back(kept(reader.document, *part.section));
-      continue;
+      keep_second(part, others, reader);
+    } else {
+      read_part(part, objects, reader);
+      before = &part;
     }
-    before = &part;
-    const bool is_new = objects.empty() || objects.back().index != part.name.index;
-    Object& object = is_new ? objects.emplace_back() : objects.back();
-    object.index = part.name.index;
-    if (!part.name.is_sub) {
-      read_object(object, *part.section, reader);
-      continue;
-    }
-    if (is_new) {
-      object.span = part.section->name;
-      reader.findings.add(rules::section_orphan, part.section->name, "a sub-object of an object that has no section");
-    }
-    Sub& sub = object.subs.emplace_back();
-    sub.sub_index = part.name.sub_index;
-    read_sub(sub, *part.section, reader);
   }
   for (Object& object : objects) {
     interpret_object(object, reader.findings);

@@ -92,6 +92,15 @@ void add(ParsedInteger& sum, const ParsedInteger& summand, std::size_t offset) {
   }
 }
 
+// Nothing is added by what may follow $NODEID.
+ParsedInteger behind_node_id(std::string_view rest) {
+  ParsedInteger nothing;
+  if (!rest.empty()) {
+    nothing.fault = without_comment(rest).empty() ? NumberFault::comment : NumberFault::no_number;
+  }
+  return nothing;
+}
+
 double from_pattern(std::uint64_t pattern, unsigned bits) {
   if (bits == 32) {
     const auto narrow = static_cast<std::uint32_t>(pattern);
@@ -178,27 +187,16 @@ ParsedFormula parse_formula(std::string_view text) {
     return formula;
   }
   formula.is_standard = text.substr(0, node_id.size()) == "$NODEID" && text.find(' ') == std::string_view::npos;
-  for (std::size_t at = 0; at <= text.size();) {
+  // A comment is the last summand, even if it has a plus.
+  for (std::size_t at = 0; at <= text.size() && formula.number.fault != NumberFault::comment;) {
     const std::size_t plus = std::min(text.find('+', at), text.size());
-    const std::string_view raw = text.substr(at, plus - at);
-    std::string_view part = trimmed(raw);
+    const std::string_view part = trimmed(text.substr(at, plus - at));
     const std::size_t offset = part.empty() ? at : static_cast<std::size_t>(part.data() - text.data());
     if (!formula.has_node_id && starts_with_node_id(part)) {
       formula.has_node_id = true;
-      part = part.substr(node_id.size());
-      // A comment behind the last summand.
-      const std::string_view behind = trimmed(part);
-      if (!behind.empty()) {
-        const bool is_comment = is_blank(part.front()) && behind.front() == ';';
-        add(formula.number, {{}, Base::decimal, is_comment ? NumberFault::comment : NumberFault::no_number, 0},
-            offset + node_id.size());
-        return formula;
-      }
+      add(formula.number, behind_node_id(part.substr(node_id.size())), offset + node_id.size());
     } else {
       add(formula.number, parse_integer(part), offset);
-    }
-    if (formula.number.fault == NumberFault::comment) {
-      return formula;  // with a plus, perhaps
     }
     at = plus + 1;
   }

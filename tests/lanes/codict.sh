@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read"
+packages=("${build_packages[@]}" "${tool_packages[@]}")
+
+lane() {
+  local targets=(lexican_codict_tests codict)
+  build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g -O1" -DLEXICAN_SANITIZE=address,undefined \
+    -DLEXICAN_TOOLS=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+  run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
+}
