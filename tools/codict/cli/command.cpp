@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "check/check.hpp"
+#include "eds/read.hpp"
+#include "eds/recognise.hpp"
+#include "text/file.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::cli {
+
+std::optional<Input> read(Source source, std::string& why) {
+  why = eds::refusal(source);
+  if (!why.empty()) {
+    return std::nullopt;
+  }
+  Input input;
+  input.document = std::make_unique<const eds::Document>(std::move(source), input.findings);
+  why = eds::refusal(*input.document);
+  if (!why.empty()) {
+    return std::nullopt;
+  }
+  input.description = eds::read(*input.document, input.findings);
+  return input;
+}
+
+std::optional<Input> open(const std::string& path) {
+  std::string why;
+  std::optional<Source> source = read_file(path, why);
+  if (!source) {
+    complain(why);
+    return std::nullopt;
+  }
+  const std::string name = source->name();
+  std::optional<Input> input = read(std::move(*source), why);
+  if (!input) {
+    complain(name + ": " + why);
+  }
+  return input;
+}
+
+void check_all(Input& input) {
+  check::check_objects(input.device(), input.findings);
+  check::check_device(input.device(), input.findings);
+  input.findings.sort();
+}
+
+void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", text); }
+
+void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
+
+bool parse_reference(std::string_view text, Reference& reference) {
+  if (equal_ignoring_case(text.substr(0, 2), "0x")) {
+    text.remove_prefix(2);
+  }
+  std::size_t end = text.find(':');
+  std::size_t sub = end == std::string_view::npos ? end : end + 1;
+  if (end == std::string_view::npos && (end = text.find("sub")) != std::string_view::npos) {
+    sub = end + 3;
+  }
+  std::uint64_t index = 0;
+  std::uint64_t sub_index = 0;
+  if (!parse_hex(text.substr(0, end), index) || index > 0xFFFF) {
+    return false;
+  }
+  reference = {static_cast<std::uint16_t>(index), std::nullopt};
+  if (sub == std::string_view::npos) {
+    return true;
+  }
+  std::string_view digits = text.substr(sub);
+  if (equal_ignoring_case(digits.substr(0, 2), "0x")) {
+    digits.remove_prefix(2);
+  }
+  reference.sub_index = static_cast<std::uint8_t>(parse_hex(digits, sub_index) ? sub_index : 0);
+  return parse_hex(digits, sub_index) && sub_index <= 0xFF;
+}
+
+std::string to_string(const Reference& reference) {
+  return reference.sub_index ? fmt::format("{:04X}:{:02X}", reference.index, *reference.sub_index)
+                             : fmt::format("{:04X}", reference.index);
+}
+
+const Entry* find(const Device& device, const Reference& reference) {
+  return reference.sub_index ? device.find(reference.index, *reference.sub_index) : device.find(reference.index);
+}
+
+std::string type_name(const Entry& entry) {
+  const std::uint16_t code = entry.data_type.value;
+  const DataType& type = data_type(code);
+  if (!type.name.empty()) {
+    return std::string(type.name);
+  }
+  return code == 0 ? "-" : fmt::format("type {:04X}h", code);
+}
+
+}  // namespace lexican::codict::cli

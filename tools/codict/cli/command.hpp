@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file command.hpp
+/// What the commands share: a file each, and a row in main.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "eds/document.hpp"
+#include "model/device.hpp"
+#include "text/finding.hpp"
+#include "text/source.hpp"
+
+namespace lexican::codict::cli {
+
+/// What the program's exit status says.
+enum Status : int {
+  clean = 0,
+  found = 1,       ///< findings, or differences
+  unusable = 2,    ///< wrong use, or input that cannot be read
+  unexpected = 3,  ///< a fault of the program
+};
+
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<int()> run;
+};
+
+Command add_check(CLI::App& app);
+Command add_get(CLI::App& app);
+Command add_info(CLI::App& app);
+Command add_list(CLI::App& app);
+Command add_set(CLI::App& app);
+
+using Json = nlohmann::ordered_json;
+
+/// A description that has been read, with what its reader found.
+struct Input {
+  std::unique_ptr<const eds::Document> document;
+  Findings findings;
+  Description description;
+
+  const Source& source() const { return document->source(); }
+  const Device& device() const { return description.devices.front(); }
+};
+
+/// Why not is said on the standard error output.
+std::optional<Input> open(const std::string& path);
+/// The same for what is in memory already; without a result, why is one line.
+std::optional<Input> read(Source source, std::string& why);
+
+/// Adds what the checks find to what the reader has found, by place.
+void check_all(Input& input);
+
+/// "codict: text", on the standard error output.
+void complain(std::string_view text);
+/// To the standard output.
+void print(std::string_view text);
+void print_json(const Json& json);
+
+/// "0x2000:1", "2000:1", "2000sub1", or without a sub-index; false if it is none of them.
+struct Reference {
+  std::uint16_t index = 0;
+  std::optional<std::uint8_t> sub_index;
+};
+bool parse_reference(std::string_view text, Reference& reference);
+/// "2000:01", "2000".
+std::string to_string(const Reference& reference);
+
+/// Null if there is none; an object without a sub-index is itself.
+const Entry* find(const Device& device, const Reference& reference);
+
+/// What a data type is called: by CiA 301, or by its number.
+std::string type_name(const Entry& entry);
+
+}  // namespace lexican::codict::cli

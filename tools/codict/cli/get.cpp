@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "cli/command.hpp"
+#include "cli/field.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::string target;
+  std::string field;
+  bool is_json = false;
+};
+
+Json to_json(const Input& input, const eds::Key& key) {
+  const Position position = input.source().position(key.value.begin);
+  return {{"key", input.document->text(key.name)},
+          {"text", input.document->text(key.value)},
+          {"line", position.line},
+          {"column", position.column}};
+}
+
+int get_all(const Input& input, const eds::Section& section, bool is_json) {
+  Json keys = Json::array();
+  std::string lines;
+  for (const eds::Key& key : section.keys) {
+    keys.push_back(to_json(input, key));
+    lines += fmt::format("{}={}\n", input.document->text(key.name), input.document->text(key.value));
+  }
+  if (is_json) {
+    print_json(
+        Json{{"schema", "codict-get-1"}, {"section", input.document->text(section.name)}, {"keys", std::move(keys)}});
+  } else {
+    print(lines);
+  }
+  return clean;
+}
+
+int run(const Options& options) {
+  const std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  std::string why;
+  const eds::Section* const section = find_section(*input, options.target, why);
+  if (section == nullptr) {
+    complain(input->source().name() + ": " + why);
+    return unusable;
+  }
+  if (options.field.empty()) {
+    return get_all(*input, *section, options.is_json);
+  }
+  const eds::Key* const key = input->document->find(*section, key_of(options.field));
+  if (key == nullptr) {
+    complain(fmt::format("{}: [{}] has no {}", input->source().name(), input->document->text(section->name),
+                         key_of(options.field)));
+    return unusable;
+  }
+  if (options.is_json) {
+    Json json = {{"schema", "codict-get-1"}, {"section", input->document->text(section->name)}};
+    json["keys"] = Json::array({to_json(*input, *key)});
+    print_json(json);
+  } else {
+    print(input->document->text(key->value) + "\n");
+  }
+  return clean;
+}
+
+}  // namespace
+
+Command add_get(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand("get", "Show one value, or all of an object or section");
+  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
+  command->add_option("field", options->field,
+                      "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key");
+  command->add_flag("--json", options->is_json, "For programs");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/render.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+namespace lexican::codict::cli {
+
+namespace {
+
+constexpr std::uint32_t widest = 160;  // bytes of a line that are shown
+constexpr std::uint32_t ahead = 60;    // of them in front of the place, in longer lines
+
+constexpr std::string_view bold = "\x1B[1m";
+constexpr std::string_view plain = "\x1B[0m";
+
+std::string_view colour_of(Severity severity) {
+  switch (severity) {
+    case Severity::note: return "\x1B[1;36m";
+    case Severity::warning: return "\x1B[1;35m";
+    case Severity::error: break;
+  }
+  return "\x1B[1;31m";
+}
+
+bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
+
+// Letters, not bytes; nothing that a terminal would obey.
+std::string shown(const Source& source, Encoding encoding, Span span) {
+  std::string text = to_utf8(source.slice(span), encoding);
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == '\x7F'; }, '?');
+  return text;
+}
+
+std::size_t letters(const std::string& text) {
+  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_letter));
+}
+
+// What is as wide as the text: tabs are as wide as tabs.
+std::string blanks_for(const std::string& text) {
+  std::string blanks;
+  for (const char c : text) {
+    if (!continues_letter(c)) {
+      blanks += c == '\t' ? '\t' : ' ';
+    }
+  }
+  return blanks;
+}
+
+std::string excerpt(const Source& source, Encoding encoding, Span span) {
+  const Span all = source.line(source.position(span.begin).line);
+  Span line = all;
+  if (line.size() > widest) {
+    line.begin = std::max(line.begin, span.begin - std::min(span.begin, ahead));
+    line.end = std::min(line.end, line.begin + widest);
+  }
+  if (line.is_empty()) {
+    return {};
+  }
+  const std::uint32_t begin = std::clamp(span.begin, line.begin, line.end);
+  const std::uint32_t end = std::clamp(span.end, begin, line.end);
+  const std::string before = shown(source, encoding, {line.begin, begin});
+  const std::string marked = shown(source, encoding, {begin, end});
+  const std::string after = shown(source, encoding, {end, line.end});
+  const std::string tail(std::max<std::size_t>(letters(marked), 1) - 1, '~');
+  return fmt::format("    {}{}{}\n    {}^{}\n", before, marked, after, blanks_for(before), tail);
+}
+
+std::string plural(std::size_t number, std::string_view word) {
+  return fmt::format("{} {}{}", number, word, number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+bool wants_colour() {
+  const char* const refusal = std::getenv("NO_COLOR");
+  return ::isatty(STDOUT_FILENO) == 1 && (refusal == nullptr || *refusal == '\0');
+}
+
+std::string render(const Source& source, Encoding encoding, const std::vector<Folded>& findings, bool has_colour) {
+  std::string text;
+  for (const Folded& folded : findings) {
+    const Finding& finding = *folded.first;
+    const Position position = source.position(finding.span.begin);
+    const Severity severity = finding.rule->severity;
+    text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", source.name(), position.line,
+                        position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
+                        name_of(severity), has_colour ? plain : "", finding.text, finding.rule->id);
+    text += excerpt(source, encoding, finding.span);
+    if (!finding.hint.empty()) {
+      text += fmt::format("    fix: {}\n", finding.hint);
+    }
+    if (folded.more != 0) {
+      text += fmt::format("    and {} more\n", folded.more);
+    }
+  }
+  return text;
+}
+
+Json to_json(const Source& source, const std::vector<Folded>& findings) {
+  Json all = Json::array();
+  for (const Folded& folded : findings) {
+    const Finding& finding = *folded.first;
+    const Position begin = source.position(finding.span.begin);
+    const Position end = source.position(finding.span.end);
+    Json json;
+    json["severity"] = name_of(finding.rule->severity);
+    json["rule"] = finding.rule->id;
+    json["text"] = finding.text;
+    if (!finding.hint.empty()) {
+      json["fix"] = finding.hint;
+    }
+    json["line"] = begin.line;
+    json["column"] = begin.column;
+    json["end_line"] = end.line;
+    json["end_column"] = end.column;
+    json["count"] = folded.more + 1;
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
+std::string summary(std::size_t errors, std::size_t warnings, std::size_t notes) {
+  std::string text;
+  const auto append = [&text](std::size_t number, std::string_view word) {
+    if (number != 0) {
+      text += (text.empty() ? "" : ", ") + plural(number, word);
+    }
+  };
+  append(errors, "error");
+  append(warnings, "warning");
+  append(notes, "note");
+  return text;
+}
+
+}  // namespace lexican::codict::cli

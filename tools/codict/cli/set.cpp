@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "cli/command.hpp"
+#include "cli/field.hpp"
+#include "cli/render.hpp"
+#include "text/edit.hpp"
+#include "text/file.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::string target;
+  std::vector<std::string> assignments;
+  std::string output;
+  bool is_forced = false;
+  bool is_json = false;
+};
+
+// "field=text"; false if it is something else.
+bool assign(const Input& input, const eds::Section& section, std::string_view assignment, Edits& edits,
+            std::string& why) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos || trimmed(assignment.substr(0, equals)).empty()) {
+    why = "not of the form field=value: " + std::string(assignment);
+    return false;
+  }
+  const std::string_view name = key_of(trimmed(assignment.substr(0, equals)));
+  const std::string_view text = trimmed(assignment.substr(equals + 1));
+  const eds::Key* const key = input.document->find(section, name);
+  const bool is_set = key != nullptr ? input.document->set_value(*key, text, edits)
+                                     : input.document->add_key(section, name, text, edits);
+  if (!is_set) {
+    why = "the file cannot hold this text: " + std::string(assignment);
+  }
+  return is_set;
+}
+
+// Findings that were not there before, as many of them as there are more of one rule and text.
+std::vector<Finding> added(const Findings& before, const Findings& after) {
+  std::vector<Finding> result;
+  const std::vector<Folded> old = fold(before.all());
+  for (const Folded& now : fold(after.all())) {
+    const auto same = std::find_if(old.begin(), old.end(), [&now](const Folded& candidate) {
+      return candidate.first->rule == now.first->rule && candidate.first->text == now.first->text;
+    });
+    if (same == old.end() || same->more < now.more) {
+      result.push_back(*now.first);
+    }
+  }
+  return result;
+}
+
+// True if what would be written has no errors that were not there before.
+bool review(Input& before, Input& after) {
+  check_all(before);
+  check_all(after);
+  const std::vector<Finding> fresh = added(before.findings, after.findings);
+  fmt::print(stderr, "{}", render(after.source(), after.document->encoding(), fold(fresh), false));
+  return std::none_of(fresh.begin(), fresh.end(),
+                      [](const Finding& finding) { return finding.rule->severity == Severity::error; });
+}
+
+int write(const Options& options, const Input& input, const std::string& bytes) {
+  const std::string path = options.output.empty() ? options.file : options.output;
+  std::string why;
+  const Written written = write_file(path, bytes, why);
+  if (written == Written::no) {
+    complain(why);
+    return unusable;
+  }
+  if (options.is_json && path != "-") {
+    print_json(Json{{"schema", "codict-set-1"}, {"file", path}, {"changed", bytes != input.source().bytes()}});
+  }
+  return clean;
+}
+
+int run(const Options& options) {
+  std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  std::string why;
+  const eds::Section* const section = find_section(*input, options.target, why);
+  Edits edits;
+  bool is_possible = section != nullptr;
+  for (const std::string& assignment : options.assignments) {
+    is_possible = is_possible && assign(*input, *section, assignment, edits, why);
+  }
+  if (!is_possible) {
+    complain(input->source().name() + ": " + why);
+    return unusable;
+  }
+  const std::string bytes = edits.applied_to(input->source().bytes());
+  std::optional<Input> changed = read(Source(input->source().name(), bytes), why);
+  if (!options.is_forced && !(changed && review(*input, *changed))) {
+    complain("nothing is written: --force writes it nevertheless");
+    return found;
+  }
+  return write(options, *input, bytes);
+}
+
+}  // namespace
+
+Command add_set(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command =
+      app.add_subcommand("set", "Change values of an object or section; all other bytes stay as they are");
+  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
+  command
+      ->add_option("assignment", options->assignments,
+                   "field=value, the fields as those of get; a key that is not there is added")
+      ->required();
+  command->add_option("-o,--output", options->output, "Another file, - for the standard output");
+  command->add_flag("--force", options->is_forced, "Write values even where they are errors");
+  command->add_flag("--json", options->is_json, "For programs");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli
