@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # What the lanes fuzz and fuzz_corpus share.
-fuzz_targets=(node sdo_client sdo_server)
+fuzz_targets=(node sdo_client sdo_server eds)
 
-# Builds the targets and the library alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
+# Builds the targets and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
 build_fuzz() {
+  local targets=("${fuzz_targets[@]/%/_fuzz}")
   build_tree "$1" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER="$2" -DCMAKE_CXX_COMPILER="$3" -DCMAKE_CXX_FLAGS_DEBUG="-g -O1" \
-    -DLEXICAN_SANITIZE="$4" -DLEXICAN_FUZZ=ON -DLEXICAN_PRESET=full -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF \
+    -DLEXICAN_SANITIZE="$4" -DLEXICAN_FUZZ=ON -DLEXICAN_PRESET=full -DLEXICAN_TESTS=OFF -DLEXICAN_TOOLS=ON -DLEXICAN_DEMO=OFF \
     -DLEXICAN_DRIVERS=OFF -DLEXICAN_INSTALL=OFF -DLEXICAN_WARNINGS_AS_ERRORS=ON
 }

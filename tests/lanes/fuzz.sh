@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="each fuzz target for LEXICAN_FUZZ_SECONDS (60), beginning with the committed inputs"
-packages=("${build_packages[@]}" "${clang_packages[@]}")
+packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 
 # New inputs and findings stay in build/fuzz-TARGET.

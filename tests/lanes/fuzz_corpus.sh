@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the fuzz targets with their committed inputs, gcc and clang with address and undefined behaviour sanitizers"
-packages=("${build_packages[@]}" "${clang_packages[@]}")
+packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 
 lane() {

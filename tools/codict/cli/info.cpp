@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,11 +77,23 @@ Json describe(const Input& input) {
   return json;
 }
 
-// "vendor_number" is "Vendor number" for people.
-std::string title(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  name.front() = static_cast<char>(name.front() - 'a' + 'A');
-  return name;
+// "receive_pdos" is "Receive PDOs" for people.
+std::string title(const std::string& name) {
+  constexpr std::array<std::string_view, 3> abbreviations = {"pdo", "sdo", "id"};
+  std::string result;
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t end = std::min(name.find('_', at), name.size());
+    std::string word = name.substr(at, end - at);
+    const bool is_abbreviation = std::any_of(abbreviations.begin(), abbreviations.end(), [&word](std::string_view a) {
+      return word == a || word == std::string(a) + "s";
+    });
+    const std::size_t capitals = is_abbreviation ? word.find_last_not_of('s') + 1 : at == 0 ? 1 : 0;
+    std::transform(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(capitals), word.begin(),
+                   [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+    result += (at == 0 ? "" : " ") + word;
+    at = end + 1;
+  }
+  return result;
 }
 
 std::string plain(const Json& value) {

@@ -46,12 +46,14 @@ void report_encoding(const Source& source, Encoding encoding, Findings& findings
   if (encoding == Encoding::ascii || first == bytes.end()) {
     return;
   }
-  const auto at = static_cast<std::uint32_t>(first - bytes.begin());
+  const auto last = std::find_if(first, bytes.end(), [](char c) { return is_ascii({&c, 1}); });
+  const Span letters{static_cast<std::uint32_t>(first - bytes.begin()),
+                     static_cast<std::uint32_t>(last - bytes.begin())};
   if (encoding == Encoding::utf8) {
-    findings.add(rules::encoding_utf8, {at, at + 1}, "not ASCII: read as UTF-8");
+    findings.add(rules::encoding_utf8, letters, "not ASCII: read as UTF-8");
   } else {
-    findings.add(rules::encoding_guess, {at, at + 1},
-                 "neither ASCII nor UTF-8: read as " + std::string(name_of(encoding)), "save the file as UTF-8");
+    findings.add(rules::encoding_guess, letters, "neither ASCII nor UTF-8: read as " + std::string(name_of(encoding)),
+                 "save the file as UTF-8");
   }
 }
 
@@ -267,7 +269,7 @@ bool Document::add_key(const Section& section, std::string_view name, std::strin
   }
   const std::uint32_t neighbour = section.keys.empty() ? section.line : section.keys.back().line;
   std::string_view end = line_end_of(source_, neighbour);
-  if (end.empty()) {
+  if (end.find('\n') == std::string_view::npos) {  // the last line
     end = source_.lines() > 1 ? line_end_of(source_, 1) : "\n";
   }
   std::string between = "=";

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program codict as its user sees it: what it prints, where, and with which status it ends.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "codict/reading.hpp"
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A place for files, which is gone afterwards.
+class Directory {
+ public:
+  Directory() {
+    std::string name = std::filesystem::temp_directory_path() / "codict-cli-XXXXXX";
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Directory() { std::filesystem::remove_all(path_); }
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+  std::string operator/(const char* name) const { return path_ / name; }
+
+  // A copy of a fixture.
+  std::string with(const char* name) const {
+    std::filesystem::copy_file(test::fixture(name), path_ / name);
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Ran {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+// In the directory of the fixtures, by a shell.
+Ran run(const std::string& arguments) {
+  const Directory directory;
+  const std::string command = "cd '" + test::fixture("") + "' && '" LEXICAN_CODICT_PROGRAM "' " + arguments + " >'" +
+                              directory / "out" + "' 2>'" + directory / "err" + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(directory / "out"), bytes_of(directory / "err")};
+}
+
+}  // namespace
+
+TEST_CASE("codict: without a command, or with a wrong one, it says how it is used") {
+  CHECK(run("").status == 2);
+  CHECK(run("chek octal.eds").status == 2);
+  CHECK(run("check").status == 2);
+  CHECK(run("check --nonsense octal.eds").status == 2);
+  const Ran wrong = run("nonsense");
+  CHECK(wrong.out.empty());
+  CHECK(wrong.err.find("--help") != std::string::npos);
+}
+
+TEST_CASE("codict: help and version are products, and all is well") {
+  const Ran help = run("--help");
+  CHECK(help.status == 0);
+  CHECK(help.err.empty());
+  for (const char* word : {"info", "list", "get", "set", "check", "Exit status"}) {
+    CHECK(help.out.find(word) != std::string::npos);
+  }
+  CHECK(run("check --help").out.find("--level") != std::string::npos);
+  CHECK(run("--version").out.substr(0, 7) == "codict ");
+}
+
+TEST_CASE("codict: what cannot be read is said in one line, with status 2") {
+  for (const char* command : {"check", "info", "list"}) {
+    const Ran missing = run(std::string(command) + " missing.eds");
+    CHECK(missing.status == 2);
+    CHECK(missing.out.empty());
+    CHECK(missing.err == "codict: missing.eds: No such file or directory\n");
+  }
+  const Ran foreign = run("check .gitattributes");
+  CHECK(foreign.status == 2);
+  CHECK(foreign.err ==
+        "codict: .gitattributes: no section [FileInfo], [DeviceInfo] or of an object: this is no EDS or DCF\n");
+}
+
+TEST_CASE("codict check: a finding has its place, its line with a caret, its rule, and what to do") {
+  const Ran ran = run("check octal.eds");
+  CHECK(ran.status == 1);
+  CHECK(ran.out == R"(octal.eds:30:14: warning: a leading 0 means octal: 10 [od-value-octal]
+    DefaultValue=012
+                 ^~~
+    fix: write it without the 0, or with 0x
+octal.eds:37:16: error: 8 and 9 are no octal digits, and a leading 0 means octal [od-value-octal-digit]
+    DefaultValue=018
+                   ^
+    fix: leave out the leading 0, or write 0x
+)");
+  CHECK(ran.err == "codict: 1 error, 1 warning\n");
+}
+
+TEST_CASE("codict check: equal findings are folded, unless all are wanted") {
+  const Ran folded = run("check --level note storage_location.eds bit_pattern.eds");
+  CHECK(folded.out.find("bit_pattern.eds:32:14: note: ") != std::string::npos);
+  CHECK(folded.out.find("    and 2 more\n") != std::string::npos);
+  CHECK(folded.err == "codict: 4 notes\n");
+  const Ran all = run("check --level note --all bit_pattern.eds");
+  CHECK(all.out.find("bit_pattern.eds:46:14: note: ") != std::string::npos);
+  CHECK(all.out.find("more") == std::string::npos);
+}
+
+TEST_CASE("codict check: only what has the level is shown, and counts") {
+  CHECK(run("check bit_pattern.eds").status == 0);
+  CHECK(run("check bit_pattern.eds").out.empty());
+  CHECK(run("check bit_pattern.eds").err.empty());
+  CHECK(run("check --level note bit_pattern.eds").status == 1);
+  CHECK(run("check --level error list_twice.eds").status == 0);
+  CHECK(run("check --level error octal.eds").err == "codict: 1 error\n");
+  CHECK(run("check --level loud octal.eds").status == 2);
+}
+
+TEST_CASE("codict check: a rule can be left out by its name") {
+  CHECK(run("check --disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
+  const Ran unknown = run("check --disable od-value-hexal octal.eds");
+  CHECK(unknown.status == 2);
+  CHECK(unknown.err == "codict: there is no rule od-value-hexal\n");
+}
+
+TEST_CASE("codict check: the worst of several files is the status") {
+  CHECK(run("check semicolon.eds dos_lines.eds").status == 0);
+  CHECK(run("check semicolon.eds octal.eds").status == 1);
+  const Ran ran = run("check missing.eds octal.eds");
+  CHECK(ran.status == 2);
+  CHECK(ran.out.find("octal.eds:30:14") != std::string::npos);
+}
+
+TEST_CASE("codict check: carets stand under letters of any encoding, in lines of any length") {
+  const Ran dos = run("check --level note cp850.eds");
+  CHECK(dos.out.find(u8"    ParameterName=Größe für Öl\n                    ^~\n") != std::string::npos);
+  const Ran longest = run("check --level note long_line.eds");
+  const std::size_t line = longest.out.find("\n    x");
+  REQUIRE(line != std::string::npos);
+  CHECK(longest.out.find('\n', line + 1) - line < 170);
+  CHECK(run("check control_character.eds").out.find("    ParameterName=Be?ll\n                    ^\n") !=
+        std::string::npos);
+}
+
+TEST_CASE("codict check: JSON is for programs") {
+  const Ran ran = run("check --json --level note bit_pattern.eds semicolon.eds");
+  CHECK(ran.status == 1);
+  const Json json = Json::parse(ran.out);
+  CHECK(json.at("schema") == "codict-check-1");
+  CHECK(json.at("files").size() == 2);
+  CHECK(json.at("files").at(1).at("findings").empty());
+  const Json& finding = json.at("files").at(0).at("findings").at(0);
+  CHECK(finding.at("rule") == "od-value-bit-pattern");
+  CHECK(finding.at("severity") == "note");
+  CHECK(finding.at("line") == 32);
+  CHECK(finding.at("column") == 14);
+  CHECK(finding.at("end_column") == 24);
+  CHECK(finding.at("count") == 3);
+}
+
+TEST_CASE("codict: - is the standard input") {
+  const Ran ran = run("check - <octal.eds");
+  CHECK(ran.status == 1);
+  CHECK(ran.out.substr(0, 14) == "<stdin>:30:14:");
+}
+
+TEST_CASE("codict info: what device it is") {
+  const Ran ran = run("info file_info.eds");
+  CHECK(ran.status == 0);
+  CHECK(ran.out == R"(File             file_info.eds
+Format           EDS
+Encoding         ASCII
+Vendor           Example
+Vendor number    0x0000001F
+Product          Drive
+Product number   17
+Revision number  0x00010002
+Order code       ABC-1
+Description      What it is
+Bit rates        125 100 1000
+Objects          2
+Variables        3
+Receive PDOs     0
+Transmit PDOs    0
+SDO servers      0
+SDO clients      0
+)");
+  const Json json = Json::parse(run("info --json compact.dcf").out);
+  CHECK(json.at("schema") == "codict-info-1");
+  CHECK(json.at("node_id") == "5");
+  CHECK(json.at("variables") == 270);
+}
+
+TEST_CASE("codict list: all objects with their types and values") {
+  const Ran ran = run("list sub_zero.eds");
+  CHECK(ran.status == 0);
+  CHECK(ran.out.substr(0, ran.out.find("2001")) == R"(1000     UNSIGNED32      ro         0x00000000         Device type
+2000     RECORD                                        No default
+2000:00  UNSIGNED8       ro         -                  Part 0
+2000:01  UNSIGNED8       ro         0                  Part 1
+2000:07  UNSIGNED8       ro         0                  Part 7
+)");
+  CHECK(run("list --objects sub_zero.eds").out.find(':') == std::string::npos);
+  const Json json = Json::parse(run("list --json compact.dcf").out);
+  CHECK(json.at("objects").at(0).at("value") == "0x00000191");
+  CHECK(json.at("objects").at(3).at("index") == 0x2000);
+  CHECK(json.at("objects").at(3).at("sub_index") == 1);
+  CHECK(json.at("objects").at(3).at("pdo_mapping") == "optional");
+  CHECK(json.at("objects").at(4).at("name") == "Second gain");
+}
+
+TEST_CASE("codict get: one value as it is written, or all of an object or section") {
+  CHECK(run("get octal.eds 0x2000 default").out == "012\n");
+  CHECK(run("get octal.eds 2000:0 DefaultValue").out == "012\n");
+  CHECK(run("get sub_zero.eds 2000sub7 name").out == "Part 7\n");
+  CHECK(run("get sub_zero.eds 0x2000:0x07 name").out == "Part 7\n");
+  CHECK(run("get octal.eds fileinfo EDSVersion").out == "4.0\n");
+  CHECK(run("get octal.eds 0x2001").out ==
+        "ParameterName=No number\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nDefaultValue=018\n");
+  const Json json = Json::parse(run("get --json octal.eds 0x2000 default").out);
+  CHECK(json.at("keys").at(0).at("text") == "012");
+  CHECK(json.at("keys").at(0).at("line") == 30);
+}
+
+TEST_CASE("codict get: what is not there is named") {
+  CHECK(run("get octal.eds 0x2005").err == "codict: octal.eds: there is no object 2005\n");
+  CHECK(run("get octal.eds Weather").err == "codict: octal.eds: neither an object nor a section: Weather\n");
+  CHECK(run("get octal.eds 0x2000 high").err == "codict: octal.eds: [2000] has no HighLimit\n");
+  CHECK(run("get compact.dcf 0x2000:5 name").err ==
+        "codict: compact.dcf: 2000:05 has no section of its own: it is in compact storage\n");
+  CHECK(run("get octal.eds 0x2000 high").status == 2);
+}
+
+TEST_CASE("codict set: one line changes, and all other bytes stay") {
+  const Directory directory;
+  const std::string path = directory.with("dos_lines.eds");
+  std::string expected = bytes_of(path);
+  CHECK(run("set '" + path + "' 0x2000 default=5").status == 0);
+  expected.replace(expected.find("DefaultValue=1\r"), 15, "DefaultValue=5\r");
+  CHECK(bytes_of(path) == expected);
+  CHECK(run("set '" + path + "' 0x2000 high=9 'name=New name'").status == 0);
+  expected.replace(expected.find("DefaultValue=5\r\n"), 16, "DefaultValue=5\r\nHighLimit=9\r\n");
+  expected.replace(expected.find("ParameterName=One"), 17, "ParameterName=New name");
+  CHECK(bytes_of(path) == expected);
+}
+
+TEST_CASE("codict set: another file, or the standard output, is written instead") {
+  const Directory directory;
+  CHECK(run("set octal.eds 2000 default=3 -o '" + directory / "new.eds" + "'").status == 0);
+  CHECK(bytes_of(directory / "new.eds").find("DefaultValue=3\n") != std::string::npos);
+  CHECK(run("set - 2000 default=3 -o - <octal.eds").out == bytes_of(directory / "new.eds"));
+  CHECK(run("get octal.eds 2000 default").out == "012\n");
+}
+
+TEST_CASE("codict set: a value that is an error is not written, unless it must be") {
+  const Directory directory;
+  const std::string path = directory.with("dos_lines.eds");
+  const std::string before = bytes_of(path);
+  const Ran ran = run("set '" + path + "' 0x2000 default=256");
+  CHECK(ran.status == 1);
+  CHECK(ran.out.empty());
+  CHECK(ran.err == path + ":29:14: error: does not fit UNSIGNED8 [od-value-range]\n" +
+                       "    DefaultValue=256\n                 ^~~\n" +
+                       "codict: nothing is written: --force writes it nevertheless\n");
+  CHECK(bytes_of(path) == before);
+  CHECK(run("set --force '" + path + "' 0x2000 default=256").status == 0);
+  CHECK(bytes_of(path) != before);
+}
+
+TEST_CASE("codict set: an error that was there before is no reason to refuse") {
+  const Directory directory;
+  const std::string path = directory.with("octal.eds");
+  CHECK(run("set '" + path + "' 0x2000 default=1").status == 0);
+  CHECK(run("set '" + path + "' FileInfo ModifiedBy=me").status == 0);
+  CHECK(run("get '" + path + "' FileInfo ModifiedBy").out == "me\n");
+}
+
+TEST_CASE("codict set: wrong use is said, and nothing is written") {
+  CHECK(run("set octal.eds 0x2000").status == 2);
+  CHECK(run("set octal.eds 0x2000 default").err == "codict: octal.eds: not of the form field=value: default\n");
+  CHECK(run("set octal.eds 0x2009 default=1").status == 2);
+  CHECK(run("set cp850.eds 0x2000 'name=→' -o -").err == "codict: cp850.eds: the file cannot hold this text: name=→\n");
+  CHECK(run("set octal.eds 0x2000 default=1 -o no/such/place").err ==
+        "codict: no/such/place: No such file or directory\n");
+}
