@@ -42,10 +42,10 @@ void report_encoding(const Source& source, Encoding encoding, Findings& findings
   if (mark != 0) {
     findings.add(rules::encoding_mark, {0, mark}, "a mark for UTF-8 at the beginning: passed over");
   }
-  const auto first = std::find_if(bytes.begin() + mark, bytes.end(), [](char c) { return !is_ascii({&c, 1}); });
-  if (encoding == Encoding::ascii || first == bytes.end()) {
+  if (is_ascii(bytes.substr(mark))) {
     return;
   }
+  const auto first = std::find_if(bytes.begin() + mark, bytes.end(), [](char c) { return !is_ascii({&c, 1}); });
   const auto last = std::find_if(first, bytes.end(), [](char c) { return is_ascii({&c, 1}); });
   const Span letters{static_cast<std::uint32_t>(first - bytes.begin()),
                      static_cast<std::uint32_t>(last - bytes.begin())};
@@ -66,6 +66,13 @@ void report_line_ends(const Source& source, Findings& findings) {
       return;
     }
   }
+}
+
+std::size_t pass_blanks(std::string_view text, std::size_t at) {
+  while (at != text.size() && is_blank(text[at])) {
+    ++at;
+  }
+  return at;
 }
 
 // Of sections, or of keys: by name, and those of a name by place.
@@ -90,25 +97,20 @@ void mark_duplicates(const Source& source, const std::vector<Named*>& sorted, co
 }  // namespace
 
 int compare_names(std::string_view a, std::string_view b) {
-  const auto pass_blanks = [](std::string_view text) {
-    while (!text.empty() && is_blank(text.front())) {
-      text.remove_prefix(1);
-    }
-    return text;
-  };
+  std::size_t n = 0;
+  std::size_t m = 0;
   for (;;) {
-    a = pass_blanks(a);
-    b = pass_blanks(b);
-    if (a.empty() || b.empty()) {
-      return static_cast<int>(!a.empty()) - static_cast<int>(!b.empty());
+    n = pass_blanks(a, n);
+    m = pass_blanks(b, m);
+    if (n == a.size() || m == b.size()) {
+      return static_cast<int>(n != a.size()) - static_cast<int>(m != b.size());
     }
-    const int difference =
-        static_cast<unsigned char>(to_lower(a.front())) - static_cast<unsigned char>(to_lower(b.front()));
+    const int difference = static_cast<unsigned char>(to_lower(a[n])) - static_cast<unsigned char>(to_lower(b[m]));
     if (difference != 0) {
       return difference;
     }
-    a.remove_prefix(1);
-    b.remove_prefix(1);
+    ++n;
+    ++m;
   }
 }
 

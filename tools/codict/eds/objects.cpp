@@ -259,6 +259,14 @@ void read_object(Object& object, const Section& section, const Reader& reader) {
   }
 }
 
+std::size_t number_of_objects(const std::vector<NamedSection>& sorted) {
+  std::size_t number = 0;
+  for (std::size_t n = 0; n < sorted.size(); ++n) {
+    number += n == 0 || sorted[n].name.index != sorted[n - 1].name.index ? 1U : 0U;
+  }
+  return number;
+}
+
 // Parts come sorted: each belongs to the last object, or begins a new one.
 void read_part(const NamedSection& part, std::vector<Object>& objects, const Reader& reader) {
   const bool is_new = objects.empty() || objects.back().index != part.name.index;
@@ -294,6 +302,7 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Ke
   std::stable_sort(parts.begin(), parts.end(),
                    [key_of](const NamedSection& a, const NamedSection& b) { return key_of(a) < key_of(b); });
   std::vector<Object> objects;
+  objects.reserve(number_of_objects(parts));
   const NamedSection* before = nullptr;
   for (const NamedSection& part : parts) {
     if (before != nullptr && key_of(*before) == key_of(part)) {

@@ -223,7 +223,8 @@ ParsedReal parse_real(std::string_view text, unsigned bits) {
     pointed[comma] = '.';
     real.form = read_decimal(pointed, real.value) ? RealForm::decimal_comma : RealForm::no_number;
   }
-  if (bits == 32 && std::isfinite(real.value) && std::abs(real.value) > static_cast<double>(std::numeric_limits<float>::max())) {
+  if (bits == 32 && std::isfinite(real.value) &&
+      std::abs(real.value) > static_cast<double>(std::numeric_limits<float>::max())) {
     return {};
   }
   return real;
