@@ -4,7 +4,7 @@ packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}" cl
 
 # How each file is compiled is known once the preset is configured: nothing is built here.
 lane() {
-  (cd "$root" && cmake --preset development) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
+  (cd "$root" && cmake --preset development -DLEXICAN_TOOLS=ON) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
   local file logs=$results/tidy
   rm -rf "$logs" && mkdir -p "$logs"
   sources src drivers tools -name '*.cpp' -not -path '*/template/*' |
