@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diff/recorder.hpp"
+
+namespace lexican::codict::diff {
+
+namespace {
+
+bool are_equal(const Value& a, const Value& b) {
+  if (a.kind != b.kind) {
+    return false;
+  }
+  switch (a.kind) {
+    case Value::Kind::none: return true;
+    case Value::Kind::integer: return a.integer == b.integer && a.adds_node_id == b.adds_node_id;
+    case Value::Kind::real: return a.real == b.real;
+    case Value::Kind::octets: return a.octets == b.octets;
+    case Value::Kind::text:
+    case Value::Kind::malformed: break;
+  }
+  return a.text == b.text;
+}
+
+// Access ---------------------------------------------------------------------------------------------------------
+
+// What the network may do with an entry.
+struct Rights {
+  bool read = false;
+  bool write = false;
+  bool send = false;     // in a TPDO
+  bool receive = false;  // in an RPDO
+
+  bool operator==(const Rights& other) const {
+    return read == other.read && write == other.write && send == other.send && receive == other.receive;
+  }
+  bool has_all_of(const Rights& other) const {
+    return read >= other.read && write >= other.write && send >= other.send && receive >= other.receive;
+  }
+};
+
+Rights rights_of(const Entry& entry) {
+  const Access access = entry.access.value;
+  const PdoMapping mapping = entry.pdo_mapping.value;
+  const bool is_mapped = mapping != PdoMapping::no;
+  Rights rights;
+  rights.read = is_readable(access);
+  rights.write = is_writable(access);
+  rights.send = is_mapped && rights.read && mapping != PdoMapping::rpdo && access != Access::rww;
+  rights.receive = is_mapped && rights.write && mapping != PdoMapping::tpdo && access != Access::rwr;
+  return rights;
+}
+
+void compare_rights(const Entry& before, const Entry& after, const Recorder& recorder) {
+  const Rights old_rights = rights_of(before);
+  const Rights new_rights = rights_of(after);
+  const Kind kind = new_rights.has_all_of(old_rights) ? Kind::compatible : Kind::breaking;
+  if (before.access.value != after.access.value) {
+    recorder.add(kind, "access", before.access, after.access);
+  } else if (!(old_rights == new_rights)) {
+    recorder.add(kind, "PDO mapping", before.pdo_mapping, after.pdo_mapping);
+  }
+}
+
+// Values ---------------------------------------------------------------------------------------------------------
+
+// How a device talks on its bus before anybody configures it.
+bool is_connection_set(std::uint16_t index) {
+  constexpr std::array<std::uint16_t, 3> cob_ids = {0x1005, 0x1012, 0x1014};
+  return (index >= 0x1200 && index < 0x1300) || (index >= 0x1400 && index < 0x1C00) ||
+         std::find(cob_ids.begin(), cob_ids.end(), index) != cob_ids.end();
+}
+
+// Whom the device says that it is: 1000h, and 1018h without revision and serial number.
+bool is_identity(const Place& place) {
+  return place.index == 0x1000 || (place.index == 0x1018 && (place.sub_index == 1 || place.sub_index == 2));
+}
+
+void compare_defaults(const Entry& before, const Entry& after, const Recorder& recorder) {
+  if (!are_equal(before.default_value, after.default_value)) {
+    const bool is_breaking = is_connection_set(recorder.place.index) || is_identity(recorder.place);
+    recorder.add(is_breaking ? Kind::breaking : Kind::compatible, "default", before.default_value, after.default_value);
+  }
+  if (!are_equal(before.actual_value, after.actual_value)) {
+    recorder.add(Kind::configuration, "value", before.actual_value, after.actual_value);
+  }
+}
+
+// Is a below b? Only numbers tell.
+bool is_below(const Value& a, const Value& b) {
+  return (a.is_integer() && b.is_integer() && a.integer < b.integer) ||
+         (a.kind == Value::Kind::real && b.kind == Value::Kind::real && a.real < b.real);
+}
+
+void compare_limit(std::string_view what, const Value& before, const Value& after, bool is_narrower,
+                   const Recorder& recorder) {
+  if (!are_equal(before, after)) {
+    const bool is_new = before.kind == Value::Kind::none;
+    recorder.add(is_new || is_narrower ? Kind::breaking : Kind::compatible, what, before, after);
+  }
+}
+
+void compare_limits(const Entry& before, const Entry& after, const Recorder& recorder) {
+  compare_limit("low limit", before.low_limit, after.low_limit, is_below(before.low_limit, after.low_limit), recorder);
+  compare_limit("high limit", before.high_limit, after.high_limit, is_below(after.high_limit, before.high_limit),
+                recorder);
+}
+
+const AllowedValue* find_value(const std::vector<AllowedValue>& values, const Value& value) {
+  const auto place = std::find_if(values.begin(), values.end(),
+                                  [&value](const AllowedValue& other) { return are_equal(other.value, value); });
+  return place != values.end() ? &*place : nullptr;
+}
+
+// An enumeration without values allows all.
+void compare_allowed(const Allowed& before, const Allowed& after, const Recorder& recorder) {
+  static const Text nothing;
+  for (const AllowedValue& old_value : before.values) {
+    const AllowedValue* const same = find_value(after.values, old_value.value);
+    if (same == nullptr) {
+      recorder.add(after.values.empty() ? Kind::compatible : Kind::breaking, "allowed value", old_value.value, nothing);
+    } else if (text_in(old_value.words.labels, "en") != text_in(same->words.labels, "en")) {
+      recorder.add(Kind::text, "name of an allowed value", old_value.value, same->value);
+    }
+  }
+  for (const AllowedValue& new_value : after.values) {
+    if (find_value(before.values, new_value.value) == nullptr) {
+      recorder.add(before.values.empty() ? Kind::breaking : Kind::compatible, "allowed value", nothing,
+                   new_value.value);
+    }
+  }
+}
+
+// Words ----------------------------------------------------------------------------------------------------------
+
+void compare_labels(std::string_view what, const std::vector<Label>& before, const std::vector<Label>& after,
+                    const Recorder& recorder) {
+  static const Text nothing;
+  const std::size_t both = std::min(before.size(), after.size());
+  for (std::size_t at = 0; at < std::max(before.size(), after.size()); ++at) {
+    const Text& old_text = at < before.size() ? before[at].text : nothing;
+    const Text& new_text = at < after.size() ? after[at].text : nothing;
+    if (at >= both || before[at].language != after[at].language) {
+      recorder.add(Kind::text, what, old_text, new_text);
+    } else {
+      recorder.text(Kind::text, what, old_text, new_text);
+    }
+  }
+}
+
+void compare_words(const Entry& before, const Entry& after, const Recorder& recorder) {
+  recorder.text(Kind::text, "name", before.name, after.name);
+  compare_labels("label", before.words.labels, after.words.labels, recorder);
+  compare_labels("description", before.words.descriptions, after.words.descriptions, recorder);
+  recorder.text(Kind::text, "denotation", before.denotation, after.denotation);
+}
+
+void compare_properties(const NodeProperties& before, const NodeProperties& after, const Recorder& recorder) {
+  recorder.field(Kind::compatible, "storage group", before.storage_group, after.storage_group);
+  recorder.field(Kind::compatible, "disabled", before.disabled, after.disabled);
+  recorder.text(Kind::compatible, "count label", before.count_label, after.count_label);
+  recorder.field(Kind::compatible, "SRDO access", before.srdo, after.srdo);
+  recorder.ability("shortest capacity", before.string_length_min, after.string_length_min);
+  recorder.ability("capacity", before.byte_length, after.byte_length);
+}
+
+}  // namespace
+
+void compare_entries(const Entry& before, const Entry& after, const Recorder& recorder) {
+  recorder.field(Kind::breaking, "object type", before.object_code, after.object_code);
+  recorder.field(Kind::breaking, "data type", before.data_type, after.data_type);
+  compare_rights(before, after, recorder);
+  compare_defaults(before, after, recorder);
+  compare_limits(before, after, recorder);
+  compare_allowed(before.allowed, after.allowed, recorder);
+  recorder.text(Kind::breaking, "unit", before.unit.uri, after.unit.uri);
+  recorder.text(Kind::breaking, "unit's multiplier", before.unit.multiplier, after.unit.multiplier);
+  recorder.text(Kind::breaking, "multiplier", before.multiplier, after.multiplier);
+  recorder.text(Kind::breaking, "offset", before.offset, after.offset);
+  recorder.field(Kind::compatible, "flags", before.flags, after.flags);
+  recorder.text(Kind::configuration, "upload file", before.upload_file, after.upload_file);
+  recorder.text(Kind::configuration, "download file", before.download_file, after.download_file);
+  compare_properties(before.node, after.node, recorder);
+  compare_words(before, after, recorder);
+}
+
+}  // namespace lexican::codict::diff
