@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diff/recorder.hpp"
+#include "model/pdo.hpp"
 
 namespace lexican::codict::diff {
 
@@ -32,38 +33,26 @@ bool are_equal(const Value& a, const Value& b) {
 
 // What the network may do with an entry.
 struct Rights {
-  bool read = false;
-  bool write = false;
-  bool send = false;     // in a TPDO
-  bool receive = false;  // in an RPDO
+  explicit Rights(const Entry& entry)
+      : read(is_readable(entry.access.value)), write(is_writable(entry.access.value)), map(directions_of(entry)) {}
 
-  bool operator==(const Rights& other) const {
-    return read == other.read && write == other.write && send == other.send && receive == other.receive;
-  }
   bool has_all_of(const Rights& other) const {
-    return read >= other.read && write >= other.write && send >= other.send && receive >= other.receive;
+    return read >= other.read && write >= other.write && map.send >= other.map.send && map.receive >= other.map.receive;
   }
+
+  bool read;
+  bool write;
+  Directions map;
 };
 
-Rights rights_of(const Entry& entry) {
-  const Access access = entry.access.value;
-  const PdoMapping mapping = entry.pdo_mapping.value;
-  const bool is_mapped = mapping != PdoMapping::no;
-  Rights rights;
-  rights.read = is_readable(access);
-  rights.write = is_writable(access);
-  rights.send = is_mapped && rights.read && mapping != PdoMapping::rpdo && access != Access::rww;
-  rights.receive = is_mapped && rights.write && mapping != PdoMapping::tpdo && access != Access::rwr;
-  return rights;
-}
-
 void compare_rights(const Entry& before, const Entry& after, const Recorder& recorder) {
-  const Rights old_rights = rights_of(before);
-  const Rights new_rights = rights_of(after);
-  const Kind kind = new_rights.has_all_of(old_rights) ? Kind::compatible : Kind::breaking;
+  const Rights old_rights(before);
+  const Rights new_rights(after);
+  const bool is_more = new_rights.has_all_of(old_rights);
+  const Kind kind = is_more ? Kind::compatible : Kind::breaking;
   if (before.access.value != after.access.value) {
     recorder.add(kind, "access", before.access, after.access);
-  } else if (!(old_rights == new_rights)) {
+  } else if (!is_more || !old_rights.has_all_of(new_rights)) {
     recorder.add(kind, "PDO mapping", before.pdo_mapping, after.pdo_mapping);
   }
 }
