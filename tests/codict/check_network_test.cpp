@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is off in PDOs, identifiers and services, whatever the format.
+#include "check/network.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "eds/document.hpp"
+#include "eds/read.hpp"
+
+using namespace lexican::codict;
+
+namespace {
+
+Device device_of(const std::string& eds) {
+  Findings findings;
+  const eds::Document document(Source("device.eds", eds), findings);
+  return eds::read(document, findings).devices.front();
+}
+
+// "rule: text" of each finding, a line for each.
+std::string found(void (*check)(const Device&, Findings&), const std::string& eds) {
+  Findings findings;
+  check(device_of(eds), findings);
+  std::string text;
+  for (const Finding& finding : findings.all()) {
+    text += std::string(finding.rule->id) + ": " + finding.text + "\n";
+  }
+  return text;
+}
+
+std::string variable(const std::string& index, const std::string& type, const std::string& access,
+                     const std::string& value = "", const std::string& mapping = "1") {
+  return "[" + index + "]\nParameterName=x\nObjectType=7\nDataType=" + type + "\nAccessType=" + access +
+         "\nDefaultValue=" + value + "\nPDOMapping=" + mapping + "\n";
+}
+
+std::string record(const std::string& index, std::initializer_list<std::string> values) {
+  std::string text = "[" + index + "]\nParameterName=x\nObjectType=9\n";
+  unsigned sub_index = 0;
+  for (const std::string& value : values) {
+    if (!value.empty()) {
+      text += "[" + index + "sub" + std::to_string(sub_index) +
+              "]\nParameterName=x\nDataType=7\nAccessType=rw\nDefaultValue=" + value + "\n";
+    }
+    ++sub_index;
+  }
+  return text;
+}
+
+const std::string tpdo_communication = record("1800", {"5", "$NODEID+0x180", "255", "0", "", "0"});
+const std::string rpdo_communication = record("1400", {"2", "$NODEID+0x200", "255"});
+const std::string number = variable("2000", "6", "rw");
+
+std::string of_tpdo(std::initializer_list<std::string> mapping, const std::string& objects = number) {
+  return found(check::check_pdo_parameters, tpdo_communication + record("1A00", mapping) + objects);
+}
+
+std::string of_rpdo(std::initializer_list<std::string> mapping, const std::string& objects = number) {
+  return found(check::check_pdo_parameters, rpdo_communication + record("1600", mapping) + objects);
+}
+
+}  // namespace
+
+TEST_CASE("check: a PDO that maps what can be mapped is right") {
+  CHECK(of_tpdo({"1", "0x20000010"}) == "");
+  CHECK(of_rpdo({"1", "0x20000010"}) == "");
+  CHECK(of_tpdo({"4", "0x20000010", "0x20000010", "0x20000010", "0x20000010"}) == "");
+  CHECK(of_tpdo({"0"}) == "");
+}
+
+TEST_CASE("check: pdo-pair: communication parameters and mapping come together, but not where PDOs are compact") {
+  CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping\n");
+  CHECK(found(check::check_pdo_parameters, record("1601", {"0"})) ==
+        "pdo-pair: RPDO 2 has no communication parameters\n");
+  CHECK(found(check::check_pdo_parameters, "[DeviceInfo]\nCompactPDO=0x3\n" + tpdo_communication) == "");
+}
+
+TEST_CASE("check: pdo-object: what is mapped is described") {
+  CHECK(of_tpdo({"1", "0x20010010"}) == "pdo-object: the object is not described\n");
+  CHECK(of_tpdo({"1", "0x20000110"}) == "pdo-object: the object is not described\n");
+}
+
+TEST_CASE("check: pdo-access: what is mapped may be mapped, in that direction") {
+  const std::string no_tpdo = "pdo-access: the object cannot be in a TPDO\n";
+  const std::string no_rpdo = "pdo-access: the object cannot be in an RPDO\n";
+  const auto tpdo = [](const char* access) { return of_tpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
+  const auto rpdo = [](const char* access) { return of_rpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
+  for (const char* const access : {"ro", "rwr", "const"}) {
+    CHECK(tpdo(access) == "");
+    CHECK(rpdo(access) == no_rpdo);
+  }
+  for (const char* const access : {"wo", "rww"}) {
+    CHECK(tpdo(access) == no_tpdo);
+    CHECK(rpdo(access) == "");
+  }
+  CHECK(of_tpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == no_tpdo);
+}
+
+TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may be a byte") {
+  CHECK(of_tpdo({"1", "0x20000020"}) == "pdo-bits: the object has 16 bits\n");
+  CHECK(of_tpdo({"1", "0x20000008"}) == "pdo-part: the object has 16 bits\n");
+  CHECK(of_tpdo({"1", "0x20000001"}, variable("2000", "1", "ro")) == "");
+  CHECK(of_tpdo({"1", "0x20000008"}, variable("2000", "1", "ro")) == "");
+  CHECK(of_tpdo({"1", "0x20000009"}, variable("2000", "1", "ro")) == "pdo-bits: the object has 1 bits\n");
+  CHECK(of_tpdo({"1", "0x20000040"}, variable("2000", "0x0A", "ro")) == "");
+}
+
+TEST_CASE("check: pdo-length: 64 bits fit") {
+  const std::string wide = variable("2000", "7", "rw");
+  CHECK(of_tpdo({"2", "0x20000020", "0x20000020"}, wide) == "");
+  CHECK(of_tpdo({"3", "0x20000020", "0x20000020", "0x20000020"}, wide) == "pdo-length: TPDO 1 has 96 bits\n");
+}
+
+TEST_CASE("check: pdo-gap, pdo-mapped-count: sub-index 0 counts what is mapped") {
+  CHECK(of_tpdo({"2", "0x20000010"}) == "pdo-gap: 1 of the sub-indexes up to this one map an object\n");
+  CHECK(of_tpdo({"2", "0x20000010", "0"}) == "pdo-gap: 1 of the sub-indexes up to this one map an object\n");
+  CHECK(of_tpdo({"1", "0x20000010", "0"}) == "");
+  CHECK(of_tpdo({"65"}) == "pdo-mapped-count: no number of mapped objects\n");
+  CHECK(of_tpdo({"0xFE"}) == "");
+  CHECK(of_tpdo({"0xFF"}) == "");
+}
+
+TEST_CASE("check: pdo-dummy: in RPDOs, of types that the device says") {
+  CHECK(of_tpdo({"1", "0x00050008"}) == "pdo-dummy: a dummy in a TPDO\n");
+  CHECK(of_rpdo({"1", "0x00050008"}) == "pdo-dummy: the device has no dummy of this type\n");
+  CHECK(of_rpdo({"1", "0x00050008"}, "[DummyUsage]\nDummy0005=1\n") == "");
+  CHECK(of_rpdo({"1", "0x00050008"}, "[DummyUsage]\nDummy0005=0\nDummy0006=1\n") ==
+        "pdo-dummy: the device has no dummy of this type\n");
+}
+
+TEST_CASE("check: pdo-granularity: lengths are multiples of it") {
+  const std::string bit = variable("2000", "1", "ro");
+  CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=8\n") ==
+        "pdo-granularity: the device has a granularity of 8\n");
+  CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=1\n") == "");
+}
+
+TEST_CASE("check: pdo-type: types that CiA 301 has, remote ones for TPDOs only") {
+  const auto type = [](const char* index, const char* mapping, const char* value) {
+    return found(check::check_pdo_parameters, record(index, {"2", "0x80000000", value}) + record(mapping, {"0"}));
+  };
+  const std::string wrong = "pdo-type: no transmission type of this kind of PDO\n";
+  for (const char* const value : {"0", "1", "240", "254", "255"}) {
+    CHECK(type("1400", "1600", value) == "");
+    CHECK(type("1800", "1A00", value) == "");
+  }
+  for (const char* const value : {"241", "251", "256"}) {
+    CHECK(type("1400", "1600", value) == wrong);
+    CHECK(type("1800", "1A00", value) == wrong);
+  }
+  for (const char* const value : {"252", "253"}) {
+    CHECK(type("1400", "1600", value) == wrong);
+    CHECK(type("1800", "1A00", value) == "");
+  }
+}
+
+TEST_CASE("check: pdo-time: inhibit and event time belong to PDOs with events") {
+  const auto times = [](const char* type, const char* inhibit, const char* event) {
+    return found(check::check_pdo_parameters,
+                 record("1800", {"5", "0x80000000", type, inhibit, "", event}) + record("1A00", {"0"}));
+  };
+  CHECK(times("1", "10", "0") == "pdo-time: inhibit time of a PDO without events\n");
+  CHECK(times("253", "0", "10") == "pdo-time: event time of a PDO without events\n");
+  CHECK(times("1", "0", "0") == "");
+  CHECK(times("254", "10", "10") == "");
+}
+
+TEST_CASE("check: a DCF's values are checked, where it has them") {
+  std::string mapping = record("1A00", {"1", "0x20000010"});
+  mapping += "ParameterValue=0x20000020\n";
+  CHECK(found(check::check_pdo_parameters, tpdo_communication + mapping + number) ==
+        "pdo-bits: the object has 16 bits\n");
+}
+
+TEST_CASE("check: cob-id-restricted: what CiA 301 keeps for other services [301: table 40]") {
+  const auto emcy = [](const std::string& value) {
+    return found(check::check_cob_ids, variable("1014", "7", "rw", value));
+  };
+  const std::string wrong = "cob-id-restricted: an identifier that CiA 301 keeps for others\n";
+  for (const char* const value : {"0", "0x001", "0x07F", "0x101", "0x180", "0x581", "0x5FF", "0x601", "0x67F", "0x6E0",
+                                  "0x6FF", "0x701", "0x7FF"}) {
+    CHECK_MESSAGE(emcy(value).substr(0, wrong.size()) == wrong, value);
+  }
+  for (const char* const value : {"0x080", "0x100", "0x181", "0x580", "0x600", "0x680", "0x6DF", "0x700"}) {
+    CHECK_MESSAGE(emcy(value) == "", value);
+  }
+  CHECK(emcy("0x80000000") == "");
+  CHECK(emcy("0x20000001") == "");
+}
+
+TEST_CASE("check: cob-id-form: more than 11 bits need bit 29") {
+  CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x881")) ==
+        "cob-id-form: more than 11 bits, without bit 29\n");
+  CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x20000881")) == "");
+}
+
+TEST_CASE("check: cob-id-twice: an identifier has one service, with a node-ID and without") {
+  const std::string sync = variable("1005", "7", "rw", "0x80");
+  CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "$NODEID+0x80")) == "");
+  CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x80")) ==
+        "cob-id-twice: the identifier of SYNC, too\n");
+  CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x20000080")) == "");
+  CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x80000080")) == "");
+  CHECK(
+      found(check::check_cob_ids, record("1201", {"2", "0x640", "0x5C0"}) + record("1280", {"2", "0x640", "0x5C0"})) ==
+      "cob-id-restricted: an identifier that CiA 301 keeps for others\n"
+      "cob-id-restricted: an identifier that CiA 301 keeps for others\n");
+}
+
+TEST_CASE("check: od-mandatory, od-error-control: what each device has") {
+  const std::string all = variable("1000", "7", "ro", "0") + variable("1001", "5", "ro", "0") +
+                          record("1018", {"1", "1"}) + variable("1017", "6", "rw", "0");
+  CHECK(found(check::check_services, all) == "");
+  CHECK(found(check::check_services, "") ==
+        "od-mandatory: there is no object 1000h\nod-mandatory: there is no object 1001h\n"
+        "od-mandatory: there is no object 1018h\n"
+        "od-error-control: nobody can tell whether the device is alive\n");
+}
+
+namespace {
+
+const std::string basis = variable("1000", "7", "ro", "0") + variable("1001", "5", "ro", "0") +
+                          record("1018", {"1", "1"}) + variable("100C", "6", "rw", "0") +
+                          variable("100D", "5", "rw", "0");
+
+std::string of_services(const std::string& objects) { return found(check::check_services, basis + objects); }
+
+}  // namespace
+
+TEST_CASE("check: sdo-default: the first server's identifiers are fixed [301: 7.5.2.33]") {
+  CHECK(of_services(record("1200", {"2", "$NODEID+0x600", "$NODEID+0x580"})) == "");
+  CHECK(of_services(record("1200", {"2", "0x600", "0x580"})) == "");
+  CHECK(of_services(record("1200", {"2", "$NODEID+0x580", "$NODEID+0x600"})) ==
+        "sdo-default: not the identifier of the first SDO server\nsdo-default: not the identifier of the first SDO "
+        "server\n");
+  CHECK(of_services("[DeviceComissioning]\nNodeID=5\n" + record("1200", {"2", "0x605", "0x585"})) == "");
+  CHECK(of_services("[DeviceComissioning]\nNodeID=6\n" + record("1200", {"1", "0x605"})) ==
+        "sdo-default: not the identifier of the first SDO server\n");
+}
+
+TEST_CASE("check: heartbeat-consumer: node-ID and time, each node once [301: 7.5.2.19]") {
+  CHECK(of_services(record("1016", {"3", "0x007F03E8", "0x000103E8", "0"})) == "");
+  CHECK(of_services(record("1016", {"1", "0x00800001"})) == "heartbeat-consumer: no node-ID and time\n");
+  CHECK(of_services(record("1016", {"1", "0x01010001"})) == "heartbeat-consumer: no node-ID and time\n");
+  CHECK(of_services(record("1016", {"1", "0x00000001"})) == "heartbeat-consumer: no node-ID and time\n");
+  CHECK(of_services(record("1016", {"2", "0x00050001", "0x00050002"})) ==
+        "heartbeat-consumer-twice: node 5 has an entry already\n");
+  CHECK(of_services(record("1016", {"2", "0x00050001", "0x00050000"})) == "");
+}
+
+TEST_CASE("check: sync-window: no longer than the cycle") {
+  const auto sync = [](const char* cycle, const char* window) {
+    return of_services(variable("1006", "7", "rw", cycle) + variable("1007", "7", "rw", window));
+  };
+  CHECK(sync("1000", "1000") == "");
+  CHECK(sync("1000", "1001") == "sync-window: longer than the cycle in 1006h\n");
+  CHECK(sync("0", "1001") == "");
+}
+
+TEST_CASE("check: each rule has an id of its own, and says what holds") {
+  std::string ids;
+  for (const Rule* rule : check::network_rules()) {
+    const std::string id = "\n" + std::string(rule->id) + "\n";
+    CHECK(ids.find(id) == std::string::npos);
+    ids += id;
+    CHECK(rule->about.back() == '.');
+  }
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file network.hpp
+/// What is off in the way in which a device talks: PDOs, identifiers, and the objects that configure services.
+#pragma once
+
+#include <vector>
+
+#include "model/device.hpp"
+#include "text/finding.hpp"
+
+namespace lexican::codict::check {
+
+/// Mapping and communication parameters. [301: 7.5.2.35 ff.]
+void check_pdo_parameters(const Device& device, Findings& findings);
+
+/// COB-IDs against one another and against those that CiA 301 keeps for itself. [301: 7.3.5]
+void check_cob_ids(const Device& device, Findings& findings);
+
+/// Objects that must be there, and fields of those that configure services.
+void check_services(const Device& device, Findings& findings);
+
+namespace rules {
+extern const Rule pdo_pair;
+extern const Rule pdo_object;
+extern const Rule pdo_access;
+extern const Rule pdo_bits;
+extern const Rule pdo_part;
+extern const Rule pdo_length;
+extern const Rule pdo_gap;
+extern const Rule pdo_mapped_count;
+extern const Rule pdo_dummy;
+extern const Rule pdo_granularity;
+extern const Rule pdo_type;
+extern const Rule pdo_time;
+extern const Rule cob_id_restricted;
+extern const Rule cob_id_twice;
+extern const Rule cob_id_form;
+extern const Rule mandatory;
+extern const Rule error_control;
+extern const Rule sdo_default;
+extern const Rule consumer_entry;
+extern const Rule consumer_twice;
+extern const Rule sync_window;
+}  // namespace rules
+
+const std::vector<const Rule*>& network_rules();
+
+}  // namespace lexican::codict::check

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+
+#include "check/network.hpp"
+#include "model/pdo.hpp"
+
+namespace lexican::codict::check {
+
+namespace {
+
+constexpr std::uint64_t mapped_limit = 64;
+constexpr unsigned frame_bits = 64;
+
+std::string title_of(const Pdo& pdo) { return (pdo.is_transmit ? "TPDO " : "RPDO ") + std::to_string(pdo.number); }
+
+void check_pair(const Device& device, const Pdo& pdo, Findings& findings) {
+  const bool is_implicit = device.features.compact_pdo.value != 0;
+  if (pdo.mapping == nullptr && !is_implicit) {
+    findings.add(rules::pdo_pair, pdo.communication->span, title_of(pdo) + " has no mapping");
+  }
+  if (pdo.communication == nullptr && !is_implicit) {
+    findings.add(rules::pdo_pair, pdo.mapping->span, title_of(pdo) + " has no communication parameters");
+  }
+}
+
+// Mapping ----------------------------------------------------------------------------------------------------------
+
+void check_number(const Pdo& pdo, Findings& findings) {
+  const Sub* const zero = pdo.mapping->find(0);
+  if (zero == nullptr || !value_in_force(*zero).is_integer()) {
+    return;
+  }
+  const Value& value = value_in_force(*zero);
+  const std::uint64_t number = value.integer.bits();
+  if (number > mapped_limit && number != 0xFE && number != 0xFF) {
+    findings.add(rules::pdo_mapped_count, value.span, "no number of mapped objects");
+  } else if (!pdo.is_multiplexed && number != pdo.mapped.size()) {
+    findings.add(rules::pdo_gap, value.span,
+                 std::to_string(pdo.mapped.size()) + " of the sub-indexes up to this one map an object");
+  }
+}
+
+bool takes_dummy(const Device& device, std::uint16_t type) {
+  return std::any_of(device.dummies.begin(), device.dummies.end(),
+                     [type](const Dummy& dummy) { return dummy.type == type && dummy.supported.value; });
+}
+
+void check_dummy(const Device& device, const Pdo& pdo, const MappedObject& mapped, Span span, Findings& findings) {
+  if (pdo.is_transmit) {
+    findings.add(rules::pdo_dummy, span, "a dummy in a TPDO");
+  } else if (!takes_dummy(device, mapped.index)) {
+    findings.add(rules::pdo_dummy, span, "the device has no dummy of this type", "see [DummyUsage]");
+  }
+}
+
+void check_bits(const Device& device, const MappedObject& mapped, Span span, Findings& findings) {
+  const unsigned bits = data_type_of(device, mapped.entry->data_type.value).bits;
+  if (bits == 0) {
+    return;  // a string's length is not in its type
+  }
+  const std::string has = "the object has " + std::to_string(bits) + " bits";
+  // BOOLEAN may be mapped as a byte. [301: 7.4.7.1]
+  if (mapped.bits > std::max(bits, 8U)) {
+    findings.add(rules::pdo_bits, span, has);
+  } else if (mapped.bits < bits) {
+    findings.add(rules::pdo_part, span, has);
+  }
+}
+
+void check_mapped(const Device& device, const Pdo& pdo, const MappedObject& mapped, Findings& findings) {
+  const Span span = value_in_force(*mapped.mapping).span;
+  if (mapped.is_dummy()) {
+    check_dummy(device, pdo, mapped, span, findings);
+  } else if (mapped.entry == nullptr) {
+    findings.add(rules::pdo_object, span, "the object is not described");
+  } else {
+    const Directions directions = directions_of(*mapped.entry);
+    if (!(pdo.is_transmit ? directions.send : directions.receive)) {
+      findings.add(rules::pdo_access, span,
+                   pdo.is_transmit ? "the object cannot be in a TPDO" : "the object cannot be in an RPDO",
+                   "see its AccessType and PDOMapping");
+    }
+    check_bits(device, mapped, span, findings);
+  }
+  const std::uint8_t granularity = device.features.granularity.value;
+  if (granularity != 0 && mapped.bits % granularity != 0) {
+    findings.add(rules::pdo_granularity, span, "the device has a granularity of " + std::to_string(granularity));
+  }
+}
+
+void check_mapping(const Device& device, const Pdo& pdo, Findings& findings) {
+  check_number(pdo, findings);
+  for (const MappedObject& mapped : pdo.mapped) {
+    check_mapped(device, pdo, mapped, findings);
+  }
+  if (pdo.bits() > frame_bits) {
+    findings.add(rules::pdo_length, pdo.mapping->span, title_of(pdo) + " has " + std::to_string(pdo.bits()) + " bits");
+  }
+}
+
+// Communication parameters -----------------------------------------------------------------------------------------
+
+constexpr std::uint64_t last_synchronous = 240;
+constexpr std::uint64_t remote_synchronous = 252;
+constexpr std::uint64_t remote = 253;
+constexpr std::uint64_t event_manufacturer = 254;
+constexpr std::uint64_t event_profile = 255;
+
+bool is_type(std::uint64_t type, bool is_transmit) {
+  const bool is_remote = type == remote_synchronous || type == remote;
+  return type <= last_synchronous || type == event_manufacturer || type == event_profile || (is_remote && is_transmit);
+}
+
+void check_time(const Pdo& pdo, std::uint8_t sub_index, const char* what, Findings& findings) {
+  const Entry* const time = pdo.parameter(sub_index);
+  if (time != nullptr && value_in_force(*time).is_integer() && value_in_force(*time).integer.bits() != 0) {
+    findings.add(rules::pdo_time, value_in_force(*time).span, std::string(what) + " of a PDO without events");
+  }
+}
+
+void check_communication(const Pdo& pdo, Findings& findings) {
+  constexpr std::uint8_t type_sub = 2;
+  constexpr std::uint8_t inhibit_sub = 3;
+  constexpr std::uint8_t event_sub = 5;
+  const Entry* const type = pdo.parameter(type_sub);
+  if (type == nullptr || !value_in_force(*type).is_integer()) {
+    return;
+  }
+  const std::uint64_t number = value_in_force(*type).integer.bits();
+  if (!is_type(number, pdo.is_transmit)) {
+    findings.add(rules::pdo_type, value_in_force(*type).span, "no transmission type of this kind of PDO");
+  } else if (pdo.is_transmit && number != event_manufacturer && number != event_profile) {
+    check_time(pdo, inhibit_sub, "inhibit time", findings);
+    check_time(pdo, event_sub, "event time", findings);
+  }
+}
+
+}  // namespace
+
+void check_pdo_parameters(const Device& device, Findings& findings) {
+  for (const Pdo& pdo : pdos_of(device)) {
+    check_pair(device, pdo, findings);
+    if (pdo.mapping != nullptr) {
+      check_mapping(device, pdo, findings);
+    }
+    if (pdo.communication != nullptr) {
+      check_communication(pdo, findings);
+    }
+  }
+}
+
+}  // namespace lexican::codict::check

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "check/network.hpp"
+#include "model/pdo.hpp"
+
+namespace lexican::codict::check {
+
+namespace {
+
+void check_mandatory(const Device& device, Findings& findings) {
+  for (const auto& [index, name] :
+       {std::pair(0x1000, "1000h"), std::pair(0x1001, "1001h"), std::pair(0x1018, "1018h")}) {
+    if (device.find(static_cast<std::uint16_t>(index)) == nullptr) {
+      findings.add(rules::mandatory, {}, std::string("there is no object ") + name);
+    }
+  }
+  const bool has_heartbeat = device.find(0x1017) != nullptr;
+  const bool has_guarding = device.find(0x100C) != nullptr && device.find(0x100D) != nullptr;
+  if (!has_heartbeat && !has_guarding) {
+    findings.add(rules::error_control, {}, "nobody can tell whether the device is alive");
+  }
+}
+
+// [301: 7.5.2.33]
+void check_default_sdo(const Device& device, Findings& findings) {
+  constexpr std::array<std::uint16_t, 3> identifiers = {0, 0x600, 0x580};
+  for (std::uint8_t sub_index = 1; sub_index < identifiers.size(); ++sub_index) {
+    const Entry* const entry = device.find(0x1200, sub_index);
+    if (entry == nullptr || !value_in_force(*entry).is_integer()) {
+      continue;
+    }
+    const Value& value = value_in_force(*entry);
+    // A device that says the base alone adds the node-ID by itself; a DCF may have it in.
+    const std::uint16_t base = identifiers[sub_index];
+    const bool is_of_node = !value.adds_node_id && value.integer == Integer(base + device.commissioning.node_id.value);
+    if (value.integer != Integer(base) && !is_of_node) {
+      findings.add(rules::sdo_default, value.span, "not the identifier of the first SDO server",
+                   sub_index == 1 ? "$NODEID+0x600" : "$NODEID+0x580");
+    }
+  }
+}
+
+// [301: 7.5.2.19]
+void check_consumers(const Device& device, Findings& findings) {
+  constexpr unsigned node_shift = 16;
+  constexpr std::uint64_t last_node = 127;
+  const Object* const consumers = device.find(0x1016);
+  if (consumers == nullptr) {
+    return;
+  }
+  std::set<std::uint64_t> nodes;
+  for (const Sub& sub : consumers->subs) {
+    const Value& value = value_in_force(sub);
+    if (sub.sub_index == 0 || !value.is_integer() || value.adds_node_id || value.integer.bits() == 0) {
+      continue;
+    }
+    const std::uint64_t node = value.integer.bits() >> node_shift;
+    const bool is_used = (value.integer.bits() & 0xFFFF) != 0;
+    if (node > last_node || (node == 0 && is_used)) {
+      findings.add(rules::consumer_entry, value.span, "no node-ID and time");
+    } else if (is_used && node != 0 && !nodes.insert(node).second) {
+      findings.add(rules::consumer_twice, value.span, "node " + std::to_string(node) + " has an entry already");
+    }
+  }
+}
+
+// [301: 7.5.2.7]
+void check_sync(const Device& device, Findings& findings) {
+  const Entry* const cycle = device.find(0x1006, 0);
+  const Entry* const window = device.find(0x1007, 0);
+  if (cycle == nullptr || window == nullptr) {
+    return;
+  }
+  const Value& cycle_time = value_in_force(*cycle);
+  const Value& window_time = value_in_force(*window);
+  if (cycle_time.is_integer() && window_time.is_integer() && cycle_time.integer.bits() != 0 &&
+      cycle_time.integer < window_time.integer) {
+    findings.add(rules::sync_window, window_time.span, "longer than the cycle in 1006h");
+  }
+}
+
+}  // namespace
+
+void check_services(const Device& device, Findings& findings) {
+  check_mandatory(device, findings);
+  check_default_sdo(device, findings);
+  check_consumers(device, findings);
+  check_sync(device, findings);
+}
+
+}  // namespace lexican::codict::check
