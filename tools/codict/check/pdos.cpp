@@ -32,11 +32,12 @@ void check_number(const Pdo& pdo, Findings& findings) {
     return;
   }
   const Value& value = value_in_force(*zero);
+  const Span place = value.is_given ? value.span : zero->span;
   const std::uint64_t number = value.integer.bits();
   if (number > mapped_limit && number != 0xFE && number != 0xFF) {
-    findings.add(rules::pdo_mapped_count, value.span, "no number of mapped objects");
+    findings.add(rules::pdo_mapped_count, place, "no number of mapped objects");
   } else if (!pdo.is_multiplexed && number != pdo.mapped.size()) {
-    findings.add(rules::pdo_gap, value.span,
+    findings.add(rules::pdo_gap, place,
                  std::to_string(pdo.mapped.size()) + " of the sub-indexes up to this one map an object");
   }
 }
