@@ -7,6 +7,7 @@
 
 #include "eds/parts.hpp"
 #include "eds/rules.hpp"
+#include "eds/slots.hpp"
 #include "model/parse.hpp"
 #include "text/number.hpp"
 
@@ -18,60 +19,9 @@ constexpr std::uint64_t u8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::uint64_t u16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t u32 = std::numeric_limits<std::uint32_t>::max();
 
-constexpr std::array<Slot<FileInfo>, 12> file_slots = {{
-    {"FileName", [](FileInfo& f) -> Text& { return f.file_name; }},
-    {"FileVersion", [](FileInfo& f) -> Text& { return f.version; }},
-    {"FileRevision", [](FileInfo& f) -> Text& { return f.revision; }},
-    {"EDSVersion", [](FileInfo& f) -> Text& { return f.eds_version; }},
-    {"Description", [](FileInfo& f) -> Text& { return f.description; }, 243},
-    {"CreationTime", [](FileInfo& f) -> Text& { return f.creation_time; }},
-    {"CreationDate", [](FileInfo& f) -> Text& { return f.creation_date; }},
-    {"CreatedBy", [](FileInfo& f) -> Text& { return f.created_by; }, 245},
-    {"ModificationTime", [](FileInfo& f) -> Text& { return f.modification_time; }},
-    {"ModificationDate", [](FileInfo& f) -> Text& { return f.modification_date; }},
-    {"ModifiedBy", [](FileInfo& f) -> Text& { return f.modified_by; }, 244},
-    {"LastEDS", [](FileInfo& f) -> Text& { return f.last_eds; }},
-}};
-
-constexpr std::array<Slot<Device>, 21> device_slots = {{
-    {"VendorName", [](Device& d) -> Text& { return d.identity.vendor_name; }, 244},
-    {"VendorNumber", [](Device& d) -> Text& { return d.identity.vendor_number; }},
-    {"ProductName", [](Device& d) -> Text& { return d.identity.product_name; }, 243},
-    {"ProductNumber", [](Device& d) -> Text& { return d.identity.product_number; }},
-    {"RevisionNumber", [](Device& d) -> Text& { return d.identity.revision_number; }},
-    {"OrderCode", [](Device& d) -> Text& { return d.identity.order_codes.emplace_back(); }, 245},
-    {"SimpleBootUpMaster", [](Device& d) -> Text& { return d.features.boot_up_master; }},
-    {"SimpleBootUpSlave", [](Device& d) -> Text& { return d.features.boot_up_slave; }},
-    {"ExtendedBootUpMaster", [](Device& d) -> Text& { return d.features.extended_boot_up_master; }},
-    {"ExtendedBootUpSlave", [](Device& d) -> Text& { return d.features.extended_boot_up_slave; }},
-    {"Granularity", [](Device& d) -> Text& { return d.features.granularity; }},
-    {"DynamicChannelsSupported", [](Device& d) -> Text& { return d.features.dynamic_channels; }},
-    {"GroupMessaging", [](Device& d) -> Text& { return d.features.group_messaging; }},
-    {"NrOfRXPDO", [](Device& d) -> Text& { return d.features.rx_pdos; }},
-    {"NrOfTXPDO", [](Device& d) -> Text& { return d.features.tx_pdos; }},
-    {"LSS_Supported", [](Device& d) -> Text& { return d.features.lss_slave; }},
-    {"LSS_Master", [](Device& d) -> Text& { return d.features.lss_master; }},
-    {"CompactPDO", [](Device& d) -> Text& { return d.features.compact_pdo; }},
-    {"NG_Slave", [](Device& d) -> Text& { return d.features.node_guarding_slave; }},
-    {"NG_Master", [](Device& d) -> Text& { return d.features.node_guarding_master; }},
-    {"NrOfNG_MonitoredNodes", [](Device& d) -> Text& { return d.features.guarded_nodes; }},
-}};
-
 // Of former versions of the standard: kept without a remark.
 constexpr std::array<std::string_view, 4> former_keys = {"ProductVersion", "ProductRevision", "LMT_ManufacturerName",
                                                          "LMT_ProductName"};
-
-constexpr std::array<Slot<Commissioning>, 9> commissioning_slots = {{
-    {"NodeID", [](Commissioning& c) -> Text& { return c.node_id; }},
-    {"NodeName", [](Commissioning& c) -> Text& { return c.node_name; }, 246},
-    {"Baudrate", [](Commissioning& c) -> Text& { return c.bit_rate; }},
-    {"NetNumber", [](Commissioning& c) -> Text& { return c.network_number; }},
-    {"NetworkName", [](Commissioning& c) -> Text& { return c.network_name; }, 243},
-    {"CANopenManager", [](Commissioning& c) -> Text& { return c.is_manager; }},
-    {"LSS_SerialNumber", [](Commissioning& c) -> Text& { return c.serial_number; }},
-    {"NodeRefd", [](Commissioning& c) -> Text& { return c.node_reference; }},
-    {"NetRefd", [](Commissioning& c) -> Text& { return c.network_reference; }},
-}};
 
 // Where the keys of a section are kept that have no place in the model.
 void keep_section(std::string_view name, std::vector<Kept> children, const Section& section, Device& device) {
@@ -117,11 +67,7 @@ void interpret_device_info(Device& device, Findings& findings) {
     interpret_number(*number, u32, findings);
   }
   Features& features = device.features;
-  for (Field<bool>* flag : {&features.boot_up_master, &features.boot_up_slave, &features.extended_boot_up_master,
-                            &features.extended_boot_up_slave, &features.group_messaging, &features.lss_slave,
-                            &features.lss_master, &features.node_guarding_slave, &features.node_guarding_master}) {
-    interpret_flag(*flag, findings);
-  }
+  for_each_flag(features, [&findings](Field<bool>& flag) { interpret_flag(flag, findings); });
   for (Field<std::uint16_t>* number : {&features.rx_pdos, &features.tx_pdos, &features.guarded_nodes}) {
     interpret_number(*number, u16, findings);
   }

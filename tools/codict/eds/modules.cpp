@@ -8,23 +8,12 @@
 
 #include "eds/parts.hpp"
 #include "eds/rules.hpp"
+#include "eds/slots.hpp"
 #include "model/parse.hpp"
 
 namespace lexican::codict::eds {
 
 namespace {
-
-constexpr std::array<Slot<Module>, 4> module_slots = {{
-    {"ProductName", [](Module& m) -> Text& { return m.product_name; }},
-    {"ProductVersion", [](Module& m) -> Text& { return m.product_version; }},
-    {"ProductRevision", [](Module& m) -> Text& { return m.product_revision; }},
-    {"OrderCode", [](Module& m) -> Text& { return m.order_code; }},
-}};
-
-constexpr std::array<Slot<SubExtension>, 2> extension_slots = {{
-    {"Count", [](SubExtension& e) -> Text& { return e.count; }},
-    {"ObjExtend", [](SubExtension& e) -> Text& { return e.object_extension; }},
-}};
 
 // "3" sub-objects, or "0;2": two bits.
 void interpret_count(SubExtension& extension, Findings& findings) {

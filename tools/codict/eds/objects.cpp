@@ -9,6 +9,7 @@
 
 #include "eds/parts.hpp"
 #include "eds/rules.hpp"
+#include "eds/slots.hpp"
 #include "model/parse.hpp"
 #include "text/number.hpp"
 
@@ -16,42 +17,13 @@ namespace lexican::codict::eds {
 
 namespace {
 
-constexpr std::array<Slot<Entry>, 14> entry_slots = {{
-    {"ParameterName", [](Entry& e) -> Text& { return e.name; }, 241},
-    {"ObjectType", [](Entry& e) -> Text& { return e.object_code; }},
-    {"DataType", [](Entry& e) -> Text& { return e.data_type; }},
-    {"AccessType", [](Entry& e) -> Text& { return e.access; }},
-    {"DefaultValue", [](Entry& e) -> Text& { return e.default_value; }},
-    {"PDOMapping", [](Entry& e) -> Text& { return e.pdo_mapping; }},
-    {"LowLimit", [](Entry& e) -> Text& { return e.low_limit; }},
-    {"HighLimit", [](Entry& e) -> Text& { return e.high_limit; }},
-    {"ObjFlags", [](Entry& e) -> Text& { return e.flags; }},
-    {"ParameterValue", [](Entry& e) -> Text& { return e.actual_value; }},
-    {"Denotation", [](Entry& e) -> Text& { return e.denotation; }},
-    {"UploadFile", [](Entry& e) -> Text& { return e.upload_file; }, 244},
-    {"DownloadFile", [](Entry& e) -> Text& { return e.download_file; }, 242},
-    {"ParamRefd", [](Entry& e) -> Text& { return e.parameter_reference; }},
-}};
-
-constexpr std::array<Slot<Object>, 2> object_slots = {{
-    {"SubNumber", [](Object& o) -> Text& { return o.sub_number; }},
-    {"CompactSubObj", [](Object& o) -> Text& { return o.compact; }},
-}};
-
-// What python-canopen adds to CiA 306.
-constexpr std::array<Slot<Entry>, 3> python_slots = {{
-    {"Unit", [](Entry& e) -> Text& { return e.unit.words.labels.emplace_back().text; }},
-    {"Factor", [](Entry& e) -> Text& { return e.multiplier; }},
-    {"Description", [](Entry& e) -> Text& { return e.words.descriptions.emplace_back().text; }},
-}};
-
 bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   if (!read_into(entry, key, python_slots, reader)) {
     return false;
   }
   reader.findings.add(rules::dialect, key.name, "a key of python-canopen");
   entry.unit.is_given = !entry.unit.words.labels.empty();
-  reader.device.dialect = "python-canopen";
+  reader.device.dialect = python_dialect;
   return true;
 }
 

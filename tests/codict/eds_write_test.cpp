@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Devices as fresh EDS and DCF. [306]
+#include "eds/write.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "codict/reading.hpp"
+#include "diff/diff.hpp"
+#include "eds/document.hpp"
+#include "eds/read.hpp"
+
+using namespace lexican::codict;
+
+namespace {
+
+Device device_of(const std::string& text, const std::string& name = "device.dcf") {
+  Findings findings;
+  const eds::Document document(Source(name, text), findings);
+  return eds::read(document, findings).devices.front();
+}
+
+std::string written(const Device& device, bool as_dcf = false) {
+  eds::WriteOptions options;
+  options.as_dcf = as_dcf;
+  options.line_end = "\n";
+  return eds::write(device, options);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// What a device has lost or got by being written and read again.
+std::string differences(const Device& device) {
+  std::string text;
+  for (const diff::Difference& difference : diff::compare(device, device_of(written(device, true)))) {
+    text += diff::to_string(difference.place) + " " + difference.what + ": " + difference.before + " -> " +
+            difference.after + "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> files_in(const std::string& directory) {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
+    const std::string extension = entry.path().extension();
+    if (entry.is_regular_file() && (extension == ".eds" || extension == ".dcf") &&
+        entry.path().string().find("/_not-canopen/") == std::string::npos) {
+      found.push_back(entry.path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream content;
+  content << file.rdbuf();
+  return content.str();
+}
+
+void check_round_trip(const std::string& path) {
+  CAPTURE(path);
+  const Device device = device_of(content_of(path), path);
+  CHECK(differences(device) == "");
+  const std::string once = written(device, true);
+  CHECK(written(device_of(once), true) == once);
+}
+
+}  // namespace
+
+TEST_CASE("EDS writer: each fixture, written and read again, is the same device") {
+  const std::vector<std::string> paths = files_in(test::fixture(""));
+  CHECK(paths.size() > 50);
+  for (const std::string& path : paths) {
+    check_round_trip(path);
+  }
+}
+
+TEST_CASE("EDS writer: each description of the corpus, written and read again, is the same device" *
+          doctest::skip(std::getenv("LEXICAN_CORPUS") == nullptr)) {
+  for (const std::string& path : files_in(std::getenv("LEXICAN_CORPUS"))) {
+    check_round_trip(path);
+  }
+}
+
+TEST_CASE("EDS writer: objects stand in their lists, with their sub-objects, by index [306: 4.6]") {
+  CHECK(written(device_of("[2000]\nParameterName=Speed\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=5\n"
+                          "[1018sub1]\nParameterName=Vendor\nDataType=7\nAccessType=ro\nDefaultValue=0x12\n"
+                          "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=7\n"
+                          "[1018sub0]\nParameterName=Highest\nDataType=5\nAccessType=const\nDefaultValue=1\n"
+                          "[1008]\nParameterName=Name\nObjectType=7\nDataType=9\nAccessType=const\n")) ==
+        "[FileInfo]\n\n[DeviceInfo]\n\n"
+        "[MandatoryObjects]\nSupportedObjects=1\n1=0x1018\n\n"
+        "[1018]\nParameterName=Identity\nObjectType=0x9\nSubNumber=2\n\n"
+        "[1018sub0]\nParameterName=Highest\nObjectType=0x7\nDataType=0x0005\nAccessType=const\nDefaultValue=1\n\n"
+        "[1018sub1]\nParameterName=Vendor\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x12\n\n"
+        "[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n\n"
+        "[1008]\nParameterName=Name\nObjectType=0x7\nDataType=0x0009\nAccessType=const\n\n"
+        "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\n"
+        "[2000]\nParameterName=Speed\nObjectType=0x7\nDataType=0x0006\nAccessType=rw\nDefaultValue=5\n");
+}
+
+TEST_CASE("EDS writer: what is configured belongs to a DCF") {
+  const Device device = device_of(
+      "[DeviceComissioning]\nNodeID=5\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=6\nAccessType=rw\n"
+      "DefaultValue=5\nParameterValue=7\nDenotation=left\n");
+  const std::string dcf = written(device, true);
+  CHECK(has(dcf, "[DeviceComissioning]\nNodeID=5\n"));
+  CHECK(has(dcf, "ParameterValue=7\nDenotation=left\n"));
+  const std::string eds = written(device, false);
+  CHECK_FALSE(has(eds, "DeviceComissioning"));
+  CHECK_FALSE(has(eds, "ParameterValue"));
+  CHECK_FALSE(has(eds, "Denotation"));
+  CHECK(has(eds, "DefaultValue=5\n"));
+}
+
+TEST_CASE("EDS writer: values are in the words of CiA 306, whichever words they had") {
+  const auto value = [](const std::string& type, const std::string& text) {
+    const std::string eds = written(device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=" + type +
+                                              "\nAccessType=rw\nDefaultValue=" + text + "\n"));
+    const std::size_t at = eds.find("DefaultValue=") + 13;
+    return eds.substr(at, eds.find('\n', at) - at);
+  };
+  CHECK(value("6", "0x10") == "0x10");
+  CHECK(value("6", "16") == "16");
+  CHECK(value("7", "$NODEID+0x180") == "$NODEID+0x180");
+  CHECK(value("7", "0x180+$NODEID") == "$NODEID+0x180");
+  CHECK(value("7", "$NodeId + 384") == "$NODEID+0x180");
+  CHECK(value("1", "true") == "1");
+  CHECK(value("3", "-5") == "-5");
+  CHECK(value("6", "0x3ED ; why") == "1005");
+  CHECK(value("0x0A", "01 02 ff") == "0102FF");
+  CHECK(value("8", "1.5") == "1.5");
+  CHECK(value("9", "text, with = and ;") == "text, with = and ;");
+}
+
+TEST_CASE("EDS writer: access and direction of PDOs are one word") {
+  const auto access = [](Access given, PdoMapping mapping) {
+    Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\n");
+    device.objects.front().access.value = given;
+    device.objects.front().pdo_mapping.value = mapping;
+    const std::string eds = written(device);
+    return eds.substr(eds.find("AccessType="));
+  };
+  CHECK(access(Access::rw, PdoMapping::tpdo) == "AccessType=rwr\nPDOMapping=1\n");
+  CHECK(access(Access::rw, PdoMapping::rpdo) == "AccessType=rww\nPDOMapping=1\n");
+  CHECK(access(Access::rw, PdoMapping::optional) == "AccessType=rw\nPDOMapping=1\n");
+  CHECK(access(Access::ro, PdoMapping::tpdo) == "AccessType=ro\nPDOMapping=1\n");
+  CHECK(access(Access::ro, PdoMapping::no) == "AccessType=ro\n");
+}
+
+TEST_CASE("EDS writer: compact storage stays compact, with names and values of its own [306: 4.6.4]") {
+  const std::string dcf = written(
+      device_of("[2000]\nParameterName=Gain\nObjectType=8\nDataType=6\nAccessType=rw\nCompactSubObj=3\nDefaultValue=1\n"
+                "[2000Name]\nNrOfEntries=1\n2=Second\n[2000Value]\nNrOfEntries=1\n3=7\n"),
+      true);
+  CHECK(has(dcf, "CompactSubObj=3\n"));
+  CHECK(has(dcf, "[2000Name]\nNrOfEntries=1\n2=Second\n"));
+  CHECK(has(dcf, "[2000Value]\nNrOfEntries=1\n3=7\n"));
+  CHECK_FALSE(has(dcf, "2000sub"));
+}
+
+TEST_CASE("EDS writer: what CiA 306 does not know stays where it was") {
+  const std::string eds =
+      written(device_of("[DeviceInfo]\nProductVersion=1\nColour=red\n[Tools]\nItems=0\n[Mine]\na=b\n"
+                        "[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\nMyKey=my value\n"));
+  CHECK(has(eds, "[DeviceInfo]\nProductVersion=1\nColour=red\n"));
+  CHECK(has(eds, "[Tools]\nItems=0\n"));
+  CHECK(has(eds, "[Mine]\na=b\n"));
+  CHECK(has(eds, "MyKey=my value\n"));
+}
+
+TEST_CASE("EDS writer: no text can begin a line of its own") {
+  Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=a\n");
+  device.objects.front().name.text = "a\n[3000]\r\nb";
+  CHECK(device_of(written(device)).objects.size() == 1);
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/normal.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+
+#include "eds/slots.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+bool is_number_of_eds(const std::string& text) {
+  const ParsedFormula formula = parse_formula(text);
+  return formula.is_standard && formula.number.is_number();
+}
+
+std::string formula_of(const Value& value) {
+  const std::string number = fmt::format("0x{:X}", value.integer.magnitude);
+  const std::string sign = value.integer.is_negative ? "-" : "";
+  return value.adds_node_id ? "$NODEID+" + sign + number : sign + fmt::format("{}", value.integer.magnitude);
+}
+
+std::string hexadecimal(const std::string& octets) {
+  std::string text;
+  for (const char octet : octets) {
+    fmt::format_to(std::back_inserter(text), "{:02X}", static_cast<unsigned char>(octet));
+  }
+  return text;
+}
+
+template <typename T>
+void normalise_number(Field<T>& field) {
+  if (field.is_given && !field.is_empty() && !parse_integer(field.text).is_number()) {
+    field.text = std::to_string(field.value);
+  }
+}
+
+void normalise_flag(Field<bool>& flag) {
+  if (!flag.is_empty()) {
+    flag.text = flag.value ? "1" : "0";
+  }
+}
+
+void normalise(Value& value) {
+  if (!value.is_empty()) {
+    value.text = text_of(value);
+  }
+}
+
+// The direction of a PDO is in the access type. [306: 4.6.3]
+Access access_of(const Entry& entry) {
+  const Access access = entry.access.value;
+  if (access != Access::rw) {
+    return access;
+  }
+  switch (entry.pdo_mapping.value) {
+    case PdoMapping::tpdo: return Access::rwr;
+    case PdoMapping::rpdo: return Access::rww;
+    default: return access;
+  }
+}
+
+}  // namespace
+
+std::string text_of(const Value& value) {
+  switch (value.kind) {
+    case Value::Kind::integer: return is_number_of_eds(value.text) ? value.text : formula_of(value);
+    case Value::Kind::real:
+      return value.text.find(',') == std::string::npos ? value.text : fmt::format("{}", value.real);
+    case Value::Kind::octets: return hexadecimal(value.octets);
+    case Value::Kind::none:
+    case Value::Kind::text:
+    case Value::Kind::malformed: break;
+  }
+  return value.text;
+}
+
+Entry normal(const Device& device, const Entry& entry) {
+  Entry result = entry;
+  if (entry.object_code.value != ObjectCode::null) {
+    result.object_code.text = fmt::format("0x{:X}", static_cast<unsigned>(entry.object_code.value));
+  }
+  if (!entry.data_type.is_empty() || entry.data_type.value != 0) {
+    result.data_type.text = fmt::format("0x{:04X}", entry.data_type.value);
+  }
+  const Access access = access_of(entry);
+  result.access.text = access == Access::unknown || access == Access::none ? entry.access.text : name_of(access);
+  const bool is_said = !entry.pdo_mapping.is_empty() || entry.pdo_mapping.value != PdoMapping::no;
+  const bool is_value = data_type_of(device, entry.data_type.value).kind != TypeKind::unknown;
+  if (is_said && is_value) {
+    result.pdo_mapping.text = entry.pdo_mapping.value == PdoMapping::no ? "0" : "1";
+  }
+  normalise_number(result.flags);
+  for (Value* value : {&result.default_value, &result.actual_value, &result.low_limit, &result.high_limit}) {
+    normalise(*value);
+  }
+  return result;
+}
+
+Device normal_headers(const Device& device) {
+  Device result;
+  result.file = device.file;
+  result.identity = device.identity;
+  result.features = device.features;
+  result.commissioning = device.commissioning;
+  for (Field<std::uint32_t>* number :
+       {&result.file.version, &result.file.revision, &result.identity.vendor_number, &result.identity.product_number,
+        &result.identity.revision_number, &result.features.dynamic_channels, &result.features.compact_pdo,
+        &result.commissioning.bit_rate, &result.commissioning.network_number, &result.commissioning.serial_number}) {
+    normalise_number(*number);
+  }
+  normalise_number(result.features.granularity);
+  normalise_number(result.features.rx_pdos);
+  normalise_number(result.features.tx_pdos);
+  normalise_number(result.commissioning.node_id);
+  for_each_flag(result.features, normalise_flag);
+  normalise_flag(result.commissioning.is_manager);
+  return result;
+}
+
+}  // namespace lexican::codict::eds

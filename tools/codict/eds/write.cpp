@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/write.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "eds/names.hpp"
+#include "eds/normal.hpp"
+#include "eds/slots.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+bool is_of_eds(const Device& device) { return device.format == Format::eds || device.format == Format::dcf; }
+
+struct NameLess {
+  bool operator()(std::string_view a, std::string_view b) const { return compare_names(a, b) < 0; }
+};
+
+class Writer {
+ public:
+  Writer(const Device& device, const WriteOptions& options) : device_(device), options_(options) {
+    for (const Kept& other : device.others) {
+      others_[other.name].push_back(&other);
+    }
+  }
+
+  void headers();
+  void object_list(std::string_view name, ListKind kind);
+  void modules();
+  void rest();
+  std::string take() { return std::move(text_); }
+
+ private:
+  void section(std::string_view name) {
+    if (!text_.empty()) {
+      text_ += options_.line_end;
+    }
+    text_ += '[';
+    text_ += name;
+    text_ += ']';
+    text_ += options_.line_end;
+  }
+
+  void line(std::string_view key, std::string_view value) {
+    text_ += key;
+    text_ += '=';
+    for (const char c : value) {  // a line end would end the value
+      text_ += c == '\n' || c == '\r' ? ' ' : c;
+    }
+    text_ += options_.line_end;
+  }
+
+  template <typename T, std::size_t size>
+  void slots(T target, const std::array<Slot<T>, size>& slots) {
+    for (const Slot<T>& slot : slots) {
+      const Text& text = slot.member(target);
+      if (text.is_given || !text.is_empty()) {
+        line(slot.key, text.text);
+      }
+    }
+  }
+
+  void kept(const std::vector<Kept>& others) {
+    for (const Kept& other : others) {
+      if (is_of_eds(device_) && other.children.empty()) {
+        line(other.name, other.text.text);
+      }
+    }
+  }
+
+  // What was found in a section and has no place in the model goes back into it.
+  void kept_of(std::string_view name) {
+    const auto place = others_.find(name);
+    if (place == others_.end()) {
+      return;
+    }
+    for (const Kept* other : place->second) {
+      kept(other->children);
+    }
+    others_.erase(place);
+  }
+
+  template <typename Entries, typename TextOf>
+  void numbered(std::string_view count_key, std::string_view word, const Entries& entries, TextOf text_of_entry) {
+    line(count_key, std::to_string(entries.size()));
+    std::size_t number = 0;
+    for (const auto& entry : entries) {
+      line(fmt::format("{}{}", word, ++number), text_of_entry(entry));
+    }
+  }
+
+  void file_info();
+  void device_info(const Device& normal);
+  void dummies();
+  void comments();
+  void channels();
+  void commissioning(const Device& normal);
+  void entry(const Entry& entry);
+  void object(const Object& object, const std::string& prefix);
+  void compact_lists(const Object& object, const std::string& name);
+  void sub_list(const std::string& name, const std::vector<std::pair<unsigned, std::string>>& entries);
+  void module(const Module& module);
+
+  const Device& device_;
+  const WriteOptions& options_;
+  std::map<std::string_view, std::vector<const Kept*>, NameLess> others_;  // sections that are still to be written
+  std::string text_;
+};
+
+std::string index_text(std::uint16_t index) { return fmt::format("0x{:04X}", index); }
+
+// Headers ----------------------------------------------------------------------------------------------------------
+
+void Writer::device_info(const Device& normal) {
+  section("DeviceInfo");
+  slots(normal, device_slots);
+  for (const BitRate& rate : device_.features.bit_rates) {
+    if (rate.kbit != 0) {  // CiA 306 has no word for devices that find it by themselves
+      line(fmt::format("BaudRate_{}", rate.kbit), rate.supported.value ? "1" : "0");
+    }
+  }
+  kept_of("DeviceInfo");
+}
+
+void Writer::dummies() {
+  if (device_.dummies.empty()) {
+    return;
+  }
+  section("DummyUsage");
+  for (const Dummy& dummy : device_.dummies) {
+    line(fmt::format("Dummy{:04X}", dummy.type), dummy.supported.value ? "1" : "0");
+  }
+  kept_of("DummyUsage");
+}
+
+void Writer::comments() {
+  if (device_.comments.empty()) {
+    return;
+  }
+  section("Comments");
+  numbered("Lines", "Line", device_.comments, [](const Text& text) { return text.text; });
+  kept_of("Comments");
+}
+
+void Writer::headers() {
+  const Device normal = normal_headers(device_);
+  section("FileInfo");
+  slots(normal.file, file_slots);
+  kept_of("FileInfo");
+  device_info(normal);
+  dummies();
+  comments();
+  channels();
+  if (options_.as_dcf) {
+    section("DeviceComissioning");
+    slots(normal.commissioning, commissioning_slots);
+    kept_of("DeviceComissioning");
+  }
+}
+
+void Writer::channels() {
+  if (device_.dynamic_channels.empty()) {
+    return;
+  }
+  section("DynamicChannels");
+  line("NrOfSeg", std::to_string(device_.dynamic_channels.size()));
+  std::size_t number = 0;
+  for (const DynamicChannel& channel : device_.dynamic_channels) {
+    ++number;
+    line(fmt::format("Type{}", number), index_text(channel.data_type.value));
+    line(fmt::format("Dir{}", number), name_of(channel.access.value));
+    line(fmt::format("Range{}", number),
+         index_text(channel.first_index.value) + "-" + index_text(channel.last_index.value));
+    line(fmt::format("PPOffset{}", number), std::to_string(channel.offset.value));
+  }
+  kept_of("DynamicChannels");
+}
+
+// Objects ----------------------------------------------------------------------------------------------------------
+
+void Writer::entry(const Entry& entry) {
+  Entry normal = eds::normal(device_, entry);
+  if (!options_.as_dcf) {
+    for (Text* text : std::initializer_list<Text*>{&normal.actual_value, &normal.denotation, &normal.upload_file,
+                                                   &normal.download_file, &normal.parameter_reference}) {
+      *text = Text();
+    }
+  }
+  slots(normal, entry_slots);
+  if (device_.dialect == python_dialect) {
+    slots(entry, python_slots);
+  }
+  kept(entry.others);
+  if (!entry.node.storage_group.is_empty()) {
+    text_ += ";StorageLocation=" + entry.node.storage_group.text;  // as other tools write and read it
+    text_ += options_.line_end;
+  }
+}
+
+void Writer::sub_list(const std::string& name, const std::vector<std::pair<unsigned, std::string>>& entries) {
+  if (entries.empty()) {
+    return;
+  }
+  section(name);
+  line("NrOfEntries", std::to_string(entries.size()));
+  for (const auto& [sub_index, text] : entries) {
+    line(std::to_string(sub_index), text);
+  }
+}
+
+void Writer::compact_lists(const Object& object, const std::string& name) {
+  std::vector<std::pair<unsigned, std::string>> names;
+  std::vector<std::pair<unsigned, std::string>> values;
+  std::vector<std::pair<unsigned, std::string>> denotations;
+  for (const Sub& sub : object.subs) {
+    if (!sub.is_implied) {
+      continue;
+    }
+    if (sub.name.is_given) {
+      names.emplace_back(sub.sub_index, sub.name.text);
+    }
+    if (sub.actual_value.is_given) {
+      values.emplace_back(sub.sub_index, text_of(sub.actual_value));
+    }
+    if (sub.denotation.is_given) {
+      denotations.emplace_back(sub.sub_index, sub.denotation.text);
+    }
+  }
+  sub_list(name + "Name", names);
+  if (options_.as_dcf) {
+    sub_list(name + "Value", values);
+    sub_list(name + "Denotation", denotations);
+  }
+}
+
+void Writer::object(const Object& object, const std::string& prefix) {
+  const std::string name = prefix + fmt::format("{:04X}", object.index);
+  section(name);
+  entry(object);
+  const auto described =
+      std::count_if(object.subs.begin(), object.subs.end(), [](const Sub& sub) { return sub.sub_index != 0xFF; });
+  if (object.compact.value != 0) {
+    line("CompactSubObj", std::to_string(object.compact.value));
+  } else if (has_sub_objects(object.object_code.value)) {
+    line("SubNumber", std::to_string(described));
+  }
+  for (const Sub& sub : object.subs) {
+    if (!sub.is_implied) {
+      section(name + fmt::format("sub{:X}", sub.sub_index));
+      entry(sub);
+    }
+  }
+  compact_lists(object, name);
+  if (!object.links.empty()) {
+    section(name + "ObjectLinks");
+    numbered("ObjectLinks", "", object.links, [](const auto& link) { return index_text(link.value); });
+  }
+}
+
+void Writer::object_list(std::string_view name, ListKind kind) {
+  std::vector<const Object*> objects;
+  std::vector<const Object*> types;  // below 1000h, where lists do not reach
+  for (const Object& object : device_.objects) {
+    if (object.index < 0x1000 && kind == ListKind::optional) {
+      types.push_back(&object);
+    } else if (object.index >= 0x1000 && list_of(object.index) == kind) {
+      objects.push_back(&object);
+    }
+  }
+  section(name);
+  numbered("SupportedObjects", "", objects, [](const Object* object) { return index_text(object->index); });
+  kept_of(name);
+  for (const Object* object : types) {
+    this->object(*object, "");
+  }
+  for (const Object* object : objects) {
+    this->object(*object, "");
+  }
+}
+
+// Modules ----------------------------------------------------------------------------------------------------------
+
+void Writer::module(const Module& module) {
+  const std::string prefix = fmt::format("M{}", module.number);
+  section(prefix + "ModuleInfo");
+  slots(module, module_slots);
+  kept(module.others);
+  if (!module.comments.empty()) {
+    section(prefix + "Comments");
+    numbered("Lines", "Line", module.comments, [](const Text& text) { return text.text; });
+  }
+  section(prefix + "FixedObjects");
+  numbered("NrOfEntries", "", module.fixed, [](const Object& object) { return index_text(object.index); });
+  for (const Object& object : module.fixed) {
+    this->object(object, prefix + "Fixed");
+  }
+  section(prefix + "SubExtends");
+  numbered("NrOfEntries", "", module.extensions,
+           [](const SubExtension& extension) { return index_text(extension.object.index); });
+  for (const SubExtension& extension : module.extensions) {
+    section(prefix + fmt::format("SubExt{:04X}", extension.object.index));
+    entry(extension.object);
+    line("Count", extension.bits.is_given ? fmt::format("{};{}", extension.count.value, extension.bits.value)
+                                          : std::to_string(extension.count.value));
+    if (extension.object_extension.is_given) {
+      line("ObjExtend", extension.object_extension.text);
+    }
+  }
+}
+
+void Writer::modules() {
+  if (!device_.modules.empty()) {
+    section("SupportedModules");
+    line("NrOfEntries", std::to_string(device_.modules.size()));
+    kept_of("SupportedModules");
+    for (const Module& each : device_.modules) {
+      module(each);
+    }
+  }
+  if (options_.as_dcf && !device_.connected_modules.empty()) {
+    section("ConnectedModules");
+    numbered("NrOfEntries", "", device_.connected_modules,
+             [](const auto& number) { return std::to_string(number.value); });
+  }
+}
+
+// Sections that no standard knows, and those of CiA 405; not the second ones of a name.
+void Writer::rest() {
+  for (const Kept& other : device_.others) {
+    const bool is_unwritten = others_.count(other.name) != 0;
+    if (is_of_eds(device_) && is_unwritten && !other.name.empty() &&
+        section_name(other.name).kind == SectionKind::other) {
+      section(other.name);
+      kept_of(other.name);
+    }
+  }
+}
+
+}  // namespace
+
+std::string write(const Device& device, const WriteOptions& options) {
+  Writer writer(device, options);
+  writer.headers();
+  writer.object_list("MandatoryObjects", ListKind::mandatory);
+  writer.object_list("OptionalObjects", ListKind::optional);
+  writer.object_list("ManufacturerObjects", ListKind::manufacturer);
+  writer.modules();
+  writer.rest();
+  return writer.take();
+}
+
+}  // namespace lexican::codict::eds
