@@ -97,8 +97,17 @@ TEST_CASE("codict: what cannot be read is said in one line, with status 2") {
         "codict: .gitattributes: no section [FileInfo], [DeviceInfo] or of an object: this is no EDS or DCF\n");
 }
 
+namespace {
+
+// Most fixtures are not whole devices: what is missing in them is of no interest.
+Ran check(const std::string& arguments) {
+  return run("check --disable od-mandatory --disable od-error-control " + arguments);
+}
+
+}  // namespace
+
 TEST_CASE("codict check: a finding has its place, its line with a caret, its rule, and what to do") {
-  const Ran ran = run("check octal.eds");
+  const Ran ran = check("octal.eds");
   CHECK(ran.status == 1);
   CHECK(ran.out == R"(octal.eds:30:14: warning: a leading 0 means octal: 10 [od-value-octal]
     DefaultValue=012
@@ -113,53 +122,53 @@ octal.eds:37:16: error: 8 and 9 are no octal digits, and a leading 0 means octal
 }
 
 TEST_CASE("codict check: equal findings are folded, unless all are wanted") {
-  const Ran folded = run("check --level note storage_location.eds bit_pattern.eds");
+  const Ran folded = check("--level note storage_location.eds bit_pattern.eds");
   CHECK(folded.out.find("bit_pattern.eds:32:14: note: ") != std::string::npos);
   CHECK(folded.out.find("    and 2 more\n") != std::string::npos);
   CHECK(folded.err == "codict: 4 notes\n");
-  const Ran all = run("check --level note --all bit_pattern.eds");
+  const Ran all = check("--level note --all bit_pattern.eds");
   CHECK(all.out.find("bit_pattern.eds:46:14: note: ") != std::string::npos);
   CHECK(all.out.find("more") == std::string::npos);
 }
 
 TEST_CASE("codict check: only what has the level is shown, and counts") {
-  CHECK(run("check bit_pattern.eds").status == 0);
-  CHECK(run("check bit_pattern.eds").out.empty());
-  CHECK(run("check bit_pattern.eds").err.empty());
-  CHECK(run("check --level note bit_pattern.eds").status == 1);
-  CHECK(run("check --level error list_twice.eds").status == 0);
-  CHECK(run("check --level error octal.eds").err == "codict: 1 error\n");
-  CHECK(run("check --level loud octal.eds").status == 2);
+  CHECK(check("bit_pattern.eds").status == 0);
+  CHECK(check("bit_pattern.eds").out.empty());
+  CHECK(check("bit_pattern.eds").err.empty());
+  CHECK(check("--level note bit_pattern.eds").status == 1);
+  CHECK(check("--level error list_twice.eds").status == 0);
+  CHECK(check("--level error octal.eds").err == "codict: 1 error\n");
+  CHECK(check("--level loud octal.eds").status == 2);
 }
 
 TEST_CASE("codict check: a rule can be left out by its name") {
-  CHECK(run("check --disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
-  const Ran unknown = run("check --disable od-value-hexal octal.eds");
+  CHECK(check("--disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
+  const Ran unknown = check("--disable od-value-hexal octal.eds");
   CHECK(unknown.status == 2);
   CHECK(unknown.err == "codict: there is no rule od-value-hexal\n");
 }
 
 TEST_CASE("codict check: the worst of several files is the status") {
-  CHECK(run("check semicolon.eds dos_lines.eds").status == 0);
-  CHECK(run("check semicolon.eds octal.eds").status == 1);
-  const Ran ran = run("check missing.eds octal.eds");
+  CHECK(check("semicolon.eds dos_lines.eds").status == 0);
+  CHECK(check("semicolon.eds octal.eds").status == 1);
+  const Ran ran = check("missing.eds octal.eds");
   CHECK(ran.status == 2);
   CHECK(ran.out.find("octal.eds:30:14") != std::string::npos);
 }
 
 TEST_CASE("codict check: carets stand under letters of any encoding, in lines of any length") {
-  const Ran dos = run("check --level note cp850.eds");
+  const Ran dos = check("--level note cp850.eds");
   CHECK(dos.out.find(u8"    ParameterName=Größe für Öl\n                    ^~\n") != std::string::npos);
-  const Ran longest = run("check --level note long_line.eds");
+  const Ran longest = check("--level note long_line.eds");
   const std::size_t line = longest.out.find("\n    x");
   REQUIRE(line != std::string::npos);
   CHECK(longest.out.find('\n', line + 1) - line < 170);
-  CHECK(run("check control_character.eds").out.find("    ParameterName=Be?ll\n                    ^\n") !=
+  CHECK(check("control_character.eds").out.find("    ParameterName=Be?ll\n                    ^\n") !=
         std::string::npos);
 }
 
 TEST_CASE("codict check: JSON is for programs") {
-  const Ran ran = run("check --json --level note bit_pattern.eds semicolon.eds");
+  const Ran ran = check("--json --level note bit_pattern.eds semicolon.eds");
   CHECK(ran.status == 1);
   const Json json = Json::parse(ran.out);
   CHECK(json.at("schema") == "codict-check-1");
@@ -175,9 +184,95 @@ TEST_CASE("codict check: JSON is for programs") {
 }
 
 TEST_CASE("codict: - is the standard input") {
-  const Ran ran = run("check - <octal.eds");
+  const Ran ran = check("- <octal.eds");
   CHECK(ran.status == 1);
   CHECK(ran.out.substr(0, 14) == "<stdin>:30:14:");
+}
+
+TEST_CASE("codict check: a whole device has no findings; what it lacks are findings") {
+  const Ran whole = run("check --level note drive.eds");
+  CHECK(whole.status == 0);
+  CHECK(whole.out.empty());
+  const Ran part = run("check semicolon.eds");
+  CHECK(part.status == 1);
+  CHECK(part.out.find("semicolon.eds:1:1: error: there is no object 1018h [od-mandatory]\n") != std::string::npos);
+}
+
+TEST_CASE("codict diff: a device is the same as itself") {
+  const Ran ran = run("diff drive.eds drive.eds");
+  CHECK(ran.status == 0);
+  CHECK(ran.out.empty());
+  CHECK(ran.err.empty());
+}
+
+TEST_CASE("codict diff: differences are told by kind, with the place and both values") {
+  const Directory directory;
+  const std::string other = directory.with("drive.eds");
+  REQUIRE(run("set --force " + other + " 2000 access=ro name=Velocity").status == 0);
+  const Ran ran = run("diff drive.eds " + other);
+  CHECK(ran.status == 1);
+  CHECK(ran.out ==
+        "breaking      2000h     access: rww -> ro\n"
+        "text          2000h     name: Wanted speed -> Velocity\n");
+  CHECK(ran.err == "codict: 2 differences: 1 breaking, 1 text\n");
+  CHECK(run("diff --only text drive.eds " + other).out == "text          2000h     name: Wanted speed -> Velocity\n");
+  CHECK(run("diff --only file drive.eds " + other).status == 0);
+  CHECK(run("diff --only nonsense drive.eds " + other).status == 2);
+  CHECK(run("diff drive.eds missing.eds").status == 2);
+}
+
+TEST_CASE("codict diff: a release is refused while it breaks networks under the same major revision number") {
+  const Directory directory;
+  const std::string other = directory.with("drive.eds");
+  REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
+  const Ran refused = run("diff --release drive.eds " + other);
+  CHECK(refused.status == 1);
+  CHECK(refused.err.find("major revision number") != std::string::npos);
+  REQUIRE(run("set " + other + " 1018:3 default=0x00020000").status == 0);
+  CHECK(run("diff --release drive.eds " + other).status == 0);
+}
+
+TEST_CASE("codict diff: JSON has the lines of both files") {
+  const Directory directory;
+  const std::string other = directory.with("drive.eds");
+  REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
+  const Json json = Json::parse(run("diff --json drive.eds " + other).out);
+  CHECK(json.at("schema") == "codict-diff-1");
+  CHECK(json.at("is_announced") == false);
+  const Json& difference = json.at("differences").at(0);
+  CHECK(difference.at("kind") == "breaking");
+  CHECK(difference.at("index") == 0x2000);
+  CHECK(difference.at("before").at("text") == "rww");
+  CHECK(difference.at("before").at("line") == difference.at("after").at("line"));
+}
+
+TEST_CASE("codict doc: the ending of the output says what it is") {
+  const Directory directory;
+  CHECK(run("doc drive.eds -o " + directory / "drive.md").status == 0);
+  CHECK(bytes_of(directory / "drive.md").find("# Drive 7") == 0);
+  CHECK(run("doc drive.eds -o " + directory / "drive.html").status == 0);
+  CHECK(bytes_of(directory / "drive.html").find("<!DOCTYPE html>") == 0);
+  CHECK(run("doc drive.eds --to md --node-id 127 -o -").out.find("COB-IDs of node 127") != std::string::npos);
+  CHECK(run("doc drive.eds -o -").status == 2);
+  CHECK(run("doc drive.eds -o " + directory / "drive.pdf").status == 2);
+  CHECK(run("doc drive.eds --to md --node-id 128 -o -").status == 2);
+  CHECK(run("doc missing.eds --to md -o -").status == 2);
+}
+
+TEST_CASE("codict convert: the same format has the same bytes") {
+  CHECK(run("convert dos_lines.eds --to eds -o -").out == bytes_of(test::fixture("dos_lines.eds")));
+  CHECK(run("convert cp850.eds --to eds -o -").out == bytes_of(test::fixture("cp850.eds")));
+  CHECK(run("convert commissioning.dcf --to dcf -o -").out == bytes_of(test::fixture("commissioning.dcf")));
+}
+
+TEST_CASE("codict convert: an EDS becomes a DCF, and is the same device") {
+  const Directory directory;
+  CHECK(run("convert drive.eds -o " + directory / "drive.dcf").status == 0);
+  CHECK(bytes_of(directory / "drive.dcf").find("[DeviceComissioning]\r\n") != std::string::npos);
+  CHECK(run("diff drive.eds " + directory / "drive.dcf").status == 0);
+  CHECK(run("convert drive.eds -o -").status == 2);
+  CHECK(run("convert drive.eds -o " + directory / "drive.txt").status == 2);
+  CHECK(run("convert missing.eds --to dcf -o -").status == 2);
 }
 
 TEST_CASE("codict info: what device it is") {

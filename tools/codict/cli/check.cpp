@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/network.hpp"
 #include "cli/command.hpp"
 #include "cli/render.hpp"
 #include "eds/rules.hpp"
@@ -24,7 +25,7 @@ struct Options {
 };
 
 bool is_rule(const std::string& id) {
-  for (const auto* rules : {&value_rules(), &eds::all_rules(), &check::all_rules()}) {
+  for (const auto* rules : {&value_rules(), &eds::all_rules(), &check::all_rules(), &check::network_rules()}) {
     for (const Rule* rule : *rules) {
       if (rule->id == id) {
         return true;

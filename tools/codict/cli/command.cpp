@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "check/check.hpp"
+#include "check/network.hpp"
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
 #include "text/file.hpp"
@@ -47,6 +48,9 @@ std::optional<Input> open(const std::string& path) {
 void check_all(Input& input) {
   check::check_objects(input.device(), input.findings);
   check::check_device(input.device(), input.findings);
+  check::check_pdo_parameters(input.device(), input.findings);
+  check::check_cob_ids(input.device(), input.findings);
+  check::check_services(input.device(), input.findings);
   input.findings.sort();
 }
 

@@ -13,11 +13,14 @@ namespace {
 using namespace lexican::codict::cli;
 
 int run(int number, char** arguments) {
-  CLI::App app("Reads, checks and edits descriptions of CANopen devices (EDS, DCF).", "codict");
+  CLI::App app("Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF).",
+               "codict");
   app.set_version_flag("--version", "codict " LEXICAN_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit status: 0 all is well, 1 findings, 2 wrong use or unreadable input, 3 internal error.");
-  const std::vector<Command> commands = {add_info(app), add_list(app), add_get(app), add_set(app), add_check(app)};
+  app.footer(
+      "Exit status: 0 all is well, 1 findings or differences, 2 wrong use or unreadable input, 3 internal error.");
+  const std::vector<Command> commands = {add_info(app),  add_list(app), add_get(app),     add_set(app),
+                                         add_check(app), add_diff(app), add_convert(app), add_doc(app)};
   try {
     app.parse(number, arguments);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "doc/doc.hpp"
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/output.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::string output;
+  std::string format;
+  doc::Options doc;
+};
+
+int run(const Options& options) {
+  const std::string format = options.format.empty() ? ending_of(options.output) : options.format;
+  if (format != "md" && format != "html") {
+    complain("the output ends with .md or .html, or --to says which it is");
+    return unusable;
+  }
+  const std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  return write_output(options.output, format == "md" ? doc::markdown(input->device(), options.doc)
+                                                     : doc::html(input->device(), options.doc));
+}
+
+}  // namespace
+
+Command add_doc(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand("doc", "Document a device, as Markdown or as one HTML page");
+  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
+      ->required();
+  command->add_option("--to", options->format, "md or html")->check(CLI::IsMember({"md", "html"}).description(""));
+  command->add_option("--node-id", options->doc.node_id, "Node-ID with which COB-IDs are shown")
+      ->check(CLI::Range(1, 127).description(""))
+      ->capture_default_str();
+  command->add_option("--language", options->doc.language, "Of labels and descriptions")->capture_default_str();
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli

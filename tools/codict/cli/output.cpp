@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/output.hpp"
+
+#include "text/file.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::cli {
+
+Status write_output(const std::string& path, std::string_view bytes) {
+  std::string why;
+  if (write_file(path, bytes, why) == Written::no) {
+    complain(why);
+    return unusable;
+  }
+  return clean;
+}
+
+std::string ending_of(std::string_view path) {
+  const std::string_view name = path.substr(path.find_last_of('/') + 1);
+  const std::size_t point = name.find_last_of('.');
+  std::string ending;
+  for (const char c : point == std::string_view::npos ? std::string_view() : name.substr(point + 1)) {
+    ending += to_lower(c);
+  }
+  return ending;
+}
+
+}  // namespace lexican::codict::cli

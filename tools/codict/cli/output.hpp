@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file output.hpp
+/// Files that commands make.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "cli/command.hpp"
+
+namespace lexican::codict::cli {
+
+/// Whole or not at all, and not touched if it has these bytes already; "-" is the standard output.
+Status write_output(const std::string& path, std::string_view bytes);
+
+/// "html" of "docs/drive.HTML"; empty if there is none.
+std::string ending_of(std::string_view path);
+
+}  // namespace lexican::codict::cli
