@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The page that `codict doc` makes, in a browser: page_test.sh CODICT FIXTURES. Says what it found as TAP.
+set -uo pipefail
+
+codict=$1 fixtures=$2
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+number=0
+
+report() {  # WHAT WANTED FOUND
+  number=$((number + 1))
+  if [ "$2" = "$3" ]; then
+    echo "ok $number - $1"
+  else
+    echo "not ok $number - $1: $3, not $2"
+  fi
+}
+
+# What the page is after its script has run: open_page NAME [SEARCH]
+open_page() {
+  timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$place/profile" --enable-logging=stderr \
+    --dump-dom "file://$place/$1.html${2:+?q=$2}" >"$place/dom" 2>"$place/log"
+}
+count() { grep -o "$1" "$place/dom" | wc -l; }
+shown_objects() { grep -o '<section class="object"[^>]*>' "$place/dom" | grep -vc hidden; }
+script_errors() { grep -c 'CONSOLE.*\(Uncaught\|Error\)' "$place/log"; }
+
+"$codict" doc "$fixtures/drive.eds" -o "$place/drive.html" || exit 1
+sed 's/^show();$/nonsense();/' "$place/drive.html" >"$place/broken.html"
+
+echo "1..9"
+open_page drive
+report "all objects are shown" 11 "$(shown_objects)"
+report "no error of the script" 0 "$(script_errors)"
+# 8 + 16 bits of the RPDO, 32 + 8 of the TPDO: a box for each byte.
+report "the pictures of the PDOs have their boxes" 8 "$(count '<g class="part"')"
+open_page drive wanted
+report "a search finds an object by its name" 1 "$(shown_objects)"
+report "and says so" 1 "$(count '1 of 11 objects')"
+open_page drive encoder
+report "a search finds a sub-object" 1 "$(shown_objects)"
+report "and hides the others of its object" 1 "$(count '<tr id="o-2001-0" hidden')"
+open_page drive nowhere
+report "a search finds nothing where nothing is" 0 "$(shown_objects)"
+open_page broken
+report "an error of the script would be noticed" 1 "$(script_errors)"
