@@ -258,13 +258,3 @@ TEST_CASE("check: sync-window: no longer than the cycle") {
   CHECK(sync("1000", "1001") == "sync-window: longer than the cycle in 1006h\n");
   CHECK(sync("0", "1001") == "");
 }
-
-TEST_CASE("check: each rule has an id of its own, and says what holds") {
-  std::string ids;
-  for (const Rule* rule : check::network_rules()) {
-    const std::string id = "\n" + std::string(rule->id) + "\n";
-    CHECK(ids.find(id) == std::string::npos);
-    ids += id;
-    CHECK(rule->about.back() == '.');
-  }
-}
