@@ -243,7 +243,7 @@
 #endif
 
 /// Several threads use a node in turns, one of them for SYNC and PDOs alone (CO_NODE_EXT.Enter, CONodeRealTime()): 0
-/// or 1. 1 costs 1.2 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// or 1. 1 costs 1.4 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
 #ifndef USE_REAL_TIME
 #define USE_REAL_TIME 0
 #endif
