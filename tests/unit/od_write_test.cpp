@@ -394,7 +394,8 @@ TEST_CASE("OD_writeOriginal: a type is not asked for a piece of no bytes") {
 
 TEST_CASE("OD_writeOriginal: strings, domains and streams of every length around those of the copies that types get") {
   for (const std::size_t capacity : std::initializer_list<std::size_t>{5, 31, 32, 33, 64, 100}) {
-    for (std::size_t length = 1; length <= 101; ++length) {
+    for (const std::size_t length :
+         {std::size_t{1}, std::size_t{32}, std::size_t{33}, std::size_t{65}, capacity - 1, capacity, capacity + 1}) {
       CAPTURE(capacity);
       CAPTURE(length);
       Bytes memory(3 * capacity, 0x55);
@@ -419,11 +420,14 @@ TEST_CASE("OD_writeOriginal: strings, domains and streams of every length around
       }
       CHECK(text.Size == (fits ? length : capacity));
       CHECK(octets.Size == (fits ? length : capacity));
-      for (std::size_t n = 0; n < 3 * capacity; ++n) {
-        const std::size_t at = n % capacity;
-        const bool is_end = n < capacity && at == length;  // of a text
-        CHECK(memory[n] == (fits && at < length ? at + 1 : (is_end ? 0U : 0x55U)));
+      Bytes expected(3 * capacity, 0x55);
+      for (std::size_t n = 0; fits && n < 3 * capacity; n += capacity) {
+        std::copy(data.begin(), data.end(), expected.begin() + static_cast<std::ptrdiff_t>(n));
       }
+      if (length < capacity) {
+        expected[length] = 0;  // behind the text
+      }
+      CHECK(memory == expected);
     }
   }
 }
