@@ -153,7 +153,8 @@ struct Entry {
 
   Text parameter_id;  ///< uniqueID of the parameter that describes it [311]
   Words words;
-  TypeUse type;  ///< what the parameter says of its type, beside data_type
+  Words denotations;  ///< denotation is the first of them [311]
+  TypeUse type;       ///< what the parameter says of its type, beside data_type
   Unit unit;
   Allowed allowed;
   Text access_list;
@@ -254,6 +255,9 @@ struct Identity {
   Text build_date;
   Text specification_revision;
   Text instance_name;
+  Words vendor_words;   ///< vendor_text is the first of them [311]
+  Words family_words;   ///< device_family is the first of them [311]
+  Words product_words;  ///< product_text is the first of them [311]
 };
 
 struct BitRate {

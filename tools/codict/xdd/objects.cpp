@@ -1,0 +1,629 @@
+// SPDX-License-Identifier: Apache-2.0
+// CANopenObjectList, and objects of private dialects. [311]
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "model/parse.hpp"
+#include "xdd/parts.hpp"
+
+namespace lexican::codict::xdd {
+
+namespace {
+
+// What an object or sub-object says before it is known what it means.
+struct Part : Entry {
+  Text number;  // index or subIndex
+  Field<std::uint8_t> sub_number;
+  std::vector<pugi::xml_node> subs;
+};
+
+constexpr std::array<Slot<Part>, 18> part_slots = {{
+    {"index", [](Part& p) -> Text& { return p.number; }},
+    {"subIndex", [](Part& p) -> Text& { return p.number; }},
+    {"name", [](Part& p) -> Text& { return p.name; }},
+    {"objectType", [](Part& p) -> Text& { return p.object_code; }},
+    {"dataType", [](Part& p) -> Text& { return p.data_type; }},
+    {"lowLimit", [](Part& p) -> Text& { return p.low_limit; }},
+    {"highLimit", [](Part& p) -> Text& { return p.high_limit; }},
+    {"accessType", [](Part& p) -> Text& { return p.access; }},
+    {"defaultValue", [](Part& p) -> Text& { return p.default_value; }},
+    {"actualValue", [](Part& p) -> Text& { return p.actual_value; }},
+    {"denotation", [](Part& p) -> Text& { return p.denotation; }},
+    {"PDOmapping", [](Part& p) -> Text& { return p.pdo_mapping; }},
+    {"objFlags", [](Part& p) -> Text& { return p.flags; }},
+    {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id; }},
+    {"subNumber", [](Part& p) -> Text& { return p.sub_number; }},
+    // _project.xml of CANopenNode.
+    {"memoryType", [](Part& p) -> Text& { return p.node.storage_group; }},
+    {"disabled", [](Part& p) -> Text& { return p.node.disabled; }},
+    {"TPDOdetectCOS", [](Part& p) -> Text& { return p.node.flags_pdo; }},
+}};
+
+bool is_object(std::string_view name) { return name == "CANopenObject" || name == "Object"; }
+bool is_sub(std::string_view name) { return name == "CANopenSubObject" || name == "SubObject"; }
+
+Part read_part(pugi::xml_node element, const Reader& reader) {
+  Part part;
+  part.span = reader.document.tag(element);
+  read_element(part, element, part_slots, part.others, reader, [&](pugi::xml_node child) {
+    if (is_sub(local_name(child))) {
+      part.subs.push_back(child);
+      return true;
+    }
+    if (local_name(child) == "SubObjectList") {
+      const auto children = child.children();
+      std::copy_if(children.begin(), children.end(), std::back_inserter(part.subs),
+                   [](pugi::xml_node sub) { return is_sub(local_name(sub)); });
+      return true;
+    }
+    return read_word(part.words, child, part.others, reader);
+  });
+  part.node.storage_group.value = part.node.storage_group.text;
+  interpret_boolean(part.node.disabled, reader.findings);
+  interpret_boolean(part.node.flags_pdo, reader.findings);
+  return part;
+}
+
+// Of 1.1: those of 1.0 may be as long as they want.
+std::size_t digits(std::size_t wanted, const Reader& reader) {
+  return reader.device.format == Format::xdd11 ? wanted : 0;
+}
+
+void interpret_object_code(Entry& entry, bool has_subs, const Reader& reader) {
+  entry.object_code.value = has_subs ? ObjectCode::record : ObjectCode::variable;
+  if (entry.object_code.is_empty()) {
+    reader.findings.add(rules::object_type_missing, entry.span,
+                        has_subs ? "objectType missing: RECORD" : "objectType missing: VAR");
+    return;
+  }
+  const ParsedInteger number = parse_integer(entry.object_code.text);
+  const auto code = static_cast<ObjectCode>(number.value.magnitude & 0xFF);
+  if (!number.is_number() || number.value.magnitude > 0xFF || name_of(code).empty() || code == ObjectCode::null) {
+    reader.findings.add(rules::object_type, entry.object_code.span, "this is no object type");
+  } else {
+    entry.object_code.value = code;
+  }
+}
+
+void interpret_data_type(Entry& entry, const Reader& reader) {
+  if (entry.data_type.is_empty()) {
+    return;
+  }
+  std::uint64_t code = 0;
+  if (read_hex(entry.data_type, digits(2, reader), 0xFFFF, code, reader.findings)) {
+    entry.data_type.value = static_cast<std::uint16_t>(code);
+  } else if (const DataType* type = data_type_named(entry.data_type.text)) {
+    entry.data_type.value = type->code;
+  } else {
+    reader.findings.add(rules::type_unknown, entry.data_type.span, "this is no data type");
+  }
+}
+
+// Whether the element of a parameter can stand for the type: BITSTRING for all that have no element of their own.
+bool is_same_type(std::uint16_t of_object, std::uint16_t of_parameter) {
+  return of_object == of_parameter ||
+         (of_parameter == type_code::octet_string && (data_type(of_object).iec.empty()));
+}
+
+void choose_type(Entry& entry, const Reader& reader) {
+  const std::uint16_t of_parameter = entry.type.code;
+  const std::uint16_t of_object = entry.data_type.value;
+  if (of_parameter == 0) {
+    return;
+  }
+  if (of_object != 0 && is_same_type(of_object, of_parameter)) {
+    return;
+  }
+  if (of_object != 0) {
+    reader.findings.add(rules::parameter_differs, entry.data_type.span, "the parameter has another data type");
+  }
+  const bool has_octets = !entry.default_value.is_empty() || !entry.actual_value.is_empty();
+  const bool is_domain = entry.object_code.value == ObjectCode::domain || !has_octets;
+  entry.data_type.value = of_parameter == type_code::octet_string && is_domain ? type_code::domain : of_parameter;
+}
+
+bool is_same_value(Value a, Value b, const DataType& type) {
+  Findings ignored;
+  interpret(a, type, ignored);
+  interpret(b, type, ignored);
+  return a.kind == b.kind && a.kind != Value::Kind::malformed && a.integer == b.integer && a.real == b.real &&
+         a.adds_node_id == b.adds_node_id && a.octets == b.octets && (a.kind != Value::Kind::text || a.text == b.text);
+}
+
+// What the object says beside its parameter is kept where it has other words, and reported where it means something
+// else.
+template <typename T>
+void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, Entry& entry, const Reader& reader) {
+  if (!own.is_given) {
+    return;
+  }
+  if (!chosen.is_given) {
+    chosen = own;
+    return;
+  }
+  if (chosen.text == own.text) {
+    return;
+  }
+  if (!is_same) {
+    reader.findings.add(rules::parameter_differs, own.span, "the parameter says something else");
+  }
+  entry.others.push_back({"@" + std::string(attribute), own, {}, own.span});
+}
+
+void take_limits_of_range(Entry& entry) {
+  if (entry.allowed.ranges.size() == 1) {
+    entry.low_limit = entry.allowed.ranges.front().minimum;
+    entry.high_limit = entry.allowed.ranges.front().maximum;
+  }
+}
+
+bool is_same_access(Access own, Access of_parameter) {
+  return own == of_parameter ||
+         (own == Access::rw && (of_parameter == Access::rwr || of_parameter == Access::rww));
+}
+
+void append(std::vector<Kept>& to, std::vector<Kept>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+// A parameter is what its object is. [311: uniqueIDRef]
+Entry merged(Entry parameter, Entry& own, const Reader& reader) {
+  Entry entry = std::move(parameter);
+  entry.span = own.span;
+  entry.name = own.name;
+  entry.object_code = own.object_code;
+  entry.data_type = own.data_type;
+  entry.pdo_mapping = own.pdo_mapping;
+  entry.flags = own.flags;
+  append(entry.others, own.others);
+  choose_type(entry, reader);
+  const DataType& type = data_type(entry.data_type.value);
+  const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
+    choose(chosen, value, attribute, is_same_value(chosen, value, type), entry, reader);
+  };
+  choose_value(entry.default_value, own.default_value, "defaultValue");
+  choose_value(entry.actual_value, own.actual_value, "actualValue");
+  choose_value(entry.low_limit, own.low_limit, "lowLimit");
+  choose_value(entry.high_limit, own.high_limit, "highLimit");
+  choose(entry.access, own.access, "accessType", is_same_access(own.access.value, entry.access.value), entry, reader);
+  choose(entry.denotation, own.denotation, "denotation", false, entry, reader);
+  return entry;
+}
+
+Entry with_parameter(Entry& own, const Reader& reader) {
+  if (own.parameter_id.is_empty()) {
+    return std::move(own);
+  }
+  const std::string_view id = trimmed(reader.document.raw(own.parameter_id.span));
+  const pugi::xml_node element = find(reader.shared.parameters, id);
+  if (!element) {
+    reader.findings.add(rules::reference, own.parameter_id.span, "there is no such parameter");
+    return std::move(own);
+  }
+  if (!reader.shared.used.try_emplace(id, true).second && !may_copy(element, reader)) {
+    return std::move(own);
+  }
+  Entry parameter = read_parameter(element, reader);
+  take_limits_of_range(parameter);
+  return merged(std::move(parameter), own, reader);
+}
+
+// What stands for a name where there is none.
+void complete_name(Entry& entry) {
+  if (!entry.name.is_given) {
+    entry.name.text = text_in(entry.words.labels, "en");
+  }
+}
+
+void complete_access(Entry& entry, bool is_variable, const Reader& reader) {
+  if (!is_variable || entry.access.is_given || entry.access.value != Access::unknown) {
+    return;
+  }
+  if (!entry.parameter_id.is_empty()) {
+    entry.access.value = Access::ro;  // the schema's default
+  } else if (entry.object_code.value == ObjectCode::domain) {
+    entry.access.value = Access::rw;
+  } else {
+    reader.findings.add(rules::access_missing, entry.span, "there is no access");
+  }
+}
+
+void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
+  if (entry.object_code.value == ObjectCode::domain && entry.data_type.value == 0) {
+    entry.data_type.value = type_code::domain;
+  }
+  if (is_variable && entry.data_type.value == 0 && !entry.type.reference.is_given) {
+    reader.findings.add(rules::type_missing, entry.span, "there is no data type");
+  }
+}
+
+Entry interpreted(Part& part, bool has_subs, const Reader& reader) {
+  interpret_object_code(part, has_subs, reader);
+  interpret_access(part.access, false, reader);
+  interpret_data_type(part, reader);
+  std::uint64_t flags = 0;
+  if (!part.flags.is_empty() && read_hex(part.flags, digits(4, reader), 0xFFFFFFFF, flags, reader.findings)) {
+    part.flags.value = static_cast<std::uint32_t>(flags);
+  }
+  interpret_pdo_mapping(part.pdo_mapping, reader);
+  Entry entry = with_parameter(part, reader);
+  complete_name(entry);
+  return entry;
+}
+
+// Elements of an ARRAY that say nothing of themselves are as the ARRAY says.
+void inherit_from_array(Sub& sub, const Object& object) {
+  const bool is_element = object.object_code.value == ObjectCode::array && sub.sub_index != 0;
+  if (!is_element || !sub.parameter_id.is_empty()) {
+    return;
+  }
+  if (!sub.data_type.is_given) {
+    sub.data_type.value = object.data_type.value;
+  }
+  if (!sub.access.is_given) {
+    sub.access.value = object.access.value;
+  }
+  if (!sub.pdo_mapping.is_given) {
+    sub.pdo_mapping.value = object.pdo_mapping.value;
+  }
+}
+
+bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, Span place, std::uint64_t& value,
+                 const Reader& reader) {
+  if (read_hex(number, reader.device.format == Format::other_xml ? 0 : wanted, largest, value, reader.findings)) {
+    return true;
+  }
+  reader.findings.add(rules::index, number.is_given ? number.span : place, "this is no index: kept, and not used");
+  return false;
+}
+
+void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, const Reader& reader) {
+  for (const pugi::xml_node element : elements) {
+    Part part = read_part(element, reader);
+    std::uint64_t number = 0;
+    if (!read_number(part.number, 2, 0xFF, part.span, number, reader)) {
+      object.others.push_back(kept(reader.document, element));
+      continue;
+    }
+    Sub& sub = object.subs.emplace_back();
+    sub.sub_index = static_cast<std::uint8_t>(number);
+    static_cast<Entry&>(sub) = interpreted(part, false, reader);
+    inherit_from_array(sub, object);
+    complete_access(sub, true, reader);
+    complete_type(sub, true, reader);
+  }
+}
+
+// Sorted, each once; what is there a second time goes to call(element).
+template <typename T, typename Key, typename Call>
+void sort_once(std::vector<T>& all, Key key, Call call) {
+  std::stable_sort(all.begin(), all.end(), [key](const T& a, const T& b) { return key(a) < key(b); });
+  std::vector<T> once;
+  for (T& element : all) {
+    if (!once.empty() && key(once.back()) == key(element)) {
+      call(element);
+    } else {
+      once.push_back(std::move(element));
+    }
+  }
+  all = std::move(once);
+}
+
+// All that an entry says, for one that has no place of its own any more.
+Kept kept_entry(std::string name, Entry& entry) {
+  Kept result{std::move(name), {}, std::move(entry.others), entry.span};
+  const auto keep_text = [&result](std::string_view attribute, const Text& text) {
+    if (text.is_given) {
+      result.children.push_back({"@" + std::string(attribute), text, {}, text.span});
+    }
+  };
+  Part part;
+  static_cast<Entry&>(part) = std::move(entry);
+  for (const Slot<Part>& slot : part_slots) {
+    keep_text(slot.name, slot.member(part));
+  }
+  return result;
+}
+
+void report_double(const Entry& entry, const Reader& reader) {
+  reader.findings.add(rules::duplicate_object, entry.span, "said a second time: the first is used");
+}
+
+void sort_subs(Object& object, const Reader& reader) {
+  std::vector<Kept> doubles;
+  sort_once(
+      object.subs, [](const Sub& sub) { return sub.sub_index; },
+      [&](Sub& sub) {
+        report_double(sub, reader);
+        doubles.push_back(kept_entry("CANopenSubObject", sub));
+      });
+  append(object.others, doubles);
+}
+
+bool read_object(pugi::xml_node element, const Reader& reader) {
+  Part part = read_part(element, reader);
+  std::uint64_t number = 0;
+  if (!read_number(part.number, 4, 0xFFFF, part.span, number, reader)) {
+    return false;
+  }
+  Object object;
+  object.index = static_cast<std::uint16_t>(number);
+  object.is_listed = true;
+  object.sub_number = part.sub_number;
+  interpret_number(object.sub_number, 0xFF, reader.findings);
+  const std::vector<pugi::xml_node> subs = std::move(part.subs);
+  static_cast<Entry&>(object) = interpreted(part, !subs.empty() || object.sub_number.is_given, reader);
+  const bool is_variable = !has_sub_objects(object.object_code.value);
+  if (is_variable && !subs.empty()) {
+    reader.findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
+                        "only ARRAY, RECORD and DEFSTRUCT have sub-objects");
+  }
+  complete_access(object, is_variable, reader);
+  complete_type(object, is_variable, reader);
+  read_subs(object, subs, reader);
+  sort_subs(object, reader);
+  reader.device.objects.push_back(std::move(object));
+  return true;
+}
+
+void interpret_values(Entry& entry, const Reader& reader) {
+  const DataType& type = data_type_of(reader.device, entry.data_type.value);
+  for (Value* value : {&entry.default_value, &entry.actual_value, &entry.substitute_value}) {
+    interpret_value(*value, type, reader);
+  }
+  interpret_allowed(entry.allowed, type, reader);
+  if (entry.allowed.ranges.size() == 1) {  // where the limits come from
+    Findings said_already;
+    interpret(entry.low_limit, type, said_already);
+    interpret(entry.high_limit, type, said_already);
+  } else {
+    interpret_value(entry.low_limit, type, reader);
+    interpret_value(entry.high_limit, type, reader);
+  }
+}
+
+void finish_objects(const Reader& reader) {
+  Device& device = reader.device;
+  std::vector<Kept> doubles;
+  sort_once(
+      device.objects, [](const Object& object) { return object.index; },
+      [&](Object& object) {
+        report_double(object, reader);
+        Kept lost = kept_entry("CANopenObject", object);
+        for (Sub& sub : object.subs) {
+          lost.children.push_back(kept_entry("CANopenSubObject", sub));
+        }
+        doubles.push_back(std::move(lost));
+      });
+  append(device.others, doubles);
+  for (Object& object : device.objects) {
+    if (!has_sub_objects(object.object_code.value)) {
+      interpret_values(object, reader);
+    }
+    for (Sub& sub : object.subs) {
+      interpret_values(sub, reader);
+    }
+  }
+}
+
+constexpr std::array<Slot<Device>, 3> count_slots = {{
+    {"mandatoryObjects", [](Device& d) -> Text& { return d.mandatory.count; }},
+    {"optionalObjects", [](Device& d) -> Text& { return d.optional.count; }},
+    {"manufacturerObjects", [](Device& d) -> Text& { return d.manufacturer.count; }},
+}};
+
+void check_count(ObjectList& list, ListKind kind, const Reader& reader) {
+  list.is_given = list.count.is_given;
+  if (list.count.is_empty()) {
+    return;
+  }
+  interpret_number(list.count, 0xFFFFFFFF, reader.findings);
+  const std::vector<Object>& objects = reader.device.objects;
+  const auto number = std::count_if(objects.begin(), objects.end(),
+                                    [kind](const Object& object) { return list_of(object.index) == kind; });
+  if (list.count.value != static_cast<std::uint64_t>(number)) {
+    reader.findings.add(rules::list_count, list.count.span, std::to_string(number) + " objects of this kind are there");
+  }
+}
+
+// maxon -------------------------------------------------------------------------------------------------------------
+
+void read_flags(Entry& entry, pugi::xml_node element, const Reader& reader) {
+  const pugi::xml_node reference = element.child("flagsIDRef");
+  if (!reference) {
+    return;
+  }
+  const pugi::xml_node flags = find(reader.shared.templates, raw_attribute(reference, "uniqueIDRef"));
+  if (!flags) {
+    reader.findings.add(rules::reference, reader.document.tag(reference), "there are no such flags");
+    return;
+  }
+  if (!may_copy(flags, reader)) {
+    return;
+  }
+  entry.access.value = access_named(trimmed(flags.child_value("Access")));
+  const std::string_view mapping = trimmed(flags.child_value("PdoMapping"));
+  const bool is_sent = mapping.find_first_of("Tt") != std::string_view::npos;
+  const bool is_received = mapping.find_first_of("Rr") != std::string_view::npos;
+  entry.pdo_mapping.value = is_sent && is_received ? PdoMapping::optional
+                            : is_sent              ? PdoMapping::tpdo
+                            : is_received          ? PdoMapping::rpdo
+                                                   : PdoMapping::no;
+}
+
+struct Indexed {
+  Entry entry;
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  bool is_whole = false;  // structuredParameter
+};
+
+bool read_leaf_number(pugi::xml_node element, const char* name, std::uint64_t largest, std::uint64_t& value,
+                      const Reader& reader) {
+  const pugi::xml_node leaf = element.child(name);
+  return leaf && read_number(reader.document.text(leaf), 0, largest, reader.document.tag(leaf), value, reader);
+}
+
+bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader) {
+  std::uint64_t index = 0;
+  std::uint64_t sub_index = 0;
+  if (!read_leaf_number(element, "index", 0xFFFF, index, reader) ||
+      (element.child("subIndex") && !read_leaf_number(element, "subIndex", 0xFF, sub_index, reader))) {
+    return false;
+  }
+  indexed.index = static_cast<std::uint16_t>(index);
+  indexed.sub_index = static_cast<std::uint8_t>(sub_index);
+  indexed.is_whole = local_name(element) == "structuredParameter";
+  indexed.entry = read_parameter(element, reader);
+  indexed.entry.object_code.value = indexed.is_whole ? ObjectCode::record : ObjectCode::variable;
+  choose_type(indexed.entry, reader);
+  take_limits_of_range(indexed.entry);
+  read_flags(indexed.entry, element, reader);
+  complete_name(indexed.entry);
+  return true;
+}
+
+// An object without sub-objects is its own sub-index 0.
+void simplify(Object& object) {
+  if (object.subs.size() == 1 && object.subs.front().sub_index == 0 && object.name.is_empty()) {
+    static_cast<Entry&>(object) = std::move(static_cast<Entry&>(object.subs.front()));
+    object.subs.clear();
+  } else if (object.name.is_empty()) {
+    object.span = object.subs.front().span;
+  }
+}
+
+void add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed, const Reader& reader) {
+  const auto [place, is_new] = objects.try_emplace(indexed.index);
+  Object& object = place->second;
+  if (is_new) {
+    object.index = indexed.index;
+    object.is_listed = true;
+    object.object_code.value = ObjectCode::record;
+  }
+  if (!indexed.is_whole) {
+    Sub& sub = object.subs.emplace_back();
+    static_cast<Entry&>(sub) = std::move(indexed.entry);
+    sub.sub_index = indexed.sub_index;
+  } else if (object.name.is_empty()) {
+    static_cast<Entry&>(object) = std::move(indexed.entry);
+  } else {
+    report_double(indexed.entry, reader);
+    reader.device.parameters.push_back(std::move(indexed.entry));
+  }
+}
+
+}  // namespace
+
+void interpret_value(Value& value, const DataType& type, const Reader& reader) {
+  // IEC has words for them, which CiA 306 has not.
+  if (type.kind == TypeKind::boolean && (value.text == "true" || value.text == "false")) {
+    value.kind = Value::Kind::integer;
+    value.integer = value.text == "true" ? 1U : 0U;
+    return;
+  }
+  interpret(value, type, reader.findings);
+}
+
+void interpret_allowed(Allowed& allowed, const DataType& type, const Reader& reader) {
+  for (AllowedValue& value : allowed.values) {
+    interpret_value(value.value, type, reader);
+  }
+  for (Range& range : allowed.ranges) {
+    for (Value* value : {&range.minimum, &range.maximum, &range.step}) {
+      interpret_value(*value, type, reader);
+    }
+  }
+}
+
+void finish_parameter(Entry& entry, const Reader& reader) {
+  choose_type(entry, reader);
+  take_limits_of_range(entry);
+  interpret_values(entry, reader);
+}
+
+void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader) {
+  // In the order of Access.
+  constexpr std::array<std::string_view, 8> parameter_words = {
+      "",     "noAccess", "read", "write", "readWrite", "readWriteInput", "readWriteOutput", "const"};
+  if (access.is_empty()) {
+    return;
+  }
+  const auto* const word =
+      std::find_if(parameter_words.begin() + 1, parameter_words.end(),
+                   [&access](std::string_view candidate) { return equal_ignoring_case(candidate, access.text); });
+  const Access of_object = access_named(access.text);
+  const Access of_parameter =
+      word != parameter_words.end() ? static_cast<Access>(word - parameter_words.begin()) : Access::unknown;
+  access.value = of_parameter != Access::unknown && (is_parameter || of_object == Access::unknown) ? of_parameter : of_object;
+  if (access.value == Access::unknown) {
+    reader.findings.add(rules::access_unknown, access.span, "this is no access",
+                        is_parameter ? "read, write, readWrite, const …" : "ro, wo, rw or const");
+  } else if (access.text != (is_parameter ? parameter_words[static_cast<std::size_t>(access.value)]
+                                          : name_of(access.value))) {
+    reader.findings.add(rules::access_case, access.span, "not the word that CiA 311 has here");
+  }
+}
+
+void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
+  if (mapping.is_empty()) {
+    return;
+  }
+  for (unsigned n = 0; n <= static_cast<unsigned>(PdoMapping::rpdo); ++n) {
+    const auto candidate = static_cast<PdoMapping>(n);
+    if (equal_ignoring_case(mapping.text, name_of(candidate))) {
+      mapping.value = candidate;
+      if (mapping.text != name_of(candidate)) {
+        reader.findings.add(rules::pdo_mapping, mapping.span, "not with the capitals that CiA 311 has");
+      }
+      return;
+    }
+  }
+  mapping.value = mapping.text == "1" || equal_ignoring_case(mapping.text, "true") ? PdoMapping::optional : PdoMapping::no;
+  reader.findings.add(rules::pdo_mapping, mapping.span, "neither no, optional, default, TPDO nor RPDO",
+                      std::string(name_of(mapping.value)));
+}
+
+void read_object_list(pugi::xml_node element, const Reader& reader) {
+  std::vector<Kept> rest;
+  read_element(reader.device, element, count_slots, rest, reader, [&](pugi::xml_node child) {
+    return is_object(local_name(child)) && read_object(child, reader);
+  });
+  keep_rest(element, std::move(rest), reader.device.others, reader);
+  finish_objects(reader);
+  check_count(reader.device.mandatory, ListKind::mandatory, reader);
+  check_count(reader.device.optional, ListKind::optional, reader);
+  check_count(reader.device.manufacturer, ListKind::manufacturer, reader);
+}
+
+void read_indexed_parameters(const std::vector<pugi::xml_node>& parameters, const Reader& reader) {
+  if (parameters.empty()) {
+    return;
+  }
+  std::map<std::uint16_t, Object> objects;
+  for (const pugi::xml_node element : parameters) {
+    Indexed indexed;
+    if (read_indexed(element, indexed, reader)) {
+      add_indexed(objects, indexed, reader);
+    } else {
+      reader.device.others.push_back(kept(reader.document, element));
+    }
+  }
+  for (auto& [index, object] : objects) {
+    sort_once(
+        object.subs, [](const Sub& sub) { return sub.sub_index; },
+        [&](Sub& sub) {
+          report_double(sub, reader);
+          reader.device.parameters.push_back(std::move(static_cast<Entry&>(sub)));
+        });
+    if (!object.subs.empty()) {
+      simplify(object);
+    }
+    reader.device.objects.push_back(std::move(object));
+  }
+  finish_objects(reader);
+}
+
+}  // namespace lexican::codict::xdd

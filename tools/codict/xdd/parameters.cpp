@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: Apache-2.0
+// ApplicationProcess: types, templates, parameters and groups. [311]
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "xdd/parts.hpp"
+
+namespace lexican::codict::xdd {
+
+namespace {
+
+constexpr std::array<Slot<Entry>, 8> parameter_slots = {{
+    {"uniqueID", [](Entry& e) -> Text& { return e.parameter_id; }},
+    {"access", [](Entry& e) -> Text& { return e.access; }},
+    {"accessList", [](Entry& e) -> Text& { return e.access_list; }},
+    {"support", [](Entry& e) -> Text& { return e.support; }},
+    {"persistent", [](Entry& e) -> Text& { return e.persistent; }},
+    {"offset", [](Entry& e) -> Text& { return e.offset; }},
+    {"multiplier", [](Entry& e) -> Text& { return e.multiplier; }},
+    {"templateIDRef", [](Entry& e) -> Text& { return e.template_id; }},
+}};
+
+// The order that the schema has for the children; what it has not there is the last.
+constexpr std::array<std::string_view, 12> order = {
+    "label",        "description",     "labelRef",      "descriptionRef", "*type", "conditionalSupport", "denotation", "actualValue",
+    "defaultValue", "substituteValue", "allowedValues", "unit"};
+
+std::size_t rank_of(std::string_view name) {
+  if (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr) {
+    name = "*type";
+  }
+  const auto rank = static_cast<std::size_t>(std::find(order.begin(), order.end(), name) - order.begin());
+  return std::max<std::size_t>(rank, 3);  // words in any order
+}
+
+void check_order(pugi::xml_node element, const Reader& reader) {
+  std::size_t last = 0;
+  for (const pugi::xml_node child : element.children()) {
+    if (child.type() != pugi::node_element) {
+      continue;
+    }
+    const std::size_t rank = rank_of(local_name(child));
+    if (rank < last) {
+      reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
+      return;
+    }
+    last = rank;
+  }
+}
+
+void read_denotation(Entry& entry, pugi::xml_node element, const Reader& reader) {
+  std::vector<Kept> rest;
+  read_children(element, rest, reader,
+                [&](pugi::xml_node child) { return read_word(entry.denotations, child, rest, reader); });
+  keep_rest(element, std::move(rest), entry.others, reader);
+  entry.denotation = first_of(entry.denotations);
+}
+
+void interpret_storage_group(Field<std::string>& group) {
+  const bool is_number = !group.text.empty() && std::all_of(group.text.begin(), group.text.end(), is_digit);
+  const bool is_zero = is_number && group.text.find_first_not_of('0') == std::string::npos;
+  group.value = group.text.empty() || is_zero ? "RAM" : group.text;
+}
+
+void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
+  constexpr std::array<std::string_view, 4> words = {"no", "tx", "rx", "trx"};  // in the order of SrdoAccess
+  const auto* const word = std::find_if(words.begin(), words.end(), [&srdo](std::string_view candidate) {
+    return equal_ignoring_case(candidate, srdo.text);
+  });
+  if (word == words.end()) {
+    findings.add(rules::property, srdo.span, "neither tx, rx, trx nor no: no");
+  } else {
+    srdo.value = static_cast<SrdoAccess>(word - words.begin());
+  }
+}
+
+void interpret_length(Field<std::uint32_t>& length, Findings& findings) {
+  const ParsedInteger number = parse_integer(length.text);
+  if (length.text.empty()) {
+    return;
+  }
+  if (!number.is_number() || number.value.is_negative || number.value.magnitude > 0xFFFFFFFF) {
+    findings.add(rules::property, length.span, "this is no length");
+  } else {
+    length.value = static_cast<std::uint32_t>(number.value.magnitude);
+  }
+}
+
+constexpr std::array<Slot<NodeProperties>, 8> property_slots = {{
+    {"CO_disabled", [](NodeProperties& n) -> Text& { return n.disabled; }},
+    {"CO_countLabel", [](NodeProperties& n) -> Text& { return n.count_label; }},
+    {"CO_storageGroup", [](NodeProperties& n) -> Text& { return n.storage_group; }},
+    {"CO_accessSRDO", [](NodeProperties& n) -> Text& { return n.srdo; }},
+    {"CO_stringLengthMin", [](NodeProperties& n) -> Text& { return n.string_length_min; }},
+    {"CO_byteLength", [](NodeProperties& n) -> Text& { return n.byte_length; }},
+    {"CO_extensionIO", [](NodeProperties& n) -> Text& { return n.extension_io; }},
+    {"CO_flagsPDO", [](NodeProperties& n) -> Text& { return n.flags_pdo; }},
+}};
+
+void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
+  struct Raw {
+    Text name;
+    Text value;
+  };
+  constexpr std::array<Slot<Raw>, 2> slots = {
+      {{"name", [](Raw& r) -> Text& { return r.name; }}, {"value", [](Raw& r) -> Text& { return r.value; }}}};
+  Raw raw;
+  std::vector<Kept> rest;
+  read_element(raw, element, slots, rest, reader, [](pugi::xml_node) { return false; });
+  keep_rest(element, std::move(rest), entry.others, reader);
+  if (!read_into(entry.node, raw.name.text, raw.value, raw.name.span, property_slots, reader)) {
+    entry.properties.push_back({raw.name.text, raw.value});
+  }
+}
+
+void read_conditional_support(Entry& entry, pugi::xml_node element, const Reader& reader) {
+  entry.conditional_support.push_back(text_of(element, "paramIDRef", entry.others, reader));
+}
+
+bool read_parameter_value(Entry& entry, pugi::xml_node child, const Reader& reader) {
+  const std::string_view name = local_name(child);
+  return (name == "actualValue" && read_value(entry.actual_value, child, entry.others, reader)) ||
+         (name == "defaultValue" && read_value(entry.default_value, child, entry.others, reader)) ||
+         (name == "substituteValue" && read_value(entry.substitute_value, child, entry.others, reader));
+}
+
+bool read_parameter_part(Entry& entry, pugi::xml_node child, const Reader& reader) {
+  const std::string_view name = local_name(child);
+  if (reader.shared.dialect == Dialect::maxon && (name == "index" || name == "subIndex")) {
+    return true;  // read with the object
+  }
+  if (name == "conditionalSupport" && !child.first_child()) {
+    read_conditional_support(entry, child, reader);
+  } else if (name == "denotation" && !entry.denotation.is_given) {
+    read_denotation(entry, child, reader);
+  } else if (name == "allowedValues" && entry.allowed.values.empty() && entry.allowed.ranges.empty()) {
+    read_allowed(entry.allowed, child, entry.others, reader);
+  } else if (name == "unit" && !entry.unit.is_given) {
+    read_unit(entry.unit, child, entry.others, reader);
+  } else if (name == "property") {
+    read_property(entry, child, reader);
+  } else {
+    return read_word(entry.words, child, entry.others, reader) || read_parameter_value(entry, child, reader) ||
+           read_type(entry.type, child, entry.others, reader);
+  }
+  return true;
+}
+
+void interpret_node(NodeProperties& node, Findings& findings) {
+  interpret_storage_group(node.storage_group);
+  if (!node.storage_group.is_given) {
+    node.storage_group.value.clear();
+  }
+  for (Field<bool>* flag : {&node.disabled, &node.extension_io, &node.flags_pdo}) {
+    interpret_boolean(*flag, findings);
+  }
+  if (!node.srdo.is_empty()) {
+    interpret_srdo(node.srdo, findings);
+  }
+  interpret_length(node.string_length_min, findings);
+  interpret_length(node.byte_length, findings);
+}
+
+// What a parameter leaves open, its template says.
+void inherit(Entry& entry, const Reader& reader) {
+  const pugi::xml_node element = find(reader.shared.templates, entry.template_id.text);
+  if (!element) {
+    reader.findings.add(rules::reference, entry.template_id.span, "there is no such template");
+    return;
+  }
+  if (!may_copy(element, reader)) {
+    return;
+  }
+  for (const pugi::xml_node child : element.children()) {
+    if (entry.type.code == 0 && !entry.type.reference.is_given && child.type() == pugi::node_element) {
+      TypeUse type;
+      std::vector<Kept> ignored;
+      read_type(type, child, ignored, reader);
+      entry.type.code = type.code;
+    }
+  }
+  if (!entry.access.is_given) {
+    Field<Access> access;
+    static_cast<Text&>(access) = attribute_text(element, "access", reader);
+    interpret_access(access, true, reader);
+    entry.access.value = access.value;
+  }
+}
+
+void collect_ids(pugi::xml_node list, Ids& ids, const Reader& reader) {
+  for (const pugi::xml_node element : list.children()) {
+    const std::string_view id = raw_attribute(element, "uniqueID");
+    if (!id.empty() && !ids.try_emplace(id, element).second) {
+      reader.findings.add(rules::duplicate_id, reader.document.tag(element), "a second one of this id");
+    }
+  }
+}
+
+void collect_all_ids(pugi::xml_node process, const Reader& reader) {
+  Shared& shared = reader.shared;
+  for (const pugi::xml_node list : process.children()) {
+    const std::string_view name = local_name(list);
+    if (name == "dataTypeList") {
+      collect_ids(list, shared.types, reader);
+      for (const pugi::xml_node type : list.children()) {
+        if (local_name(type) == "enum" && shared.dialect == Dialect::maxon) {
+          collect_ids(type, shared.enum_entries, reader);
+        }
+      }
+    } else if (name == "parameterList") {
+      collect_ids(list, shared.parameters, reader);
+    } else if (name == "templateList") {
+      collect_ids(list, shared.templates, reader);
+    }
+  }
+}
+
+void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
+  std::vector<Kept> rest;
+  read_children(list, rest, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    if (name == "parameterTemplate") {
+      reader.device.templates.push_back(read_parameter(child, reader));
+      finish_parameter(reader.device.templates.back(), reader);
+      return true;
+    }
+    if (name == "allowedValuesTemplate" || name == "allowedValues") {
+      AllowedTemplate& result = reader.device.allowed_templates.emplace_back();
+      result.id = attribute_text(child, "uniqueID", reader);
+      read_allowed(result.allowed, child, rest, reader);
+      interpret_allowed(result.allowed, data_type(0), reader);
+      return true;
+    }
+    return false;
+  });
+  keep_rest(list, std::move(rest), others, reader);
+}
+
+Group read_group(pugi::xml_node element, const Reader& reader) {
+  constexpr std::array<Slot<Group>, 2> slots = {
+      {{"uniqueID", [](Group& g) -> Text& { return g.id; }},
+       {"kindOfAccess", [](Group& g) -> Text& { return g.kind_of_access; }}}};
+  Group group;
+  read_element(group, element, slots, group.others, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    if (name == "parameterGroup") {
+      group.groups.push_back(read_group(child, reader));
+      return true;
+    }
+    if (name == "parameterRef" || name == "paramIDRef") {
+      group.parameters.push_back(text_of(child, "uniqueIDRef", group.others, reader));
+      if (!find(reader.shared.parameters, raw_attribute(child, "uniqueIDRef"))) {
+        reader.findings.add(rules::reference, group.parameters.back().span, "there is no such parameter");
+      }
+      return true;
+    }
+    return read_word(group.words, child, group.others, reader);
+  });
+  return group;
+}
+
+void read_groups(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
+  std::vector<Kept> rest;
+  read_children(list, rest, reader, [&](pugi::xml_node child) {
+    if (local_name(child) != "parameterGroup") {
+      return false;
+    }
+    reader.device.groups.push_back(read_group(child, reader));
+    return true;
+  });
+  keep_rest(list, std::move(rest), others, reader);
+}
+
+void read_types(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
+  std::vector<Kept> rest;
+  read_children(list, rest, reader, [&](pugi::xml_node child) {
+    if (!is_definition(child)) {
+      return false;
+    }
+    reader.device.types.push_back(read_definition(child, reader));
+    return true;
+  });
+  keep_rest(list, std::move(rest), others, reader);
+}
+
+// Parameters are read when objects refer to them, or at the end; those of maxon are objects.
+void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
+  std::vector<Kept> rest;
+  std::vector<pugi::xml_node> indexed;
+  read_children(list, rest, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    if (child.child("index") && (name == "parameter" || name == "structuredParameter")) {
+      indexed.push_back(child);
+      return true;
+    }
+    return name == "parameter";
+  });
+  keep_rest(list, std::move(rest), others, reader);
+  read_indexed_parameters(indexed, reader);
+}
+
+}  // namespace
+
+Entry read_parameter(pugi::xml_node element, const Reader& reader) {
+  Entry entry;
+  entry.span = reader.document.tag(element);
+  read_element(entry, element, parameter_slots, entry.others, reader,
+               [&](pugi::xml_node child) { return read_parameter_part(entry, child, reader); });
+  interpret_access(entry.access, true, reader);
+  interpret_boolean(entry.persistent, reader.findings);
+  interpret_node(entry.node, reader.findings);
+  if (reader.shared.dialect == Dialect::container) {
+    check_order(element, reader);
+  }
+  if (entry.template_id.is_given) {
+    inherit(entry, reader);
+  }
+  return entry;
+}
+
+void read_process(pugi::xml_node element, const Reader& reader) {
+  collect_all_ids(element, reader);
+  std::vector<Kept> rest;
+  read_children(element, rest, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    if (name == "dataTypeList") {
+      read_types(child, rest, reader);
+    } else if (name == "parameterList") {
+      read_parameters(child, rest, reader);
+    } else if (name == "templateList") {
+      read_templates(child, rest, reader);
+    } else if (name == "parameterGroupList") {
+      read_groups(child, rest, reader);
+    } else {
+      return false;
+    }
+    return true;
+  });
+  keep_rest(element, std::move(rest), reader.device.others, reader);
+}
+
+void read_unused_parameters(pugi::xml_node list, const Reader& reader) {
+  for (const pugi::xml_node element : list.children()) {
+    const std::string_view id = raw_attribute(element, "uniqueID");
+    const bool is_used = !id.empty() && reader.shared.used.count(id) != 0 && find(reader.shared.parameters, id) == element;
+    if (local_name(element) != "parameter" || element.child("index") || is_used) {
+      continue;
+    }
+    reader.findings.add(rules::parameter_unused, reader.document.tag(element), "no object refers to this parameter");
+    reader.device.parameters.push_back(read_parameter(element, reader));
+    finish_parameter(reader.device.parameters.back(), reader);
+  }
+}
+
+}  // namespace lexican::codict::xdd

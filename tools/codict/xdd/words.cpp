@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels, units and values. [311: t_label, unit, allowedValues]
+#include <utility>
+
+#include "xdd/parts.hpp"
+
+namespace lexican::codict::xdd {
+
+namespace {
+
+constexpr std::array<Slot<Unit>, 2> unit_slots = {{
+    {"multiplier", [](Unit& u) -> Text& { return u.multiplier; }},
+    {"unitURI", [](Unit& u) -> Text& { return u.uri; }},
+}};
+
+constexpr std::array<Slot<AllowedValue>, 3> value_slots = {{
+    {"value", [](AllowedValue& v) -> Text& { return v.value; }},
+    {"offset", [](AllowedValue& v) -> Text& { return v.offset; }},
+    {"multiplier", [](AllowedValue& v) -> Text& { return v.multiplier; }},
+}};
+
+struct LabelTexts {
+  Text language;
+  Text uri;
+  Text dictionary;
+  Text text;
+};
+
+constexpr std::array<Slot<LabelTexts>, 4> label_slots = {{
+    {"lang", [](LabelTexts& l) -> Text& { return l.language; }},
+    {"URI", [](LabelTexts& l) -> Text& { return l.uri; }},
+    {"dictID", [](LabelTexts& l) -> Text& { return l.dictionary; }},
+    {"textID", [](LabelTexts& l) -> Text& { return l.text; }},
+}};
+
+Label read_label(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  LabelTexts texts;
+  std::vector<Kept> rest;
+  for (const pugi::xml_attribute attribute : element.attributes()) {
+    const Span place = reader.document.span(attribute);
+    if (!is_syntax(attribute) &&
+        !read_into(texts, local_name(attribute), reader.document.text(attribute), place, label_slots, reader)) {
+      keep(attribute, rest, reader);
+    }
+  }
+  for (const pugi::xml_node child : element.children()) {
+    if (child.type() == pugi::node_element) {
+      keep(child, rest, reader);
+    }
+  }
+  keep_rest(element, std::move(rest), others, reader);
+  Label label{texts.language.text, texts.text, texts.dictionary.text, texts.uri.text};
+  if (!label.text.is_given) {
+    label.text = reader.document.text(element);
+    label.text.is_given = true;
+  }
+  return label;
+}
+
+AllowedValue read_allowed_value(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  AllowedValue value;
+  std::vector<Kept> rest;
+  read_element(value, element, value_slots, rest, reader,
+               [&](pugi::xml_node child) { return read_word(value.words, child, rest, reader); });
+  keep_rest(element, std::move(rest), others, reader);
+  return value;
+}
+
+// An entry of an enumeration of maxon stands for its value. [maxon: enumEntryIDRef]
+bool read_entry_reference(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(element, "uniqueIDRef"));
+  if (!entry || !may_copy(entry, reader)) {
+    return false;
+  }
+  allowed.values.push_back(read_allowed_value(entry, others, reader));
+  others.push_back(kept(reader.document, element));
+  return true;
+}
+
+Range read_range(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  Range range;
+  std::vector<Kept> rest;
+  read_children(element, rest, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    return (name == "minValue" && read_value(range.minimum, child, rest, reader)) ||
+           (name == "maxValue" && read_value(range.maximum, child, rest, reader)) ||
+           (name == "step" && read_value(range.step, child, rest, reader));
+  });
+  keep_rest(element, std::move(rest), others, reader);
+  return range;
+}
+
+}  // namespace
+
+bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
+  const std::string_view name = local_name(child);
+  if (name == "label" || name == "labelRef") {
+    words.labels.push_back(read_label(child, others, reader));
+    return true;
+  }
+  if (name == "description" || name == "descriptionRef") {
+    words.descriptions.push_back(read_label(child, others, reader));
+    return true;
+  }
+  return false;
+}
+
+Text first_of(const Words& words) {
+  if (!words.labels.empty()) {
+    return words.labels.front().text;
+  }
+  return words.descriptions.empty() ? Text() : words.descriptions.front().text;
+}
+
+void read_unit(Unit& unit, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  std::vector<Kept> rest;
+  unit.is_given = true;
+  read_element(unit, element, unit_slots, rest, reader,
+               [&](pugi::xml_node child) { return read_word(unit.words, child, rest, reader); });
+  keep_rest(element, std::move(rest), others, reader);
+}
+
+// CiA 311 has an attribute for it, maxon the text of the element, or of an element inside, or an entry of an
+// enumeration. False if it has been read before.
+bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  if (value.is_given) {
+    report_duplicate(reader.document.tag(element), reader);
+    return false;
+  }
+  std::vector<Kept> rest;
+  Text& text = value;
+  text = reader.document.text(element);
+  for (const pugi::xml_attribute attribute : element.attributes()) {
+    if (!text.is_given && local_name(attribute) == "value") {
+      text = reader.document.text(attribute);
+    } else if (!is_syntax(attribute)) {
+      keep(attribute, rest, reader);
+    }
+  }
+  for (const pugi::xml_node child : element.children()) {
+    if (child.type() != pugi::node_element) {
+      continue;
+    }
+    const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(child, "uniqueIDRef"));
+    if (!text.is_given && local_name(child) == "value") {
+      text = text_of(child, "value", rest, reader);
+    } else {
+      if (!text.is_given && local_name(child) == "enumEntryIDRef" && entry && may_copy(entry, reader)) {
+        text = reader.document.text(entry.child("value"));
+      }
+      keep(child, rest, reader);
+    }
+  }
+  keep_rest(element, std::move(rest), others, reader);
+  return true;
+}
+
+void read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  constexpr std::array<Slot<Allowed>, 1> slots = {
+      {{"templateIDRef", [](Allowed& a) -> Text& { return a.template_id; }}}};
+  std::vector<Kept> rest;
+  read_element(allowed, element, slots, rest, reader, [&](pugi::xml_node child) {
+    const std::string_view name = local_name(child);
+    if (name == "value" || name == "valueEntry") {
+      if (name == "value" && !allowed.ranges.empty()) {
+        reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
+      }
+      allowed.values.push_back(read_allowed_value(child, rest, reader));
+      return true;
+    }
+    if (name == "range") {
+      allowed.ranges.push_back(read_range(child, rest, reader));
+      return true;
+    }
+    return name == "enumEntryIDRef" && read_entry_reference(allowed, child, rest, reader);
+  });
+  keep_rest(element, std::move(rest), others, reader);
+}
+
+}  // namespace lexican::codict::xdd
