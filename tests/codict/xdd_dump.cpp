@@ -241,7 +241,7 @@ void dump_network(Dump& out, const Device& device) {
         &f.configuration_manager}) {
     out.line("feature", flag->is_given ? (flag->value ? "yes" : "no") : "");
   }
-  out.number("granularity", f.granularity);
+  out.line("granularity", std::to_string(f.granularity.value));
   out.number("channels", f.dynamic_channels);
   out.number("rx", f.rx_pdos);
   out.number("tx", f.tx_pdos);
@@ -279,9 +279,6 @@ std::string dump(const Device& device) {
   out.header(device.communication_profile);
   dump_identity(out, device.identity);
   dump_network(out, device);
-  for (const ObjectList* list : {&device.mandatory, &device.optional, &device.manufacturer}) {
-    out.number("count", list->count);
-  }
   for (const Object& object : device.objects) {
     out.object(object);
   }

@@ -331,7 +331,14 @@ std::string escaped(std::string_view text) {
       case '<': result += "&lt;"; break;
       case '>': result += "&gt;"; break;
       case '"': result += "&quot;"; break;
-      default: result += c;
+      case '\n':
+      case '\t': result += c; break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20) {
+          result += "&#" + std::to_string(static_cast<unsigned>(c)) + ";";
+        } else {
+          result += c;
+        }
     }
   }
   return result;

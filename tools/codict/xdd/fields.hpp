@@ -32,6 +32,8 @@ struct Shared {
   Ids enum_entries;  ///< of maxon
   std::unordered_map<std::string_view, bool> used;  ///< parameters that an object refers to
   std::unordered_map<std::string_view, std::uint16_t> codes;  ///< of the types that have been asked for
+  std::vector<pugi::xml_node> indexed;       ///< parameters of maxon, each with an index of its own
+  std::vector<bool> objects = std::vector<bool>(0x10000);  ///< by index: which ones are there
   /// Bytes that may be read again because something refers to them: what a fuzzer nests must not grow.
   std::size_t copies_left = 0;
 };

@@ -178,8 +178,7 @@ Entry merged(Entry parameter, Entry& own, const Reader& reader) {
   entry.pdo_mapping = own.pdo_mapping;
   entry.flags = own.flags;
   append(entry.others, own.others);
-  choose_type(entry, reader);
-  const DataType& type = data_type(entry.data_type.value);
+  const DataType& type = data_type(entry.type.code != 0 ? entry.type.code : entry.data_type.value);
   const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
     choose(chosen, value, attribute, is_same_value(chosen, value, type), entry, reader);
   };
@@ -189,6 +188,7 @@ Entry merged(Entry parameter, Entry& own, const Reader& reader) {
   choose_value(entry.high_limit, own.high_limit, "highLimit");
   choose(entry.access, own.access, "accessType", is_same_access(own.access.value, entry.access.value), entry, reader);
   choose(entry.denotation, own.denotation, "denotation", false, entry, reader);
+  choose_type(entry, reader);
   return entry;
 }
 
@@ -279,11 +279,23 @@ bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, 
   return false;
 }
 
+// False for what is there a second time.
+bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const Reader& reader) {
+  if (seen[number]) {
+    reader.findings.add(rules::duplicate_object, place, "said a second time: the first is used");
+    return false;
+  }
+  seen[number] = true;
+  return true;
+}
+
 void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, const Reader& reader) {
+  std::vector<bool> seen(0x100);
   for (const pugi::xml_node element : elements) {
     Part part = read_part(element, reader);
     std::uint64_t number = 0;
-    if (!read_number(part.number, 2, 0xFF, part.span, number, reader)) {
+    if (!read_number(part.number, 2, 0xFF, part.span, number, reader) ||
+        !is_first(seen, number, part.span, reader)) {
       object.others.push_back(kept(reader.document, element));
       continue;
     }
@@ -296,56 +308,15 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
   }
 }
 
-// Sorted, each once; what is there a second time goes to call(element).
-template <typename T, typename Key, typename Call>
-void sort_once(std::vector<T>& all, Key key, Call call) {
-  std::stable_sort(all.begin(), all.end(), [key](const T& a, const T& b) { return key(a) < key(b); });
-  std::vector<T> once;
-  for (T& element : all) {
-    if (!once.empty() && key(once.back()) == key(element)) {
-      call(element);
-    } else {
-      once.push_back(std::move(element));
-    }
-  }
-  all = std::move(once);
+template <typename T, typename Key>
+void sort_by(std::vector<T>& all, Key key) {
+  std::sort(all.begin(), all.end(), [key](const T& a, const T& b) { return key(a) < key(b); });
 }
 
-// All that an entry says, for one that has no place of its own any more.
-Kept kept_entry(std::string name, Entry& entry) {
-  Kept result{std::move(name), {}, std::move(entry.others), entry.span};
-  const auto keep_text = [&result](std::string_view attribute, const Text& text) {
-    if (text.is_given) {
-      result.children.push_back({"@" + std::string(attribute), text, {}, text.span});
-    }
-  };
-  Part part;
-  static_cast<Entry&>(part) = std::move(entry);
-  for (const Slot<Part>& slot : part_slots) {
-    keep_text(slot.name, slot.member(part));
-  }
-  return result;
-}
-
-void report_double(const Entry& entry, const Reader& reader) {
-  reader.findings.add(rules::duplicate_object, entry.span, "said a second time: the first is used");
-}
-
-void sort_subs(Object& object, const Reader& reader) {
-  std::vector<Kept> doubles;
-  sort_once(
-      object.subs, [](const Sub& sub) { return sub.sub_index; },
-      [&](Sub& sub) {
-        report_double(sub, reader);
-        doubles.push_back(kept_entry("CANopenSubObject", sub));
-      });
-  append(object.others, doubles);
-}
-
-bool read_object(pugi::xml_node element, const Reader& reader) {
+bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& reader) {
   Part part = read_part(element, reader);
   std::uint64_t number = 0;
-  if (!read_number(part.number, 4, 0xFFFF, part.span, number, reader)) {
+  if (!read_number(part.number, 4, 0xFFFF, part.span, number, reader) || !is_first(seen, number, part.span, reader)) {
     return false;
   }
   Object object;
@@ -363,7 +334,7 @@ bool read_object(pugi::xml_node element, const Reader& reader) {
   complete_access(object, is_variable, reader);
   complete_type(object, is_variable, reader);
   read_subs(object, subs, reader);
-  sort_subs(object, reader);
+  sort_by(object.subs, [](const Sub& sub) { return sub.sub_index; });
   reader.device.objects.push_back(std::move(object));
   return true;
 }
@@ -381,30 +352,6 @@ void interpret_values(Entry& entry, const Reader& reader) {
   } else {
     interpret_value(entry.low_limit, type, reader);
     interpret_value(entry.high_limit, type, reader);
-  }
-}
-
-void finish_objects(const Reader& reader) {
-  Device& device = reader.device;
-  std::vector<Kept> doubles;
-  sort_once(
-      device.objects, [](const Object& object) { return object.index; },
-      [&](Object& object) {
-        report_double(object, reader);
-        Kept lost = kept_entry("CANopenObject", object);
-        for (Sub& sub : object.subs) {
-          lost.children.push_back(kept_entry("CANopenSubObject", sub));
-        }
-        doubles.push_back(std::move(lost));
-      });
-  append(device.others, doubles);
-  for (Object& object : device.objects) {
-    if (!has_sub_objects(object.object_code.value)) {
-      interpret_values(object, reader);
-    }
-    for (Sub& sub : object.subs) {
-      interpret_values(sub, reader);
-    }
   }
 }
 
@@ -487,15 +434,16 @@ bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader
 
 // An object without sub-objects is its own sub-index 0.
 void simplify(Object& object) {
-  if (object.subs.size() == 1 && object.subs.front().sub_index == 0 && object.name.is_empty()) {
+  if (object.subs.size() == 1 && object.subs.front().sub_index == 0 && object.span.is_empty()) {
     static_cast<Entry&>(object) = std::move(static_cast<Entry&>(object.subs.front()));
     object.subs.clear();
-  } else if (object.name.is_empty()) {
+  } else if (object.span.is_empty()) {
     object.span = object.subs.front().span;
   }
 }
 
-void add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed, const Reader& reader) {
+// False if there is one of the same numbers.
+bool add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed) {
   const auto [place, is_new] = objects.try_emplace(indexed.index);
   Object& object = place->second;
   if (is_new) {
@@ -503,15 +451,44 @@ void add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed, con
     object.is_listed = true;
     object.object_code.value = ObjectCode::record;
   }
-  if (!indexed.is_whole) {
+  if (indexed.is_whole) {
+    if (!object.span.is_empty()) {
+      return false;
+    }
+    static_cast<Entry&>(object) = std::move(indexed.entry);
+    return true;
+  }
+  const bool is_double = std::any_of(object.subs.begin(), object.subs.end(),
+                                     [&indexed](const Sub& sub) { return sub.sub_index == indexed.sub_index; });
+  if (!is_double) {
     Sub& sub = object.subs.emplace_back();
     static_cast<Entry&>(sub) = std::move(indexed.entry);
     sub.sub_index = indexed.sub_index;
-  } else if (object.name.is_empty()) {
-    static_cast<Entry&>(object) = std::move(indexed.entry);
-  } else {
-    report_double(indexed.entry, reader);
-    reader.device.parameters.push_back(std::move(indexed.entry));
+  }
+  return !is_double;
+}
+
+void read_indexed_parameters(const Reader& reader) {
+  std::map<std::uint16_t, Object> objects;
+  for (const pugi::xml_node element : reader.shared.indexed) {
+    Indexed indexed;
+    const bool is_read = read_indexed(element, indexed, reader);
+    if (is_read && add_indexed(objects, indexed)) {
+      continue;
+    }
+    if (is_read) {
+      reader.findings.add(rules::duplicate_object, reader.document.tag(element), "said a second time: the first is used");
+    }
+    reader.device.others.push_back(kept(reader.document, element));
+  }
+  for (auto& [index, object] : objects) {
+    sort_by(object.subs, [](const Sub& sub) { return sub.sub_index; });
+    if (!object.subs.empty()) {
+      simplify(object);
+    }
+    if (!reader.shared.objects[index]) {
+      reader.device.objects.push_back(std::move(object));
+    }
   }
 }
 
@@ -588,42 +565,32 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
 
 void read_object_list(pugi::xml_node element, const Reader& reader) {
   std::vector<Kept> rest;
+  std::vector<bool>& seen = reader.shared.objects;
   read_element(reader.device, element, count_slots, rest, reader, [&](pugi::xml_node child) {
-    return is_object(local_name(child)) && read_object(child, reader);
+    const bool is_one = is_object(local_name(child));
+    if (is_one && !read_object(child, seen, reader)) {
+      rest.push_back(kept(reader.document, child));
+    }
+    return is_one;
   });
   keep_rest(element, std::move(rest), reader.device.others, reader);
-  finish_objects(reader);
-  check_count(reader.device.mandatory, ListKind::mandatory, reader);
-  check_count(reader.device.optional, ListKind::optional, reader);
-  check_count(reader.device.manufacturer, ListKind::manufacturer, reader);
 }
 
-void read_indexed_parameters(const std::vector<pugi::xml_node>& parameters, const Reader& reader) {
-  if (parameters.empty()) {
-    return;
-  }
-  std::map<std::uint16_t, Object> objects;
-  for (const pugi::xml_node element : parameters) {
-    Indexed indexed;
-    if (read_indexed(element, indexed, reader)) {
-      add_indexed(objects, indexed, reader);
-    } else {
-      reader.device.others.push_back(kept(reader.document, element));
+void finish_objects(const Reader& reader) {
+  read_indexed_parameters(reader);
+  Device& device = reader.device;
+  sort_by(device.objects, [](const Object& object) { return object.index; });
+  for (Object& object : device.objects) {
+    if (!has_sub_objects(object.object_code.value)) {
+      interpret_values(object, reader);
+    }
+    for (Sub& sub : object.subs) {
+      interpret_values(sub, reader);
     }
   }
-  for (auto& [index, object] : objects) {
-    sort_once(
-        object.subs, [](const Sub& sub) { return sub.sub_index; },
-        [&](Sub& sub) {
-          report_double(sub, reader);
-          reader.device.parameters.push_back(std::move(static_cast<Entry&>(sub)));
-        });
-    if (!object.subs.empty()) {
-      simplify(object);
-    }
-    reader.device.objects.push_back(std::move(object));
-  }
-  finish_objects(reader);
+  check_count(device.mandatory, ListKind::mandatory, reader);
+  check_count(device.optional, ListKind::optional, reader);
+  check_count(device.manufacturer, ListKind::manufacturer, reader);
 }
 
 }  // namespace lexican::codict::xdd

@@ -287,17 +287,15 @@ void read_types(pugi::xml_node list, std::vector<Kept>& others, const Reader& re
 // Parameters are read when objects refer to them, or at the end; those of maxon are objects.
 void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
   std::vector<Kept> rest;
-  std::vector<pugi::xml_node> indexed;
   read_children(list, rest, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (child.child("index") && (name == "parameter" || name == "structuredParameter")) {
-      indexed.push_back(child);
+      reader.shared.indexed.push_back(child);
       return true;
     }
     return name == "parameter";
   });
   keep_rest(list, std::move(rest), others, reader);
-  read_indexed_parameters(indexed, reader);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ void read_unused_parameters(pugi::xml_node list, const Reader& reader);
 
 // objects.cpp
 void read_object_list(pugi::xml_node element, const Reader& reader);
-/// Parameters of maxon, each with an index of its own.
-void read_indexed_parameters(const std::vector<pugi::xml_node>& parameters, const Reader& reader);
+/// When all of them are there.
+void finish_objects(const Reader& reader);
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader);
 void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader);
 void interpret_value(Value& value, const DataType& type, const Reader& reader);

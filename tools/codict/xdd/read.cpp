@@ -195,6 +195,7 @@ void read_device(pugi::xml_node element, Dialect dialect, const Document& docume
   } else {
     read_container(element, reader);
   }
+  finish_objects(reader);
   device.format = final_format(device, document.source().name());
 }
 

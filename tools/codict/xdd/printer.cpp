@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "xdd/printer.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "xdd/document.hpp"
+
+namespace lexican::codict::xdd {
+
+namespace {
+
+// What the schema of 1.1 declares inside other elements: in no namespace. Sorted.
+constexpr std::array<std::string_view, 56> local_elements = {"ApplicationLayers",
+                                                             "BITSTRING",
+                                                             "BOOL",
+                                                             "BYTE",
+                                                             "CANopenGeneralFeatures",
+                                                             "CANopenMasterFeatures",
+                                                             "CANopenObject",
+                                                             "CANopenSubObject",
+                                                             "CHAR",
+                                                             "DINT",
+                                                             "DWORD",
+                                                             "ExternalProfileHandle",
+                                                             "IASInterfaceType",
+                                                             "INT",
+                                                             "ISO15745Edition",
+                                                             "ISO15745Part",
+                                                             "ISO15745Reference",
+                                                             "LINT",
+                                                             "LREAL",
+                                                             "LWORD",
+                                                             "NetworkManagement",
+                                                             "PhysicalLayer",
+                                                             "ProfileBody",
+                                                             "ProfileClassID",
+                                                             "ProfileDate",
+                                                             "ProfileHeader",
+                                                             "ProfileIdentification",
+                                                             "ProfileName",
+                                                             "ProfileRevision",
+                                                             "ProfileSource",
+                                                             "ProfileTechnology",
+                                                             "REAL",
+                                                             "SINT",
+                                                             "STRING",
+                                                             "TransportLayers",
+                                                             "UDINT",
+                                                             "UINT",
+                                                             "ULINT",
+                                                             "USINT",
+                                                             "WORD",
+                                                             "WSTRING",
+                                                             "baudRate",
+                                                             "description",
+                                                             "descriptionRef",
+                                                             "deviceCommissioning",
+                                                             "dummy",
+                                                             "dummyUsage",
+                                                             "dynamicChannel",
+                                                             "dynamicChannels",
+                                                             "identity",
+                                                             "label",
+                                                             "labelRef",
+                                                             "maxValue",
+                                                             "minValue",
+                                                             "step",
+                                                             "supportedBaudRate"};
+
+static_assert(!local_elements.back().empty());
+
+bool is_local(std::string_view name) {
+  return std::binary_search(local_elements.begin(), local_elements.end(), name);
+}
+
+bool is_attribute(const Kept& kept) { return kept.name.substr(0, 1) == "@"; }
+
+// A line end in an attribute would be read as a blank.
+std::string escaped_attribute(std::string_view text) {
+  std::string result;
+  for (const char c : escaped(text)) {
+    result += c == '\n' ? "&#10;" : c == '\t' ? "&#9;" : std::string(1, c);
+  }
+  return result;
+}
+
+}  // namespace
+
+Rest::Rest(const std::vector<Kept>& others) {
+  for (const Kept& kept : others) {
+    all_.push_back(&kept);
+  }
+}
+
+const Kept* Rest::take(std::string_view name) {
+  const auto place =
+      std::find_if(all_.begin(), all_.end(), [name](const Kept* kept) { return kept->name == name; });
+  if (place == all_.end()) {
+    return nullptr;
+  }
+  const Kept* const found = *place;
+  all_.erase(place);
+  return found;
+}
+
+const Kept* Rest::take_left(std::string_view name, std::string_view attribute) {
+  const auto is_left = [name, attribute](const Kept* kept) {
+    return kept->name == name && !kept->text.is_given &&
+           std::none_of(kept->children.begin(), kept->children.end(),
+                        [attribute](const Kept& child) { return child.name == "@" + std::string(attribute); });
+  };
+  const auto place = std::find_if(all_.begin(), all_.end(), is_left);
+  if (place == all_.end()) {
+    return nullptr;
+  }
+  const Kept* const found = *place;
+  all_.erase(place);
+  return found;
+}
+
+Printer::Printer(Edition edition)
+    : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
+
+std::string Printer::full(std::string_view name) const {
+  return (is_qualified() || is_local(name) ? "" : "co:") + std::string(name);
+}
+
+void Printer::indent() { text_.append(open_.size() * 2, ' '); }
+
+void Printer::end_tag() {
+  if (is_tag_open_) {
+    text_ += ">\n";
+    is_tag_open_ = false;
+  }
+}
+
+void Printer::open(std::string_view name) {
+  end_tag();
+  indent();
+  open_.push_back(full(name));
+  text_ += "<" + open_.back();
+  is_tag_open_ = true;
+}
+
+void Printer::attribute(std::string_view name, std::string_view text) {
+  text_ += " " + std::string(name) + "=\"" + escaped_attribute(text) + "\"";
+}
+
+void Printer::attribute(std::string_view name, const Text& text) {
+  if (text.is_given) {
+    attribute(name, std::string_view(text.text));
+  }
+}
+
+void Printer::text(std::string_view text) {
+  if (!text.empty()) {
+    text_ += ">" + escaped(text);
+    is_tag_open_ = false;
+    has_text_ = true;
+  }
+}
+
+void Printer::close() {
+  const std::string name = open_.back();
+  open_.pop_back();
+  if (is_tag_open_) {
+    text_ += "/>\n";
+  } else {
+    if (!has_text_) {
+      indent();
+    }
+    text_ += "</" + name + ">\n";
+  }
+  is_tag_open_ = false;
+  has_text_ = false;
+}
+
+void Printer::element(std::string_view name, std::string_view content) {
+  open(name);
+  text(content);
+  close();
+}
+
+void Printer::kept(const Kept& kept) {
+  if (kept.name.empty() || is_attribute(kept)) {
+    return;
+  }
+  const Rest rest(kept.children);
+  open(kept.name);
+  attributes_of(rest);
+  const bool has_elements = std::any_of(kept.children.begin(), kept.children.end(),
+                                        [](const Kept& child) { return !is_attribute(child); });
+  if (has_elements) {
+    elements_of(rest);
+    if (!kept.text.is_empty()) {
+      text_ += escaped(kept.text.text) + "\n";
+    }
+  } else {
+    text(kept.text.text);
+  }
+  close();
+}
+
+void Printer::attributes_of(const Rest& rest) {
+  for (const Kept* kept : rest.all()) {
+    if (is_attribute(*kept)) {
+      attribute(std::string_view(kept->name).substr(1), std::string_view(kept->text.text));
+    }
+  }
+}
+
+void Printer::elements_of(const Rest& rest) {
+  for (const Kept* one : rest.all()) {
+    kept(*one);
+  }
+}
+
+}  // namespace lexican::codict::xdd

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file printer.hpp
+/// XML, element by element, in one of the two manners of CiA 311.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/device.hpp"
+#include "xdd/write.hpp"
+
+namespace lexican::codict::xdd {
+
+/// What was kept of an element and waits to be written with it.
+class Rest {
+ public:
+  Rest() = default;
+  explicit Rest(const std::vector<Kept>& others);
+
+  /// The first of a name, or what is left of an element that is written anew. Null if there is none.
+  const Kept* take(std::string_view name);
+  const Kept* take_left(std::string_view name, std::string_view attribute);
+  const std::vector<const Kept*>& all() const { return all_; }
+
+ private:
+  std::vector<const Kept*> all_;
+};
+
+class Printer {
+ public:
+  explicit Printer(Edition edition);
+
+  bool is_qualified() const { return edition_ == Edition::v10; }
+  void open(std::string_view name);
+  void attribute(std::string_view name, std::string_view text);
+  void attribute(std::string_view name, const Text& text);  ///< nothing where it is not given
+  void text(std::string_view text);
+  void close();
+
+  void element(std::string_view name, std::string_view text);
+  void kept(const Kept& kept);
+  void attributes_of(const Rest& rest);
+  void elements_of(const Rest& rest);
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  void indent();
+  void end_tag();
+  std::string full(std::string_view name) const;
+
+  Edition edition_;
+  std::string text_;
+  std::vector<std::string> open_;
+  bool is_tag_open_ = false;
+  bool has_text_ = false;
+};
+
+}  // namespace lexican::codict::xdd

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// ApplicationLayers beside the objects, TransportLayers, NetworkManagement. [311]
+#include <algorithm>
+
+#include "xdd/writer.hpp"
+
+namespace lexican::codict::xdd {
+
+namespace {
+
+std::string_view word(bool value) { return value ? "true" : "false"; }
+
+std::string rate_text(std::uint32_t kbit) {
+  return kbit == 0 ? "auto-baudRate" : std::to_string(kbit) + " Kbps";
+}
+
+template <typename T>
+void print_number(Printer& out, std::string_view name, const Field<T>& field) {
+  if (field.is_given) {
+    out.attribute(name, std::string_view(std::to_string(field.value)));
+  }
+}
+
+void print_flag(Printer& out, std::string_view name, const Field<bool>& field) {
+  if (field.is_given) {
+    out.attribute(name, word(field.value));
+  }
+}
+
+Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
+
+void print_rates(Printer& out, const Features& features, const Kept* left) {
+  Rest rest = rest_of(left);
+  out.open("baudRate");
+  if (features.default_bit_rate.is_given) {
+    out.attribute("defaultValue", std::string_view(rate_text(features.default_bit_rate.value)));
+  }
+  out.attributes_of(rest);
+  for (const BitRate& rate : features.bit_rates) {
+    // What is no bit rate has only its text.
+    if (rate.supported.value || rate.kbit == 0) {
+      out.open("supportedBaudRate");
+      out.attribute("value", std::string_view(rate.supported.value ? rate_text(rate.kbit) : rate.supported.text));
+      out.close();
+    }
+  }
+  out.elements_of(rest);
+  out.close();
+}
+
+void print_general(Printer& out, const Features& f, const Kept* left) {
+  out.open("CANopenGeneralFeatures");
+  print_flag(out, "groupMessaging", f.group_messaging);
+  print_number(out, "dynamicChannels", f.dynamic_channels);
+  print_flag(out, "selfStartingDevice", f.self_starting);
+  print_flag(out, "SDORequestingDevice", f.sdo_requesting);
+  out.attribute("granularity", std::string_view(std::to_string(f.granularity.value)));
+  print_number(out, "nrOfRxPDO", f.rx_pdos);
+  print_number(out, "nrOfTxPDO", f.tx_pdos);
+  print_flag(out, "bootUpSlave", f.boot_up_slave);
+  print_flag(out, "layerSettingServiceSlave", f.lss_slave);
+  print_flag(out, "ngSlave", f.node_guarding_slave);
+  print_flag(out, "ngMaster", f.node_guarding_master);
+  print_number(out, "NrOfNG_MonitoredNodes", f.guarded_nodes);
+  out.attributes_of(rest_of(left));
+  out.elements_of(rest_of(left));
+  out.close();
+}
+
+void print_master(Printer& out, const Features& f, const Kept* left) {
+  out.open("CANopenMasterFeatures");
+  print_flag(out, "bootUpMaster", f.boot_up_master);
+  print_flag(out, "flyingMaster", f.flying_master);
+  print_flag(out, "SDOManager", f.sdo_manager);
+  print_flag(out, "configurationManager", f.configuration_manager);
+  print_flag(out, "layerSettingServiceMaster", f.lss_master);
+  out.attributes_of(rest_of(left));
+  out.elements_of(rest_of(left));
+  out.close();
+}
+
+void print_commissioning(Printer& out, const Commissioning& c, const Kept* left) {
+  out.open("deviceCommissioning");
+  print_number(out, "nodeID", c.node_id);
+  out.attribute("nodeName", std::string_view(c.node_name.text));
+  out.attribute("actualBaudRate", std::string_view(c.bit_rate.is_empty() ? "" : rate_text(c.bit_rate.value)));
+  out.attribute("networkNumber", std::string_view(std::to_string(c.network_number.value)));
+  out.attribute("networkName", std::string_view(c.network_name.text));
+  out.attribute("CANopenManager", word(c.is_manager.value));
+  out.attributes_of(rest_of(left));
+  out.elements_of(rest_of(left));
+  out.close();
+}
+
+std::string_view direction(Access access) {
+  switch (access) {
+    case Access::ro: return "readOnly";
+    case Access::wo: return "writeOnly";
+    default: return "readWriteOutput";
+  }
+}
+
+}  // namespace
+
+void print_transport(Printer& out, const Device& device, const Kept* left, const Kept* rates_left) {
+  Rest rest = rest_of(left);
+  const Kept* const physical = rest.take("PhysicalLayer");
+  Rest of_physical = rest_of(physical);
+  const Kept* const of_rates = of_physical.take("baudRate");
+  out.open("TransportLayers");
+  out.open("PhysicalLayer");
+  print_rates(out, device.features, of_rates != nullptr ? of_rates : rates_left);
+  out.elements_of(of_physical);
+  out.close();
+  out.elements_of(rest);
+  out.close();
+}
+
+void print_management(Printer& out, const Device& device, const Kept* left) {
+  Rest rest = rest_of(left);
+  out.open("NetworkManagement");
+  print_general(out, device.features, rest.take("CANopenGeneralFeatures"));
+  print_master(out, device.features, rest.take("CANopenMasterFeatures"));
+  if (device.commissioning.is_given) {
+    print_commissioning(out, device.commissioning, rest.take("deviceCommissioning"));
+  }
+  out.elements_of(rest);
+  out.close();
+}
+
+void print_dummies(Printer& out, const Device& device, const Kept* left) {
+  if (device.dummies.empty() && left == nullptr) {
+    return;
+  }
+  out.open("dummyUsage");
+  for (const Dummy& dummy : device.dummies) {
+    out.open("dummy");
+    out.attribute("entry", "Dummy" + hex(dummy.type, 4) + (dummy.supported.value ? "=1" : "=0"));
+    out.close();
+  }
+  out.elements_of(rest_of(left));
+  out.close();
+}
+
+void print_channels(Printer& out, const Device& device, const Kept* left) {
+  if (device.dynamic_channels.empty() && left == nullptr) {
+    return;
+  }
+  out.open("dynamicChannels");
+  for (const DynamicChannel& channel : device.dynamic_channels) {
+    out.open("dynamicChannel");
+    const Rest rest(channel.others);
+    out.attribute("dataType", hex(channel.data_type.value, 2));
+    out.attribute("accessType", direction(channel.access.value));
+    out.attribute("startIndex", hex(channel.first_index.value, 4));
+    out.attribute("endIndex", hex(channel.last_index.value, 4));
+    print_number(out, "maxNumber", channel.max_number);
+    if (channel.offset.is_given) {
+      out.attribute("addressOffset", hex(channel.offset.value, 4));
+    }
+    print_number(out, "bitAlignment", channel.bit_alignment);
+    out.attributes_of(rest);
+    out.elements_of(rest);
+    out.close();
+  }
+  out.elements_of(rest_of(left));
+  out.close();
+}
+
+}  // namespace lexican::codict::xdd

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file writer.hpp
+/// The parts of the writer.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "xdd/printer.hpp"
+
+namespace lexican::codict::xdd {
+
+void print_words(Printer& out, const Words& words);
+
+// write_network.cpp
+void print_transport(Printer& out, const Device& device, const Kept* left, const Kept* rates_left);
+void print_management(Printer& out, const Device& device, const Kept* left);
+void print_dummies(Printer& out, const Device& device, const Kept* left);
+void print_channels(Printer& out, const Device& device, const Kept* left);
+
+/// Digits for an attribute, capital letters, at least so many.
+std::string hex(std::uint64_t value, std::size_t digits);
+
+/// Parameters, and the objects that refer to them.
+class EntryWriter {
+ public:
+  EntryWriter(Printer& out, const Device& device);
+
+  bool has_parameters() const;
+  void types(const Kept* left);
+  void templates(const Kept* left);
+  void parameters(const Kept* left);
+  void groups(const Kept* left);
+  void objects(const Kept* left);
+
+ private:
+  bool has_parameter(const Entry& entry, bool is_variable) const;
+  std::string id_of(const Entry& entry, const std::string& made) const;
+  void parameter(const Entry& entry, const std::string& id, bool is_variable, std::string_view element);
+  void parameter_once(const Entry& entry, const std::string& id, bool is_variable);
+  void type(const Entry& entry, bool is_variable);
+  void type_use(const TypeUse& use, std::uint16_t code);
+  void value(std::string_view name, const Value& value, Rest& rest);
+  void allowed(const Entry& entry, Rest& rest);
+  void allowed_values(const Allowed& allowed, Rest& rest);
+  void ranges(const Allowed& allowed, Rest& rest);
+  void range(const Range& range, Rest& rest);
+  void unit(const Unit& unit, Rest& rest);
+  void properties(const Entry& entry);
+  void property(std::string_view name, std::string_view text);
+  void object(const Object& object);
+  void entry_attributes(const Entry& entry, const std::string& id, bool is_variable);
+  void definition(const TypeDefinition& definition);
+  void enumeration(const TypeDefinition& definition);
+  void group(const Group& group);
+  void label_of_name(const Entry& entry);
+
+  Printer& out_;
+  const Device& device_;
+  bool is_eds_;
+  std::set<std::string> written_;
+  std::set<std::string, std::less<>> types_;
+};
+
+}  // namespace lexican::codict::xdd
