@@ -215,6 +215,11 @@ std::uint32_t Document::tag_end(std::uint32_t at) const {
   return source_.size();
 }
 
+std::uint32_t Document::tag_begin(std::uint32_t at) const {
+  const std::size_t begin = source_.bytes().rfind('<', at);
+  return begin == std::string_view::npos ? at : static_cast<std::uint32_t>(begin);
+}
+
 Span Document::tag(pugi::xml_node element) const {
   const std::uint32_t name = offset(element.name());
   const pugi::xml_attribute last = element.last_attribute();
@@ -275,15 +280,20 @@ Text Document::text(pugi::xml_node element) const {
   return text;
 }
 
-bool Document::encoded(std::string_view text, std::string& bytes) const {
-  const bool is_possible =
-      std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n'; });
-  return is_possible && from_utf8(escaped(text), encoding_, bytes);
+bool Document::encoded(std::string_view text, bool is_attribute, std::string& bytes) const {
+  const bool is_possible = std::all_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n';
+  });
+  return is_possible && from_utf8(is_attribute ? escaped_attribute(text) : escaped(text), encoding_, bytes);
 }
 
 bool Document::set_text(Span span, std::string_view text, Edits& edits) const {
+  const bool is_attribute = tag_end(tag_begin(span.begin)) > span.begin;
+  if (decoded(span, is_attribute) == text) {
+    return true;  // in other words, perhaps
+  }
   std::string bytes;
-  if (!encoded(text, bytes)) {
+  if (!encoded(text, is_attribute, bytes)) {
     return false;
   }
   edits.replace(span, std::move(bytes));
@@ -292,10 +302,10 @@ bool Document::set_text(Span span, std::string_view text, Edits& edits) const {
 
 bool Document::add_attribute(std::uint32_t at, std::string_view name, std::string_view text, Edits& edits) const {
   std::string bytes;
-  if (!encoded(text, bytes)) {
+  if (!encoded(text, true, bytes)) {
     return false;
   }
-  std::uint32_t end = tag_end(at) - 1;
+  std::uint32_t end = tag_end(tag_begin(at)) - 1;
   const std::string_view source = source_.bytes();
   while (end > at && (source[end - 1] == '/' || white.find(source[end - 1]) != std::string_view::npos)) {
     --end;
@@ -307,15 +317,15 @@ bool Document::add_attribute(std::uint32_t at, std::string_view name, std::strin
 bool Document::add_element(std::uint32_t at, std::string_view name, std::string_view attribute, std::string_view text,
                            Edits& edits) const {
   std::string bytes;
-  const std::uint32_t end = tag_end(at);
-  if (!encoded(text, bytes) || end < 2 || raw({end - 2, end}) == "/>") {
+  const std::uint32_t begin = tag_begin(at);
+  const std::uint32_t end = tag_end(begin);
+  if (!encoded(text, true, bytes) || end < 2 || raw({end - 2, end}) == "/>") {
     return false;
   }
   // The indent of what follows, and the prefix of the element it is put into.
   const std::string_view behind = source_.bytes().substr(end);
   const std::string_view indent = behind.substr(0, std::min(behind.find_first_not_of(white), behind.size()));
-  const std::size_t open = source_.bytes().rfind('<', at);
-  const std::string_view opened = open == std::string_view::npos ? "" : source_.bytes().substr(open + 1, end - open - 1);
+  const std::string_view opened = raw({begin, end}).substr(1);
   const std::string_view full = opened.substr(0, opened.find_first_of(" \t\r\n/>"));
   const std::string prefix(full.substr(0, full.size() - local_name(full).size()));
   edits.insert(end, std::string(indent) + "<" + prefix + std::string(name) + " " + std::string(attribute) + "=\"" +
@@ -339,6 +349,19 @@ std::string escaped(std::string_view text) {
         } else {
           result += c;
         }
+    }
+  }
+  return result;
+}
+
+std::string escaped_attribute(std::string_view text) {
+  std::string result;
+  for (const char c : escaped(text)) {
+    switch (c) {
+      case '\n': result += "&#10;"; break;
+      case '\t': result += "&#9;"; break;
+      case '\'': result += "&apos;"; break;
+      default: result += c;
     }
   }
   return result;

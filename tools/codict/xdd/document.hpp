@@ -60,8 +60,9 @@ class Document {
   std::uint32_t offset(const char* place) const { return static_cast<std::uint32_t>(place - buffer_.data()); }
   void find_root(Findings& findings);
   std::string decoded(Span span, bool is_attribute) const;
-  bool encoded(std::string_view text, std::string& bytes) const;
-  std::uint32_t tag_end(std::uint32_t at) const;
+  bool encoded(std::string_view text, bool is_attribute, std::string& bytes) const;
+  std::uint32_t tag_begin(std::uint32_t at) const;
+  std::uint32_t tag_end(std::uint32_t at) const;  ///< at: outside of values
 
   Source source_;
   std::string buffer_;  // the source again: the parser puts ends of strings into it
@@ -71,7 +72,8 @@ class Document {
   bool is_too_deep_ = false;
 };
 
-/// Signs of markup become references.
+/// Signs of markup become references; in attributes, quotes of both kinds and line ends, too.
 std::string escaped(std::string_view text);
+std::string escaped_attribute(std::string_view text);
 
 }  // namespace lexican::codict::xdd

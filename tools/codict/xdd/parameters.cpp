@@ -227,8 +227,7 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
     }
     if (name == "allowedValuesTemplate" || name == "allowedValues") {
       AllowedTemplate& result = reader.device.allowed_templates.emplace_back();
-      result.id = attribute_text(child, "uniqueID", reader);
-      read_allowed(result.allowed, child, rest, reader);
+      result.id = read_allowed(result.allowed, child, rest, reader);
       interpret_allowed(result.allowed, data_type(0), reader);
       return true;
     }

@@ -15,7 +15,8 @@ bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, co
 Text first_of(const Words& words);
 void read_unit(Unit& unit, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
 bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-void read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
+/// Gives the id that a template has.
+Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
 
 // types.cpp
 bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);

@@ -76,15 +76,6 @@ bool is_local(std::string_view name) {
 
 bool is_attribute(const Kept& kept) { return kept.name.substr(0, 1) == "@"; }
 
-// A line end in an attribute would be read as a blank.
-std::string escaped_attribute(std::string_view text) {
-  std::string result;
-  for (const char c : escaped(text)) {
-    result += c == '\n' ? "&#10;" : c == '\t' ? "&#9;" : std::string(1, c);
-  }
-  return result;
-}
-
 }  // namespace
 
 Rest::Rest(const std::vector<Kept>& others) {

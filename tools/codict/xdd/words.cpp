@@ -155,11 +155,17 @@ bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others,
   return true;
 }
 
-void read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
-  constexpr std::array<Slot<Allowed>, 1> slots = {
-      {{"templateIDRef", [](Allowed& a) -> Text& { return a.template_id; }}}};
+Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
+  struct Target {
+    Text id;
+    Text template_id;
+  };
+  constexpr std::array<Slot<Target>, 2> slots = {
+      {{"uniqueID", [](Target& t) -> Text& { return t.id; }},
+       {"templateIDRef", [](Target& t) -> Text& { return t.template_id; }}}};
+  Target target;
   std::vector<Kept> rest;
-  read_element(allowed, element, slots, rest, reader, [&](pugi::xml_node child) {
+  read_element(target, element, slots, rest, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (name == "value" || name == "valueEntry") {
       if (name == "value" && !allowed.ranges.empty()) {
@@ -175,6 +181,8 @@ void read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& o
     return name == "enumEntryIDRef" && read_entry_reference(allowed, child, rest, reader);
   });
   keep_rest(element, std::move(rest), others, reader);
+  allowed.template_id = target.template_id;
+  return target.id;
 }
 
 }  // namespace lexican::codict::xdd

@@ -16,7 +16,47 @@ namespace {
 
 constexpr std::string_view schema_instance = "http://www.w3.org/2001/XMLSchema-instance";
 
-bool is_local_type(const Format format) { return format == Format::eds || format == Format::dcf; }
+void drop_groups_parts(std::vector<Group>& groups) {
+  for (Group& group : groups) {
+    group.others.clear();
+    drop_groups_parts(group.groups);
+  }
+}
+
+void drop_types_parts(std::vector<TypeDefinition>& types) {
+  for (TypeDefinition& type : types) {
+    type.others.clear();
+    for (TypeDefinition::Member& member : type.members) {
+      member.others.clear();
+    }
+  }
+}
+
+// What other formats say in elements and sections of their own has no place in a schema; keys of an EDS become
+// properties.
+Device without_private_parts(const Device& device) {
+  Device plain = device;
+  plain.others.clear();
+  plain.device_profile.others.clear();
+  plain.communication_profile.others.clear();
+  drop_groups_parts(plain.groups);
+  drop_types_parts(plain.types);
+  if (device.format == Format::eds || device.format == Format::dcf) {
+    return plain;
+  }
+  for (Object& object : plain.objects) {
+    object.others.clear();
+    for (Sub& sub : object.subs) {
+      sub.others.clear();
+    }
+  }
+  for (std::vector<Entry>* entries : {&plain.parameters, &plain.templates}) {
+    for (Entry& entry : *entries) {
+      entry.others.clear();
+    }
+  }
+  return plain;
+}
 
 // "12-31-2020" of an EDS is 2020-12-31, "09:30AM" is 09:30:00. What is neither stays.
 std::string date_of(const Text& text) {
@@ -309,13 +349,13 @@ class DeviceWriter {
 }  // namespace
 
 std::string write(const Device& device, Edition edition) {
-  if (!is_local_type(device.format)) {
-    return DeviceWriter(device, edition).written();
+  switch (device.format) {
+    case Format::eds:
+    case Format::dcf:
+    case Format::project_xml:
+    case Format::other_xml: return DeviceWriter(without_private_parts(device), edition).written();
+    default: return DeviceWriter(device, edition).written();
   }
-  // Sections and keys that only an EDS knows are no elements.
-  Device plain = device;
-  plain.others.clear();
-  return DeviceWriter(plain, edition).written();
 }
 
 }  // namespace lexican::codict::xdd

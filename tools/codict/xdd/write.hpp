@@ -15,8 +15,8 @@ enum class Edition : unsigned char {
 };
 
 /// In the order of the schema, with both the type element of CiA 311 and the data type of CiA 301, which says more. What
-/// was kept of another XML description is written where it was; nothing else than the device decides a byte. What CiA
-/// 311 has no place for is left out: comments, modules and unknown keys of an EDS.
+/// was kept of another description of CiA 311 is written where it was; what other formats say in ways of their own is
+/// left out: comments and modules of an EDS, elements of private dialects. Nothing but the device decides a byte.
 std::string write(const Device& device, Edition edition);
 
 }  // namespace lexican::codict::xdd

@@ -144,7 +144,7 @@ void EntryWriter::type_use(const TypeUse& use, std::uint16_t code) {
 }
 
 void EntryWriter::type(const Entry& entry, bool is_variable) {
-  if (entry.type.iec.is_given || entry.type.reference.is_given || is_variable) {
+  if (entry.type.iec.is_given || entry.type.reference.is_given || (is_variable && !entry.template_id.is_given)) {
     type_use(entry.type, entry.data_type.value);
   }
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any bytes as an XML description: the reader comes to an end with bounded memory, all places that it names are in the
+// source, what it writes of a device it reads again, and a second time nothing changes any more.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "xdd/document.hpp"
+#include "xdd/read.hpp"
+#include "xdd/recognise.hpp"
+#include "xdd/write.hpp"
+
+namespace {
+
+using namespace lexican::codict;
+
+void require(bool holds, const char* promise) {
+  if (!holds) {
+    std::fprintf(stderr, "BROKEN: %s\n", promise);
+    std::abort();
+  }
+}
+
+// Empty if it is refused.
+Description description_of(const std::string& bytes) {
+  const Source source("fuzz.xdd", bytes);
+  if (!xdd::refusal(source).empty()) {
+    return {};
+  }
+  Findings findings;
+  const xdd::Document document(source, findings);
+  if (!xdd::refusal(document).empty()) {
+    return {};
+  }
+  Description description = xdd::read(document, findings);
+  for (const Finding& finding : findings.all()) {
+    require(finding.span.begin <= finding.span.end && finding.span.end <= bytes.size(), "findings are in the source");
+  }
+  for (const Device& device : description.devices) {
+    for_each_variable(device, [&](std::uint16_t, std::uint8_t, const Entry& entry) {
+      const Span span = entry.default_value.span;
+      require(span.begin <= span.end && span.end <= bytes.size(), "values are in the source");
+      Edits edits;
+      if (entry.default_value.is_given && document.set_text(span, "1", edits)) {
+        require(edits.applied_to(bytes).size() + span.size() <= bytes.size() + 1 || edits.is_empty(),
+                "an edit changes one value");
+      }
+    });
+  }
+  return description;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const Description description = description_of(std::string(reinterpret_cast<const char*>(data), size));
+  for (const Device& device : description.devices) {
+    for (const xdd::Edition edition : {xdd::Edition::v10, xdd::Edition::v11}) {
+      const Description again = description_of(xdd::write(device, edition));
+      require(again.devices.size() == 1, "what is written is read");
+      require(again.devices[0].objects.size() == device.objects.size(), "no object is lost or made up");
+    }
+  }
+  return 0;
+}
