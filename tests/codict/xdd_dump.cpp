@@ -149,8 +149,8 @@ class Dump {
     });
   }
   void header(const ProfileHeader& header) {
-    for (const Text* one : {&header.identification, &header.revision, &header.name, &header.source, &header.class_id,
-                            &header.date}) {
+    for (const Text* one :
+         {&header.identification, &header.revision, &header.name, &header.source, &header.class_id, &header.date}) {
       line("header", one->text);
     }
     kept(header.others);
@@ -201,21 +201,21 @@ class Dump {
 };
 
 void dump_file(Dump& out, const FileInfo& file) {
-  for (const Text* text : {&file.file_name, static_cast<const Text*>(&file.version),
-                           static_cast<const Text*>(&file.revision), &file.eds_version, &file.description,
-                           &file.created_by, &file.creation_date, &file.creation_time, &file.modified_by,
-                           &file.modification_date, &file.modification_time, &file.supported_languages,
-                           &file.device_class}) {
+  for (const Text* text :
+       {&file.file_name, static_cast<const Text*>(&file.version), static_cast<const Text*>(&file.revision),
+        &file.eds_version, &file.description, &file.created_by, &file.creation_date, &file.creation_time,
+        &file.modified_by, &file.modification_date, &file.modification_time, &file.supported_languages,
+        &file.device_class}) {
     out.line("file", text->text);
   }
 }
 
 void dump_identity(Dump& out, const Identity& identity) {
-  for (const Text* text : {&identity.vendor_name, static_cast<const Text*>(&identity.vendor_number),
-                           &identity.product_family, &identity.product_name,
-                           static_cast<const Text*>(&identity.product_number),
-                           static_cast<const Text*>(&identity.revision_number), &identity.build_date,
-                           &identity.specification_revision, &identity.instance_name}) {
+  for (const Text* text :
+       {&identity.vendor_name, static_cast<const Text*>(&identity.vendor_number), &identity.product_family,
+        &identity.product_name, static_cast<const Text*>(&identity.product_number),
+        static_cast<const Text*>(&identity.revision_number), &identity.build_date, &identity.specification_revision,
+        &identity.instance_name}) {
     out.line("identity", text->text);
   }
   for (const Words* words : {&identity.vendor_words, &identity.family_words, &identity.product_words}) {
@@ -235,10 +235,9 @@ void dump_network(Dump& out, const Device& device) {
     out.line("bit rate", std::to_string(rate.kbit) + (rate.supported.value ? " yes" : " no"));
   }
   out.number("default rate", f.default_bit_rate);
-  for (const Field<bool>* flag :
-       {&f.boot_up_master, &f.boot_up_slave, &f.group_messaging, &f.lss_slave, &f.lss_master, &f.node_guarding_slave,
-        &f.node_guarding_master, &f.self_starting, &f.sdo_requesting, &f.flying_master, &f.sdo_manager,
-        &f.configuration_manager}) {
+  for (const Field<bool>* flag : {&f.boot_up_master, &f.boot_up_slave, &f.group_messaging, &f.lss_slave, &f.lss_master,
+                                  &f.node_guarding_slave, &f.node_guarding_master, &f.self_starting, &f.sdo_requesting,
+                                  &f.flying_master, &f.sdo_manager, &f.configuration_manager}) {
     out.line("feature", flag->is_given ? (flag->value ? "yes" : "no") : "");
   }
   out.line("granularity", std::to_string(f.granularity.value));

@@ -29,7 +29,8 @@ TEST_CASE("XDD edit: nothing changed gives the same bytes") {
 
 TEST_CASE("XDD edit: a value is replaced where it stands, with its quotes and blanks around it") {
   const std::string bytes = test::xdd_with(
-      "<CANopenObject  index = '2000' name='a'\n objectType=\"7\" dataType=\"05\" accessType=\"rw\" defaultValue = ' 1 ' />");
+      "<CANopenObject  index = '2000' name='a'\n objectType=\"7\" dataType=\"05\" accessType=\"rw\" defaultValue = ' 1 "
+      "' />");
   const XmlReading reading(bytes);
   Edits edits;
   REQUIRE(reading.document.set_text(reading.at(0x2000).default_value.span, "0x20", edits));
@@ -92,13 +93,20 @@ TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element t
 }
 
 TEST_CASE("XDD edit: what the encoding or XML cannot write is refused") {
-  const std::string bytes = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" +
-                            test::xdd_with("<CANopenObject index=\"2000\" name=\"Gr\xF6\xDF" "e\" objectType=\"7\"/>");
+  const std::string bytes =
+      "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" + test::xdd_with(
+                                                                "<CANopenObject index=\"2000\" name=\"Gr\xF6\xDF"
+                                                                "e\" objectType=\"7\"/>");
   const XmlReading reading(bytes);
-  CHECK(reading.at(0x2000).name.text == "Gr\xC3\xB6\xC3\x9F" "e");
+  CHECK(reading.at(0x2000).name.text ==
+        "Gr\xC3\xB6\xC3\x9F"
+        "e");
   Edits edits;
   CHECK(reading.document.set_text(reading.at(0x2000).name.span, "\xC3\xA4", edits));
   CHECK_FALSE(reading.document.set_text(reading.at(0x2000).name.span, "\xD0\x96", edits));
   CHECK_FALSE(reading.document.set_text(reading.at(0x2000).name.span, std::string("\x01", 1), edits));
-  CHECK(with(reading, edits) == replaced(bytes, "Gr\xF6\xDF" "e", "\xE4"));
+  CHECK(with(reading, edits) == replaced(bytes,
+                                         "Gr\xF6\xDF"
+                                         "e",
+                                         "\xE4"));
 }

@@ -61,9 +61,9 @@ TEST_CASE("XDD quirk: bit rates without unit, in bit/s, and none at all") {
 }
 
 TEST_CASE("XDD quirk: an index that is none, and one that is there twice") {
-  const XmlReading reading = objects(object("index=\"20G0\"" + variable) + "\n" + object("index=\"2000\"" + variable) +
-                                     "\n" + object("index=\"2000\" name=\"b\" objectType=\"7\"") + "\n" +
-                                     object("name=\"none\""));
+  const XmlReading reading =
+      objects(object("index=\"20G0\"" + variable) + "\n" + object("index=\"2000\"" + variable) + "\n" +
+              object("index=\"2000\" name=\"b\" objectType=\"7\"") + "\n" + object("name=\"none\""));
   CHECK(reading.device.objects.size() == 1);
   CHECK(reading.at(0x2000).name.text == "a");
   CHECK(reading.found().substr(0, 44) == "2 xdd-index\n4 xdd-duplicate-object\n5 xdd-ind");
@@ -71,11 +71,19 @@ TEST_CASE("XDD quirk: an index that is none, and one that is there twice") {
 }
 
 TEST_CASE("XDD quirk: sub-objects in any order, one twice, one without a number") {
-  const XmlReading reading = objects("<CANopenObject index=\"2000\" name=\"r\" objectType=\"9\" subNumber=\"2\">\n"
-                                     "<CANopenSubObject subIndex=\"01\"" + variable + "/>\n"
-                                     "<CANopenSubObject subIndex=\"0\"" + variable + "/>\n"
-                                     "<CANopenSubObject subIndex=\"01\"" + variable + "/>\n"
-                                     "<CANopenSubObject" + variable + "/>\n</CANopenObject>");
+  const XmlReading reading = objects(
+      "<CANopenObject index=\"2000\" name=\"r\" objectType=\"9\" subNumber=\"2\">\n"
+      "<CANopenSubObject subIndex=\"01\"" +
+      variable +
+      "/>\n"
+      "<CANopenSubObject subIndex=\"0\"" +
+      variable +
+      "/>\n"
+      "<CANopenSubObject subIndex=\"01\"" +
+      variable +
+      "/>\n"
+      "<CANopenSubObject" +
+      variable + "/>\n</CANopenObject>");
   CHECK(reading.device.find(0x2000)->subs.size() == 2);
   CHECK(reading.device.find(0x2000)->subs[0].sub_index == 0);
   CHECK(reading.device.find(0x2000)->others.size() == 2);
@@ -84,20 +92,22 @@ TEST_CASE("XDD quirk: sub-objects in any order, one twice, one without a number"
 
 TEST_CASE("XDD quirk: objectType missing, unknown, or against the sub-objects") {
   const std::string sub = "<CANopenSubObject subIndex=\"00\"" + variable + "/></CANopenObject>\n";
-  const XmlReading reading = objects("<CANopenObject index=\"2000\" name=\"r\">" + sub +
-                                     "<CANopenObject index=\"2001\" name=\"r\" objectType=\"7\" dataType=\"05\" "
-                                     "accessType=\"ro\">" + sub +
-                                     object("index=\"2002\" name=\"x\" objectType=\"77\" dataType=\"05\" accessType=\"ro\""));
+  const XmlReading reading =
+      objects("<CANopenObject index=\"2000\" name=\"r\">" + sub +
+              "<CANopenObject index=\"2001\" name=\"r\" objectType=\"7\" dataType=\"05\" "
+              "accessType=\"ro\">" +
+              sub + object("index=\"2002\" name=\"x\" objectType=\"77\" dataType=\"05\" accessType=\"ro\""));
   CHECK(reading.device.find(0x2000)->object_code.value == ObjectCode::record);
   CHECK(reading.found() == "2 xdd-object-type-missing\n3 xdd-object-type\n4 xdd-object-type\n");
 }
 
 TEST_CASE("XDD quirk: access and PDO mapping in other words") {
-  const XmlReading reading =
-      objects(object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"RO\" PDOmapping=\"Optional\"") +
-              "\n" + object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"readWrite\" PDOmapping=\"1\"") +
-              "\n" + object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"both\"") + "\n" +
-              object("index=\"2003\" name=\"a\" objectType=\"7\" dataType=\"05\""));
+  const XmlReading reading = objects(
+      object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"RO\" PDOmapping=\"Optional\"") +
+      "\n" +
+      object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"readWrite\" PDOmapping=\"1\"") +
+      "\n" + object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"both\"") + "\n" +
+      object("index=\"2003\" name=\"a\" objectType=\"7\" dataType=\"05\""));
   CHECK(reading.at(0x2000).access.value == Access::ro);
   CHECK(reading.at(0x2000).pdo_mapping.value == PdoMapping::optional);
   CHECK(reading.at(0x2001).access.value == Access::rw);
@@ -108,21 +118,24 @@ TEST_CASE("XDD quirk: access and PDO mapping in other words") {
 }
 
 TEST_CASE("XDD quirk: no data type, one that is none, one with 0x") {
-  const XmlReading reading = objects(object("index=\"2000\" name=\"a\" objectType=\"7\" accessType=\"ro\"") + "\n" +
-                                     object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"word\" accessType=\"ro\"") +
-                                     "\n" + object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"zz\" accessType=\"ro\"") +
-                                     "\n" + object("index=\"2003\" name=\"a\" objectType=\"7\" dataType=\"0x0007\" accessType=\"ro\""));
+  const XmlReading reading =
+      objects(object("index=\"2000\" name=\"a\" objectType=\"7\" accessType=\"ro\"") + "\n" +
+              object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"word\" accessType=\"ro\"") + "\n" +
+              object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"zz\" accessType=\"ro\"") + "\n" +
+              object("index=\"2003\" name=\"a\" objectType=\"7\" dataType=\"0x0007\" accessType=\"ro\""));
   CHECK(reading.at(0x2001).data_type.value == 6);
   CHECK(reading.at(0x2003).data_type.value == 7);
   CHECK(reading.found() == "2 xdd-type-missing\n4 xdd-type-missing\n4 xdd-type-unknown\n");
 }
 
 TEST_CASE("XDD quirk: references to nothing, and ids that are there twice") {
-  const XmlReading reading(xdd_with(object("index=\"2000\" uniqueIDRef=\"Q\"" + variable),
-                                    "<parameter uniqueID=\"P\" templateIDRef=\"T\"><dataTypeIDRef uniqueIDRef=\"N\"/></parameter>\n"
-                                    "<parameter uniqueID=\"P\"><UINT/></parameter>"));
+  const XmlReading reading(
+      xdd_with(object("index=\"2000\" uniqueIDRef=\"Q\"" + variable),
+               "<parameter uniqueID=\"P\" templateIDRef=\"T\"><dataTypeIDRef uniqueIDRef=\"N\"/></parameter>\n"
+               "<parameter uniqueID=\"P\"><UINT/></parameter>"));
   CHECK(reading.found() ==
-        "2 xdd-parameter-unused\n2 xdd-reference\n2 xdd-reference\n3 xdd-duplicate-id\n3 xdd-parameter-unused\n5 xdd-reference\n");
+        "2 xdd-parameter-unused\n2 xdd-reference\n2 xdd-reference\n3 xdd-duplicate-id\n3 xdd-parameter-unused\n5 "
+        "xdd-reference\n");
   CHECK(reading.device.parameters.size() == 2);
 }
 
@@ -160,10 +173,12 @@ TEST_CASE("XDD quirk: counts of objects are checked") {
 }
 
 TEST_CASE("XDD quirk: values mean what they mean in an EDS; true and false are words of IEC") {
-  const XmlReading reading =
-      objects(object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"01\" accessType=\"ro\" defaultValue=\"true\"") +
-              "\n" + object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"02\" accessType=\"ro\" defaultValue=\"0xFF\"") +
-              "\n" + object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"08\" accessType=\"ro\" defaultValue=\"1,5\""));
+  const XmlReading reading = objects(
+      object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"01\" accessType=\"ro\" defaultValue=\"true\"") +
+      "\n" +
+      object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"02\" accessType=\"ro\" defaultValue=\"0xFF\"") +
+      "\n" +
+      object("index=\"2002\" name=\"a\" objectType=\"7\" dataType=\"08\" accessType=\"ro\" defaultValue=\"1,5\""));
   CHECK(meaning(reading.at(0x2000).default_value) == "1");
   CHECK(meaning(reading.at(0x2001).default_value) == "-1");
   CHECK(meaning(reading.at(0x2002).default_value) == "1.5");
@@ -171,9 +186,10 @@ TEST_CASE("XDD quirk: values mean what they mean in an EDS; true and false are w
 }
 
 TEST_CASE("XDD quirk: references to characters, CDATA, and other line ends") {
-  const XmlReading reading =
-      objects("<CANopenObject index=\"2000\" objectType=\"7\" name=\"a&#x41;&amp;&#228;&unknown;&#xD800;\r\nb\"><label lang='en'>"
-              "<![CDATA[1 < 2]]></label><description>x\r\ny &lt;</description></CANopenObject>");
+  const XmlReading reading = objects(
+      "<CANopenObject index=\"2000\" objectType=\"7\" name=\"a&#x41;&amp;&#228;&unknown;&#xD800;\r\nb\"><label "
+      "lang='en'>"
+      "<![CDATA[1 < 2]]></label><description>x\r\ny &lt;</description></CANopenObject>");
   const Entry& entry = reading.at(0x2000);
   CHECK(entry.name.text == "aA&\xC3\xA4&unknown;&#xD800; b");
   CHECK(entry.words.labels.at(0).text.text == "1 < 2");

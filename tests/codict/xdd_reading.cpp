@@ -37,7 +37,9 @@ std::string XmlReading::found() const {
   return text;
 }
 
-bool XmlReading::has(const char* rule) const { return found().find(" " + std::string(rule) + "\n") != std::string::npos; }
+bool XmlReading::has(const char* rule) const {
+  return found().find(" " + std::string(rule) + "\n") != std::string::npos;
+}
 
 const Entry& XmlReading::at(std::uint16_t index, std::uint8_t sub_index) const {
   const Object* const object = device.find(index);
@@ -52,11 +54,13 @@ const Entry& XmlReading::at(std::uint16_t index, std::uint8_t sub_index) const {
 XmlReading fixture_xml(const std::string& name) { return XmlReading(bytes_of_fixture(name), name); }
 
 std::string xdd_with(const std::string& objects, const std::string& parameters, const std::string& management) {
-  const std::string process =
-      parameters.empty() ? "" : "<ApplicationProcess><parameterList>\n" + parameters + "\n</parameterList></ApplicationProcess>";
+  const std::string process = parameters.empty() ? ""
+                                                 : "<ApplicationProcess><parameterList>\n" + parameters +
+                                                       "\n</parameterList></ApplicationProcess>";
   return "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\"><ISO15745Profile><ProfileBody>"
          "<DeviceIdentity/>" +
-         process + "</ProfileBody></ISO15745Profile><ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>\n" +
+         process +
+         "</ProfileBody></ISO15745Profile><ISO15745Profile><ProfileBody><ApplicationLayers><CANopenObjectList>\n" +
          objects + "\n</CANopenObjectList></ApplicationLayers>" + management +
          "</ProfileBody></ISO15745Profile></ISO15745ProfileContainer>";
 }

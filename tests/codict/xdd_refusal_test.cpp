@@ -43,7 +43,8 @@ TEST_CASE("no XDD: POWERLINK, by its namespace, its technology or the type of it
   CHECK(says(xml_refusal("<ISO15745ProfileContainer><ProfileTechnology>Powerlink</ProfileTechnology>"
                          "</ISO15745ProfileContainer>"),
              "POWERLINK"));
-  CHECK(xml_refusal("<ISO15745ProfileContainer><productName>POWERLINK</productName></ISO15745ProfileContainer>").empty());
+  CHECK(
+      xml_refusal("<ISO15745ProfileContainer><productName>POWERLINK</productName></ISO15745ProfileContainer>").empty());
 }
 
 TEST_CASE("no XDD: other XML") {
@@ -70,7 +71,8 @@ TEST_CASE("XDD: entities of a document type are not expanded, and no file is rea
 }
 
 TEST_CASE("XDD: what is not well-formed is read up to there, with the place") {
-  const std::string whole = xdd_with("<CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"ro\"/>");
+  const std::string whole =
+      xdd_with("<CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"ro\"/>");
   const XmlReading reading(whole.substr(0, whole.find("</CANopenObjectList>")) + "\n<oops");
   CHECK(reading.at(0x2000).name.text == "a");
   CHECK(reading.has("xdd-syntax"));
@@ -84,8 +86,8 @@ TEST_CASE("XDD: a large parameter that many objects refer to is not read for all
     objects += "<CANopenObject index=\"" + index + "\" name=\"n\" objectType=\"7\" uniqueIDRef=\"P\"/>";
   }
   const std::string large(300000, 'x');
-  const XmlReading reading(xdd_with(
-      objects, "<parameter uniqueID=\"P\" access=\"read\"><label lang=\"en\">" + large + "</label><UINT/></parameter>"));
+  const XmlReading reading(xdd_with(objects, "<parameter uniqueID=\"P\" access=\"read\"><label lang=\"en\">" + large +
+                                                 "</label><UINT/></parameter>"));
   CHECK(reading.device.objects.size() == 0x200);
   CHECK(reading.has("xdd-copies"));
 }

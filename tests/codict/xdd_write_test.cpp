@@ -119,8 +119,10 @@ TEST_CASE("XDD write: the order of the schema, exact digits, the type in both wa
                            "<co:actualValue", "<co:defaultValue", "<co:substituteValue", "<co:allowedValues>",
                            "<co:value value=\"0\">", "<co:range>", "<co:unit", "<co:property"}));
   CHECK(in_order(written, {"<co:dataTypeList>", "<co:templateList>", "<co:parameterList>", "<co:parameterGroupList>"}));
-  CHECK(in_order(written, {"<co:DeviceIdentity>", "<co:DeviceManager>", "<co:DeviceFunction/>", "<co:ApplicationProcess>"}));
-  CHECK(says(written, "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"07\" uniqueIDRef"));
+  CHECK(in_order(written,
+                 {"<co:DeviceIdentity>", "<co:DeviceManager>", "<co:DeviceFunction/>", "<co:ApplicationProcess>"}));
+  CHECK(
+      says(written, "<CANopenObject index=\"1000\" name=\"Device type\" objectType=\"7\" dataType=\"07\" uniqueIDRef"));
   CHECK(says(written, "<CANopenObject index=\"2003\" name=\"Time\" objectType=\"7\" dataType=\"0C\""));
   CHECK(says(written, "objFlags=\"0003\""));
   CHECK(says(written, "<deviceCommissioning nodeID=\"5\""));

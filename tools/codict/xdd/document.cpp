@@ -44,9 +44,7 @@ void append_utf8(std::uint32_t code, std::string& text) {
   }
 }
 
-bool is_character(std::uint32_t code) {
-  return code != 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-}
+bool is_character(std::uint32_t code) { return code != 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF); }
 
 // "#10" and "#xA"; false if it is anything else.
 bool append_number_reference(std::string_view name, std::string& text) {
@@ -281,9 +279,8 @@ Text Document::text(pugi::xml_node element) const {
 }
 
 bool Document::encoded(std::string_view text, bool is_attribute, std::string& bytes) const {
-  const bool is_possible = std::all_of(text.begin(), text.end(), [](char c) {
-    return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n';
-  });
+  const bool is_possible = std::all_of(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n'; });
   return is_possible && from_utf8(is_attribute ? escaped_attribute(text) : escaped(text), encoding_, bytes);
 }
 

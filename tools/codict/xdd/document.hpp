@@ -36,12 +36,12 @@ class Document {
 
   const Source& source() const { return source_; }
   Encoding encoding() const { return encoding_; }
-  pugi::xml_node root() const { return root_; }     ///< null if there is none
+  pugi::xml_node root() const { return root_; }      ///< null if there is none
   bool is_too_deep() const { return is_too_deep_; }  ///< then root() is null
 
   std::string_view raw(Span span) const { return source_.slice(span); }
-  Span tag(pugi::xml_node element) const;      ///< its start tag, brackets with it
-  Span whole(pugi::xml_node element) const;    ///< from its start tag to the end of its content
+  Span tag(pugi::xml_node element) const;          ///< its start tag, brackets with it
+  Span whole(pugi::xml_node element) const;        ///< from its start tag to the end of its content
   Span span(pugi::xml_attribute attribute) const;  ///< of the value, without the quotes
   Text text(pugi::xml_attribute attribute) const;
   /// Of what stands in an element outside other elements; the span is that of an empty place, or of all of it.

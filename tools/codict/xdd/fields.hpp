@@ -28,12 +28,12 @@ struct Shared {
   Ids types;
   Ids parameters;
   Ids templates;
-  Ids flags;         ///< of maxon: what can be done with a parameter
-  Ids enum_entries;  ///< of maxon
-  std::unordered_map<std::string_view, bool> used;  ///< parameters that an object refers to
+  Ids flags;                                                  ///< of maxon: what can be done with a parameter
+  Ids enum_entries;                                           ///< of maxon
+  std::unordered_map<std::string_view, bool> used;            ///< parameters that an object refers to
   std::unordered_map<std::string_view, std::uint16_t> codes;  ///< of the types that have been asked for
-  std::vector<pugi::xml_node> indexed;       ///< parameters of maxon, each with an index of its own
-  std::vector<bool> objects = std::vector<bool>(0x10000);  ///< by index: which ones are there
+  std::vector<pugi::xml_node> indexed;                        ///< parameters of maxon, each with an index of its own
+  std::vector<bool> objects = std::vector<bool>(0x10000);     ///< by index: which ones are there
   /// Bytes that may be read again because something refers to them: what a fuzzer nests must not grow.
   std::size_t copies_left = 0;
 };
@@ -72,8 +72,8 @@ struct Slot {
 
 /// False if no slot is that of the name, or its member has a text already.
 template <typename T, std::size_t size>
-bool read_into(T& target, std::string_view name, const Text& text, Span place,
-               const std::array<Slot<T>, size>& slots, const Reader& reader) {
+bool read_into(T& target, std::string_view name, const Text& text, Span place, const std::array<Slot<T>, size>& slots,
+               const Reader& reader) {
   for (const Slot<T>& slot : slots) {
     if (!is_named(name, slot.name, place, reader)) {
       continue;
@@ -114,8 +114,8 @@ bool read_leaf(T& target, pugi::xml_node child, const std::array<Slot<T>, size>&
 
 /// Attributes and children; call(child) is asked about each child first, and says whether it has taken it.
 template <typename T, std::size_t size, typename Call>
-void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots,
-                  std::vector<Kept>& others, const Reader& reader, const Call& call) {
+void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
+                  const Reader& reader, const Call& call) {
   read_attributes(target, element, slots, others, reader);
   for (const pugi::xml_node child : element.children()) {
     if (child.type() == pugi::node_element && !call(child) && !read_leaf(target, child, slots, reader)) {

@@ -234,12 +234,10 @@ bool read_network_part(pugi::xml_node child, std::vector<Kept>& others, const Re
     return true;
   }
   if (name == "NetworkManagement") {
-    read_children(child, rest, reader,
-                  [&](pugi::xml_node part) { return read_management_part(part, rest, reader); });
+    read_children(child, rest, reader, [&](pugi::xml_node part) { return read_management_part(part, rest, reader); });
   } else if (name == "dummyUsage") {
-    read_children(child, rest, reader, [&](pugi::xml_node part) {
-      return local_name(part) == "dummy" && read_dummy(part, rest, reader);
-    });
+    read_children(child, rest, reader,
+                  [&](pugi::xml_node part) { return local_name(part) == "dummy" && read_dummy(part, rest, reader); });
   } else if (name == "dynamicChannels") {
     read_children(child, rest, reader, [&](pugi::xml_node part) { return read_channel(part, reader); });
   } else {

@@ -103,8 +103,7 @@ void interpret_data_type(Entry& entry, const Reader& reader) {
 
 // Whether the element of a parameter can stand for the type: BITSTRING for all that have no element of their own.
 bool is_same_type(std::uint16_t of_object, std::uint16_t of_parameter) {
-  return of_object == of_parameter ||
-         (of_parameter == type_code::octet_string && (data_type(of_object).iec.empty()));
+  return of_object == of_parameter || (of_parameter == type_code::octet_string && (data_type(of_object).iec.empty()));
 }
 
 void choose_type(Entry& entry, const Reader& reader) {
@@ -160,8 +159,7 @@ void take_limits_of_range(Entry& entry) {
 }
 
 bool is_same_access(Access own, Access of_parameter) {
-  return own == of_parameter ||
-         (own == Access::rw && (of_parameter == Access::rwr || of_parameter == Access::rww));
+  return own == of_parameter || (own == Access::rw && (of_parameter == Access::rwr || of_parameter == Access::rww));
 }
 
 void append(std::vector<Kept>& to, std::vector<Kept>& from) {
@@ -294,8 +292,7 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
   for (const pugi::xml_node element : elements) {
     Part part = read_part(element, reader);
     std::uint64_t number = 0;
-    if (!read_number(part.number, 2, 0xFF, part.span, number, reader) ||
-        !is_first(seen, number, part.span, reader)) {
+    if (!read_number(part.number, 2, 0xFF, part.span, number, reader) || !is_first(seen, number, part.span, reader)) {
       object.others.push_back(kept(reader.document, element));
       continue;
     }
@@ -477,7 +474,8 @@ void read_indexed_parameters(const Reader& reader) {
       continue;
     }
     if (is_read) {
-      reader.findings.add(rules::duplicate_object, reader.document.tag(element), "said a second time: the first is used");
+      reader.findings.add(rules::duplicate_object, reader.document.tag(element),
+                          "said a second time: the first is used");
     }
     reader.device.others.push_back(kept(reader.document, element));
   }
@@ -524,7 +522,7 @@ void finish_parameter(Entry& entry, const Reader& reader) {
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader) {
   // In the order of Access.
   constexpr std::array<std::string_view, 8> parameter_words = {
-      "",     "noAccess", "read", "write", "readWrite", "readWriteInput", "readWriteOutput", "const"};
+      "", "noAccess", "read", "write", "readWrite", "readWriteInput", "readWriteOutput", "const"};
   if (access.is_empty()) {
     return;
   }
@@ -534,12 +532,13 @@ void interpret_access(Field<Access>& access, bool is_parameter, const Reader& re
   const Access of_object = access_named(access.text);
   const Access of_parameter =
       word != parameter_words.end() ? static_cast<Access>(word - parameter_words.begin()) : Access::unknown;
-  access.value = of_parameter != Access::unknown && (is_parameter || of_object == Access::unknown) ? of_parameter : of_object;
+  access.value =
+      of_parameter != Access::unknown && (is_parameter || of_object == Access::unknown) ? of_parameter : of_object;
   if (access.value == Access::unknown) {
     reader.findings.add(rules::access_unknown, access.span, "this is no access",
                         is_parameter ? "read, write, readWrite, const …" : "ro, wo, rw or const");
-  } else if (access.text != (is_parameter ? parameter_words[static_cast<std::size_t>(access.value)]
-                                          : name_of(access.value))) {
+  } else if (access.text !=
+             (is_parameter ? parameter_words[static_cast<std::size_t>(access.value)] : name_of(access.value))) {
     reader.findings.add(rules::access_case, access.span, "not the word that CiA 311 has here");
   }
 }
@@ -558,7 +557,8 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
       return;
     }
   }
-  mapping.value = mapping.text == "1" || equal_ignoring_case(mapping.text, "true") ? PdoMapping::optional : PdoMapping::no;
+  mapping.value =
+      mapping.text == "1" || equal_ignoring_case(mapping.text, "true") ? PdoMapping::optional : PdoMapping::no;
   reader.findings.add(rules::pdo_mapping, mapping.span, "neither no, optional, default, TPDO nor RPDO",
                       std::string(name_of(mapping.value)));
 }

@@ -23,8 +23,8 @@ constexpr std::array<Slot<Entry>, 8> parameter_slots = {{
 
 // The order that the schema has for the children; what it has not there is the last.
 constexpr std::array<std::string_view, 12> order = {
-    "label",        "description",     "labelRef",      "descriptionRef", "*type", "conditionalSupport", "denotation", "actualValue",
-    "defaultValue", "substituteValue", "allowedValues", "unit"};
+    "label",      "description", "labelRef",     "descriptionRef",  "*type",         "conditionalSupport",
+    "denotation", "actualValue", "defaultValue", "substituteValue", "allowedValues", "unit"};
 
 std::size_t rank_of(std::string_view name) {
   if (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr) {
@@ -237,9 +237,8 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
 }
 
 Group read_group(pugi::xml_node element, const Reader& reader) {
-  constexpr std::array<Slot<Group>, 2> slots = {
-      {{"uniqueID", [](Group& g) -> Text& { return g.id; }},
-       {"kindOfAccess", [](Group& g) -> Text& { return g.kind_of_access; }}}};
+  constexpr std::array<Slot<Group>, 2> slots = {{{"uniqueID", [](Group& g) -> Text& { return g.id; }},
+                                                 {"kindOfAccess", [](Group& g) -> Text& { return g.kind_of_access; }}}};
   Group group;
   read_element(group, element, slots, group.others, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
@@ -340,7 +339,8 @@ void read_process(pugi::xml_node element, const Reader& reader) {
 void read_unused_parameters(pugi::xml_node list, const Reader& reader) {
   for (const pugi::xml_node element : list.children()) {
     const std::string_view id = raw_attribute(element, "uniqueID");
-    const bool is_used = !id.empty() && reader.shared.used.count(id) != 0 && find(reader.shared.parameters, id) == element;
+    const bool is_used =
+        !id.empty() && reader.shared.used.count(id) != 0 && find(reader.shared.parameters, id) == element;
     if (local_name(element) != "parameter" || element.child("index") || is_used) {
       continue;
     }

@@ -70,9 +70,7 @@ constexpr std::array<std::string_view, 56> local_elements = {"ApplicationLayers"
 
 static_assert(!local_elements.back().empty());
 
-bool is_local(std::string_view name) {
-  return std::binary_search(local_elements.begin(), local_elements.end(), name);
-}
+bool is_local(std::string_view name) { return std::binary_search(local_elements.begin(), local_elements.end(), name); }
 
 bool is_attribute(const Kept& kept) { return kept.name.substr(0, 1) == "@"; }
 
@@ -85,8 +83,7 @@ Rest::Rest(const std::vector<Kept>& others) {
 }
 
 const Kept* Rest::take(std::string_view name) {
-  const auto place =
-      std::find_if(all_.begin(), all_.end(), [name](const Kept* kept) { return kept->name == name; });
+  const auto place = std::find_if(all_.begin(), all_.end(), [name](const Kept* kept) { return kept->name == name; });
   if (place == all_.end()) {
     return nullptr;
   }
@@ -110,8 +107,7 @@ const Kept* Rest::take_left(std::string_view name, std::string_view attribute) {
   return found;
 }
 
-Printer::Printer(Edition edition)
-    : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
+Printer::Printer(Edition edition) : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
 
 std::string Printer::full(std::string_view name) const {
   return (is_qualified() || is_local(name) ? "" : "co:") + std::string(name);
@@ -180,8 +176,8 @@ void Printer::kept(const Kept& kept) {
   const Rest rest(kept.children);
   open(kept.name);
   attributes_of(rest);
-  const bool has_elements = std::any_of(kept.children.begin(), kept.children.end(),
-                                        [](const Kept& child) { return !is_attribute(child); });
+  const bool has_elements =
+      std::any_of(kept.children.begin(), kept.children.end(), [](const Kept& child) { return !is_attribute(child); });
   if (has_elements) {
     elements_of(rest);
     if (!kept.text.is_empty()) {

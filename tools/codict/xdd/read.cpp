@@ -23,8 +23,7 @@ bool has_ending(std::string_view path, std::string_view ending) {
 pugi::xml_attribute namespace_of(pugi::xml_node element) {
   const std::string_view name = element.name();
   const std::size_t colon = name.find(':');
-  const std::string wanted =
-      colon == std::string_view::npos ? "xmlns" : "xmlns:" + std::string(name.substr(0, colon));
+  const std::string wanted = colon == std::string_view::npos ? "xmlns" : "xmlns:" + std::string(name.substr(0, colon));
   for (pugi::xml_node node = element; node; node = node.parent()) {
     if (const pugi::xml_attribute attribute = node.attribute(wanted.c_str())) {
       return attribute;
@@ -40,10 +39,9 @@ Format format_of_namespace(pugi::xml_node container, const Reader& reader) {
     return Format::xdd11;
   }
   if (value != namespace10) {
-    reader.findings.add(rules::xml_namespace,
-                        attribute ? reader.document.span(attribute) : reader.document.tag(container),
-                        value.empty() ? "there is no namespace" : "not a namespace of CiA 311",
-                        std::string(namespace10));
+    reader.findings.add(
+        rules::xml_namespace, attribute ? reader.document.span(attribute) : reader.document.tag(container),
+        value.empty() ? "there is no namespace" : "not a namespace of CiA 311", std::string(namespace10));
   }
   return Format::xdd10;
 }
@@ -132,7 +130,8 @@ void read_profile(pugi::xml_node profile, const Reader& reader) {
   }
 }
 
-// A container, or a profile that has none around it. Objects refer to what ApplicationProcess has, wherever that stands.
+// A container, or a profile that has none around it. Objects refer to what ApplicationProcess has, wherever that
+// stands.
 void read_container(pugi::xml_node container, const Reader& reader) {
   std::vector<pugi::xml_node> profiles;
   if (is_profile(container)) {

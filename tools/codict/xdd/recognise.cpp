@@ -46,7 +46,8 @@ std::string refusal_of_root(std::string_view name) {
   if (name == "IODevice" || name == "GSDML" || name == "html") {
     return "this is no description of a CANopen device: its root is <" + std::string(name) + ">";
   }
-  return "no ISO15745ProfileContainer or other root of a CANopen description: <" + std::string(name.substr(0, 80)) + ">";
+  return "no ISO15745ProfileContainer or other root of a CANopen description: <" + std::string(name.substr(0, 80)) +
+         ">";
 }
 
 }  // namespace

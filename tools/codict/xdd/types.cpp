@@ -32,9 +32,9 @@ std::uint16_t code_named(std::string_view name) {
   if (const DataType* type = data_type_named(name)) {
     return type->code;
   }
-  const auto* const found =
-      std::find_if(other_names.begin(), other_names.end(),
-                   [name](const OtherName& other) { return equal_ignoring_case(other.name, name); });
+  const auto* const found = std::find_if(other_names.begin(), other_names.end(), [name](const OtherName& other) {
+    return equal_ignoring_case(other.name, name);
+  });
   return found != other_names.end() ? found->code : std::uint16_t{0};
 }
 
@@ -92,8 +92,7 @@ bool read_enum_value(TypeDefinition& definition, pugi::xml_node child, const Rea
   if (name != "enumValue" && name != "enumEntry") {
     return false;
   }
-  constexpr std::array<Slot<AllowedValue>, 1> slots = {
-      {{"value", [](AllowedValue& v) -> Text& { return v.value; }}}};
+  constexpr std::array<Slot<AllowedValue>, 1> slots = {{{"value", [](AllowedValue& v) -> Text& { return v.value; }}}};
   AllowedValue& value = definition.values.emplace_back();
   std::vector<Kept> rest;
   read_element(value, child, slots, rest, reader,
@@ -104,8 +103,8 @@ bool read_enum_value(TypeDefinition& definition, pugi::xml_node child, const Rea
 
 TypeDefinition::Kind kind_of(pugi::xml_node element) {
   const std::string_view name = local_name(element);
-  return name == "array"  ? TypeDefinition::Kind::array
-         : name == "enum" ? TypeDefinition::Kind::enumeration
+  return name == "array"     ? TypeDefinition::Kind::array
+         : name == "enum"    ? TypeDefinition::Kind::enumeration
          : name == "derived" ? TypeDefinition::Kind::derived
                              : TypeDefinition::Kind::structure;
 }
@@ -176,10 +175,9 @@ bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, c
 }
 
 TypeDefinition read_definition(pugi::xml_node element, const Reader& reader) {
-  constexpr std::array<Slot<TypeDefinition>, 3> slots = {
-      {{"name", [](TypeDefinition& d) -> Text& { return d.name; }},
-       {"uniqueID", [](TypeDefinition& d) -> Text& { return d.id; }},
-       {"size", [](TypeDefinition& d) -> Text& { return d.size; }}}};
+  constexpr std::array<Slot<TypeDefinition>, 3> slots = {{{"name", [](TypeDefinition& d) -> Text& { return d.name; }},
+                                                          {"uniqueID", [](TypeDefinition& d) -> Text& { return d.id; }},
+                                                          {"size", [](TypeDefinition& d) -> Text& { return d.size; }}}};
   TypeDefinition definition;
   definition.kind = kind_of(element);
   definition.span = reader.document.tag(element);

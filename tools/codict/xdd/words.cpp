@@ -160,9 +160,8 @@ Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& o
     Text id;
     Text template_id;
   };
-  constexpr std::array<Slot<Target>, 2> slots = {
-      {{"uniqueID", [](Target& t) -> Text& { return t.id; }},
-       {"templateIDRef", [](Target& t) -> Text& { return t.template_id; }}}};
+  constexpr std::array<Slot<Target>, 2> slots = {{{"uniqueID", [](Target& t) -> Text& { return t.id; }},
+                                                  {"templateIDRef", [](Target& t) -> Text& { return t.template_id; }}}};
   Target target;
   std::vector<Kept> rest;
   read_element(target, element, slots, rest, reader, [&](pugi::xml_node child) {

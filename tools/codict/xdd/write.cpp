@@ -67,8 +67,8 @@ std::string date_of(const Text& text) {
 
 std::string time_of(const Text& text) {
   const std::string& t = text.text;
-  const bool is_eds = t.size() == 7 && t[2] == ':' && (t[5] == 'A' || t[5] == 'P') && t[6] == 'M' && is_digit(t[0]) &&
-                      is_digit(t[1]);
+  const bool is_eds =
+      t.size() == 7 && t[2] == ':' && (t[5] == 'A' || t[5] == 'P') && t[6] == 'M' && is_digit(t[0]) && is_digit(t[1]);
   if (!is_eds) {
     return t;
   }
@@ -76,7 +76,6 @@ std::string time_of(const Text& text) {
   return std::string(1, static_cast<char>('0' + hour / 10)) + static_cast<char>('0' + hour % 10) + t.substr(2, 3) +
          ":00";
 }
-
 
 // Named by their schema, in its order. What is not given is left out.
 void print_attribute(Printer& out, std::string_view name, const std::string& text, bool is_given) {
@@ -93,8 +92,9 @@ class DeviceWriter {
   std::string written() {
     out_.open("ISO15745ProfileContainer");
     const bool is_qualified = out_.is_qualified();
-    out_.attribute(is_qualified ? "xmlns" : "xmlns:co",
-                   std::string_view(is_qualified ? "http://www.canopen.org/xml/1.0" : "http://www.canopen.org/xml/1.1"));
+    out_.attribute(
+        is_qualified ? "xmlns" : "xmlns:co",
+        std::string_view(is_qualified ? "http://www.canopen.org/xml/1.0" : "http://www.canopen.org/xml/1.1"));
     out_.attribute("xmlns:xsi", schema_instance);
     device_profile();
     network_profile();
@@ -142,9 +142,8 @@ class DeviceWriter {
     out_.attribute("formatName", std::string_view("CANopen"));
     out_.attribute("formatVersion", std::string_view("1.0"));
     const auto attribute = [&](std::string_view name, const std::string& text, bool is_wanted) {
-      const bool is_said = std::any_of(own.all().begin(), own.all().end(), [name](const Kept* kept) {
-        return kept->name == "@" + std::string(name);
-      });
+      const bool is_said = std::any_of(own.all().begin(), own.all().end(),
+                                       [name](const Kept* kept) { return kept->name == "@" + std::string(name); });
       print_attribute(out_, name, text, is_wanted && !is_said);
     };
     attribute("fileName", file.file_name.text, true);
@@ -316,8 +315,7 @@ class DeviceWriter {
   void network_profile() {
     out_.open("ISO15745Profile");
     header(device_.communication_profile, "CANopen communication network profile", "CommunicationNetwork");
-    body("ProfileBody_CommunicationNetwork_CANopen",
-         second_body_ != nullptr ? Rest(second_body_->children) : Rest());
+    body("ProfileBody_CommunicationNetwork_CANopen", second_body_ != nullptr ? Rest(second_body_->children) : Rest());
     layers();
     print_transport(out_, device_, rest_.take("TransportLayers"), rest_.take("baudRate"));
     print_management(out_, device_, rest_.take("NetworkManagement"));

@@ -14,7 +14,7 @@ Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) :
 
 // Attributes that an object has and a parameter has not: those that it says beside its parameter.
 bool is_of_object(const Kept& kept) {
-  constexpr std::array<std::string_view, 7> names = {"@lowLimit",     "@highLimit",   "@accessType", "@defaultValue",
+  constexpr std::array<std::string_view, 7> names = {"@lowLimit",    "@highLimit",  "@accessType",     "@defaultValue",
                                                      "@actualValue", "@denotation", "CANopenSubObject"};
   return std::find(names.begin(), names.end(), kept.name) != names.end();
 }

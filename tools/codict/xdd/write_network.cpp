@@ -10,9 +10,7 @@ namespace {
 
 std::string_view word(bool value) { return value ? "true" : "false"; }
 
-std::string rate_text(std::uint32_t kbit) {
-  return kbit == 0 ? "auto-baudRate" : std::to_string(kbit) + " Kbps";
-}
+std::string rate_text(std::uint32_t kbit) { return kbit == 0 ? "auto-baudRate" : std::to_string(kbit) + " Kbps"; }
 
 template <typename T>
 void print_number(Printer& out, std::string_view name, const Field<T>& field) {
