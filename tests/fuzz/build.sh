@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # What the lanes fuzz and fuzz_corpus share.
-fuzz_targets=(node sdo_client sdo_server eds)
+fuzz_targets=(node sdo_client sdo_server eds xdd)
 
 # Builds the targets and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
 build_fuzz() {

@@ -3,10 +3,9 @@
 // source, and what is written of a device has all of its objects.
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
+#include "fuzz/fuzz.hpp"
 #include "xdd/document.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
@@ -16,12 +15,7 @@ namespace {
 
 using namespace lexican::codict;
 
-void require(bool holds, const char* promise) {
-  if (!holds) {
-    std::fprintf(stderr, "BROKEN: %s\n", promise);
-    std::abort();
-  }
-}
+using fuzz::require;
 
 // Empty if it is refused.
 Description description_of(const std::string& bytes) {
@@ -53,8 +47,6 @@ Description description_of(const std::string& bytes) {
 }
 
 }  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Description description = description_of(std::string(reinterpret_cast<const char*>(data), size));

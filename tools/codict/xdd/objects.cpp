@@ -178,7 +178,8 @@ Entry merged(Entry parameter, Entry& own, const Reader& reader) {
   append(entry.others, own.others);
   const DataType& type = data_type(entry.type.code != 0 ? entry.type.code : entry.data_type.value);
   const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
-    choose(chosen, value, attribute, is_same_value(chosen, value, type), entry, reader);
+    const bool is_asked = chosen.is_given && value.is_given && chosen.text != value.text;
+    choose(chosen, value, attribute, is_asked && is_same_value(chosen, value, type), entry, reader);
   };
   choose_value(entry.default_value, own.default_value, "defaultValue");
   choose_value(entry.actual_value, own.actual_value, "actualValue");
@@ -289,6 +290,7 @@ bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const R
 
 void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, const Reader& reader) {
   std::vector<bool> seen(0x100);
+  object.subs.reserve(std::min(elements.size(), seen.size()));
   for (const pugi::xml_node element : elements) {
     Part part = read_part(element, reader);
     std::uint64_t number = 0;
@@ -307,7 +309,10 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
 
 template <typename T, typename Key>
 void sort_by(std::vector<T>& all, Key key) {
-  std::sort(all.begin(), all.end(), [key](const T& a, const T& b) { return key(a) < key(b); });
+  const auto is_before = [key](const T& a, const T& b) { return key(a) < key(b); };
+  if (!std::is_sorted(all.begin(), all.end(), is_before)) {  // else they would all be moved
+    std::sort(all.begin(), all.end(), is_before);
+  }
 }
 
 bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& reader) {
