@@ -148,7 +148,7 @@ void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, E
   if (!is_same) {
     reader.findings.add(rules::parameter_differs, own.span, "the parameter says something else");
   }
-  entry.others.push_back({"@" + std::string(attribute), own, {}, own.span});
+  entry.others.push_back({"@" + std::string(attribute), static_cast<const Text&>(own), {}, own.span});
 }
 
 void take_limits_of_range(Entry& entry) {

@@ -38,7 +38,7 @@ class Printer {
   void text(std::string_view text);
   void close();
 
-  void element(std::string_view name, std::string_view text);
+  void element(std::string_view name, std::string_view content);
   void kept(const Kept& kept);
   void attributes_of(const Rest& rest);
   void elements_of(const Rest& rest);
