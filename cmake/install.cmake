@@ -11,7 +11,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/installed/co_cfg.h
 configure_file(${CMAKE_CURRENT_LIST_DIR}/lexican.pc.in ${PROJECT_BINARY_DIR}/installed/lexican.pc @ONLY)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lexican-config.cmake.in
   ${PROJECT_BINARY_DIR}/installed/lexican-config.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lexican)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lexican PATH_VARS CMAKE_INSTALL_BINDIR)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/installed/lexican-config-version.cmake
   COMPATIBILITY SameMinorVersion)
 
@@ -21,8 +21,11 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_SOURCE_DIR}/config/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lexican
   FILES_MATCHING PATTERN *.h PATTERN *.hpp PATTERN co_cfg.h EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/installed/co_cfg.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lexican)
-install(FILES ${PROJECT_BINARY_DIR}/installed/lexican-config.cmake
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/lexican_generate.cmake ${PROJECT_BINARY_DIR}/installed/lexican-config.cmake
   ${PROJECT_BINARY_DIR}/installed/lexican-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lexican)
 install(FILES ${PROJECT_BINARY_DIR}/installed/lexican.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(TARGET codict)
+  install(TARGETS codict RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

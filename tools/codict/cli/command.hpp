@@ -35,6 +35,7 @@ Command add_check(CLI::App& app);
 Command add_convert(CLI::App& app);
 Command add_diff(CLI::App& app);
 Command add_doc(CLI::App& app);
+Command add_gen(CLI::App& app);
 Command add_get(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_list(CLI::App& app);

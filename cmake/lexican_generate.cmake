@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+# lexican_generate(): the object dictionary of a target, made from a device description when it is built.
+
+# lexican_generate(TARGET app DESCRIPTION device.eds [NAME name] [LANGUAGE C|CXX] [OUTPUT_DIRECTORY dir] [OPTIONS …])
+#
+# Adds NAME_od.h and NAME_od.c or NAME_od.cpp to a target of this directory, and lets it include the header. NAME: the
+# name of the file; LANGUAGE: CXX where the project has it, as the compiler then proves most; OPTIONS: of `codict gen`.
+# The target links lexican::lexican itself.
+function(lexican_generate)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;DESCRIPTION;NAME;LANGUAGE;OUTPUT_DIRECTORY" "OPTIONS")
+  if(NOT TARGET "${arg_TARGET}" OR NOT arg_DESCRIPTION OR arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "lexican_generate(TARGET target DESCRIPTION file …): ${arg_UNPARSED_ARGUMENTS}")
+  endif()
+  get_filename_component(description ${arg_DESCRIPTION} ABSOLUTE)
+  if(NOT arg_NAME)
+    lexican_generated_name(${description} arg_NAME)
+  endif()
+  if(NOT arg_OUTPUT_DIRECTORY)
+    set(arg_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/${arg_TARGET}_od)
+  endif()
+  if(NOT arg_LANGUAGE)
+    get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+    set(arg_LANGUAGE C)
+    if(CXX IN_LIST languages)
+      set(arg_LANGUAGE CXX)
+    endif()
+  endif()
+  set(language c)
+  set(source ${arg_OUTPUT_DIRECTORY}/${arg_NAME}_od.c)
+  if(arg_LANGUAGE STREQUAL "CXX")
+    set(language c++)
+    string(APPEND source pp)
+  endif()
+  set(files ${arg_OUTPUT_DIRECTORY}/${arg_NAME}_od.h ${source})
+  lexican_find_codict(codict)
+
+  # A file that has not changed keeps its time, which Ninja understands and others take for out of date.
+  set(touch)
+  if(NOT CMAKE_GENERATOR MATCHES "Ninja")
+    set(touch COMMAND ${CMAKE_COMMAND} -E touch_nocreate ${files})
+  endif()
+  add_custom_command(OUTPUT ${files}
+    COMMAND ${codict} gen ${description} --output ${arg_OUTPUT_DIRECTORY} --name ${arg_NAME} --language ${language}
+      ${arg_OPTIONS}
+    ${touch}
+    DEPENDS ${description} ${codict}
+    COMMENT "" VERBATIM)
+  target_sources(${arg_TARGET} PRIVATE ${files})
+  target_include_directories(${arg_TARGET} PUBLIC $<BUILD_INTERFACE:${arg_OUTPUT_DIRECTORY}>)
+endfunction()
+
+# What codict calls a dictionary whose name nobody has given.
+function(lexican_generated_name path result)
+  get_filename_component(name ${path} NAME_WLE)
+  string(TOLOWER "${name}" name)
+  string(REGEX REPLACE "[^a-z0-9]+" "_" name "${name}")
+  string(REGEX REPLACE "^_|_$" "" name "${name}")
+  string(REGEX REPLACE "^([0-9])" "n\\1" name "${name}")
+  set(${result} ${name} PARENT_SCOPE)
+endfunction()
+
+# A codict that runs here: LEXICAN_CODICT, that of this build, an installed one, or one that is built for this machine
+# from the sources beside this file.
+function(lexican_find_codict result)
+  if(NOT LEXICAN_CODICT AND TARGET codict AND NOT CMAKE_CROSSCOMPILING)
+    set(${result} codict PARENT_SCOPE)
+    return()
+  endif()
+  find_program(LEXICAN_CODICT codict HINTS ${LEXICAN_CODICT_HINT} NO_CMAKE_FIND_ROOT_PATH
+    DOC "The program codict, for the machine that builds")
+  if(LEXICAN_CODICT)
+    set(${result} ${LEXICAN_CODICT} PARENT_SCOPE)
+    return()
+  endif()
+  get_filename_component(root ${CMAKE_CURRENT_FUNCTION_LIST_DIR} DIRECTORY)
+  if(NOT EXISTS ${root}/tools/codict)
+    message(FATAL_ERROR "lexican_generate: there is no codict. Install the tools of Lexican, or give -DLEXICAN_CODICT=….")
+  endif()
+  set(directory ${CMAKE_BINARY_DIR}/lexican_host_codict)
+  set(program ${directory}/tools/codict/codict${CMAKE_HOST_EXECUTABLE_SUFFIX})
+  if(NOT TARGET lexican_host_codict)
+    include(ExternalProject)
+    # No toolchain and no flags of the target; the compiler of this machine is what CMake finds.
+    ExternalProject_Add(lexican_host_codict
+      SOURCE_DIR ${root}
+      BINARY_DIR ${directory}
+      PREFIX ${directory}/step
+      CONFIGURE_COMMAND ${CMAKE_COMMAND} -E env --unset=CC --unset=CXX --unset=CFLAGS --unset=CXXFLAGS --unset=LDFLAGS
+        --unset=CMAKE_TOOLCHAIN_FILE
+        ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${root} -B ${directory} -DCMAKE_BUILD_TYPE=Release -DLEXICAN_TOOLS=ON -DLEXICAN_TESTS=OFF
+        -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF -DLEXICAN_INSTALL=OFF
+      BUILD_COMMAND ${CMAKE_COMMAND} --build ${directory} --target codict
+      BUILD_ALWAYS ON
+      BUILD_BYPRODUCTS ${program}
+      INSTALL_COMMAND ""
+      EXCLUDE_FROM_ALL ON
+      LOG_CONFIGURE ON LOG_BUILD ON LOG_OUTPUT_ON_FAILURE ON)
+  endif()
+  set(${result} ${program} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+# Nodes whose dictionary codict makes while the tests are built, in both languages, tested from the bus. The minimal
+# configuration has not all that they need.
+if(NOT LEXICAN_PRESET STREQUAL "minimal")
+  add_executable(lexican_codict_node_tests ../support/main.cpp gen_node.cpp gen_node_case.cpp)
+  foreach(language IN ITEMS C CXX)
+    string(REPLACE CXX cpp name ${language})
+    string(TOLOWER every_${name} name)
+    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/every_kind.eds NAME ${name}
+      LANGUAGE ${language})
+  endforeach()
+  target_include_directories(lexican_codict_node_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(lexican_codict_node_tests PRIVATE lexican::lexican lexican_doctest
+    lexican::lexican_can_virtual lexican::lexican_timer_software lexican::lexican_nvm_ram)
+  lexican_warnings(lexican_codict_node_tests)
+  target_compile_options(lexican_codict_node_tests PRIVATE ${LEXICAN_TEST_OPTIONS})
+  add_test(NAME lexican_codict_node_tests COMMAND lexican_codict_node_tests)
+endif()
+
+# What the compilers say to the dictionaries of the corpus.
+find_package(Threads REQUIRED)
+target_link_libraries(lexican_codict_tests PRIVATE Threads::Threads)
+target_compile_definitions(lexican_codict_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"
+  LEXICAN_CXX="${CMAKE_CXX_COMPILER}")
+
+# A project that uses an installed Lexican.
+if(LEXICAN_INSTALL AND NOT LEXICAN_SANITIZE)
+  add_test(NAME codict.generate.installed
+    COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/gen_project
+      ${CMAKE_CURRENT_BINARY_DIR}/gen_project --build-generator ${CMAKE_GENERATOR} --build-options
+      -DCMAKE_PREFIX_PATH=${PROJECT_BINARY_DIR}/tests/package/prefix
+      -DLEXICAN_DESCRIPTION=${CMAKE_CURRENT_SOURCE_DIR}/fixtures/gen/small.eds)
+  set_tests_properties(codict.generate.installed PROPERTIES FIXTURES_REQUIRED lexican_installed)
+endif()

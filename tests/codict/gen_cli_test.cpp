@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// codict gen as its user sees it.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "codict/directory.hpp"
+#include "codict/reading.hpp"
+
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+struct Ran {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+Ran run(const test::Directory& directory, const std::string& arguments) {
+  const std::string command =
+      "cd '" + directory / "" + "' && '" LEXICAN_CODICT_PROGRAM "' gen " + arguments + " >out 2>err";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(directory / "out"), bytes_of(directory / "err")};
+}
+
+const std::string small = "'" + test::fixture("gen/small.eds") + "'";
+
+}  // namespace
+
+TEST_CASE("codict gen: files that would not change keep their time, and --check says whether they would") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --check").status == 1);
+  CHECK(run(directory, small + " -o new").status == 0);
+  const std::string header = directory / "new/small_od.h";
+  CHECK(bytes_of(header) == bytes_of(test::fixture("gen/small_od.h.txt")));
+  const auto long_ago = std::filesystem::last_write_time(header) - std::chrono::hours(1);
+  std::filesystem::last_write_time(header, long_ago);
+  CHECK(run(directory, small + " -o new").status == 0);
+  CHECK(std::filesystem::last_write_time(header) == long_ago);
+  CHECK(run(directory, small + " -o new --check").err.empty());
+  std::ofstream(header, std::ios::app) << "\n";
+  const Ran checked = run(directory, small + " -o new --check");
+  CHECK(checked.status == 1);
+  CHECK(checked.err == "codict: new/small_od.h is out of date\n");
+}
+
+TEST_CASE("codict gen: an error is shown with file, line, column and rule, and nothing is written") {
+  const test::Directory directory;
+  std::ofstream(directory / "bad.eds") << "[2000]\nParameterName=Bad\nDataType=5\nAccessType=rw\nDefaultValue=256\n";
+  const Ran ran = run(directory, "bad.eds -o new");
+  CHECK(ran.status == 1);
+  CHECK(ran.err.find("bad.eds:5:14: error: this is no value of its data type [gen-value]\n") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "new"));
+}
+
+TEST_CASE("codict gen: the report says what the parts cost, for people and for programs") {
+  const test::Directory directory;
+  const Ran text = run(directory, small + " -o new --report");
+  CHECK(text.out.find("\nDRIVE ") != std::string::npos);
+  CHECK(text.out.find("\nextern CO_OBJ_DOM small_2002_0;\n") != std::string::npos);
+  const auto json = nlohmann::json::parse(run(directory, small + " -o new --json").out);
+  CHECK(json["schema"] == "codict-gen-1");
+  CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c"});
+  CHECK(json["parts"][1]["part"] == "DRIVE");
+  CHECK(json["parts"][1]["entries"] == 2);
+}
+
+TEST_CASE("codict gen: wrong use ends with 2") {
+  const test::Directory directory;
+  CHECK(run(directory, small).status == 2);
+  CHECK(run(directory, small + " -o new --name Large").status == 2);
+  CHECK(run(directory, small + " -o new --language basic").status == 2);
+  CHECK(run(directory, "none.eds -o new").status == 2);
+  CHECK(run(directory, small + " -o out/new").status == 2);  // "out" is a file
+}

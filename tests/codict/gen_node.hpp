@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file gen_node.hpp
+/// A node with a dictionary that codict has made, on a virtual bus, and an SDO client that sees it from outside.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "co_core.h"
+#include "co_nvm_ram.h"
+#include "virtual_bus.hpp"
+#include "virtual_clock.hpp"
+
+namespace test {
+
+/// Memory that outlives a node.
+struct Memory {
+  std::array<std::uint8_t, 1024> bytes{};
+  CO_NVM_RAM ram{bytes.data(), static_cast<std::uint32_t>(bytes.size())};
+
+  Memory() { CONvmRamClear(&ram); }
+};
+
+class GeneratedNode {
+ public:
+  static constexpr std::uint8_t id = 5;
+
+  GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& memory);
+  ~GeneratedNode();
+  GeneratedNode(const GeneratedNode&) = delete;
+  GeneratedNode& operator=(const GeneratedNode&) = delete;
+
+  /// The object in hexadecimal bytes, "01 02", or "abort 06020000".
+  std::string read(std::uint16_t index, std::uint8_t sub_index);
+  /// "ok", or "abort 06090031".
+  std::string write(std::uint16_t index, std::uint8_t sub_index, std::string_view hex_bytes);
+  /// A frame from another node.
+  void say(std::uint32_t identifier, std::string_view hex_bytes);
+  /// CODictGetFault() and CONodeGetErr() after the start.
+  CO_DICT_FAULT fault = CO_DICT_OK;
+  CO_ERR error = CO_ERR_NONE;
+
+  CO_NODE node{};
+
+ private:
+  using Frame = std::array<std::uint8_t, 8>;
+  Frame ask(const Frame& request);
+  void settle();
+
+  co::VirtualClock clock_;
+  co::VirtualBus bus_;
+  co::VirtualBus::Port& port_;
+  co::VirtualBus::Port& client_;
+  co::VirtualTimer timer_;
+  CO_NODE_EXT ext_{};
+  std::array<std::uint8_t, CO_SSDO_N * CO_SDO_BUF_BYTE> sdo_memory_{};
+};
+
+}  // namespace test

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// What codict makes of a description: text, and what it says about descriptions of which nothing can be made.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "codict/reading.hpp"
+#include "eds/document.hpp"
+#include "eds/read.hpp"
+#include "gen/gen.hpp"
+#include "gen/names.hpp"
+#include "text/file.hpp"
+
+using namespace lexican::codict;
+
+namespace {
+
+struct Generated {
+  gen::Output output;
+  std::string found;  // "line:column rule" of each finding but notes, a line for each
+  std::string notes;
+
+  const std::string& header() const { return output.files.at(0).bytes; }
+  const std::string& source() const { return output.files.at(1).bytes; }
+  bool has(const std::string& text) const {
+    return header().find(text) != std::string::npos || source().find(text) != std::string::npos;
+  }
+};
+
+Generated generate(std::string bytes, gen::Options options = {}) {
+  Findings reading;
+  const eds::Document document(Source("device.eds", std::move(bytes)), reading);
+  const Description description = eds::read(document, reading);
+  options.name = options.name.empty() ? "small" : options.name;
+  options.source = "small.eds";
+  Findings findings;
+  Generated result;
+  result.output = gen::generate(description.devices.front(), options, findings);
+  findings.sort();
+  for (const Finding& finding : findings.all()) {
+    const Position position = document.source().position(finding.span.begin);
+    std::string& list = finding.rule->severity == Severity::note ? result.notes : result.found;
+    list += fmt::format("{}:{} {}\n", position.line, position.column, finding.rule->id);
+  }
+  return result;
+}
+
+std::string fixture_text(const std::string& name) {
+  std::ifstream file(test::fixture(name), std::ios::binary);
+  REQUIRE(file);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A variable, ended by what else it says.
+std::string variable(const char* index, int type, const char* access, const char* rest = "") {
+  return fmt::format("[{}]\nParameterName=Value {}\nObjectType=7\nDataType={}\nAccessType={}\n{}\n", index, index, type,
+                     access, rest);
+}
+
+std::string sub(const char* section, int type, const char* access, const char* value) {
+  return fmt::format(
+      "[{}]\nParameterName={}\nObjectType=7\nDataType={}\nAccessType={}\nPDOMapping=0\nDefaultValue={}\n", section,
+      section, type, access, value);
+}
+
+std::string record(const char* index) { return fmt::format("[{}]\nParameterName=Record\nObjectType=9\n", index); }
+
+const std::string type_object = variable("1000", 7, "ro", "DefaultValue=0");
+
+}  // namespace
+
+TEST_CASE("gen: the files of a small device are these, to the byte") {
+  const std::string eds = fixture_text("gen/small.eds");
+  for (const gen::Language language : {gen::Language::c, gen::Language::cpp}) {
+    gen::Options options;
+    options.language = language;
+    const Generated generated = generate(eds, options);
+    CHECK(generated.found == "");
+    CHECK(generated.header() == fixture_text("gen/small_od.h.txt"));
+    const bool is_c = language == gen::Language::c;
+    CHECK(generated.source() == fixture_text(is_c ? "gen/small_od.c.txt" : "gen/small_od.cpp.txt"));
+  }
+}
+
+TEST_CASE("gen: what cannot be generated is an error at its place, and there are no files") {
+  const std::pair<std::string, const char*> cases[] = {
+      {variable("2000", 0x77, "rw"), "4:10 gen-type\n"},
+      {variable("2000", 5, "UNKNOWN"), "5:12 gen-access\n"},
+      {variable("2000", 5, "rw", "DefaultValue=300"), "6:14 gen-value\n"},
+      {variable("2000", 5, "rw", "DefaultValue=text"), "6:14 gen-value\n"},
+      {variable("2000", 1, "rw", "DefaultValue=$NODEID"), "6:14 gen-node-id\n"},
+      {record("2000"), "1:2 gen-no-subs\n"},
+      {variable("1017", 7, "rw"), "1:2 gen-place\n"},
+      {record("1A00") + sub("1A00sub0", 5, "ro", "2") + sub("1A00sub1", 7, "ro", "0x20000040") +
+           sub("1A00sub2", 7, "ro", "0x20000040") + variable("2000", 27, "ro", "PDOMapping=1"),
+       "4:2 gen-pdo-bits\n"},
+      {variable("1000", 7, "ro") + record("1010") + sub("1010sub0", 5, "ro", "2") + sub("1010sub1", 7, "rw", "1") +
+           sub("1010sub2", 7, "rw", "1") + variable("2000", 5, "rw", ";StorageLocation=APP\n"),
+       "24:2 gen-store-unused\n31:2 gen-store\n"},
+  };
+  for (const auto& [eds, found] : cases) {
+    CAPTURE(eds);
+    const Generated generated = generate(eds);
+    CHECK(generated.found == found);
+    CHECK_MESSAGE(generated.output.files.empty(), generated.found);
+  }
+  CHECK(generate("[FileInfo]\n").found == "1:1 gen-count\n");
+}
+
+TEST_CASE("gen: what is put right is said") {
+  const std::pair<std::string, const char*> cases[] = {
+      {record("2000") + sub("2000sub1", 5, "rw", "1"), "1:2 gen-sub-0\n"},
+      {record("1200") + sub("1200sub0", 5, "ro", "2") + sub("1200sub1", 7, "ro", "0x600"), "17:14 gen-cob-id\n"},
+      {record("1400") + sub("1400sub0", 5, "ro", "2") + sub("1400sub1", 7, "rw", ""), "11:2 gen-cob-id\n"},
+      {variable("2000", 6, "rw", "DefaultValue=1\nLowLimit=5\nHighLimit=9"), "6:14 gen-limits-default\n"},
+      {variable("2000", 6, "rw", "LowLimit=9\nHighLimit=5"), "6:10 gen-limits\n"},
+      {variable("2000", 7, "rw", "LowLimit=$NODEID+5"), "6:10 gen-limits\n"},
+      {record("1A00") + sub("1A00sub0", 5, "ro", "1") + sub("1A00sub1", 7, "ro", "0x20000008"),
+       "17:14 gen-pdo-object\n"},
+      {record("1A00") + sub("1A00sub0", 5, "ro", "1") + sub("1A00sub1", 7, "ro", "0x20000010") +
+           variable("2000", 5, "ro", "PDOMapping=1"),
+       "17:14 gen-pdo-object\n"},
+      {record("1A00") + sub("1A00sub0", 5, "ro", "1") + sub("1A00sub1", 7, "ro", "0x20000008") +
+           variable("2000", 5, "rww", "PDOMapping=1"),
+       "17:14 gen-pdo-direction\n"},
+      {record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1"), "11:2 gen-store-unused\n"},
+      {variable("2000", 10, "rw", "DefaultValue=0"), "6:14 gen-value-none\n"},
+  };
+  for (const auto& [eds, found] : cases) {
+    CAPTURE(eds);
+    const Generated generated = generate(eds);
+    CHECK(generated.found == found);
+    CHECK(generated.output.files.size() == 2);
+  }
+}
+
+TEST_CASE("gen: entries with one name get their index behind it; --unique-names forbids it and names both") {
+  const std::string eds =
+      "[2000]\nParameterName=Speed\nDataType=5\nAccessType=rw\n"
+      "[2001]\nParameterName=speed\nDataType=5\nAccessType=rw\n";
+  const Generated generated = generate(eds);
+  CHECK(generated.notes == "1:2 gen-name-shared\n5:2 gen-name-shared\n");
+  CHECK(generated.has("#define SMALL_SPEED_2000_0 SMALL_2000_0\n"));
+  CHECK(generated.has("union { uint8_t od_2001_0; uint8_t speed_2001_0; };"));
+  gen::Options options;
+  options.unique_names = true;
+  CHECK(generate(eds, options).found == "1:2 gen-name\n5:2 gen-name\n");
+}
+
+TEST_CASE("gen: a name that is made for the dictionary is none of an entry") {
+  const char* const names[] = {"OD NUM", "Para base", "Drive layout", "unused"};
+  std::string eds = variable("1FFF", 5, "rw", ";StorageLocation=DRIVE\n");
+  for (int n = 0; n < 4; ++n) {
+    eds += fmt::format("[200{}]\nParameterName={}\nDataType=5\nAccessType=rw\n", n, names[n]);
+  }
+  const Generated generated = generate(eds);
+  for (const char* macro : {"OD_NUM_2000_0", "PARA_BASE_2001_0", "DRIVE_LAYOUT_2002_0", "UNUSED_2003_0"}) {
+    CHECK(generated.has(fmt::format("#define SMALL_{} SMALL_200", macro)));
+  }
+}
+
+TEST_CASE("gen: a disabled object and the definition of a type have no entry, and a note") {
+  const Generated generated =
+      generate("[5]\nParameterName=Dummy\nObjectType=5\nDataType=5\nAccessType=ro\n" + type_object);
+  CHECK(generated.notes == "1:2 gen-left-out\n");
+  CHECK(generated.has("#define SMALL_OD_NUM 1 "));
+}
+
+TEST_CASE("gen: a configured value goes before the default value") {
+  const Generated generated = generate(variable("2000", 5, "const", "DefaultValue=1\nParameterValue=2"));
+  CHECK(generated.has("{SMALL_2000_0 | CO_OBJ_D___R_, CO_TUNSIGNED8, (CO_DATA)(2u)},"));
+}
+
+TEST_CASE("gen: a configuration that is too small stops the compiler") {
+  const Generated generated = generate(record("1402") + sub("1402sub0", 5, "ro", "2") + variable("1012", 7, "rw"));
+  CHECK(generated.has("#if CO_RPDO_N < 3\n#error"));
+  CHECK(generated.has("#if !USE_TIME\n#error"));
+}
+
+TEST_CASE("gen: limits that no value can break have no type") {
+  CHECK_FALSE(generate(variable("2000", 5, "rw", "LowLimit=0\nHighLimit=255")).has("limits_1"));
+  CHECK_FALSE(generate(variable("2000", 3, "rw", "LowLimit=-32768\nHighLimit=0x7FFF")).has("limits_1"));
+  CHECK(generate(variable("2000", 3, "rw", "LowLimit=-32767")).has("limits_1"));
+  CHECK_FALSE(generate(variable("2000", 3, "ro", "LowLimit=5")).has("limits_1"));
+}
+
+TEST_CASE("gen: entries that are alike share the type with their limits") {
+  const char* const limits = "DefaultValue=3\nLowLimit=2\nHighLimit=9";
+  const Generated generated = generate(variable("2000", 6, "rw", limits) + variable("2001", 6, "rw", limits));
+  CHECK(generated.has("limits_1"));
+  CHECK_FALSE(generated.has("limits_2"));
+}
+
+TEST_CASE("gen: the version of a stored layout changes with its entries, and with nothing else") {
+  const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
+  const auto layout_of = [&](const std::string& variables) {
+    const std::string header = generate(store + variables).header();
+    const std::size_t at = header.find("_LAYOUT 0x");
+    REQUIRE(at != std::string::npos);
+    return header.substr(at, 16);
+  };
+  const std::string layout = layout_of(variable("2000", 5, "rw", ";StorageLocation=APP\n"));
+  CHECK(layout == layout_of(variable("2000", 5, "ro", "DefaultValue=7\n;StorageLocation=APP\n")));
+  CHECK(layout != layout_of(variable("2000", 2, "rw", ";StorageLocation=APP\n")));
+  CHECK(layout != layout_of(variable("2001", 5, "rw", ";StorageLocation=APP\n")));
+}
+
+TEST_CASE("gen: words become identifiers of C") {
+  CHECK(gen::identifier("Time of day (UTC)") == "time_of_day_utc");
+  CHECK(gen::identifier("  2nd  ") == "n2nd");
+  CHECK(gen::identifier("default") == "default_");
+  CHECK(gen::identifier("uint8_t") == "uint8_t_");
+  CHECK(gen::identifier("\xC3\x9C"
+                        "ber") == "ber");
+  CHECK(gen::identifier("---") == "");
+  CHECK(gen::default_name("/a.b/Drive (2).v3.eds") == "drive_2_v3");
+  CHECK(gen::default_name("\xE2\x82\xAC.eds") == "device");
+}
+
+TEST_CASE("gen: what a comment or string of C would take for something else is no more") {
+  CHECK(gen::comment_text("*/ \\ ?\?/ \n") == "./ . ../ .");
+  CHECK(gen::string_literal("a\"\\\n1?") == "\"a\\042\\134\\0121\\077\"");
+}

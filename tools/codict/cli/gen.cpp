@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gen/gen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/render.hpp"
+#include "gen/names.hpp"
+#include "text/file.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::string directory;
+  gen::Options gen;
+  bool is_check = false;
+  bool is_report = false;
+  bool is_json = false;
+  bool shows_notes = false;
+};
+
+void show(const Input& input, const Findings& findings, bool shows_notes) {
+  std::vector<Finding> wanted;
+  for (const Finding& finding : findings.all()) {
+    if (shows_notes || finding.rule->severity != Severity::note) {
+      wanted.push_back(finding);
+    }
+  }
+  const std::string text = render(input.source(), input.document->encoding(), fold(wanted), false);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+// What a file is, in words for --check; the status of the whole.
+int compare(const std::string& path, const std::string& bytes) {
+  std::string why;
+  const std::optional<Source> present = std::filesystem::exists(path) ? read_file(path, why) : std::nullopt;
+  if (present && present->bytes() == bytes) {
+    return clean;
+  }
+  complain(path + (std::filesystem::exists(path) ? " is out of date" : " is missing"));
+  return found;
+}
+
+int write(const std::string& path, const std::string& bytes) {
+  std::string why;
+  if (write_file(path, bytes, why) != Written::no) {
+    return clean;
+  }
+  complain(why);
+  return unusable;
+}
+
+std::string report_text(const gen::Output& output) {
+  std::string text = fmt::format("{:<20} {:>8} {:>8} {:>8}\n", "part", "entries", "RAM", "flash");
+  gen::Cost sum;
+  for (const gen::Cost& cost : output.costs) {
+    text += fmt::format("{:<20} {:>8} {:>8} {:>8}\n", cost.part, cost.items, cost.ram, cost.flash);
+    sum.ram += cost.ram;
+    sum.flash += cost.flash;
+  }
+  text += fmt::format("{:<20} {:>8} {:>8} {:>8}\n", "all", "", sum.ram, sum.flash);
+  for (const std::string& external : output.externals) {
+    text += external + "\n";
+  }
+  return text;
+}
+
+Json report_json(const Options& options, const gen::Output& output) {
+  Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", Json::array()}};
+  for (const gen::File& file : output.files) {
+    json["files"].push_back(options.directory + "/" + file.name);
+  }
+  for (const gen::Cost& cost : output.costs) {
+    json["parts"].push_back({{"part", cost.part}, {"entries", cost.items}, {"ram", cost.ram}, {"flash", cost.flash}});
+  }
+  json["external"] = output.externals;
+  return json;
+}
+
+bool make_directory(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) {
+    complain(path + ": " + error.message());
+  }
+  return !error;
+}
+
+int run(Options options) {
+  const std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  options.gen.source = std::filesystem::path(input->source().name()).filename();
+  if (options.gen.name.empty()) {
+    options.gen.name = gen::default_name(options.file);
+  } else if (gen::identifier(options.gen.name) != options.gen.name) {
+    complain("--name: small letters, digits and single underscores, and no word of C");
+    return unusable;
+  }
+  Findings findings;
+  const gen::Output output = gen::generate(input->device(), options.gen, findings);
+  findings.sort();
+  show(*input, findings, options.shows_notes);
+  if (output.files.empty()) {
+    return found;
+  }
+  if (!options.is_check && !make_directory(options.directory)) {
+    return unusable;
+  }
+  int status = clean;
+  for (const gen::File& file : output.files) {
+    const std::string path = options.directory + "/" + file.name;
+    status = std::max(status, options.is_check ? compare(path, file.bytes) : write(path, file.bytes));
+  }
+  if (options.is_json) {
+    print_json(report_json(options, output));
+  } else if (options.is_report) {
+    print(report_text(output));
+  }
+  return status;
+}
+
+}  // namespace
+
+Command add_gen(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand("gen", "Make the dictionary of a device: C or C++ source");
+  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp")->required();
+  command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
+  const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
+  command->add_option("--language", options->gen.language, "Language of the source: c, c++; the header is of both")
+      ->transform(CLI::CheckedTransformer(languages).description(""))
+      ->default_str("c");
+  command->add_flag("--check", options->is_check, "Write nothing: status 1 if a file would change");
+  command->add_flag("--report", options->is_report, "Bytes of RAM and flash where addresses have 32 bits");
+  command->add_flag("--json", options->is_json, "The same for programs");
+  command->add_flag("--notes", options->shows_notes, "Show notes, too");
+  command->add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
+  command->add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
+                    "A change of an object that a TPDO may map triggers it (flag A)");
+  command
+      ->add_option("--string-capacity", options->gen.string_capacity,
+                   "Bytes of a string of which nothing says how long it may be")
+      ->check(CLI::Range(1U, 65535U))
+      ->capture_default_str();
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a dictionary costs where addresses have 32 bits.
+#include <algorithm>
+
+#include "gen/write.hpp"
+
+namespace lexican::codict::gen {
+
+namespace {
+
+constexpr unsigned address = 4;
+constexpr unsigned entry = 3 * address;
+constexpr unsigned type = 5 * address;
+constexpr unsigned para = 7 * address;
+// Measured: Cortex-M0+, -Os.
+constexpr unsigned word_limit_functions = 250;
+constexpr unsigned wide_limit_functions = 300;
+constexpr unsigned stored_functions = 150;
+
+Cost cost_of(const Group& group) {
+  Cost cost;
+  cost.part = group.name;
+  cost.ram = group.size;
+  cost.flash = group.size;  // the default values
+  // An entry has one member that is more than its length, or memory that a descriptor names.
+  for (const Member& member : group.members) {
+    cost.items += member.has_alias ? 1U : 0U;
+  }
+  return cost;
+}
+
+// What a string or consumer of a group needs beside it.
+unsigned beside(const Item& item) {
+  if (item.group == 0) {
+    return 0;
+  }
+  switch (item.storage) {
+    case Storage::string: return 6 * address;
+    case Storage::domain: return 3 * address;
+    case Storage::consumer: return 6 * address;
+    default: return 0;
+  }
+}
+
+Cost cost_of_limits(const Plan& plan) {
+  Cost cost;
+  cost.part = "limits";
+  std::size_t highest = 0;
+  bool has_words = false;
+  bool has_wide = false;
+  for (const Item& item : plan.items) {
+    const bool is_wide = item.form->size > 4;
+    cost.items += item.limited != 0 ? 1U : 0U;
+    has_words = has_words || (item.limited != 0 && !is_wide);
+    has_wide = has_wide || (item.limited != 0 && is_wide);
+    if (item.limited > highest) {
+      cost.flash += type + address + (is_wide ? 24U : 12U);
+      highest = item.limited;
+    }
+  }
+  cost.flash += (has_words ? word_limit_functions : 0U) + (has_wide ? wide_limit_functions : 0U);
+  return cost;
+}
+
+Cost cost_of_constants(const Plan& plan) {
+  Cost cost;
+  cost.part = "constants";
+  for (const Item& item : plan.items) {
+    const bool is_memory =
+        item.access == Access::constant && (item.storage == Storage::string || item.storage == Storage::domain);
+    const std::size_t bytes = item.storage == Storage::constant ? item.form->size
+                              : item.storage == Storage::text   ? item.value.text.size() + 1
+                              : is_memory                       ? item.capacity
+                                                                : 0U;
+    cost.items += bytes != 0 ? 1U : 0U;
+    cost.flash += bytes;
+  }
+  return cost;
+}
+
+}  // namespace
+
+std::vector<Cost> costs_of(const Plan& plan) {
+  std::vector<Cost> costs;
+  Cost types;
+  types.part = "stored types";
+  for (const Group& group : plan.groups) {
+    costs.push_back(cost_of(group));
+    costs.back().flash += group.sub_index != 0 ? para : 0U;
+  }
+  for (const Item& item : plan.items) {
+    costs[item.group].ram += beside(item);
+    costs[item.group].flash += beside(item);
+    types.items += beside(item) > 3 * address ? 1U : 0U;
+  }
+  types.flash = types.items != 0 ? stored_functions : 0;
+  costs.push_back({"table", plan.items.size(), 0, entry * plan.items.size()});
+  costs.push_back(cost_of_constants(plan));
+  costs.push_back(cost_of_limits(plan));
+  costs.push_back(types);
+  costs.erase(std::remove_if(costs.begin(), costs.end(), [](const Cost& cost) { return cost.items == 0; }),
+              costs.end());
+  return costs;
+}
+
+}  // namespace lexican::codict::gen

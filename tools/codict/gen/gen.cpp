@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gen/gen.hpp"
+
+#include "gen/names.hpp"
+
+namespace lexican::codict::gen {
+
+std::string default_name(std::string_view path) {
+  path.remove_prefix(path.find_last_of('/') + 1);
+  const std::string name = identifier(path.substr(0, path.find_last_of('.')));
+  return name.empty() ? "device" : name;
+}
+
+Output generate(const Device& device, const Options& options, Findings& findings) {
+  Output output;
+  const std::size_t errors = findings.count(Severity::error);
+  const Plan plan = make_plan(device, options, findings);
+  if (findings.count(Severity::error) != errors) {
+    return output;
+  }
+  const char* const ending = options.language == Language::cpp ? ".cpp" : ".c";
+  output.files.push_back({options.name + "_od.h", write_header(plan, options)});
+  output.files.push_back({options.name + "_od" + ending, write_source(plan, options)});
+  output.costs = costs_of(plan);
+  output.externals = externals_of(plan, options);
+  return output;
+}
+
+}  // namespace lexican::codict::gen

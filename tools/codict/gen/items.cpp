@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the values of a description to the entries of the table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "gen/names.hpp"
+#include "gen/parts.hpp"
+#include "gen/rules.hpp"
+
+namespace lexican::codict::gen {
+
+namespace {
+
+constexpr std::uint32_t flag_write = 0x01;
+constexpr std::uint32_t flag_read = 0x02;
+constexpr std::uint32_t flag_pdo = 0x04;
+constexpr std::uint32_t flag_trigger = 0x08;
+constexpr std::uint32_t flag_node_id = 0x40;
+constexpr std::uint32_t flag_direct = 0x80;
+
+constexpr std::uint32_t cob_id_off = 0x80000000;
+
+constexpr bool is_between(std::uint16_t index, std::uint16_t first, std::uint16_t last) {
+  return index >= first && index <= last;
+}
+
+// What neither the network nor the application changes, although it says "ro" and not "const". The serial number is
+// not among it: it is another one in each device.
+bool is_fixed(const Item& item, bool has_subs) {
+  if (item.sub_index == 0 && has_subs) {
+    return item.index != 0x1003;
+  }
+  if (item.index == 0x1018) {
+    return item.sub_index != 4;
+  }
+  return item.index == 0x1000 || is_between(item.index, 0x1005, 0x1007) || is_between(item.index, 0x1012, 0x1019) ||
+         is_between(item.index, 0x1200, 0x1BFF);
+}
+
+class Items {
+ public:
+  Items(const Device& device, const Options& options, Plan& plan, Findings& findings)
+      : device_(device), options_(options), plan_(plan), findings_(findings) {
+    for_each_variable(device, [this](std::uint16_t, std::uint8_t, const Entry& entry) {
+      is_of_node_ = is_of_node_ || entry.node.storage_group.is_given || entry.node.count_label.is_given;
+    });
+  }
+
+  void add(const Object& object) {
+    if (object.node.disabled.value) {
+      findings_.add(rules::left_out, object.span, "the object is disabled: it gets no entry");
+      return;
+    }
+    if (object.index < 0x00A0) {
+      findings_.add(rules::left_out, object.span, "the definition of a type gets no entry");
+      return;
+    }
+    if (!object.node.count_label.text.empty()) {
+      ++plan_.labels[upper(identifier(object.node.count_label.text))];
+    }
+    if (object.subs.empty() && !has_sub_objects(object.object_code.value)) {
+      add(object, 0, object, false);
+      return;
+    }
+    add_subs(object);
+  }
+
+ private:
+  void add_subs(const Object& object) {
+    if (object.subs.empty()) {
+      findings_.add(rules::no_subs, object.span, "an ARRAY or RECORD without sub-objects");
+      return;
+    }
+    if (object.find(0) == nullptr) {
+      findings_.add(rules::sub_zero, object.span, "sub-index 0 is missing: the highest sub-index is put there");
+      Sub number;
+      number.name.text = "Highest sub-index supported";
+      number.data_type.value = type_code::unsigned8;
+      number.access.value = Access::constant;
+      number.span = object.span;
+      add(object, 0, number, true);
+    }
+    for (const Sub& sub : object.subs) {
+      if (!sub.node.disabled.value) {
+        add(object, sub.sub_index, sub, true);
+      }
+    }
+  }
+
+  void add(const Object& object, std::uint8_t sub_index, const Entry& entry, bool has_subs) {
+    Item item;
+    item.index = object.index;
+    item.sub_index = sub_index;
+    item.name = has_subs ? name_of(object, entry) : entry.name.text;
+    item.span = entry.span;
+    item.access = entry.access.value;
+    item.pdo = entry.pdo_mapping.value;
+    const bool is_complete =
+        set_form(item, entry) && set_place(item, has_subs) && set_value(item, object, entry, has_subs);
+    if (!is_complete) {
+      return;
+    }
+    set_flags(item, object, entry);
+    set_storage(item, entry, has_subs);
+    if (is_node_id_right(item)) {
+      set_limits(item, entry);
+      set_group(item, object, entry);
+      plan_.items.push_back(std::move(item));
+    }
+  }
+
+  static std::string name_of(const Object& object, const Entry& entry) {
+    const std::string& of_object = object.name.text;
+    const std::string& of_sub = entry.name.text;
+    const bool has_both = of_sub.compare(0, of_object.size(), of_object) == 0;
+    return has_both ? of_sub : of_object + " " + of_sub;
+  }
+
+  bool set_form(Item& item, const Entry& entry) {
+    const bool is_domain = entry.object_code.value == ObjectCode::domain;
+    const std::uint16_t named = entry.data_type.value == 0 && is_domain ? type_code::domain : entry.data_type.value;
+    item.form = form_of(data_type_of(device_, named).code);
+    if (item.form == nullptr) {
+      const std::string reason = named == 0 ? "it has no data type" : fmt::format("{:04X}h is no data type", named);
+      findings_.add(rules::type, entry.data_type.is_given ? entry.data_type.span : entry.span, reason);
+      return false;
+    }
+    item.type = item.form->type;
+    if (item.access == Access::unknown && is_domain) {
+      item.access = Access::rw;
+    }
+    if (item.access == Access::unknown) {
+      findings_.add(rules::access, entry.access.is_given ? entry.access.span : entry.span,
+                    "nothing says who may read and write it");
+    }
+    return item.access != Access::unknown;
+  }
+
+  bool set_place(Item& item, bool has_subs) {
+    item.place = place_of(item.index, item.sub_index, has_subs);
+    if (item.place == nullptr) {
+      return true;
+    }
+    const bool fits = is_integer(data_type(item.form->code).kind) && item.form->bytes == item.place->bytes;
+    if (!fits) {
+      findings_.add(rules::place, item.span,
+                    fmt::format("CiA 301 has {} bits for this", 8U * unsigned{item.place->bytes}));
+    }
+    item.type = item.place->type;
+    return fits;
+  }
+
+  bool set_value(Item& item, const Object& object, const Entry& entry, bool has_subs) {
+    const bool has_actual = entry.actual_value.is_given && entry.actual_value.kind != Value::Kind::none;
+    item.value = has_actual ? entry.actual_value : entry.default_value;
+    const bool is_octets = item.form->code == type_code::octet_string || item.form->code == type_code::domain;
+    if (is_octets && item.value.text == "0") {
+      findings_.add(rules::value_none, item.value.span, "0 is no octet: it is taken for no value");
+      item.value = {};
+    }
+    const bool is_time_text = data_type(item.form->code).kind == TypeKind::time && item.value.kind == Value::Kind::text;
+    if (item.value.kind == Value::Kind::malformed || is_time_text) {
+      findings_.add(rules::value, item.value.span, "this is no value of its data type");
+      return false;
+    }
+    const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
+    if (is_number && item.value.kind == Value::Kind::none) {
+      set_standard_value(item, object, has_subs);
+    }
+    correct_cob_id(item);
+    return true;
+  }
+
+  void set_number(Item& item, std::uint64_t number) {
+    item.value.kind = Value::Kind::integer;
+    item.value.integer = number;
+  }
+
+  // What nobody has said. A PDO without COB-ID does not exist.
+  void set_standard_value(Item& item, const Object& object, bool has_subs) {
+    const std::string_view type = item.place == nullptr ? "" : item.place->type;
+    if (type == "CO_TPDO_ID" || (type == "CO_TSDO_ID" && item.index != 0x1200)) {
+      findings_.add(rules::cob_id, item.span, "no COB-ID: it is switched off (bit 31)");
+      set_number(item, cob_id_off);
+    } else if (type == "CO_TSYNC_ID" || type == "CO_TEMCY_ID" || type == "CO_TTIME_ID") {
+      findings_.add(rules::cob_id, item.span, "no COB-ID: that of CiA 301 is taken");
+      set_number(item, type == "CO_TTIME_ID" ? 0x100 : 0x80);
+      item.value.adds_node_id = type == "CO_TEMCY_ID";
+    } else if (type == "CO_TSDO_ID") {
+      set_number(item, item.sub_index == 1 ? 0x600 : 0x580);
+    } else if (type == "CO_TPDO_NUM") {
+      set_number(item, mapped_objects(object));
+    } else if (item.sub_index == 0 && has_subs && item.index != 0x1003) {
+      set_number(item, highest_sub(object));
+    }
+  }
+
+  static std::uint8_t mapped_objects(const Object& object) {
+    std::uint8_t number = 0;
+    for (const Sub& sub : object.subs) {
+      const bool is_next = sub.sub_index == number + 1 && sub.default_value.integer.magnitude != 0;
+      number = is_next ? sub.sub_index : number;
+    }
+    return number;
+  }
+
+  // The default SDO has no identifiers but its own. [301:7.3.3]
+  void correct_cob_id(Item& item) {
+    const bool is_default_sdo = item.index == 0x1200 && (item.sub_index == 1 || item.sub_index == 2);
+    if (!is_default_sdo || item.value.adds_node_id) {
+      return;
+    }
+    if (item.value.is_given) {
+      findings_.add(rules::cob_id, item.value.span, "the COB-ID of the default SDO: $NODEID is added",
+                    "write $NODEID+0x600, $NODEID+0x580");
+    }
+    set_number(item, item.sub_index == 1 ? 0x600 : 0x580);
+    item.value.adds_node_id = true;
+  }
+
+  void set_flags(Item& item, const Object& object, const Entry& entry) const {
+    item.flags = (is_readable(item.access) ? flag_read : 0U) | (is_writable(item.access) ? flag_write : 0U) |
+                 (item.pdo != PdoMapping::no ? flag_pdo : 0U) | (item.value.adds_node_id ? flag_node_id : 0U);
+    const bool goes_out = item.pdo != PdoMapping::no && item.pdo != PdoMapping::rpdo && is_readable(item.access) &&
+                          item.access != Access::rww && item.access != Access::constant;
+    const bool triggers = entry.node.flags_pdo.value || object.node.flags_pdo.value || options_.trigger_tpdos;
+    item.flags |= goes_out && triggers ? flag_trigger : 0U;
+  }
+
+  bool is_node_id_right(const Item& item) {
+    if (!item.value.adds_node_id) {
+      return true;
+    }
+    const bool may_add = item.place != nullptr ? item.place->node_id_relative
+                                               : is_integer(data_type(item.form->code).kind) && item.value.is_integer();
+    if (!may_add) {
+      findings_.add(rules::node_id, item.value.span, "this cannot depend on the node-ID");
+    }
+    return may_add;
+  }
+
+  void set_storage(Item& item, const Entry& entry, bool has_subs) {
+    if (item.place != nullptr && item.place->service != Service::value) {
+      constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
+      item.storage = of_service[static_cast<std::size_t>(item.place->service)];
+    } else if (entry.node.extension_io.value) {
+      item.storage = Storage::application;
+      findings_.add(rules::external, item.span, "its type is the application's");
+    } else if (is_external(item, entry)) {
+      item.storage = Storage::external;
+      findings_.add(rules::external, item.span, "the application has its memory");
+    } else if (item.form->bytes == 0) {
+      set_memory(item, entry);
+    } else {
+      set_variable(item, has_subs);
+    }
+  }
+
+  // In a description of CANopenNode nothing means that there is no memory; so it is with a domain anywhere.
+  bool is_external(const Item& item, const Entry& entry) const {
+    const bool is_empty = item.value.kind == Value::Kind::none;
+    const bool has_length = entry.node.byte_length.value != 0 || entry.node.string_length_min.value != 0;
+    const bool is_xml = device_.format != Format::eds && device_.format != Format::dcf;
+    const bool is_domain = item.form->code == type_code::domain;
+    return is_empty && !has_length && (is_domain || (is_xml && is_of_node_));
+  }
+
+  void set_variable(Item& item, bool has_subs) {
+    const bool is_constant = item.access == Access::constant || (item.access == Access::ro && is_fixed(item, has_subs));
+    const TypeKind kind = data_type(item.form->code).kind;
+    const bool fits_entry = (is_integer(kind) || kind == TypeKind::boolean) && item.form->size <= 4;
+    if (is_constant && fits_entry) {
+      item.storage = Storage::direct;
+      item.flags |= flag_direct;
+    } else {
+      item.storage = is_constant ? Storage::constant : Storage::variable;
+    }
+  }
+
+  // Strings and domains.
+  void set_memory(Item& item, const Entry& entry) {
+    const TypeKind kind = data_type(item.form->code).kind;
+    const std::uint32_t unit = kind == TypeKind::unicode_string ? 2 : 1;
+    const std::size_t characters = kind == TypeKind::visible_string   ? item.value.text.size()
+                                   : kind == TypeKind::unicode_string ? utf16(item.value.text).size()
+                                                                      : item.value.octets.size();
+    const std::uint32_t length = static_cast<std::uint32_t>(characters) * unit;
+    const std::uint32_t asked = std::max(entry.node.byte_length.value, entry.node.string_length_min.value * unit);
+    item.capacity = std::min(std::max(length, asked), most_bytes) / unit * unit;
+    item.storage = kind == TypeKind::domain ? Storage::domain : Storage::string;
+    if (kind == TypeKind::visible_string && !is_writable(item.access) && asked <= length) {
+      item.storage = Storage::text;
+      item.type = "CO_TSTRING";
+    } else if (item.capacity == 0) {
+      item.capacity = std::max(options_.string_capacity, unit) / unit * unit;
+      findings_.add(rules::capacity, item.span,
+                    fmt::format("nothing says how long it may be: {} bytes", item.capacity));
+    }
+  }
+
+  void set_limits(Item& item, const Entry& entry) {
+    const TypeKind kind = data_type(item.form->code).kind;
+    const bool is_number = is_integer(kind) || kind == TypeKind::real;
+    const bool is_possible = is_number && is_writable(item.access) &&
+                             (item.storage == Storage::variable || item.storage == Storage::external) &&
+                             (item.place == nullptr || item.place->service == Service::value);
+    if (!is_possible || !is_usable(entry.low_limit) || !is_usable(entry.high_limit)) {
+      return;
+    }
+    if (is_less(item, entry.high_limit, entry.low_limit)) {
+      findings_.add(rules::limits, entry.low_limit.span, "the low limit is above the high limit: neither is kept");
+      return;
+    }
+    const bool has_low = has_number(entry.low_limit) && !is_lowest(item, entry.low_limit);
+    const bool has_high = has_number(entry.high_limit) && !is_highest(item, entry.high_limit);
+    item.limits.low = has_low ? literal(entry.low_limit, *item.form) : "";
+    item.limits.high = has_high ? literal(entry.high_limit, *item.form) : "";
+    set_bits(item, entry);
+    Value value = item.value;
+    value.kind = kind == TypeKind::real ? Value::Kind::real : Value::Kind::integer;
+    item.limits.holds_default = !is_less(item, value, entry.low_limit) && !is_less(item, entry.high_limit, value);
+    if (!item.limits.holds_default && !item.value.adds_node_id) {
+      findings_.add(rules::limits_default, item.value.is_given ? item.value.span : item.span,
+                    "the default value is outside of the limits");
+    }
+    item.limits.holds_default = item.limits.holds_default && !item.value.adds_node_id;
+  }
+
+  // As the variable has them. All bits of a real are what is no number, below zero.
+  static void set_bits(Item& item, const Entry& entry) {
+    const unsigned unused = item.form->size > 4 ? 0 : 32;
+    const TypeKind kind = data_type(item.form->code).kind;
+    const std::uint64_t all = UINT64_MAX >> unused;
+    const std::uint64_t sign = all ^ all >> 1U;
+    const std::uint64_t lowest = kind == TypeKind::real ? all : (kind == TypeKind::signed_integer ? sign : 0);
+    const std::uint64_t highest = kind == TypeKind::unsigned_integer ? all : all ^ sign;
+    item.limits.low_bits = item.limits.low.empty() ? lowest : bits_of(entry.low_limit, item) & all;
+    item.limits.high_bits = item.limits.high.empty() ? highest : bits_of(entry.high_limit, item) & all;
+  }
+
+  static std::uint64_t bits_of(const Value& value, const Item& item) {
+    if (value.kind != Value::Kind::real) {
+      return value.integer.bits();
+    }
+    std::uint64_t bits = 0;
+    std::uint32_t single = 0;
+    const auto real = static_cast<float>(value.real);
+    std::memcpy(&single, &real, sizeof single);
+    std::memcpy(&bits, &value.real, sizeof bits);
+    return item.form->size == 4 ? single : bits;
+  }
+
+  static bool has_number(const Value& value) {
+    return value.kind == Value::Kind::integer || value.kind == Value::Kind::real;
+  }
+
+  // Neither less nor greater than what is no number.
+  static bool is_less(const Item& item, const Value& a, const Value& b) {
+    if (!has_number(a) || !has_number(b)) {
+      return false;
+    }
+    return data_type(item.form->code).kind == TypeKind::real ? a.real < b.real : a.integer < b.integer;
+  }
+
+  bool is_usable(const Value& limit) {
+    if (limit.adds_node_id) {
+      findings_.add(rules::limits, limit.span, "a limit that depends on the node-ID is not kept");
+      return false;
+    }
+    if (!has_number(limit) && limit.kind != Value::Kind::none) {
+      findings_.add(rules::limits, limit.span, "this is no limit of its data type: neither limit is kept");
+      return false;
+    }
+    return true;
+  }
+
+  // No value of the type is below it.
+  static bool is_lowest(const Item& item, const Value& limit) {
+    const std::uint64_t sign = std::uint64_t{1} << (8U * item.form->bytes - 1U);
+    switch (data_type(item.form->code).kind) {
+      case TypeKind::unsigned_integer: return limit.integer == 0;
+      case TypeKind::signed_integer: return limit.integer == Integer(sign, true);
+      default: return false;
+    }
+  }
+
+  // No value of the type is above it.
+  static bool is_highest(const Item& item, const Value& limit) {
+    const unsigned unused = 64U - 8U * item.form->bytes;
+    switch (data_type(item.form->code).kind) {
+      case TypeKind::unsigned_integer: return limit.integer == UINT64_MAX >> unused;
+      case TypeKind::signed_integer: return limit.integer == UINT64_MAX >> (unused + 1U);
+      default: return false;
+    }
+  }
+
+  void set_group(Item& item, const Object& object, const Entry& entry) {
+    const bool is_memory = item.storage == Storage::variable || item.storage == Storage::string ||
+                           item.storage == Storage::domain || item.storage == Storage::consumer;
+    const Field<std::string>& named =
+        entry.node.storage_group.is_given ? entry.node.storage_group : object.node.storage_group;
+    if (!is_memory || named.value.empty() || named.value == "RAM" || item.access == Access::constant) {
+      return;
+    }
+    for (std::size_t n = 1; n < plan_.groups.size(); ++n) {
+      item.group = plan_.groups[n].name == named.value ? n : item.group;
+    }
+    if (item.group == 0) {
+      item.group = plan_.groups.size();
+      Group group;
+      group.name = named.value;
+      group.id = identifier(named.value);
+      plan_.groups.push_back(std::move(group));
+    }
+  }
+
+  static constexpr std::uint32_t most_bytes = 1U << 20;
+
+  const Device& device_;
+  const Options& options_;
+  Plan& plan_;
+  Findings& findings_;
+  bool is_of_node_ = false;
+};
+
+}  // namespace
+
+void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings) {
+  Items items(device, options, plan, findings);
+  for (const Object& object : device.objects) {
+    items.add(object);
+  }
+  std::stable_sort(plan.items.begin(), plan.items.end(),
+                   [](const Item& a, const Item& b) { return a.key() < b.key(); });
+}
+
+}  // namespace lexican::codict::gen

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file parts.hpp
+/// The steps of make_plan(), each with the result of those before it.
+#pragma once
+
+#include "gen/plan.hpp"
+
+namespace lexican::codict::gen {
+
+void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings);
+void plan_names(const Options& options, Plan& plan, Findings& findings);
+void plan_groups(Plan& plan, Findings& findings);
+void plan_limited_types(Plan& plan);
+void plan_pdos(Plan& plan, Findings& findings);
+
+}  // namespace lexican::codict::gen

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gen/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "gen/names.hpp"
+#include "gen/parts.hpp"
+#include "gen/rules.hpp"
+
+namespace lexican::codict::gen {
+
+namespace {
+
+std::string suffix_of(const Item& item) { return fmt::format("{:04X}_{:X}", item.index, item.sub_index); }
+
+bool begins_with(const std::string& text, const std::string& beginning) {
+  return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+// Whether a name could be one of those that are made for the whole dictionary, or for a group.
+bool could_be_made(const Plan& plan, const std::string& alias) {
+  const auto is_of_group = [&](const Group& group) { return begins_with(alias, group.id + "_"); };
+  return begins_with(alias, "od_") || begins_with(alias, "para_") || alias == "unused" ||
+         std::any_of(plan.groups.begin(), plan.groups.end(), is_of_group);
+}
+
+}  // namespace
+
+const Item* Plan::find(std::uint16_t index, std::uint8_t sub_index) const {
+  const std::uint32_t key = std::uint32_t{index} << 16 | std::uint32_t{sub_index} << 8;
+  const auto place = std::lower_bound(items.begin(), items.end(), key,
+                                      [](const Item& item, std::uint32_t wanted) { return item.key() < wanted; });
+  return place != items.end() && place->key() == key ? &*place : nullptr;
+}
+
+std::string place_name(const Item& item) { return fmt::format("{:04X}h sub {:X}", item.index, item.sub_index); }
+
+void plan_names(const Options& options, Plan& plan, Findings& findings) {
+  std::unordered_map<std::string, std::vector<const Item*>> uses;
+  for (Item& item : plan.items) {
+    item.member = "od_" + suffix_of(item);
+    item.alias = identifier(item.name);
+    uses[item.alias].push_back(&item);
+  }
+  std::unordered_map<std::string, const Item*> owners;
+  for (Item& item : plan.items) {
+    const std::vector<const Item*>& with_name = uses[item.alias];
+    if (item.alias.empty()) {
+      continue;
+    }
+    if (with_name.size() > 1 && options.unique_names) {
+      const Item& other = *with_name[with_name[0] == &item ? 1 : 0];
+      findings.add(rules::name, item.span,
+                   fmt::format("the name {} is also that of {}", item.alias, place_name(other)));
+    } else if (with_name.size() > 1) {
+      findings.add(rules::name_shared, item.span, "another entry has this name: the index is put behind it");
+    }
+    if (with_name.size() > 1 || could_be_made(plan, item.alias)) {
+      item.alias += "_" + identifier("x" + suffix_of(item)).substr(1);
+    }
+    const auto [owner, is_new] = owners.emplace(item.alias, &item);
+    if (!is_new) {
+      findings.add(rules::name, item.span,
+                   fmt::format("the name {} is also that of {}", item.alias, place_name(*owner->second)));
+    }
+  }
+}
+
+void plan_limited_types(Plan& plan) {
+  std::unordered_map<std::string, std::size_t> numbers;
+  for (Item& item : plan.items) {
+    if (item.is_limited()) {
+      const std::string what =
+          fmt::format("{} {:02X} {} {}", item.type, item.form->code, item.limits.low, item.limits.high);
+      item.limited = numbers.emplace(what, numbers.size() + 1).first->second;
+    }
+  }
+}
+
+Plan make_plan(const Device& device, const Options& options, Findings& findings) {
+  Plan plan;
+  plan.groups.emplace_back();
+  plan.groups.front().name = "RAM";
+  plan.groups.front().id = "ram";
+  plan_items(device, options, plan, findings);
+  constexpr std::size_t most_items = 0xFFFE;  // and the end mark
+  const bool has_reason = findings.count(Severity::error) != 0;
+  if ((plan.items.empty() && !has_reason) || plan.items.size() > most_items) {
+    findings.add(rules::count, {}, fmt::format("{} entries", plan.items.size()));
+  }
+  plan_names(options, plan, findings);
+  plan_groups(plan, findings);
+  plan_limited_types(plan);
+  plan_pdos(plan, findings);
+  return plan;
+}
+
+}  // namespace lexican::codict::gen

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file plan.hpp
+/// A dictionary as it is going to be written: every decision has been made, and every name is given.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gen/forms.hpp"
+#include "model/device.hpp"
+#include "text/finding.hpp"
+
+namespace lexican::codict::gen {
+
+enum class Language : unsigned char { c, cpp };
+
+struct Options {
+  std::string name;    ///< of everything that is written: a C identifier
+  std::string source;  ///< file name of the description, for the comment at the top
+  Language language = Language::c;
+  std::uint32_t string_capacity = 32;  ///< bytes of a string that can be written and whose length nobody says
+  bool unique_names = false;           ///< two entries with one name are an error
+  bool trigger_tpdos = false;          ///< flag A for all that a TPDO may map
+};
+
+/// Where the value of an entry is.
+enum class Storage : unsigned char {
+  direct,       ///< in the entry
+  constant,     ///< in a constant
+  variable,     ///< in a struct
+  text,         ///< a CO_OBJ_STR and a constant text
+  string,       ///< a CO_OBJ_STR_RW and its memory
+  domain,       ///< a CO_OBJ_DOM and its memory
+  consumer,     ///< a CO_HBCONS
+  group,        ///< a CO_PARA
+  external,     ///< a variable, CO_OBJ_STR_RW or CO_OBJ_DOM of the application
+  application,  ///< its type is the application's
+};
+
+struct Limits {
+  std::string low;             ///< literal; empty: none
+  std::string high;            ///< literal; empty: none
+  std::uint64_t low_bits = 0;  ///< what has no limit has the lowest and highest of its width
+  std::uint64_t high_bits = 0;
+  bool holds_default = true;
+};
+
+/// An entry of the table.
+struct Item {
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  std::string name;  ///< of the description, for comments
+  Span span;
+  Access access = Access::ro;
+  PdoMapping pdo = PdoMapping::no;
+  const Form* form = nullptr;
+  const Place* place = nullptr;
+  std::string type;         ///< "CO_TUNSIGNED16"
+  std::uint32_t flags = 0;  ///< of CO_KEY()
+  Storage storage = Storage::variable;
+  Value value;
+  std::uint32_t capacity = 0;  ///< bytes of a string or domain
+  std::size_t group = 0;       ///< in Plan::groups
+  std::string member;          ///< "od_2100_1"
+  std::string alias;           ///< "hour"; empty: none
+  Limits limits;
+  std::size_t limited = 0;  ///< number of the limited type, from 1; 0: none
+
+  std::uint32_t key() const { return std::uint32_t{index} << 16 | std::uint32_t{sub_index} << 8; }
+  bool is_limited() const { return !limits.low.empty() || !limits.high.empty(); }
+};
+
+/// What a member of a group is to its entry.
+enum class Role : unsigned char {
+  value,       ///< the variable
+  descriptor,  ///< a CO_OBJ_STR, CO_OBJ_STR_RW, CO_OBJ_DOM or CO_HBCONS
+  length,      ///< of a stored string, in bytes
+  memory,      ///< of a string or domain
+};
+
+struct Member {
+  std::size_t item = 0;  ///< in Plan::items
+  Role role = Role::value;
+  std::string type;         ///< of C
+  std::string name;         ///< "od_2201_0_length"
+  std::uint32_t count = 0;  ///< of an array; 0: it is none
+  std::uint32_t size = 0;   ///< bytes, where addresses have 32 bits
+  std::uint8_t alignment = 1;
+  bool has_alias = false;
+};
+
+/// Variables in one struct. The first group is the RAM, which is not stored.
+struct Group {
+  std::string name;               ///< of the description: "PERSIST_COMM"
+  std::string id;                 ///< "persist_comm"
+  std::uint8_t sub_index = 0;     ///< of 1010h; 0: none
+  bool is_communication = false;  ///< loaded by "reset communication"
+  std::vector<Member> members;    ///< as they lie in memory: the larger alignment first, so that nothing lies between
+  std::uint32_t layout = 0;       ///< hash over all of them, 24 bits
+  std::uint32_t size = 0;         ///< bytes, with
+  std::uint32_t unused = 0;       ///< … those at the end that make it a multiple of its alignment on every CPU
+};
+
+struct PdoSum {
+  std::uint16_t index = 0;
+  std::vector<unsigned> bits;
+};
+
+struct Plan {
+  std::vector<Item> items;  ///< ascending
+  std::vector<Group> groups;
+  std::vector<PdoSum> pdos;
+  std::map<std::string, unsigned> labels;  ///< CO_countLabel, and how many objects have it
+  bool stores_all = false;                 ///< sub 1 of 1010h stands for the others
+
+  const Item* find(std::uint16_t index, std::uint8_t sub_index) const;
+};
+
+/// Errors are findings; what they are about is missing in the plan.
+Plan make_plan(const Device& device, const Options& options, Findings& findings);
+
+/// "2100h sub 1"
+std::string place_name(const Item& item);
+
+}  // namespace lexican::codict::gen
