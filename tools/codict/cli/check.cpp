@@ -11,6 +11,7 @@
 #include "cli/render.hpp"
 #include "eds/rules.hpp"
 #include "model/parse.hpp"
+#include "xdd/rules.hpp"
 
 namespace lexican::codict::cli {
 
@@ -25,7 +26,8 @@ struct Options {
 };
 
 bool is_rule(const std::string& id) {
-  for (const auto* rules : {&value_rules(), &eds::all_rules(), &check::all_rules(), &check::network_rules()}) {
+  for (const auto* rules :
+       {&value_rules(), &eds::all_rules(), &check::all_rules(), &check::network_rules(), &xdd::all_rules()}) {
     for (const Rule* rule : *rules) {
       if (rule->id == id) {
         return true;
@@ -72,7 +74,7 @@ int check_file(const std::string& path, const Options& options, Counts& counts, 
   if (options.is_json) {
     json.push_back({{"file", input->source().name()}, {"findings", to_json(input->source(), folded)}});
   } else {
-    print(render(input->source(), input->document->encoding(), folded, wants_colour()));
+    print(render(input->source(), input->encoding(), folded, wants_colour()));
   }
   if (input->findings.dropped() != 0) {
     complain(input->source().name() + ": there are more findings than are kept");
@@ -108,7 +110,7 @@ int run(const Options& options) {
 Command add_check(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("check", "Say what is wrong or odd in descriptions");
-  command->add_option("file", options->files, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->files, file_help)->required();
   const std::map<std::string, Severity> levels = {
       {"note", Severity::note}, {"warning", Severity::warning}, {"error", Severity::error}};
   command->add_option("--level", options->level, "Least severity that is shown and counts: note, warning, error")

@@ -12,22 +12,47 @@
 #include "eds/recognise.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
+#include "xdd/read.hpp"
+#include "xdd/recognise.hpp"
 
 namespace lexican::codict::cli {
 
+namespace {
+
+// XML begins with an angle bracket, whatever its encoding; no EDS does.
+bool is_xml(std::string_view bytes) {
+  constexpr std::string_view before = "\xEF\xBB\xBF\xFE\xFF \t\r\n";
+  const std::size_t first = bytes.find_first_not_of(std::string_view("\0", 1));
+  const std::size_t begin = first == std::string_view::npos ? first : bytes.find_first_not_of(before, first);
+  return begin != std::string_view::npos && bytes[begin] == '<';
+}
+
+// Empty if the input has been read.
+template <typename Document, typename Refuse, typename Read>
+std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<const Document>& document, Input& input) {
+  std::string why = refusal(source);
+  if (why.empty()) {
+    document = std::make_unique<const Document>(std::move(source), input.findings);
+    why = refusal(*document);
+  }
+  if (why.empty()) {
+    input.description = read(*document, input.findings);
+  }
+  return why;
+}
+
+}  // namespace
+
 std::optional<Input> read(Source source, std::string& why) {
-  why = eds::refusal(source);
-  if (!why.empty()) {
-    return std::nullopt;
-  }
   Input input;
-  input.document = std::make_unique<const eds::Document>(std::move(source), input.findings);
-  why = eds::refusal(*input.document);
-  if (!why.empty()) {
-    return std::nullopt;
+  if (is_xml(source.bytes())) {
+    why = read_as(
+        std::move(source), [](const auto& what) { return xdd::refusal(what); }, xdd::read, input.xdd, input);
+  } else {
+    why = read_as(
+        std::move(source), [](const auto& what) { return eds::refusal(what); }, eds::read, input.eds, input);
   }
-  input.description = eds::read(*input.document, input.findings);
-  return input;
+  return why.empty() ? std::optional<Input>(std::move(input)) : std::nullopt;
 }
 
 std::optional<Input> open(const std::string& path) {
@@ -46,11 +71,13 @@ std::optional<Input> open(const std::string& path) {
 }
 
 void check_all(Input& input) {
-  check::check_objects(input.device(), input.findings);
-  check::check_device(input.device(), input.findings);
-  check::check_pdo_parameters(input.device(), input.findings);
-  check::check_cob_ids(input.device(), input.findings);
-  check::check_services(input.device(), input.findings);
+  for (const Device& device : input.description.devices) {
+    check::check_objects(device, input.findings);
+    check::check_device(device, input.findings);
+    check::check_pdo_parameters(device, input.findings);
+    check::check_cob_ids(device, input.findings);
+    check::check_services(device, input.findings);
+  }
   input.findings.sort();
 }
 

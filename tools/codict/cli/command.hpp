@@ -15,6 +15,7 @@
 #include "model/device.hpp"
 #include "text/finding.hpp"
 #include "text/source.hpp"
+#include "xdd/document.hpp"
 
 namespace lexican::codict::cli {
 
@@ -45,11 +46,13 @@ using Json = nlohmann::ordered_json;
 
 /// A description that has been read, with what its reader found.
 struct Input {
-  std::unique_ptr<const eds::Document> document;
+  std::unique_ptr<const eds::Document> eds;  ///< one of both is not null
+  std::unique_ptr<const xdd::Document> xdd;
   Findings findings;
   Description description;
 
-  const Source& source() const { return document->source(); }
+  const Source& source() const { return eds != nullptr ? eds->source() : xdd->source(); }
+  Encoding encoding() const { return eds != nullptr ? eds->encoding() : xdd->encoding(); }
   const Device& device() const { return description.devices.front(); }
 };
 
@@ -78,6 +81,9 @@ std::string to_string(const Reference& reference);
 
 /// Null if there is none; an object without a sub-index is itself.
 const Entry* find(const Device& device, const Reference& reference);
+
+/// What the commands that read a description say of it in their help.
+constexpr const char* file_help = "EDS, DCF, XDD, XDC or XPD, - for the standard input";
 
 /// What a data type is called: by CiA 301, or by its number.
 std::string type_name(const Entry& entry);

@@ -1,24 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 #include "cli/output.hpp"
+#include "convert/losses.hpp"
 #include "eds/write.hpp"
+#include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
 
 namespace {
 
+using convert::Loss;
+using convert::Target;
+
 struct Options {
   std::string file;
   std::string output;
   std::string format;
+  bool is_strict = false;
 };
 
+// A name for --to or an ending, and the formats whose bytes it leaves as they are.
+struct Product {
+  std::string_view name;
+  Target target;
+  xdd::Edition edition;
+  std::array<Format, 2> same;
+};
+
+constexpr std::array<Product, 6> products = {{
+    {"eds", Target::eds, xdd::Edition::v11, {Format::eds, Format::eds}},
+    {"dcf", Target::dcf, xdd::Edition::v11, {Format::dcf, Format::dcf}},
+    {"xdd", Target::xdd, xdd::Edition::v11, {Format::xdd10, Format::xdd11}},
+    {"xdc", Target::xdc, xdd::Edition::v11, {Format::xdc10, Format::xdc11}},
+    {"xdd10", Target::xdd, xdd::Edition::v10, {Format::xdd10, Format::xdd10}},
+    {"xdc10", Target::xdc, xdd::Edition::v10, {Format::xdc10, Format::xdc10}},
+}};
+
+const Product* find_product(std::string_view name) {
+  const auto* const place =
+      std::find_if(products.begin(), products.end(), [name](const Product& product) { return product.name == name; });
+  return place != products.end() ? place : nullptr;
+}
+
+std::string written(const Device& device, const Product& product) {
+  const bool is_configuration = product.target == Target::dcf || product.target == Target::xdc;
+  const Device described = is_configuration ? device : convert::without_configuration(device);
+  if (product.target == Target::xdd || product.target == Target::xdc) {
+    return xdd::write(described, product.edition);
+  }
+  eds::WriteOptions options;
+  options.as_dcf = is_configuration;
+  return eds::write(described, options);
+}
+
+// "codict: drive.xdd: not in the product: 3 units, 40 descriptions"
+void report(const Input& input, const std::vector<Loss>& losses) {
+  std::vector<std::string> parts;
+  for (const Loss& loss : losses) {
+    parts.push_back(fmt::format("{} {}", loss.count, loss.what));
+  }
+  complain(fmt::format("{}: left out: {}", input.source().name(), fmt::join(parts, ", ")));
+}
+
 int run(const Options& options) {
-  const std::string format = options.format.empty() ? ending_of(options.output) : options.format;
-  if (format != "eds" && format != "dcf") {
-    complain("the output ends with .eds or .dcf, or --to says which it is");
+  const Product* const product = find_product(options.format.empty() ? ending_of(options.output) : options.format);
+  if (product == nullptr) {
+    complain("the output ends with .eds, .dcf, .xdd or .xdc, or --to says which it is");
     return unusable;
   }
   const std::optional<Input> input = open(options.file);
@@ -26,13 +80,17 @@ int run(const Options& options) {
     return unusable;
   }
   const Device& device = input->device();
-  const bool is_same = device.format == (format == "eds" ? Format::eds : Format::dcf);
-  if (is_same) {
+  if (std::find(product->same.begin(), product->same.end(), device.format) != product->same.end()) {
     return write_output(options.output, input->source().bytes());
   }
-  eds::WriteOptions write_options;
-  write_options.as_dcf = format == "dcf";
-  return write_output(options.output, eds::write(device, write_options));
+  const std::vector<Loss> losses = convert::losses(device, product->target);
+  if (!losses.empty()) {
+    report(*input, losses);
+    if (options.is_strict) {
+      return found;
+    }
+  }
+  return write_output(options.output, written(device, *product));
 }
 
 }  // namespace
@@ -40,10 +98,14 @@ int run(const Options& options) {
 Command add_convert(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("convert", "Write a description in another format");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
-  command->add_option("-o,--output", options->output, "File that ends with .eds or .dcf, - for the standard output")
+  command->add_option("file", options->file, file_help)->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "File that ends with .eds, .dcf, .xdd or .xdc, - for the standard output")
       ->required();
-  command->add_option("--to", options->format, "eds or dcf")->check(CLI::IsMember({"eds", "dcf"}).description(""));
+  command->add_option("--to", options->format, "eds, dcf, xdd (CiA 311 1.1), xdc, xdd10, xdc10")
+      ->check(CLI::IsMember({"eds", "dcf", "xdd", "xdc", "xdd10", "xdc10"}).description(""));
+  command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
 }
 

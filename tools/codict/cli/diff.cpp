@@ -131,8 +131,8 @@ int run(const Options& options) {
 Command add_diff(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("diff", "Compare two descriptions by what they mean");
-  command->add_option("before", options->before, "EDS or DCF, - for the standard input")->required();
-  command->add_option("after", options->after, "EDS or DCF, - for the standard input")->required();
+  command->add_option("before", options->before, file_help)->required();
+  command->add_option("after", options->after, file_help)->required();
   std::map<std::string, Kind> names;
   for (const Kind kind : kinds) {
     names.emplace(name_of(kind), kind);

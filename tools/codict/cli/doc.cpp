@@ -36,7 +36,7 @@ int run(const Options& options) {
 Command add_doc(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("doc", "Document a device, as Markdown or as one HTML page");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
       ->required();
   command->add_option("--to", options->format, "md or html")->check(CLI::IsMember({"md", "html"}).description(""));

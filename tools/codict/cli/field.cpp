@@ -13,22 +13,29 @@ namespace {
 
 struct Word {
   std::string_view field;
-  std::string_view key;
+  std::string_view key;  // of CiA 306
+  const Text& (*text)(const Entry&);
 };
 
 constexpr std::array<Word, 11> words = {{
-    {"name", "ParameterName"},
-    {"object", "ObjectType"},
-    {"type", "DataType"},
-    {"access", "AccessType"},
-    {"default", "DefaultValue"},
-    {"value", "ParameterValue"},
-    {"low", "LowLimit"},
-    {"high", "HighLimit"},
-    {"pdo", "PDOMapping"},
-    {"flags", "ObjFlags"},
-    {"denotation", "Denotation"},
+    {"name", "ParameterName", [](const Entry& e) -> const Text& { return e.name; }},
+    {"object", "ObjectType", [](const Entry& e) -> const Text& { return e.object_code; }},
+    {"type", "DataType", [](const Entry& e) -> const Text& { return e.data_type; }},
+    {"access", "AccessType", [](const Entry& e) -> const Text& { return e.access; }},
+    {"default", "DefaultValue", [](const Entry& e) -> const Text& { return e.default_value; }},
+    {"value", "ParameterValue", [](const Entry& e) -> const Text& { return e.actual_value; }},
+    {"low", "LowLimit", [](const Entry& e) -> const Text& { return e.low_limit; }},
+    {"high", "HighLimit", [](const Entry& e) -> const Text& { return e.high_limit; }},
+    {"pdo", "PDOMapping", [](const Entry& e) -> const Text& { return e.pdo_mapping; }},
+    {"flags", "ObjFlags", [](const Entry& e) -> const Text& { return e.flags; }},
+    {"denotation", "Denotation", [](const Entry& e) -> const Text& { return e.denotation; }},
 }};
+
+const Word* find_word(std::string_view field) {
+  const auto* const word =
+      std::find_if(words.begin(), words.end(), [field](const Word& w) { return equal_ignoring_case(w.field, field); });
+  return word != words.end() ? word : nullptr;
+}
 
 // An object without sub-objects is its own sub-index 0, and its section has no sub-index.
 bool is_section_of(const eds::SectionName& name, const Reference& reference, bool is_variable) {
@@ -44,13 +51,12 @@ bool is_section_of(const eds::SectionName& name, const Reference& reference, boo
 }  // namespace
 
 std::string_view key_of(std::string_view field) {
-  const auto* const word =
-      std::find_if(words.begin(), words.end(), [field](const Word& w) { return equal_ignoring_case(w.field, field); });
-  return word != words.end() ? word->key : field;
+  const Word* const word = find_word(field);
+  return word != nullptr ? word->key : field;
 }
 
 const eds::Section* find_section(const Input& input, const std::string& target, std::string& why) {
-  const eds::Document& document = *input.document;
+  const eds::Document& document = *input.eds;
   if (const eds::Section* const section = document.find(target); section != nullptr) {
     return section;
   }
@@ -70,6 +76,29 @@ const eds::Section* find_section(const Input& input, const std::string& target, 
   why = is_implied ? to_string(reference) + " has no section of its own: it is in compact storage"
                    : "there is no object " + to_string(reference);
   return nullptr;
+}
+
+const Entry* find_entry(const Input& input, const std::string& target, std::string& why) {
+  Reference reference;
+  const bool is_reference = parse_reference(target, reference);
+  const Entry* const entry = is_reference ? find(input.device(), reference) : nullptr;
+  if (entry == nullptr) {
+    why = is_reference ? "there is no object " + to_string(reference) : "no object: " + target;
+  }
+  return entry;
+}
+
+const Text* find_text(const Entry& entry, std::string_view field) {
+  const Word* const word = find_word(field);
+  return word != nullptr ? &word->text(entry) : nullptr;
+}
+
+void for_each_text(const Entry& entry, const std::function<void(std::string_view, const Text&)>& call) {
+  for (const Word& word : words) {
+    if (word.text(entry).is_given) {
+      call(word.field, word.text(entry));
+    }
+  }
 }
 
 }  // namespace lexican::codict::cli

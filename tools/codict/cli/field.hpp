@@ -3,6 +3,7 @@
 /// What get and set call the parts of a description: an object or a section, and one of its keys.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,14 @@ std::string_view key_of(std::string_view field);
 /// The section of an object ("0x2000:1"), or the one of that name ("FileInfo"). Null if there is none, and why is one
 /// line.
 const eds::Section* find_section(const Input& input, const std::string& target, std::string& why);
+
+/// The object that a description without sections has under this name; null if there is none, and why is one line.
+const Entry* find_entry(const Input& input, const std::string& target, std::string& why);
+
+/// One of our words, as the description writes it; null if it is none of them.
+const Text* find_text(const Entry& entry, std::string_view field);
+
+/// All of our words that an object has: call(field, text).
+void for_each_text(const Entry& entry, const std::function<void(std::string_view, const Text&)>& call);
 
 }  // namespace lexican::codict::cli

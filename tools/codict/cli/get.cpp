@@ -20,8 +20,8 @@ struct Options {
 
 Json to_json(const Input& input, const eds::Key& key) {
   const Position position = input.source().position(key.value.begin);
-  return {{"key", input.document->text(key.name)},
-          {"text", input.document->text(key.value)},
+  return {{"key", input.eds->text(key.name)},
+          {"text", input.eds->text(key.value)},
           {"line", position.line},
           {"column", position.column}};
 }
@@ -31,11 +31,70 @@ int get_all(const Input& input, const eds::Section& section, bool is_json) {
   std::string lines;
   for (const eds::Key& key : section.keys) {
     keys.push_back(to_json(input, key));
-    lines += fmt::format("{}={}\n", input.document->text(key.name), input.document->text(key.value));
+    lines += fmt::format("{}={}\n", input.eds->text(key.name), input.eds->text(key.value));
   }
   if (is_json) {
-    print_json(
-        Json{{"schema", "codict-get-1"}, {"section", input.document->text(section.name)}, {"keys", std::move(keys)}});
+    print_json(Json{{"schema", "codict-get-1"}, {"section", input.eds->text(section.name)}, {"keys", std::move(keys)}});
+  } else {
+    print(lines);
+  }
+  return clean;
+}
+
+int get_from_sections(const Input& input, const Options& options) {
+  std::string why;
+  const eds::Section* const section = find_section(input, options.target, why);
+  if (section == nullptr) {
+    complain(input.source().name() + ": " + why);
+    return unusable;
+  }
+  if (options.field.empty()) {
+    return get_all(input, *section, options.is_json);
+  }
+  const eds::Key* const key = input.eds->find(*section, key_of(options.field));
+  if (key == nullptr) {
+    complain(fmt::format("{}: [{}] has no {}", input.source().name(), input.eds->text(section->name),
+                         key_of(options.field)));
+    return unusable;
+  }
+  if (options.is_json) {
+    Json json = {{"schema", "codict-get-1"}, {"section", input.eds->text(section->name)}};
+    json["keys"] = Json::array({to_json(input, *key)});
+    print_json(json);
+  } else {
+    print(input.eds->text(key->value) + "\n");
+  }
+  return clean;
+}
+
+Json to_json(const Input& input, std::string_view field, const Text& text) {
+  const Position position = input.source().position(text.span.begin);
+  return {{"key", field}, {"text", text.text}, {"line", position.line}, {"column", position.column}};
+}
+
+// XML has no sections: an object is what the reader has made of its elements.
+int get_from_elements(const Input& input, const Options& options) {
+  std::string why;
+  const Entry* const entry = find_entry(input, options.target, why);
+  if (entry == nullptr) {
+    complain(input.source().name() + ": " + why);
+    return unusable;
+  }
+  Json keys = Json::array();
+  std::string lines;
+  const bool wants_all = options.field.empty();
+  for_each_text(*entry, [&](std::string_view field, const Text& text) {
+    if (wants_all || find_text(*entry, options.field) == &text) {
+      keys.push_back(to_json(input, field, text));
+      lines += wants_all ? fmt::format("{}={}\n", field, text.text) : text.text + "\n";
+    }
+  });
+  if (keys.empty()) {
+    complain(fmt::format("{}: {} has no {}", input.source().name(), options.target, options.field));
+    return unusable;
+  }
+  if (options.is_json) {
+    print_json(Json{{"schema", "codict-get-1"}, {"object", options.target}, {"keys", std::move(keys)}});
   } else {
     print(lines);
   }
@@ -47,29 +106,7 @@ int run(const Options& options) {
   if (!input) {
     return unusable;
   }
-  std::string why;
-  const eds::Section* const section = find_section(*input, options.target, why);
-  if (section == nullptr) {
-    complain(input->source().name() + ": " + why);
-    return unusable;
-  }
-  if (options.field.empty()) {
-    return get_all(*input, *section, options.is_json);
-  }
-  const eds::Key* const key = input->document->find(*section, key_of(options.field));
-  if (key == nullptr) {
-    complain(fmt::format("{}: [{}] has no {}", input->source().name(), input->document->text(section->name),
-                         key_of(options.field)));
-    return unusable;
-  }
-  if (options.is_json) {
-    Json json = {{"schema", "codict-get-1"}, {"section", input->document->text(section->name)}};
-    json["keys"] = Json::array({to_json(*input, *key)});
-    print_json(json);
-  } else {
-    print(input->document->text(key->value) + "\n");
-  }
-  return clean;
+  return input->eds != nullptr ? get_from_sections(*input, options) : get_from_elements(*input, options);
 }
 
 }  // namespace
@@ -77,10 +114,11 @@ int run(const Options& options) {
 Command add_get(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("get", "Show one value, or all of an object or section");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
-  command->add_option("field", options->field,
-                      "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key");
+  command->add_option(
+      "field", options->field,
+      "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key of an EDS");
   command->add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }

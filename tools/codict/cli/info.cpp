@@ -47,7 +47,7 @@ Json describe(const Input& input) {
   json["schema"] = "codict-info-1";
   json["file"] = input.source().name();
   json["format"] = name_of(device.format);
-  json["encoding"] = name_of(input.document->encoding());
+  json["encoding"] = name_of(input.encoding());
   add(json, "vendor", device.identity.vendor_name);
   add(json, "vendor_number", device.identity.vendor_number);
   add(json, "product", device.identity.product_name);
@@ -133,7 +133,7 @@ int run(const Options& options) {
 Command add_info(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("info", "Show what device a description is of");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }

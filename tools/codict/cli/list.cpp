@@ -91,7 +91,7 @@ int run(const Options& options) {
 Command add_list(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("list", "List the objects of a device");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_flag("--objects", options->has_objects_only, "Without sub-objects");
   command->add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};

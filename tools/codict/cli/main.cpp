@@ -13,8 +13,9 @@ namespace {
 using namespace lexican::codict::cli;
 
 int run(int number, char** arguments) {
-  CLI::App app("Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF).",
-               "codict");
+  CLI::App app(
+      "Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF, XDD, XDC).",
+      "codict");
   app.set_version_flag("--version", "codict " LEXICAN_VERSION);
   app.require_subcommand(1);
   app.footer(

@@ -27,23 +27,59 @@ struct Options {
   bool is_json = false;
 };
 
+struct Assignment {
+  std::string_view field;
+  std::string_view text;
+};
+
 // "field=text"; false if it is something else.
-bool assign(const Input& input, const eds::Section& section, std::string_view assignment, Edits& edits,
-            std::string& why) {
+bool parse(std::string_view assignment, Assignment& result, std::string& why) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos || trimmed(assignment.substr(0, equals)).empty()) {
     why = "not of the form field=value: " + std::string(assignment);
     return false;
   }
-  const std::string_view name = key_of(trimmed(assignment.substr(0, equals)));
-  const std::string_view text = trimmed(assignment.substr(equals + 1));
-  const eds::Key* const key = input.document->find(section, name);
-  const bool is_set = key != nullptr ? input.document->set_value(*key, text, edits)
-                                     : input.document->add_key(section, name, text, edits);
-  if (!is_set) {
-    why = "the file cannot hold this text: " + std::string(assignment);
+  result = {trimmed(assignment.substr(0, equals)), trimmed(assignment.substr(equals + 1))};
+  return true;
+}
+
+bool assign(const eds::Document& document, const eds::Section& section, const Assignment& assignment, Edits& edits) {
+  const std::string_view name = key_of(assignment.field);
+  const eds::Key* const key = document.find(section, name);
+  return key != nullptr ? document.set_value(*key, assignment.text, edits)
+                        : document.add_key(section, name, assignment.text, edits);
+}
+
+// What an element's name says is not a value that can be replaced.
+bool is_value(const xdd::Document& document, Span span) {
+  return span.begin != 0 && document.source().bytes()[span.begin - 1] != '<';
+}
+
+bool assign(const xdd::Document& document, const Entry& entry, const Assignment& assignment, Edits& edits) {
+  const Text* const text = find_text(entry, assignment.field);
+  return text != nullptr && text->is_given && is_value(document, text->span) &&
+         document.set_text(text->span, assignment.text, edits);
+}
+
+// False leaves why not.
+bool assign_all(const Input& input, const Options& options, Edits& edits, std::string& why) {
+  const eds::Section* const section = input.eds != nullptr ? find_section(input, options.target, why) : nullptr;
+  const Entry* const entry = input.xdd != nullptr ? find_entry(input, options.target, why) : nullptr;
+  if (section == nullptr && entry == nullptr) {
+    return false;
   }
-  return is_set;
+  for (const std::string& each : options.assignments) {
+    Assignment assignment;
+    if (!parse(each, assignment, why)) {
+      return false;
+    }
+    if (!(section != nullptr ? assign(*input.eds, *section, assignment, edits)
+                             : assign(*input.xdd, *entry, assignment, edits))) {
+      why = (section != nullptr ? "the file cannot hold this text: " : "the file has no place for this text: ") + each;
+      return false;
+    }
+  }
+  return true;
 }
 
 // Findings that were not there before, as many of them as there are more of one rule and text.
@@ -66,7 +102,7 @@ bool review(Input& before, Input& after) {
   check_all(before);
   check_all(after);
   const std::vector<Finding> fresh = added(before.findings, after.findings);
-  fmt::print(stderr, "{}", render(after.source(), after.document->encoding(), fold(fresh), false));
+  fmt::print(stderr, "{}", render(after.source(), after.encoding(), fold(fresh), false));
   return std::none_of(fresh.begin(), fresh.end(),
                       [](const Finding& finding) { return finding.rule->severity == Severity::error; });
 }
@@ -91,13 +127,8 @@ int run(const Options& options) {
     return unusable;
   }
   std::string why;
-  const eds::Section* const section = find_section(*input, options.target, why);
   Edits edits;
-  bool is_possible = section != nullptr;
-  for (const std::string& assignment : options.assignments) {
-    is_possible = is_possible && assign(*input, *section, assignment, edits, why);
-  }
-  if (!is_possible) {
+  if (!assign_all(*input, options, edits, why)) {
     complain(input->source().name() + ": " + why);
     return unusable;
   }
@@ -116,11 +147,11 @@ Command add_set(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command =
       app.add_subcommand("set", "Change values of an object or section; all other bytes stay as they are");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
   command
       ->add_option("assignment", options->assignments,
-                   "field=value, the fields as those of get; a key that is not there is added")
+                   "field=value, the fields as those of get; a key that an EDS does not have is added")
       ->required();
   command->add_option("-o,--output", options->output, "Another file, - for the standard output");
   command->add_flag("--force", options->is_forced, "Write values even where they are errors");

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file losses.hpp
+/// What a device says that another format has no words for.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "model/device.hpp"
+
+namespace lexican::codict::convert {
+
+enum class Target : unsigned char {
+  eds,
+  dcf,
+  xdd,
+  xdc,
+};
+
+struct Loss {
+  std::string_view what;  ///< "descriptions"
+  std::size_t count = 0;
+};
+
+/// Those that there are.
+std::vector<Loss> losses(const Device& device, Target target);
+
+/// The same without what is configured: an EDS or XDD describes all devices of a kind.
+Device without_configuration(Device device);
+
+}  // namespace lexican::codict::convert
