@@ -50,7 +50,7 @@ struct Told {
 Told told(const Log& log) {
   Told told;
   for (const std::string& line : log) {
-    told.begins += line.substr(0, 5) == "begin" ? 1 : 0;
+    told.begins += line.substr(0, 5) == "begin" ? 1U : 0U;
     if (line.substr(0, 3) == "end") {
       told.ends.push_back(line);
     }
@@ -146,7 +146,7 @@ unsigned run_frames(Node& node, const std::vector<std::string>& frames) {
   for (const std::string& frame : frames) {
     node.rx(frame);
     for (const std::string& sent : node.frames()) {
-      aborts += sent.substr(4, 2) == "80" ? 1 : 0;
+      aborts += sent.substr(4, 2) == "80" ? 1U : 0U;
     }
   }
   return aborts;

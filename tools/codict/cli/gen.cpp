@@ -137,7 +137,7 @@ int run(Options options) {
 Command add_gen(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("gen", "Make the dictionary of a device: C or C++ source");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("file", options->file, file_help)->required();
   command->add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp")->required();
   command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
   const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
