@@ -37,7 +37,7 @@ void show(const Input& input, const Findings& findings, bool shows_notes) {
       wanted.push_back(finding);
     }
   }
-  const std::string text = render(input.source(), input.document->encoding(), fold(wanted), false);
+  const std::string text = render(input.source(), input.encoding(), fold(wanted), false);
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
