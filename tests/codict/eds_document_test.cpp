@@ -47,6 +47,9 @@ std::string bytes_of(const std::filesystem::path& path) {
 
 TEST_CASE("EDS: without a change, what is written is what was read") {
   for (const auto& entry : std::filesystem::directory_iterator(test::fixture(""))) {
+    if (!entry.is_regular_file()) {
+      continue;
+    }
     const std::string bytes = bytes_of(entry.path());
     CHECK(Edits().applied_to(document_of(bytes).source().bytes()) == bytes);
   }

@@ -390,8 +390,8 @@ struct StreamNode : Streams, PdoNode {
   LoggedExtension extension;
   LoggedExtension mapped;
 
-  explicit StreamNode(std::uint32_t word)
-      : PdoNode(table_of({word}), [this](Setup& setup) { this->Streams::add_to(setup); }) {
+  explicit StreamNode(std::uint32_t map)
+      : PdoNode(table_of({map}), [this](Setup& setup) { this->Streams::add_to(setup); }) {
     call([&] { CHECK(OD_extension_init(OD_find(&od, 0x3012), &original) == ODR_OK); });
     extension.put_at(*this, 0x3010);
     mapped.put_at(*this, 0x3005);
