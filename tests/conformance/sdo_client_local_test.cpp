@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDO client whose server is its own node: the own dictionary, with the rights of the network, and no frame.
+#include "support/heap_watch.hpp"
 #include "support/sdo_client_fixture.hpp"
 
 #if USE_CSDO
@@ -342,6 +343,7 @@ void give_code(CO_OBJ* obj, CO_NODE* node) {
 }
 
 CO_ERR write_nested(CO_OBJ* obj, CO_NODE* node, void*, std::uint32_t) {
+  const test::OutsideStack outside;
   if (nested.is_early) {
     give_code(obj, node);
   }
