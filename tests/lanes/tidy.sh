@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-about="clang-tidy over src, drivers and tools, with the checks of .clang-tidy"
-packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}" clang-tidy-14)
+# shellcheck shell=bash
+about="clang-tidy over src and drivers, with the checks of .clang-tidy"
+packages=("${build_packages[@]}" "${clang_packages[@]}" clang-tidy-14)
+places=(src drivers)
+with_tools=OFF
 
 # How each file is compiled is known once the preset is configured: nothing is built here.
 lane() {
-  (cd "$root" && cmake --preset development -DLEXICAN_TOOLS=ON) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
+  (cd "$root" && cmake --preset development -DLEXICAN_TOOLS=$with_tools) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
   local file logs=$results/tidy
   rm -rf "$logs" && mkdir -p "$logs"
-  sources src drivers tools -name '*.cpp' -not -path '*/template/*' |
+  sources "${places[@]}" -name '*.cpp' -not -path '*/template/*' |
     xargs -P "$(nproc)" -I FILE bash -c '
       log=$1/$(tr / - <<<"$2").log
       clang-tidy-14 -p "$3" --quiet --warnings-as-errors="*" "$4/$2" >"$log" 2>&1 && echo clean >>"$log"' \

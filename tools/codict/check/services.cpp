@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -27,19 +26,22 @@ void check_mandatory(const Device& device, Findings& findings) {
 
 // [301: 7.5.2.33]
 void check_default_sdo(const Device& device, Findings& findings) {
-  constexpr std::array<std::uint16_t, 3> identifiers = {0, 0x600, 0x580};
-  for (std::uint8_t sub_index = 1; sub_index < identifiers.size(); ++sub_index) {
-    const Entry* const entry = device.find(0x1200, sub_index);
+  struct Identifier {
+    std::uint8_t sub_index;
+    std::uint16_t base;
+    const char* formula;
+  };
+  for (const Identifier& wanted : {Identifier{1, 0x600, "$NODEID+0x600"}, Identifier{2, 0x580, "$NODEID+0x580"}}) {
+    const Entry* const entry = device.find(0x1200, wanted.sub_index);
     if (entry == nullptr || !value_in_force(*entry).is_integer()) {
       continue;
     }
     const Value& value = value_in_force(*entry);
     // A device that says the base alone adds the node-ID by itself; a DCF may have it in.
-    const std::uint16_t base = identifiers[sub_index];
-    const bool is_of_node = !value.adds_node_id && value.integer == Integer(base + device.commissioning.node_id.value);
-    if (value.integer != Integer(base) && !is_of_node) {
-      findings.add(rules::sdo_default, value.span, "not the identifier of the first SDO server",
-                   sub_index == 1 ? "$NODEID+0x600" : "$NODEID+0x580");
+    const Integer with_node = wanted.base + device.commissioning.node_id.value;
+    const bool is_of_node = !value.adds_node_id && value.integer == with_node;
+    if (value.integer != Integer(wanted.base) && !is_of_node) {
+      findings.add(rules::sdo_default, value.span, "not the identifier of the first SDO server", wanted.formula);
     }
   }
 }

@@ -27,6 +27,7 @@ void add(std::string_view name, std::string value, std::vector<Fact>& facts) {
 
 std::string joined(const std::vector<Text>& texts) {
   std::vector<std::string_view> parts;
+  parts.reserve(texts.size());
   for (const Text& text : texts) {
     parts.emplace_back(text.text);
   }
@@ -191,19 +192,7 @@ class Chapters {
   // The groups of the description, with the objects whose own parameters they name.
   void add_groups(const std::vector<Group>& groups, unsigned level) {
     for (const Group& group : groups) {
-      Chapter chapter;
-      chapter.title = text_in(group.words.labels, options_.language);
-      chapter.title = chapter.title.empty() ? group.id.text : chapter.title;
-      chapter.anchor = "g-" + std::to_string(++groups_);
-      chapter.words = text_in(group.words.descriptions, options_.language);
-      chapter.level = level;
-      const std::set<std::string_view> wanted = ids_of(group);
-      for (const Object& object : device_.objects) {
-        if (has_one_of(object, wanted) && placed_.insert(object.index).second) {
-          chapter.objects.push_back(doc::item_of(device_, object, options_));
-        }
-      }
-      chapters_.push_back(std::move(chapter));
+      chapters_.push_back(chapter_of(group, level));
       add_groups(group.groups, level + 1);
     }
   }
@@ -229,6 +218,22 @@ class Chapters {
   std::vector<Chapter> take() { return std::move(chapters_); }
 
  private:
+  Chapter chapter_of(const Group& group, unsigned level) {
+    Chapter chapter;
+    chapter.title = text_in(group.words.labels, options_.language);
+    chapter.title = chapter.title.empty() ? group.id.text : chapter.title;
+    chapter.anchor = "g-" + std::to_string(++groups_);
+    chapter.words = text_in(group.words.descriptions, options_.language);
+    chapter.level = level;
+    const std::set<std::string_view> wanted = ids_of(group);
+    for (const Object& object : device_.objects) {
+      if (has_one_of(object, wanted) && placed_.insert(object.index).second) {
+        chapter.objects.push_back(doc::item_of(device_, object, options_));
+      }
+    }
+    return chapter;
+  }
+
   static std::set<std::string_view> ids_of(const Group& group) {
     std::set<std::string_view> ids;
     for (const Text& id : group.parameters) {
