@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -273,6 +274,65 @@ TEST_CASE("codict convert: an EDS becomes a DCF, and is the same device") {
   CHECK(run("convert drive.eds -o -").status == 2);
   CHECK(run("convert drive.eds -o " + directory / "drive.txt").status == 2);
   CHECK(run("convert missing.eds --to dcf -o -").status == 2);
+}
+
+TEST_CASE("codict convert: an EDS becomes an XDD and an EDS again, and is the same device") {
+  const Directory directory;
+  for (const char* const name : {"drive.xdd", "drive.xdc"}) {
+    CHECK(run("convert drive.eds -o " + directory / name).status == 0);
+    CHECK(run("convert " + directory / name + " -o " + directory / "again.eds").status == 0);
+    const Ran ran = run("diff drive.eds " + directory / "again.eds");
+    CHECK(ran.status == 0);
+    CHECK(ran.out.empty());
+  }
+  CHECK(run("convert drive.eds --to xdd10 -o -").out.find("http://www.canopen.org/xml/1.0") != std::string::npos);
+  CHECK(run("convert drive.eds --to xdd -o -").out.find("http://www.canopen.org/xml/1.1") != std::string::npos);
+}
+
+TEST_CASE("codict convert: what the other format has no words for is told, or keeps it from being written") {
+  const Directory directory;
+  const Ran told = run("convert xdd/device10.xdd -o " + directory / "valve.eds");
+  CHECK(told.status == 0);
+  CHECK(told.err ==
+        "codict: xdd/device10.xdd: left out: 1 configured values, 2 denotations, 1 commissioning, 2 labels, 1 "
+        "descriptions, 2 units, 2 allowed values, 1 substitute values, 5 properties, 1 groups, 4 data types, 2 "
+        "templates, "
+        "1 parameters without an object, 1 order codes, 2 versions\n");
+  CHECK(std::filesystem::exists(directory / "valve.eds"));
+  CHECK(run("convert --strict-loss xdd/device10.xdd -o " + directory / "strict.eds").status == 1);
+  CHECK_FALSE(std::filesystem::exists(directory / "strict.eds"));
+  CHECK(run("convert xdd/device10.xdd --to xdc -o -").out == bytes_of(test::fixture("xdd/device10.xdd")));
+}
+
+TEST_CASE("codict: what an XDD says is shown and changed as what an EDS says") {
+  CHECK(run("info xdd/device10.xdd").out.find("Format           XDC 1.0\n") != std::string::npos);
+  CHECK(run("get xdd/device10.xdd 2000 access").out == "readWriteOutput\n");
+  CHECK(run("get xdd/device10.xdd 2000").out.find("name=Mode\n") == 0);
+  CHECK(run("get xdd/device10.xdd 2009").status == 2);
+  CHECK(run("get xdd/device10.xdd 2000 flags").status == 2);
+  const Directory directory;
+  const std::string other = directory / "valve.xdd";
+  std::filesystem::copy_file(test::fixture("xdd/device10.xdd"), other);
+  CHECK(run("set " + other + " 2000 default=1").status == 0);
+  std::string wanted = bytes_of(test::fixture("xdd/device10.xdd"));
+  wanted.replace(wanted.find("<defaultValue value=\"0\" offset"), 23, "<defaultValue value=\"1\"");
+  CHECK(bytes_of(other) == wanted);
+  CHECK(run("set " + other + " 2000 default=2").status == 1);
+  CHECK(run("set " + other + " 2000 flags=1").status == 2);
+  CHECK(run("set " + other + " 2001 type=06").status == 2);
+  CHECK(bytes_of(other) == wanted);
+  CHECK(run("check xdd/device10.xdd").out.find("xdd/device10.xdd:138:11: error: TPDO 1 has no mapping [pdo-pair]\n") !=
+        std::string::npos);
+  CHECK(run("doc xdd/device10.xdd --to md -o -").out.find("## <a id=\"g-1\"></a>Working\n") != std::string::npos);
+}
+
+TEST_CASE("codict: XML that is no description is refused with one message") {
+  const Directory directory;
+  std::ofstream(directory / "other.xml") << "<?xml version=\"1.0\"?>\n<html/>\n";
+  const Ran ran = run("check " + directory / "other.xml");
+  CHECK(ran.status == 2);
+  CHECK(ran.out.empty());
+  CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
 }
 
 TEST_CASE("codict info: what device it is") {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -131,11 +132,11 @@ void compare_allowed(const Allowed& before, const Allowed& after, const Recorder
 void compare_labels(std::string_view what, const std::vector<Label>& before, const std::vector<Label>& after,
                     const Recorder& recorder) {
   static const Text nothing;
-  const std::size_t both = std::min(before.size(), after.size());
   for (std::size_t at = 0; at < std::max(before.size(), after.size()); ++at) {
     const Text& old_text = at < before.size() ? before[at].text : nothing;
     const Text& new_text = at < after.size() ? after[at].text : nothing;
-    if (at >= both || before[at].language != after[at].language) {
+    const bool are_both = at < before.size() && at < after.size();
+    if (!are_both || before[at].language != after[at].language) {
       recorder.add(Kind::text, what, old_text, new_text);
     } else {
       recorder.text(Kind::text, what, old_text, new_text);
@@ -143,9 +144,17 @@ void compare_labels(std::string_view what, const std::vector<Label>& before, con
   }
 }
 
+// A label that repeats the name says nothing more: an EDS has the name alone.
+std::vector<Label> own_labels(const Entry& entry) {
+  std::vector<Label> labels;
+  std::copy_if(entry.words.labels.begin(), entry.words.labels.end(), std::back_inserter(labels),
+               [&entry](const Label& label) { return label.text.text != entry.name.text; });
+  return labels;
+}
+
 void compare_words(const Entry& before, const Entry& after, const Recorder& recorder) {
   recorder.text(Kind::text, "name", before.name, after.name);
-  compare_labels("label", before.words.labels, after.words.labels, recorder);
+  compare_labels("label", own_labels(before), own_labels(after), recorder);
   compare_labels("description", before.words.descriptions, after.words.descriptions, recorder);
   recorder.text(Kind::text, "denotation", before.denotation, after.denotation);
 }
