@@ -8,7 +8,7 @@ done
 
 # In the directory of the lane vcan, but only what is needed here.
 build_master() {
-  (cd "$root" && cmake -S "$root" -B "$build/release" -G Ninja -DLEXICAN_PRESET=full -DLEXICAN_TOOLS=OFF --preset release) &&
+  (cd "$root" && cmake -S "$root" -B "$build/release" -G Ninja -DLEXICAN_PRESET=full --preset release) &&
     cmake --build "$build/release" --target lexican-demo-master
 }
 

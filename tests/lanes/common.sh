@@ -65,7 +65,7 @@ measure_lane() {
 build_tree() {
   local name=$1 log=$results/build-$1.log
   shift
-  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full -DLEXICAN_TOOLS=OFF "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"; } >"$log" 2>&1; then
+  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"; } >"$log" 2>&1; then
     fail "build of $name" "$log"
     return 1
   fi
