@@ -100,9 +100,12 @@ Runs run_late(Threads threads, std::uint32_t start, std::uint32_t far, std::uint
 
 TEST_CASE("turn: timers run in their order, however far apart they have elapsed, and wherever the clock starts") {
   constexpr std::uint32_t half = 0x80000000U;
-  for (const std::uint32_t start : {0U, half - 1U, half, 0U - 2U, 0U - 1U}) {
-    for (const std::uint32_t far : {2U, half - 1U, half, half + 1U, half + 2U, 0xFFFFFFFEU, 0xFFFFFFFFU}) {
-      for (const std::uint32_t cycle : {0U, half - 1U, half, half + 1U, 0xFFFFFFFFU}) {
+  constexpr std::uint32_t starts[] = {0, half - 1, half, 0xFFFFFFFE, 0xFFFFFFFF};
+  constexpr std::uint32_t distances[] = {2, half - 1, half, half + 1, half + 2, 0xFFFFFFFE, 0xFFFFFFFF};
+  constexpr std::uint32_t cycles[] = {0, half - 1, half, half + 1, 0xFFFFFFFF};
+  for (const std::uint32_t start : starts) {
+    for (const std::uint32_t far : distances) {
+      for (const std::uint32_t cycle : cycles) {
         for (const Threads threads : {Threads::one, Threads::turns, Threads::real_time}) {
           CAPTURE(start);
           CAPTURE(far);
