@@ -24,8 +24,8 @@ CO_ERR read_and_configure(CO_OBJ*, CO_NODE* node, void* buffer, std::uint32_t) {
   *static_cast<std::uint8_t*>(buffer) = 0x77;
   return CO_ERR_NONE;
 }
-constexpr CO_OBJ_TYPE configuring = {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return 1U; }, nullptr, read_and_configure,
-                                     nullptr, nullptr};
+constexpr CO_OBJ_TYPE configuring = {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{1}; }, nullptr,
+                                     read_and_configure, nullptr, nullptr};
 
 PdoTable table_of_one() {
   PdoTable table;
