@@ -2,7 +2,6 @@
 // The program codict as its user sees it: what it prints, where, and with which status it ends.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -14,38 +13,24 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "codict/directory.hpp"
 #include "codict/reading.hpp"
 
 namespace {
 
 using Json = nlohmann::json;
+using test::Directory;
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// A place for files, which is gone afterwards.
-class Directory {
- public:
-  Directory() {
-    std::string name = std::filesystem::temp_directory_path() / "codict-cli-XXXXXX";
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  std::string operator/(const char* name) const { return path_ / name; }
-
-  // A copy of a fixture.
-  std::string with(const char* name) const {
-    std::filesystem::copy_file(test::fixture(name), path_ / name);
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+// A copy of a fixture.
+std::string copy_to(const Directory& directory, const char* name) {
+  std::filesystem::copy_file(test::fixture(name), directory / name);
+  return directory / name;
+}
 
 struct Ran {
   int status = -1;
@@ -208,7 +193,7 @@ TEST_CASE("codict diff: a device is the same as itself") {
 
 TEST_CASE("codict diff: differences are told by kind, with the place and both values") {
   const Directory directory;
-  const std::string other = directory.with("drive.eds");
+  const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro name=Velocity").status == 0);
   const Ran ran = run("diff drive.eds " + other);
   CHECK(ran.status == 1);
@@ -224,7 +209,7 @@ TEST_CASE("codict diff: differences are told by kind, with the place and both va
 
 TEST_CASE("codict diff: a release is refused while it breaks networks under the same major revision number") {
   const Directory directory;
-  const std::string other = directory.with("drive.eds");
+  const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
   const Ran refused = run("diff --release drive.eds " + other);
   CHECK(refused.status == 1);
@@ -235,7 +220,7 @@ TEST_CASE("codict diff: a release is refused while it breaks networks under the 
 
 TEST_CASE("codict diff: JSON has the lines of both files") {
   const Directory directory;
-  const std::string other = directory.with("drive.eds");
+  const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
   const Json json = Json::parse(run("diff --json drive.eds " + other).out);
   CHECK(json.at("schema") == "codict-diff-1");
@@ -404,7 +389,7 @@ TEST_CASE("codict get: what is not there is named") {
 
 TEST_CASE("codict set: one line changes, and all other bytes stay") {
   const Directory directory;
-  const std::string path = directory.with("dos_lines.eds");
+  const std::string path = copy_to(directory, "dos_lines.eds");
   std::string expected = bytes_of(path);
   CHECK(run("set '" + path + "' 0x2000 default=5").status == 0);
   expected.replace(expected.find("DefaultValue=1\r"), 15, "DefaultValue=5\r");
@@ -425,7 +410,7 @@ TEST_CASE("codict set: another file, or the standard output, is written instead"
 
 TEST_CASE("codict set: a value that is an error is not written, unless it must be") {
   const Directory directory;
-  const std::string path = directory.with("dos_lines.eds");
+  const std::string path = copy_to(directory, "dos_lines.eds");
   const std::string before = bytes_of(path);
   const Ran ran = run("set '" + path + "' 0x2000 default=256");
   CHECK(ran.status == 1);
@@ -440,7 +425,7 @@ TEST_CASE("codict set: a value that is an error is not written, unless it must b
 
 TEST_CASE("codict set: an error that was there before is no reason to refuse") {
   const Directory directory;
-  const std::string path = directory.with("octal.eds");
+  const std::string path = copy_to(directory, "octal.eds");
   CHECK(run("set '" + path + "' 0x2000 default=1").status == 0);
   CHECK(run("set '" + path + "' FileInfo ModifiedBy=me").status == 0);
   CHECK(run("get '" + path + "' FileInfo ModifiedBy").out == "me\n");
