@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # What the lanes fuzz and fuzz_corpus share.
-fuzz_targets=(node sdo_client sdo_server eds xdd)
+stack_fuzz_targets=(node sdo_client sdo_server)
+tool_fuzz_targets=(eds xdd)
+fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 
-# Builds the targets and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
+# Builds "${fuzz_targets[@]}" and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
 build_fuzz() {
   local targets=("${fuzz_targets[@]/%/_fuzz}")
   build_tree "$1" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER="$2" -DCMAKE_CXX_COMPILER="$3" -DCMAKE_CXX_FLAGS_DEBUG="-g -O1" \

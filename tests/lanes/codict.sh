@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read"
+. "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}" chromium)
 
 lane() {
-  local targets=(lexican_codict_tests lexican_codict_node_tests codict)
+  local target targets=(lexican_codict_tests lexican_codict_node_tests codict "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
-    -DLEXICAN_TOOLS=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+    -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
   run_doctest "codict nodes" "$build/codict/tests/codict/lexican_codict_node_tests"
+  for target in "${tool_fuzz_targets[@]}"; do
+    check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
+  done
   run_tap "$root/tests/codict/page_test.sh" "$build/codict/tools/codict/codict" "$root/tests/codict/fixtures"
 }

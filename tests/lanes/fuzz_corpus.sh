@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the fuzz targets with their committed inputs, gcc and clang with address and undefined behaviour sanitizers"
+about="the fuzz targets of the stack with their committed inputs, gcc and clang with address and undefined behaviour sanitizers"
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 
+# Those of the tools are in lane codict, where the tools are built anyway.
 lane() {
+  local fuzz_targets=("${stack_fuzz_targets[@]}")
   corpus_of gcc g++
   corpus_of clang clang++
 }
