@@ -4,7 +4,7 @@ about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may nam
 packages=("${build_packages[@]}" "${tool_packages[@]}" chromium)
 
 lane() {
-  local target targets=(lexican_codict_tests lexican_codict_node_tests codict "${tool_fuzz_targets[@]/%/_fuzz}")
+  local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
     -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"

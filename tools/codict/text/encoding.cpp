@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace lexican::codict {
 
@@ -133,12 +134,17 @@ std::string_view name_of(Encoding encoding) {
 std::size_t mark_size(std::string_view bytes) { return bytes.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0; }
 
 bool is_ascii(std::string_view bytes) {
-  // Without a way out of the loop, which a compiler makes fast.
-  std::uint8_t all = 0;
-  for (const char c : bytes) {
-    all = static_cast<std::uint8_t>(all | byte_of(c));
+  std::uint64_t all = 0;
+  while (bytes.size() >= sizeof(all)) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, bytes.data(), sizeof(eight));
+    all |= eight;
+    bytes.remove_prefix(sizeof(eight));
   }
-  return all < 0x80;
+  for (const char c : bytes) {
+    all |= byte_of(c);
+  }
+  return (all & 0x8080808080808080U) == 0;
 }
 
 Encoding guess_encoding(std::string_view bytes) {

@@ -245,7 +245,8 @@ Span Document::span(pugi::xml_attribute attribute) const {
 
 std::string Document::decoded(Span span, bool is_attribute) const {
   const std::string_view bytes = raw(span);
-  const bool is_plain = bytes.find_first_of("&\r\n\t") == std::string_view::npos;
+  const bool is_plain =
+      std::none_of(bytes.begin(), bytes.end(), [](char c) { return c == '&' || c == '\r' || c == '\n' || c == '\t'; });
   if (is_plain && encoding_ == Encoding::utf8) {
     return std::string(bytes);
   }
@@ -262,7 +263,6 @@ Text Document::text(pugi::xml_attribute attribute) const {
 
 Text Document::text(pugi::xml_node element) const {
   Text text;
-  text.span = {tag(element).end, tag(element).end};
   for (const pugi::xml_node child : element) {
     if (child.type() != pugi::node_pcdata && child.type() != pugi::node_cdata) {
       continue;
@@ -274,6 +274,10 @@ Text Document::text(pugi::xml_node element) const {
     text.text += child.type() == pugi::node_pcdata ? decoded(span, false) : to_utf8(raw(span), encoding_);
     text.span = {text.is_given ? text.span.begin : begin, span.end};
     text.is_given = true;
+  }
+  if (!text.is_given) {
+    const std::uint32_t behind = tag(element).end;
+    text.span = {behind, behind};
   }
   return text;
 }

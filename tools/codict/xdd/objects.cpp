@@ -166,9 +166,8 @@ void append(std::vector<Kept>& to, std::vector<Kept>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-// A parameter is what its object is. [311: uniqueIDRef]
-Entry merged(Entry parameter, Entry& own, const Reader& reader) {
-  Entry entry = std::move(parameter);
+// A parameter is what its object is, and becomes the object's. [311: uniqueIDRef]
+void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.span = own.span;
   entry.name = own.name;
   entry.object_code = own.object_code;
@@ -188,7 +187,6 @@ Entry merged(Entry parameter, Entry& own, const Reader& reader) {
   choose(entry.access, own.access, "accessType", is_same_access(own.access.value, entry.access.value), entry, reader);
   choose(entry.denotation, own.denotation, "denotation", false, entry, reader);
   choose_type(entry, reader);
-  return entry;
 }
 
 Entry with_parameter(Entry& own, const Reader& reader) {
@@ -204,9 +202,10 @@ Entry with_parameter(Entry& own, const Reader& reader) {
   if (!reader.shared.used.try_emplace(id, true).second && !may_copy(element, reader)) {
     return std::move(own);
   }
-  Entry parameter = read_parameter(element, reader);
-  take_limits_of_range(parameter);
-  return merged(std::move(parameter), own, reader);
+  Entry entry = read_parameter(element, reader);
+  take_limits_of_range(entry);
+  merge(entry, own, reader);
+  return entry;
 }
 
 // What stands for a name where there is none.
@@ -321,7 +320,7 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
   if (!read_number(part.number, 4, 0xFFFF, part.span, number, reader) || !is_first(seen, number, part.span, reader)) {
     return false;
   }
-  Object object;
+  Object& object = reader.device.objects.emplace_back();
   object.index = static_cast<std::uint16_t>(number);
   object.is_listed = true;
   object.sub_number = part.sub_number;
@@ -337,7 +336,6 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
   complete_type(object, is_variable, reader);
   read_subs(object, subs, reader);
   sort_by(object.subs, [](const Sub& sub) { return sub.sub_index; });
-  reader.device.objects.push_back(std::move(object));
   return true;
 }
 
@@ -571,6 +569,10 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
 void read_object_list(pugi::xml_node element, const Reader& reader) {
   std::vector<Kept> rest;
   std::vector<bool>& seen = reader.shared.objects;
+  const auto children = element.children();
+  const auto objects = std::count_if(children.begin(), children.end(),
+                                     [](pugi::xml_node child) { return is_object(local_name(child)); });
+  reader.device.objects.reserve(std::min(static_cast<std::size_t>(objects), seen.size()));
   read_element(reader.device, element, count_slots, rest, reader, [&](pugi::xml_node child) {
     const bool is_one = is_object(local_name(child));
     if (is_one && !read_object(child, seen, reader)) {

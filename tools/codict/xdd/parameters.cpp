@@ -21,17 +21,22 @@ constexpr std::array<Slot<Entry>, 8> parameter_slots = {{
     {"templateIDRef", [](Entry& e) -> Text& { return e.template_id; }},
 }};
 
-// The order that the schema has for the children; what it has not there is the last.
-constexpr std::array<std::string_view, 12> order = {
-    "label",      "description", "labelRef",     "descriptionRef",  "*type",         "conditionalSupport",
-    "denotation", "actualValue", "defaultValue", "substituteValue", "allowedValues", "unit"};
+// The order that the schema has for the children: words, a type, and these. What it has not there is the last.
+constexpr std::array<std::string_view, 4> word_names = {"label", "description", "labelRef", "descriptionRef"};
+constexpr std::array<std::string_view, 8> order = {"conditionalSupport", "denotation",    "actualValue", "defaultValue",
+                                                   "substituteValue",    "allowedValues", "unit",        "property"};
 
 std::size_t rank_of(std::string_view name) {
-  if (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr) {
-    name = "*type";
+  constexpr std::size_t of_words = 0;
+  constexpr std::size_t of_type = 1;
+  if (std::find(word_names.begin(), word_names.end(), name) != word_names.end()) {
+    return of_words;
   }
-  const auto rank = static_cast<std::size_t>(std::find(order.begin(), order.end(), name) - order.begin());
-  return std::max<std::size_t>(rank, 3);  // words in any order
+  const auto* const place = std::find(order.begin(), order.end(), name);
+  const bool is_type =
+      place == order.end() && (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr);
+  const auto rank = static_cast<std::size_t>(place - order.begin());
+  return is_type ? of_type : of_type + 1 + std::min(rank, order.size() - 1);
 }
 
 void check_order(pugi::xml_node element, const Reader& reader) {

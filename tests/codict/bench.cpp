@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file bench.cpp
+/// How long the readers take: of the files that are named, or of an EDS of 500 KB and an XDD of 4 MB made here. Prints
+/// the best of some runs, in milliseconds of the processor. Time is no test's verdict.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "eds/document.hpp"
+#include "eds/read.hpp"
+#include "text/file.hpp"
+#include "xdd/document.hpp"
+#include "xdd/read.hpp"
+
+namespace {
+
+using namespace lexican::codict;
+
+constexpr int runs = 10;
+
+std::string large_eds(unsigned objects) {
+  std::string text = "[FileInfo]\nFileName=large.eds\n[DeviceInfo]\nVendorName=Lexican\n[ManufacturerObjects]\n";
+  text += fmt::format("SupportedObjects={}\n", objects);
+  for (unsigned n = 0; n < objects; ++n) {
+    text += fmt::format("{}=0x{:04X}\n", n + 1, 0x2000 + n);
+  }
+  for (unsigned n = 0; n < objects; ++n) {
+    text += fmt::format(
+        "[{:04X}]\nParameterName=Parameter number {}\nObjectType=0x7\nDataType=0x0006\nLowLimit=0\nHighLimit=0xFFF\n"
+        "AccessType=rw\nDefaultValue=0x{:X}\nPDOMapping=1\n\n",
+        0x2000 + n, n, n & 0xFFFU);
+  }
+  return text;
+}
+
+std::string large_xdd(unsigned objects) {
+  std::string text =
+      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745ProfileContainer "
+      "xmlns=\"http://www.canopen.org/xml/1.1\">\n"
+      "<ISO15745Profile><ProfileHeader/><ProfileBody><ApplicationProcess><parameterList>\n";
+  for (unsigned n = 0; n < objects; ++n) {
+    text += fmt::format(
+        "  <parameter uniqueID=\"UID_PARAM_{:04X}\" access=\"readWrite\">\n"
+        "    <label lang=\"en\">Parameter number {}</label>\n"
+        "    <description lang=\"en\">What it is for, in some words, as descriptions have them.</description>\n"
+        "    <UINT/>\n    <defaultValue value=\"0x{:04X}\"/>\n"
+        "    <allowedValues><range><minValue value=\"0\"/><maxValue value=\"0xFFF\"/></range></allowedValues>\n"
+        "    <property name=\"CO_storageGroup\" value=\"RAM\"/>\n  </parameter>\n",
+        0x2000 + n, n, n & 0xFFFU);
+  }
+  text +=
+      "</parameterList></ApplicationProcess></ProfileBody></ISO15745Profile>\n"
+      "<ISO15745Profile><ProfileHeader/><ProfileBody><ApplicationLayers><CANopenObjectList>\n";
+  for (unsigned n = 0; n < objects; ++n) {
+    text += fmt::format(
+        "  <CANopenObject index=\"{:04X}\" name=\"Parameter number {}\" objectType=\"7\" PDOmapping=\"optional\" "
+        "uniqueIDRef=\"UID_PARAM_{:04X}\"/>\n",
+        0x2000 + n, n, 0x2000 + n);
+  }
+  return text + "</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>\n";
+}
+
+void read_xml(Source source) {
+  Findings findings;
+  const xdd::Document document(std::move(source), findings);
+  const Description description = xdd::read(document, findings);
+  if (description.devices.empty()) {
+    std::abort();
+  }
+}
+
+void read_eds(Source source) {
+  Findings findings;
+  const eds::Document document(std::move(source), findings);
+  const Description description = eds::read(document, findings);
+  if (description.devices.empty()) {
+    std::abort();
+  }
+}
+
+void measure(const Source& source) {
+  const bool is_xml = source.bytes().substr(0, 200).find('<') != std::string_view::npos;
+  double best = 1e9;
+  for (int n = 0; n < runs; ++n) {
+    Source copy = source;
+    const std::clock_t begin = std::clock();
+    is_xml ? read_xml(std::move(copy)) : read_eds(std::move(copy));
+    best = std::min(best, static_cast<double>(std::clock() - begin) * 1000 / CLOCKS_PER_SEC);
+  }
+  fmt::print("{:8.1f} ms {:8} bytes  {}\n", best, source.size(), source.name());
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  measure(Source("large.eds", large_eds(3500)));
+  measure(Source("large.xdd", large_xdd(7600)));
+  for (int n = 1; n < count; ++n) {
+    std::string why;
+    if (const std::optional<Source> source = read_file(arguments[n], why)) {
+      measure(*source);
+    }
+  }
+}
