@@ -224,11 +224,12 @@ std::vector<std::string> externals_of(const Plan& plan, const Options& options) 
   std::vector<std::string> all;
   for (const Item& item : plan.items) {
     const std::string name = external_of(item, options);
-    if (item.storage == Storage::application) {
+    if (item.has_own_type) {
       all.push_back(fmt::format("extern const CO_OBJ_TYPE {}_type;", name));
     } else if (item.storage == Storage::external) {
-      const bool is_domain = item.form->code == type_code::domain;
-      const std::string_view memory = is_domain ? "CO_OBJ_DOM" : "CO_OBJ_STR_RW";
+      const std::string_view memory = item.form->code == type_code::domain ? "CO_OBJ_DOM"
+                                      : item.type == "CO_TSTRING"          ? "CO_OBJ_STR"
+                                                                           : "CO_OBJ_STR_RW";
       all.push_back(fmt::format("extern {} {};", item.form->bytes == 0 ? memory : item.form->variable, name));
     }
   }

@@ -246,16 +246,34 @@ class Items {
       constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
     } else if (entry.node.extension_io.value) {
-      item.storage = Storage::application;
-      findings_.add(rules::external, item.span, "its type is the application's");
+      set_own_type(item);
     } else if (is_external(item, entry)) {
-      item.storage = Storage::external;
-      findings_.add(rules::external, item.span, "the application has its memory");
+      set_external(item);
     } else if (item.form->bytes == 0) {
       set_memory(item, entry);
     } else {
       set_variable(item, has_subs);
     }
+  }
+
+  // A number with a value has a variable, whatever its type does with it.
+  void set_own_type(Item& item) {
+    const bool has_variable = item.form->bytes != 0 && item.value.is_given;
+    item.has_own_type = true;
+    item.storage = has_variable ? Storage::variable : Storage::application;
+    findings_.add(rules::external, item.span, "its type is the application's");
+  }
+
+  void set_external(Item& item) {
+    item.storage = Storage::external;
+    if (is_constant_text(item)) {
+      item.type = "CO_TSTRING";
+    }
+    findings_.add(rules::external, item.span, "the application has its memory");
+  }
+
+  static bool is_constant_text(const Item& item) {
+    return item.form->code == type_code::visible_string && !is_writable(item.access);
   }
 
   // In a description of CANopenNode nothing means that there is no memory; so it is with a domain anywhere.
@@ -290,7 +308,7 @@ class Items {
     const std::uint32_t asked = std::max(entry.node.byte_length.value, entry.node.string_length_min.value * unit);
     item.capacity = std::min(std::max(length, asked), most_bytes) / unit * unit;
     item.storage = kind == TypeKind::domain ? Storage::domain : Storage::string;
-    if (kind == TypeKind::visible_string && !is_writable(item.access) && asked <= length) {
+    if (is_constant_text(item) && asked <= length) {
       item.storage = Storage::text;
       item.type = "CO_TSTRING";
     } else if (item.capacity == 0) {
@@ -303,7 +321,7 @@ class Items {
   void set_limits(Item& item, const Entry& entry) {
     const TypeKind kind = data_type(item.form->code).kind;
     const bool is_number = is_integer(kind) || kind == TypeKind::real;
-    const bool is_possible = is_number && is_writable(item.access) &&
+    const bool is_possible = is_number && is_writable(item.access) && !item.has_own_type &&
                              (item.storage == Storage::variable || item.storage == Storage::external) &&
                              (item.place == nullptr || item.place->service == Service::value);
     if (!is_possible || !is_usable(entry.low_limit) || !is_usable(entry.high_limit)) {

@@ -35,8 +35,8 @@ enum class Storage : unsigned char {
   domain,       ///< a CO_OBJ_DOM and its memory
   consumer,     ///< a CO_HBCONS
   group,        ///< a CO_PARA
-  external,     ///< a variable, CO_OBJ_STR_RW or CO_OBJ_DOM of the application
-  application,  ///< its type is the application's
+  external,     ///< a variable, CO_OBJ_STR, CO_OBJ_STR_RW or CO_OBJ_DOM of the application
+  application,  ///< nothing: its type is the application's, and knows it
 };
 
 struct Limits {
@@ -57,8 +57,9 @@ struct Item {
   PdoMapping pdo = PdoMapping::no;
   const Form* form = nullptr;
   const Place* place = nullptr;
-  std::string type;         ///< "CO_TUNSIGNED16"
-  std::uint32_t flags = 0;  ///< of CO_KEY()
+  std::string type;           ///< "CO_TUNSIGNED16"
+  bool has_own_type = false;  ///< the application's
+  std::uint32_t flags = 0;    ///< of CO_KEY()
   Storage storage = Storage::variable;
   Value value;
   std::uint32_t capacity = 0;  ///< bytes of a string or domain

@@ -452,7 +452,7 @@ class SourceText {
     if (item.limited != 0) {
       return fmt::format("&limits_{}.Type", item.limited);
     }
-    if (item.storage == Storage::application) {
+    if (item.has_own_type) {
       return fmt::format("&{}_type", external_of(item, options_));
     }
     const bool is_stored = item.group != 0;
