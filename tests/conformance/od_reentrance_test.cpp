@@ -24,6 +24,7 @@ struct Variables {
 
 struct Node : Variables, Fixture {
   LoggedExtension extension;
+  unsigned calls_seen = 0;  // by do_at()
 
   Node() : Fixture(setup(*this)) { extend(); }
 
@@ -112,9 +113,9 @@ const std::vector<Named>& acts() {
 
 // Once, from the given call on; inside itself it does nothing.
 void do_at(Node& node, unsigned call, const Act& act) {
-  auto calls = std::make_shared<unsigned>(0);
-  const auto once = [&node, call, act, calls](OD_stream_t* stream) {
-    if ((*calls)++ == call) {
+  node.calls_seen = 0;
+  const auto once = [&node, call, act](OD_stream_t* stream) {
+    if (node.calls_seen++ == call) {
       act(node, stream);
     }
     return ODR_OK;
