@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # lexican_generate(): the object dictionary of a target, made from a device description when it is built.
 
-# lexican_generate(TARGET app DESCRIPTION device.eds [NAME name] [LANGUAGE C|CXX] [OUTPUT_DIRECTORY dir] [OPTIONS …])
+# lexican_generate(TARGET app DESCRIPTION device.eds [NAME name] [LANGUAGE C|CXX] [OUTPUT_DIRECTORY dir]
+#                  [EDS file] [XDD file] [OPTIONS …])
 #
 # Adds NAME_od.h and NAME_od.c or NAME_od.cpp to a target of this directory, and lets it include the header. NAME: the
-# name of the file; LANGUAGE: CXX where the project has it, as the compiler then proves most; OPTIONS: of `codict gen`.
-# The target links lexican::lexican itself.
+# name of the file; LANGUAGE: CXX where the project has it, as the compiler then proves most; EDS, XDD: descriptions of
+# what is made, in the directory of the build; OPTIONS: of `codict gen`. The target links lexican::lexican itself.
 function(lexican_generate)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;DESCRIPTION;NAME;LANGUAGE;OUTPUT_DIRECTORY" "OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;DESCRIPTION;NAME;LANGUAGE;OUTPUT_DIRECTORY;EDS;XDD" "OPTIONS")
   if(NOT TARGET "${arg_TARGET}" OR NOT arg_DESCRIPTION OR arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "lexican_generate(TARGET target DESCRIPTION file …): ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -32,6 +33,14 @@ function(lexican_generate)
     string(APPEND source pp)
   endif()
   set(files ${arg_OUTPUT_DIRECTORY}/${arg_NAME}_od.h ${source})
+  foreach(format IN ITEMS EDS XDD)
+    if(arg_${format})
+      get_filename_component(path ${arg_${format}} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
+      string(TOLOWER --${format} option)
+      list(APPEND arg_OPTIONS ${option} ${path})
+      list(APPEND files ${path})
+    endif()
+  endforeach()
   lexican_find_codict(codict)
 
   # A file that has not changed keeps its time, which Ninja understands and others take for out of date.

@@ -63,6 +63,25 @@ TEST_CASE("codict gen: an error is shown with file, line, column and rule, and n
   CHECK_FALSE(std::filesystem::exists(directory / "new"));
 }
 
+TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary makes, and --check checks them, too") {
+  const test::Directory directory;
+  const std::string descriptions = " -o new --eds device.eds --xdd device.xdd ";
+  CHECK(run(directory, small + descriptions + "--check").err.find("device.eds is missing") != std::string::npos);
+  const auto json = nlohmann::json::parse(run(directory, small + descriptions + "--json").out);
+  CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c", "device.eds", "device.xdd"});
+  CHECK(run(directory, small + descriptions + "--check").status == 0);
+  // They make the same dictionary.
+  CHECK(run(directory, "device.eds -o of_eds --name small").status == 0);
+  CHECK(run(directory, "device.xdd -o of_xdd --name small").status == 0);
+  const std::string source = bytes_of(directory / "new/small_od.c");
+  CHECK(source.size() > 1000);
+  for (const char* file : {"of_eds/small_od.c", "of_xdd/small_od.c"}) {
+    const std::string again = bytes_of(directory / file);
+    CHECK(again.substr(again.find('\n')) == source.substr(source.find('\n')));  // the first line names the description
+  }
+  CHECK(bytes_of(directory / "device.eds").find("FileName=device.eds\r\n") != std::string::npos);
+}
+
 TEST_CASE("codict gen: the report says what the parts cost, for people and for programs") {
   const test::Directory directory;
   const Ran text = run(directory, small + " -o new --report");

@@ -18,6 +18,9 @@
 #include "eds/recognise.hpp"
 #include "gen/gen.hpp"
 #include "text/file.hpp"
+#include "xdd/document.hpp"
+#include "xdd/read.hpp"
+#include "xdd/recognise.hpp"
 
 using namespace lexican::codict;
 
@@ -31,24 +34,43 @@ const std::string options =
     " -DCO_SSDO_N=128 -DCO_CSDO_N=100 -DCO_EMCY_CONS_N=127 -DUSE_TIME=1 -DUSE_MPDO=1 -DUSE_PDO_BITS=1"
     " -I" LEXICAN_SOURCE_DIR "/include -I" LEXICAN_SOURCE_DIR "/config ";
 
-// Those that are EDS or DCF, by their endings and by what they say.
-std::vector<eds::Document> descriptions() {
-  std::vector<eds::Document> all;
+// The first device of a file; none if it describes none.
+std::optional<Device> device_of(Source source) {
+  Findings ignored;
+  Description description;
+  if (eds::refusal(source).empty() && source.bytes().find('<') > 100) {
+    const eds::Document document(std::move(source), ignored);
+    description = eds::refusal(document).empty() ? eds::read(document, ignored) : Description();
+  } else {
+    const xdd::Document document(std::move(source), ignored);
+    description = xdd::refusal(document).empty() ? xdd::read(document, ignored) : Description();
+  }
+  return description.devices.empty() ? std::nullopt : std::optional(std::move(description.devices.front()));
+}
+
+struct Named {
+  std::string name;
+  Device device;
+};
+
+std::vector<Named> devices() {
+  std::vector<Named> all;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
-    const std::string ending = entry.path().extension();
     std::string why;
     std::optional<Source> source =
-        ending == ".eds" || ending == ".dcf" || ending == ".EDS" ? read_file(entry.path(), why) : std::nullopt;
-    Findings findings;
-    if (!source || !eds::refusal(*source).empty()) {
-      continue;
-    }
-    eds::Document document(std::move(*source), findings);
-    if (eds::refusal(document).empty()) {
-      all.push_back(std::move(document));
+        entry.is_regular_file() && entry.path().extension() != ".md" ? read_file(entry.path(), why) : std::nullopt;
+    std::optional<Device> device = source ? device_of(std::move(*source)) : std::nullopt;
+    if (device) {
+      all.push_back({entry.path(), std::move(*device)});
     }
   }
   return all;
+}
+
+// Of a profile, whose values are words, and of one without any access: nothing can be made of them.
+bool has_excuse(const std::string& name) {
+  return name.find("cia-profiles/301.eds") != std::string::npos ||
+         name.find("iota2/sample_node_0x01.eds") != std::string::npos;
 }
 
 // "" if it compiles.
@@ -82,37 +104,31 @@ void in_two_threads(std::size_t number, Job job) {
 
 }  // namespace
 
-TEST_CASE("gen: of each description in the corpus comes a dictionary that compiles, or an error that says why" *
+TEST_CASE("gen: of each description in the corpus comes a dictionary that compiles" *
           doctest::skip(corpus == nullptr)) {
   const test::Directory directory;
-  const std::vector<eds::Document> documents = descriptions();
-  std::vector<std::string> faults(2 * documents.size());
-  std::vector<char> has_reason(documents.size(), 0);
+  const std::vector<Named> all = devices();
+  std::vector<std::string> faults(2 * all.size());
   const auto make = [&](std::size_t n, gen::Language language) {
-    Findings reading;
     Findings findings;
-    const Description description = eds::read(documents[n], reading);
     gen::Options settings;
     settings.name = "device" + std::to_string(n);
     settings.language = language;
-    const gen::Output output = gen::generate(description.devices.front(), settings, findings);
-    has_reason[n] = static_cast<char>(findings.count(Severity::error) != 0);
+    const gen::Output output = gen::generate(all[n].device, settings, findings);
     for (const gen::File& file : output.files) {
       std::ofstream(directory / file.name.c_str(), std::ios::binary) << file.bytes;
     }
-    return output.files.empty() ? std::string() : compile(directory / "", output.files.at(1));
+    return output.files.empty() ? std::string("no files") : compile(directory / "", output.files.at(1));
   };
-  in_two_threads(documents.size(), [&](std::size_t n) {
+  in_two_threads(all.size(), [&](std::size_t n) {
     faults[2 * n] = make(n, gen::Language::c);
     faults[2 * n + 1] = make(n, gen::Language::cpp);
   });
-  std::size_t generated = 0;
-  for (std::size_t n = 0; n < documents.size(); ++n) {
-    CAPTURE(documents[n].source().name());
-    CHECK(faults[2 * n] == "");
-    CHECK(faults[2 * n + 1] == "");
-    generated += has_reason[n] == 0 ? 1U : 0U;
+  CHECK(all.size() > 100);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    CAPTURE(all[n].name);
+    const std::string expected = has_excuse(all[n].name) ? "no files" : "";
+    CHECK(faults[2 * n] == expected);
+    CHECK(faults[2 * n + 1] == expected);
   }
-  MESSAGE(generated << " of " << documents.size() << " descriptions have a dictionary");
-  CHECK(8 * generated > 6 * documents.size());
 }

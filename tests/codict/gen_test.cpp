@@ -88,13 +88,11 @@ TEST_CASE("gen: the files of a small device are these, to the byte") {
 
 TEST_CASE("gen: what cannot be generated is an error at its place, and there are no files") {
   const std::pair<std::string, const char*> cases[] = {
-      {variable("2000", 0x77, "rw"), "4:10 gen-type\n"},
       {variable("2000", 5, "UNKNOWN"), "5:12 gen-access\n"},
       {variable("2000", 5, "rw", "DefaultValue=300"), "6:14 gen-value\n"},
       {variable("2000", 5, "rw", "DefaultValue=text"), "6:14 gen-value\n"},
       {variable("2000", 1, "rw", "DefaultValue=$NODEID"), "6:14 gen-node-id\n"},
-      {record("2000"), "1:2 gen-no-subs\n"},
-      {variable("1017", 7, "rw"), "1:2 gen-place\n"},
+      {variable("1017", 9, "rw", "DefaultValue=text"), "1:2 gen-place\n6:14 gen-value\n"},
       {record("1A00") + sub("1A00sub0", 5, "ro", "2") + sub("1A00sub1", 7, "ro", "0x20000040") +
            sub("1A00sub2", 7, "ro", "0x20000040") + variable("2000", 27, "ro", "PDOMapping=1"),
        "4:2 gen-pdo-bits\n"},
@@ -129,6 +127,9 @@ TEST_CASE("gen: what is put right is said") {
        "17:14 gen-pdo-direction\n"},
       {record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1"), "11:2 gen-store-unused\n"},
       {variable("2000", 10, "rw", "DefaultValue=0"), "6:14 gen-value-none\n"},
+      {variable("2000", 15, "rw", "DefaultValue=@FILE"), "6:14 gen-value-none\n"},
+      {variable("2000", 0x77, "rw", "DefaultValue=5"), "4:10 gen-type\n"},
+      {record("1FFF") + variable("2000", 5, "rw"), "1:2 gen-no-subs\n"},
   };
   for (const auto& [eds, found] : cases) {
     CAPTURE(eds);
@@ -136,6 +137,43 @@ TEST_CASE("gen: what is put right is said") {
     CHECK(generated.found == found);
     CHECK(generated.output.files.size() == 2);
   }
+}
+
+TEST_CASE("gen: an object of the communication profile has the type of CiA 301, whatever the description says") {
+  const Generated wide = generate(variable("1017", 7, "rw", "DefaultValue=1000"));
+  CHECK(wide.found == "1:2 gen-place\n");
+  CHECK(wide.has("uint16_t od_1017_0;"));
+  const Generated history = generate(record("1003") + sub("1003sub0", 7, "rw", "0") + sub("1003sub1", 0x77, "ro", ""));
+  CHECK(history.found == "4:2 gen-place\n11:2 gen-place\n");
+  CHECK(history.has("uint8_t od_1003_0;"));
+  CHECK(history.has("uint32_t od_1003_1;"));
+}
+
+TEST_CASE("gen: a type that nobody knows is the application's") {
+  const Generated generated = generate(variable("2000", 0x77, "rw", "DefaultValue=5"));
+  CHECK(generated.has("extern const CO_OBJ_TYPE small_2000_0_type;\n"));
+  CHECK(generated.has("{SMALL_2000_0 | CO_OBJ_____RW, &small_2000_0_type, (CO_DATA)(0)},"));
+}
+
+TEST_CASE("gen: a time may be written as days and milliseconds") {
+  CHECK(generate(variable("2000", 12, "rw", "DefaultValue=365 43200000")).has("{{0x2932E00u, 365u}},  // od_2000_0\n"));
+  for (const char* wrong : {"365 noon", "65536 0", "1 0x10000000", "1 2 3"}) {
+    CAPTURE(wrong);
+    CHECK(generate(variable("2000", 12, "rw", fmt::format("DefaultValue={}", wrong).c_str())).found ==
+          "6:14 gen-value\n");
+  }
+}
+
+TEST_CASE("gen: what 1010h stores with its one sub-index is one group, whatever the storage groups are called") {
+  const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
+  const Generated generated = generate(store + variable("2000", 5, "rw", ";StorageLocation=ROM\n") +
+                                       variable("2001", 5, "rw", ";StorageLocation=RAM\n") +
+                                       variable("2002", 5, "rw", ";StorageLocation=EEPROM\n"));
+  CHECK(generated.found == "32:2 gen-store-joined\n");
+  CHECK(generated.has("(CO_DATA)(&small_rom.od_2000_0)"));
+  CHECK(generated.has("(CO_DATA)(&small_ram.od_2001_0)"));
+  CHECK(generated.has("(CO_DATA)(&small_rom.od_2002_0)"));
+  CHECK_FALSE(generated.has("eeprom"));
 }
 
 TEST_CASE("gen: entries with one name get their index behind it; --unique-names forbids it and names both") {

@@ -13,8 +13,10 @@
 
 #include "cli/command.hpp"
 #include "cli/render.hpp"
+#include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
+#include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
 
@@ -23,6 +25,8 @@ namespace {
 struct Options {
   std::string file;
   std::string directory;
+  std::string eds;
+  std::string xdd;
   gen::Options gen;
   bool is_check = false;
   bool is_report = false;
@@ -76,16 +80,42 @@ std::string report_text(const gen::Output& output) {
   return text;
 }
 
-Json report_json(const Options& options, const gen::Output& output) {
+Json report_json(const std::vector<gen::File>& files, const gen::Output& output) {
   Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", Json::array()}};
-  for (const gen::File& file : output.files) {
-    json["files"].push_back(options.directory + "/" + file.name);
+  for (const gen::File& file : files) {
+    json["files"].push_back(file.name);
   }
   for (const gen::Cost& cost : output.costs) {
     json["parts"].push_back({{"part", cost.part}, {"entries", cost.items}, {"ram", cost.ram}, {"flash", cost.flash}});
   }
   json["external"] = output.externals;
   return json;
+}
+
+// With the name that the file has inside.
+template <typename Write>
+gen::File description(const gen::Output& output, const std::string& path, Write write) {
+  Device device = output.device;
+  device.file.file_name.text = std::filesystem::path(path).filename();
+  device.file.file_name.is_given = true;
+  return {path, write(device)};
+}
+
+// Sources, and the descriptions that match them, by their paths.
+std::vector<gen::File> files_of(const Options& options, const gen::Output& output) {
+  std::vector<gen::File> files = output.files;
+  for (gen::File& file : files) {
+    file.name.insert(0, options.directory + "/");
+  }
+  if (!options.eds.empty()) {
+    files.push_back(
+        description(output, options.eds, [](const Device& device) { return eds::write(device, eds::WriteOptions()); }));
+  }
+  if (!options.xdd.empty()) {
+    files.push_back(
+        description(output, options.xdd, [](const Device& device) { return xdd::write(device, xdd::Edition::v11); }));
+  }
+  return files;
 }
 
 bool make_directory(const std::string& path) {
@@ -119,13 +149,13 @@ int run(Options options) {
   if (!options.is_check && !make_directory(options.directory)) {
     return unusable;
   }
+  const std::vector<gen::File> files = files_of(options, output);
   int status = clean;
-  for (const gen::File& file : output.files) {
-    const std::string path = options.directory + "/" + file.name;
-    status = std::max(status, options.is_check ? compare(path, file.bytes) : write(path, file.bytes));
+  for (const gen::File& file : files) {
+    status = std::max(status, options.is_check ? compare(file.name, file.bytes) : write(file.name, file.bytes));
   }
   if (options.is_json) {
-    print_json(report_json(options, output));
+    print_json(report_json(files, output));
   } else if (options.is_report) {
     print(report_text(output));
   }
@@ -139,6 +169,8 @@ Command add_gen(CLI::App& app) {
   CLI::App* const command = app.add_subcommand("gen", "Make the dictionary of a device: C or C++ source");
   command->add_option("file", options->file, file_help)->required();
   command->add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp")->required();
+  command->add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes");
+  command->add_option("--xdd", options->xdd, "Write an XDD of it");
   command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
   const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command->add_option("--language", options->gen.language, "Language of the source: c, c++; the header is of both")

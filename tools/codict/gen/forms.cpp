@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace lexican::codict::gen {
 
@@ -118,6 +120,12 @@ const Form* form_of(std::uint16_t code) {
     }
   }
   return nullptr;
+}
+
+const Form& unsigned_form(std::uint8_t bytes) {
+  return *std::find_if(std::begin(forms), std::end(forms), [bytes](const Form& form) {
+    return form.bytes == bytes && data_type(form.code).kind == TypeKind::unsigned_integer;
+  });
 }
 
 const Place* place_of(std::uint16_t index, std::uint8_t sub_index, bool has_subs) {

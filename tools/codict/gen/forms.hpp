@@ -24,6 +24,8 @@ struct Form {
 
 /// Null: no such type.
 const Form* form_of(std::uint16_t code);
+/// UNSIGNED8, 16, 32 or 64.
+const Form& unsigned_form(std::uint8_t bytes);
 
 /// What the stack does with an entry of the communication profile.
 enum class Service : std::uint8_t {

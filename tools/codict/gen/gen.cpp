@@ -23,6 +23,7 @@ Output generate(const Device& device, const Options& options, Findings& findings
   output.files.push_back({options.name + "_od" + ending, write_source(plan, options)});
   output.costs = costs_of(plan);
   output.externals = externals_of(plan, options);
+  output.device = described(device, plan);
   return output;
 }
 

@@ -21,6 +21,7 @@ struct Output {
   std::vector<File> files;
   std::vector<Cost> costs;
   std::vector<std::string> externals;  ///< declarations of what the application has to define
+  Device device;                       ///< as it is made: for an EDS or XDD that matches it
 };
 
 /// A C identifier from the name of a file: "Clock (2).eds" gives "clock_2"; "device" if nothing is left.

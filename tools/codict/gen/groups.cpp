@@ -194,6 +194,25 @@ void assign_subs(Plan& plan, Findings& findings) {
   }
 }
 
+// "save" with the one sub-index that there is must save all.
+void join_groups(Plan& plan, Findings& findings) {
+  const StoreSubs subs(plan);
+  if (!subs.has_any() || subs.has_all()) {
+    return;
+  }
+  std::size_t joined = 1;
+  for (Item& item : plan.items) {
+    if (item.group > joined) {
+      joined = item.group;
+      findings.add(rules::store_joined, item.span,
+                   fmt::format("1010h has one sub-index: the storage group {} is a part of {}",
+                               plan.groups[item.group].name, plan.groups[1].name));
+    }
+    item.group = std::min<std::size_t>(item.group, 1);
+  }
+  plan.groups.resize(std::min<std::size_t>(plan.groups.size(), 2));
+}
+
 void tell_of_unused_subs(const Plan& plan, Findings& findings) {
   for (const Item& item : plan.items) {
     const bool is_store = item.index == 0x1010 && item.storage == Storage::group;
@@ -212,6 +231,7 @@ void tell_of_unused_subs(const Plan& plan, Findings& findings) {
 }  // namespace
 
 void plan_groups(Plan& plan, Findings& findings) {
+  join_groups(plan, findings);
   std::set<std::string> ids = {"od", "objects"};
   for (std::size_t n = 0; n < plan.items.size(); ++n) {
     const Item& item = plan.items[n];

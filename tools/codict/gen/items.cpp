@@ -70,7 +70,7 @@ class Items {
  private:
   void add_subs(const Object& object) {
     if (object.subs.empty()) {
-      findings_.add(rules::no_subs, object.span, "an ARRAY or RECORD without sub-objects");
+      findings_.add(rules::no_subs, object.span, "an ARRAY or RECORD without sub-objects: it gets no entry");
       return;
     }
     if (object.find(0) == nullptr) {
@@ -97,9 +97,8 @@ class Items {
     item.span = entry.span;
     item.access = entry.access.value;
     item.pdo = entry.pdo_mapping.value;
-    const bool is_complete =
-        set_form(item, entry) && set_place(item, has_subs) && set_value(item, object, entry, has_subs);
-    if (!is_complete) {
+    item.place = place_of(item.index, sub_index, has_subs);
+    if (!set_form(item, entry) || !set_value(item, object, entry, has_subs)) {
       return;
     }
     set_flags(item, object, entry);
@@ -122,12 +121,33 @@ class Items {
     const bool is_domain = entry.object_code.value == ObjectCode::domain;
     const std::uint16_t named = entry.data_type.value == 0 && is_domain ? type_code::domain : entry.data_type.value;
     item.form = form_of(data_type_of(device_, named).code);
-    if (item.form == nullptr) {
+    if (item.form == nullptr && item.place == nullptr) {
       const std::string reason = named == 0 ? "it has no data type" : fmt::format("{:04X}h is no data type", named);
-      findings_.add(rules::type, entry.data_type.is_given ? entry.data_type.span : entry.span, reason);
-      return false;
+      findings_.add(rules::type, entry.data_type.is_given ? entry.data_type.span : entry.span,
+                    reason + ": its type is the application's");
+      item.form = form_of(type_code::domain);
+      item.has_own_type = true;
     }
-    item.type = item.form->type;
+    if (item.place != nullptr) {
+      set_form_of_place(item);
+    } else {
+      item.type = item.form->type;
+    }
+    return set_access(item, entry, is_domain);
+  }
+
+  void set_form_of_place(Item& item) {
+    const bool fits =
+        item.form != nullptr && is_integer(data_type(item.form->code).kind) && item.form->bytes == item.place->bytes;
+    if (!fits) {
+      item.form = &unsigned_form(item.place->bytes);
+      findings_.add(rules::place, item.span,
+                    fmt::format("CiA 301 has {} for this: it is taken", data_type(item.form->code).name));
+    }
+    item.type = item.place->type;
+  }
+
+  bool set_access(Item& item, const Entry& entry, bool is_domain) {
     if (item.access == Access::unknown && is_domain) {
       item.access = Access::rw;
     }
@@ -138,39 +158,31 @@ class Items {
     return item.access != Access::unknown;
   }
 
-  bool set_place(Item& item, bool has_subs) {
-    item.place = place_of(item.index, item.sub_index, has_subs);
-    if (item.place == nullptr) {
-      return true;
-    }
-    const bool fits = is_integer(data_type(item.form->code).kind) && item.form->bytes == item.place->bytes;
-    if (!fits) {
-      findings_.add(rules::place, item.span,
-                    fmt::format("CiA 301 has {} bits for this", 8U * unsigned{item.place->bytes}));
-    }
-    item.type = item.place->type;
-    return fits;
-  }
-
   bool set_value(Item& item, const Object& object, const Entry& entry, bool has_subs) {
-    const bool has_actual = entry.actual_value.is_given && entry.actual_value.kind != Value::Kind::none;
-    item.value = has_actual ? entry.actual_value : entry.default_value;
-    const bool is_octets = item.form->code == type_code::octet_string || item.form->code == type_code::domain;
-    if (is_octets && item.value.text == "0") {
-      findings_.add(rules::value_none, item.value.span, "0 is no octet: it is taken for no value");
-      item.value = {};
-    }
-    const bool is_time_text = data_type(item.form->code).kind == TypeKind::time && item.value.kind == Value::Kind::text;
-    if (item.value.kind == Value::Kind::malformed || is_time_text) {
+    item.value = entry.initial_value();
+    take_none_for_octets(item);
+    const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
+    const bool is_text = is_number && item.value.kind == Value::Kind::text;  // of another type, or a time
+    if (item.value.kind == Value::Kind::malformed || is_text) {
       findings_.add(rules::value, item.value.span, "this is no value of its data type");
       return false;
     }
-    const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
     if (is_number && item.value.kind == Value::Kind::none) {
       set_standard_value(item, object, has_subs);
     }
     correct_cob_id(item);
     return true;
+  }
+
+  void take_none_for_octets(Item& item) {
+    const bool is_domain = item.form->code == type_code::domain;
+    const bool is_zero = (is_domain || item.form->code == type_code::octet_string) && item.value.text == "0";
+    if (item.has_own_type) {
+      item.value = {};
+    } else if (is_zero || (is_domain && item.value.kind == Value::Kind::malformed)) {
+      findings_.add(rules::value_none, item.value.span, "these are no octets: taken for no value");
+      item.value = {};
+    }
   }
 
   void set_number(Item& item, std::uint64_t number) {
@@ -245,7 +257,7 @@ class Items {
     if (item.place != nullptr && item.place->service != Service::value) {
       constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
-    } else if (entry.node.extension_io.value) {
+    } else if (item.has_own_type || entry.node.extension_io.value) {
       set_own_type(item);
     } else if (is_external(item, entry)) {
       set_external(item);

@@ -122,6 +122,9 @@ struct Plan {
 /// Errors are findings; what they are about is missing in the plan.
 Plan make_plan(const Device& device, const Options& options, Findings& findings);
 
+/// The device that a plan makes: without what has no entry, with the values that it has from the beginning.
+Device described(const Device& device, const Plan& plan);
+
 /// "2100h sub 1"
 std::string place_name(const Item& item);
 

@@ -3,18 +3,23 @@
 
 namespace lexican::codict::gen::rules {
 
-const Rule type{"gen-type", Severity::error, "An entry has a data type whose length is known."};
+const Rule type{"gen-type", Severity::warning,
+                "An entry has a data type whose length is known: else its type is the application's."};
 const Rule access{"gen-access", Severity::error, "It is said who may read and write an entry."};
 const Rule value{"gen-value", Severity::error, "A default value is one of its data type."};
-const Rule value_none{"gen-value-none", Severity::warning, "A 0 where octets are asked for stands for no value."};
+const Rule value_none{"gen-value-none", Severity::warning,
+                      "Where octets are asked for, a 0, or a text in a DOMAIN, stands for no value."};
 const Rule node_id{"gen-node-id", Severity::error, "Only integers depend on the node-ID."};
-const Rule no_subs{"gen-no-subs", Severity::error, "An ARRAY or RECORD has sub-objects."};
-const Rule place{"gen-place", Severity::error, "An object of the communication profile has the type of CiA 301."};
+const Rule no_subs{"gen-no-subs", Severity::warning, "An ARRAY or RECORD without sub-objects gets no entry."};
+const Rule place{"gen-place", Severity::warning,
+                 "An object of the communication profile has the type of CiA 301, whatever a description says."};
 const Rule name{"gen-name", Severity::error, "A name of the generated source names one thing (--unique-names)."};
 const Rule name_shared{"gen-name-shared", Severity::note,
                        "Entries with one name get their index and sub-index behind it."};
 const Rule count{"gen-count", Severity::error, "A dictionary has entries, and at most 65535."};
 const Rule store{"gen-store", Severity::error, "1010h has a sub-index for each storage group."};
+const Rule store_joined{"gen-store-joined", Severity::warning,
+                        "Where 1010h has one sub-index, all storage groups are one."};
 const Rule store_unused{"gen-store-unused", Severity::warning, "What 1010h can store has a storage group."};
 const Rule pdo_bits{"gen-pdo-bits", Severity::error, "A PDO has at most 64 bits."};
 const Rule pdo_object{
@@ -38,11 +43,11 @@ namespace lexican::codict::gen {
 
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {
-      &rules::type,     &rules::access,         &rules::value,    &rules::value_none,  &rules::node_id,
-      &rules::no_subs,  &rules::place,          &rules::name,     &rules::name_shared, &rules::count,
-      &rules::store,    &rules::store_unused,   &rules::pdo_bits, &rules::pdo_object,  &rules::pdo_direction,
-      &rules::limits,   &rules::limits_default, &rules::sub_zero, &rules::cob_id,      &rules::left_out,
-      &rules::external, &rules::capacity};
+      &rules::type,          &rules::access,       &rules::value,          &rules::value_none,  &rules::node_id,
+      &rules::no_subs,       &rules::place,        &rules::name,           &rules::name_shared, &rules::count,
+      &rules::store,         &rules::store_joined, &rules::store_unused,   &rules::pdo_bits,    &rules::pdo_object,
+      &rules::pdo_direction, &rules::limits,       &rules::limits_default, &rules::sub_zero,    &rules::cob_id,
+      &rules::left_out,      &rules::external,     &rules::capacity};
   return all;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/parse.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -33,6 +34,8 @@ const Rule value_real_integer{"od-value-real-integer", Severity::note,
 const Rule value_decimal_comma{"od-value-decimal-comma", Severity::warning,
                                "A decimal point is a point, whatever the language."};
 const Rule value_octets{"od-value-octets", Severity::error, "Octets are pairs of hexadecimal digits."};
+const Rule value_time{"od-value-time", Severity::warning,
+                      "A time is one number: milliseconds, and days from bit 32 on."};
 const Rule value_quotes{"od-value-quotes", Severity::note, "Quotes around a string are a part of it."};
 
 }  // namespace rules
@@ -40,10 +43,10 @@ const Rule value_quotes{"od-value-quotes", Severity::note, "Quotes around a stri
 const std::vector<const Rule*>& value_rules() {
   using namespace rules;
   static const std::vector<const Rule*> all = {
-      &value_number,       &value_octal_digit,   &value_suffix,       &value_comment,
-      &value_fraction,     &value_word,          &value_octal,        &value_range,
-      &value_bit_pattern,  &value_node_id_form,  &value_node_id_type, &value_real_bits,
-      &value_real_integer, &value_decimal_comma, &value_octets,       &value_quotes};
+      &value_number,       &value_octal_digit, &value_suffix,       &value_comment,       &value_fraction,
+      &value_word,         &value_octal,       &value_range,        &value_bit_pattern,   &value_node_id_form,
+      &value_node_id_type, &value_real_bits,   &value_real_integer, &value_decimal_comma, &value_octets,
+      &value_time,         &value_quotes};
   return all;
 }
 
@@ -176,6 +179,21 @@ void interpret_text(Value& value, Findings& findings) {
   }
 }
 
+// "365 43200000": days and milliseconds.
+void interpret_time(Value& value, Findings& findings) {
+  const std::string_view text = value.text;
+  const std::size_t blank = text.find(' ');
+  const ParsedInteger days = parse_integer(text.substr(0, blank));
+  const ParsedInteger milliseconds = parse_integer(trimmed(text.substr(std::min(blank, text.size()))));
+  if (!days.is_number() || !milliseconds.is_number() || !fits_unsigned(days.value, 16) ||
+      !fits_unsigned(milliseconds.value, 28)) {
+    return;
+  }
+  value.kind = Value::Kind::integer;
+  value.integer = days.value.magnitude << 32 | milliseconds.value.magnitude;
+  findings.add(rules::value_time, value.span, "two numbers are taken for days and milliseconds");
+}
+
 void interpret_unknown(Value& value, Findings& findings) {
   const ParsedFormula formula = parse_formula(value.text);
   value.kind = Value::Kind::text;
@@ -204,6 +222,11 @@ void interpret(Value& value, const DataType& type, Findings& findings) {
     case TypeKind::visible_string:
     case TypeKind::unicode_string: interpret_text(value, findings); break;
     case TypeKind::time:
+      interpret_unknown(value, findings);
+      if (value.kind == Value::Kind::text) {
+        interpret_time(value, findings);
+      }
+      return;
     case TypeKind::structure:
     case TypeKind::unknown: interpret_unknown(value, findings); return;
   }

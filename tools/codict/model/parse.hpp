@@ -40,6 +40,7 @@ extern const Rule value_real_bits;
 extern const Rule value_real_integer;
 extern const Rule value_decimal_comma;
 extern const Rule value_octets;
+extern const Rule value_time;
 extern const Rule value_quotes;
 }  // namespace rules
 
