@@ -19,6 +19,7 @@ constexpr std::uint32_t ticks_per_second = 1000000;
 constexpr std::uint16_t frames_received = 160;
 
 std::uint8_t picture[48 * 32 * 3];
+const std::uint8_t hardware[] = LEXICAN_BOARD;
 
 CO_NODE node;
 CO_NODE_EXT extension;
@@ -71,10 +72,10 @@ void sleep_until_due() {
 
 }  // namespace
 
-const std::uint8_t clock_hardware[] = LEXICAN_BOARD;
-CO_OBJ_DOM clock_picture = {0, sizeof picture, picture};
-
 }  // namespace demo
+
+CO_OBJ_STR clock_1009_0 = {0, demo::hardware};
+CO_OBJ_DOM clock_2200_0 = {0, sizeof demo::picture, demo::picture};
 
 namespace board {
 

@@ -15,7 +15,8 @@ struct TimeOfDay {
 };
 
 /// A dictionary names its variables by address, so a program has one clock.
-extern TimeOfDay clock_time;
+TimeOfDay clock_time();
+void set_clock_time(TimeOfDay time);
 
 /// The action of a timer, to be run each second: a second is over. TPDO1 is sent where the NMT state and its
 /// transmission type allow it. \a node: the CO_NODE.

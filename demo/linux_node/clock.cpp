@@ -1,17 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linux_node/clock.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace demo {
 namespace {
 
 std::uint8_t picture[picture_size];
+constexpr std::uint8_t hardware[] = "host";
+
+/// All variables get the values that they have when the program begins; those that are stored get theirs from the node.
+void forget_variables() {
+  static const clock_ram_t at_first = clock_ram;
+  clock_ram = at_first;
+  std::fill(std::begin(picture), std::end(picture), std::uint8_t{0});
+}
 
 }  // namespace
+}  // namespace demo
 
-const std::uint8_t clock_hardware[] = "host";
-CO_OBJ_DOM clock_picture = {0, picture_size, picture};
+CO_OBJ_STR clock_1009_0 = {0, demo::hardware};
+CO_OBJ_DOM clock_2200_0 = {0, demo::picture_size, demo::picture};
+
+namespace demo {
 
 Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory)
     : setup_{node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors(), memory} {
@@ -29,7 +41,7 @@ bool Clock::start() {
   if (CONmtGetMode(&node.Nmt) != CO_INIT) {
     return false;
   }
-  clock_time = {};
+  set_clock_time({});
   if (COTmrCreate(&node.Tmr, Node::ticks_per_second, Node::ticks_per_second, clock_tick, &node) < 0) {
     return false;
   }

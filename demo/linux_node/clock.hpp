@@ -41,7 +41,7 @@ class Clock : public Device {
   Node* node_in_loop() override { return &*node_; }
   /// Also that which was stored; no_node_id: none.
   std::uint8_t node_id() const override { return node_->stack().NodeId; }
-  static TimeOfDay time() { return clock_time; }
+  static TimeOfDay time() { return clock_time(); }
 
  private:
   Node::Setup setup_;

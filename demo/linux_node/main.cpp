@@ -142,7 +142,8 @@ int run(const Options& options) {
   HeartbeatWatch heartbeats;
   const Node::Observer observer = [&](bool received, const CO_IF_FRM& frame) {
     if (!received) {
-      heartbeats.sent(frame, timer.driver->Now(timer.context), clock_heartbeat_time() * ticks_per_millisecond);
+      heartbeats.sent(frame, timer.driver->Now(timer.context),
+                      clock_ram.producer_heartbeat_time * ticks_per_millisecond);
     }
     if (!options.quiet) {
       view.frame(host.now() - begin, received, frame);

@@ -99,7 +99,7 @@ Finding set_clock(Tour& tour) {
 }
 
 Finding set_impossible_hour(Tour& tour) {
-  return expect_abort("hour 24", tour.sdo.download(0x2100, 1, {24}), CO_SDO_ERR_RANGE);
+  return expect_abort("hour 24", tour.sdo.download(0x2100, 1, {24}), CO_SDO_ERR_RANGE_HIGH);
 }
 
 Finding read_missing_object(Tour& tour) {

@@ -134,7 +134,7 @@ TEST_CASE("demo master: a value that was written is read back") {
 TEST_CASE("demo master: an abort is told in words, with status 1") {
   Desk desk;
   CHECK(desk.run(to_write("0x2100", "1", "u8", "24")) == 1);
-  CHECK(desk.err.str() == "node 5, 2100h:01: aborted with 0609 0030h invalid value\n");
+  CHECK(desk.err.str() == "node 5, 2100h:01: aborted with 0609 0031h value too high\n");
   CHECK(desk.run(to_read("0x2FFF", "0", "")) == 1);
   CHECK(desk.out.str() == "");
   CHECK(desk.err.str() == "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist\n");

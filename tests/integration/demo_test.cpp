@@ -107,7 +107,7 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
   CHECK(bench.shows("585  41 08 10 00 12 00 00 00  SDO answer: 1008h:00 device name, 18 bytes in segments"));
   CHECK(bench.shows("585  00 4C 65 78 69 63 61 6E  SDO answer: segment: \"Lexican\""));
   CHECK(bench.shows("605  2F 00 21 01 0C 00 00 00  SDO download 2100h:01 hour = 12"));
-  CHECK(bench.shows("585  80 00 21 01 30 00 09 06  SDO ABORT 2100h:01 hour: 0609 0030h invalid value"));
+  CHECK(bench.shows("585  80 00 21 01 31 00 09 06  SDO ABORT 2100h:01 hour: 0609 0031h value too high"));
   CHECK(bench.shows("585  80 FF 2F 00 00 00 02 06  SDO ABORT 2FFFh:00: 0602 0000h object does not exist"));
   CHECK(bench.shows("ok  73728 bytes written"));
 #if USE_SDO_BLOCK
@@ -408,12 +408,12 @@ TEST_CASE("demo: the clock runs, and changes minute, hour and day") {
   CHECK(same(demo::Clock::time(), 0, 0, 0));
 }
 
-TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0030h") {
+TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0031h") {
   Bench bench;
   bench.start();
-  CHECK(bench.sdo.download(0x2100, 1, {24}).code == 0x06090030);
-  CHECK(bench.sdo.download(0x2100, 2, {60}).code == 0x06090030);
-  CHECK(bench.sdo.download(0x2100, 3, {60}).code == 0x06090030);
+  CHECK(bench.sdo.download(0x2100, 1, {24}).code == 0x06090031);
+  CHECK(bench.sdo.download(0x2100, 2, {60}).code == 0x06090031);
+  CHECK(bench.sdo.download(0x2100, 3, {60}).code == 0x06090031);
   CHECK(same(demo::Clock::time(), 0, 0, 0));
   CHECK(bench.sdo.upload(0x2100, 1).data == Bytes{0});
 }

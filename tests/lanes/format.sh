@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# What programs have made is as they make it.
 about="clang-format and the licence line of each source"
 packages=(clang-format-14)
 
@@ -9,7 +10,8 @@ lane() {
 
 formatted() {
   local files
-  mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp')
+  mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp' |
+    grep -v /generated/)
   [ ${#files[@]} -gt 0 ] || return
   local unformatted
   unformatted=$(cd "$root" && clang-format-14 --dry-run -Werror "${files[@]}" 2>&1 | grep -oE '^[^: ]+:[0-9]+:.*error' |
@@ -21,6 +23,7 @@ licensed() {
   local without
   without=$(cd "$root" && sources include config src drivers tools demo tests cmake .ci \
     -name '*.[ch]' -o -name '*.[ch]pp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt -o -name run |
+    grep -v /generated/ |
     while read -r file; do head -n 2 "$file" | grep -q 'SPDX-License-Identifier: Apache-2.0' || echo "$file"; done)
   [ -z "$without" ] || { printf 'no licence line:\n%s\n' "$without"; return 1; }
 }

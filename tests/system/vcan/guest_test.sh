@@ -286,7 +286,7 @@ says "master: and read to standard output" "From a file" --index 0x2201 --file -
 refuses "master: an abort of the node in words" 1 \
   "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist" --node 5 --index 0x2FFF read
 refuses "master: an abort of the application in words" 1 \
-  "node 5, 2100h:01: aborted with 0609 0030h invalid value" --node 5 --index 0x2100 --sub 1 --type u8 write 24
+  "node 5, 2100h:01: aborted with 0609 0031h value too high" --node 5 --index 0x2100 --sub 1 --type u8 write 24
 refuses "master: an object longer than told" 1 \
   "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 1000 bytes" \
   --node 5 --index 0x2200 --max 1000 read
