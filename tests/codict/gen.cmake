@@ -2,7 +2,8 @@
 # Nodes whose dictionary codict makes while the tests are built, in both languages, tested from the bus. The minimal
 # configuration has not all that they need.
 if(NOT LEXICAN_PRESET STREQUAL "minimal")
-  add_executable(lexican_codict_node_tests ../support/main.cpp gen_node.cpp gen_node_case.cpp)
+  add_executable(lexican_codict_node_tests ../support/main.cpp gen_node.cpp gen_node_case.cpp od_conformance.cpp
+    od_conformance_case.cpp)
   foreach(language IN ITEMS C CXX)
     string(REPLACE CXX cpp name ${language})
     string(TOLOWER every_${name} name)
@@ -10,7 +11,10 @@ if(NOT LEXICAN_PRESET STREQUAL "minimal")
       LANGUAGE ${language})
   endforeach()
   target_include_directories(lexican_codict_node_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(lexican_codict_node_tests PRIVATE lexican::lexican lexican_doctest
+  target_compile_definitions(lexican_codict_node_tests PRIVATE
+    LEXICAN_CODICT_FIXTURES="${CMAKE_CURRENT_SOURCE_DIR}/fixtures" LEXICAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(lexican_codict_node_tests PRIVATE
+    lexican_demo_dictionary lexican_codict fmt::fmt lexican::lexican lexican_doctest
     lexican::lexican_can_virtual lexican::lexican_timer_software lexican::lexican_nvm_ram)
   lexican_warnings(lexican_codict_node_tests)
   target_compile_options(lexican_codict_node_tests PRIVATE ${LEXICAN_TEST_OPTIONS})

@@ -10,6 +10,7 @@ namespace test {
 namespace {
 
 constexpr std::uint32_t baud = 250000;
+constexpr int enough = 300;  // calls, until the node has nothing left to do
 
 std::vector<std::uint8_t> octets(std::string_view text) {
   std::vector<std::uint8_t> bytes;
@@ -46,6 +47,9 @@ std::string abort_text(const std::uint8_t* frame) { return "abort " + hex(word(f
 }  // namespace
 
 GeneratedNode::GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& memory)
+    : GeneratedNode(od, length, memory, Errors()) {}
+
+GeneratedNode::GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& memory, Errors errors)
     : port_(bus_.attach({"node"})), client_(bus_.attach({"client"})), timer_(clock_) {
   clock_.set_frequency(1000);
   client_.enable(baud);
@@ -56,12 +60,14 @@ GeneratedNode::GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& mem
   ext_.TimerCtx = &timer_;
   ext_.Nvm = &RamNvmDriver;
   ext_.NvmCtx = &memory.ram;
+  ext_.EmcyNum = errors.number;
   CO_NODE_SPEC spec{};
   spec.NodeId = id;
   spec.Baudrate = baud;
   spec.Dict = const_cast<CO_OBJ*>(od);
   spec.DictLen = length;
   spec.TmrFreq = clock_.frequency();
+  spec.EmcyCode = errors.first;
   spec.SdoBuf = sdo_memory_.data();
   CONodeInitEx(&node, &spec, &ext_);
   error = CONodeGetErr(&node);
@@ -72,11 +78,14 @@ GeneratedNode::GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& mem
 
 GeneratedNode::~GeneratedNode() { CONodeStop(&node); }
 
+void GeneratedNode::process() {
+  CONodeProcess(&node);
+  COTmrProcess(&node.Tmr);
+}
+
 void GeneratedNode::settle() {
-  constexpr int enough = 300;
   for (int n = 0; n < enough; ++n) {
-    CONodeProcess(&node);
-    COTmrProcess(&node.Tmr);
+    process();
   }
 }
 
@@ -94,14 +103,17 @@ GeneratedNode::Frame GeneratedNode::ask(const Frame& request) {
   CO_IF_FRM frame{0x600U + id, {}, 8};
   std::copy(request.begin(), request.end(), frame.Data);
   client_.send(frame);
-  settle();
-  Frame answer{};
-  while (const auto heard = client_.read()) {
-    if (heard->Identifier == 0x580U + id) {
-      std::copy(heard->Data, heard->Data + 8, answer.begin());
+  for (int n = 0; n < enough; ++n) {
+    process();
+    while (const auto heard = client_.read()) {
+      if (heard->Identifier == 0x580U + id) {
+        Frame answer{};
+        std::copy(heard->Data, heard->Data + 8, answer.begin());
+        return answer;
+      }
     }
   }
-  return answer;
+  return {};
 }
 
 // [301:7.2.4.3.5, 7.2.4.3.6]

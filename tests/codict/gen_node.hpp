@@ -28,7 +28,14 @@ class GeneratedNode {
  public:
   static constexpr std::uint8_t id = 5;
 
+  /// Errors: those that the application of the dictionary may raise.
+  struct Errors {
+    CO_EMCY_TBL* first = nullptr;
+    std::uint16_t number = 0;
+  };
+
   GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& memory);
+  GeneratedNode(const CO_OBJ* od, std::uint16_t length, Memory& memory, Errors errors);
   ~GeneratedNode();
   GeneratedNode(const GeneratedNode&) = delete;
   GeneratedNode& operator=(const GeneratedNode&) = delete;
@@ -48,6 +55,7 @@ class GeneratedNode {
  private:
   using Frame = std::array<std::uint8_t, 8>;
   Frame ask(const Frame& request);
+  void process();
   void settle();
 
   co::VirtualClock clock_;
