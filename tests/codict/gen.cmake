@@ -26,13 +26,3 @@ find_package(Threads REQUIRED)
 target_link_libraries(lexican_codict_tests PRIVATE Threads::Threads)
 target_compile_definitions(lexican_codict_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"
   LEXICAN_CXX="${CMAKE_CXX_COMPILER}")
-
-# A project that uses an installed Lexican.
-if(LEXICAN_INSTALL AND NOT LEXICAN_SANITIZE)
-  add_test(NAME codict.generate.installed
-    COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/gen_project
-      ${CMAKE_CURRENT_BINARY_DIR}/gen_project --build-generator ${CMAKE_GENERATOR} --build-options
-      -DCMAKE_PREFIX_PATH=${PROJECT_BINARY_DIR}/tests/package/prefix
-      -DLEXICAN_DESCRIPTION=${CMAKE_CURRENT_SOURCE_DIR}/fixtures/gen/small.eds)
-  set_tests_properties(codict.generate.installed PROPERTIES FIXTURES_REQUIRED lexican_installed)
-endif()
