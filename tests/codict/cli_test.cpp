@@ -1,30 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program codict as its user sees it: what it prints, where, and with which status it ends.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "codict/directory.hpp"
+#include "codict/program.hpp"
 #include "codict/reading.hpp"
 
 namespace {
 
 using Json = nlohmann::json;
+using test::bytes_of;
 using test::Directory;
-
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
+using test::Ran;
 
 // A copy of a fixture.
 std::string copy_to(const Directory& directory, const char* name) {
@@ -32,20 +27,8 @@ std::string copy_to(const Directory& directory, const char* name) {
   return directory / name;
 }
 
-struct Ran {
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-// In the directory of the fixtures, by a shell.
-Ran run(const std::string& arguments) {
-  const Directory directory;
-  const std::string command = "cd '" + test::fixture("") + "' && '" LEXICAN_CODICT_PROGRAM "' " + arguments + " >'" +
-                              directory / "out" + "' 2>'" + directory / "err" + "'";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(directory / "out"), bytes_of(directory / "err")};
-}
+// In the directory of the fixtures.
+Ran run(const std::string& arguments) { return test::run_codict(test::fixture(""), arguments); }
 
 }  // namespace
 

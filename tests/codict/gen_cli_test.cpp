@@ -1,36 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // codict gen as its user sees it.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "codict/directory.hpp"
+#include "codict/program.hpp"
 #include "codict/reading.hpp"
 
 namespace {
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-struct Ran {
-  int status;
-  std::string out;
-  std::string err;
-};
+using test::bytes_of;
+using test::Ran;
 
 Ran run(const test::Directory& directory, const std::string& arguments) {
-  const std::string command =
-      "cd '" + directory / "" + "' && '" LEXICAN_CODICT_PROGRAM "' gen " + arguments + " >out 2>err";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(directory / "out"), bytes_of(directory / "err")};
+  return test::run_codict(directory / "", "gen " + arguments);
 }
 
 const std::string small = "'" + test::fixture("gen/small.eds") + "'";
@@ -100,5 +87,6 @@ TEST_CASE("codict gen: wrong use ends with 2") {
   CHECK(run(directory, small + " -o new --name Large").status == 2);
   CHECK(run(directory, small + " -o new --language basic").status == 2);
   CHECK(run(directory, "none.eds -o new").status == 2);
+  test::write_bytes(directory / "out", "a file");
   CHECK(run(directory, small + " -o out/new").status == 2);  // "out" is a file
 }

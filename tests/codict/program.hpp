@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file program.hpp
+/// The program codict, run by a shell as its user runs it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace test {
+
+std::string bytes_of(const std::filesystem::path& path);  ///< empty if there is no such file
+void write_bytes(const std::filesystem::path& path, const std::string& bytes);
+
+struct Ran {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// directory: in which it is run.
+Ran run_codict(const std::string& directory, const std::string& arguments);
+
+}  // namespace test
