@@ -114,7 +114,7 @@ TEST_CASE("codict check: a rule can be left out by its name") {
   CHECK(check("--disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
   const Ran unknown = check("--disable od-value-hexal octal.eds");
   CHECK(unknown.status == 2);
-  CHECK(unknown.err == "codict: there is no rule od-value-hexal\n");
+  CHECK(unknown.err == "codict: there is no rule od-value-hexal: od-value-octal?\n");
 }
 
 TEST_CASE("codict check: the worst of several files is the status") {

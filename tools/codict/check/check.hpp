@@ -10,6 +10,9 @@
 
 namespace lexican::codict::check {
 
+/// All checks of this room.
+void check_all(const Device& device, Findings& findings);
+
 /// Objects, sub-objects, and their values. [301: 7.4]
 void check_objects(const Device& device, Findings& findings);
 

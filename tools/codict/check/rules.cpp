@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/check.hpp"
+#include "check/network.hpp"
 
 namespace lexican::codict::check {
 
@@ -18,6 +19,14 @@ const Rule pdo_count{"od-pdo-count", Severity::warning, "The device has as many 
 const Rule identity{"od-identity", Severity::warning, "The device says the same of its identity as its object 1018h."};
 
 }  // namespace rules
+
+void check_all(const Device& device, Findings& findings) {
+  check_objects(device, findings);
+  check_device(device, findings);
+  check_pdo_parameters(device, findings);
+  check_cob_ids(device, findings);
+  check_services(device, findings);
+}
 
 const std::vector<const Rule*>& all_rules() {
   using namespace rules;

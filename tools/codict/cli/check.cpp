@@ -5,37 +5,39 @@
 #include <utility>
 #include <vector>
 
-#include "check/check.hpp"
-#include "check/network.hpp"
+#include "cli/baseline.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 #include "cli/render.hpp"
-#include "eds/rules.hpp"
-#include "model/parse.hpp"
-#include "xdd/rules.hpp"
+#include "cli/reports.hpp"
+#include "report/catalogue.hpp"
 
 namespace lexican::codict::cli {
 
 namespace {
 
+enum class Form : unsigned char { gcc, json, sarif, github };
+
 struct Options {
   std::vector<std::string> files;
   Severity level = Severity::warning;
   std::vector<std::string> disabled;
+  std::string baseline;
+  std::string new_baseline;
+  Form form = Form::gcc;
   bool is_json = false;
   bool shows_all = false;
+  bool is_strict = false;
 };
 
-bool is_rule(const std::string& id) {
-  for (const auto* rules :
-       {&value_rules(), &eds::all_rules(), &check::all_rules(), &check::network_rules(), &xdd::all_rules()}) {
-    for (const Rule* rule : *rules) {
-      if (rule->id == id) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
+// What is made of all files.
+struct Report {
+  std::map<Severity, std::size_t> counts;
+  Json files = Json::array();
+  Sarif sarif;
+  Baseline known;
+  Baseline fresh;
+};
 
 std::vector<Folded> each_alone(const std::vector<Finding>& findings) {
   std::vector<Folded> all;
@@ -45,64 +47,125 @@ std::vector<Folded> each_alone(const std::vector<Finding>& findings) {
   return all;
 }
 
-std::vector<Finding> wanted(const Findings& findings, const Options& options) {
+Severity severity_of(const Rule& rule, const Options& options) {
+  return options.is_strict && rule.severity == Severity::warning ? Severity::error : rule.severity;
+}
+
+bool is_wanted(const Rule& rule, const Options& options) {
+  return severity_of(rule, options) >= options.level &&
+         std::find(options.disabled.begin(), options.disabled.end(), rule.id) == options.disabled.end();
+}
+
+std::vector<Finding> wanted(const Input& input, const Options& options, Report& report) {
   std::vector<Finding> result;
-  for (const Finding& finding : findings.all()) {
-    const bool is_disabled =
-        std::find(options.disabled.begin(), options.disabled.end(), finding.rule->id) != options.disabled.end();
-    if (finding.rule->severity >= options.level && !is_disabled) {
+  for (const Finding& finding : input.findings.all()) {
+    if (is_wanted(*finding.rule, options) && !report.known.take(input, finding)) {
       result.push_back(finding);
+      result.back().severity = severity_of(*finding.rule, options);
     }
   }
   return result;
 }
 
-// Counts of the three severities.
-using Counts = std::map<Severity, std::size_t>;
+void say_what_has_gone(const Input& input, const Options& options, const Baseline& known) {
+  const std::size_t number = known.left(input, [&options](const std::string& id) {
+    const Rule* const rule = report::find_rule(id);
+    return rule == nullptr || is_wanted(*rule, options);
+  });
+  if (number != 0) {
+    complain(input.source().name() + ": no longer found, but in the baseline: " + std::to_string(number));
+  }
+}
 
-int check_file(const std::string& path, const Options& options, Counts& counts, Json& json) {
+void show(const Input& input, const std::vector<Finding>& findings, const Options& options, Report& report) {
+  if (options.form == Form::sarif) {
+    report.sarif.add(input, findings);
+    return;
+  }
+  const std::vector<Folded> folded = options.shows_all ? each_alone(findings) : fold(findings);
+  if (options.form == Form::json) {
+    report.files.push_back({{"file", input.source().name()}, {"findings", to_json(input.source(), folded)}});
+  } else if (options.form == Form::github) {
+    print(to_github(input.source(), folded));
+  } else {
+    print(render(input.source(), input.encoding(), folded, wants_colour()));
+  }
+}
+
+int check_file(const std::string& path, const Options& options, Report& report) {
   std::optional<Input> input = open(path);
   if (!input) {
     return unusable;
   }
   check_all(*input);
-  const std::vector<Finding> findings = wanted(input->findings, options);
-  for (const Finding& finding : findings) {
-    ++counts[finding.rule->severity];
-  }
-  const std::vector<Folded> folded = options.shows_all ? each_alone(findings) : fold(findings);
-  if (options.is_json) {
-    json.push_back({{"file", input->source().name()}, {"findings", to_json(input->source(), folded)}});
-  } else {
-    print(render(input->source(), input->encoding(), folded, wants_colour()));
-  }
+  const std::vector<Finding> findings = wanted(*input, options, report);
   if (input->findings.dropped() != 0) {
     complain(input->source().name() + ": there are more findings than are kept");
   }
+  if (!options.new_baseline.empty()) {
+    for (const Finding& finding : findings) {
+      report.fresh.add(*input, finding);
+    }
+    return clean;
+  }
+  for (const Finding& finding : findings) {
+    ++report.counts[finding.severity];
+  }
+  show(*input, findings, options, report);
+  say_what_has_gone(*input, options, report.known);
   return findings.empty() ? clean : found;
 }
 
-int run(const Options& options) {
-  for (const std::string& id : options.disabled) {
-    if (!is_rule(id)) {
-      complain("there is no rule " + id);
-      return unusable;
-    }
-  }
-  int status = clean;
-  Counts counts;
-  Json files = Json::array();
-  for (const std::string& path : options.files) {
-    status = std::max(status, check_file(path, options, counts, files));
-  }
-  if (options.is_json) {
-    print_json(Json{{"schema", "codict-check-1"}, {"files", std::move(files)}});
-  } else if (const std::string text =
-                 summary(counts[Severity::error], counts[Severity::warning], counts[Severity::note]);
+void finish(const Options& options, Report& report, int status) {
+  if (options.form == Form::json) {
+    print_json(Json{{"schema", "codict-check-1"}, {"files", std::move(report.files)}});
+  } else if (options.form == Form::sarif) {
+    print_json(report.sarif.document(status != unusable));
+  } else if (const std::string text = summary(report.counts[Severity::error], report.counts[Severity::warning],
+                                              report.counts[Severity::note]);
              !text.empty()) {
     complain(text);
   }
-  return status;
+}
+
+// False if something is wrong with them, which has been said.
+bool prepare(const Options& options, Report& report) {
+  for (const std::string& id : options.disabled) {
+    if (report::find_rule(id) == nullptr) {
+      complain(unknown_rule(id));
+      return false;
+    }
+  }
+  if (options.baseline.empty()) {
+    return true;
+  }
+  std::string why;
+  std::optional<Baseline> baseline = Baseline::read(options.baseline, why);
+  if (!baseline) {
+    complain(why);
+    return false;
+  }
+  report.known = std::move(*baseline);
+  return true;
+}
+
+int run(Options options) {
+  if (options.is_json) {
+    options.form = Form::json;
+  }
+  Report report;
+  if (!prepare(options, report)) {
+    return unusable;
+  }
+  int status = clean;
+  for (const std::string& path : options.files) {
+    status = std::max(status, check_file(path, options, report));
+  }
+  if (options.new_baseline.empty()) {
+    finish(options, report, status);
+    return status;
+  }
+  return status != clean ? status : write_output(options.new_baseline, to_text(report.fresh.to_json()));
 }
 
 }  // namespace
@@ -118,8 +181,23 @@ Command add_check(CLI::App& app) {
       ->default_str("warning");
   command->add_option("--disable", options->disabled, "Rule that is left out; may be given several times")
       ->allow_extra_args(false);
+  command->add_flag("--werror", options->is_strict, "Take warnings for errors");
+  CLI::Option* const known =
+      command->add_option("--baseline", options->baseline, "File of findings that are known: only others are told");
+  command
+      ->add_option("--write-baseline", options->new_baseline,
+                   "Write what is found into a file for --baseline, and tell nothing")
+      ->excludes(known);
   command->add_flag("--all", options->shows_all, "Show equal findings each, not the first and how many follow");
-  command->add_flag("--json", options->is_json, "For programs");
+  const std::map<std::string, Form> forms = {
+      {"gcc", Form::gcc}, {"json", Form::json}, {"sarif", Form::sarif}, {"github", Form::github}};
+  CLI::Option* const form =
+      command
+          ->add_option("--error-format", options->form,
+                       "gcc: lines for people and editors; json, sarif (2.1.0): for programs; github: annotations")
+          ->transform(CLI::CheckedTransformer(forms).description(""))
+          ->default_str("gcc");
+  command->add_flag("--json", options->is_json, "The same as --error-format json")->excludes(form);
   return {command, [options] { return run(*options); }};
 }
 

@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "check/check.hpp"
-#include "check/network.hpp"
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
+#include "eds/suppressions.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
+#include "xdd/suppressions.hpp"
 
 namespace lexican::codict::cli {
 
@@ -70,22 +71,27 @@ std::optional<Input> open(const std::string& path) {
   return input;
 }
 
+void suppress(const Input& input, report::Origin origin, Findings& findings) {
+  const std::vector<Suppression> suppressions = input.eds != nullptr   ? eds::suppressions(*input.eds)
+                                                : input.xdd != nullptr ? xdd::suppressions(*input.xdd)
+                                                                       : std::vector<Suppression>();
+  report::suppress(input.source(), suppressions, origin, findings);
+}
+
 void check_all(Input& input) {
   for (const Device& device : input.description.devices) {
-    check::check_objects(device, input.findings);
-    check::check_device(device, input.findings);
-    check::check_pdo_parameters(device, input.findings);
-    check::check_cob_ids(device, input.findings);
-    check::check_services(device, input.findings);
+    check::check_all(device, input.findings);
   }
-  input.findings.sort();
+  suppress(input, report::Origin::checks, input.findings);
 }
 
 void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", text); }
 
 void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-void print_json(const Json& json) { print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"); }
+std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+void print_json(const Json& json) { print(to_text(json)); }
 
 bool parse_reference(std::string_view text, Reference& reference) {
   if (equal_ignoring_case(text.substr(0, 2), "0x")) {

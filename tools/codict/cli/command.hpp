@@ -13,6 +13,7 @@
 
 #include "eds/document.hpp"
 #include "model/device.hpp"
+#include "report/suppress.hpp"
 #include "text/finding.hpp"
 #include "text/source.hpp"
 #include "xdd/document.hpp"
@@ -36,6 +37,7 @@ Command add_check(CLI::App& app);
 Command add_convert(CLI::App& app);
 Command add_diff(CLI::App& app);
 Command add_doc(CLI::App& app);
+Command add_explain(CLI::App& app);
 Command add_gen(CLI::App& app);
 Command add_get(CLI::App& app);
 Command add_info(CLI::App& app);
@@ -61,13 +63,20 @@ std::optional<Input> open(const std::string& path);
 /// The same for what is in memory already; without a result, why is one line.
 std::optional<Input> read(Source source, std::string& why);
 
-/// Adds what the checks find to what the reader has found, by place.
+/// Adds what the checks find to what the reader has found, by place; without what comments suppress.
 void check_all(Input& input);
+
+/// Leaves out what comments of the description suppress; findings end up sorted.
+void suppress(const Input& input, report::Origin origin, Findings& findings);
+
+/// That there is no such rule, and which one may be meant.
+std::string unknown_rule(const std::string& id);
 
 /// "codict: text", on the standard error output.
 void complain(std::string_view text);
 /// To the standard output.
 void print(std::string_view text);
+std::string to_text(const Json& json);
 void print_json(const Json& json);
 
 /// "0x2000:1", "2000:1", "2000sub1", or without a sub-index; false if it is none of them.

@@ -141,7 +141,7 @@ int run(Options options) {
   }
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
-  findings.sort();
+  suppress(*input, report::Origin::generator, findings);
   show(*input, findings, options.shows_notes);
   if (output.files.empty()) {
     return found;

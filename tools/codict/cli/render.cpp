@@ -88,7 +88,7 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
   for (const Folded& folded : findings) {
     const Finding& finding = *folded.first;
     const Position position = source.position(finding.span.begin);
-    const Severity severity = finding.rule->severity;
+    const Severity severity = finding.severity;
     text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", source.name(), position.line,
                         position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
                         name_of(severity), has_colour ? plain : "", finding.text, finding.rule->id);
@@ -110,7 +110,7 @@ Json to_json(const Source& source, const std::vector<Folded>& findings) {
     const Position begin = source.position(finding.span.begin);
     const Position end = source.position(finding.span.end);
     Json json;
-    json["severity"] = name_of(finding.rule->severity);
+    json["severity"] = name_of(finding.severity);
     json["rule"] = finding.rule->id;
     json["text"] = finding.text;
     if (!finding.hint.empty()) {

@@ -3,6 +3,7 @@
 /// What is off in an input: readers accept nearly everything, and say so here.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -27,8 +28,9 @@ struct Rule {
 struct Finding {
   const Rule* rule = nullptr;
   Span span;
-  std::string text;  ///< the same for equal findings: what differs is shown by the place
-  std::string hint;  ///< what to do; may be empty
+  std::string text;                       ///< the same for equal findings: what differs is shown by the place
+  std::string hint;                       ///< what to do; may be empty
+  Severity severity = Severity::warning;  ///< that of the rule, unless somebody takes it for worse
 };
 
 /// The findings of one source, in the order in which they were made until they are sorted.
@@ -41,7 +43,7 @@ class Findings {
     if (all_.size() == most) {
       ++dropped_;
     } else {
-      all_.push_back({&rule, span, std::move(text), std::move(hint)});
+      all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity});
     }
   }
   std::size_t dropped() const { return dropped_; }
@@ -49,6 +51,10 @@ class Findings {
   const std::vector<Finding>& all() const { return all_; }
   std::size_t count(const Rule& rule) const;
   std::size_t count(Severity severity) const;
+  template <typename Predicate>
+  void remove_if(Predicate is_unwanted) {
+    all_.erase(std::remove_if(all_.begin(), all_.end(), is_unwanted), all_.end());
+  }
   void sort();  ///< by place; those of one place keep their order
 
  private:

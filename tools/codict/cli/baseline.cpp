@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/baseline.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "text/file.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+constexpr const char* schema = "codict-baseline-1";
+constexpr std::size_t longest_place = 200;
+
+// "[2000] DefaultValue=5".
+std::string place_in_eds(const eds::Document& document, Span span) {
+  const Source& source = document.source();
+  const std::uint32_t line = source.position(span.begin).line;
+  const std::vector<eds::Section>& sections = document.sections();
+  const auto behind =
+      std::upper_bound(sections.begin(), sections.end(), line,
+                       [](std::uint32_t number, const eds::Section& section) { return number < section.line; });
+  const std::string section = behind == sections.begin() ? "" : document.text(std::prev(behind)->name);
+  return "[" + section + "] " + document.text(source.line(line)).substr(0, longest_place);
+}
+
+// The tag in which it is, or the one before it.
+std::string place_in_xml(const xdd::Document& document, Span span) {
+  const std::string_view bytes = document.source().bytes();
+  const std::size_t begin = bytes.rfind('<', span.begin);
+  const std::size_t from = begin == std::string_view::npos ? 0 : begin;
+  const std::size_t size = std::min(bytes.find('>', from) - from, longest_place);
+  return to_utf8(bytes.substr(from, size), document.encoding());
+}
+
+std::string place_of(const Input& input, Span span) {
+  if (span == Span{}) {
+    return {};  // something is missing in the whole file
+  }
+  if (input.eds != nullptr) {
+    return place_in_eds(*input.eds, span);
+  }
+  const Source& source = input.source();
+  return input.xdd != nullptr ? place_in_xml(*input.xdd, span)
+                              : std::string(source.slice(source.line(source.position(span.begin).line)));
+}
+
+// Blanks and ends of lines may change, too.
+std::string with_single_blanks(std::string_view text) {
+  std::string single;
+  for (const char c : trimmed(text)) {
+    const char plain = is_blank(c) || c == '\n' ? ' ' : c;
+    if (plain != ' ' || (!single.empty() && single.back() != ' ')) {
+      single += plain;
+    }
+  }
+  return single;
+}
+
+// What stands for an entry of the file; empty if it is of another form.
+std::string text_in(const Json& entry, const char* name) {
+  return entry.is_object() && entry.contains(name) && entry.at(name).is_string() ? entry.at(name).get<std::string>()
+                                                                                 : "";
+}
+
+}  // namespace
+
+Baseline::Key Baseline::key_of(const Input& input, const Finding& finding) {
+  return {input.source().name(), std::string(finding.rule->id), with_single_blanks(place_of(input, finding.span)),
+          finding.text};
+}
+
+void Baseline::add(const Input& input, const Finding& finding) { ++counts_[key_of(input, finding)]; }
+
+bool Baseline::take(const Input& input, const Finding& finding) {
+  const auto place = counts_.find(key_of(input, finding));
+  if (place == counts_.end() || place->second == 0) {
+    return false;
+  }
+  --place->second;
+  return true;
+}
+
+std::size_t Baseline::left(const Input& input, const std::function<bool(const std::string&)>& is_asked) const {
+  std::size_t sum = 0;
+  for (const auto& [key, count] : counts_) {
+    if (std::get<0>(key) == input.source().name() && is_asked(std::get<1>(key))) {
+      sum += count;
+    }
+  }
+  return sum;
+}
+
+Json Baseline::to_json() const {
+  Json files = Json::object();
+  for (const auto& [key, count] : counts_) {
+    const auto& [file, rule, place, text] = key;
+    files[file].push_back({{"rule", rule}, {"place", place}, {"text", text}, {"count", count}});
+  }
+  return {{"schema", schema}, {"files", std::move(files)}};
+}
+
+bool Baseline::read_file_entries(const std::string& file, const Json& entries) {
+  return entries.is_array() && std::all_of(entries.begin(), entries.end(), [&](const Json& entry) {
+           const Key key{file, text_in(entry, "rule"), text_in(entry, "place"), text_in(entry, "text")};
+           const bool has_count =
+               entry.is_object() && entry.contains("count") && entry.at("count").is_number_unsigned();
+           if (std::get<1>(key).empty() || !has_count) {
+             return false;
+           }
+           counts_[key] += entry.at("count").get<std::size_t>();
+           return true;
+         });
+}
+
+std::optional<Baseline> Baseline::read(const std::string& path, std::string& why) {
+  const std::optional<Source> source = read_file(path, why);
+  if (!source) {
+    return std::nullopt;
+  }
+  const Json json = Json::parse(source->bytes(), nullptr, false);
+  why = path + ": no baseline of codict check";
+  if (text_in(json, "schema") != schema || !json.contains("files") || !json.at("files").is_object()) {
+    return std::nullopt;
+  }
+  Baseline baseline;
+  for (const auto& [file, entries] : json.at("files").items()) {
+    if (!baseline.read_file_entries(file, entries)) {
+      return std::nullopt;
+    }
+  }
+  return baseline;
+}
+
+}  // namespace lexican::codict::cli

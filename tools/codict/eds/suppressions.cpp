@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eds/suppressions.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "text/number.hpp"
+
+namespace lexican::codict::eds {
+
+namespace {
+
+// Of what is meant by a comment above this line.
+Span scope_of(const Document& document, std::uint32_t line) {
+  const Source& source = document.source();
+  const std::vector<Section>& sections = document.sections();
+  const auto section = std::lower_bound(sections.begin(), sections.end(), line,
+                                        [](const Section& each, std::uint32_t number) { return each.line < number; });
+  if (section == sections.begin()) {
+    return {0, source.size()};
+  }
+  const bool is_header = section != sections.end() && section->line == line;
+  return {source.line(line).begin, source.line(is_header ? section->end - 1 : line).end};
+}
+
+}  // namespace
+
+std::vector<Suppression> suppressions(const Document& document) {
+  const Source& source = document.source();
+  std::vector<Suppression> all;
+  std::size_t waiting = 0;  // from here on, they have no scope yet
+  for (std::uint32_t number = 1; number <= source.lines(); ++number) {
+    const Span line = source.line(number);
+    const std::string_view text = trimmed(source.slice(line));
+    if (text.substr(0, 1) == ";") {
+      const auto begin = static_cast<std::uint32_t>(text.data() - source.bytes().data());
+      for (const Suppression& each : suppressions_in(source, {begin + 1, line.end})) {
+        all.push_back(each);
+      }
+    } else if (!text.empty()) {
+      for (; waiting < all.size(); ++waiting) {
+        all[waiting].scope = scope_of(document, number);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace lexican::codict::eds
