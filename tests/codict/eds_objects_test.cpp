@@ -133,3 +133,16 @@ TEST_CASE("sub-index 0 is there, and its default is the highest sub-index") {
   CHECK(meaning(eds.value(0x2003, 0)) == "0");  // of what may be written, the default is what is in use
   CHECK(eds.found() == "32:2 od-sub-zero-value\n52:2 od-sub-zero-missing\n74:14 od-sub-zero-small\n");
 }
+
+TEST_CASE("EDS: lists of compact storage add what sections leave open, and never replace what they say") {
+  const Reading reading("lists_without_compact.dcf");
+  CHECK(reading.at(0x2000, 2).name.text == "Second");
+  CHECK(reading.at(0x2000, 2).denotation.text == "gear");
+  CHECK(meaning(reading.at(0x2000, 1).actual_value) == "7");
+  CHECK(meaning(reading.at(0x2000, 2).actual_value) == "9");
+  CHECK(reading.device.find(0x2000)->others.size() == 2);  // [2000Name], and what is left of [2000Value]
+  CHECK(reading.device.find(0x2001)->others.size() == 1);
+  CHECK(reading.found() ==
+        "45:1 eds-compact-entry\n49:1 eds-compact-entry\n51:1 eds-compact-entry\n65:1 eds-compact-entry\n"
+        "67:2 eds-section-orphan\n");
+}
