@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is off in PDOs, identifiers and services, whatever the format.
+// What is off in PDOs, identifiers and services, and in the way in which objects hang together, whatever the format.
 #include "check/network.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
+#include "check/check.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
 
@@ -257,4 +258,92 @@ TEST_CASE("check: sync-window: no longer than the cycle") {
   CHECK(sync("1000", "1000") == "");
   CHECK(sync("1000", "1001") == "sync-window: longer than the cycle in 1006h\n");
   CHECK(sync("0", "1001") == "");
+}
+
+TEST_CASE("check: pdo-multiplexed: sub-index 0 FEh or FFh, and what belongs to it [301: 7.2.2.6]") {
+  const auto of_mode = [](const char* mode, const char* type, const std::string& more = "") {
+    return found(check::check_multiplexed,
+                 record("1800", {"2", "$NODEID+0x180", type}) + record("1A00", {mode}) + more);
+  };
+  const std::string no_list = "pdo-multiplexed-list: there is no scanner list\n";
+  CHECK(of_mode("0xFF", "255") == "");
+  CHECK(of_mode("0xFE", "254") == no_list);
+  CHECK(of_mode("0xFE", "254", record("1FA0", {"1", "1"})) == "");
+  CHECK(of_mode("0xFE", "254", record("1FCF", {"1", "1"})) == "");
+  CHECK(of_mode("0xFE", "254", record("1FD0", {"1", "1"})) == no_list);
+  CHECK(of_mode("0xFF", "253") == "pdo-multiplexed-type: not sent by events\n");
+  CHECK(of_mode("0x40", "1") == "");
+  CHECK(of_mode("0xFF", "255", "[DeviceInfo]\nGroupMessaging=0\n") ==
+        "pdo-multiplexed: the device says that it has no multiplexed PDOs\n");
+  CHECK(of_mode("0xFF", "255", "[DeviceInfo]\nGroupMessaging=1\n") == "");
+  const std::string receiver = record("1400", {"2", "$NODEID+0x200", "255"}) + record("1600", {"0xFE"});
+  CHECK(found(check::check_multiplexed, receiver) == "pdo-multiplexed-list: there is no dispatching list\n");
+  CHECK(found(check::check_multiplexed, receiver + record("1FFF", {"1", "1"})) == "");
+  CHECK(found(check::check_multiplexed, receiver + record("1FA0", {"1", "1"})) ==
+        "pdo-multiplexed-list: there is no dispatching list\n");
+}
+
+TEST_CASE("check: od-type-complex, od-unmappable: a value has one type, and what is mapped a length") {
+  const auto type = [](const char* code, const char* mapping) {
+    return found(check::check_structure, variable("2000", code, "rw", "", mapping));
+  };
+  CHECK(type("0x1B", "1") == "");
+  CHECK(type("0x21", "0") == "od-type-complex: a type of several values for one value\n");
+  CHECK(type("0x0F", "0") == "");
+  CHECK(type("0x0F", "1") == "od-unmappable: a DOMAIN has no length that a PDO could map\n");
+}
+
+TEST_CASE("check: od-array-types: elements of an ARRAY have one type; sub-indexes 0 and FFh are none") {
+  const auto array = [](const char* kind, const char* last, const char* sub = "2") {
+    return found(check::check_structure, std::string("[2000]\nParameterName=x\nObjectType=") + kind +
+                                             "\n[2000sub0]\nParameterName=x\nDataType=5\nAccessType=ro\n"
+                                             "[2000sub1]\nParameterName=x\nDataType=6\nAccessType=ro\n[2000sub" +
+                                             sub + "]\nParameterName=x\nAccessType=ro\nDataType=" + last + "\n");
+  };
+  CHECK(array("8", "6") == "");
+  CHECK(array("8", "7") == "od-array-types: another type than that of sub-index 1\n");
+  CHECK(array("9", "7") == "");
+  CHECK(array("8", "7", "FF") == "");
+}
+
+TEST_CASE("check: od-link, od-module-…: what is named is there, and what a module adds is new") {
+  const std::string module = "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=x\n";
+  const std::string list = record("1027", {"1", "1"});
+  const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
+  const std::string linked = variable("2000", "5", "rw") + "[2000ObjectLinks]\nObjectLinks=1\n1=0x2001\n";
+  CHECK(check(linked) == "od-link: this object is not described\n");
+  CHECK(check(linked + variable("2001", "5", "rw")) == "");
+  CHECK(check(linked + module + list + variable("M1Fixed2001", "5", "rw")) == "");
+  CHECK(check(module) == "od-module-list: there is no object 1027h\n");
+  CHECK(check(module + list + variable("2001", "5", "rw") + variable("M1Fixed2001", "5", "rw")) ==
+        "od-module-object: the coupler itself has this object\n");
+  CHECK(check(module + list + "[ConnectedModules]\nNrOfEntries=2\n1=1\n2=0\n") == "");
+  CHECK(check(module + list + "[ConnectedModules]\nNrOfEntries=1\n1=2\n") ==
+        "od-module-number: this module is not described\n");
+}
+
+TEST_CASE("check: od-former, od-store-pair, od-granularity: objects that are gone, pairs, and the width of a PDO") {
+  const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
+  for (const char* const index : {"1004", "100B", "100E", "100F"}) {
+    CHECK(check(variable(index, "7", "ro")) == "od-former: no longer an object of CiA 301\n");
+  }
+  CHECK(check(record("1010", {"1", "1"}) + record("1011", {"1", "1"})) == "");
+  CHECK(check(record("1010", {"1", "1"})) == "");
+  CHECK(check(record("1010", {"2", "1", "1"}) + record("1011", {"1", "1"})) ==
+        "od-store-pair: 1010h has other sub-indexes\n");
+  CHECK(check("[DeviceInfo]\nGranularity=64\n") == "");
+  CHECK(check("[DeviceInfo]\nGranularity=65\n") == "od-granularity: more bits than a PDO has\n");
+}
+
+TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it is not what is in use") {
+  const auto zero = [](const char* index, const char* access, const char* value) {
+    return found(check::check_objects, std::string("[") + index + "]\nParameterName=x\nObjectType=8\n[" + index +
+                                           "sub0]\nParameterName=x\nDataType=5\nAccessType=" + access +
+                                           "\nDefaultValue=" + value + "\n[" + index +
+                                           "sub2]\nParameterName=x\nDataType=5\nAccessType=ro\n");
+  };
+  CHECK(zero("2000", "ro", "2") == "");
+  CHECK(zero("2000", "ro", "3") == "od-sub-zero-large: the highest sub-index is 2\n");
+  CHECK(zero("2000", "rw", "3") == "");
+  CHECK(zero("1003", "ro", "8") == "");
 }

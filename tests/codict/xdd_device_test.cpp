@@ -11,14 +11,14 @@ using test::meaning;
 using test::XmlReading;
 
 TEST_CASE("XDD: nothing is remarked of a description that is as it should be, but a parameter of nobody") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.found() == "107 xdd-parameter-unused\n");
   CHECK(reading.device.format == Format::xdc10);
   CHECK(reading.device.parameters.size() == 1);
 }
 
 TEST_CASE("XDD: file, profile and identity") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   CHECK(device.file.file_name.text == "device10.xdd");
   CHECK(device.file.created_by.text == "Ada");
@@ -38,7 +38,7 @@ TEST_CASE("XDD: file, profile and identity") {
 }
 
 TEST_CASE("XDD: keys of an EDS in the product's description are what they are in an EDS") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.device.file.description.text == "A valve");
   CHECK(reading.device.file.eds_version.text == "4.0");
   CHECK(reading.device.file.revision.value == 3);
@@ -46,7 +46,7 @@ TEST_CASE("XDD: keys of an EDS in the product's description are what they are in
 }
 
 TEST_CASE("XDD: bit rates, features, commissioning, dummies and dynamic channels") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   CHECK(device.features.default_bit_rate.value == 250);
   REQUIRE(device.features.bit_rates.size() == 3);
@@ -72,7 +72,7 @@ TEST_CASE("XDD: bit rates, features, commissioning, dummies and dynamic channels
 }
 
 TEST_CASE("XDD: an object of attributes alone") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.at(0x1001).data_type.value == 5);
   CHECK(reading.at(0x1001).access.value == Access::ro);
   CHECK(reading.at(0x1001).pdo_mapping.value == PdoMapping::tpdo);
@@ -85,7 +85,7 @@ TEST_CASE("XDD: an object of attributes alone") {
 }
 
 TEST_CASE("XDD: an object is what its parameter says") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   CHECK(mode.access.value == Access::rww);
   CHECK(mode.data_type.value == 5);
@@ -104,7 +104,7 @@ TEST_CASE("XDD: an object is what its parameter says") {
 }
 
 TEST_CASE("XDD: the one range of a parameter is the limits of the object") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& opening = reading.at(0x2002, 2);
   CHECK(meaning(opening.low_limit) == "0");
   CHECK(meaning(opening.high_limit) == "100");
@@ -113,14 +113,14 @@ TEST_CASE("XDD: the one range of a parameter is the limits of the object") {
 }
 
 TEST_CASE("XDD: a template says what its parameter leaves open; without access, CiA 311 means read") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.at(0x2002, 1).data_type.value == 6);
   CHECK(reading.at(0x2002, 1).access.value == Access::constant);
   CHECK(fixture_xml("unqualified11.xdd").at(0x1001).access.value == Access::ro);
 }
 
 TEST_CASE("XDD: types, templates and groups") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   REQUIRE(device.types.size() == 4);
   CHECK(device.types[0].kind == TypeDefinition::Kind::array);
@@ -134,7 +134,7 @@ TEST_CASE("XDD: types, templates and groups") {
 }
 
 TEST_CASE("XDD: properties of CANopenNode, of its new generation") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   CHECK(mode.node.disabled.is_given);
   CHECK_FALSE(mode.node.disabled.value);
@@ -147,7 +147,7 @@ TEST_CASE("XDD: properties of CANopenNode, of its new generation") {
 }
 
 TEST_CASE("XDD: properties of CANopenNode, of its old generation") {
-  const XmlReading reading(test::bytes_of_fixture("unqualified11.xdd"));
+  const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   const Entry& own = reading.at(0x2002);
   CHECK(own.access.value == Access::none);
   CHECK(own.node.storage_group.value == "RAM");
@@ -159,14 +159,14 @@ TEST_CASE("XDD: properties of CANopenNode, of its old generation") {
 }
 
 TEST_CASE("XDD: a BITSTRING is an OCTET_STRING with a default, and a DOMAIN without one") {
-  const XmlReading reading(test::bytes_of_fixture("unqualified11.xdd"));
+  const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   CHECK(reading.at(0x2000).data_type.value == type_code::octet_string);
   CHECK(meaning(reading.at(0x2000).default_value) == "octets 01 02 FF");
   CHECK(reading.at(0x2001).data_type.value == type_code::domain);
 }
 
 TEST_CASE("XDD: what is known and not used is kept without a remark") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   bool has_led = false;
   for (const Kept& kept : reading.device.others) {
     has_led = has_led || (kept.name == "DeviceManager" &&

@@ -10,7 +10,7 @@ using test::meaning;
 using test::XmlReading;
 
 TEST_CASE("XDD 1.1: elements in no namespace, prefixes, and names with other capitals") {
-  const XmlReading reading(test::bytes_of_fixture("unqualified11.xdd"));
+  const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   const Device& device = reading.device;
   CHECK(device.format == Format::xdc11);
   CHECK(device.identity.vendor_name.text == "V");
@@ -22,7 +22,7 @@ TEST_CASE("XDD 1.1: elements in no namespace, prefixes, and names with other cap
 }
 
 TEST_CASE("maxon: parameters with an index become objects") {
-  const XmlReading reading(test::bytes_of_fixture("indexed.xdd"));
+  const XmlReading reading = test::fixture_xml("indexed.xdd");
   CHECK(reading.device.dialect == "maxon");
   CHECK(reading.device.objects.size() == 2);
   CHECK(reading.at(0x1000).data_type.value == 7);
@@ -44,7 +44,7 @@ TEST_CASE("maxon: parameters with an index become objects") {
 }
 
 TEST_CASE("DeviceProfile: elements where CiA 311 has attributes") {
-  const XmlReading reading(test::bytes_of_fixture("elements.xdd"));
+  const XmlReading reading = test::fixture_xml("elements.xdd");
   CHECK(reading.device.identity.product_name.text == "Box");
   CHECK(reading.at(0x2000).name.text == "First");
   CHECK(reading.at(0x2000).data_type.value == 6);
@@ -79,7 +79,7 @@ TEST_CASE(".nxdd: several devices in one file") {
 }
 
 TEST_CASE("XDD: of another namespace, or of none, with a remark; the profiles in any order") {
-  const XmlReading reading(test::bytes_of_fixture("foreign_namespace.xml"));
+  const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.has("xdd-namespace"));
   CHECK(reading.at(0x2000).words.labels.at(0).text.text == "Value");
   CHECK(XmlReading("<ISO15745ProfileContainer/>").found() == "1 xdd-namespace\n");

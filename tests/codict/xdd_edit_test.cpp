@@ -61,7 +61,7 @@ TEST_CASE("XDD edit: the value of a parameter, and the text of a label") {
 }
 
 TEST_CASE("XDD edit: every text of an object has a place that gives it back") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   for (const Text* text : std::initializer_list<const Text*>{
            &mode.name, &mode.object_code, &mode.data_type, &mode.access, &mode.pdo_mapping, &mode.default_value,

@@ -23,7 +23,7 @@ std::string object(const std::string& attributes) { return "<CANopenObject " + a
 }  // namespace
 
 TEST_CASE("XDD quirk: the parameter wins over the object, and what the object says else is kept") {
-  const XmlReading reading(test::bytes_of_fixture("foreign_namespace.xml"));
+  const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   const Entry& value = reading.at(0x2000);
   CHECK(value.access.value == Access::ro);
   CHECK(value.data_type.value == 7);
@@ -38,14 +38,14 @@ TEST_CASE("XDD quirk: the parameter wins over the object, and what the object sa
 }
 
 TEST_CASE("XDD quirk: dataType says more than BITSTRING does") {
-  const XmlReading reading(test::bytes_of_fixture("foreign_namespace.xml"));
+  const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.at(0x2001).data_type.value == 0x0C);
   CHECK(reading.at(0x2001).name.text == "Time");  // its label
   CHECK_FALSE(reading.at(0x2001).name.is_given);
 }
 
 TEST_CASE("XDD quirk: an unknown element is kept with all that is in it") {
-  const XmlReading reading(test::bytes_of_fixture("foreign_namespace.xml"));
+  const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   const Kept& own = reading.at(0x2001).others.at(0);
   CHECK(own.name == "own");
   CHECK(own.children.at(0).text.text == "text");
@@ -53,7 +53,7 @@ TEST_CASE("XDD quirk: an unknown element is kept with all that is in it") {
 }
 
 TEST_CASE("XDD quirk: bit rates without unit, in bit/s, and none at all") {
-  const XmlReading reading(test::bytes_of_fixture("foreign_namespace.xml"));
+  const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   REQUIRE(reading.device.features.bit_rates.size() == 3);
   CHECK(reading.device.features.bit_rates[0].kbit == 125);
   CHECK(reading.device.features.bit_rates[1].kbit == 500);

@@ -94,7 +94,7 @@ TEST_CASE("XDD write: an EDS gets parameters, labels and dates as CiA 311 has th
 }
 
 TEST_CASE("XDD write: 1.0 has all elements in the namespace, 1.1 only those that are declared globally") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string v10 = xdd::write(reading.device, xdd::Edition::v10);
   CHECK(says(v10, "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\""));
   CHECK(says(v10, "xsi:type=\"ProfileBody_Device_CANopen\""));
@@ -113,7 +113,7 @@ TEST_CASE("XDD write: 1.0 has all elements in the namespace, 1.1 only those that
 }
 
 TEST_CASE("XDD write: the order of the schema, exact digits, the type in both ways, nodeID") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string written = xdd::write(reading.device, xdd::Edition::v11);
   CHECK(in_order(written, {"<label lang=\"en\">Mode", "<co:dataTypeIDRef", "<co:conditionalSupport", "<co:denotation>",
                            "<co:actualValue", "<co:defaultValue", "<co:substituteValue", "<co:allowedValues>",
@@ -129,14 +129,14 @@ TEST_CASE("XDD write: the order of the schema, exact digits, the type in both wa
 }
 
 TEST_CASE("XDD write: a limit alone, and an empty default, stay what they are") {
-  const XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(says(xdd::write(reading.device, xdd::Edition::v10), "lowLimit=\"0x81\""));
   const XmlReading empty(test::bytes_of_fixture("unqualified11.xdd"));
   CHECK(says(xdd::write(empty.device, xdd::Edition::v11), "<co:defaultValue value=\"\"/>"));
 }
 
 TEST_CASE("XDD write: signs of markup, line ends and other controls come back") {
-  XmlReading reading(test::bytes_of_fixture("device10.xdd"));
+  XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string text = "a<b>&\"c'\td\ne\rf\x01";
   Object& object = *reading.device.find(0x1000);
   object.name.text = text;

@@ -13,6 +13,9 @@ namespace lexican::codict::check {
 /// Mapping and communication parameters. [301: 7.5.2.35 ff.]
 void check_pdo_parameters(const Device& device, Findings& findings);
 
+/// PDOs whose frames name their object. [301: 7.2.2.6]
+void check_multiplexed(const Device& device, Findings& findings);
+
 /// COB-IDs against one another and against those that CiA 301 keeps for itself. [301: 7.3.5]
 void check_cob_ids(const Device& device, Findings& findings);
 
@@ -32,6 +35,9 @@ extern const Rule pdo_dummy;
 extern const Rule pdo_granularity;
 extern const Rule pdo_type;
 extern const Rule pdo_time;
+extern const Rule multiplexed;
+extern const Rule multiplexed_list;
+extern const Rule multiplexed_type;
 extern const Rule cob_id_restricted;
 extern const Rule cob_id_twice;
 extern const Rule cob_id_form;

@@ -21,6 +21,13 @@ const Rule pdo_type{"pdo-type", Severity::error,
                     "A transmission type is 0 to 240, 254 or 255, and of TPDOs also 252 or 253."};
 const Rule pdo_time{"pdo-time", Severity::note,
                     "Inhibit time and event time have an effect where PDOs are sent by events only."};
+const Rule multiplexed{"pdo-multiplexed", Severity::warning,
+                       "A device that has multiplexed PDOs says so, with GroupMessaging."};
+const Rule multiplexed_list{
+    "pdo-multiplexed-list", Severity::warning,
+    "Source address mode has a list: 1FA0h to 1FCFh of a sender, 1FD0h to 1FFFh of a receiver."};
+const Rule multiplexed_type{"pdo-multiplexed-type", Severity::error,
+                            "A multiplexed PDO has transmission type 254 or 255."};
 const Rule cob_id_restricted{"cob-id-restricted", Severity::error,
                              "No service has an identifier that CiA 301 keeps for another one."};
 const Rule cob_id_twice{"cob-id-twice", Severity::warning, "An identifier has one service."};
@@ -41,10 +48,10 @@ const Rule sync_window{"sync-window", Severity::warning, "The window of SYNC (10
 const std::vector<const Rule*>& network_rules() {
   using namespace rules;
   static const std::vector<const Rule*> all = {
-      &pdo_pair,          &pdo_object,       &pdo_access,  &pdo_bits,        &pdo_part,      &pdo_length,
-      &pdo_gap,           &pdo_mapped_count, &pdo_dummy,   &pdo_granularity, &pdo_type,      &pdo_time,
-      &cob_id_restricted, &cob_id_twice,     &cob_id_form, &mandatory,       &error_control, &sdo_default,
-      &consumer_entry,    &consumer_twice,   &sync_window};
+      &pdo_pair,    &pdo_object,       &pdo_access,       &pdo_bits,          &pdo_part,       &pdo_length,
+      &pdo_gap,     &pdo_mapped_count, &pdo_dummy,        &pdo_granularity,   &pdo_type,       &pdo_time,
+      &multiplexed, &multiplexed_list, &multiplexed_type, &cob_id_restricted, &cob_id_twice,   &cob_id_form,
+      &mandatory,   &error_control,    &sdo_default,      &consumer_entry,    &consumer_twice, &sync_window};
   return all;
 }
 

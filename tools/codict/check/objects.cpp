@@ -40,6 +40,8 @@ void check_sub_zero(const Object& object, Findings& findings) {
   const Value& value = zero->default_value;
   if (value.is_integer() && value.integer < Integer(highest) && !counts_entries(object, *zero)) {
     findings.add(rules::sub_zero_small, value.span, "there are higher sub-indexes");
+  } else if (value.is_integer() && Integer(highest) < value.integer && !counts_entries(object, *zero)) {
+    findings.add(rules::sub_zero_large, value.span, "the highest sub-index is " + std::to_string(highest));
   }
 }
 

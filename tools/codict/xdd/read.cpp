@@ -165,6 +165,15 @@ void read_container(pugi::xml_node container, const Reader& reader) {
   }
 }
 
+void check_file_name(const Reader& reader) {
+  const std::string_view path = reader.document.source().name();
+  const std::string_view name = path.substr(path.find_last_of('/') + 1);
+  const Text& file_name = reader.device.file.file_name;
+  if (!file_name.is_empty() && file_name.text != name && name != "<stdin>") {
+    reader.findings.add(rules::file_name, file_name.span, "the file has another name");
+  }
+}
+
 void read_device(pugi::xml_node element, Dialect dialect, const Document& document, Description& description,
                  Findings& findings) {
   Device& device = description.devices.emplace_back();
@@ -195,6 +204,7 @@ void read_device(pugi::xml_node element, Dialect dialect, const Document& docume
     read_container(element, reader);
   }
   finish_objects(reader);
+  check_file_name(reader);
   device.format = final_format(device, document.source().name());
 }
 

@@ -46,6 +46,7 @@ const Rule list_count{"xdd-list-count", Severity::warning, "Counts of objects ar
 const Rule boolean{"xdd-boolean", Severity::note, "Booleans are true or false, or 1 or 0."};
 const Rule bit_rate{"xdd-bit-rate", Severity::warning, "Bit rates are \"125 Kbps\", or \"auto-baudRate\"."};
 const Rule dummy{"xdd-dummy", Severity::warning, "A dummy is \"Dummy0001=0\": a type, and 0 or 1."};
+const Rule file_name{"xdd-file-name", Severity::note, "fileName is the name of the file."};
 
 }  // namespace rules
 
@@ -80,7 +81,8 @@ const std::vector<const Rule*>& all_rules() {
                                                &list_count,
                                                &boolean,
                                                &bit_rate,
-                                               &dummy};
+                                               &dummy,
+                                               &file_name};
   return all;
 }
 

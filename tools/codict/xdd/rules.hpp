@@ -45,6 +45,7 @@ extern const Rule list_count;
 extern const Rule boolean;
 extern const Rule bit_rate;
 extern const Rule dummy;
+extern const Rule file_name;
 }  // namespace rules
 
 /// All rules of this room.

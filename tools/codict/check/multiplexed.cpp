@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Multiplexed PDOs, whose frames name the object that they carry. [301: 7.2.2.6, 7.5.2.36]
+#include <algorithm>
+
+#include "check/network.hpp"
+#include "model/pdo.hpp"
+
+namespace lexican::codict::check {
+
+namespace {
+
+constexpr std::uint64_t source_mode = 0xFE;
+
+bool has_object(const Device& device, std::uint16_t first, std::uint16_t last) {
+  return std::any_of(device.objects.begin(), device.objects.end(),
+                     [first, last](const Object& object) { return object.index >= first && object.index <= last; });
+}
+
+// What names the objects of frames in source address mode.
+bool has_list(const Device& device, bool is_transmit) {
+  return is_transmit ? has_object(device, 0x1FA0, 0x1FCF) : has_object(device, 0x1FD0, 0x1FFF);
+}
+
+void check_type(const Pdo& pdo, Findings& findings) {
+  constexpr std::uint64_t event_manufacturer = 254;
+  const Entry* const type = pdo.parameter(2);
+  if (type != nullptr && value_in_force(*type).is_integer() &&
+      value_in_force(*type).integer.bits() < event_manufacturer) {
+    findings.add(rules::multiplexed_type, value_in_force(*type).span, "not sent by events");
+  }
+}
+
+}  // namespace
+
+void check_multiplexed(const Device& device, Findings& findings) {
+  for (const Pdo& pdo : pdos_of(device)) {
+    if (!pdo.is_multiplexed) {
+      continue;
+    }
+    const Value& mode = value_in_force(*pdo.mapping->find(0));
+    if (device.features.group_messaging.is_given && !device.features.group_messaging.value) {
+      findings.add(rules::multiplexed, mode.span, "the device says that it has no multiplexed PDOs");
+    }
+    if (mode.integer.bits() == source_mode && !has_list(device, pdo.is_transmit)) {
+      findings.add(rules::multiplexed_list, mode.span,
+                   pdo.is_transmit ? "there is no scanner list" : "there is no dispatching list");
+    }
+    check_type(pdo, findings);
+  }
+}
+
+}  // namespace lexican::codict::check
