@@ -278,7 +278,7 @@ TEST_CASE("codict explain: what a rule says, or all rules") {
         std::string::npos);
   CHECK(explain("od-limt").err == "codict: there is no rule od-limt: od-limit?\n");
   CHECK(explain("od-limt").status == 2);
-  const Json json = Json::parse(explain("--json gen-type").out);
+  const Json json = Json::parse(explain("--json gen-value").out);
   CHECK(json.at("schema") == "codict-explain-1");
   CHECK(json.at("rules").at(0).at("severity") == "error");
   CHECK(Json::parse(explain("--json").out).at("rules").size() > 140);
