@@ -102,13 +102,11 @@ std::string without_references(std::string_view text) {
 std::string with_plain_white(std::string_view text, bool is_attribute) {
   std::string plain;
   for (std::size_t n = 0; n < text.size(); ++n) {
-    if (text[n] == '\r') {
-      if (n + 1 < text.size() && text[n + 1] == '\n') {
-        continue;
-      }
-      plain += is_attribute ? ' ' : '\n';
-    } else {
-      plain += is_attribute && (text[n] == '\n' || text[n] == '\t') ? ' ' : text[n];
+    const char c = text[n];
+    const bool is_of_line_end = c == '\r' && n + 1 < text.size() && text[n + 1] == '\n';
+    const bool is_blank = is_attribute && (c == '\r' || c == '\n' || c == '\t');
+    if (!is_of_line_end) {
+      plain += is_blank ? ' ' : (c == '\r' ? '\n' : c);
     }
   }
   return plain;
@@ -143,6 +141,8 @@ Encoding encoding_of(const Source& source, Findings& findings) {
   }
   return declared == Encoding::utf8 ? guess : declared;
 }
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }
 
 bool is_deeper_than(pugi::xml_node root, std::size_t most) {
   std::size_t level = 0;
@@ -342,14 +342,7 @@ std::string escaped(std::string_view text) {
       case '<': result += "&lt;"; break;
       case '>': result += "&gt;"; break;
       case '"': result += "&quot;"; break;
-      case '\n':
-      case '\t': result += c; break;
-      default:
-        if (static_cast<unsigned char>(c) < 0x20) {
-          result += "&#" + std::to_string(static_cast<unsigned>(c)) + ";";
-        } else {
-          result += c;
-        }
+      default: result += is_control(c) ? "&#" + std::to_string(static_cast<unsigned>(c)) + ";" : std::string(1, c);
     }
   }
   return result;

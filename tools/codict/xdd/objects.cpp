@@ -44,21 +44,28 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
 bool is_object(std::string_view name) { return name == "CANopenObject" || name == "Object"; }
 bool is_sub(std::string_view name) { return name == "CANopenSubObject" || name == "SubObject"; }
 
+// Sub-objects, or a list of them.
+bool take_subs(pugi::xml_node child, std::vector<pugi::xml_node>& subs) {
+  if (is_sub(local_name(child))) {
+    subs.push_back(child);
+    return true;
+  }
+  if (local_name(child) != "SubObjectList") {
+    return false;
+  }
+  for (const pugi::xml_node sub : child.children()) {
+    if (is_sub(local_name(sub))) {
+      subs.push_back(sub);
+    }
+  }
+  return true;
+}
+
 Part read_part(pugi::xml_node element, const Reader& reader) {
   Part part;
   part.span = reader.document.tag(element);
   read_element(part, element, part_slots, part.others, reader, [&](pugi::xml_node child) {
-    if (is_sub(local_name(child))) {
-      part.subs.push_back(child);
-      return true;
-    }
-    if (local_name(child) == "SubObjectList") {
-      const auto children = child.children();
-      std::copy_if(children.begin(), children.end(), std::back_inserter(part.subs),
-                   [](pugi::xml_node sub) { return is_sub(local_name(sub)); });
-      return true;
-    }
-    return read_word(part.words, child, part.others, reader);
+    return take_subs(child, part.subs) || read_word(part.words, child, part.others, reader);
   });
   part.node.storage_group.value = part.node.storage_group.text;
   interpret_boolean(part.node.disabled, reader.findings);
@@ -550,20 +557,22 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
   if (mapping.is_empty()) {
     return;
   }
-  for (unsigned n = 0; n <= static_cast<unsigned>(PdoMapping::rpdo); ++n) {
-    const auto candidate = static_cast<PdoMapping>(n);
-    if (equal_ignoring_case(mapping.text, name_of(candidate))) {
-      mapping.value = candidate;
-      if (mapping.text != name_of(candidate)) {
-        reader.findings.add(rules::pdo_mapping, mapping.span, "not with the capitals that CiA 311 has");
-      }
-      return;
-    }
+  constexpr std::array<PdoMapping, 5> all = {PdoMapping::no, PdoMapping::optional, PdoMapping::standard,
+                                             PdoMapping::tpdo, PdoMapping::rpdo};
+  const auto* const word = std::find_if(all.begin(), all.end(), [&mapping](PdoMapping candidate) {
+    return equal_ignoring_case(mapping.text, name_of(candidate));
+  });
+  if (word == all.end()) {
+    const bool is_true = mapping.text == "1" || equal_ignoring_case(mapping.text, "true");
+    mapping.value = is_true ? PdoMapping::optional : PdoMapping::no;
+    reader.findings.add(rules::pdo_mapping, mapping.span, "neither no, optional, default, TPDO nor RPDO",
+                        std::string(name_of(mapping.value)));
+    return;
   }
-  mapping.value =
-      mapping.text == "1" || equal_ignoring_case(mapping.text, "true") ? PdoMapping::optional : PdoMapping::no;
-  reader.findings.add(rules::pdo_mapping, mapping.span, "neither no, optional, default, TPDO nor RPDO",
-                      std::string(name_of(mapping.value)));
+  mapping.value = *word;
+  if (mapping.text != name_of(*word)) {
+    reader.findings.add(rules::pdo_mapping, mapping.span, "not with the capitals that CiA 311 has");
+  }
 }
 
 void read_object_list(pugi::xml_node element, const Reader& reader) {

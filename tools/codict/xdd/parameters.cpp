@@ -202,17 +202,21 @@ void collect_ids(pugi::xml_node list, Ids& ids, const Reader& reader) {
   }
 }
 
+void collect_types(pugi::xml_node list, const Reader& reader) {
+  collect_ids(list, reader.shared.types, reader);
+  for (const pugi::xml_node type : list.children()) {
+    if (local_name(type) == "enum" && reader.shared.dialect == Dialect::maxon) {
+      collect_ids(type, reader.shared.enum_entries, reader);
+    }
+  }
+}
+
 void collect_all_ids(pugi::xml_node process, const Reader& reader) {
   Shared& shared = reader.shared;
   for (const pugi::xml_node list : process.children()) {
     const std::string_view name = local_name(list);
     if (name == "dataTypeList") {
-      collect_ids(list, shared.types, reader);
-      for (const pugi::xml_node type : list.children()) {
-        if (local_name(type) == "enum" && shared.dialect == Dialect::maxon) {
-          collect_ids(type, shared.enum_entries, reader);
-        }
-      }
+      collect_types(list, reader);
     } else if (name == "parameterList") {
       collect_ids(list, shared.parameters, reader);
     } else if (name == "templateList") {
@@ -241,6 +245,13 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
   keep_rest(list, std::move(rest), others, reader);
 }
 
+void read_member(Group& group, pugi::xml_node element, const Reader& reader) {
+  group.parameters.push_back(text_of(element, "uniqueIDRef", group.others, reader));
+  if (!find(reader.shared.parameters, raw_attribute(element, "uniqueIDRef"))) {
+    reader.findings.add(rules::reference, group.parameters.back().span, "there is no such parameter");
+  }
+}
+
 Group read_group(pugi::xml_node element, const Reader& reader) {
   constexpr std::array<Slot<Group>, 2> slots = {{{"uniqueID", [](Group& g) -> Text& { return g.id; }},
                                                  {"kindOfAccess", [](Group& g) -> Text& { return g.kind_of_access; }}}};
@@ -252,10 +263,7 @@ Group read_group(pugi::xml_node element, const Reader& reader) {
       return true;
     }
     if (name == "parameterRef" || name == "paramIDRef") {
-      group.parameters.push_back(text_of(child, "uniqueIDRef", group.others, reader));
-      if (!find(reader.shared.parameters, raw_attribute(child, "uniqueIDRef"))) {
-        reader.findings.add(rules::reference, group.parameters.back().span, "there is no such parameter");
-      }
+      read_member(group, child, reader);
       return true;
     }
     return read_word(group.words, child, group.others, reader);

@@ -114,6 +114,16 @@ pugi::xml_node child_named(pugi::xml_node node, std::string_view name) {
   return {};
 }
 
+std::vector<pugi::xml_node> children_named(pugi::xml_node node, std::string_view name) {
+  std::vector<pugi::xml_node> named;
+  for (const pugi::xml_node child : node.children()) {
+    if (local_name(child) == name) {
+      named.push_back(child);
+    }
+  }
+  return named;
+}
+
 void read_profile(pugi::xml_node profile, const Reader& reader) {
   Device& device = reader.device;
   const bool is_network = child_named(child_named(profile, "ProfileBody"), "ApplicationLayers") &&
@@ -130,9 +140,7 @@ void read_profile(pugi::xml_node profile, const Reader& reader) {
   }
 }
 
-// A container, or a profile that has none around it. Objects refer to what ApplicationProcess has, wherever that
-// stands.
-void read_container(pugi::xml_node container, const Reader& reader) {
+std::vector<pugi::xml_node> profiles_of(pugi::xml_node container, const Reader& reader) {
   std::vector<pugi::xml_node> profiles;
   if (is_profile(container)) {
     profiles.push_back(container);
@@ -144,23 +152,33 @@ void read_container(pugi::xml_node container, const Reader& reader) {
       keep(child, reader.device.others, reader);
     }
   }
+  return profiles;
+}
+
+std::vector<pugi::xml_node> processes_of(const std::vector<pugi::xml_node>& profiles) {
   std::vector<pugi::xml_node> processes;
   for (const pugi::xml_node profile : profiles) {
-    for (const pugi::xml_node child : child_named(profile, "ProfileBody").children()) {
-      if (local_name(child) == "ApplicationProcess") {
-        processes.push_back(child);
-        read_process(child, reader);
-      }
+    for (const pugi::xml_node process : children_named(child_named(profile, "ProfileBody"), "ApplicationProcess")) {
+      processes.push_back(process);
     }
+  }
+  return processes;
+}
+
+// A container, or a profile that has none around it. Objects refer to what ApplicationProcess has, wherever that
+// stands.
+void read_container(pugi::xml_node container, const Reader& reader) {
+  const std::vector<pugi::xml_node> profiles = profiles_of(container, reader);
+  const std::vector<pugi::xml_node> processes = processes_of(profiles);
+  for (const pugi::xml_node process : processes) {
+    read_process(process, reader);
   }
   for (const pugi::xml_node profile : profiles) {
     read_profile(profile, reader);
   }
   for (const pugi::xml_node process : processes) {
-    for (const pugi::xml_node list : process.children()) {
-      if (local_name(list) == "parameterList") {
-        read_unused_parameters(list, reader);
-      }
+    for (const pugi::xml_node list : children_named(process, "parameterList")) {
+      read_unused_parameters(list, reader);
     }
   }
 }

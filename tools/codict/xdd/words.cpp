@@ -90,6 +90,33 @@ Range read_range(pugi::xml_node element, std::vector<Kept>& others, const Reader
   return range;
 }
 
+void read_value_part(Text& text, pugi::xml_node child, std::vector<Kept>& rest, const Reader& reader) {
+  if (!text.is_given && local_name(child) == "value") {
+    text = text_of(child, "value", rest, reader);
+    return;
+  }
+  const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(child, "uniqueIDRef"));
+  if (!text.is_given && local_name(child) == "enumEntryIDRef" && entry && may_copy(entry, reader)) {
+    text = reader.document.text(entry.child("value"));
+  }
+  keep(child, rest, reader);
+}
+
+bool read_allowed_part(Allowed& allowed, pugi::xml_node child, std::vector<Kept>& rest, const Reader& reader) {
+  const std::string_view name = local_name(child);
+  if (name == "value" && !allowed.ranges.empty()) {
+    reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
+  }
+  if (name == "value" || name == "valueEntry") {
+    allowed.values.push_back(read_allowed_value(child, rest, reader));
+  } else if (name == "range") {
+    allowed.ranges.push_back(read_range(child, rest, reader));
+  } else {
+    return name == "enumEntryIDRef" && read_entry_reference(allowed, child, rest, reader);
+  }
+  return true;
+}
+
 }  // namespace
 
 bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
@@ -138,17 +165,8 @@ bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others,
     }
   }
   for (const pugi::xml_node child : element.children()) {
-    if (child.type() != pugi::node_element) {
-      continue;
-    }
-    const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(child, "uniqueIDRef"));
-    if (!text.is_given && local_name(child) == "value") {
-      text = text_of(child, "value", rest, reader);
-    } else {
-      if (!text.is_given && local_name(child) == "enumEntryIDRef" && entry && may_copy(entry, reader)) {
-        text = reader.document.text(entry.child("value"));
-      }
-      keep(child, rest, reader);
+    if (child.type() == pugi::node_element) {
+      read_value_part(text, child, rest, reader);
     }
   }
   keep_rest(element, std::move(rest), others, reader);
@@ -164,21 +182,8 @@ Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& o
                                                   {"templateIDRef", [](Target& t) -> Text& { return t.template_id; }}}};
   Target target;
   std::vector<Kept> rest;
-  read_element(target, element, slots, rest, reader, [&](pugi::xml_node child) {
-    const std::string_view name = local_name(child);
-    if (name == "value" || name == "valueEntry") {
-      if (name == "value" && !allowed.ranges.empty()) {
-        reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
-      }
-      allowed.values.push_back(read_allowed_value(child, rest, reader));
-      return true;
-    }
-    if (name == "range") {
-      allowed.ranges.push_back(read_range(child, rest, reader));
-      return true;
-    }
-    return name == "enumEntryIDRef" && read_entry_reference(allowed, child, rest, reader);
-  });
+  read_element(target, element, slots, rest, reader,
+               [&](pugi::xml_node child) { return read_allowed_part(allowed, child, rest, reader); });
   keep_rest(element, std::move(rest), others, reader);
   allowed.template_id = target.template_id;
   return target.id;
