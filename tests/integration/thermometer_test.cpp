@@ -83,6 +83,8 @@ TEST_CASE("demo: the thermometer tells each new temperature in Operational, and 
   demo::set_temperature(bench.node, -5);
   CHECK(bench.after(1ms) == Frames{"187#FBFF"});
   CHECK(bench.say("607#2B012000E8FF0000") == Frames{"587#6001200000000000"});
+  demo::set_temperature(bench.node, -24);
+  CHECK(bench.after(1ms) == Frames{"187#E8FF"});
   demo::set_temperature(bench.node, -4);
   CHECK(bench.after(1ms) == Frames{"187#FCFF", "087#0040090000000000"});
   demo::set_temperature(bench.node, -30);
