@@ -76,6 +76,16 @@ TEST_CASE("gen: COB-IDs and types that were put right are described as they are 
             "DefaultValue=1000\n"));
 }
 
+TEST_CASE("gen: the history of errors is described without the errors that have not happened") {
+  const std::string eds = matching_eds(
+      object("1003", 8, "><CANopenSubObject subIndex=\"00\" name=\"Number\" objectType=\"7\" uniqueIDRef=\"P0\"/>") +
+          "<CANopenSubObject subIndex=\"01\" name=\"Error\" objectType=\"7\" uniqueIDRef=\"P1\"/></CANopenObject>",
+      parameter("0", "readWrite", "<USINT/>") + parameter("1", "read", "<UDINT/><defaultValue value=\"0\"/>"));
+  CHECK(has(eds, "ParameterName=Number\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\nDefaultValue=0\n"));
+  CHECK(has(eds, "ParameterName=Error\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\n"));
+  CHECK_FALSE(has(eds, "AccessType=ro\nDefaultValue"));
+}
+
 TEST_CASE("gen: what is configured is the default value of the device that is made of it") {
   const std::string eds =
       matching_eds(variable("2000"),

@@ -34,7 +34,13 @@ Value zero_of(const Form& form) {
   return zero;
 }
 
+// An error that has not happened is no value: reading it is aborted. [301:7.5.2.6]
+bool is_error_field(const Item& item) { return item.index == 0x1003 && item.sub_index != 0; }
+
 Value value_of(const Entry& entry, const Item& item) {
+  if (is_error_field(item)) {
+    return {};
+  }
   const bool is_of_application = item.storage == Storage::external || item.storage == Storage::application;
   if (item.value.kind == Value::Kind::none && item.form->bytes != 0 && !is_of_application) {
     return zero_of(*item.form);
