@@ -182,6 +182,23 @@ TEST_CASE("codict check: a suppression without an effect, and one of no rule, ar
   CHECK(check_text("a.xdd", "<ISO15745ProfileContainer><!-- codict: ignore od-limit").status == 1);
 }
 
+TEST_CASE("codict check: more comments than anybody writes take no time, and are said") {
+  std::string comments;
+  for (int n = 0; n < 60000; ++n) {
+    comments += n % 3 == 0 ? "; codict: ignore eds-key-unknown x\n" : "; codict: ignore eds-key-unknown\n";
+  }
+  const Ran eds = check_text("a.eds", variable("2000", (comments + "Own=1").c_str()), unlisted);
+  CHECK(eds.out.find("too many of these comments") != std::string::npos);
+  std::string elements;
+  for (int n = 0; n < 60000; ++n) {
+    elements += "<!-- codict: ignore xdd-unknown -->";
+  }
+  const Ran xml = check_text("a.xdd", "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\">" + elements +
+                                          "<own/></ISO15745ProfileContainer>");
+  CHECK(xml.out.find("[xdd-unknown]") == std::string::npos);
+  CHECK(xml.out.find("too many of these comments") != std::string::npos);
+}
+
 TEST_CASE("codict gen: comments suppress its warnings, and never its errors") {
   const Directory directory;
   const auto told = [&directory](const char* comment, const char* lines) {
@@ -242,6 +259,17 @@ TEST_CASE("codict check --baseline: equal findings count, and what is XML is kno
   CHECK(run("--baseline base.json a.xdd").status == 1);
   document(two);
   CHECK(run("--baseline base.json a.xdd").status == 1);
+  const auto with_sub = [](const std::string& index) {
+    return "<CANopenObject index=\"" + index + "\" name=\"x\" objectType=\"9\" subNumber=\"1\"><CANopenSubObject " +
+           "subIndex=\"00\" name=\"n\" objectType=\"7\" dataType=\"05\" accessType=\"RO\" defaultValue=\"0\"/>" +
+           "</CANopenObject>";
+  };
+  document(with_sub("2000"));
+  CHECK(run("--write-baseline base.json a.xdd").status == 0);
+  document(with_sub("2000") + with_sub("2001"));
+  const Ran twice = run("--baseline base.json a.xdd");
+  CHECK(twice.status == 1);
+  CHECK(twice.err == "codict: 1 note\n");
 }
 
 TEST_CASE("codict check --baseline: a file that is none is refused") {
@@ -278,7 +306,7 @@ TEST_CASE("codict explain: what a rule says, or all rules") {
         std::string::npos);
   CHECK(explain("od-limt").err == "codict: there is no rule od-limt: od-limit?\n");
   CHECK(explain("od-limt").status == 2);
-  const Json json = Json::parse(explain("--json gen-value").out);
+  const Json json = Json::parse(explain("--json gen-access").out);
   CHECK(json.at("schema") == "codict-explain-1");
   CHECK(json.at("rules").at(0).at("severity") == "error");
   CHECK(Json::parse(explain("--json").out).at("rules").size() > 140);

@@ -23,6 +23,15 @@ Span scope_of(const Document& document, std::uint32_t line) {
   return {source.line(line).begin, source.line(is_header ? section->end - 1 : line).end};
 }
 
+// None if the line is no comment.
+std::vector<Suppression> suppressions_in_line(const Source& source, Span line, std::string_view text) {
+  if (text.substr(0, 1) != ";") {
+    return {};
+  }
+  const auto begin = static_cast<std::uint32_t>(text.data() - source.bytes().data());
+  return suppressions_in(source, {begin + 1, line.end});
+}
+
 }  // namespace
 
 std::vector<Suppression> suppressions(const Document& document) {
@@ -32,15 +41,11 @@ std::vector<Suppression> suppressions(const Document& document) {
   for (std::uint32_t number = 1; number <= source.lines(); ++number) {
     const Span line = source.line(number);
     const std::string_view text = trimmed(source.slice(line));
-    if (text.substr(0, 1) == ";") {
-      const auto begin = static_cast<std::uint32_t>(text.data() - source.bytes().data());
-      for (const Suppression& each : suppressions_in(source, {begin + 1, line.end})) {
-        all.push_back(each);
-      }
-    } else if (!text.empty()) {
-      for (; waiting < all.size(); ++waiting) {
-        all[waiting].scope = scope_of(document, number);
-      }
+    const std::vector<Suppression> here = suppressions_in_line(source, line, text);
+    all.insert(all.end(), here.begin(), here.end());
+    const bool is_something = !text.empty() && text.front() != ';';
+    for (; is_something && waiting < all.size(); ++waiting) {
+      all[waiting].scope = scope_of(document, number);
     }
   }
   return all;

@@ -26,6 +26,9 @@ const std::vector<const Rule*>& suppression_rules() {
 
 namespace {
 
+// Each finding is compared with all of its rule: a file must not make that take long.
+constexpr std::size_t most_wanted = 10000;
+
 struct Known {
   Suppression suppression;
   bool is_used = false;
@@ -62,6 +65,10 @@ void suppress(const Source& source, const std::vector<Suppression>& suppressions
   const bool is_generator = origin == Origin::generator;
   Wanted wanted;
   for (const Suppression& suppression : suppressions) {
+    if (wanted.size() == most_wanted) {
+      findings.add(rules::suppression_unused, suppression.rule, "too many of these comments: others are not looked at");
+      break;
+    }
     const std::string_view id = source.slice(suppression.rule);
     if (const Rule* const rule = find_rule(id)) {
       wanted.emplace(rule, Known{suppression});

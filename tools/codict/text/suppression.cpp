@@ -8,6 +8,8 @@ namespace lexican::codict {
 
 namespace {
 
+constexpr std::size_t most_rules = 1000;  // more than there are
+
 constexpr std::string_view separators = " \t\r\n,";
 
 // The next word of a text; its place moves behind it.
@@ -27,8 +29,8 @@ std::vector<Suppression> suppressions_in(const Source& source, Span comment) {
   if (source.slice(take_word(source, comment)) != "codict:" || source.slice(take_word(source, comment)) != "ignore") {
     return found;
   }
-  for (Span word = take_word(source, comment); !word.is_empty() && source.slice(word) != "--";
-       word = take_word(source, comment)) {
+  for (Span word = take_word(source, comment);
+       !word.is_empty() && source.slice(word) != "--" && found.size() < most_rules; word = take_word(source, comment)) {
     found.push_back({word, std::nullopt});
   }
   return found;

@@ -28,23 +28,40 @@ void collect(const Document& document, pugi::xml_node element, std::vector<Span>
   }
 }
 
-// Of the element that begins next, if anything does before another one ends.
-std::optional<Span> scope_behind(std::string_view bytes, std::size_t at, const std::vector<Span>& elements) {
-  for (at = bytes.find('<', at); at != std::string_view::npos; at = bytes.find('<', at)) {
-    if (begins(bytes, at, "<!--")) {
-      at = behind(bytes, at, "-->");
-    } else if (begins(bytes, at, "<!") || begins(bytes, at, "<?")) {
-      at = behind(bytes, at, ">");
-    } else {
-      break;
-    }
-  }
+// Of the element that begins at a place, if one does.
+std::optional<Span> scope_at(std::size_t at, const std::vector<Span>& elements, std::uint32_t size) {
   const auto element = std::lower_bound(elements.begin(), elements.end(), at,
                                         [](const Span& each, std::size_t begin) { return each.begin < begin; });
   if (element == elements.end() || element->begin != at) {
     return std::nullopt;
   }
-  return element == elements.begin() ? Span{0, static_cast<std::uint32_t>(bytes.size())} : *element;
+  return element == elements.begin() ? Span{0, size} : *element;
+}
+
+// Where the next tag is, behind comments and instructions; as far as `end`, where one that is known begins.
+std::size_t tag_behind(std::string_view bytes, std::size_t at, std::size_t end) {
+  for (at = bytes.find('<', at); at < end; at = bytes.find('<', at)) {
+    if (begins(bytes, at, "<!--")) {
+      at = behind(bytes, at, "-->");
+    } else if (begins(bytes, at, "<!") || begins(bytes, at, "<?")) {
+      at = behind(bytes, at, ">");
+    } else {
+      return at;
+    }
+  }
+  return end;
+}
+
+// Between the signs of the next comment, from a place on; empty at the end if there is none.
+Span next_comment(std::string_view bytes, std::size_t at) {
+  for (at = bytes.find("<!", at); at != std::string_view::npos; at = bytes.find("<!", at)) {
+    if (begins(bytes, at, "<!--")) {
+      const std::size_t end = std::min(bytes.find("-->", at + 4), bytes.size());
+      return {static_cast<std::uint32_t>(at + 4), static_cast<std::uint32_t>(end)};
+    }
+    at = begins(bytes, at, "<![CDATA[") ? behind(bytes, at, "]]>") : at + 2;
+  }
+  return {static_cast<std::uint32_t>(bytes.size()), static_cast<std::uint32_t>(bytes.size())};
 }
 
 }  // namespace
@@ -52,23 +69,23 @@ std::optional<Span> scope_behind(std::string_view bytes, std::size_t at, const s
 std::vector<Suppression> suppressions(const Document& document) {
   const std::string_view bytes = document.source().bytes();
   std::vector<Suppression> all;
+  for (Span comment = next_comment(bytes, 0); comment.begin < bytes.size();
+       comment = next_comment(bytes, comment.end)) {
+    const std::vector<Suppression> here = suppressions_in(document.source(), comment);
+    all.insert(all.end(), here.begin(), here.end());
+  }
   std::vector<Span> elements;
-  for (std::size_t at = bytes.find("<!"); at != std::string_view::npos; at = bytes.find("<!", at)) {
-    if (!begins(bytes, at, "<!--")) {
-      at = begins(bytes, at, "<![CDATA[") ? behind(bytes, at, "]]>") : at + 2;
-      continue;
-    }
-    const std::size_t begin = at + 4;
-    at = std::max(begin, behind(bytes, begin, "-->"));
-    const std::size_t end = std::max(begin, at - std::min<std::size_t>(at, 3));
-    for (Suppression each :
-         suppressions_in(document.source(), {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)})) {
-      if (elements.empty() && document.root()) {
-        collect(document, document.root(), elements);
-      }
-      each.scope = scope_behind(bytes, at, elements);
-      all.push_back(each);
-    }
+  if (!all.empty() && document.root()) {
+    collect(document, document.root(), elements);
+  }
+  // From the last one on: what is behind a comment that another one follows is behind that, too.
+  std::size_t tag = bytes.size();
+  std::size_t end = bytes.size();
+  for (auto each = all.rbegin(); each != all.rend(); ++each) {
+    const std::size_t next = tag_behind(bytes, behind(bytes, each->rule.end, "-->"), end);
+    tag = next == end ? tag : next;
+    end = std::min<std::size_t>(end, each->rule.begin);
+    each->scope = scope_at(tag, elements, document.source().size());
   }
   return all;
 }
