@@ -67,17 +67,15 @@ void check_links(const Device& device, const Object& object, Findings& findings)
   }
 }
 
-void check_modules(const Device& device, Findings& findings) {
-  if (!device.modules.empty() && device.find(0x1027) == nullptr) {
-    findings.add(rules::module_list, {}, "there is no object 1027h");
-  }
-  for (const Module& module : device.modules) {
-    for (const Object& object : module.fixed) {
-      if (device.find(object.index) != nullptr) {
-        findings.add(rules::module_object, object.span, "the coupler itself has this object");
-      }
+void check_fixed_objects(const Device& device, const Module& module, Findings& findings) {
+  for (const Object& object : module.fixed) {
+    if (device.find(object.index) != nullptr) {
+      findings.add(rules::module_object, object.span, "the coupler itself has this object");
     }
   }
+}
+
+void check_connected_modules(const Device& device, Findings& findings) {
   for (const Field<std::uint16_t>& connected : device.connected_modules) {
     const bool is_described =
         std::any_of(device.modules.begin(), device.modules.end(),
@@ -86,6 +84,16 @@ void check_modules(const Device& device, Findings& findings) {
       findings.add(rules::module_number, connected.span, "this module is not described");
     }
   }
+}
+
+void check_modules(const Device& device, Findings& findings) {
+  if (!device.modules.empty() && device.find(0x1027) == nullptr) {
+    findings.add(rules::module_list, {}, "there is no object 1027h");
+  }
+  for (const Module& module : device.modules) {
+    check_fixed_objects(device, module, findings);
+  }
+  check_connected_modules(device, findings);
 }
 
 // What CiA 301 had, and keeps free since.
