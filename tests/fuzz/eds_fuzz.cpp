@@ -9,7 +9,9 @@
 
 #include "check/check.hpp"
 #include "eds/recognise.hpp"
+#include "eds/suppressions.hpp"
 #include "fuzz/fuzz.hpp"
+#include "report/suppress.hpp"
 
 namespace {
 
@@ -67,8 +69,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(document.source().bytes() == bytes, "no byte is lost");
   fuzz::require(eds::refusal(document).find('\n') == std::string::npos, "a refusal is one line");
   const Description description = eds::read(document, findings);
-  check::check_objects(description.devices.front(), findings);
-  check::check_device(description.devices.front(), findings);
+  check::check_all(description.devices.front(), findings);
+  report::suppress(document.source(), eds::suppressions(document), report::Origin::checks, findings);
   check_places(findings, document.source());
   rewrite_values(document);
   add_keys(document);

@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <string>
 
+#include "check/check.hpp"
 #include "fuzz/fuzz.hpp"
+#include "report/suppress.hpp"
 #include "xdd/document.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
+#include "xdd/suppressions.hpp"
 #include "xdd/write.hpp"
 
 namespace {
@@ -29,6 +32,10 @@ Description description_of(const std::string& bytes) {
     return {};
   }
   Description description = xdd::read(document, findings);
+  for (const Device& device : description.devices) {
+    check::check_all(device, findings);
+  }
+  report::suppress(document.source(), xdd::suppressions(document), report::Origin::checks, findings);
   for (const Finding& finding : findings.all()) {
     require(finding.span.begin <= finding.span.end && finding.span.end <= bytes.size(), "findings are in the source");
   }
