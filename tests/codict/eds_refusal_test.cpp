@@ -4,9 +4,12 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "eds/document.hpp"
+#include "eds/read.hpp"
 #include "eds/recognise.hpp"
+#include "eds/rules.hpp"
 
 using namespace lexican::codict;
 
@@ -70,6 +73,23 @@ TEST_CASE("no EDS: more than any device needs") {
     sections += "[1]\n";
   }
   CHECK(says(refusal_of(sections), "100000 sections"));
+}
+
+TEST_CASE("an EDS: compact storage stands for 50000 sub-objects, and fills no memory with more") {
+  std::string objects;
+  constexpr unsigned fitting = 50000 / 254;
+  for (unsigned n = 0; n <= fitting; ++n) {
+    objects += "[2" + std::to_string(100 + n) +
+               "]\nParameterName=x\nObjectType=8\nDataType=5\nAccessType=ro\nCompactSubObj=254\n";
+  }
+  Findings findings;
+  const eds::Document document(Source("device.eds", objects), findings);
+  const Description description = eds::read(document, findings);
+  const std::vector<Object>& read = description.devices.front().objects;
+  REQUIRE(read.size() == fitting + 1);
+  CHECK(read[fitting - 1].subs.size() == 255);
+  CHECK(read[fitting].subs.empty());
+  CHECK(findings.count(eds::rules::compact_limit) == 1);
 }
 
 TEST_CASE("an EDS: one section that it knows is enough") {
