@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the demo node and master on a real SocketCAN bus: a Debian kernel in QEMU; can-utils and python-can, too"
-packages=("${build_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
+packages=("${build_packages[@]}" "${tool_packages[@]}" qemu-system-x86=qemu-system-x86_64 can-utils=candump iproute2=ip busybox-static=busybox
   cpio kmod=modprobe python3 python3-can=/usr/lib/python3/dist-packages/can/interface.py)
 optional=yes
 
@@ -11,8 +11,17 @@ lane() {
     fail "build of the driver check" "$results/driver_check_socketcan.log"
     return
   }
+  heater >"$results/heater.log" 2>&1 || { fail "build of demo/heater" "$results/heater.log"; return; }
   run_tap "$root/tests/system/vcan/run" "$build/release/demo/linux_node/lexican-demo-node" \
-    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_tests" "$check"
+    "$build/release/demo/linux_master/lexican-demo-master" "$build/release/tests/lexican_tests" "$check" \
+    "$build/heater/heater"
+}
+
+# As the README says it; with the codict that is there, if one is.
+heater() {
+  local codict=$build/codict/tools/codict/codict known=()
+  [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")
+  cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja "${known[@]}" && cmake --build "$build/heater"
 }
 
 driver_check() {  # PROGRAM

@@ -442,6 +442,20 @@ $node --can lo >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q lo /tmp/tour
 verdict $? "an interface that is not CAN is named, status 2" "$(tail -n 1 /tmp/tour)"
 
+# demo/heater: a dictionary that was made of an XDD when the program was built.
+request=609 response=589 heartbeat=709 tpdo=189
+listen $heartbeat 1
+heater vcan0 9 &
+server=$!
+expect "a described node boots" "$heartbeat#00"
+sdo "a described node has the default value of its description" 4001200000000000 4B012000C8000000
+sdo "a described node keeps the limits of its description" 2B012000E8030000 8001200031000906
+sdo "a described node takes what lies within them" 2B01200064000000 6001200000000000
+listen $tpdo 2
+cansend vcan0 000#0109
+expect "a described node sends what changes" "$tpdo#??00 $tpdo#??00"
+kill $server
+
 lexican_tests --test-suite="socketcan on a bus" >/tmp/socketcan 2>&1
 summary=$(grep "test cases:" /tmp/socketcan)
 echo "$summary" | grep -Eq "test cases: +10 +\| +10 passed"

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A heater on a CAN interface of Linux: heater vcan0 5. It gets warmer or colder until it is as warm as it shall be.
+#include <poll.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "heater_od.h"
+#include "linux_timer.hpp"
+#include "socketcan.hpp"
+
+namespace {
+
+constexpr std::uint32_t ticks_per_second = 1000000;
+
+std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+
+// heater_ram has the variables of the dictionary. What changes one through the dictionary has its TPDO sent.
+void heat(void* node) {
+  const int missing = heater_ram.setpoint - heater_ram.temperature;
+  const int step = missing > 0 ? 1 : (missing < 0 ? -1 : 0);
+  heater_objects::temperature(*static_cast<CO_NODE*>(node)).set(static_cast<std::int16_t>(heater_ram.temperature + step));
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 3) {
+    std::fprintf(stderr, "heater INTERFACE NODE-ID\n");
+    return 2;
+  }
+  co::SocketCan can;
+  co::LinuxTimer timer;
+  if (!can.open(arguments[1])) {
+    std::fprintf(stderr, "heater: %s\n", can.error().c_str());
+    return 1;
+  }
+  CO_NODE_EXT drivers = {};
+  drivers.Size = sizeof drivers;
+  drivers.Can = &co::SocketCanDriver;
+  drivers.CanCtx = &can;
+  drivers.Timer = &co::LinuxTimerDriver;
+  drivers.TimerCtx = &timer;
+  CO_NODE_SPEC spec = {};
+  spec.NodeId = static_cast<std::uint8_t>(std::atoi(arguments[2]));
+  spec.Dict = const_cast<CO_OBJ*>(heater_od);
+  spec.DictLen = HEATER_OD_NUM;
+  spec.TmrFreq = ticks_per_second;
+  spec.SdoBuf = sdo_buffer;
+
+  CO_NODE node = {};
+  CONodeInitEx(&node, &spec, &drivers);
+  CONodeStart(&node);
+  COTmrCreate(&node.Tmr, 0, ticks_per_second / 10, heat, &node);
+  if (CONodeGetErr(&node) != CO_ERR_NONE) {
+    std::fprintf(stderr, "heater: it does not start, error %d\n", static_cast<int>(CONodeGetErr(&node)));
+    return 1;
+  }
+  for (;;) {
+    CONodeProcess(&node);
+    COTmrService(&node.Tmr);
+    COTmrProcess(&node.Tmr);
+    pollfd wait{can.fd(), POLLIN, 0};
+    poll(&wait, 1, timer.poll_timeout(CONodeNextDeadline(&node)));
+  }
+}
