@@ -20,7 +20,8 @@ std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 void heat(void* node) {
   const int missing = heater_ram.setpoint - heater_ram.temperature;
   const int step = missing > 0 ? 1 : (missing < 0 ? -1 : 0);
-  heater_objects::temperature(*static_cast<CO_NODE*>(node)).set(static_cast<std::int16_t>(heater_ram.temperature + step));
+  heater_objects::temperature(*static_cast<CO_NODE*>(node))
+      .set(static_cast<std::int16_t>(heater_ram.temperature + step));
 }
 
 }  // namespace
