@@ -347,3 +347,18 @@ TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it i
   CHECK(zero("2000", "rw", "3") == "");
   CHECK(zero("1003", "ro", "8") == "");
 }
+
+TEST_CASE("check: od-standard-…: objects of the communication profile are what CiA 301 says [301: 7.5.2]") {
+  const auto check = [](const std::string& eds) { return found(check::check_standard, eds); };
+  const std::string other_type = "od-standard-type: CiA 301 has another data type here\n";
+  CHECK(check(variable("1000", "7", "ro") + variable("1001", "5", "ro") + variable("1008", "9", "const") +
+              variable("1017", "6", "rw") + variable("2000", "6", "rw")) == "");
+  CHECK(check(variable("1000", "6", "ro")) == other_type);
+  CHECK(check(variable("1008", "0xA", "const")) == other_type);
+  CHECK(check(variable("1017", "7", "rw")) == other_type);
+  CHECK(check(record("1018", {"4", "1", "1", "1", "1"})) == "");
+  CHECK(check(record("1800", {"2", "$NODEID+0x180", "255"})) == other_type);  // of 32 bits, the transmission type, too
+  CHECK(check(record("1A00", {"1", "0x20000010"})) == "");
+  CHECK(check(record("1003", {"1", "0"})) == "od-standard-kind: CiA 301 has another kind of object here\n");
+  CHECK(check("[1010]\nParameterName=x\n[1010sub1]\nParameterName=x\nDataType=7\nAccessType=rw\n") == "");
+}

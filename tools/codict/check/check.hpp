@@ -22,6 +22,9 @@ void check_device(const Device& device, Findings& findings);
 /// How objects hang together: types, links, modules, pairs.
 void check_structure(const Device& device, Findings& findings);
 
+/// Objects of the communication profile against CiA 301.
+void check_standard(const Device& device, Findings& findings);
+
 namespace rules {
 extern const Rule sub_number;
 extern const Rule sub_zero_missing;
@@ -43,6 +46,8 @@ extern const Rule module_number;
 extern const Rule former;
 extern const Rule store_pair;
 extern const Rule granularity;
+extern const Rule standard_kind;
+extern const Rule standard_type;
 }  // namespace rules
 
 const std::vector<const Rule*>& all_rules();

@@ -32,6 +32,10 @@ const Rule module_number{"od-module-number", Severity::warning, "A connected mod
 const Rule former{"od-former", Severity::note, "Objects 1004h, 100Bh, 100Eh and 100Fh are no longer used."};
 const Rule store_pair{"od-store-pair", Severity::note, "What 1010h stores is what 1011h restores."};
 const Rule granularity{"od-granularity", Severity::warning, "The granularity is 0 to 64 bits."};
+const Rule standard_kind{"od-standard-kind", Severity::note,
+                         "An object of the communication profile is a VAR, ARRAY or RECORD as in CiA 301."};
+const Rule standard_type{"od-standard-type", Severity::warning,
+                         "An object of the communication profile has the data type that CiA 301 gives it."};
 
 }  // namespace rules
 
@@ -39,6 +43,7 @@ void check_all(const Device& device, Findings& findings) {
   check_objects(device, findings);
   check_device(device, findings);
   check_structure(device, findings);
+  check_standard(device, findings);
   check_pdo_parameters(device, findings);
   check_multiplexed(device, findings);
   check_cob_ids(device, findings);
@@ -47,10 +52,17 @@ void check_all(const Device& device, Findings& findings) {
 
 const std::vector<const Rule*>& all_rules() {
   using namespace rules;
-  static const std::vector<const Rule*> all = {
-      &sub_number,  &sub_zero_missing, &sub_zero_value, &sub_zero_small, &sub_zero_large, &limit_order,     &limit,
-      &pdo_count,   &identity,         &type_complex,   &unmappable,     &array_types,    &string_capacity, &link,
-      &module_list, &module_object,    &module_number,  &former,         &store_pair,     &granularity};
+  static const std::vector<const Rule*> all = {&sub_number,      &sub_zero_missing,
+                                               &sub_zero_value,  &sub_zero_small,
+                                               &sub_zero_large,  &limit_order,
+                                               &limit,           &pdo_count,
+                                               &identity,        &type_complex,
+                                               &unmappable,      &array_types,
+                                               &string_capacity, &link,
+                                               &module_list,     &module_object,
+                                               &module_number,   &former,
+                                               &store_pair,      &granularity,
+                                               &standard_kind,   &standard_type};
   return all;
 }
 

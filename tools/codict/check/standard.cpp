@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects of the communication profile, against what CiA 301 says of them. [301: 7.5.2]
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "check/check.hpp"
+
+namespace lexican::codict::check {
+
+namespace {
+
+constexpr std::uint16_t u8 = type_code::unsigned8;
+constexpr std::uint16_t u16 = type_code::unsigned16;
+constexpr std::uint16_t u32 = type_code::unsigned32;
+constexpr std::uint16_t text = type_code::visible_string;
+
+struct Indexes {
+  std::uint16_t first;
+  std::uint16_t last;
+
+  constexpr bool has(std::uint16_t index) const { return index >= first && index <= last; }
+};
+
+struct Kind {
+  Indexes indexes;
+  ObjectCode code;
+};
+
+constexpr std::array<Kind, 15> kinds = {{
+    {{0x1000, 0x1002}, ObjectCode::variable},
+    {{0x1003, 0x1003}, ObjectCode::array},
+    {{0x1005, 0x100A}, ObjectCode::variable},
+    {{0x100C, 0x100D}, ObjectCode::variable},
+    {{0x1010, 0x1011}, ObjectCode::array},
+    {{0x1012, 0x1015}, ObjectCode::variable},
+    {{0x1016, 0x1016}, ObjectCode::array},
+    {{0x1017, 0x1017}, ObjectCode::variable},
+    {{0x1018, 0x1018}, ObjectCode::record},
+    {{0x1019, 0x1019}, ObjectCode::variable},
+    {{0x1020, 0x1020}, ObjectCode::array},
+    {{0x1021, 0x1021}, ObjectCode::domain},
+    {{0x1026, 0x1029}, ObjectCode::array},
+    {{0x1200, 0x12FF}, ObjectCode::record},
+    {{0x1400, 0x1BFF}, ObjectCode::record},
+}};
+
+constexpr std::uint8_t last_sub = 0xFE;
+
+struct Type {
+  Indexes indexes;
+  std::uint8_t first_sub;
+  std::uint8_t last_sub;
+  std::uint16_t code;
+};
+
+// Sub-index 0 of a VAR is the VAR. That of others has 8 bits, everywhere.
+constexpr std::array<Type, 33> types = {{
+    {{0x1000, 0x1000}, 0, 0, u32},        {{0x1001, 0x1001}, 0, 0, u8},        {{0x1002, 0x1002}, 0, 0, u32},
+    {{0x1003, 0x1003}, 1, last_sub, u32}, {{0x1005, 0x1007}, 0, 0, u32},       {{0x1008, 0x100A}, 0, 0, text},
+    {{0x100C, 0x100C}, 0, 0, u16},        {{0x100D, 0x100D}, 0, 0, u8},        {{0x1010, 0x1011}, 1, last_sub, u32},
+    {{0x1012, 0x1014}, 0, 0, u32},        {{0x1015, 0x1015}, 0, 0, u16},       {{0x1016, 0x1016}, 1, last_sub, u32},
+    {{0x1017, 0x1017}, 0, 0, u16},        {{0x1018, 0x1018}, 1, 4, u32},       {{0x1019, 0x1019}, 0, 0, u8},
+    {{0x1020, 0x1020}, 1, last_sub, u32}, {{0x1026, 0x1026}, 1, last_sub, u8}, {{0x1027, 0x1027}, 1, last_sub, u16},
+    {{0x1028, 0x1028}, 1, last_sub, u32}, {{0x1029, 0x1029}, 1, last_sub, u8}, {{0x1200, 0x12FF}, 1, 2, u32},
+    {{0x1200, 0x12FF}, 3, 3, u8},         {{0x1400, 0x15FF}, 1, 1, u32},       {{0x1400, 0x15FF}, 2, 2, u8},
+    {{0x1400, 0x15FF}, 3, 3, u16},        {{0x1400, 0x15FF}, 5, 5, u16},       {{0x1600, 0x17FF}, 1, 0x40, u32},
+    {{0x1800, 0x19FF}, 1, 1, u32},        {{0x1800, 0x19FF}, 2, 2, u8},        {{0x1800, 0x19FF}, 3, 3, u16},
+    {{0x1800, 0x19FF}, 5, 5, u16},        {{0x1800, 0x19FF}, 6, 6, u8},        {{0x1A00, 0x1BFF}, 1, 0x40, u32},
+}};
+
+void check_kind(const Object& object, Findings& findings) {
+  const auto* const kind =
+      std::find_if(kinds.begin(), kinds.end(), [&object](const Kind& each) { return each.indexes.has(object.index); });
+  if (kind != kinds.end() && object.object_code.is_given && object.object_code.value != kind->code) {
+    findings.add(rules::standard_kind, object.object_code.span, "CiA 301 has another kind of object here",
+                 std::string(name_of(kind->code)));
+  }
+}
+
+void check_type(const Entry& entry, std::uint16_t wanted, Findings& findings) {
+  if (entry.data_type.value != 0 && entry.data_type.value != wanted) {
+    findings.add(rules::standard_type, entry.data_type.span, "CiA 301 has another data type here",
+                 std::string(data_type(wanted).name));
+  }
+}
+
+}  // namespace
+
+void check_standard(const Device& device, Findings& findings) {
+  for (const Object& object : device.objects) {
+    check_kind(object, findings);
+  }
+  for_each_variable(device, [&](std::uint16_t index, std::uint8_t sub_index, const Entry& entry) {
+    const auto* const type = std::find_if(types.begin(), types.end(), [index, sub_index](const Type& each) {
+      return each.indexes.has(index) && sub_index >= each.first_sub && sub_index <= each.last_sub;
+    });
+    if (type != types.end()) {
+      check_type(entry, type->code, findings);
+    }
+  });
+}
+
+}  // namespace lexican::codict::check
