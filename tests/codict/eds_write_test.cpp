@@ -183,3 +183,19 @@ TEST_CASE("EDS writer: no text can begin a line of its own") {
   device.objects.front().name.text = "a\n[3000]\r\nb";
   CHECK(device_of(written(device)).objects.size() == 1);
 }
+
+TEST_CASE("EDS: dates and times of XML Schema are written as CiA 306 wants them") {
+  const std::pair<const char*, const char*> times[] = {{"00:05:59", "12:05AM"}, {"09:30:00Z", "09:30AM"},
+                                                       {"12:00:00", "12:00PM"}, {"23:59:00", "11:59PM"},
+                                                       {"09:30PM", "09:30PM"},  {"noon", "noon"}};
+  for (const auto& [schema, eds] : times) {
+    Device device;
+    device.file.creation_date.text = "2024-02-29+01:00";
+    device.file.modification_date.text = "02-29-2024";
+    device.file.modification_time.text = schema;
+    const std::string text = written(device);
+    CHECK(has(text, "CreationDate=02-29-2024\n"));
+    CHECK(has(text, "ModificationDate=02-29-2024\n"));
+    CHECK(has(text, std::string("ModificationTime=") + eds + "\n"));
+  }
+}

@@ -51,6 +51,23 @@ void normalise(Value& value) {
   }
 }
 
+// 2020-12-31 of XML Schema is 12-31-2020, 09:30:00 is 09:30AM. What is neither stays.
+void normalise_date(Text& date) {
+  const std::string& t = date.text;
+  if (t.size() >= 10 && t[4] == '-' && t[7] == '-') {
+    date.text = t.substr(5, 5) + "-" + t.substr(0, 4);
+  }
+}
+
+void normalise_time(Text& time) {
+  const std::string& t = time.text;
+  const bool is_schema = t.size() >= 8 && t[2] == ':' && t[5] == ':' && is_digit(t[0]) && is_digit(t[1]);
+  if (is_schema) {
+    const int hour = (t[0] - '0') * 10 + (t[1] - '0');
+    time.text = fmt::format("{:02}{}{}M", (hour + 11) % 12 + 1, t.substr(2, 3), hour < 12 ? 'A' : 'P');
+  }
+}
+
 // The direction of a PDO is in the access type. [306: 4.6.3]
 Access access_of(const Entry& entry) {
   const Access access = entry.access.value;
@@ -118,6 +135,10 @@ Device normal_headers(const Device& device) {
   normalise_number(result.features.tx_pdos);
   normalise_number(result.commissioning.node_id);
   for_each_flag(result.features, normalise_flag);
+  normalise_date(result.file.creation_date);
+  normalise_date(result.file.modification_date);
+  normalise_time(result.file.creation_time);
+  normalise_time(result.file.modification_time);
   normalise_flag(result.commissioning.is_manager);
   return result;
 }
