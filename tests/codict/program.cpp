@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "codict/directory.hpp"
+#include "codict/reading.hpp"
 
 namespace test {
 
@@ -27,5 +27,15 @@ Ran run_codict(const std::string& directory, const std::string& arguments) {
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(output / "out"), bytes_of(output / "err")};
 }
+
+Ran run(const std::string& arguments) { return run_codict(fixture(""), arguments); }
+
+std::string copy_to(const Directory& directory, const char* fixture) {
+  const std::string path = directory / std::filesystem::path(fixture).filename().c_str();
+  std::filesystem::copy_file(test::fixture(fixture), path);
+  return path;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace test

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "codict/directory.hpp"
+
 namespace test {
 
 std::string bytes_of(const std::filesystem::path& path);  ///< empty if there is no such file
@@ -19,5 +21,12 @@ struct Ran {
 
 /// directory: in which it is run.
 Ran run_codict(const std::string& directory, const std::string& arguments);
+/// In that of the fixtures.
+Ran run(const std::string& arguments);
+
+/// A copy of a fixture; its path.
+std::string copy_to(const Directory& directory, const char* fixture);
+
+bool has(const std::string& text, const std::string& part);
 
 }  // namespace test

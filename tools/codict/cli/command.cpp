@@ -10,6 +10,7 @@
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
 #include "eds/suppressions.hpp"
+#include "json/read.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
 #include "xdd/read.hpp"
@@ -44,11 +45,22 @@ std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<co
 
 }  // namespace
 
+const Source& Input::source() const {
+  return eds != nullptr ? eds->source() : xdd != nullptr ? xdd->source() : json->source();
+}
+
+Encoding Input::encoding() const {
+  return eds != nullptr ? eds->encoding() : xdd != nullptr ? xdd->encoding() : json->encoding();
+}
+
 std::optional<Input> read(Source source, std::string& why) {
   Input input;
   if (is_xml(source.bytes())) {
     why = read_as(
         std::move(source), [](const auto& what) { return xdd::refusal(what); }, xdd::read, input.xdd, input);
+  } else if (json::is_json(source)) {
+    why = read_as(
+        std::move(source), [](const auto& what) { return json::refusal(what); }, json::read, input.json, input);
   } else {
     why = read_as(
         std::move(source), [](const auto& what) { return eds::refusal(what); }, eds::read, input.eds, input);

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "eds/document.hpp"
+#include "json/document.hpp"
 #include "model/device.hpp"
 #include "report/suppress.hpp"
 #include "text/finding.hpp"
@@ -48,13 +49,14 @@ using Json = nlohmann::ordered_json;
 
 /// A description that has been read, with what its reader found.
 struct Input {
-  std::unique_ptr<const eds::Document> eds;  ///< one of both is not null
+  std::unique_ptr<const eds::Document> eds;  ///< one of them is not null
   std::unique_ptr<const xdd::Document> xdd;
+  std::unique_ptr<const json::Document> json;
   Findings findings;
   Description description;
 
-  const Source& source() const { return eds != nullptr ? eds->source() : xdd->source(); }
-  Encoding encoding() const { return eds != nullptr ? eds->encoding() : xdd->encoding(); }
+  const Source& source() const;
+  Encoding encoding() const;
   const Device& device() const { return description.devices.front(); }
 };
 
@@ -92,7 +94,7 @@ std::string to_string(const Reference& reference);
 const Entry* find(const Device& device, const Reference& reference);
 
 /// What the commands that read a description say of it in their help.
-constexpr const char* file_help = "EDS, DCF, XDD, XDC or XPD, - for the standard input";
+constexpr const char* file_help = "EDS, DCF, XDD, XDC, XPD or JSON, - for the standard input";
 
 /// What a data type is called: by CiA 301, or by its number.
 std::string type_name(const Entry& entry);

@@ -10,6 +10,7 @@
 #include "cli/output.hpp"
 #include "convert/losses.hpp"
 #include "eds/write.hpp"
+#include "json/write.hpp"
 #include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
@@ -34,13 +35,14 @@ struct Product {
   std::array<Format, 2> same;
 };
 
-constexpr std::array<Product, 6> products = {{
+constexpr std::array<Product, 7> products = {{
     {"eds", Target::eds, xdd::Edition::v11, {Format::eds, Format::eds}},
     {"dcf", Target::dcf, xdd::Edition::v11, {Format::dcf, Format::dcf}},
     {"xdd", Target::xdd, xdd::Edition::v11, {Format::xdd10, Format::xdd11}},
     {"xdc", Target::xdc, xdd::Edition::v11, {Format::xdc10, Format::xdc11}},
     {"xdd10", Target::xdd, xdd::Edition::v10, {Format::xdd10, Format::xdd10}},
     {"xdc10", Target::xdc, xdd::Edition::v10, {Format::xdc10, Format::xdc10}},
+    {"json", Target::json, xdd::Edition::v11, {}},
 }};
 
 const Product* find_product(std::string_view name) {
@@ -49,7 +51,18 @@ const Product* find_product(std::string_view name) {
   return place != products.end() ? place : nullptr;
 }
 
-std::string written(const Device& device, const Product& product) {
+bool is_same(const Input& input, const Product& product) {
+  if (product.target == Target::json || input.json != nullptr) {
+    return product.target == Target::json && input.json != nullptr;
+  }
+  return std::find(product.same.begin(), product.same.end(), input.device().format) != product.same.end();
+}
+
+std::string written(const Input& input, const Product& product) {
+  if (product.target == Target::json) {
+    return json::write(input.description);
+  }
+  const Device& device = input.device();
   const bool is_configuration = product.target == Target::dcf || product.target == Target::xdc;
   const Device described = is_configuration ? device : convert::without_configuration(device);
   if (product.target == Target::xdd || product.target == Target::xdc) {
@@ -72,25 +85,24 @@ void report(const Input& input, const std::vector<Loss>& losses) {
 int run(const Options& options) {
   const Product* const product = find_product(options.format.empty() ? ending_of(options.output) : options.format);
   if (product == nullptr) {
-    complain("the output ends with .eds, .dcf, .xdd or .xdc, or --to says which it is");
+    complain("the output ends with .eds, .dcf, .xdd, .xdc or .json, or --to says which it is");
     return unusable;
   }
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
   }
-  const Device& device = input->device();
-  if (std::find(product->same.begin(), product->same.end(), device.format) != product->same.end()) {
+  if (is_same(*input, *product)) {
     return write_output(options.output, input->source().bytes());
   }
-  const std::vector<Loss> losses = convert::losses(device, product->target);
+  const std::vector<Loss> losses = convert::losses(input->device(), product->target);
   if (!losses.empty()) {
     report(*input, losses);
     if (options.is_strict) {
       return found;
     }
   }
-  return write_output(options.output, written(device, *product));
+  return write_output(options.output, written(*input, *product));
 }
 
 }  // namespace
@@ -101,10 +113,10 @@ Command add_convert(CLI::App& app) {
   command->add_option("file", options->file, file_help)->required();
   command
       ->add_option("-o,--output", options->output,
-                   "File that ends with .eds, .dcf, .xdd or .xdc, - for the standard output")
+                   "File that ends with .eds, .dcf, .xdd, .xdc or .json, - for the standard output")
       ->required();
-  command->add_option("--to", options->format, "eds, dcf, xdd (CiA 311 1.1), xdc, xdd10, xdc10")
-      ->check(CLI::IsMember({"eds", "dcf", "xdd", "xdc", "xdd10", "xdc10"}).description(""));
+  command->add_option("--to", options->format, "eds, dcf, xdd (CiA 311 1.1), xdc, xdd10, xdc10, json")
+      ->check(CLI::IsMember({"eds", "dcf", "xdd", "xdc", "xdd10", "xdc10", "json"}).description(""));
   command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
 }

@@ -46,7 +46,7 @@ Json describe(const Input& input) {
   Json json;
   json["schema"] = "codict-info-1";
   json["file"] = input.source().name();
-  json["format"] = name_of(device.format);
+  json["format"] = (input.json != nullptr ? "JSON, " : "") + std::string(name_of(device.format));
   json["encoding"] = name_of(input.encoding());
   add(json, "vendor", device.identity.vendor_name);
   add(json, "vendor_number", device.identity.vendor_number);

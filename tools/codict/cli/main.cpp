@@ -14,7 +14,8 @@ using namespace lexican::codict::cli;
 
 int run(int number, char** arguments) {
   CLI::App app(
-      "Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF, XDD, XDC).",
+      "Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF, XDD, XDC, "
+      "JSON).",
       "codict");
   app.set_version_flag("--version", "codict " LEXICAN_VERSION);
   app.require_subcommand(1);

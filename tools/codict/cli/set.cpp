@@ -63,6 +63,10 @@ bool assign(const xdd::Document& document, const Entry& entry, const Assignment&
 
 // False leaves why not.
 bool assign_all(const Input& input, const Options& options, Edits& edits, std::string& why) {
+  if (input.json != nullptr) {
+    why = "values of JSON are changed by programs for JSON";
+    return false;
+  }
   const eds::Section* const section = input.eds != nullptr ? find_section(input, options.target, why) : nullptr;
   const Entry* const entry = input.xdd != nullptr ? find_entry(input, options.target, why) : nullptr;
   if (section == nullptr && entry == nullptr) {

@@ -111,7 +111,7 @@ std::vector<Loss> losses(const Device& device, Target target) {
   }
   if (target == Target::eds || target == Target::dcf) {
     count_for_eds(device, counter);
-  } else if (is_of_eds(device)) {
+  } else if (target != Target::json && is_of_eds(device)) {
     count_for_xdd(device, counter);
   }
   return counter.take();

@@ -16,6 +16,7 @@ enum class Target : unsigned char {
   dcf,
   xdd,
   xdc,
+  json,  ///< has words for everything
 };
 
 struct Loss {

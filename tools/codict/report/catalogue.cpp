@@ -9,6 +9,7 @@
 #include "check/network.hpp"
 #include "eds/rules.hpp"
 #include "gen/rules.hpp"
+#include "json/read.hpp"
 #include "model/parse.hpp"
 #include "report/suppress.hpp"
 #include "xdd/rules.hpp"
@@ -39,7 +40,7 @@ const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = [] {
     std::vector<const Rule*> joined;
     for (const auto* rules : {&eds::all_rules(), &value_rules(), &check::all_rules(), &check::network_rules(),
-                              &xdd::all_rules(), &gen::all_rules(), &suppression_rules()}) {
+                              &xdd::all_rules(), &json::all_rules(), &gen::all_rules(), &suppression_rules()}) {
       joined.insert(joined.end(), rules->begin(), rules->end());
     }
     return joined;

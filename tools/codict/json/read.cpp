@@ -1,0 +1,423 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "json/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "json/members.hpp"
+#include "json/words.hpp"
+#include "model/parse.hpp"
+
+namespace lexican::codict::json {
+
+namespace rules {
+
+const Rule type{"json-type", Severity::error, "A member has the type that the schema gives it: else it is left out."};
+const Rule range{"json-range", Severity::error, "A number fits what it stands for."};
+const Rule word{"json-word", Severity::error, "A word is one of those of the schema."};
+const Rule unknown{"json-unknown", Severity::warning, "A member that the schema does not have is not used."};
+const Rule duplicate{"json-duplicate", Severity::error, "A member, and an object, is there once: the first is used."};
+const Rule missing{"json-missing", Severity::error, "A part has the member that names it."};
+const Rule contradiction{"json-contradiction", Severity::error, "Value and text say the same: the value is used."};
+
+}  // namespace rules
+
+const std::vector<const Rule*>& all_rules() {
+  using namespace rules;
+  static const std::vector<const Rule*> all = {&type, &range, &word, &unknown, &duplicate, &missing, &contradiction};
+  return all;
+}
+
+namespace {
+
+// A value whose text has to get its meaning when all types are known.
+struct Untyped {
+  Value* value;
+  const Entry* entry;  // null: no data type is known
+};
+
+struct Context {
+  Findings& findings;
+  std::vector<Untyped> untyped;
+};
+
+template <typename T>
+constexpr bool is_sorted = std::is_same_v<T, Object> || std::is_same_v<T, Sub>;
+
+class Reader {
+ public:
+  static constexpr bool is_reading = true;
+
+  Reader(const Node& node, Context& context) : node_(node), context_(context), first_untyped_(context.untyped.size()) {}
+
+  template <typename T>
+  void required(std::string_view name, T& member) {
+    if (node_.find(name) == nullptr) {
+      context_.findings.add(rules::missing, node_.span, std::string(name) + " is missing");
+    }
+    (*this)(name, member);
+  }
+  template <typename T>
+  void operator()(std::string_view name, T& member) {
+    names_.push_back(name);
+    if (const Node* const node = node_.find(name); node != nullptr) {
+      read(*node, member);
+    }
+  }
+
+  void end_of(Entry& entry) {
+    entry.span = node_.span;
+    for (std::size_t n = first_untyped_; n != context_.untyped.size(); ++n) {
+      context_.untyped[n].entry = &entry;
+    }
+  }
+  void end_of(const Device& device) {
+    for (const Untyped& untyped : context_.untyped) {
+      const std::uint16_t code = untyped.entry != nullptr ? untyped.entry->data_type.value : std::uint16_t{0};
+      codict::interpret(*untyped.value, data_type_of(device, code), context_.findings);
+    }
+    context_.untyped.clear();
+  }
+
+  // What nobody has asked for.
+  void report_others() const {
+    for (const Node& child : node_.children) {
+      const bool is_known = std::find(names_.begin(), names_.end(), child.name) != names_.end();
+      if (!is_known) {
+        context_.findings.add(rules::unknown, child.name_span, "the schema has no such member here: not used");
+      } else if (node_.find(child.name) != &child) {
+        context_.findings.add(rules::duplicate, child.name_span, "a second member of this name: the first is used");
+      }
+    }
+  }
+
+ private:
+  bool is_a(const Node& node, Kind kind) const {
+    if (node.kind != kind) {
+      context_.findings.add(rules::type, node.span, fmt::format("{} is wanted here", name_of(kind)));
+    }
+    return node.kind == kind;
+  }
+
+  void read(const Node& node, std::string& text) {
+    if (is_a(node, Kind::string)) {
+      text = node.text;
+    }
+  }
+  void read(const Node& node, bool& value) {
+    if (is_a(node, Kind::boolean)) {
+      value = node.boolean;
+    }
+  }
+  template <typename T, std::enable_if_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, int> = 0>
+  void read(const Node& node, T& value) {
+    if (!is_a(node, Kind::integer)) {
+      return;
+    }
+    const Integer number = node.integer;
+    constexpr unsigned bits = 8 * sizeof(T);
+    if (std::is_signed_v<T> ? fits_signed(number, bits) : fits_unsigned(number, bits)) {
+      value = static_cast<T>(number.bits());
+    } else {
+      context_.findings.add(rules::range, node.span, fmt::format("no number of {} bits", bits));
+    }
+  }
+  template <typename E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
+  void read(const Node& node, E& value) {
+    if (is_a(node, Kind::string) && !take_word(node.text, value)) {
+      context_.findings.add(rules::word, node.span, "this is none of the words for it");
+    }
+  }
+  template <typename E>
+  static bool take_word(std::string_view text, E& value) {
+    for (const Word<E>& word : words_of<E>()) {
+      if (word.word == text) {
+        value = word.value;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  static void read_string(const Node& node, Text& text) {
+    text.text = node.text;
+    text.span = node.span;
+    text.is_given = true;
+  }
+
+  void read(const Node& node, Text& text) {
+    if (node.kind == Kind::object) {
+      read_object(node, text);
+    } else if (is_a(node, Kind::string)) {
+      read_string(node, text);
+    }
+  }
+
+  // "text" and "given".
+  void read_object(const Node& node, Text& text) {
+    Reader parts(node, context_);
+    text.is_given = true;
+    text.span = node.span;
+    parts.text_of(text);
+    parts.report_others();
+  }
+  void text_of(Text& text) {
+    (*this)("given", text.is_given);
+    names_.emplace_back("text");
+    const Node* const written = node_.find("text");
+    if (written != nullptr && is_a(*written, Kind::string)) {
+      text.text = written->text;
+      text.span = written->span;
+    }
+  }
+
+  template <typename T>
+  void read(const Node& node, Field<T>& field) {
+    field.is_given = true;
+    field.span = node.span;
+    if (node.kind != Kind::object) {
+      read(node, field.value);
+      field.text = text_of(field.value);
+      return;
+    }
+    Reader parts(node, context_);
+    parts("value", field.value);
+    parts.text_of(static_cast<Text&>(field));
+    parts.report_others();
+    if (node.find("value") == nullptr) {
+      interpret(field);
+    } else if (node.find("text") == nullptr && field.is_given) {
+      field.text = text_of(field.value);
+    }
+  }
+
+  template <typename T>
+  static std::string text_of(const T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      return std::string(word_of(value));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      return value;
+    } else {
+      return std::to_string(value);
+    }
+  }
+
+  template <typename T>
+  void interpret(Field<T>& field) {
+    if constexpr (std::is_same_v<T, std::string>) {
+      field.value = field.text;
+    } else if constexpr (std::is_enum_v<T>) {
+      if (!field.is_empty() && !take_word(field.text, field.value)) {
+        context_.findings.add(rules::word, field.span, "this is none of the words for it");
+      }
+    } else if constexpr (std::is_same_v<T, bool>) {
+      interpret_flag(field, context_.findings);
+    } else if constexpr (std::is_signed_v<T>) {
+      const ParsedInteger number = parse_integer(field.text);
+      field.value = static_cast<T>(number.value.bits());
+    } else {
+      interpret_number(field, std::numeric_limits<T>::max(), context_.findings);
+    }
+  }
+
+  void read(const Node& node, Value& value) {
+    value.is_given = true;
+    value.span = node.span;
+    if (node.kind == Kind::object) {
+      read_value(node, value);
+    } else if (node.kind == Kind::string) {
+      read_string(node, value);
+      context_.untyped.push_back({&value, nullptr});
+    } else {
+      read_meaning(node, value);
+      complete(value);
+    }
+  }
+
+  // A number alone.
+  void read_meaning(const Node& node, Value& value) {
+    if (node.kind == Kind::real) {
+      value.kind = Value::Kind::real;
+      value.real = node.real;
+    } else if (is_a(node, Kind::integer)) {
+      value.kind = Value::Kind::integer;
+      value.integer = node.integer;
+    }
+  }
+
+  void read_value(const Node& node, Value& value) {
+    Reader parts(node, context_);
+    parts("kind", value.kind);
+    parts("node_id", value.adds_node_id);
+    parts.text_of(static_cast<Text&>(value));
+    parts.names_.emplace_back("value");
+    parts.report_others();
+    const Node* const meaning = node.find("value");
+    const bool has_kind = node.find("kind") != nullptr;
+    if (meaning != nullptr) {
+      read_meaning_of_kind(*meaning, has_kind, value);
+      if (node.find("text") == nullptr) {
+        complete(value);
+      } else {
+        compare(value);
+      }
+    } else if (!has_kind || value.kind == Value::Kind::real) {
+      context_.untyped.push_back({&value, nullptr});
+    }
+  }
+
+  void read_meaning_of_kind(const Node& meaning, bool has_kind, Value& value) {
+    if (has_kind && value.kind == Value::Kind::octets) {
+      if (is_a(meaning, Kind::string) && !read_octets(meaning.text, value.octets)) {
+        context_.findings.add(codict::rules::value_octets, meaning.span, "these are no pairs of hexadecimal digits");
+      }
+    } else if (value.kind == Value::Kind::real && meaning.kind == Kind::integer) {
+      value.real = meaning.real;
+    } else {
+      read_meaning(meaning, value);
+    }
+  }
+
+  // Of a number, which means the same in all types that it fits.
+  void compare(const Value& value) {
+    const ParsedFormula text = parse_formula(value.text);
+    if (value.kind == Value::Kind::integer && text.number.is_number() &&
+        (text.has_node_id != value.adds_node_id || !are_alike(text.number.value, value.integer))) {
+      context_.findings.add(rules::contradiction, value.span, "the text says something else than the value");
+    }
+  }
+  // The bit pattern of a negative number is that number.
+  static bool are_alike(const Integer& text, const Integer& value) {
+    const std::uint64_t difference = text.bits() - value.bits();
+    return text == value || (value.is_negative && (difference == 0 || (difference & (difference - 1)) == 0));
+  }
+
+  static void complete(Value& value) {
+    if (!value.is_given) {
+      return;
+    }
+    const std::string sign = value.integer.is_negative ? "-" : "";
+    switch (value.kind) {
+      case Value::Kind::integer:
+        value.text = value.adds_node_id ? fmt::format("$NODEID+{}0x{:X}", sign, value.integer.magnitude)
+                                        : fmt::format("{}{}", sign, value.integer.magnitude);
+        break;
+      case Value::Kind::real: value.text = fmt::format("{}", value.real); break;
+      case Value::Kind::octets:
+        for (const char octet : value.octets) {
+          value.text += fmt::format("{:02X}", static_cast<unsigned char>(octet));
+        }
+        break;
+      default: break;
+    }
+  }
+
+  static bool read_octets(std::string_view digits, std::string& octets) {
+    for (; digits.size() > 1; digits.remove_prefix(2)) {
+      std::uint64_t octet = 0;
+      if (!parse_hex(digits.substr(0, 2), octet)) {
+        return false;
+      }
+      octets += static_cast<char>(octet);
+    }
+    return digits.empty();
+  }
+
+  template <typename T>
+  void read(const Node& node, std::vector<T>& list) {
+    if (!is_a(node, Kind::array)) {
+      return;
+    }
+    const std::vector<const Node*> elements = elements_of<T>(node);
+    list.resize(elements.size());  // values keep their places while others follow
+    for (std::size_t n = 0; n < elements.size(); ++n) {
+      read(*elements[n], list[n]);
+    }
+  }
+
+  template <typename T>
+  std::vector<const Node*> elements_of(const Node& node) {
+    std::vector<const Node*> elements;
+    for (const Node& child : node.children) {
+      elements.push_back(&child);
+    }
+    if constexpr (is_sorted<T>) {
+      const auto key = [](const Node* element) {
+        const Node* const number = element->find(std::is_same_v<T, Object> ? "index" : "sub_index");
+        return number != nullptr ? number->integer.bits() : 0;
+      };
+      std::stable_sort(elements.begin(), elements.end(),
+                       [key](const Node* a, const Node* b) { return key(a) < key(b); });
+      const auto end = std::unique(elements.begin(), elements.end(), [key, this](const Node* a, const Node* b) {
+        if (key(a) == key(b)) {
+          context_.findings.add(rules::duplicate, b->span, "it is there already: the first is used");
+        }
+        return key(a) == key(b);
+      });
+      elements.erase(end, elements.end());
+    }
+    return elements;
+  }
+
+  template <typename T, std::enable_if_t<std::is_class_v<T> && !std::is_base_of_v<Text, T>, int> = 0>
+  void read(const Node& node, T& part) {
+    if (is_a(node, Kind::object)) {
+      Reader reader(node, context_);
+      members(reader, part);
+      reader.report_others();
+    }
+  }
+
+  const Node& node_;
+  Context& context_;
+  std::size_t first_untyped_;
+  std::vector<std::string_view> names_;
+};
+
+}  // namespace
+
+bool is_json(const Source& source) {
+  const std::string_view bytes = source.bytes();
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n", mark_size(bytes));
+  return first != std::string_view::npos && bytes[first] == '{';
+}
+
+std::string refusal(const Document& document) {
+  if (!document.fault().empty()) {
+    return document.fault();
+  }
+  const Node* const name = document.root().find("schema");
+  const std::string wanted = "\"schema\": \"" + std::string(schema) + "\"";
+  if (name == nullptr || name->kind != Kind::string) {
+    return "line 1, column 1: JSON without " + wanted + ": this is no device description";
+  }
+  const Position place = document.source().position(name->span.begin);
+  const std::string where = fmt::format("line {}, column {}: ", place.line, place.column);
+  if (name->text != schema) {
+    return where + "another schema: " + wanted + " is known";
+  }
+  const Node* const devices = document.root().find("devices");
+  const bool is_any = devices != nullptr && devices->kind == Kind::array && !devices->children.empty();
+  return is_any ? std::string() : where + "there are no devices";
+}
+
+Description read(const Document& document, Findings& findings) {
+  Context context{findings, {}};
+  Description description;
+  std::string name;
+  Reader reader(document.root(), context);
+  reader("schema", name);
+  reader("devices", description.devices);
+  reader.report_others();
+  findings.sort();
+  return description;
+}
+
+}  // namespace lexican::codict::json
