@@ -88,3 +88,154 @@ TEST_CASE("codict check: findings in JSON have their line and a caret") {
   CHECK(has(ran.out, std::string(103, ' ') + "    ^~~\n"));
   CHECK_FALSE(has(run("check --disable json-type " + path).err, "there is no rule"));
 }
+
+namespace {
+
+std::string overlay(const Directory& directory, const char* name, const std::string& text) {
+  test::write_bytes(directory / name, text);
+  return directory / name;
+}
+
+}  // namespace
+
+TEST_CASE("codict merge: overlays of any format, one after the other, and values of a build") {
+  const Directory directory;
+  const std::string first = overlay(directory, "first.eds", "[2000]\nDefaultValue=7\nLowLimit=1\n");
+  const std::string second = overlay(directory, "second.json", R"({"schema": "codict-device-1", "devices": [
+{"format": "eds", "objects": [{"index": 8448, "name": "New", "object_code": "var", "data_type": 6, "access": "rw", "default_value": 9}]}]})");
+  const std::string out = directory / "out.eds";
+  const Ran ran = run("merge drive.eds " + first + " " + second +
+                      " --set product=8 --set FileInfo.ModifiedBy=me --set 2001:1.name=Place -o " + out);
+  CHECK(ran.status == 0);
+  CHECK(ran.err.empty());
+  CHECK(run("get " + out + " 2000 default").out == "7\n");
+  CHECK(run("get " + out + " 2000 low").out == "1\n");
+  CHECK(run("get " + out + " 2100 name").out == "New\n");
+  CHECK(run("get " + out + " 1018:2 default").out == "8\n");
+  CHECK(run("get " + out + " DeviceInfo ProductNumber").out == "8\n");
+  CHECK(run("get " + out + " FileInfo ModifiedBy").out == "me\n");
+  CHECK(run("get " + out + " 2001:1 name").out == "Place\n");
+  CHECK(run("check --level warning " + out).out.empty());
+  CHECK(run("merge drive.eds -o -").out == bytes_of(test::fixture("drive.eds")));
+}
+
+TEST_CASE("codict merge: overlays that contradict the base or one another are told") {
+  const Directory directory;
+  const std::string first = overlay(directory, "first.eds", "[2000]\nDefaultValue=7\nDataType=0x0007\n");
+  const std::string second = overlay(directory, "second.eds", "[2000]\nDefaultValue=8\n");
+  const Ran ran = run("merge --force --json drive.eds " + first + " " + second + " -o " + directory / "out.eds");
+  CHECK(ran.status == 0);
+  CHECK(has(ran.err, "codict: " + first + ": [2000] DataType=0x0007 contradicts 0x0003 of drive.eds\n"));
+  CHECK(has(ran.err, "codict: " + second + ": [2000] DefaultValue=8 contradicts 7 of " + first + "\n"));
+  CHECK_FALSE(has(ran.err, "DefaultValue=7 contradicts"));
+  const Json json = Json::parse(ran.out);
+  CHECK(json.at("schema") == "codict-merge-1");
+  CHECK(json.at("replaced").size() == 3);
+  CHECK(json.at("replaced").at(2).at("by") == second);
+}
+
+TEST_CASE("codict merge: what cannot be merged is said, and nothing is written") {
+  const Directory directory;
+  const std::string out = directory / "out.eds";
+  CHECK(run("merge drive.eds missing.eds -o " + out).status == 2);
+  CHECK(run("merge drive.eds -o " + out + " --set serial=5").err == "codict: --set: there is no object 1018:04\n");
+  CHECK(run("merge drive.eds -o " + out + " --set colour=5").status == 2);
+  CHECK(run("merge drive.eds -o " + out + " --set 1018:1").status == 2);
+  CHECK(run("merge xdd/device10.xdd -o " + out).err ==
+        "codict: xdd/device10.xdd: the base is an EDS or DCF: convert makes one of it\n");
+  const Ran wrong = run("merge drive.eds -o " + out + " --set 2000.default=70000");
+  CHECK(wrong.status == 1);
+  CHECK(has(wrong.err, "od-value-range"));
+  CHECK_FALSE(std::filesystem::exists(out));
+}
+
+TEST_CASE("codict fmt: a file becomes its normal form, and --check says whether it would") {
+  const Directory directory;
+  const std::string path = test::copy_to(directory, "section_form.eds");
+  const Ran no = run("fmt --check " + path);
+  CHECK(no.status == 1);
+  CHECK(no.err == "codict: " + path + " is not in normal form\n");
+  CHECK(bytes_of(path) == bytes_of(test::fixture("section_form.eds")));
+  CHECK(run("fmt " + path).status == 0);
+  CHECK(run("fmt --check " + path).status == 0);
+  CHECK(run("fmt section_form.eds -o -").out == bytes_of(path));
+  CHECK(Json::parse(run("fmt --check --json section_form.eds").out).at("changed") == true);
+  CHECK(Json::parse(run("fmt --json " + path).out).at("changed") == false);
+  CHECK(run("fmt drive.eds --check").status == 0);
+  CHECK(run("fmt xdd/device10.xdd --check").err == "codict: xdd/device10.xdd: only an EDS or DCF has a normal form\n");
+  CHECK(run("fmt missing.eds").status == 2);
+}
+
+TEST_CASE("codict size: RAM and flash of what gen makes") {
+  const Directory directory;
+  CHECK(run("size gen/small.eds").out + "\n" ==
+        run("gen gen/small.eds --report -o " + directory / "made").out.substr(0, run("size gen/small.eds").out.size()) +
+            "\n");
+  CHECK(has(run("size gen/small.eds").out, "table"));
+  const Json json = Json::parse(run("size --json gen/small.eds").out);
+  CHECK(json.at("schema") == "codict-size-1");
+  CHECK(json.at("parts").at(0).at("part") == "RAM");
+  const Ran wrong = run("size octets.eds");
+  CHECK(wrong.status == 1);
+  CHECK(wrong.out.empty());
+  CHECK(has(wrong.err, "[gen-"));
+  CHECK(run("size missing.eds").status == 2);
+}
+
+TEST_CASE("codict pdo: what each PDO has, where its bits lie, and when it is sent") {
+  const Ran ran = run("pdo --node-id 5 drive.eds");
+  CHECK(ran.status == 0);
+  CHECK(ran.out == R"(RPDO 1: COB-ID 205h; by events of the device profile; 24 bits
+  byte  7 6 5 4 3 2 1 0
+     0  A A A A A A A A
+     1  B B B B B B B B
+     2  B B B B B B B B
+  A  0005h:0   8 bits from 0  not used
+  B  2000h     16 bits from 8  Wanted speed
+
+TPDO 1: COB-ID 185h; with each SYNC; 40 bits
+  byte  7 6 5 4 3 2 1 0
+     0  A A A A A A A A
+     1  A A A A A A A A
+     2  A A A A A A A A
+     3  A A A A A A A A
+     4  B B B B B B B B
+  A  2001h:1   32 bits from 0  Position <encoder>
+  B  1001h     8 bits from 32  Error register
+)");
+  CHECK(run("pdo --node-id 128 drive.eds").status == 2);
+  CHECK(run("pdo octal.eds").out.empty());
+}
+
+TEST_CASE("codict pdo: times are told, bits that lie across bytes are drawn, and JSON has it all") {
+  const Directory directory;
+  const std::string path = directory / "bits.eds";
+  test::write_bytes(path,
+                    "[1800]\nParameterName=TPDO\nObjectType=9\nSubNumber=5\n"
+                    "[1800sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=6\n"
+                    "[1800sub1]\nParameterName=c\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x80000180\n"
+                    "[1800sub3]\nParameterName=i\nDataType=6\nAccessType=rw\nDefaultValue=25\n"
+                    "[1800sub5]\nParameterName=e\nDataType=6\nAccessType=rw\nDefaultValue=100\n"
+                    "[1800sub6]\nParameterName=s\nDataType=5\nAccessType=rw\nDefaultValue=3\n"
+                    "[1A00]\nParameterName=M\nObjectType=9\nSubNumber=3\n"
+                    "[1A00sub0]\nParameterName=n\nDataType=5\nAccessType=const\nDefaultValue=2\n"
+                    "[1A00sub1]\nParameterName=m\nDataType=7\nAccessType=const\nDefaultValue=0x20000003\n"
+                    "[1A00sub2]\nParameterName=m\nDataType=7\nAccessType=const\nDefaultValue=0x20010008\n");
+  CHECK(run("pdo " + path).out ==
+        "TPDO 1: COB-ID off; inhibit time 2.5 ms; event time 100 ms; from SYNC 3 on; 11 bits\n"
+        "  byte  7 6 5 4 3 2 1 0\n"
+        "     0  B B B B B A A A\n"
+        "     1  . . . . . B B B\n"
+        "  A  2000h:0   3 bits from 0  not described\n"
+        "  B  2001h:0   8 bits from 3  not described\n");
+  const Json json = Json::parse(run("pdo --json --node-id 2 " + path).out);
+  CHECK(json.at("schema") == "codict-pdo-1");
+  const Json& pdo = json.at("pdos").at(0);
+  CHECK(pdo.at("cob_id") == 0x182);
+  CHECK(pdo.at("valid") == false);
+  CHECK(pdo.at("inhibit_time_100us") == 25);
+  CHECK(pdo.at("event_time_ms") == 100);
+  CHECK(pdo.at("sync_start") == 3);
+  CHECK(pdo.at("mapped").at(1).at("first_bit") == 3);
+  CHECK(pdo.at("mapped").at(1).at("index") == 0x2001);
+}

@@ -43,7 +43,11 @@ Command add_gen(CLI::App& app);
 Command add_get(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_list(CLI::App& app);
+Command add_merge(CLI::App& app);
+Command add_fmt(CLI::App& app);
+Command add_pdo(CLI::App& app);
 Command add_set(CLI::App& app);
+Command add_size(CLI::App& app);
 
 using Json = nlohmann::ordered_json;
 

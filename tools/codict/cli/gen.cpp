@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gen/gen.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -12,7 +10,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "cli/render.hpp"
+#include "cli/costs.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
@@ -33,17 +31,6 @@ struct Options {
   bool is_json = false;
   bool shows_notes = false;
 };
-
-void show(const Input& input, const Findings& findings, bool shows_notes) {
-  std::vector<Finding> wanted;
-  for (const Finding& finding : findings.all()) {
-    if (shows_notes || finding.rule->severity != Severity::note) {
-      wanted.push_back(finding);
-    }
-  }
-  const std::string text = render(input.source(), input.encoding(), fold(wanted), false);
-  std::fwrite(text.data(), 1, text.size(), stderr);
-}
 
 // What a file is, in words for --check; the status of the whole.
 int compare(const std::string& path, const std::string& bytes) {
@@ -66,14 +53,7 @@ int write(const std::string& path, const std::string& bytes) {
 }
 
 std::string report_text(const gen::Output& output) {
-  std::string text = fmt::format("{:<20} {:>8} {:>8} {:>8}\n", "part", "entries", "RAM", "flash");
-  gen::Cost sum;
-  for (const gen::Cost& cost : output.costs) {
-    text += fmt::format("{:<20} {:>8} {:>8} {:>8}\n", cost.part, cost.items, cost.ram, cost.flash);
-    sum.ram += cost.ram;
-    sum.flash += cost.flash;
-  }
-  text += fmt::format("{:<20} {:>8} {:>8} {:>8}\n", "all", "", sum.ram, sum.flash);
+  std::string text = costs_text(output.costs);
   for (const std::string& external : output.externals) {
     text += external + "\n";
   }
@@ -81,12 +61,9 @@ std::string report_text(const gen::Output& output) {
 }
 
 Json report_json(const std::vector<gen::File>& files, const gen::Output& output) {
-  Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", Json::array()}};
+  Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", costs_json(output.costs)}};
   for (const gen::File& file : files) {
     json["files"].push_back(file.name);
-  }
-  for (const gen::Cost& cost : output.costs) {
-    json["parts"].push_back({{"part", cost.part}, {"entries", cost.items}, {"ram", cost.ram}, {"flash", cost.flash}});
   }
   json["external"] = output.externals;
   return json;
@@ -142,7 +119,7 @@ int run(Options options) {
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   suppress(*input, report::Origin::generator, findings);
-  show(*input, findings, options.shows_notes);
+  show_findings(*input, findings, options.shows_notes);
   if (output.files.empty()) {
     return found;
   }

@@ -21,8 +21,9 @@ int run(int number, char** arguments) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 all is well, 1 findings or differences, 2 wrong use or unreadable input, 3 internal error.");
-  const std::vector<Command> commands = {add_info(app), add_list(app),    add_get(app), add_set(app), add_check(app),
-                                         add_diff(app), add_convert(app), add_doc(app), add_gen(app), add_explain(app)};
+  const std::vector<Command> commands = {
+      add_info(app),  add_list(app), add_get(app), add_set(app), add_check(app), add_diff(app), add_convert(app),
+      add_merge(app), add_fmt(app),  add_doc(app), add_pdo(app), add_gen(app),   add_size(app), add_explain(app)};
   try {
     app.parse(number, arguments);
   } catch (const CLI::ParseError& error) {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/command.hpp"
 #include "cli/field.hpp"
-#include "cli/render.hpp"
+#include "cli/review.hpp"
 #include "text/edit.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
@@ -84,31 +81,6 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, std::s
     }
   }
   return true;
-}
-
-// Findings that were not there before, as many of them as there are more of one rule and text.
-std::vector<Finding> added(const Findings& before, const Findings& after) {
-  std::vector<Finding> result;
-  const std::vector<Folded> old = fold(before.all());
-  for (const Folded& now : fold(after.all())) {
-    const auto same = std::find_if(old.begin(), old.end(), [&now](const Folded& candidate) {
-      return candidate.first->rule == now.first->rule && candidate.first->text == now.first->text;
-    });
-    if (same == old.end() || same->more < now.more) {
-      result.push_back(*now.first);
-    }
-  }
-  return result;
-}
-
-// True if what would be written has no errors that were not there before.
-bool review(Input& before, Input& after) {
-  check_all(before);
-  check_all(after);
-  const std::vector<Finding> fresh = added(before.findings, after.findings);
-  fmt::print(stderr, "{}", render(after.source(), after.encoding(), fold(fresh), false));
-  return std::none_of(fresh.begin(), fresh.end(),
-                      [](const Finding& finding) { return finding.rule->severity == Severity::error; });
 }
 
 int write(const Options& options, const Input& input, const std::string& bytes) {

@@ -255,6 +255,8 @@ bool Document::to_source(std::string_view text, std::string& bytes) const {
   return !has_line_end && from_utf8(text, encoding_ == Encoding::ascii ? Encoding::utf8 : encoding_, bytes);
 }
 
+std::string_view Document::line_end() const { return source_.lines() > 1 ? line_end_of(source_, 1) : "\n"; }
+
 bool Document::set_value(const Key& key, std::string_view text, Edits& edits) const {
   std::string bytes;
   if (!to_source(text, bytes)) {
@@ -272,7 +274,7 @@ bool Document::add_key(const Section& section, std::string_view name, std::strin
   const std::uint32_t neighbour = section.keys.empty() ? section.line : section.keys.back().line;
   std::string_view end = line_end_of(source_, neighbour);
   if (end.find('\n') == std::string_view::npos) {  // the last line
-    end = source_.lines() > 1 ? line_end_of(source_, 1) : "\n";
+    end = line_end();
   }
   std::string between = "=";
   if (!section.keys.empty() && !section.keys.back().value.is_empty()) {

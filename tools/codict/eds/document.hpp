@@ -58,12 +58,16 @@ class Document {
   bool set_value(const Key& key, std::string_view text, Edits& edits) const;
   bool add_key(const Section& section, std::string_view name, std::string_view text, Edits& edits) const;
 
+  /// What ends its lines.
+  std::string_view line_end() const;
+  /// One line of UTF-8 in the encoding of the source; false as above.
+  bool to_source(std::string_view text, std::string& bytes) const;
+
  private:
   void read_line(std::uint32_t number, Findings& findings);
   void read_section(std::uint32_t number, Span line, Findings& findings);
   void read_key(std::uint32_t number, Span line, Findings& findings);
   void find_duplicates(Findings& findings);
-  bool to_source(std::string_view text, std::string& bytes) const;
 
   Source source_;
   Encoding encoding_ = Encoding::ascii;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// A description with overlays.
+#include "convert/merge.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "codict/program.hpp"
+#include "codict/reading.hpp"
+
+using namespace lexican::codict;
+using convert::Replaced;
+
+namespace {
+
+struct Merging {
+  Merging(const std::string& base, const std::string& overlay) {
+    Findings findings;
+    is_possible = convert::merge(eds::Document(Source("base.eds", base), findings),
+                                 eds::Document(Source("overlay.eds", overlay), findings), bytes, replaced);
+  }
+
+  std::string bytes;
+  std::vector<Replaced> replaced;
+  bool is_possible = false;
+};
+
+std::string merged(const std::string& base, const std::string& overlay) { return Merging(base, overlay).bytes; }
+
+}  // namespace
+
+TEST_CASE("merge: what an overlay says replaces what the base says, and all other bytes stay") {
+  const Merging merging("; Mine\r\n[1a00Sub1]\r\nDefaultValue =  5 \r\nParameterName=x\r\n\r\n",
+                        "[1A00sub1]\nDefaultValue=6\n");
+  CHECK(merging.bytes == "; Mine\r\n[1a00Sub1]\r\nDefaultValue =  6 \r\nParameterName=x\r\n\r\n");
+  REQUIRE(merging.replaced.size() == 1);
+  CHECK(merging.replaced[0].section == "1a00Sub1");
+  CHECK(merging.replaced[0].before == "5");
+  CHECK(merging.replaced[0].after == "6");
+  CHECK_FALSE(merging.replaced[0].is_definition());
+  CHECK(Merging("[2000]\nDataType=5\n", "[2000]\nDataType=6\n").replaced.at(0).is_definition());
+}
+
+TEST_CASE("merge: what means the same is left as it is written") {
+  const std::string base = "[2000]\nDataType=0x0005\nDefaultValue=0x180+$NODEID\n";
+  CHECK(merged(base, "[2000]\nDataType=5\nDefaultValue=$NODEID+0x180\n") == base);
+  CHECK(Merging(base, "[2000]\nDataType=5\n").replaced.empty());
+  CHECK(merged(base, "[2000]\nDefaultValue=0x180\n") == "[2000]\nDataType=0x0005\nDefaultValue=0x180\n");
+}
+
+TEST_CASE("merge: new keys are behind those that are there, even where the last one gets its first value") {
+  CHECK(merged("[2000]\nParameterName=\n[Mine]\n", "[2000]\nLowLimit=0\nHighLimit=9\nParameterName=x\n[Mine]\na=b\n") ==
+        "[2000]\nParameterName=x\nLowLimit=0\nHighLimit=9\n[Mine]\na=b\n");
+}
+
+TEST_CASE("merge: new objects stand in order, and are in their lists") {
+  CHECK(
+      merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2005\n\n[2000]\nParameterName=a\n\n"
+             "[2005]\nParameterName=b\n",
+             "; not mine\n[2003sub1]\nParameterName=d\n\n[2003]\nParameterName=c\nSubNumber=1\n; why\n\n"
+             "[2006]\nParameterName=e\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2003\n2=0x2006\n") ==
+      "[ManufacturerObjects]\nSupportedObjects=4\n1=0x2000\n2=0x2005\n3=0x2003\n4=0x2006\n\n[2000]\nParameterName=a\n\n"
+      "[2003]\nParameterName=c\nSubNumber=1\n; why\n\n[2003sub1]\nParameterName=d\n\n"
+      "[2005]\nParameterName=b\n\n[2006]\nParameterName=e\n");
+  CHECK(merged("[FileInfo]\nFileName=x\n", "[1008]\nParameterName=a\n") ==
+        "[FileInfo]\nFileName=x\n\n[1008]\nParameterName=a\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n");
+}
+
+TEST_CASE("merge: new sub-objects are counted") {
+  CHECK(merged("[2000]\nSubNumber=1\n\n[2000sub0]\nDataType=5\n\n[2001]\nDataType=5\n",
+               "[2000]\nSubNumber=7\n[2000sub1]\nDataType=6\n[2000sub2]\nDataType=6\n") ==
+        "[2000]\nSubNumber=3\n\n[2000sub0]\nDataType=5\n\n[2000sub1]\nDataType=6\n\n[2000sub2]\nDataType=6\n\n"
+        "[2001]\nDataType=5\n");
+}
+
+TEST_CASE("merge: values of compact storage are counted") {
+  CHECK(merged("[2000Value]\nNrOfEntries=1\n1=5\n", "[2000Value]\nNrOfEntries=2\n1=6\n3=7\n") ==
+        "[2000Value]\nNrOfEntries=2\n1=6\n3=7\n");
+}
+
+TEST_CASE("merge: letters that the encoding of the base lacks are refused") {
+  const std::string base = test::bytes_of(test::fixture("cp850.eds"));
+  CHECK(Merging(base, "[FileInfo]\nDescription=\xC3\xB6\n").is_possible);
+  CHECK_FALSE(Merging(base, "[FileInfo]\nDescription=\xE2\x86\x92\n").is_possible);
+  CHECK_FALSE(Merging(base, "[2009]\nParameterName=\xE2\x86\x92\n").is_possible);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/output.hpp"
+#include "eds/format.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  std::string output;
+  bool is_check = false;
+  bool is_json = false;
+};
+
+int run(const Options& options) {
+  const std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  if (input->eds == nullptr) {
+    complain(input->source().name() + ": only an EDS or DCF has a normal form");
+    return unusable;
+  }
+  const std::string bytes = eds::formatted(*input->eds);
+  const bool is_changed = bytes != input->source().bytes();
+  const std::string path = options.output.empty() ? options.file : options.output;
+  Status status = clean;
+  if (!options.is_check) {
+    status = write_output(path, bytes);
+  } else if (is_changed) {
+    complain(input->source().name() + " is not in normal form");
+    status = found;
+  }
+  if (options.is_json && status != unusable && (options.is_check || path != "-")) {
+    print_json(
+        Json{{"schema", "codict-fmt-1"}, {"file", options.is_check ? options.file : path}, {"changed", is_changed}});
+  }
+  return status;
+}
+
+}  // namespace
+
+Command add_fmt(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand("fmt", "Write an EDS or DCF in its normal form: the same device");
+  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
+  command->add_option("-o,--output", options->output, "Another file, - for the standard output");
+  command->add_flag("--check", options->is_check, "Write nothing: status 1 if the file would change");
+  command->add_flag("--json", options->is_json, "For programs");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "convert/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/field.hpp"
+#include "cli/output.hpp"
+#include "cli/review.hpp"
+#include "eds/write.hpp"
+#include "text/number.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+using convert::Replaced;
+
+struct Options {
+  std::string base;
+  std::vector<std::string> overlays;
+  std::vector<std::string> values;
+  std::string output;
+  bool is_forced = false;
+  bool is_json = false;
+};
+
+// What a build knows of the device, and where it stands.
+struct Word {
+  std::string_view name;
+  std::string_view target;
+  std::string_view field;
+};
+
+constexpr std::array<Word, 7> identity_words = {{{"vendor", "1018:1", "default"},
+                                                 {"vendor", "DeviceInfo", "VendorNumber"},
+                                                 {"product", "1018:2", "default"},
+                                                 {"product", "DeviceInfo", "ProductNumber"},
+                                                 {"revision", "1018:3", "default"},
+                                                 {"revision", "DeviceInfo", "RevisionNumber"},
+                                                 {"serial", "1018:4", "default"}}};
+constexpr std::string_view software_version = "100A:0";
+
+struct Merged {
+  Input input;
+  std::map<std::pair<std::string, std::string>, std::string> sources;  // who has said a value last
+  std::vector<std::pair<Replaced, std::string>> replaced;              // and by whom
+};
+
+void tell(Merged& merged, const std::string& base, const std::string& overlay, std::vector<Replaced> replaced) {
+  for (Replaced& one : replaced) {
+    std::string& source = merged.sources[{one.section, one.key}];
+    if (one.is_definition() || !source.empty()) {
+      complain(fmt::format("{}: [{}] {}={} contradicts {} of {}", overlay, one.section, one.key, one.after, one.before,
+                           source.empty() ? base : source));
+    }
+    source = overlay;
+    merged.replaced.emplace_back(std::move(one), overlay);
+  }
+}
+
+// False has been said.
+bool add(Merged& merged, const eds::Document& overlay, const std::string& base) {
+  std::vector<Replaced> replaced;
+  std::string bytes;
+  const std::string& name = overlay.source().name();
+  if (!convert::merge(*merged.input.eds, overlay, bytes, replaced)) {
+    complain(fmt::format("{}: the encoding of {} lacks a letter of it", name, base));
+    return false;
+  }
+  tell(merged, base, name, std::move(replaced));
+  std::string why;
+  std::optional<Input> input = read(Source(merged.input.source().name(), std::move(bytes)), why);
+  if (!input) {
+    complain(fmt::format("{}: {}", name, why));
+    return false;
+  }
+  merged.input = std::move(*input);
+  return true;
+}
+
+bool add_file(Merged& merged, const std::string& path, const std::string& base) {
+  const std::optional<Input> input = open(path);
+  if (!input) {
+    return false;
+  }
+  if (input->eds != nullptr) {
+    return add(merged, *input->eds, base);
+  }
+  eds::WriteOptions options;
+  options.as_dcf = true;
+  Findings findings;
+  return add(merged, eds::Document(Source(path, eds::write(input->device(), options)), findings), base);
+}
+
+// The section of a target with one key; empty if there is no such target, and why is one line.
+std::string lines_for(const Input& input, const std::string& target, std::string_view field, std::string_view value,
+                      std::string& why) {
+  const eds::Section* const section = find_section(input, target, why);
+  return section == nullptr ? std::string()
+                            : fmt::format("[{}]\n{}={}\n", input.eds->text(section->name), key_of(field), value);
+}
+
+// "serial=5" and "1018:4.default=5" as lines of an EDS.
+std::string lines_for(const Input& input, std::string_view assignment, std::string& why) {
+  const std::size_t equals = std::min(assignment.find('='), assignment.size());
+  const std::string_view place = trimmed(assignment.substr(0, equals));
+  const std::string_view value = trimmed(assignment.substr(std::min(equals + 1, assignment.size())));
+  const std::size_t point = place.find_last_of('.');
+  why = fmt::format("{}: neither a word (vendor, product, revision, serial, version) nor TARGET.FIELD, with =VALUE",
+                    assignment);
+  if (equals == assignment.size()) {
+    return {};
+  }
+  if (point != std::string_view::npos) {
+    return lines_for(input, std::string(place.substr(0, point)), place.substr(point + 1), value, why);
+  }
+  if (place == "version") {
+    return lines_for(input, std::string(software_version), "default", value, why);
+  }
+  std::string lines;
+  for (const Word& word : identity_words) {
+    const bool is_object = word.target != "DeviceInfo";
+    if (word.name == place && (is_object || input.eds->find("DeviceInfo") != nullptr)) {
+      const std::string more = lines_for(input, std::string(word.target), word.field, value, why);
+      if (more.empty()) {
+        return {};
+      }
+      lines += more;
+    }
+  }
+  return lines;
+}
+
+bool add_values(Merged& merged, const Options& options) {
+  for (const std::string& value : options.values) {
+    std::string why;
+    const std::string lines = lines_for(merged.input, value, why);
+    if (lines.empty()) {
+      complain(fmt::format("--set: {}", why));
+      return false;
+    }
+    Findings findings;
+    if (!add(merged, eds::Document(Source("--set", lines), findings), options.base)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Json to_json(const Options& options, const Merged& merged) {
+  Json json{{"schema", "codict-merge-1"}, {"file", options.output}, {"replaced", Json::array()}};
+  for (const auto& [one, overlay] : merged.replaced) {
+    json["replaced"].push_back(
+        {{"section", one.section}, {"key", one.key}, {"before", one.before}, {"after", one.after}, {"by", overlay}});
+  }
+  return json;
+}
+
+int run(const Options& options) {
+  std::optional<Input> base = open(options.base);
+  std::string why;
+  if (!base) {
+    return unusable;
+  }
+  if (base->eds == nullptr) {
+    complain(options.base + ": the base is an EDS or DCF: convert makes one of it");
+    return unusable;
+  }
+  Merged merged{std::move(*read(base->source(), why)), {}, {}};
+  for (const std::string& overlay : options.overlays) {
+    if (!add_file(merged, overlay, options.base)) {
+      return unusable;
+    }
+  }
+  if (!add_values(merged, options)) {
+    return unusable;
+  }
+  if (!options.is_forced && !review(*base, merged.input)) {
+    complain("nothing is written: --force writes it nevertheless");
+    return found;
+  }
+  const Status status = write_output(options.output, merged.input.source().bytes());
+  if (status == clean && options.is_json && options.output != "-") {
+    print_json(to_json(options, merged));
+  }
+  return status;
+}
+
+}  // namespace
+
+Command add_merge(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command =
+      app.add_subcommand("merge", "Put overlays and values over a description, whose other bytes stay as they are");
+  command->add_option("base", options->base, "EDS or DCF")->required();
+  command->add_option("overlay", options->overlays,
+                      "Descriptions, or parts of them, in any format: what they say replaces, or is added");
+  command
+      ->add_option("--set", options->values,
+                   "vendor, product, revision, serial or version =VALUE, or TARGET.FIELD=VALUE as of set; may be given "
+                   "several times")
+      ->allow_extra_args(false);
+  command->add_option("-o,--output", options->output, "File that is written, - for the standard output")->required();
+  command->add_flag("--force", options->is_forced, "Write it even where it has new errors");
+  command->add_flag("--json", options->is_json, "Replaced values, for programs");
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli

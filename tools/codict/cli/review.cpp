@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/review.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/render.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+// Findings that were not there before, as many of them as there are more of one rule and text.
+std::vector<Finding> added(const Findings& before, const Findings& after) {
+  std::vector<Finding> result;
+  const std::vector<Folded> old = fold(before.all());
+  for (const Folded& now : fold(after.all())) {
+    const auto same = std::find_if(old.begin(), old.end(), [&now](const Folded& candidate) {
+      return candidate.first->rule == now.first->rule && candidate.first->text == now.first->text;
+    });
+    if (same == old.end() || same->more < now.more) {
+      result.push_back(*now.first);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool review(Input& before, Input& after) {
+  check_all(before);
+  check_all(after);
+  const std::vector<Finding> fresh = added(before.findings, after.findings);
+  fmt::print(stderr, "{}", render(after.source(), after.encoding(), fold(fresh), false));
+  return std::none_of(fresh.begin(), fresh.end(),
+                      [](const Finding& finding) { return finding.rule->severity == Severity::error; });
+}
+
+}  // namespace lexican::codict::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gen/gen.hpp"
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/costs.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+struct Options {
+  std::string file;
+  gen::Options gen;
+  bool is_json = false;
+};
+
+int run(Options options) {
+  const std::optional<Input> input = open(options.file);
+  if (!input) {
+    return unusable;
+  }
+  options.gen.name = gen::default_name(options.file);
+  Findings findings;
+  const gen::Output output = gen::generate(input->device(), options.gen, findings);
+  if (output.files.empty()) {
+    suppress(*input, report::Origin::generator, findings);
+    show_findings(*input, findings, false);
+    return found;
+  }
+  if (options.is_json) {
+    print_json(Json{{"schema", "codict-size-1"}, {"parts", costs_json(output.costs)}});
+  } else {
+    print(costs_text(output.costs));
+  }
+  return clean;
+}
+
+}  // namespace
+
+Command add_size(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = app.add_subcommand(
+      "size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
+  command->add_option("file", options->file, file_help)->required();
+  command->add_flag("--json", options->is_json, "For programs");
+  command
+      ->add_option("--string-capacity", options->gen.string_capacity,
+                   "Bytes of a string of which nothing says how long it may be")
+      ->check(CLI::Range(1U, 65535U))
+      ->capture_default_str();
+  return {command, [options] { return run(*options); }};
+}
+
+}  // namespace lexican::codict::cli
