@@ -35,10 +35,7 @@ std::string_view word_of(Access access) {
 
 bool is_variable(const Object& object) { return object.subs.empty() && !has_sub_objects(object.object_code.value); }
 
-template <typename T>
-bool is_in(const Field<T>& field) {
-  return field.is_given && !field.is_empty();
-}
+bool is_in(const Text& text) { return text.is_given && !text.is_empty(); }
 
 bool has_node_properties(const NodeProperties& node) {
   return node.disabled.is_given || node.count_label.is_given || node.storage_group.is_given || node.srdo.is_given ||
@@ -194,7 +191,7 @@ void EntryWriter::allowed_values(const Allowed& allowed, Rest& rest) {
 void EntryWriter::allowed(const Entry& entry, Rest& rest) {
   const Allowed& given = entry.allowed;
   const bool is_given = !given.values.empty() || !given.ranges.empty() || given.template_id.is_given;
-  const bool has_both = is_in(Field<int>{entry.low_limit, 0}) && is_in(Field<int>{entry.high_limit, 0});
+  const bool has_both = is_in(entry.low_limit) && is_in(entry.high_limit);
   const Kept* const left = rest.take("allowedValues");
   Rest of_left = rest_of(left);
   if (is_given || left != nullptr) {
@@ -265,6 +262,21 @@ void EntryWriter::label_of_name(const Entry& entry) {
   }
 }
 
+void EntryWriter::denotation(const Entry& entry, Rest& rest) {
+  const bool has_words = !entry.denotations.labels.empty() || !entry.denotations.descriptions.empty();
+  if (!has_words && !(is_eds_ && entry.denotation.is_given)) {
+    return;
+  }
+  const Rest left = rest_of(rest.take_left("denotation", {}));
+  out_.open("denotation");
+  print_words(out_, entry.denotations);
+  if (!has_words) {
+    print_words(out_, {{{"en", entry.denotation, {}, {}}}, {}});
+  }
+  out_.elements_of(left);
+  out_.close();
+}
+
 void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_variable, std::string_view element) {
   std::vector<Kept> own;
   std::copy_if(entry.others.begin(), entry.others.end(), std::back_inserter(own),
@@ -293,17 +305,7 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
     out_.attribute("paramIDRef", std::string_view(support.text));
     out_.close();
   }
-  const bool has_words = !entry.denotations.labels.empty() || !entry.denotations.descriptions.empty();
-  if (has_words || (is_eds_ && entry.denotation.is_given)) {
-    const Rest left = rest_of(rest.take_left("denotation", {}));
-    out_.open("denotation");
-    print_words(out_, entry.denotations);
-    if (!has_words) {
-      print_words(out_, {{{"en", entry.denotation, {}, {}}}, {}});
-    }
-    out_.elements_of(left);
-    out_.close();
-  }
+  denotation(entry, rest);
   value("actualValue", entry.actual_value, rest);
   value("defaultValue", entry.default_value, rest);
   value("substituteValue", entry.substitute_value, rest);
@@ -450,8 +452,8 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
   if (entry.data_type.value != 0 && (is_variable || entry.data_type.is_given)) {
     out_.attribute("dataType", hex(entry.data_type.value, entry.data_type.value > 0xFF ? 4 : 2));
   }
-  const bool are_in_range = has_limits_of_range(entry) || (is_eds_ && is_in(Field<int>{entry.low_limit, 0}) &&
-                                                           is_in(Field<int>{entry.high_limit, 0}));
+  const bool are_in_range =
+      has_limits_of_range(entry) || (is_eds_ && is_in(entry.low_limit) && is_in(entry.high_limit));
   if (!are_in_range) {
     out_.attribute("lowLimit", entry.low_limit);
     out_.attribute("highLimit", entry.high_limit);

@@ -48,6 +48,7 @@ class EntryWriter {
   void ranges(const Allowed& allowed, Rest& rest);
   void range(const Range& range, Rest& rest);
   void unit(const Unit& unit, Rest& rest);
+  void denotation(const Entry& entry, Rest& rest);
   void properties(const Entry& entry);
   void property(std::string_view name, std::string_view text);
   void object(const Object& object);
