@@ -239,3 +239,65 @@ TEST_CASE("codict pdo: times are told, bits that lie across bytes are drawn, and
   CHECK(pdo.at("mapped").at(1).at("first_bit") == 3);
   CHECK(pdo.at("mapped").at(1).at("index") == 0x2001);
 }
+
+TEST_CASE("codict set: what compact storage implies gets its entry in a list, and the list its count [306: 4.6.4]") {
+  const Directory directory;
+  const std::string path = test::copy_to(directory, "compact.dcf");
+  REQUIRE(run("get " + path + " 2000Value NrOfEntries").status == 0);
+  const std::string before = bytes_of(path);
+  CHECK(run("set " + path + " 2000:5 value=9 name=Fifth").status == 0);
+  CHECK(run("get " + path + " 2000Value 5").out == "9\n");
+  CHECK(run("get " + path + " 2000Name 5").out == "Fifth\n");
+  CHECK(has(run("list " + path).out, "Fifth\n"));
+  CHECK_FALSE(has(run("check " + path).out, "2000Value"));
+  const std::string once = bytes_of(path);
+  CHECK(run("set " + path + " 2000:5 value=8").status == 0);
+  CHECK(bytes_of(path).size() == once.size());
+  const Ran refused = run("set " + path + " 2000:5 access=ro");
+  CHECK(refused.status == 2);
+  CHECK(refused.err ==
+        "codict: " + path + ": 2000:05 is in compact storage, which has only name, value and denotation of its own\n");
+  CHECK(run("set " + path + " 2000:5 value=70000000000").status == 1);
+}
+
+namespace {
+
+// An object whose type is an element of its parameter.
+const char* const typed_by_parameter =
+    R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.0"><ISO15745Profile><ProfileBody>
+<DeviceIdentity/><ApplicationProcess><parameterList>
+<parameter uniqueID="P" access="readWrite"><label lang="en">x</label><USINT/></parameter>
+</parameterList></ApplicationProcess></ProfileBody></ISO15745Profile><ISO15745Profile><ProfileBody><ApplicationLayers>
+<CANopenObjectList><CANopenObject index="2000" name="x" objectType="7" uniqueIDRef="P"/></CANopenObjectList>
+</ApplicationLayers></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>
+)";
+
+}  // namespace
+
+TEST_CASE("codict set: what an XDD does not say of an object becomes an attribute of it") {
+  const Directory directory;
+  const std::string path = directory / "device.xdd";
+  test::write_bytes(path, typed_by_parameter);
+  std::string wanted = typed_by_parameter;
+  const auto add = [&wanted](const std::string& attribute) {
+    wanted.insert(wanted.find("/></CANopenObjectList>"), " " + attribute);
+  };
+  CHECK(run("set " + path + " 2000 default=5 high=9").status == 0);
+  add("defaultValue=\"5\" highLimit=\"9\"");
+  CHECK(bytes_of(path) == wanted);
+  CHECK(run("get " + path + " 2000 default").out == "5\n");
+  CHECK(run("set " + path + " 2000 'denotation=a < b'").status == 0);
+  add("denotation=\"a &lt; b\"");
+  CHECK(bytes_of(path) == wanted);
+  CHECK(run("set " + path + " 2000 colour=red").status == 2);
+  CHECK(run("set " + path + " 2000 value=256").status == 1);
+  CHECK(bytes_of(path) == wanted);
+}
+
+TEST_CASE("codict set: a type that is the name of an element is not replaced") {
+  const Directory directory;
+  const std::string path = directory / "device.xdd";
+  test::write_bytes(path, typed_by_parameter);
+  CHECK(run("set " + path + " 2000 type=UINT").status == 2);
+  CHECK(bytes_of(path) == typed_by_parameter);
+}

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "cli/command.hpp"
 #include "cli/field.hpp"
 #include "cli/review.hpp"
+#include "convert/merge.hpp"
 #include "text/edit.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
@@ -47,15 +52,76 @@ bool assign(const eds::Document& document, const eds::Section& section, const As
                         : document.add_key(section, name, assignment.text, edits);
 }
 
-// What an element's name says is not a value that can be replaced.
-bool is_value(const xdd::Document& document, Span span) {
-  return span.begin != 0 && document.source().bytes()[span.begin - 1] != '<';
+// What an object says of itself. [311: CANopenObject]
+std::string_view attribute_of(std::string_view field) {
+  struct Word {
+    std::string_view field;
+    std::string_view attribute;
+  };
+  constexpr std::array<Word, 7> words = {{{"access", "accessType"},
+                                          {"default", "defaultValue"},
+                                          {"value", "actualValue"},
+                                          {"low", "lowLimit"},
+                                          {"high", "highLimit"},
+                                          {"pdo", "PDOmapping"},
+                                          {"flags", "objFlags"}}};
+  const auto* const word =
+      std::find_if(words.begin(), words.end(), [field](const Word& w) { return w.field == field; });
+  return word != words.end() ? word->attribute : field == "denotation" ? field : std::string_view();
 }
 
 bool assign(const xdd::Document& document, const Entry& entry, const Assignment& assignment, Edits& edits) {
   const Text* const text = find_text(entry, assignment.field);
-  return text != nullptr && text->is_given && is_value(document, text->span) &&
-         document.set_text(text->span, assignment.text, edits);
+  if (text != nullptr && text->is_given) {
+    return document.set_text(text->span, assignment.text, edits);
+  }
+  const std::string_view attribute = attribute_of(assignment.field);
+  return !attribute.empty() && document.add_attribute(entry.span.begin, attribute, assignment.text, edits);
+}
+
+// The list of compact storage that has a field of its sub-objects; empty if there is none. [306: 4.6.4]
+std::string_view list_of(std::string_view key) {
+  return key == "ParameterName"    ? "Name"
+         : key == "ParameterValue" ? "Value"
+         : key == "Denotation"     ? "Denotation"
+                                   : std::string_view();
+}
+
+// What compact storage implies has no section, but lines in lists: those that there are to be.
+bool add_to_lists(const Reference& reference, const Assignment& assignment, std::string& lines, std::string& why) {
+  const std::string_view list = list_of(key_of(assignment.field));
+  if (list.empty()) {
+    why = to_string(reference) + " is in compact storage, which has only name, value and denotation of its own";
+    return false;
+  }
+  lines +=
+      fmt::format("[{:04X}{}]\nNrOfEntries=1\n{}={}\n", reference.index, list, *reference.sub_index, assignment.text);
+  return true;
+}
+
+bool is_implied(const Input& input, const Reference& reference) {
+  const Object* const object = input.device().find(reference.index);
+  const Sub* const sub = object != nullptr && reference.sub_index ? object->find(*reference.sub_index) : nullptr;
+  return sub != nullptr && sub->is_implied;
+}
+
+// False leaves why not.
+bool assign_to_lists(const Input& input, const Reference& reference, const Options& options, std::string& bytes,
+                     std::string& why) {
+  std::string lines;
+  for (const std::string& each : options.assignments) {
+    Assignment assignment;
+    if (!parse(each, assignment, why) || !add_to_lists(reference, assignment, lines, why)) {
+      return false;
+    }
+  }
+  Findings findings;
+  std::vector<convert::Replaced> replaced;
+  if (!convert::merge(*input.eds, eds::Document(Source("set", lines), findings), bytes, replaced)) {
+    why = "the file cannot hold these texts";
+    return false;
+  }
+  return true;
 }
 
 // False leaves why not.
@@ -83,6 +149,17 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, std::s
   return true;
 }
 
+bool change(const Input& input, const Options& options, std::string& bytes, std::string& why) {
+  Reference reference;
+  if (input.eds != nullptr && parse_reference(options.target, reference) && is_implied(input, reference)) {
+    return assign_to_lists(input, reference, options, bytes, why);
+  }
+  Edits edits;
+  const bool is_done = assign_all(input, options, edits, why);
+  bytes = edits.applied_to(input.source().bytes());
+  return is_done;
+}
+
 int write(const Options& options, const Input& input, const std::string& bytes) {
   const std::string path = options.output.empty() ? options.file : options.output;
   std::string why;
@@ -103,12 +180,11 @@ int run(const Options& options) {
     return unusable;
   }
   std::string why;
-  Edits edits;
-  if (!assign_all(*input, options, edits, why)) {
+  std::string bytes;
+  if (!change(*input, options, bytes, why)) {
     complain(input->source().name() + ": " + why);
     return unusable;
   }
-  const std::string bytes = edits.applied_to(input->source().bytes());
   std::optional<Input> changed = read(Source(input->source().name(), bytes), why);
   if (!options.is_forced && !(changed && review(*input, *changed))) {
     complain("nothing is written: --force writes it nevertheless");
@@ -127,7 +203,7 @@ Command add_set(CLI::App& app) {
   command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
   command
       ->add_option("assignment", options->assignments,
-                   "field=value, the fields as those of get; a key that an EDS does not have is added")
+                   "field=value, the fields as those of get; what a description does not have is added")
       ->required();
   command->add_option("-o,--output", options->output, "Another file, - for the standard output");
   command->add_flag("--force", options->is_forced, "Write values even where they are errors");
