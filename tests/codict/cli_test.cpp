@@ -18,17 +18,10 @@ namespace {
 
 using Json = nlohmann::json;
 using test::bytes_of;
+using test::copy_to;
 using test::Directory;
 using test::Ran;
-
-// A copy of a fixture.
-std::string copy_to(const Directory& directory, const char* name) {
-  std::filesystem::copy_file(test::fixture(name), directory / name);
-  return directory / name;
-}
-
-// In the directory of the fixtures.
-Ran run(const std::string& arguments) { return test::run_codict(test::fixture(""), arguments); }
+using test::run;
 
 }  // namespace
 

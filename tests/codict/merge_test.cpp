@@ -68,6 +68,13 @@ TEST_CASE("merge: new objects stand in order, and are in their lists") {
         "[FileInfo]\nFileName=x\n\n[1008]\nParameterName=a\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n");
 }
 
+TEST_CASE("merge: a new object stands behind the keys that tools hide in comments, and in front of other comments") {
+  CHECK(merged("[2000]\nParameterName=a\n;StorageLocation=RAM\n; Five\n[2005]\nParameterName=b\n",
+               "[2003]\nParameterName=c\n") ==
+        "[2000]\nParameterName=a\n;StorageLocation=RAM\n\n[2003]\nParameterName=c\n; Five\n[2005]\nParameterName=b\n"
+        "\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2003\n");
+}
+
 TEST_CASE("merge: new sub-objects are counted") {
   CHECK(merged("[2000]\nSubNumber=1\n\n[2000sub0]\nDataType=5\n\n[2001]\nDataType=5\n",
                "[2000]\nSubNumber=7\n[2000sub1]\nDataType=6\n[2000sub2]\nDataType=6\n") ==

@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # What the lanes fuzz and fuzz_corpus share.
 stack_fuzz_targets=(node sdo_client sdo_server)
-tool_fuzz_targets=(eds xdd)
+tool_fuzz_targets=(eds json xdd)
 fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 
 # Builds "${fuzz_targets[@]}" and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS

@@ -2,6 +2,7 @@
 // Any bytes as an EDS: nothing of them is lost, values that are written as they were read change nothing, and a key
 // that is added is found.
 #include "eds/document.hpp"
+#include "eds/format.hpp"
 #include "eds/read.hpp"
 
 #include <string>
@@ -68,6 +69,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const eds::Document document(Source("fuzz.eds", bytes), findings);
   fuzz::require(document.source().bytes() == bytes, "no byte is lost");
   fuzz::require(eds::refusal(document).find('\n') == std::string::npos, "a refusal is one line");
+  const std::string formatted = eds::formatted(document);
+  fuzz::require(eds::formatted(document_of(formatted)) == formatted, "the normal form of a normal form is itself");
   const Description description = eds::read(document, findings);
   check::check_all(description.devices.front(), findings);
   report::suppress(document.source(), eds::suppressions(document), report::Origin::checks, findings);

@@ -65,11 +65,12 @@ class Merger {
       : base_(base), overlay_(overlay), replaced_(replaced), end_(base.line_end()) {
     for (const eds::Section& section : base.sections()) {
       const SectionName name = eds::section_name(base.raw(section.name));
-      if (name.kind != SectionKind::other && !section.is_duplicate) {
-        sections_.emplace(key_of(name), &section);
-        if (has_index(name)) {
-          by_order_.emplace(order_of(name), &section);
-        }
+      if (name.kind == SectionKind::other || section.is_duplicate) {
+        continue;
+      }
+      sections_.emplace(key_of(name), &section);
+      if (has_index(name)) {
+        by_order_.emplace(order_of(name), &section);
       }
     }
   }
@@ -179,7 +180,7 @@ class Merger {
     const eds::Section* const before = section_before(name);
     const std::uint32_t at = before != nullptr ? end_of(*before) : end_of_text();
     edits_.insert(at, lines);
-    if (name.kind == SectionKind::object) {
+    if (name.kind == SectionKind::object && name.index >= 0x1000) {  // lists do not reach types
       added_[list_of(name.index)].push_back(name.index);
     } else if (name.kind == SectionKind::sub && find(object_name(name.index), {}) != nullptr) {
       ++added_subs_[name.index];
@@ -191,10 +192,7 @@ class Merger {
     return has_index(name) && behind != by_order_.begin() ? std::prev(behind)->second : nullptr;
   }
 
-  std::uint32_t end_of(const eds::Section& section) const {
-    const std::uint32_t line = section.keys.empty() ? section.line : section.keys.back().line;
-    return base_.source().line(line).end;
-  }
+  std::uint32_t end_of(const eds::Section& section) const { return base_.source().line(base_.last_line(section)).end; }
 
   std::uint32_t end_of_text() const {
     const std::string_view bytes = base_.source().bytes();
@@ -214,27 +212,30 @@ class Merger {
 
   void list_objects() {
     for (const auto& [kind, indexes] : added_) {
-      const eds::Section* const list = base_.find(list_name(kind));
-      std::size_t number = list != nullptr ? entries_of(*list) : 0;
-      std::string text;
-      for (const std::uint16_t index : indexes) {
-        const std::string entry = fmt::format("0x{:04X}", index);
-        ++number;
-        if (index < 0x1000) {  // where lists do not reach
-          --number;
-        } else if (list != nullptr) {
-          is_possible_ = base_.add_key(*list, std::to_string(number), entry, edits_) && is_possible_;
-        } else {
-          text += fmt::format("{}{}={}", end_, number, entry);
-        }
-      }
-      if (list != nullptr) {
-        count(*list, "SupportedObjects", number);
-      } else if (number != 0) {
-        edits_.insert(end_of_text(),
-                      fmt::format("{0}{0}[{1}]{0}SupportedObjects={2}{3}", end_, list_name(kind), number, text));
+      if (const eds::Section* const list = base_.find(list_name(kind)); list != nullptr) {
+        add_to_list(*list, indexes);
+      } else {
+        add_list(kind, indexes);
       }
     }
+  }
+
+  void add_to_list(const eds::Section& list, const std::vector<std::uint16_t>& indexes) {
+    std::size_t number = entries_of(list);
+    count(list, "SupportedObjects", number + indexes.size());
+    for (const std::uint16_t index : indexes) {
+      is_possible_ =
+          base_.add_key(list, std::to_string(++number), fmt::format("0x{:04X}", index), edits_) && is_possible_;
+    }
+  }
+
+  void add_list(ListKind kind, const std::vector<std::uint16_t>& indexes) {
+    std::string text = fmt::format("{0}{0}[{1}]{0}SupportedObjects={2}", end_, list_name(kind), indexes.size());
+    std::size_t number = 0;
+    for (const std::uint16_t index : indexes) {
+      text += fmt::format("{}{}=0x{:04X}", end_, ++number, index);
+    }
+    edits_.insert(end_of_text(), text);
   }
 
   const eds::Document& base_;

@@ -30,6 +30,16 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t') || byte == 0x7F;
 }
 
+bool is_comment(std::string_view line) {
+  return line.front() == ';' || line.front() == '#' || line.substr(0, 2) == "//";
+}
+
+// ";Key=" without a blank.
+bool is_hidden_key(std::string_view line) {
+  const std::size_t end = line.find_first_of("= \t");
+  return end != std::string_view::npos && end > 1 && line[end] == '=';
+}
+
 std::string_view line_end_of(const Source& source, std::uint32_t line) {
   const std::uint32_t begin = source.line(line).end;
   const std::uint32_t next = line < source.lines() ? source.line(line + 1).begin : source.size();
@@ -153,7 +163,7 @@ void Document::read_line(std::uint32_t number, Findings& findings) {
   }
   if (content.front() == '[') {
     read_section(number, line, findings);
-  } else if (content.front() != ';' && content.front() != '#' && content.substr(0, 2) != "//") {
+  } else if (!is_comment(content)) {
     read_key(number, line, findings);
   }
 }
@@ -248,6 +258,17 @@ std::vector<Span> Document::comments(const Section& section) const {
     }
   }
   return found;
+}
+
+std::uint32_t Document::last_line(const Section& section) const {
+  std::uint32_t last = section.line;
+  for (std::uint32_t number = section.line + 1; number < section.end; ++number) {
+    const std::string_view line = trimmed(raw(source_.line(number)));
+    if (!line.empty() && (!is_comment(line) || is_hidden_key(line))) {
+      last = number;
+    }
+  }
+  return last;
 }
 
 bool Document::to_source(std::string_view text, std::string& bytes) const {

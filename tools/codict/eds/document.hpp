@@ -53,6 +53,10 @@ class Document {
   /// The comments of a section, each without the sign that begins it: offsets are those of the source.
   std::vector<Span> comments(const Section& section) const;
 
+  /// The last line that says something. Comments behind it precede the next section, but for keys that tools hide in
+  /// them (";StorageLocation=RAM").
+  std::uint32_t last_line(const Section& section) const;
+
   /// What replaces a value, or adds a key as the last of a section, in the manner of the lines around it. Text is
   /// UTF-8; false if the encoding of the source lacks a letter of it, or if it has a line end.
   bool set_value(const Key& key, std::string_view text, Edits& edits) const;

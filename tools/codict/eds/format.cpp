@@ -188,13 +188,7 @@ class Formatter {
   // What stands behind its last key is the next section's, but for keys that tools hide in comments.
   void read(Block& block, std::vector<std::string_view>& behind) const {
     const Section& section = *block.section;
-    std::uint32_t last = section.line;
-    for (std::uint32_t line = section.line + 1; line < section.end; ++line) {
-      const std::string_view text = content(line);
-      if (!text.empty() && (!is_comment(text) || is_hidden_key(text))) {
-        last = line;
-      }
-    }
+    const std::uint32_t last = document_.last_line(section);
     block.lines.push_back(header_line(block));
     auto key = section.keys.begin();
     for (std::uint32_t line = section.line + 1; line <= last; ++line) {
@@ -204,14 +198,6 @@ class Formatter {
     for (std::uint32_t line = last + 1; line < section.end; ++line) {
       behind.push_back(content(line));
     }
-  }
-
-  static bool is_comment(std::string_view text) {
-    return text.front() == ';' || text.front() == '#' || text.substr(0, 2) == "//";
-  }
-  static bool is_hidden_key(std::string_view text) {
-    const std::size_t end = text.find_first_of("= \t");
-    return end != std::string_view::npos && end > 1 && text[end] == '=';
   }
 
   std::string header_line(const Block& block) const {

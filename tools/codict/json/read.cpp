@@ -349,21 +349,26 @@ class Reader {
       elements.push_back(&child);
     }
     if constexpr (is_sorted<T>) {
-      const auto key = [](const Node* element) {
-        const Node* const number = element->find(std::is_same_v<T, Object> ? "index" : "sub_index");
-        return number != nullptr ? number->integer.bits() : 0;
-      };
-      std::stable_sort(elements.begin(), elements.end(),
-                       [key](const Node* a, const Node* b) { return key(a) < key(b); });
-      const auto end = std::unique(elements.begin(), elements.end(), [key, this](const Node* a, const Node* b) {
-        if (key(a) == key(b)) {
-          context_.findings.add(rules::duplicate, b->span, "it is there already: the first is used");
-        }
-        return key(a) == key(b);
-      });
-      elements.erase(end, elements.end());
+      sort(elements, std::is_same_v<T, Object> ? "index" : "sub_index");
     }
     return elements;
+  }
+
+  // By a number that each has once.
+  void sort(std::vector<const Node*>& elements, std::string_view name) {
+    const auto key = [name](const Node* element) {
+      const Node* const number = element->find(name);
+      return number != nullptr ? number->integer.bits() : 0;
+    };
+    std::stable_sort(elements.begin(), elements.end(), [key](const Node* a, const Node* b) { return key(a) < key(b); });
+    const auto end = std::unique(elements.begin(), elements.end(), [key, this](const Node* a, const Node* b) {
+      const bool is_second = key(a) == key(b);
+      if (is_second) {
+        context_.findings.add(rules::duplicate, b->span, "it is there already: the first is used");
+      }
+      return is_second;
+    });
+    elements.erase(end, elements.end());
   }
 
   template <typename T, std::enable_if_t<std::is_class_v<T> && !std::is_base_of_v<Text, T>, int> = 0>
