@@ -190,6 +190,7 @@ TEST_CASE("EDS: dates and times of XML Schema are written as CiA 306 wants them"
                                                        {"09:30PM", "09:30PM"},  {"noon", "noon"}};
   for (const auto& [schema, eds] : times) {
     Device device;
+    device.format = Format::xdd11;
     device.file.creation_date.text = "2024-02-29+01:00";
     device.file.modification_date.text = "02-29-2024";
     device.file.modification_time.text = schema;

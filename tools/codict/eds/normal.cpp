@@ -135,10 +135,13 @@ Device normal_headers(const Device& device) {
   normalise_number(result.features.tx_pdos);
   normalise_number(result.commissioning.node_id);
   for_each_flag(result.features, normalise_flag);
-  normalise_date(result.file.creation_date);
-  normalise_date(result.file.modification_date);
-  normalise_time(result.file.creation_time);
-  normalise_time(result.file.modification_time);
+  const bool is_of_eds = device.format == Format::eds || device.format == Format::dcf;
+  if (!is_of_eds) {
+    normalise_date(result.file.creation_date);
+    normalise_date(result.file.modification_date);
+    normalise_time(result.file.creation_time);
+    normalise_time(result.file.modification_time);
+  }
   normalise_flag(result.commissioning.is_manager);
   return result;
 }
