@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint32_t ticks_per_second = 1000000;
 
 std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
+CO_TMR_MEM timer_of_heat;
 
 // heater_ram has the variables of the dictionary. What changes one through the dictionary has its TPDO sent.
 void heat(void* node) {
@@ -48,14 +49,16 @@ int main(int count, char** arguments) {
   spec.Dict = const_cast<CO_OBJ*>(heater_od);
   spec.DictLen = HEATER_OD_NUM;
   spec.TmrFreq = ticks_per_second;
+  spec.TmrMem = &timer_of_heat;
+  spec.TmrNum = 1;
   spec.SdoBuf = sdo_buffer;
 
   CO_NODE node = {};
   CONodeInitEx(&node, &spec, &drivers);
   CONodeStart(&node);
   COTmrCreate(&node.Tmr, 0, ticks_per_second / 10, heat, &node);
-  if (CONodeGetErr(&node) != CO_ERR_NONE) {
-    std::fprintf(stderr, "heater: it does not start, error %d\n", static_cast<int>(CONodeGetErr(&node)));
+  if (const CO_ERR error = CONodeGetErr(&node); error != CO_ERR_NONE) {
+    std::fprintf(stderr, "heater: it does not start, error %d\n", static_cast<int>(error));
     return 1;
   }
   for (;;) {
