@@ -59,7 +59,7 @@ TEST_CASE("gen: the sub-index 0 that was missing is described") {
   CHECK(has(eds, "SubNumber=2\n\n[2000sub0]\n"));
   CHECK(has(eds,
             "[2000sub0]\nParameterName=Object Highest sub-index supported\nObjectType=0x7\nDataType=0x0005\n"
-            "AccessType=const\nDefaultValue=0x3\n"));
+            "AccessType=const\nDefaultValue=3\n"));
 }
 
 TEST_CASE("gen: COB-IDs and types that were put right are described as they are now") {

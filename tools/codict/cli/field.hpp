@@ -15,6 +15,18 @@ namespace lexican::codict::cli {
 /// The key of CiA 306 for one of our words ("default"), or the word itself.
 std::string_view key_of(std::string_view field);
 
+/// "field=text"
+struct Assignment {
+  std::string_view field;
+  std::string_view text;
+};
+
+/// False if it is something else, and why is one line.
+bool parse_assignment(std::string_view words, Assignment& assignment, std::string& why);
+
+/// False if it has more, and why is one line.
+bool has_one_line(std::string_view text, std::string& why);
+
 /// The section of an object ("0x2000:1"), or the one of that name ("FileInfo"). Null if there is none, and why is one
 /// line.
 const eds::Section* find_section(const Input& input, const std::string& target, std::string& why);

@@ -11,6 +11,7 @@
 
 #include "cli/command.hpp"
 #include "cli/costs.hpp"
+#include "cli/output.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
@@ -32,24 +33,22 @@ struct Options {
   bool shows_notes = false;
 };
 
-// What a file is, in words for --check; the status of the whole.
-int compare(const std::string& path, const std::string& bytes) {
-  std::string why;
-  const std::optional<Source> present = std::filesystem::exists(path) ? read_file(path, why) : std::nullopt;
-  if (present && present->bytes() == bytes) {
-    return clean;
+// For --check: says what would be written.
+Status compare(const std::string& path, const std::string& bytes) {
+  if (!std::filesystem::exists(path)) {
+    complain(path + " is missing");
+    return found;
   }
-  complain(path + (std::filesystem::exists(path) ? " is out of date" : " is missing"));
-  return found;
-}
-
-int write(const std::string& path, const std::string& bytes) {
   std::string why;
-  if (write_file(path, bytes, why) != Written::no) {
-    return clean;
+  const std::optional<Source> present = read_file(path, why);
+  if (!present) {
+    complain(why);
+    return unusable;
   }
-  complain(why);
-  return unusable;
+  if (present->bytes() != bytes) {
+    complain(path + " is out of date");
+  }
+  return present->bytes() == bytes ? clean : found;
 }
 
 std::string report_text(const gen::Output& output) {
@@ -95,6 +94,20 @@ std::vector<gen::File> files_of(const Options& options, const gen::Output& outpu
   return files;
 }
 
+// What would be written over the description, or over another one of them, has been said.
+bool have_places(const Options& options, const std::vector<gen::File>& files) {
+  for (std::size_t n = 0; n < files.size(); ++n) {
+    const std::string& path = files[n].name;
+    const bool is_twice = std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(n),
+                                      [&path](const gen::File& other) { return is_same_file(path, other.name); });
+    if (is_same_file(path, options.file) || is_twice) {
+      complain(path + (is_twice ? ": two files of this name would be written" : ": it is the description itself"));
+      return false;
+    }
+  }
+  return true;
+}
+
 bool make_directory(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -123,13 +136,14 @@ int run(Options options) {
   if (output.files.empty()) {
     return found;
   }
-  if (!options.is_check && !make_directory(options.directory)) {
+  const std::vector<gen::File> files = files_of(options, output);
+  if (!have_places(options, files) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
   }
-  const std::vector<gen::File> files = files_of(options, output);
   int status = clean;
   for (const gen::File& file : files) {
-    status = std::max(status, options.is_check ? compare(file.name, file.bytes) : write(file.name, file.bytes));
+    status =
+        std::max<int>(status, options.is_check ? compare(file.name, file.bytes) : write_output(file.name, file.bytes));
   }
   if (options.is_json) {
     print_json(report_json(files, output));

@@ -18,11 +18,6 @@ struct Options {
 
 std::string word(const std::string& text) { return text.empty() ? "-" : text; }
 
-// What is configured, or what the device begins with.
-const std::string& value_of(const Entry& entry) {
-  return entry.actual_value.is_empty() ? entry.default_value.text : entry.actual_value.text;
-}
-
 std::string line(const Reference& reference, const Entry& entry) {
   const std::string place = to_string(reference);
   if (has_sub_objects(entry.object_code.value)) {
@@ -31,7 +26,7 @@ std::string line(const Reference& reference, const Entry& entry) {
   }
   const bool is_mapped = entry.pdo_mapping.value != PdoMapping::no;
   return fmt::format("{:<8} {:<15} {:<5} {:<4} {:<18} {}\n", place, type_name(entry), name_of(entry.access.value),
-                     is_mapped ? "PDO" : "", word(value_of(entry)), entry.name.text);
+                     is_mapped ? "PDO" : "", word(value_in_force(entry).text), entry.name.text);
 }
 
 Json to_json(const Reference& reference, const Entry& entry) {

@@ -87,6 +87,24 @@ bool add(Merged& merged, const eds::Document& overlay, const std::string& base) 
   return true;
 }
 
+// What a device of another format says, as lines of a DCF. What it does not say replaces nothing, nor does its name.
+std::string lines_of(Device device) {
+  device.file = {};
+  eds::WriteOptions options;
+  options.as_dcf = true;
+  options.line_end = "\n";
+  const std::string text = eds::write(device, options);
+  std::string lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const bool says_nothing = line.size() > 1 && line[line.size() - 2] == '=';
+    lines += says_nothing ? std::string_view() : line;
+    begin = end;
+  }
+  return lines;
+}
+
 bool add_file(Merged& merged, const std::string& path, const std::string& base) {
   const std::optional<Input> input = open(path);
   if (!input) {
@@ -95,31 +113,28 @@ bool add_file(Merged& merged, const std::string& path, const std::string& base) 
   if (input->eds != nullptr) {
     return add(merged, *input->eds, base);
   }
-  eds::WriteOptions options;
-  options.as_dcf = true;
   Findings findings;
-  return add(merged, eds::Document(Source(path, eds::write(input->device(), options)), findings), base);
+  return add(merged, eds::Document(Source(path, lines_of(input->device())), findings), base);
 }
 
 // The section of a target with one key; empty if there is no such target, and why is one line.
 std::string lines_for(const Input& input, const std::string& target, std::string_view field, std::string_view value,
                       std::string& why) {
-  const eds::Section* const section = find_section(input, target, why);
+  const eds::Section* const section = has_one_line(value, why) ? find_section(input, target, why) : nullptr;
   return section == nullptr ? std::string()
                             : fmt::format("[{}]\n{}={}\n", input.eds->text(section->name), key_of(field), value);
 }
 
 // "serial=5" and "1018:4.default=5" as lines of an EDS.
 std::string lines_for(const Input& input, std::string_view assignment, std::string& why) {
-  const std::size_t equals = std::min(assignment.find('='), assignment.size());
-  const std::string_view place = trimmed(assignment.substr(0, equals));
-  const std::string_view value = trimmed(assignment.substr(std::min(equals + 1, assignment.size())));
+  Assignment parsed;
+  if (!parse_assignment(assignment, parsed, why)) {
+    return {};
+  }
+  const auto [place, value] = parsed;
   const std::size_t point = place.find_last_of('.');
   why = fmt::format("{}: neither a word (vendor, product, revision, serial, version) nor TARGET.FIELD, with =VALUE",
                     assignment);
-  if (equals == assignment.size()) {
-    return {};
-  }
   if (point != std::string_view::npos) {
     return lines_for(input, std::string(place.substr(0, point)), place.substr(point + 1), value, why);
   }
@@ -174,6 +189,12 @@ int run(const Options& options) {
   if (base->eds == nullptr) {
     complain(options.base + ": the base is an EDS or DCF: convert makes one of it");
     return unusable;
+  }
+  for (const std::string& overlay : options.overlays) {
+    if (is_same_file(options.output, overlay) && !is_same_file(options.output, options.base)) {
+      complain(options.output + ": it is an overlay");
+      return unusable;
+    }
   }
   Merged merged{std::move(*read(base->source(), why)), {}, {}};
   for (const std::string& overlay : options.overlays) {

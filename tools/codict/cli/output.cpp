@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/output.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "text/file.hpp"
 #include "text/number.hpp"
 
@@ -13,6 +16,11 @@ Status write_output(const std::string& path, std::string_view bytes) {
     return unusable;
   }
   return clean;
+}
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return a != "-" && b != "-" && (a == b || std::filesystem::equivalent(a, b, ignored));
 }
 
 std::string ending_of(std::string_view path) {

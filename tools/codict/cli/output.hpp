@@ -13,6 +13,9 @@ namespace lexican::codict::cli {
 /// Whole or not at all, and not touched if it has these bytes already; "-" is the standard output.
 Status write_output(const std::string& path, std::string_view bytes);
 
+/// Whether two paths lead to one file, "-" to none.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// "html" of "docs/drive.HTML"; empty if there is none.
 std::string ending_of(std::string_view path);
 

@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// Findings that were not there before, as many of them as there are more of one rule and text.
+// One finding of each rule and text of which there are more than before.
 std::vector<Finding> added(const Findings& before, const Findings& after) {
   std::vector<Finding> result;
   const std::vector<Folded> old = fold(before.all());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -6,14 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/command.hpp"
 #include "cli/field.hpp"
+#include "cli/output.hpp"
 #include "cli/review.hpp"
 #include "convert/merge.hpp"
 #include "text/edit.hpp"
-#include "text/file.hpp"
 #include "text/number.hpp"
 
 namespace lexican::codict::cli {
@@ -28,22 +28,6 @@ struct Options {
   bool is_forced = false;
   bool is_json = false;
 };
-
-struct Assignment {
-  std::string_view field;
-  std::string_view text;
-};
-
-// "field=text"; false if it is something else.
-bool parse(std::string_view assignment, Assignment& result, std::string& why) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string_view::npos || trimmed(assignment.substr(0, equals)).empty()) {
-    why = "not of the form field=value: " + std::string(assignment);
-    return false;
-  }
-  result = {trimmed(assignment.substr(0, equals)), trimmed(assignment.substr(equals + 1))};
-  return true;
-}
 
 bool assign(const eds::Document& document, const eds::Section& section, const Assignment& assignment, Edits& edits) {
   const std::string_view name = key_of(assignment.field);
@@ -90,6 +74,9 @@ std::string_view list_of(std::string_view key) {
 // What compact storage implies has no section, but lines in lists: those that there are to be.
 bool add_to_lists(const Reference& reference, const Assignment& assignment, std::string& lines, std::string& why) {
   const std::string_view list = list_of(key_of(assignment.field));
+  if (!has_one_line(assignment.text, why)) {
+    return false;
+  }
   if (list.empty()) {
     why = to_string(reference) + " is in compact storage, which has only name, value and denotation of its own";
     return false;
@@ -111,7 +98,7 @@ bool assign_to_lists(const Input& input, const Reference& reference, const Optio
   std::string lines;
   for (const std::string& each : options.assignments) {
     Assignment assignment;
-    if (!parse(each, assignment, why) || !add_to_lists(reference, assignment, lines, why)) {
+    if (!parse_assignment(each, assignment, why) || !add_to_lists(reference, assignment, lines, why)) {
       return false;
     }
   }
@@ -137,7 +124,7 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, std::s
   }
   for (const std::string& each : options.assignments) {
     Assignment assignment;
-    if (!parse(each, assignment, why)) {
+    if (!parse_assignment(each, assignment, why)) {
       return false;
     }
     if (!(section != nullptr ? assign(*input.eds, *section, assignment, edits)
@@ -149,7 +136,30 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, std::s
   return true;
 }
 
+// A second value for one field is a mistake.
+bool has_fields_once(const Options& options, std::string& why) {
+  std::vector<std::string_view> fields;
+  for (const std::string& each : options.assignments) {
+    Assignment assignment;
+    if (!parse_assignment(each, assignment, why)) {
+      return false;
+    }
+    const auto is_same = [field = key_of(assignment.field)](std::string_view other) {
+      return equal_ignoring_case(field, other);
+    };
+    if (std::any_of(fields.begin(), fields.end(), is_same)) {
+      why = "two values for one field: " + each;
+      return false;
+    }
+    fields.push_back(key_of(assignment.field));
+  }
+  return true;
+}
+
 bool change(const Input& input, const Options& options, std::string& bytes, std::string& why) {
+  if (!has_fields_once(options, why)) {
+    return false;
+  }
   Reference reference;
   if (input.eds != nullptr && parse_reference(options.target, reference) && is_implied(input, reference)) {
     return assign_to_lists(input, reference, options, bytes, why);
@@ -162,16 +172,11 @@ bool change(const Input& input, const Options& options, std::string& bytes, std:
 
 int write(const Options& options, const Input& input, const std::string& bytes) {
   const std::string path = options.output.empty() ? options.file : options.output;
-  std::string why;
-  const Written written = write_file(path, bytes, why);
-  if (written == Written::no) {
-    complain(why);
-    return unusable;
-  }
-  if (options.is_json && path != "-") {
+  const Status status = write_output(path, bytes);
+  if (status == clean && options.is_json && path != "-") {
     print_json(Json{{"schema", "codict-set-1"}, {"file", path}, {"changed", bytes != input.source().bytes()}});
   }
-  return clean;
+  return status;
 }
 
 int run(const Options& options) {

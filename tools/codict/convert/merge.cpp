@@ -13,6 +13,7 @@
 
 #include "eds/fields.hpp"
 #include "eds/names.hpp"
+#include "eds/numbered.hpp"
 #include "model/device.hpp"
 #include "text/number.hpp"
 
@@ -23,27 +24,11 @@ namespace {
 using eds::SectionKind;
 using eds::SectionName;
 
-std::string_view list_name(ListKind kind) {
-  constexpr std::array<std::string_view, 3> names = {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-bool is_object_list(const SectionName& name) {
-  return name.kind == SectionKind::header && name.word.size() > 7 &&
-         name.word.substr(name.word.size() - 7) == "Objects";
-}
-
 bool is_of_object(const SectionName& name) { return name.kind == SectionKind::object || name.kind == SectionKind::sub; }
-
-bool is_numbered(SectionKind kind) {
-  return kind == SectionKind::names || kind == SectionKind::values || kind == SectionKind::denotations;
-}
-
-bool has_index(const SectionName& name) { return name.kind >= SectionKind::object && name.kind <= SectionKind::links; }
 
 // Sections of one object stand together: its own one, its sub-objects, and lists.
 using Order = std::tuple<bool, std::uint16_t, SectionKind, std::uint8_t>;
-Order order_of(const SectionName& name) { return {!has_index(name), name.index, name.kind, name.sub_index}; }
+Order order_of(const SectionName& name) { return {!eds::has_index(name), name.index, name.kind, name.sub_index}; }
 
 SectionName object_name(std::uint16_t index) {
   SectionName name;
@@ -52,11 +37,24 @@ SectionName object_name(std::uint16_t index) {
   return name;
 }
 
-bool have_same_meaning(std::string_view a, std::string_view b) {
+bool is_one_of(std::string_view key, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [key](std::string_view word) { return eds::compare_names(key, word) == 0; });
+}
+
+// In other words, perhaps.
+bool have_same_meaning(std::string_view key, std::string_view a, std::string_view b) {
+  if (is_one_of(key, {"ObjectType", "DataType", "PDOMapping", "ObjFlags", "CompactSubObj"})) {
+    const ParsedInteger left = parse_integer(a);
+    const ParsedInteger right = parse_integer(b);
+    return a == b || (left.is_number() && right.is_number() && left.value == right.value);
+  }
   const ParsedFormula left = parse_formula(a);
   const ParsedFormula right = parse_formula(b);
-  return a == b || (left.number.is_number() && right.number.is_number() && left.number.value == right.number.value &&
-                    left.has_node_id == right.has_node_id);
+  const bool are_formulas =
+      left.has_node_id && right.has_node_id && left.number.is_number() && right.number.is_number();
+  return a == b || (are_formulas && left.number.value == right.number.value) ||
+         (is_one_of(key, {"AccessType"}) && equal_ignoring_case(a, b));
 }
 
 class Merger {
@@ -69,7 +67,7 @@ class Merger {
         continue;
       }
       sections_.emplace(key_of(name), &section);
-      if (has_index(name)) {
+      if (eds::has_index(name)) {
         by_order_.emplace(order_of(name), &section);
       }
     }
@@ -79,23 +77,27 @@ class Merger {
     std::vector<std::pair<SectionName, const eds::Section*>> fresh;
     for (const eds::Section& section : overlay_.sections()) {
       const SectionName name = eds::section_name(overlay_.raw(section.name));
-      if (section.is_duplicate || is_object_list(name)) {
+      if (section.is_duplicate || eds::list_form(name).count == "SupportedObjects") {
         continue;
       }
       const eds::Section* const same = find(name, overlay_.raw(section.name));
-      if (same == nullptr) {
+      if (same == nullptr && (name.kind != SectionKind::header || !section.keys.empty())) {
         fresh.emplace_back(name, &section);
-      } else {
+      } else if (same != nullptr) {
         change(*same, section, name);
       }
     }
     std::stable_sort(fresh.begin(), fresh.end(),
                      [](const auto& a, const auto& b) { return order_of(a.first) < order_of(b.first); });
     for (const auto& [name, section] : fresh) {
-      add(*section, name);
+      note(name);
     }
+    // What sections get more goes in front of new ones, which stand behind them.
     count_subs();
     list_objects();
+    for (const auto& [name, section] : fresh) {
+      add(*section, name);
+    }
     bytes = edits_.applied_to(base_.source().bytes());
     return is_possible_;
   }
@@ -116,23 +118,26 @@ class Merger {
   }
 
   void change(const eds::Section& section, const eds::Section& by, const SectionName& name) {
+    const eds::ListForm list = eds::list_form(name);
+    const std::string_view count_word = is_of_object(name) ? "SubNumber" : list.count;
     std::vector<const eds::Key*> fresh;  // behind the last key, whose value may change
+    std::size_t added = 0;
     for (const eds::Key& key : by.keys) {
       const std::string_view word = overlay_.raw(key.name);
-      const std::string_view count_word = is_numbered(name.kind) ? "NrOfEntries"
-                                          : is_of_object(name)   ? "SubNumber"
-                                                                 : "";
       if (key.is_duplicate || eds::compare_names(word, count_word) == 0) {
         continue;
       }
-      if (const eds::Key* const old = base_.find(section, word); old != nullptr) {
+      const eds::Key* const old = base_.find(section, word);
+      const bool says_nothing_yet = old == nullptr || (old->value.is_empty() && list.word.empty());
+      added += says_nothing_yet ? 1 : 0;
+      if (old != nullptr) {
         replace(section, *old, overlay_.text(key.value));
       } else {
         fresh.push_back(&key);
       }
     }
-    if (is_numbered(name.kind) && !fresh.empty()) {
-      count(section, "NrOfEntries", entries_of(section) + fresh.size());
+    if (!list.count.empty() && added != 0) {
+      count(section, list.count, eds::entries_of(base_, section, list) + added);
     }
     for (const eds::Key* key : fresh) {
       is_possible_ =
@@ -142,19 +147,10 @@ class Merger {
 
   void replace(const eds::Section& section, const eds::Key& key, const std::string& text) {
     const std::string before = base_.text(key.value);
-    if (!have_same_meaning(before, text)) {
+    if (!have_same_meaning(base_.raw(key.name), before, text)) {
       replaced_.push_back({base_.text(section.name), base_.text(key.name), before, text});
       is_possible_ = base_.set_value(key, text, edits_) && is_possible_;
     }
-  }
-
-  // Entries that are numbered.
-  std::size_t entries_of(const eds::Section& section) const {
-    return static_cast<std::size_t>(
-        std::count_if(section.keys.begin(), section.keys.end(), [this](const eds::Key& key) {
-          std::uint32_t number = 0;
-          return eds::number_of(base_.raw(key.name), "", number) && !key.value.is_empty();
-        }));
   }
 
   void count(const eds::Section& section, std::string_view word, std::size_t number) {
@@ -180,16 +176,21 @@ class Merger {
     const eds::Section* const before = section_before(name);
     const std::uint32_t at = before != nullptr ? end_of(*before) : end_of_text();
     edits_.insert(at, lines);
+  }
+
+  // For lists and numbers.
+  void note(const SectionName& name) {
     if (name.kind == SectionKind::object && name.index >= 0x1000) {  // lists do not reach types
       added_[list_of(name.index)].push_back(name.index);
-    } else if (name.kind == SectionKind::sub && find(object_name(name.index), {}) != nullptr) {
+    } else if (name.kind == SectionKind::sub && name.sub_index != 0xFF &&
+               find(object_name(name.index), {}) != nullptr) {
       ++added_subs_[name.index];
     }
   }
 
   const eds::Section* section_before(const SectionName& name) const {
     const auto behind = by_order_.lower_bound(order_of(name));
-    return has_index(name) && behind != by_order_.begin() ? std::prev(behind)->second : nullptr;
+    return eds::has_index(name) && behind != by_order_.begin() ? std::prev(behind)->second : nullptr;
   }
 
   std::uint32_t end_of(const eds::Section& section) const { return base_.source().line(base_.last_line(section)).end; }
@@ -212,7 +213,7 @@ class Merger {
 
   void list_objects() {
     for (const auto& [kind, indexes] : added_) {
-      if (const eds::Section* const list = base_.find(list_name(kind)); list != nullptr) {
+      if (const eds::Section* const list = base_.find(eds::list_name(kind)); list != nullptr) {
         add_to_list(*list, indexes);
       } else {
         add_list(kind, indexes);
@@ -221,8 +222,9 @@ class Merger {
   }
 
   void add_to_list(const eds::Section& list, const std::vector<std::uint16_t>& indexes) {
-    std::size_t number = entries_of(list);
-    count(list, "SupportedObjects", number + indexes.size());
+    const eds::ListForm form{"SupportedObjects", "", true};
+    count(list, form.count, eds::entries_of(base_, list, form) + indexes.size());
+    std::uint32_t number = eds::last_number(base_, list, form);
     for (const std::uint16_t index : indexes) {
       is_possible_ =
           base_.add_key(list, std::to_string(++number), fmt::format("0x{:04X}", index), edits_) && is_possible_;
@@ -230,7 +232,7 @@ class Merger {
   }
 
   void add_list(ListKind kind, const std::vector<std::uint16_t>& indexes) {
-    std::string text = fmt::format("{0}{0}[{1}]{0}SupportedObjects={2}", end_, list_name(kind), indexes.size());
+    std::string text = fmt::format("{0}{0}[{1}]{0}SupportedObjects={2}", end_, eds::list_name(kind), indexes.size());
     std::size_t number = 0;
     for (const std::uint16_t index : indexes) {
       text += fmt::format("{}{}=0x{:04X}", end_, ++number, index);
@@ -252,11 +254,7 @@ class Merger {
 
 }  // namespace
 
-bool Replaced::is_definition() const {
-  constexpr std::array<std::string_view, 4> keys = {"ObjectType", "DataType", "AccessType", "PDOMapping"};
-  return std::any_of(keys.begin(), keys.end(),
-                     [this](std::string_view word) { return eds::compare_names(key, word) == 0; });
-}
+bool Replaced::is_definition() const { return is_one_of(key, {"ObjectType", "DataType", "AccessType", "PDOMapping"}); }
 
 bool merge(const eds::Document& base, const eds::Document& overlay, std::string& bytes,
            std::vector<Replaced>& replaced) {

@@ -14,6 +14,7 @@
 
 #include "eds/fields.hpp"
 #include "eds/names.hpp"
+#include "eds/numbered.hpp"
 #include "model/access.hpp"
 #include "model/device.hpp"
 #include "text/number.hpp"
@@ -55,8 +56,6 @@ unsigned rank_of_header(std::string_view word) {
   return ranks.at(word);
 }
 
-bool has_index(const SectionName& name) { return name.kind >= SectionKind::object && name.kind <= SectionKind::links; }
-
 // By it, sections are sorted; those that have the same stay in their order.
 auto order_of(const SectionName& name) {
   using Order = std::tuple<unsigned, std::uint16_t, SectionKind, std::uint8_t>;
@@ -80,27 +79,6 @@ std::string text_of(const SectionName& name) {
     case SectionKind::denotations: return fmt::format("{:04X}Denotation", name.index);
     case SectionKind::links: return fmt::format("{:04X}ObjectLinks", name.index);
     case SectionKind::header: return std::string(name.word);
-    default: return {};
-  }
-}
-
-struct List {
-  std::string_view count;
-  std::string_view word;  // in front of the numbers of its entries
-};
-
-// The list that a section is; without a count, it is none.
-List list_of_section(const SectionName& name) {
-  const bool ends_with_objects = name.word.size() > 7 && name.word.substr(name.word.size() - 7) == "Objects";
-  switch (name.kind) {
-    case SectionKind::names:
-    case SectionKind::values:
-    case SectionKind::denotations: return {"NrOfEntries", ""};
-    case SectionKind::links: return {"ObjectLinks", ""};
-    case SectionKind::header:
-      return name.word == "Comments" ? List{"Lines", "Line"}
-             : ends_with_objects     ? List{"SupportedObjects", ""}
-                                     : List{};
     default: return {};
   }
 }
@@ -214,13 +192,12 @@ class Formatter {
 
   std::string value_of(const Block& block, const Key& key) const {
     const std::string_view name = document_.raw(key.name);
-    const List list = list_of_section(block.name);
+    const ListForm list = list_form(block.name);
     if (!list.count.empty()) {
       std::uint32_t number = 0;
-      const bool has_indexes = block.name.kind == SectionKind::links || list.count == "SupportedObjects";
-      return compare_names(name, list.count) == 0         ? counted(key, entries_of(*block.section, list))
-             : has_indexes && number_of(name, "", number) ? hexadecimal(raw(key), 4)
-                                                          : raw(key);
+      return compare_names(name, list.count) == 0 ? counted(key, entries_of(document_, *block.section, list))
+             : list.has_indexes && number_of(name, "", number) ? hexadecimal(raw(key), 4)
+                                                               : raw(key);
     }
     const bool is_object = block.name.kind == SectionKind::object;
     if (!is_object && block.name.kind != SectionKind::sub) {
@@ -250,14 +227,6 @@ class Formatter {
   bool is_compact(const Section& section) const {
     const Key* const key = document_.find(section, "CompactSubObj");
     return key != nullptr && !key->value.is_empty();
-  }
-
-  std::size_t entries_of(const Section& section, const List& list) const {
-    return static_cast<std::size_t>(std::count_if(section.keys.begin(), section.keys.end(), [&](const Key& key) {
-      std::uint32_t number = 0;
-      const bool says_something = !list.word.empty() || !key.value.is_empty();
-      return !key.is_duplicate && says_something && number_of(document_.raw(key.name), list.word, number);
-    }));
   }
 
   // The text of a count that is right stays.

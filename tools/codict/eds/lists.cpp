@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "eds/numbered.hpp"
 #include "eds/parts.hpp"
 #include "eds/rules.hpp"
 #include "model/parse.hpp"
@@ -13,14 +14,13 @@ namespace lexican::codict::eds {
 namespace {
 
 struct List {
-  std::string_view word;
   ObjectList Device::*list;
   ListKind kind;
 };
 
-constexpr std::array<List, 3> lists = {{{"MandatoryObjects", &Device::mandatory, ListKind::mandatory},
-                                        {"OptionalObjects", &Device::optional, ListKind::optional},
-                                        {"ManufacturerObjects", &Device::manufacturer, ListKind::manufacturer}}};
+constexpr std::array<List, 3> lists = {{{&Device::mandatory, ListKind::mandatory},
+                                        {&Device::optional, ListKind::optional},
+                                        {&Device::manufacturer, ListKind::manufacturer}}};
 
 void check_entry(const Field<std::uint16_t>& entry, ListKind kind, const Reader& reader) {
   if (entry.value == 0) {
@@ -65,7 +65,7 @@ ObjectList read_indexes(const Section& section, std::string_view count_key, cons
 
 void read_object_list(const NamedSection& header, const Reader& reader) {
   for (const List& list : lists) {
-    if (header.name.word == list.word) {
+    if (header.name.word == list_name(list.kind)) {
       reader.device.*list.list = read_indexes(*header.section, "SupportedObjects", reader);
     }
   }

@@ -35,4 +35,9 @@ struct SectionName {
 
 SectionName section_name(std::string_view name);
 
+/// Of an object, or of what belongs to one.
+inline bool has_index(const SectionName& name) {
+  return name.kind >= SectionKind::object && name.kind <= SectionKind::links;
+}
+
 }  // namespace lexican::codict::eds

@@ -18,20 +18,6 @@ bool is_number_of_eds(const std::string& text) {
   return formula.is_standard && formula.number.is_number();
 }
 
-std::string formula_of(const Value& value) {
-  const std::string number = fmt::format("0x{:X}", value.integer.magnitude);
-  const std::string sign = value.integer.is_negative ? "-" : "";
-  return value.adds_node_id ? "$NODEID+" + sign + number : sign + fmt::format("{}", value.integer.magnitude);
-}
-
-std::string hexadecimal(const std::string& octets) {
-  std::string text;
-  for (const char octet : octets) {
-    fmt::format_to(std::back_inserter(text), "{:02X}", static_cast<unsigned char>(octet));
-  }
-  return text;
-}
-
 template <typename T>
 void normalise_number(Field<T>& field) {
   if (field.is_given && !field.is_empty() && !parse_integer(field.text).is_number()) {
@@ -85,10 +71,10 @@ Access access_of(const Entry& entry) {
 
 std::string text_of(const Value& value) {
   switch (value.kind) {
-    case Value::Kind::integer: return is_number_of_eds(value.text) ? value.text : formula_of(value);
+    case Value::Kind::integer: return is_number_of_eds(value.text) ? value.text : value.written_integer();
     case Value::Kind::real:
       return value.text.find(',') == std::string::npos ? value.text : fmt::format("{}", value.real);
-    case Value::Kind::octets: return hexadecimal(value.octets);
+    case Value::Kind::octets: return hexadecimal_octets(value.octets);
     case Value::Kind::none:
     case Value::Kind::text:
     case Value::Kind::malformed: break;

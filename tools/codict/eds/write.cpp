@@ -13,6 +13,7 @@
 
 #include "eds/names.hpp"
 #include "eds/normal.hpp"
+#include "eds/numbered.hpp"
 #include "eds/slots.hpp"
 
 namespace lexican::codict::eds {
@@ -34,7 +35,7 @@ class Writer {
   }
 
   void headers();
-  void object_list(std::string_view name, ListKind kind);
+  void object_list(ListKind kind);
   void modules();
   void rest();
   std::string take() { return std::move(text_); }
@@ -266,7 +267,8 @@ void Writer::object(const Object& object, const std::string& prefix) {
   }
 }
 
-void Writer::object_list(std::string_view name, ListKind kind) {
+void Writer::object_list(ListKind kind) {
+  const std::string_view name = list_name(kind);
   std::vector<const Object*> objects;
   std::vector<const Object*> types;  // below 1000h, where lists do not reach
   for (const Object& object : device_.objects) {
@@ -350,9 +352,9 @@ void Writer::rest() {
 std::string write(const Device& device, const WriteOptions& options) {
   Writer writer(device, options);
   writer.headers();
-  writer.object_list("MandatoryObjects", ListKind::mandatory);
-  writer.object_list("OptionalObjects", ListKind::optional);
-  writer.object_list("ManufacturerObjects", ListKind::manufacturer);
+  writer.object_list(ListKind::mandatory);
+  writer.object_list(ListKind::optional);
+  writer.object_list(ListKind::manufacturer);
   writer.modules();
   writer.rest();
   return writer.take();

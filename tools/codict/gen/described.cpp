@@ -14,12 +14,6 @@ namespace lexican::codict::gen {
 
 namespace {
 
-std::string text_of(const Value& value) {
-  const std::string sign = value.integer.is_negative ? "-" : "";
-  const std::string number = fmt::format("{}0x{:X}", sign, value.integer.magnitude);
-  return value.adds_node_id ? "$NODEID+" + number : number;
-}
-
 bool is_same(const Value& a, const Value& b) {
   return a.kind == b.kind && a.adds_node_id == b.adds_node_id && a.integer == b.integer;
 }
@@ -45,11 +39,15 @@ Value value_of(const Entry& entry, const Item& item) {
   if (item.value.kind == Value::Kind::none && item.form->bytes != 0 && !is_of_application) {
     return zero_of(*item.form);
   }
-  if (is_same(entry.initial_value(), item.value)) {
-    return entry.initial_value();
+  if (item.value.kind == Value::Kind::none) {
+    return {};
+  }
+  const Value& said = value_in_force(entry);
+  if (said.is_given && is_same(said, item.value)) {
+    return said;
   }
   Value value = item.value;
-  value.text = value.is_integer() ? text_of(value) : "";
+  value.text = value.is_integer() ? value.written_integer() : "";
   value.is_given = true;
   return value;
 }

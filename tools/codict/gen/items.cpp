@@ -159,7 +159,7 @@ class Items {
   }
 
   bool set_value(Item& item, const Object& object, const Entry& entry, bool has_subs) {
-    item.value = entry.initial_value();
+    item.value = value_in_force(entry);
     take_none_for_octets(item);
     const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
     const bool is_text = is_number && item.value.kind == Value::Kind::text;  // of another type, or a time

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -25,7 +26,8 @@ const Rule word{"json-word", Severity::error, "A word is one of those of the sch
 const Rule unknown{"json-unknown", Severity::warning, "A member that the schema does not have is not used."};
 const Rule duplicate{"json-duplicate", Severity::error, "A member, and an object, is there once: the first is used."};
 const Rule missing{"json-missing", Severity::error, "A part has the member that names it."};
-const Rule contradiction{"json-contradiction", Severity::error, "Value and text say the same: the value is used."};
+const Rule contradiction{"json-contradiction", Severity::error,
+                         "The value of an object says what its text says: the text is used."};
 
 }  // namespace rules
 
@@ -37,10 +39,12 @@ const std::vector<const Rule*>& all_rules() {
 
 namespace {
 
-// A value whose text has to get its meaning when all types are known.
+// A value whose text gets its meaning when all types are known.
 struct Untyped {
   Value* value;
   const Entry* entry;  // null: no data type is known
+  bool has_meaning;    // has been said, too
+  bool has_kind;       // … and what it is: so it stays, if the text does not say something else
 };
 
 struct Context {
@@ -80,8 +84,11 @@ class Reader {
   }
   void end_of(const Device& device) {
     for (const Untyped& untyped : context_.untyped) {
-      const std::uint16_t code = untyped.entry != nullptr ? untyped.entry->data_type.value : std::uint16_t{0};
-      codict::interpret(*untyped.value, data_type_of(device, code), context_.findings);
+      const bool is_typed = untyped.entry != nullptr;
+      const bool is_implied = untyped.has_meaning && untyped.value->is_empty();  // by a standard
+      if (!is_implied) {
+        settle(untyped, data_type_of(device, is_typed ? untyped.entry->data_type.value : std::uint16_t{0}));
+      }
     }
     context_.untyped.clear();
   }
@@ -165,10 +172,10 @@ class Reader {
     Reader parts(node, context_);
     text.is_given = true;
     text.span = node.span;
-    parts.text_of(text);
+    parts.read_text(text);
     parts.report_others();
   }
-  void text_of(Text& text) {
+  void read_text(Text& text) {
     (*this)("given", text.is_given);
     names_.emplace_back("text");
     const Node* const written = node_.find("text");
@@ -189,7 +196,7 @@ class Reader {
     }
     Reader parts(node, context_);
     parts("value", field.value);
-    parts.text_of(static_cast<Text&>(field));
+    parts.read_text(static_cast<Text&>(field));
     parts.report_others();
     if (node.find("value") == nullptr) {
       interpret(field);
@@ -222,6 +229,9 @@ class Reader {
     } else if constexpr (std::is_signed_v<T>) {
       const ParsedInteger number = parse_integer(field.text);
       field.value = static_cast<T>(number.value.bits());
+      if (!field.is_empty() && !number.is_number()) {
+        context_.findings.add(codict::rules::value_number, field.span, "this is no number");
+      }
     } else {
       interpret_number(field, std::numeric_limits<T>::max(), context_.findings);
     }
@@ -230,15 +240,17 @@ class Reader {
   void read(const Node& node, Value& value) {
     value.is_given = true;
     value.span = node.span;
+    bool has_meaning = false;
     if (node.kind == Kind::object) {
-      read_value(node, value);
+      has_meaning = read_value(node, value);
     } else if (node.kind == Kind::string) {
       read_string(node, value);
-      context_.untyped.push_back({&value, nullptr});
     } else {
       read_meaning(node, value);
       complete(value);
     }
+    const bool has_kind = node.kind == Kind::object && node.find("kind") != nullptr;
+    context_.untyped.push_back({&value, nullptr, has_meaning, has_kind});
   }
 
   // A number alone.
@@ -252,25 +264,23 @@ class Reader {
     }
   }
 
-  void read_value(const Node& node, Value& value) {
+  // False if only its text is there.
+  bool read_value(const Node& node, Value& value) {
     Reader parts(node, context_);
     parts("kind", value.kind);
     parts("node_id", value.adds_node_id);
-    parts.text_of(static_cast<Text&>(value));
+    parts.read_text(static_cast<Text&>(value));
     parts.names_.emplace_back("value");
     parts.report_others();
     const Node* const meaning = node.find("value");
-    const bool has_kind = node.find("kind") != nullptr;
-    if (meaning != nullptr) {
-      read_meaning_of_kind(*meaning, has_kind, value);
-      if (node.find("text") == nullptr) {
-        complete(value);
-      } else {
-        compare(value);
-      }
-    } else if (!has_kind || value.kind == Value::Kind::real) {
-      context_.untyped.push_back({&value, nullptr});
+    if (meaning == nullptr) {
+      return false;
     }
+    read_meaning_of_kind(*meaning, node.find("kind") != nullptr, value);
+    if (node.find("text") == nullptr) {
+      complete(value);
+    }
+    return true;
   }
 
   void read_meaning_of_kind(const Node& meaning, bool has_kind, Value& value) {
@@ -285,36 +295,62 @@ class Reader {
     }
   }
 
-  // Of a number, which means the same in all types that it fits.
-  void compare(const Value& value) {
-    const ParsedFormula text = parse_formula(value.text);
-    if (value.kind == Value::Kind::integer && text.number.is_number() &&
-        (text.has_node_id != value.adds_node_id || !are_alike(text.number.value, value.integer))) {
+  // Where no type is known, what has been said of the meaning stays.
+  void settle(const Untyped& untyped, const DataType& type) {
+    const Value& said = *untyped.value;
+    const bool is_typed = type.kind != TypeKind::unknown && type.kind != TypeKind::structure;
+    const bool is_of_text = said.kind == Value::Kind::real || said.kind == Value::Kind::malformed;  // where alone
+    const bool is_settled = untyped.has_meaning ? untyped.has_kind || !is_typed : untyped.has_kind && !is_of_text;
+    Findings ignored;
+    Value value;
+    static_cast<Text&>(value) = said;
+    codict::interpret(value, type, is_settled ? ignored : context_.findings);
+    const bool is_contradiction = untyped.has_meaning && contradicts(said, value);
+    if (is_contradiction) {
       context_.findings.add(rules::contradiction, value.span, "the text says something else than the value");
     }
+    const bool stays = said.kind != Value::Kind::none && !is_typed && said.kind != value.kind;
+    if (is_contradiction || !(is_settled || stays)) {
+      *untyped.value = std::move(value);
+    }
   }
-  // The bit pattern of a negative number is that number.
+
+  // Of values of one kind, or an integer that is meant as a real; all others have other types.
+  static bool contradicts(const Value& said, const Value& value) {
+    if (said.kind == Value::Kind::integer && value.kind == Value::Kind::integer) {
+      return said.adds_node_id != value.adds_node_id || !are_alike(value.integer, said.integer);
+    }
+    if (said.kind == Value::Kind::octets && value.kind == Value::Kind::octets) {
+      return said.octets != value.octets;
+    }
+    if (value.kind == Value::Kind::real) {
+      return said.kind == Value::Kind::real && said.real != value.real;
+    }
+    return said.kind == Value::Kind::integer && value.kind == Value::Kind::malformed;
+  }
+  // The bit pattern of a negative number is that number, in some width.
   static bool are_alike(const Integer& text, const Integer& value) {
     const std::uint64_t difference = text.bits() - value.bits();
-    return text == value || (value.is_negative && (difference == 0 || (difference & (difference - 1)) == 0));
+    constexpr std::array<std::uint64_t, 8> widths = {0,
+                                                     std::uint64_t{1} << 8U,
+                                                     std::uint64_t{1} << 16U,
+                                                     std::uint64_t{1} << 24U,
+                                                     std::uint64_t{1} << 32U,
+                                                     std::uint64_t{1} << 40U,
+                                                     std::uint64_t{1} << 48U,
+                                                     std::uint64_t{1} << 56U};
+    const bool is_pattern = std::find(widths.begin(), widths.end(), difference) != widths.end();
+    return text == value || (value.is_negative && !text.is_negative && is_pattern);
   }
 
   static void complete(Value& value) {
     if (!value.is_given) {
       return;
     }
-    const std::string sign = value.integer.is_negative ? "-" : "";
     switch (value.kind) {
-      case Value::Kind::integer:
-        value.text = value.adds_node_id ? fmt::format("$NODEID+{}0x{:X}", sign, value.integer.magnitude)
-                                        : fmt::format("{}{}", sign, value.integer.magnitude);
-        break;
+      case Value::Kind::integer: value.text = value.written_integer(); break;
       case Value::Kind::real: value.text = fmt::format("{}", value.real); break;
-      case Value::Kind::octets:
-        for (const char octet : value.octets) {
-          value.text += fmt::format("{:02X}", static_cast<unsigned char>(octet));
-        }
-        break;
+      case Value::Kind::octets: value.text = hexadecimal_octets(value.octets); break;
       default: break;
     }
   }

@@ -95,16 +95,6 @@ Node node_of(const Field<T>& field) {
   return node;
 }
 
-std::string digits_of(const std::string& octets) {
-  std::string text;
-  for (const char octet : octets) {
-    const auto byte = static_cast<unsigned char>(octet);
-    text += "0123456789ABCDEF"[byte >> 4];
-    text += "0123456789ABCDEF"[byte & 0xF];
-  }
-  return text;
-}
-
 Node node_of(const Value& value) {
   Node node = object();
   add(node, "kind", node_of(value.kind));
@@ -114,7 +104,7 @@ Node node_of(const Value& value) {
       add(node, "node_id", node_of(true));
     }
   } else if (value.kind == Value::Kind::octets) {
-    add(node, "value", node_of(digits_of(value.octets)));
+    add(node, "value", node_of(hexadecimal_octets(value.octets)));
   } else if (value.kind == Value::Kind::real && std::isfinite(value.real)) {  // JSON has no other numbers
     add(node, "value", node_of(value.real));
   }
@@ -134,7 +124,6 @@ bool says_nothing(const Field<T>& field) {
   return says_nothing(static_cast<const Text&>(field)) && field.value == T{};
 }
 
-class Writer;
 template <typename T>
 Node part_of(const T& part);
 

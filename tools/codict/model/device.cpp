@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/device.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -99,6 +101,16 @@ const DataType& data_type_of(const Device& device, std::uint16_t code) {
   }
   const bool is_structure = own->object_code.value == ObjectCode::defstruct || !own->subs.empty();
   return is_structure ? structure : data_type(own->data_type.value);
+}
+
+const Value& value_in_force(const Entry& entry) {
+  return entry.actual_value.kind != Value::Kind::none ? entry.actual_value : entry.default_value;
+}
+
+std::string Value::written_integer() const {
+  const char* const sign = integer.is_negative ? "-" : "";
+  return adds_node_id ? fmt::format("$NODEID+{}0x{:X}", sign, integer.magnitude)
+                      : fmt::format("{}{}", sign, integer.magnitude);
 }
 
 Integer Value::integer_for(std::uint8_t node_id) const {

@@ -171,11 +171,10 @@ struct Entry {
   Span span;                         ///< where it begins: the section's name, the element's start tag
 
   bool has_value() const { return default_value.is_given || actual_value.is_given; }
-  /// That of a device which has been started: what is configured goes before the default value.
-  const Value& initial_value() const {
-    return actual_value.is_given && actual_value.kind != Value::Kind::none ? actual_value : default_value;
-  }
 };
+
+/// From which a device starts: what is configured goes before the default value.
+const Value& value_in_force(const Entry& entry);
 
 enum class ListKind : unsigned char { mandatory, optional, manufacturer };
 

@@ -56,10 +56,6 @@ void add_pdos(const Device& device, std::uint16_t first, bool is_transmit, std::
 
 }  // namespace
 
-const Value& value_in_force(const Entry& entry) {
-  return entry.actual_value.kind != Value::Kind::none ? entry.actual_value : entry.default_value;
-}
-
 Directions directions_of(const Entry& entry) {
   const Access access = entry.access.value;
   const PdoMapping mapping = entry.pdo_mapping.value;

@@ -11,9 +11,6 @@
 
 namespace lexican::codict {
 
-/// What is configured, or else the default.
-const Value& value_in_force(const Entry& entry);
-
 /// In which PDOs an entry can be mapped.
 struct Directions {
   bool send = false;     ///< TPDOs

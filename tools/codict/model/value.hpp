@@ -44,6 +44,8 @@ struct Value : Text {
   std::string octets;
 
   bool is_integer() const { return kind == Kind::integer; }
+  /// Of an integer, as CiA 306 writes it: "$NODEID+0x180", "-5".
+  std::string written_integer() const;
   /// With a node-ID put in.
   Integer integer_for(std::uint8_t node_id) const;
 };

@@ -250,6 +250,16 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string hexadecimal_octets(std::string_view octets) {
+  std::string text;
+  for (const char octet : octets) {
+    const auto byte = static_cast<unsigned char>(octet);
+    text += "0123456789ABCDEF"[byte >> 4U];
+    text += "0123456789ABCDEF"[byte & 0xFU];
+  }
+  return text;
+}
+
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return to_lower(x) == to_lower(y); });

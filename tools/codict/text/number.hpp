@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace lexican::codict {
@@ -96,6 +97,8 @@ constexpr char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char
 std::string_view trimmed(std::string_view text);
 /// What is in front of a blank and one of ; # //
 std::string_view without_comment(std::string_view text);
+/// "0AFF" of any bytes.
+std::string hexadecimal_octets(std::string_view octets);
 /// Of ASCII letters, whatever the locale.
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

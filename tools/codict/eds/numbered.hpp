@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file numbered.hpp
+/// Sections that are lists: a count, and numbered entries. [306: 4.6.2, 4.6.4]
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "eds/document.hpp"
+#include "eds/names.hpp"
+#include "model/device.hpp"
+
+namespace lexican::codict::eds {
+
+/// "MandatoryObjects"
+std::string_view list_name(ListKind kind);
+
+struct ListForm {
+  std::string_view count;  ///< key of the number of entries; empty: the section is no list
+  std::string_view word;   ///< in front of the numbers
+  bool has_indexes = false;
+};
+
+ListForm list_form(const SectionName& name);
+
+/// Entries that say something, each number once. A comment may be empty.
+std::size_t entries_of(const Document& document, const Section& section, const ListForm& list);
+/// The largest number of an entry; 0 if there is none.
+std::uint32_t last_number(const Document& document, const Section& section, const ListForm& list);
+
+}  // namespace lexican::codict::eds
