@@ -6,6 +6,7 @@ board_packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs
   qemu-system-misc=qemu-system-riscv32)
 powerpc_packages=(g++-powerpc-linux-gnu=powerpc-linux-gnu-g++ qemu-user-static=qemu-ppc-static)
+s390x_packages=(g++-s390x-linux-gnu=s390x-linux-gnu-g++ qemu-user-static=qemu-s390x-static)
 
 # In build/target-CPU: arm_tree CPU CMAKE-ARGUMENT...
 arm_tree() { target_tree "$1" arm-none-eabi "$1" "-mno-unaligned-access" "${@:2}"; }
@@ -58,7 +59,8 @@ on_board() {  # CPU BOARD
 }
 
 doctest_on_board() {  # BOARD: of doctest_tree
-  suite_on doctest emulate "$1" "$build/target-doctest/tests/target/lexican_target_tests" -- -sf='*/sdo_*' -sfe='*/sdo_*'
+  suite_on doctest emulate "$1" "$build/target-doctest/tests/target/lexican_target_tests" --no-colors -- \
+    -sf='*/sdo_*' -sfe='*/sdo_*'
 }
 
 on_linux() {  # CPU EMULATOR
