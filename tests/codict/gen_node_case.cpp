@@ -280,6 +280,26 @@ TEST_CASE("gen: a storage group keeps its values over a loss of power, and gets 
   }
 }
 
+TEST_CASE("gen: whatever is written of a storage group, 1020h is 0 [301:7.5.2.23]") {
+  const std::map<std::uint32_t, std::string> changed = {
+      {0x101602, "E8 03 07 00"}, {0x210000, "09"}, {0x210300, "61 62"}, {0x210500, "31 00"}, {0x210600, "05"}};
+  for (const Dictionary& dictionary : dictionaries) {
+    CAPTURE(dictionary.language);
+    Memory memory;
+    GeneratedNode node(dictionary.od, dictionary.length, memory);
+    for (const auto& [key, bytes] : changed) {
+      CAPTURE(key);
+      for (std::uint8_t sub = 1; sub <= 2; ++sub) {
+        CHECK(node.write(0x1020, sub, "01 02 03 04") == "ok");
+      }
+      CHECK(node.write(static_cast<std::uint16_t>(key >> 8), static_cast<std::uint8_t>(key), bytes) == "ok");
+      for (std::uint8_t sub = 1; sub <= 2; ++sub) {
+        CHECK(node.read(0x1020, sub) == "00 00 00 00");
+      }
+    }
+  }
+}
+
 TEST_CASE("gen: variables have the names of the description, and entries are typed values in C++") {
   Memory memory;
   GeneratedNode node(every_cpp_od, EVERY_CPP_OD_NUM, memory);

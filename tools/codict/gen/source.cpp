@@ -169,10 +169,16 @@ static CO_ERR stored_consumer_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uin
   return CO_THB_CONS->Read(obj, node, buffer, size);
 }
 
+// The stack does not see that the entry lies in a group: 1020h is made 0 here, where there is one.
 static CO_ERR stored_consumer_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
   const CO_ERR error = CO_THB_CONS->Write(obj, node, buffer, size);
   stored_consumer_t *const stored = (stored_consumer_t *)obj->Data;
   *stored->Value = (uint32_t)stored->Consumer.NodeId << 16 | stored->Consumer.Time;
+  for (uint32_t sub = 1; error == CO_ERR_NONE && sub <= 2; ++sub) {
+    if (CODictFind(&node->Dict, CO_DEV(0x1020, sub)) != NULL) {
+      (void)CODictWrLong(&node->Dict, CO_DEV(0x1020, sub), 0);
+    }
+  }
   return error;
 }
 
