@@ -4,7 +4,7 @@ packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 # Lane gcc makes the whole sweeps; lane sweeps makes them with sanitizers.
 lane() {
-  build_preset development clang -DLEXICAN_THIN_SWEEPS=ON || return
+  build_preset development clang -DLEXICAN_THIN_SWEEPS=ON -DLEXICAN_TEST_OPTIONS="-O0;-g1" || return
   run_doctest clang "$build/clang/tests/lexican_tests"
   run_ctest clang-compat "$build/clang/tests/compat"
 }
