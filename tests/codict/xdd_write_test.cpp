@@ -145,3 +145,17 @@ TEST_CASE("XDD write: signs of markup, line ends and other controls come back") 
   CHECK(again.at(0x1000).name.text == text);
   CHECK(again.at(0x1000).words.labels.at(0).text.text == text);
 }
+
+TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type [306: 4.6.3, 4.6.4]") {
+  const test::Reading compact("compact.dcf");
+  const std::string written = xdd::write(compact.device, xdd::Edition::v11);
+  CHECK(says(written, "<CANopenSubObject subIndex=\"00\" name=\"NrOfObjects\" objectType=\"7\" dataType=\"05\""));
+  const XmlReading again(written);
+  CHECK(meaning(again.at(0x2000, 0).default_value) == meaning(compact.value(0x2000, 0)));
+  CHECK(again.at(0x2000, 0).access.value == Access::ro);
+  const test::Reading zero("sub_zero.eds");
+  const XmlReading zero_again(xdd::write(zero.device, xdd::Edition::v10));
+  for_each_variable(zero.device, [&](std::uint16_t index, std::uint8_t sub_index, const Entry& entry) {
+    CHECK(meaning(zero_again.at(index, sub_index).default_value) == meaning(entry.default_value));
+  });
+}

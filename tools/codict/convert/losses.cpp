@@ -100,6 +100,13 @@ void count_for_xdd(const Device& device, Counter& counter) {
   counter.add("object links", links);
 }
 
+// Of the commissioning of one device.
+void count_for_xdc(const Commissioning& commissioning, Counter& counter) {
+  counter.add("serial numbers", number_of(commissioning.serial_number));
+  counter.add("references to other files",
+              number_of(commissioning.node_reference) + number_of(commissioning.network_reference));
+}
+
 bool is_of_eds(const Device& device) { return device.format == Format::eds || device.format == Format::dcf; }
 
 }  // namespace
@@ -117,6 +124,9 @@ std::vector<Loss> losses(const Device& device, Target target) {
   return counter.take();
 }
 
+    if (target == Target::xdc) {
+      count_for_xdc(device.commissioning, counter);
+    }
 Device without_configuration(Device device) {
   device.commissioning = Commissioning();
   device.connected_modules.clear();

@@ -151,7 +151,9 @@ void read_commissioning(const NamedSection& header, const Reader& reader) {
 void interpret_range(DynamicChannel& channel, Findings& findings) {
   const std::size_t dash = channel.first_index.text.find('-');
   if (dash == std::string::npos) {
+    Findings said_already;
     findings.add(codict::rules::value_number, channel.first_index.span, "a range is first-last");
+    interpret_number(channel.first_index, u16, said_already);
     return;
   }
   const auto offset = static_cast<std::uint32_t>(dash);

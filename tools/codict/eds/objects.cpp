@@ -299,7 +299,8 @@ void interpret_values(Entry& entry, const Reader& reader) {
 }
 
 void interpret_values(Object& object, const Reader& reader) {
-  if (!has_sub_objects(object.object_code.value) || object.compact.value != 0) {
+  const ObjectCode code = object.object_code.value;
+  if (!has_sub_objects(code) || code == ObjectCode::array || object.compact.value != 0) {
     interpret_values(static_cast<Entry&>(object), reader);
   }
   for (Sub& sub : object.subs) {

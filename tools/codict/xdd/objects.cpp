@@ -597,7 +597,8 @@ void finish_objects(const Reader& reader) {
   Device& device = reader.device;
   sort_by(device.objects, [](const Object& object) { return object.index; });
   for (Object& object : device.objects) {
-    if (!has_sub_objects(object.object_code.value)) {
+    const ObjectCode code = object.object_code.value;
+    if (!has_sub_objects(code) || code == ObjectCode::array) {  // which speaks for its elements
       interpret_values(object, reader);
     }
     for (Sub& sub : object.subs) {

@@ -58,6 +58,12 @@ bool has_limits_of_range(const Entry& entry) {
          ranges[0].maximum.text == entry.high_limit.text;
 }
 
+// CiA 306 implies the value of a sub-index 0 that says nothing; here, all that holds is said.
+bool is_said(const Value& value) { return value.is_given || value.is_integer(); }
+std::string text_of(const Value& value) {
+  return value.is_empty() && value.is_integer() ? value.written_integer() : value.text;
+}
+
 std::string made_id(const Object& object) { return "UID_OBJ_" + hex(object.index, 4); }
 std::string made_id(const Object& object, const Sub& sub) {
   return "UID_SUB_" + hex(object.index, 4) + hex(sub.sub_index, 2);
@@ -147,12 +153,13 @@ void EntryWriter::type(const Entry& entry, bool is_variable) {
 }
 
 void EntryWriter::value(std::string_view name, const Value& value, Rest& rest) {
-  if (!value.is_given || (is_eds_ && value.is_empty())) {
+  const std::string text = text_of(value);
+  if (!is_said(value) || (is_eds_ && text.empty())) {
     return;
   }
   const Rest left = rest_of(rest.take_left(name, "value"));
   out_.open(name);
-  out_.attribute("value", std::string_view(value.text));
+  out_.attribute("value", std::string_view(text));
   out_.attributes_of(left);
   out_.elements_of(left);
   out_.close();
@@ -287,6 +294,8 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   const bool is_default = entry.access.value == Access::ro && !entry.access.is_given;
   if (entry.access.value != Access::unknown && !is_default) {
     out_.attribute("access", word_of(entry.access.value));
+  } else if (is_in(entry.access)) {  // without one, it would be ro
+    out_.attribute("access", entry.access);
   }
   out_.attribute("accessList", entry.access_list);
   out_.attribute("support", entry.support);
@@ -462,7 +471,9 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     if (entry.access.value != Access::unknown && (entry.access.is_given || is_variable)) {
       out_.attribute("accessType", name_of(entry.access.value));
     }
-    out_.attribute("defaultValue", entry.default_value);
+    if (is_said(entry.default_value)) {
+      out_.attribute("defaultValue", std::string_view(text_of(entry.default_value)));
+    }
     out_.attribute("actualValue", entry.actual_value);
   }
   const bool has_words = !entry.denotations.labels.empty() || !entry.denotations.descriptions.empty();
