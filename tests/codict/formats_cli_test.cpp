@@ -343,3 +343,22 @@ TEST_CASE("codict merge: of an overlay in another format, only what it says of t
   CHECK(has(merged, "DefaultValue=77"));
   CHECK_FALSE(has(merged, "DeviceComissioning"));
 }
+
+TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where that is asked for") {
+  const Directory directory;
+  const std::string newer = directory / "newer.xdd";
+  const std::string older = directory / "older.xdd";
+  CHECK(run("convert xdd/device10.xdd --to xdc -o -").out == bytes_of(test::fixture("xdd/device10.xdd")));
+  CHECK(run("convert xdd/device10.xdd --to xdd11 -o " + newer).status == 0);
+  CHECK(has(run("info " + newer).out, "Format           XDD 1.1\n"));
+  CHECK(run("diff xdd/device10.xdd " + newer + " --only breaking --only compatible").status == 0);
+  CHECK(run("convert " + newer + " --to xdd11 -o -").out == bytes_of(newer));
+  CHECK(run("convert " + newer + " --to xdd10 -o " + older).status == 0);
+  CHECK(has(run("info " + older).out, "Format           XDD 1.0\n"));
+  CHECK(run("diff " + newer + " " + older).status == 0);
+  CHECK(has(run("convert xdd/device10.xdd --to xdc11 -o -").out, "http://www.canopen.org/xml/1.1"));
+  const Ran ran = run("convert xdd/device10.xdd --to xdd11 --strict-loss -o " + directory / "no.xdd");
+  CHECK(ran.status == 1);
+  CHECK(has(ran.err, "left out: "));
+  CHECK_FALSE(std::filesystem::exists(directory / "no.xdd"));
+}

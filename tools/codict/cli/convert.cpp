@@ -36,7 +36,7 @@ struct Product {
   std::array<Format, 2> same;
 };
 
-constexpr std::array<Product, 7> products = {{
+constexpr std::array<Product, 9> products = {{
     {"eds", Target::eds, xdd::Edition::v11, {Format::eds, Format::eds}},
     {"dcf", Target::dcf, xdd::Edition::v11, {Format::dcf, Format::dcf}},
     {"xdd", Target::xdd, xdd::Edition::v11, {Format::xdd10, Format::xdd11}},
@@ -44,6 +44,8 @@ constexpr std::array<Product, 7> products = {{
     {"xdd10", Target::xdd, xdd::Edition::v10, {Format::xdd10, Format::xdd10}},
     {"xdc10", Target::xdc, xdd::Edition::v10, {Format::xdc10, Format::xdc10}},
     {"json", Target::json, xdd::Edition::v11, {}},
+    {"xdd11", Target::xdd, xdd::Edition::v11, {Format::xdd11, Format::xdd11}},
+    {"xdc11", Target::xdc, xdd::Edition::v11, {Format::xdc11, Format::xdc11}},
 }};
 
 const Product* find_product(std::string_view name) {
@@ -124,7 +126,9 @@ Command add_convert(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "File that ends with .eds, .dcf, .xdd, .xdc or .json, - for the standard output")
       ->required();
-  command->add_option("--to", options->format, "eds, dcf, xdd (CiA 311 1.1), xdc, xdd10, xdc10, json")
+  command
+      ->add_option("--to", options->format,
+                   "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
       ->check(CLI::IsMember(std::move(names)).description(""));
   command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
