@@ -120,3 +120,8 @@ TEST_CASE("EDS normal form: line ends and letters are those of the file") {
   CHECK(formatted("x=1\n[2000]\nparameters\n") == "x=1\n\n[2000]\nparameters\n");
   CHECK(formatted("").empty());
 }
+
+TEST_CASE("EDS normal form: numbers that are none stay") {
+  const std::string text = "[FileInfo]\nFileVersion=1.2.3\n\n[DeviceInfo]\nNrOfRXPDO=many\nGranularity=8 ; bits\n";
+  CHECK(formatted(text) == text);
+}

@@ -200,3 +200,21 @@ TEST_CASE("EDS: dates and times of XML Schema are written as CiA 306 wants them"
     CHECK(has(text, std::string("ModificationTime=") + eds + "\n"));
   }
 }
+
+TEST_CASE("EDS writer: what is no number and no flag stays as it is written, and is no 0") {
+  const std::string dcf =
+      "[FileInfo]\nFileVersion=1.2.3\nFileRevision=300\n[DeviceInfo]\nNrOfRXPDO=many\nLSS_Supported=maybe\n"
+      "BaudRate_500=often\n[DummyUsage]\nDummy0005=perhaps\n[DynamicChannels]\nNrOfSeg=1\nType1=five\nDir1=up\n"
+      "Range1=all\nPPOffset1=far\n[DeviceComissioning]\nNodeID=first\nCANopenManager=sometimes\n"
+      "[2000]\nParameterName=x\nDataType=70000\nAccessType=rw\nPDOMapping=maybe\nObjFlags=some\n"
+      "[2000ObjectLinks]\nObjectLinks=1\n1=next\n[ConnectedModules]\nNrOfEntries=1\n1=first\n";
+  const std::string again = written(device_of(dcf), true);
+  std::istringstream lines(dcf);
+  for (std::string line; std::getline(lines, line);) {
+    CAPTURE(line);
+    CHECK(has(again, line + "\n"));
+  }
+  CHECK(has(written(device_of("[DeviceInfo]\nNrOfRXPDO=8u\nLSS_Supported=true\nLSS_Master=FALSE\n")),
+            "LSS_Supported=1\nLSS_Master=0\n"));
+  CHECK(has(written(device_of("[DeviceInfo]\nNrOfRXPDO=8u\nNrOfTXPDO=0 ; none\n")), "NrOfRXPDO=8\nNrOfTXPDO=0\n"));
+}

@@ -159,3 +159,28 @@ TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type
     CHECK(meaning(zero_again.at(index, sub_index).default_value) == meaning(entry.default_value));
   });
 }
+
+TEST_CASE("XDD write: numbers and flags that are none stay as they are written") {
+  test::Reading reading("drive.eds");
+  const auto set = [](Text& text, const char* to) {
+    text.text = to;
+    text.is_given = true;
+  };
+  Features& features = reading.device.features;
+  features.rx_pdos.value = 0;
+  set(features.rx_pdos, "many");
+  features.lss_slave.value = false;
+  set(features.lss_slave, "maybe");
+  features.granularity.value = 0;
+  set(features.granularity, "fine");
+  reading.device.dummies.resize(1);
+  reading.device.dummies[0].supported.value = false;
+  set(reading.device.dummies[0].supported, "perhaps");
+  set(reading.device.objects[0].flags, "some");
+  const std::string written = xdd::write(reading.device, xdd::Edition::v11);
+  CHECK(says(written, "nrOfRxPDO=\"many\""));
+  CHECK(says(written, "layerSettingServiceSlave=\"maybe\""));
+  CHECK(says(written, "granularity=\"fine\""));
+  CHECK(says(written, "=perhaps\""));
+  CHECK(says(written, "objFlags=\"some\""));
+}

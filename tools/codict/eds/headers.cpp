@@ -144,7 +144,7 @@ void read_commissioning(const NamedSection& header, const Reader& reader) {
         &commissioning.node_reference, &commissioning.network_reference}) {
     interpret_number(*number, u32, reader.findings);
   }
-  keep_section(header.name.word, std::move(others), *header.section, reader.device);
+  keep_section("DeviceComissioning", std::move(others), *header.section, reader.device);
 }
 
 // "0xA000-0xA03F"

@@ -20,14 +20,16 @@ bool is_number_of_eds(const std::string& text) {
 
 template <typename T>
 void normalise_number(Field<T>& field) {
-  if (field.is_given && !field.is_empty() && !parse_integer(field.text).is_number()) {
+  const ParsedInteger written = parse_integer(field.text);
+  const bool is_said = written.is_number() && written.value == Integer(field.value);
+  if (!field.is_empty() && !is_said && is_understood(field)) {
     field.text = std::to_string(field.value);
   }
 }
 
 void normalise_flag(Field<bool>& flag) {
   if (!flag.is_empty()) {
-    flag.text = flag.value ? "1" : "0";
+    flag.text = flag_text(flag);
   }
 }
 
@@ -87,7 +89,7 @@ Entry normal(const Device& device, const Entry& entry) {
   if (entry.object_code.value != ObjectCode::null) {
     result.object_code.text = fmt::format("0x{:X}", static_cast<unsigned>(entry.object_code.value));
   }
-  if (!entry.data_type.is_empty() || entry.data_type.value != 0) {
+  if (is_understood(entry.data_type)) {
     result.data_type.text = fmt::format("0x{:04X}", entry.data_type.value);
   }
   const Access access = access_of(entry);
@@ -95,7 +97,8 @@ Entry normal(const Device& device, const Entry& entry) {
   const bool is_said = !entry.pdo_mapping.is_empty() || entry.pdo_mapping.value != PdoMapping::no;
   const bool is_value = data_type_of(device, entry.data_type.value).kind != TypeKind::unknown;
   if (is_said && is_value) {
-    result.pdo_mapping.text = entry.pdo_mapping.value == PdoMapping::no ? "0" : "1";
+    const bool is_no = entry.pdo_mapping.text == name_of(PdoMapping::no);
+    result.pdo_mapping.text = is_no ? "0" : flag_text(entry.pdo_mapping);
   }
   normalise_number(result.flags);
   for (Value* value : {&result.default_value, &result.actual_value, &result.low_limit, &result.high_limit}) {

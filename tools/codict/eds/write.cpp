@@ -122,11 +122,18 @@ std::string index_text(std::uint16_t index) { return fmt::format("0x{:04X}", ind
 // Headers ----------------------------------------------------------------------------------------------------------
 
 void Writer::device_info(const Device& normal) {
+// What nobody understands stays as it is written.
+template <typename T>
+std::string written(const Field<T>& number, std::string_view format) {
+  return number.is_empty() || is_understood(number) ? fmt::format(fmt::runtime(format), number.value) : number.text;
+}
+
+std::string index_text(const Field<std::uint16_t>& index) { return written(index, "0x{:04X}"); }
   section("DeviceInfo");
   slots(normal, device_slots);
   for (const BitRate& rate : device_.features.bit_rates) {
     if (rate.kbit != 0) {  // CiA 306 has no word for devices that find it by themselves
-      line(fmt::format("BaudRate_{}", rate.kbit), rate.supported.value ? "1" : "0");
+      line(fmt::format("BaudRate_{}", rate.kbit), flag_text(rate.supported));
     }
   }
   kept_of("DeviceInfo");
@@ -138,7 +145,7 @@ void Writer::dummies() {
   }
   section("DummyUsage");
   for (const Dummy& dummy : device_.dummies) {
-    line(fmt::format("Dummy{:04X}", dummy.type), dummy.supported.value ? "1" : "0");
+    line(fmt::format("Dummy{:04X}", dummy.type), flag_text(dummy.supported));
   }
   kept_of("DummyUsage");
 }
@@ -177,11 +184,13 @@ void Writer::channels() {
   std::size_t number = 0;
   for (const DynamicChannel& channel : device_.dynamic_channels) {
     ++number;
-    line(fmt::format("Type{}", number), index_text(channel.data_type.value));
-    line(fmt::format("Dir{}", number), name_of(channel.access.value));
+    line(fmt::format("Type{}", number), index_text(channel.data_type));
+    const bool is_direction = channel.access.value != Access::unknown;
+    line(fmt::format("Dir{}", number), is_direction ? name_of(channel.access.value) : channel.access.text);
+    const bool is_range = channel.last_index.is_given || channel.first_index.is_empty();
     line(fmt::format("Range{}", number),
-         index_text(channel.first_index.value) + "-" + index_text(channel.last_index.value));
-    line(fmt::format("PPOffset{}", number), std::to_string(channel.offset.value));
+         is_range ? index_text(channel.first_index) + "-" + index_text(channel.last_index) : channel.first_index.text);
+    line(fmt::format("PPOffset{}", number), written(channel.offset, "{}"));
   }
   kept_of("DynamicChannels");
 }
@@ -263,7 +272,7 @@ void Writer::object(const Object& object, const std::string& prefix) {
   compact_lists(object, name);
   if (!object.links.empty()) {
     section(name + "ObjectLinks");
-    numbered("ObjectLinks", "", object.links, [](const auto& link) { return index_text(link.value); });
+    numbered("ObjectLinks", "", object.links, [](const auto& link) { return index_text(link); });
   }
 }
 
@@ -330,8 +339,7 @@ void Writer::modules() {
   }
   if (options_.as_dcf && !device_.connected_modules.empty()) {
     section("ConnectedModules");
-    numbered("NrOfEntries", "", device_.connected_modules,
-             [](const auto& number) { return std::to_string(number.value); });
+    numbered("NrOfEntries", "", device_.connected_modules, [](const auto& number) { return written(number, "{}"); });
   }
 }
 

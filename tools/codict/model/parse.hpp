@@ -24,6 +24,14 @@ void interpret_number(Field<T>& field, std::uint64_t largest, Findings& findings
 /// 0 or 1, in any way that numbers are written, or true and false.
 void interpret_flag(Field<bool>& field, Findings& findings);
 
+/// Whether a number, a flag or the like is what its text says: not the 0 of a text that is none. Writers leave other
+/// texts as they are.
+template <typename T>
+bool is_understood(const Field<T>& field) {
+  const ParsedInteger written = parse_integer(field.text);
+  return field.value != T{} || (written.is_meant() && written.value == 0U);
+}
+
 namespace rules {
 extern const Rule value_number;
 extern const Rule value_octal_digit;

@@ -62,6 +62,8 @@ struct ParsedInteger {
   std::size_t fault_at = 0;  ///< offset in the text
 
   bool is_number() const { return fault == NumberFault::none; }
+  /// Whether it can be taken for one.
+  bool is_meant() const { return is_number() || (fault >= NumberFault::suffix && fault != NumberFault::fraction); }
 };
 
 /// Decimal, 0x hexadecimal, or octal with a leading zero, each with an optional sign. [CiA 306]

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "text/number.hpp"
+#include "model/parse.hpp"
 #include "xdd/writer.hpp"
 
 namespace lexican::codict::xdd {
@@ -484,7 +484,7 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     out_.attribute("PDOmapping", name_of(entry.pdo_mapping.value));
   }
   if (is_in(entry.flags)) {
-    out_.attribute("objFlags", hex(entry.flags.value, 4));
+    out_.attribute("objFlags", is_understood(entry.flags) ? hex(entry.flags.value, 4) : entry.flags.text);
   }
   if (is_parameter) {
     out_.attribute("uniqueIDRef", std::string_view(id));

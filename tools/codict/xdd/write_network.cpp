@@ -2,6 +2,7 @@
 // ApplicationLayers beside the objects, TransportLayers, NetworkManagement. [311]
 #include <algorithm>
 
+#include "model/parse.hpp"
 #include "xdd/writer.hpp"
 
 namespace lexican::codict::xdd {
@@ -12,17 +13,28 @@ std::string_view word(bool value) { return value ? "true" : "false"; }
 
 std::string rate_text(std::uint32_t kbit) { return kbit == 0 ? "auto-baudRate" : std::to_string(kbit) + " Kbps"; }
 
+// What nobody understands stays as it is written.
+template <typename T>
+std::string text_or(const Field<T>& field, std::string_view meant) {
+  return std::string(field.is_empty() || is_understood(field) ? meant : field.text);
+}
+
 template <typename T>
 void print_number(Printer& out, std::string_view name, const Field<T>& field) {
   if (field.is_given) {
-    out.attribute(name, std::string_view(std::to_string(field.value)));
+    out.attribute(name, std::string_view(text_or(field, std::to_string(field.value))));
   }
 }
 
 void print_flag(Printer& out, std::string_view name, const Field<bool>& field) {
   if (field.is_given) {
-    out.attribute(name, word(field.value));
+    out.attribute(name, std::string_view(text_or(field, word(field.value))));
   }
+}
+
+template <typename T>
+void print_hex(Printer& out, std::string_view name, const Field<T>& field, std::size_t digits) {
+  out.attribute(name, std::string_view(text_or(field, hex(field.value, digits))));
 }
 
 Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
@@ -52,7 +64,7 @@ void print_general(Printer& out, const Features& f, const Kept* left) {
   print_number(out, "dynamicChannels", f.dynamic_channels);
   print_flag(out, "selfStartingDevice", f.self_starting);
   print_flag(out, "SDORequestingDevice", f.sdo_requesting);
-  out.attribute("granularity", std::string_view(std::to_string(f.granularity.value)));
+  out.attribute("granularity", std::string_view(text_or(f.granularity, std::to_string(f.granularity.value))));
   print_number(out, "nrOfRxPDO", f.rx_pdos);
   print_number(out, "nrOfTxPDO", f.tx_pdos);
   print_flag(out, "bootUpSlave", f.boot_up_slave);
@@ -81,10 +93,11 @@ void print_commissioning(Printer& out, const Commissioning& c, const Kept* left)
   out.open("deviceCommissioning");
   print_number(out, "nodeID", c.node_id);
   out.attribute("nodeName", std::string_view(c.node_name.text));
-  out.attribute("actualBaudRate", std::string_view(c.bit_rate.is_empty() ? "" : rate_text(c.bit_rate.value)));
-  out.attribute("networkNumber", std::string_view(std::to_string(c.network_number.value)));
+  const std::string rate = c.bit_rate.is_empty() ? "" : rate_text(c.bit_rate.value);
+  out.attribute("actualBaudRate", std::string_view(text_or(c.bit_rate, rate)));
+  out.attribute("networkNumber", std::string_view(text_or(c.network_number, std::to_string(c.network_number.value))));
   out.attribute("networkName", std::string_view(c.network_name.text));
-  out.attribute("CANopenManager", word(c.is_manager.value));
+  out.attribute("CANopenManager", std::string_view(text_or(c.is_manager, word(c.is_manager.value))));
   out.attributes_of(rest_of(left));
   out.elements_of(rest_of(left));
   out.close();
@@ -133,7 +146,8 @@ void print_dummies(Printer& out, const Device& device, const Kept* left) {
   out.open("dummyUsage");
   for (const Dummy& dummy : device.dummies) {
     out.open("dummy");
-    out.attribute("entry", "Dummy" + hex(dummy.type, 4) + (dummy.supported.value ? "=1" : "=0"));
+    out.attribute("entry",
+                  "Dummy" + hex(dummy.type, 4) + "=" + text_or(dummy.supported, dummy.supported.value ? "1" : "0"));
     out.close();
   }
   out.elements_of(rest_of(left));
@@ -148,13 +162,13 @@ void print_channels(Printer& out, const Device& device, const Kept* left) {
   for (const DynamicChannel& channel : device.dynamic_channels) {
     out.open("dynamicChannel");
     const Rest rest(channel.others);
-    out.attribute("dataType", hex(channel.data_type.value, 2));
+    print_hex(out, "dataType", channel.data_type, 2);
     out.attribute("accessType", direction(channel.access.value));
-    out.attribute("startIndex", hex(channel.first_index.value, 4));
-    out.attribute("endIndex", hex(channel.last_index.value, 4));
+    print_hex(out, "startIndex", channel.first_index, 4);
+    print_hex(out, "endIndex", channel.last_index, 4);
     print_number(out, "maxNumber", channel.max_number);
     if (channel.offset.is_given) {
-      out.attribute("addressOffset", hex(channel.offset.value, 4));
+      print_hex(out, "addressOffset", channel.offset, 4);
     }
     print_number(out, "bitAlignment", channel.bit_alignment);
     out.attributes_of(rest);
