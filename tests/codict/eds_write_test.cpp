@@ -218,3 +218,17 @@ TEST_CASE("EDS writer: what is no number and no flag stays as it is written, and
             "LSS_Supported=1\nLSS_Master=0\n"));
   CHECK(has(written(device_of("[DeviceInfo]\nNrOfRXPDO=8u\nNrOfTXPDO=0 ; none\n")), "NrOfRXPDO=8\nNrOfTXPDO=0\n"));
 }
+
+TEST_CASE("EDS writer: no text makes a file that is no text") {
+  Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=a\n");
+  device.objects.front().name.text = std::string("a\0b", 3);
+  device.others.push_back(
+      {std::string("Mine\nand\0yours", 14), {}, {{std::string("k\0\n", 3), {"v", {}, true}, {}, {}}}, {}});
+  const std::string eds = written(device);
+  CHECK(eds.find('\0') == std::string::npos);
+  CHECK(has(eds,
+            "ParameterName=a\xEF\xBF\xBD"
+            "b\n"));
+  CHECK(has(eds, "[Mine and\xEF\xBF\xBDyours]\nk\xEF\xBF\xBD =v\n"));
+  CHECK(device_of(eds).objects.size() == 1);
+}

@@ -362,3 +362,25 @@ TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where 
   CHECK(has(ran.err, "left out: "));
   CHECK_FALSE(std::filesystem::exists(directory / "no.xdd"));
 }
+
+TEST_CASE("codict convert: further devices, and characters that a format cannot have, are told") {
+  const Directory directory;
+  const std::string out = directory / "one.eds";
+  const Ran several = run("convert xdd/several.nxdd --strict-loss -o " + out);
+  CHECK(several.status == 1);
+  CHECK(has(several.err, "1 further devices"));
+  CHECK_FALSE(std::filesystem::exists(out));
+  CHECK(run("convert xdd/several.nxdd -o " + out).status == 0);
+  CHECK(Json::parse(run("convert xdd/several.nxdd --to json --strict-loss -o -").out).at("devices").size() == 2);
+  const std::string json = directory / "nul.json";
+  test::write_bytes(json, R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [
+  {"index": 8192, "name": "a\u0000b\u0001", "object_code": "var", "data_type": 5, "access": "rw"}]}]})");
+  CHECK(has(run("convert " + json + " -o " + out).err, "1 characters that it cannot have"));
+  CHECK(run("get " + out + " 2000 name").out ==
+        "a\xEF\xBF\xBD"
+        "b\x01\n");
+  CHECK(has(run("convert " + json + " -o " + directory / "nul.xdd").err, "2 characters that it cannot have"));
+  CHECK(run("get " + directory / "nul.xdd" + " 2000 name").out ==
+        "a\xEF\xBF\xBD"
+        "b\xEF\xBF\xBD\n");
+}

@@ -135,15 +135,19 @@ TEST_CASE("XDD write: a limit alone, and an empty default, stay what they are") 
   CHECK(says(xdd::write(empty.device, xdd::Edition::v11), "<co:defaultValue value=\"\"/>"));
 }
 
-TEST_CASE("XDD write: signs of markup, line ends and other controls come back") {
+TEST_CASE("XDD write: signs of markup and line ends come back, and what XML cannot have is replaced [XML 1.0: 2.2]") {
   XmlReading reading = test::fixture_xml("device10.xdd");
-  const std::string text = "a<b>&\"c'\td\ne\rf\x01";
+  const std::string text = "a<b>&\"c'\td\ne\rf";
   Object& object = *reading.device.find(0x1000);
   object.name.text = text;
   object.words.labels.at(0).text.text = text;
+  object.default_value.text = std::string("a\0b\x01", 4);
   const XmlReading again(xdd::write(reading.device, xdd::Edition::v11));
   CHECK(again.at(0x1000).name.text == text);
   CHECK(again.at(0x1000).words.labels.at(0).text.text == text);
+  CHECK(again.at(0x1000).default_value.text ==
+        "a\xEF\xBF\xBD"
+        "b\xEF\xBF\xBD");
 }
 
 TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type [306: 4.6.3, 4.6.4]") {
@@ -158,6 +162,16 @@ TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type
   for_each_variable(zero.device, [&](std::uint16_t index, std::uint8_t sub_index, const Entry& entry) {
     CHECK(meaning(zero_again.at(index, sub_index).default_value) == meaning(entry.default_value));
   });
+}
+
+TEST_CASE("XDD write: names of elements and attributes that are no names of XML are made ones") {
+  XmlReading reading = test::fixture_xml("device10.xdd");
+  Kept element{"a <b/>", {"x", {}, true}, {}, {}};
+  element.children.push_back({"@1=\"", {"y", {}, true}, {}, {}});
+  reading.device.others.push_back(element);
+  const std::string written = xdd::write(reading.device, xdd::Edition::v10);
+  CHECK(says(written, "<a__b__ _1__=\"y\">x</a__b__>"));
+  CHECK_FALSE(XmlReading(written).has("xdd-syntax"));
 }
 
 TEST_CASE("XDD write: numbers and flags that are none stay as they are written") {

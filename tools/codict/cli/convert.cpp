@@ -11,6 +11,7 @@
 #include "cli/output.hpp"
 #include "convert/losses.hpp"
 #include "eds/write.hpp"
+#include "json/texts.hpp"
 #include "json/write.hpp"
 #include "xdd/write.hpp"
 
@@ -43,9 +44,9 @@ constexpr std::array<Product, 9> products = {{
     {"xdc", Target::xdc, xdd::Edition::v11, {Format::xdc10, Format::xdc11}},
     {"xdd10", Target::xdd, xdd::Edition::v10, {Format::xdd10, Format::xdd10}},
     {"xdc10", Target::xdc, xdd::Edition::v10, {Format::xdc10, Format::xdc10}},
-    {"json", Target::json, xdd::Edition::v11, {}},
     {"xdd11", Target::xdd, xdd::Edition::v11, {Format::xdd11, Format::xdd11}},
     {"xdc11", Target::xdc, xdd::Edition::v11, {Format::xdc11, Format::xdc11}},
+    {"json", Target::json, xdd::Edition::v11, {}},
 }};
 
 const Product* find_product(std::string_view name) {
@@ -76,6 +77,28 @@ std::string written(const Input& input, const Product& product) {
   return eds::write(described, options);
 }
 
+// Those that the writers replace.
+std::size_t impossible_characters(const Device& device, Target target) {
+  std::size_t number = 0;
+  json::for_each_text(device, [&](const std::string& text) {
+    number += static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [target](char c) {
+      const bool is_of_lines = c == '\t' || c == '\n' || c == '\r';
+      const bool is_of_xml = target == Target::xdd || target == Target::xdc;
+      return c == '\0' || (is_of_xml && static_cast<unsigned char>(c) < ' ' && !is_of_lines);
+    }));
+  });
+  return number;
+}
+
+std::vector<Loss> losses_of(const Input& input, Target target) {
+  std::vector<Loss> losses = convert::losses(input.description, target);
+  const std::size_t characters = target == Target::json ? 0 : impossible_characters(input.device(), target);
+  if (characters != 0) {
+    losses.push_back({"characters that it cannot have", characters});
+  }
+  return losses;
+}
+
 // "codict: drive.xdd: not in the product: 3 units, 40 descriptions"
 void report(const Input& input, const std::vector<Loss>& losses) {
   std::vector<std::string> parts;
@@ -102,7 +125,7 @@ int run(const Options& options) {
     complain(options.output + ": it is the description itself");
     return unusable;
   }
-  const std::vector<Loss> losses = convert::losses(input->device(), product->target);
+  const std::vector<Loss> losses = losses_of(*input, product->target);
   if (!losses.empty()) {
     report(*input, losses);
     if (options.is_strict) {

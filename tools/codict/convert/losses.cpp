@@ -111,8 +111,12 @@ bool is_of_eds(const Device& device) { return device.format == Format::eds || de
 
 }  // namespace
 
-std::vector<Loss> losses(const Device& device, Target target) {
+std::vector<Loss> losses(const Description& description, Target target) {
+  const Device& device = description.devices.front();
   Counter counter(device);
+  if (target != Target::json) {
+    counter.add("further devices", description.devices.size() - 1);
+  }
   if (target == Target::eds || target == Target::xdd) {
     count_configuration(device, counter);
   }
@@ -120,13 +124,13 @@ std::vector<Loss> losses(const Device& device, Target target) {
     count_for_eds(device, counter);
   } else if (target != Target::json && is_of_eds(device)) {
     count_for_xdd(device, counter);
+    if (target == Target::xdc) {
+      count_for_xdc(device.commissioning, counter);
+    }
   }
   return counter.take();
 }
 
-    if (target == Target::xdc) {
-      count_for_xdc(device.commissioning, counter);
-    }
 Device without_configuration(Device device) {
   device.commissioning = Commissioning();
   device.connected_modules.clear();

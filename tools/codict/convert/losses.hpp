@@ -24,8 +24,8 @@ struct Loss {
   std::size_t count = 0;
 };
 
-/// Those that there are.
-std::vector<Loss> losses(const Device& device, Target target);
+/// Those that there are. What is written is the first device, but for JSON.
+std::vector<Loss> losses(const Description& description, Target target);
 
 /// The same without what is configured: an EDS or XDD describes all devices of a kind.
 Device without_configuration(Device device);

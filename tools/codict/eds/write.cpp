@@ -46,18 +46,23 @@ class Writer {
       text_ += options_.line_end;
     }
     text_ += '[';
-    text_ += name;
+    part(name);
     text_ += ']';
     text_ += options_.line_end;
   }
 
   void line(std::string_view key, std::string_view value) {
-    text_ += key;
+    part(key);
     text_ += '=';
-    for (const char c : value) {  // a line end would end the value
-      text_ += c == '\n' || c == '\r' ? ' ' : c;
-    }
+    part(value);
     text_ += options_.line_end;
+  }
+
+  // A line end would end it, and with a NUL the file would be no text.
+  void part(std::string_view text) {
+    for (const char c : text) {
+      text_ += c == '\0' ? replacement : c == '\n' || c == '\r' ? std::string_view(" ") : std::string_view(&c, 1);
+    }
   }
 
   template <typename T, std::size_t size>
@@ -117,11 +122,6 @@ class Writer {
   std::string text_;
 };
 
-std::string index_text(std::uint16_t index) { return fmt::format("0x{:04X}", index); }
-
-// Headers ----------------------------------------------------------------------------------------------------------
-
-void Writer::device_info(const Device& normal) {
 // What nobody understands stays as it is written.
 template <typename T>
 std::string written(const Field<T>& number, std::string_view format) {
@@ -129,6 +129,11 @@ std::string written(const Field<T>& number, std::string_view format) {
 }
 
 std::string index_text(const Field<std::uint16_t>& index) { return written(index, "0x{:04X}"); }
+std::string index_text(std::uint16_t index) { return fmt::format("0x{:04X}", index); }
+
+// Headers ----------------------------------------------------------------------------------------------------------
+
+void Writer::device_info(const Device& normal) {
   section("DeviceInfo");
   slots(normal, device_slots);
   for (const BitRate& rate : device_.features.bit_rates) {
@@ -211,8 +216,7 @@ void Writer::entry(const Entry& entry) {
   }
   kept(entry.others);
   if (!entry.node.storage_group.is_empty()) {
-    text_ += ";StorageLocation=" + entry.node.storage_group.text;  // as other tools write and read it
-    text_ += options_.line_end;
+    line(";StorageLocation", entry.node.storage_group.text);  // as other tools write and read it
   }
 }
 

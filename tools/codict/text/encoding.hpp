@@ -20,6 +20,9 @@ Encoding guess_encoding(std::string_view bytes);
 /// Bytes of a mark for UTF-8 at the beginning.
 std::size_t mark_size(std::string_view bytes);
 
+/// What stands for what is no character of a text: U+FFFD.
+constexpr std::string_view replacement = "\xEF\xBF\xBD";
+
 bool is_ascii(std::string_view bytes);
 
 /// UTF-8 whatever the bytes are: what is no text in the encoding becomes U+FFFD.

@@ -142,6 +142,7 @@ Encoding encoding_of(const Source& source, Findings& findings) {
   return declared == Encoding::utf8 ? guess : declared;
 }
 
+// XML has no others. [XML 1.0: 2.2]
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }
 
 bool is_deeper_than(pugi::xml_node root, std::size_t most) {
@@ -342,7 +343,8 @@ std::string escaped(std::string_view text) {
       case '<': result += "&lt;"; break;
       case '>': result += "&gt;"; break;
       case '"': result += "&quot;"; break;
-      default: result += is_control(c) ? "&#" + std::to_string(static_cast<unsigned>(c)) + ";" : std::string(1, c);
+      case '\r': result += "&#13;"; break;
+      default: result += is_control(c) ? replacement : std::string_view(&c, 1);
     }
   }
   return result;

@@ -73,6 +73,7 @@ class Document {
 };
 
 /// Signs of markup become references; in attributes, quotes of both kinds and line ends, too.
+/// What XML has no character for becomes U+FFFD.
 std::string escaped(std::string_view text);
 std::string escaped_attribute(std::string_view text);
 

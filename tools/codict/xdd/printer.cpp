@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "text/number.hpp"
 #include "xdd/document.hpp"
 
 namespace lexican::codict::xdd {
@@ -72,6 +73,20 @@ static_assert(!local_elements.back().empty());
 
 bool is_local(std::string_view name) { return std::binary_search(local_elements.begin(), local_elements.end(), name); }
 
+// Names come from elsewhere, too: what cannot stand in one becomes an underscore.
+std::string written_name(std::string_view name) {
+  std::string result(name);
+  std::replace_if(
+      result.begin(), result.end(),
+      [](char c) {
+        const bool is_letter = (to_lower(c) >= 'a' && to_lower(c) <= 'z') || static_cast<unsigned char>(c) >= 0x80;
+        return !is_letter && !is_digit(c) && c != '_' && c != '-' && c != '.' && c != ':';
+      },
+      '_');
+  const bool is_begun = !result.empty() && (is_digit(result.front()) || result.front() == '-' || result.front() == '.');
+  return (is_begun || result.empty() ? "_" : "") + result;
+}
+
 bool is_attribute(const Kept& kept) { return kept.name.substr(0, 1) == "@"; }
 
 }  // namespace
@@ -110,7 +125,7 @@ const Kept* Rest::take_left(std::string_view name, std::string_view attribute) {
 Printer::Printer(Edition edition) : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
 
 std::string Printer::full(std::string_view name) const {
-  return (is_qualified() || is_local(name) ? "" : "co:") + std::string(name);
+  return (is_qualified() || is_local(name) ? "" : "co:") + written_name(name);
 }
 
 void Printer::indent() { text_.append(open_.size() * 2, ' '); }
@@ -131,7 +146,7 @@ void Printer::open(std::string_view name) {
 }
 
 void Printer::attribute(std::string_view name, std::string_view text) {
-  text_ += " " + std::string(name) + "=\"" + escaped_attribute(text) + "\"";
+  text_ += " " + written_name(name) + "=\"" + escaped_attribute(text) + "\"";
 }
 
 void Printer::attribute(std::string_view name, const Text& text) {
