@@ -121,6 +121,28 @@ TEST_CASE("EDS normal form: line ends and letters are those of the file") {
   CHECK(formatted("").empty());
 }
 
+TEST_CASE("EDS normal form: $NODEID in a text is a part of it") {
+  for (const char* type : {"0x0009", "0x000A", "0x000B", "0x000F", "0x0008"}) {
+    CAPTURE(type);
+    const std::string text = std::string("[2000]\nDataType=") + type + "\nDefaultValue=1+$NodeID\n";
+    CHECK(formatted(text) == text);
+  }
+  CHECK(formatted("[2000]\nDataType=0x0007\nDefaultValue=1+$NodeID\n") ==
+        "[2000]\nDataType=0x0007\nDefaultValue=$NODEID+0x1\n");
+  CHECK(formatted("[2000]\nDefaultValue=1+$NodeID\n") == "[2000]\nDefaultValue=$NODEID+0x1\n");
+}
+
+TEST_CASE("EDS normal form: a comment that suppresses a rule for one section does not come to the top of the file") {
+  const std::string once = formatted(
+      "[2000]\nParameterName=a\n; codict: ignore eds-file-date\n[FileInfo]\nFileName=x\n[1000]\nParameterName=b\n");
+  CHECK(once ==
+        "[1000]\nParameterName=b\n\n; codict: ignore eds-file-date\n[FileInfo]\nFileName=x\n\n"
+        "[2000]\nParameterName=a\n");
+  CHECK(formatted(once) == once);
+  CHECK(formatted("; codict: ignore od-limit\n[2000]\nParameterName=a\n; codict: ignored\n[FileInfo]\n") ==
+        "; codict: ignore od-limit\n\n; codict: ignored\n[FileInfo]\n\n[2000]\nParameterName=a\n");
+}
+
 TEST_CASE("EDS normal form: numbers that are none stay") {
   const std::string text = "[FileInfo]\nFileVersion=1.2.3\n\n[DeviceInfo]\nNrOfRXPDO=many\nGranularity=8 ; bits\n";
   CHECK(formatted(text) == text);

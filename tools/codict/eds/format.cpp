@@ -18,6 +18,7 @@
 #include "model/access.hpp"
 #include "model/device.hpp"
 #include "text/number.hpp"
+#include "text/suppression.hpp"
 
 namespace lexican::codict::eds {
 
@@ -128,6 +129,12 @@ class Formatter {
     }
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const Block& a, const Block& b) { return order_of(a.name) < order_of(b.name); });
+    // Above the first section, a comment that suppresses rules would be for the whole file.
+    const auto plain =
+        std::find_if_not(blocks.begin(), blocks.end(), [this](const Block& block) { return has_suppression(block); });
+    if (plain != blocks.end()) {
+      std::rotate(blocks.begin(), plain, plain + 1);
+    }
     text_ = document_.raw({0, static_cast<std::uint32_t>(mark_size(source().bytes()))});
     paragraph(top);
     for (const Block& block : blocks) {
@@ -143,6 +150,14 @@ class Formatter {
     std::string_view text = document_.raw(source().line(line));
     text.remove_prefix(line == 1 ? mark_size(text) : 0);
     return trimmed(text);
+  }
+
+  bool has_suppression(const Block& block) const {
+    return std::any_of(block.before.begin(), block.before.end(), [this](std::string_view line) {
+      const auto begin = static_cast<std::uint32_t>(line.data() - source().bytes().data());
+      const Span content{begin + 1, begin + static_cast<std::uint32_t>(line.size())};
+      return line.substr(0, 1) == ";" && !suppressions_in(source(), content).empty();
+    });
   }
 
   // Lines behind one another, none of them empty, with an empty one in front of them.
@@ -207,10 +222,10 @@ class Formatter {
       const auto subs = subs_.find(block.name.index);
       return subs == subs_.end() || is_compact(*block.section) ? raw(key) : counted(key, subs->second.size());
     }
-    return value_of_entry(name, raw(key));
+    return value_of_entry(*block.section, name, raw(key));
   }
 
-  static std::string value_of_entry(std::string_view name, const std::string& text) {
+  std::string value_of_entry(const Section& section, std::string_view name, const std::string& text) const {
     if (compare_names(name, "DataType") == 0) {
       return hexadecimal(text, 4);
     }
@@ -221,7 +236,16 @@ class Formatter {
       const Access access = access_named(text);
       return access == Access::unknown || access == Access::none ? text : std::string(name_of(access));
     }
-    return is_any_of(name, {"DefaultValue", "ParameterValue", "LowLimit", "HighLimit"}) ? with_node_id(text) : text;
+    const bool is_value = is_any_of(name, {"DefaultValue", "ParameterValue", "LowLimit", "HighLimit"});
+    return is_value && is_of_numbers(section) ? with_node_id(text) : text;
+  }
+
+  // Whether values may depend on the node-ID: $NODEID in a string is a part of it.
+  bool is_of_numbers(const Section& section) const {
+    const Key* const key = document_.find(section, "DataType");
+    const ParsedInteger code = parse_integer(key != nullptr ? document_.raw(key->value) : std::string_view());
+    return !code.is_number() || (fits_unsigned(code.value, 16) &&
+                                 is_integer(data_type(static_cast<std::uint16_t>(code.value.magnitude)).kind));
   }
 
   bool is_compact(const Section& section) const {
