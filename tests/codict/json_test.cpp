@@ -33,7 +33,7 @@ const char* const corpus = std::getenv("LEXICAN_CORPUS");
 
 struct JsonReading {
   explicit JsonReading(const std::string& bytes, const std::string& name = "device.json")
-      : document(Source(name, bytes), findings), refusal(json::refusal(document)) {
+      : document(Source(name, bytes)), refusal(json::refusal(document)) {
     if (refusal.empty()) {
       description = json::read(document, findings);
     }

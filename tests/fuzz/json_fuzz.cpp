@@ -18,7 +18,7 @@ using fuzz::require;
 // Empty if it is refused.
 Description description_of(const std::string& bytes) {
   Findings findings;
-  const json::Document document(Source("fuzz.json", bytes), findings);
+  const json::Document document(Source("fuzz.json", bytes));
   const std::string why = json::refusal(document);
   require(why.find('\n') == std::string::npos, "a refusal is one line");
   if (!why.empty()) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "check/check.hpp"
@@ -29,12 +31,21 @@ bool is_xml(std::string_view bytes) {
   return begin != std::string_view::npos && bytes[begin] == '<';
 }
 
+template <typename Document>
+std::unique_ptr<const Document> document_of(Source source, Findings& findings) {
+  if constexpr (std::is_constructible_v<Document, Source>) {  // it has a fault, or none
+    return std::make_unique<const Document>(std::move(source));
+  } else {
+    return std::make_unique<const Document>(std::move(source), findings);
+  }
+}
+
 // Empty if the input has been read.
 template <typename Document, typename Refuse, typename Read>
 std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<const Document>& document, Input& input) {
   std::string why = refusal(source);
   if (why.empty()) {
-    document = std::make_unique<const Document>(std::move(source), input.findings);
+    document = document_of<Document>(std::move(source), input.findings);
     why = refusal(*document);
   }
   if (why.empty()) {

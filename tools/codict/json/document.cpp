@@ -226,7 +226,7 @@ const Node* Node::find(std::string_view member) const {
   return place != children.end() ? &*place : nullptr;
 }
 
-Document::Document(Source source, Findings& /*findings*/) : source_(std::move(source)) {
+Document::Document(Source source) : source_(std::move(source)) {
   const std::string_view bytes = source_.bytes();
   const char* read = bytes.data();
   Builder builder(bytes, read);

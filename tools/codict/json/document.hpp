@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "text/encoding.hpp"
-#include "text/finding.hpp"
 #include "text/number.hpp"
 #include "text/source.hpp"
 
@@ -41,7 +40,7 @@ class Document {
   static constexpr std::size_t most_values = 1000000;
 
   /// Takes any bytes.
-  Document(Source source, Findings& findings);
+  explicit Document(Source source);
 
   const Source& source() const { return source_; }
   Encoding encoding() const { return Encoding::utf8; }
