@@ -280,3 +280,36 @@ TEST_CASE("JSON: texts of all letters come back") {
   CHECK(reading.device().file.description.text == text);
   CHECK(has(std::string(reading.document.source().slice(reading.device().file.description.span)), "\\u000a"));
 }
+
+TEST_CASE("JSON: the text of a number, a flag or a word that says something else than the value is an error") {
+  for (const char* members :
+       {R"("data_type": {"value": 7, "text": "0x0006"})", R"("sub_number": {"value": 3, "text": "4"})",
+        R"("access": {"value": "rw", "text": "ro"})", R"("flags": {"value": 0, "text": "2"})",
+        R"("pdo_mapping": {"value": "no", "text": "1"})", R"("node": {"disabled": {"value": false, "text": "1"}})"}) {
+    CAPTURE(members);
+    const JsonReading reading(with(members));
+    CHECK(reading.has("json-contradiction"));
+    CHECK(JsonReading(json::write(reading.description)).found().empty());  // the text is used
+  }
+  CHECK(JsonReading(with(R"("data_type": {"value": 7, "text": "0x0006"})")).device().objects.at(0).data_type.value ==
+        6);
+  CHECK(JsonReading(with(R"("data_type": {"value": 7, "text": "0x7"}, "access": {"value": "rw", "text": "RW"},
+"pdo_mapping": {"value": "tpdo", "text": "1"}, "flags": {"value": 0, "text": ""})"))
+            .found()
+            .empty());
+}
+
+TEST_CASE("JSON: attributes of XML are hexadecimal, or words of their own") {
+  std::string xdd = with(R"("data_type": {"value": 12, "text": "0C"}, "flags": {"value": 16, "text": "0010"},
+"pdo_mapping": {"value": "rpdo", "text": "RPDO"}, "access": {"value": "rw", "text": "readWrite"})");
+  xdd.replace(xdd.find("\"eds\""), 5, "\"xdd11\"");
+  CHECK(JsonReading(xdd).found().empty());
+}
+
+TEST_CASE("JSON: what is wrong about the numbers of an EDS is not hidden") {
+  CHECK(JsonReading(with(R"("flags": {"value": 0, "text": "many"})")).found() == "2:48 od-value-number\n");
+  CHECK(JsonReading(with(R"("flags": {"value": 8, "text": "010"})")).has("od-value-octal"));
+  const JsonReading file(R"({"schema": "codict-device-1", "devices": [{"format": "eds",
+"file": {"version": {"value": 0, "text": "300"}}, "features": {"lss_slave": {"value": false, "text": "maybe"}}}]})");
+  CHECK(file.found() == "2:43 od-value-range\n2:103 od-value-number\n");
+}

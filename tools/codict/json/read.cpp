@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -26,8 +27,7 @@ const Rule word{"json-word", Severity::error, "A word is one of those of the sch
 const Rule unknown{"json-unknown", Severity::warning, "A member that the schema does not have is not used."};
 const Rule duplicate{"json-duplicate", Severity::error, "A member, and an object, is there once: the first is used."};
 const Rule missing{"json-missing", Severity::error, "A part has the member that names it."};
-const Rule contradiction{"json-contradiction", Severity::error,
-                         "The value of an object says what its text says: the text is used."};
+const Rule contradiction{"json-contradiction", Severity::error, "A value says what its text says: the text is used."};
 
 }  // namespace rules
 
@@ -50,7 +50,44 @@ struct Untyped {
 struct Context {
   Findings& findings;
   std::vector<Untyped> untyped;
+  Format format = Format::eds;  // of the device that is being read
 };
+
+bool is_of_eds(Format format) { return format == Format::eds || format == Format::dcf; }
+
+// What the text of a field says; none if that takes a reader of its format, or nobody knows it. In XML, some numbers
+// are hexadecimal, and bit rates may have been bit/s.
+std::optional<std::uint64_t> number_in(const Text& text, std::uint64_t value, Format format) {
+  const ParsedInteger number = parse_integer(text.text);
+  if (is_of_eds(format)) {
+    return number.is_meant() ? std::optional(number.value.bits()) : std::nullopt;
+  }
+  std::uint64_t digits = 0;
+  const bool is_hex = parse_hex(text.text, digits) && digits == value;
+  const bool is_known = number.is_number() && !is_hex && number.value.bits() != 1000 * value;
+  return is_known ? std::optional(number.value.bits()) : std::nullopt;
+}
+std::optional<bool> meaning_of(const Field<bool>& field, Format format) {
+  const std::optional<std::uint64_t> number = number_in(field, 0, format);
+  return number && *number < 2 ? std::optional(*number == 1) : std::nullopt;
+}
+template <typename T>
+std::optional<T> meaning_of(const Field<T>& field, Format format) {
+  const std::optional<std::uint64_t> number = number_in(field, static_cast<std::uint64_t>(field.value), format);
+  return number && *number <= std::numeric_limits<T>::max() ? std::optional(static_cast<T>(*number)) : std::nullopt;
+}
+std::optional<Access> meaning_of(const Field<Access>& field, Format /*format*/) {
+  const Access access = access_named(field.text);
+  return access != Access::unknown ? std::optional(access) : std::nullopt;
+}
+std::optional<PdoMapping> meaning_of(const Field<PdoMapping>& field, Format format) {
+  const std::optional<std::uint64_t> number = number_in(field, 0, format);
+  const bool is_mapped = field.value != PdoMapping::no;
+  return !number        ? std::nullopt
+         : *number == 0 ? std::optional(PdoMapping::no)
+         : is_mapped    ? std::optional(field.value)
+                        : std::optional(PdoMapping::optional);
+}
 
 template <typename T>
 constexpr bool is_sorted = std::is_same_v<T, Object> || std::is_same_v<T, Sub>;
@@ -73,6 +110,9 @@ class Reader {
     names_.push_back(name);
     if (const Node* const node = node_.find(name); node != nullptr) {
       read(*node, member);
+    }
+    if constexpr (std::is_same_v<T, Format>) {
+      context_.format = member;
     }
   }
 
@@ -202,7 +242,42 @@ class Reader {
       interpret(field);
     } else if (node.find("text") == nullptr && field.is_given) {
       field.text = text_of(field.value);
+    } else if (!field.is_empty()) {
+      compare(field);
     }
+  }
+
+  // A value with its text. What is wrong about a number of an EDS is said here, too.
+  template <typename T>
+  void compare(Field<T>& field) {
+    if constexpr (std::is_unsigned_v<T>) {
+      if (is_of_eds(context_.format)) {
+        Field<T> written = field;
+        interpret(written);
+      }
+    }
+    if constexpr (std::is_unsigned_v<T> || std::is_same_v<T, Access> || std::is_same_v<T, PdoMapping>) {
+      // The data type of an object in XML is its parameter's, whatever the object says.
+      const bool is_another = std::is_same_v<T, std::uint16_t> && !is_of_eds(context_.format);
+      const std::optional<T> meaning = is_another ? std::nullopt : meaning_of(field, context_.format);
+      if (meaning && *meaning != field.value && !is_refused(*meaning, field)) {
+        context_.findings.add(rules::contradiction, field.span, "the text says something else than the value");
+        field.value = *meaning;
+      }
+    }
+  }
+
+  // FileVersion=300 of an EDS leaves 0: it is larger than CiA 306 allows.
+  template <typename T>
+  bool is_refused(const T& meaning, const Field<T>& field) {
+    if constexpr (std::is_same_v<T, std::uint32_t>) {
+      const bool is_so = field.value == 0 && meaning > 0xFF;
+      if (is_so) {
+        context_.findings.add(codict::rules::value_range, field.span, "larger than what it stands for");
+      }
+      return is_so;
+    }
+    return false;
   }
 
   template <typename T>
