@@ -142,7 +142,7 @@ TEST_CASE("codict merge: what cannot be merged is said, and nothing is written")
   CHECK(run("merge drive.eds -o " + out + " --set colour=5").status == 2);
   CHECK(run("merge drive.eds -o " + out + " --set 1018:1").status == 2);
   CHECK(run("merge xdd/device10.xdd -o " + out).err ==
-        "codict: xdd/device10.xdd: the base is an EDS or DCF: convert makes one of it\n");
+        "codict: xdd/device10.xdd: the base is an EDS or DCF: convert makes one of it, set changes values of an XDD\n");
   const Ran wrong = run("merge drive.eds -o " + out + " --set 2000.default=70000");
   CHECK(wrong.status == 1);
   CHECK(has(wrong.err, "od-value-range"));
@@ -383,4 +383,24 @@ TEST_CASE("codict convert: further devices, and characters that a format cannot 
   CHECK(run("get " + directory / "nul.xdd" + " 2000 name").out ==
         "a\xEF\xBF\xBD"
         "b\xEF\xBF\xBD\n");
+}
+
+TEST_CASE("codict merge: elements of compact storage get their values in lists, as with set") {
+  const Directory directory;
+  const std::string out = directory / "out.dcf";
+  const Ran ran = run("merge compact.dcf --set 2000:5.value=9 --set 2000:5.name=Fifth -o " + out);
+  CHECK(ran.status == 0);
+  CHECK(run("get " + out + " 2000Value 5").out == "9\n");
+  CHECK(run("get " + out + " 2000Name 5").out == "Fifth\n");
+  CHECK(has(run("merge compact.dcf --set 2000:5.access=ro -o " + out).err, "2000:05 is in compact storage"));
+}
+
+TEST_CASE("codict merge: what is new in the output is told at its place there") {
+  const Directory directory;
+  const std::string out = directory / "out.eds";
+  const Ran ran = run("merge drive.eds --set 2000.default=70000 -o " + out);
+  CHECK(ran.status == 1);
+  CHECK(has(ran.out + ran.err, out + ":"));
+  CHECK_FALSE(has(ran.err, "drive.eds:"));
+  CHECK(has(run("merge drive.eds --set 2000.default=70000 -o -").err, "<stdout>:"));
 }

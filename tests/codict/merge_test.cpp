@@ -116,3 +116,21 @@ TEST_CASE("merge: a list with gaps gets numbers behind its last one, and sub-ind
   CHECK(merged("[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n", "[2000subFF]\nDefaultValue=7\n") ==
         "[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n\n[2000subFF]\nDefaultValue=7\n");
 }
+
+TEST_CASE("merge: a storage group that is hidden in a comment is a value like others") {
+  CHECK(merged("[2000]\nParameterName=a\n\n[2001]\nParameterName=b\n;StorageLocation=RAM\n",
+               "[2000]\nLowLimit=0\n;StorageLocation=ROM\n[2001]\n; why\n;StorageLocation=PERSIST\n") ==
+        "[2000]\nParameterName=a\nLowLimit=0\n;StorageLocation=ROM\n\n[2001]\nParameterName=b\n"
+        ";StorageLocation=PERSIST\n");
+  const Merging merging("[2001]\nParameterName=b\n;StorageLocation=RAM\n", "[2001]\n;StorageLocation=ROM\n");
+  REQUIRE(merging.replaced.size() == 1);
+  CHECK(merging.replaced[0].key == "StorageLocation");
+  CHECK(merging.replaced[0].before == "RAM");
+}
+
+TEST_CASE("merge: both spellings of DeviceComissioning are one section") {
+  CHECK(merged("[DeviceCommissioning]\nNodeID=5\n", "[DeviceComissioning]\nNodeID=6\nBaudrate=125\n") ==
+        "[DeviceCommissioning]\nNodeID=6\nBaudrate=125\n");
+  CHECK(merged("[DeviceComissioning]\nNodeID=5\n", "[DeviceCommissioning]\nNodeID=6\n") ==
+        "[DeviceComissioning]\nNodeID=6\n");
+}

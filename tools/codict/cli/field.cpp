@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/field.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -48,6 +50,14 @@ bool is_section_of(const eds::SectionName& name, const Reference& reference, boo
   return name.kind == eds::SectionKind::sub && name.sub_index == *reference.sub_index;
 }
 
+// The list of compact storage that has a field of its sub-objects; empty if there is none. [306: 4.6.4]
+std::string_view list_of(std::string_view key) {
+  return key == "ParameterName"    ? "Name"
+         : key == "ParameterValue" ? "Value"
+         : key == "Denotation"     ? "Denotation"
+                                   : std::string_view();
+}
+
 }  // namespace
 
 std::string_view key_of(std::string_view field) {
@@ -92,6 +102,26 @@ const eds::Section* find_section(const Input& input, const std::string& target, 
   why = is_implied ? to_string(reference) + " has no section of its own: it is in compact storage"
                    : "there is no object " + to_string(reference);
   return nullptr;
+}
+
+bool is_implied(const Input& input, const Reference& reference) {
+  const Object* const object = input.device().find(reference.index);
+  const Sub* const sub = object != nullptr && reference.sub_index ? object->find(*reference.sub_index) : nullptr;
+  return sub != nullptr && sub->is_implied;
+}
+
+bool add_to_lists(const Reference& reference, const Assignment& assignment, std::string& lines, std::string& why) {
+  const std::string_view list = list_of(key_of(assignment.field));
+  if (!has_one_line(assignment.text, why)) {
+    return false;
+  }
+  if (list.empty()) {
+    why = to_string(reference) + " is in compact storage, which has only name, value and denotation of its own";
+    return false;
+  }
+  lines +=
+      fmt::format("[{:04X}{}]\nNrOfEntries=1\n{}={}\n", reference.index, list, *reference.sub_index, assignment.text);
+  return true;
 }
 
 const Entry* find_entry(const Input& input, const std::string& target, std::string& why) {

@@ -31,6 +31,12 @@ bool has_one_line(std::string_view text, std::string& why);
 /// line.
 const eds::Section* find_section(const Input& input, const std::string& target, std::string& why);
 
+/// Whether compact storage implies a sub-object, which has no section of its own.
+bool is_implied(const Input& input, const Reference& reference);
+/// The lines of an EDS that say a field of such a sub-object, which are there in lists. False if there is no list for
+/// the field, and why is one line.
+bool add_to_lists(const Reference& reference, const Assignment& assignment, std::string& lines, std::string& why);
+
 /// The object that a description without sections has under this name; null if there is none, and why is one line.
 const Entry* find_entry(const Input& input, const std::string& target, std::string& why);
 

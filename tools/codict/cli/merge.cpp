@@ -120,6 +120,12 @@ bool add_file(Merged& merged, const std::string& path, const std::string& base) 
 // The section of a target with one key; empty if there is no such target, and why is one line.
 std::string lines_for(const Input& input, const std::string& target, std::string_view field, std::string_view value,
                       std::string& why) {
+  Reference reference;
+  if (parse_reference(target, reference) && is_implied(input, reference)) {
+    std::string lines;
+    add_to_lists(reference, {field, value}, lines, why);
+    return lines;
+  }
   const eds::Section* const section = has_one_line(value, why) ? find_section(input, target, why) : nullptr;
   return section == nullptr ? std::string()
                             : fmt::format("[{}]\n{}={}\n", input.eds->text(section->name), key_of(field), value);
@@ -187,7 +193,7 @@ int run(const Options& options) {
     return unusable;
   }
   if (base->eds == nullptr) {
-    complain(options.base + ": the base is an EDS or DCF: convert makes one of it");
+    complain(options.base + ": the base is an EDS or DCF: convert makes one of it, set changes values of an XDD");
     return unusable;
   }
   for (const std::string& overlay : options.overlays) {
@@ -205,7 +211,7 @@ int run(const Options& options) {
   if (!add_values(merged, options)) {
     return unusable;
   }
-  if (!options.is_forced && !review(*base, merged.input)) {
+  if (!options.is_forced && !review(*base, merged.input, options.output)) {
     complain("nothing is written: --force writes it nevertheless");
     return found;
   }

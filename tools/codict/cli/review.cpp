@@ -29,11 +29,13 @@ std::vector<Finding> added(const Findings& before, const Findings& after) {
 
 }  // namespace
 
-bool review(Input& before, Input& after) {
+bool review(Input& before, Input& after, const std::string& output) {
   check_all(before);
   check_all(after);
   const std::vector<Finding> fresh = added(before.findings, after.findings);
-  fmt::print(stderr, "{}", render(after.source(), after.encoding(), fold(fresh), false));
+  fmt::print(stderr, "{}",
+             render(Source(output == "-" ? "<stdout>" : output, std::string(after.source().bytes())), after.encoding(),
+                    fold(fresh), false));
   return std::none_of(fresh.begin(), fresh.end(),
                       [](const Finding& finding) { return finding.rule->severity == Severity::error; });
 }

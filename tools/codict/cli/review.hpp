@@ -7,7 +7,8 @@
 
 namespace lexican::codict::cli {
 
-/// True if what would be written has no errors that were not there before. All that is new is shown.
-bool review(Input& before, Input& after);
+/// True if what would be written has no errors that were not there before. All that is new is shown, in its place of
+/// the output.
+bool review(Input& before, Input& after, const std::string& output);
 
 }  // namespace lexican::codict::cli

@@ -63,35 +63,6 @@ bool assign(const xdd::Document& document, const Entry& entry, const Assignment&
   return !attribute.empty() && document.add_attribute(entry.span.begin, attribute, assignment.text, edits);
 }
 
-// The list of compact storage that has a field of its sub-objects; empty if there is none. [306: 4.6.4]
-std::string_view list_of(std::string_view key) {
-  return key == "ParameterName"    ? "Name"
-         : key == "ParameterValue" ? "Value"
-         : key == "Denotation"     ? "Denotation"
-                                   : std::string_view();
-}
-
-// What compact storage implies has no section, but lines in lists: those that there are to be.
-bool add_to_lists(const Reference& reference, const Assignment& assignment, std::string& lines, std::string& why) {
-  const std::string_view list = list_of(key_of(assignment.field));
-  if (!has_one_line(assignment.text, why)) {
-    return false;
-  }
-  if (list.empty()) {
-    why = to_string(reference) + " is in compact storage, which has only name, value and denotation of its own";
-    return false;
-  }
-  lines +=
-      fmt::format("[{:04X}{}]\nNrOfEntries=1\n{}={}\n", reference.index, list, *reference.sub_index, assignment.text);
-  return true;
-}
-
-bool is_implied(const Input& input, const Reference& reference) {
-  const Object* const object = input.device().find(reference.index);
-  const Sub* const sub = object != nullptr && reference.sub_index ? object->find(*reference.sub_index) : nullptr;
-  return sub != nullptr && sub->is_implied;
-}
-
 // False leaves why not.
 bool assign_to_lists(const Input& input, const Reference& reference, const Options& options, std::string& bytes,
                      std::string& why) {
@@ -191,7 +162,8 @@ int run(const Options& options) {
     return unusable;
   }
   std::optional<Input> changed = read(Source(input->source().name(), bytes), why);
-  if (!options.is_forced && !(changed && review(*input, *changed))) {
+  const std::string& path = options.output.empty() ? options.file : options.output;
+  if (!options.is_forced && !(changed && review(*input, *changed, path))) {
     complain("nothing is written: --force writes it nevertheless");
     return found;
   }

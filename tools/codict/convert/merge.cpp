@@ -7,6 +7,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -106,7 +107,9 @@ class Merger {
   // Module sections and headers have their words; all others are of an index.
   using SectionKey = std::tuple<SectionKind, std::uint16_t, std::uint8_t, std::uint16_t, std::string_view, bool>;
   static SectionKey key_of(const SectionName& name) {
-    return {name.kind, name.index, name.sub_index, name.module, name.word, name.is_sub};
+    const bool is_other_spelling = name.word == "DeviceCommissioning";
+    const std::string_view word = is_other_spelling ? "DeviceComissioning" : name.word;
+    return {name.kind, name.index, name.sub_index, name.module, word, name.is_sub};
   }
 
   const eds::Section* find(const SectionName& name, std::string_view text) const {
@@ -142,6 +145,21 @@ class Merger {
     for (const eds::Key* key : fresh) {
       is_possible_ =
           base_.add_key(section, overlay_.text(key->name), overlay_.text(key->value), edits_) && is_possible_;
+    }
+    if (is_of_object(name)) {
+      change_storage(section, by);
+    }
+  }
+
+  void change_storage(const eds::Section& section, const eds::Section& by) {
+    const std::optional<eds::Key> group = eds::storage_location(overlay_, by);
+    const std::optional<eds::Key> old = eds::storage_location(base_, section);
+    if (group && old) {
+      replace(section, *old, overlay_.text(group->value));
+    } else if (group) {
+      std::string bytes;
+      is_possible_ = base_.to_source(overlay_.text(group->value), bytes) && is_possible_;
+      edits_.insert(end_of(section), end_ + ";StorageLocation=" + bytes);
     }
   }
 

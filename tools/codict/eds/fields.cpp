@@ -28,6 +28,17 @@ Kept kept(const Document& document, const Section& section) {
   return result;
 }
 
+std::optional<Key> storage_location(const Document& document, const Section& section) {
+  constexpr std::string_view word = "StorageLocation=";
+  for (const Span comment : document.comments(section)) {
+    if (equal_ignoring_case(document.raw(comment).substr(0, word.size()), word)) {
+      const std::uint32_t begin = comment.begin + static_cast<std::uint32_t>(word.size());
+      return Key{{comment.begin, begin - 1}, {begin, comment.end}, 0, false};
+    }
+  }
+  return std::nullopt;
+}
+
 void report_length(const Text& text, std::size_t longest, Findings& findings) {
   if (longest != 0 && text.span.size() > longest) {
     findings.add(rules::key_length, text.span, "longer than " + std::to_string(longest) + " characters");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,9 @@ struct Slot {
 };
 
 void report_length(const Text& text, std::size_t longest, Findings& findings);
+
+/// ";StorageLocation=PERSIST", a key that libEDSsharp hides in a comment; none if there is none.
+std::optional<Key> storage_location(const Document& document, const Section& section);
 
 /// False if no slot is that of the key.
 template <typename T, std::size_t size>

@@ -27,17 +27,13 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   return true;
 }
 
-// ";StorageLocation=PERSIST" of libEDSsharp.
-void read_comment(Entry& entry, Span comment, const Reader& reader) {
-  constexpr std::string_view word = "StorageLocation=";
-  const std::string_view content = reader.document.raw(comment);
-  if (entry.node.storage_group.is_given || !equal_ignoring_case(content.substr(0, word.size()), word)) {
-    return;
+void read_storage_group(Entry& entry, const Section& section, const Reader& reader) {
+  if (const std::optional<Key> key = storage_location(reader.document, section)) {
+    static_cast<Text&>(entry.node.storage_group) = text_of(reader.document, *key);
+    entry.node.storage_group.value = entry.node.storage_group.text;
+    reader.findings.add(rules::hidden_key, {key->name.begin, key->value.end},
+                        "a storage group, as libEDSsharp hides it");
   }
-  const Span value{comment.begin + static_cast<std::uint32_t>(word.size()), comment.end};
-  static_cast<Text&>(entry.node.storage_group) = {reader.document.text(value), value, true};
-  entry.node.storage_group.value = entry.node.storage_group.text;
-  reader.findings.add(rules::hidden_key, comment, "a storage group, as libEDSsharp hides it");
 }
 
 void interpret_object_code(Entry& entry, bool has_subs, Findings& findings) {
@@ -177,9 +173,7 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
       keep_key(key, sub.others, reader);
     }
   }
-  for (const Span comment : reader.document.comments(section)) {
-    read_comment(sub, comment, reader);
-  }
+  read_storage_group(sub, section, reader);
 }
 
 // The default of sub-index 0 that is not given is the highest sub-index. [306: 4.6.3]
@@ -226,9 +220,7 @@ void read_object(Object& object, const Section& section, const Reader& reader) {
   for (const Key& key : section.keys) {
     read_key(object, key, reader);
   }
-  for (const Span comment : reader.document.comments(section)) {
-    read_comment(object, comment, reader);
-  }
+  read_storage_group(object, section, reader);
 }
 
 std::size_t number_of_objects(const std::vector<NamedSection>& sorted) {
