@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -133,4 +134,17 @@ TEST_CASE("merge: both spellings of DeviceComissioning are one section") {
         "[DeviceCommissioning]\nNodeID=6\nBaudrate=125\n");
   CHECK(merged("[DeviceComissioning]\nNodeID=5\n", "[DeviceCommissioning]\nNodeID=6\n") ==
         "[DeviceComissioning]\nNodeID=6\n");
+}
+
+TEST_CASE("merge: a section of very many keys does not take for ever") {
+  std::string base = "[Mine]\n";
+  std::string overlay = "[Mine]\n";
+  for (int n = 0; n < 100000; ++n) {
+    base += "k" + std::to_string(n) + "=1\n";
+    overlay += "k" + std::to_string(n + 50000) + "=2\n";
+  }
+  const std::clock_t begin = std::clock();
+  const Merging merging(base, overlay);
+  CHECK(merging.replaced.size() == 50000);
+  CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // with all checks of a build for tests; it was half an hour
 }

@@ -221,10 +221,9 @@ class Merger {
 
   void count_subs() {
     for (const auto& [index, added] : added_subs_) {
-      const auto subs = std::count_if(sections_.begin(), sections_.end(), [index = index](const auto& each) {
-        return std::get<0>(each.first) == SectionKind::sub && std::get<1>(each.first) == index &&
-               std::get<2>(each.first) != 0xFF;
-      });
+      // FFh is none of them.
+      const auto first = sections_.lower_bound({SectionKind::sub, index, 0, 0, {}, false});
+      const auto subs = std::distance(first, sections_.lower_bound({SectionKind::sub, index, 0xFF, 0, {}, false}));
       count(*find(object_name(index), {}), "SubNumber", static_cast<std::size_t>(subs) + added);
     }
   }

@@ -85,23 +85,39 @@ std::size_t pass_blanks(std::string_view text, std::size_t at) {
   return at;
 }
 
-// Of sections, or of keys: by name, and those of a name by place.
+// Places of sections, or of keys: by name, and those of a name by place.
 template <typename Named>
-bool comes_before(const Source& source, const Named& a, const Named& b) {
-  const int difference = compare_names(source.slice(a.name), source.slice(b.name));
-  return difference != 0 ? difference < 0 : a.name.begin < b.name.begin;
+std::vector<std::uint32_t> sorted(const Source& source, const std::vector<Named>& all) {
+  std::vector<std::uint32_t> places(all.size());
+  std::iota(places.begin(), places.end(), 0U);
+  std::sort(places.begin(), places.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const int difference = compare_names(source.slice(all[a].name), source.slice(all[b].name));
+    return difference != 0 ? difference < 0 : a < b;
+  });
+  return places;
 }
 
-// sorted: as comes_before() has it
 template <typename Named>
-void mark_duplicates(const Source& source, const std::vector<Named*>& sorted, const Rule& rule, const char* text,
-                     Findings& findings) {
-  for (std::size_t n = 1; n < sorted.size(); ++n) {
-    if (compare_names(source.slice(sorted[n - 1]->name), source.slice(sorted[n]->name)) == 0) {
-      sorted[n]->is_duplicate = true;
-      findings.add(rule, sorted[n]->name, text);
+void mark_duplicates(const Source& source, const std::vector<std::uint32_t>& by_name, std::vector<Named>& all,
+                     const Rule& rule, const char* text, Findings& findings) {
+  for (std::size_t n = 1; n < by_name.size(); ++n) {
+    Named& one = all[by_name[n]];
+    if (compare_names(source.slice(all[by_name[n - 1]].name), source.slice(one.name)) == 0) {
+      one.is_duplicate = true;
+      findings.add(rule, one.name, text);
     }
   }
+}
+
+// The first of a name; null if there is none.
+template <typename Named>
+const Named* find_named(const Source& source, const std::vector<std::uint32_t>& by_name, const std::vector<Named>& all,
+                        std::string_view name) {
+  const auto place = std::lower_bound(
+      by_name.begin(), by_name.end(), name,
+      [&](std::uint32_t n, std::string_view wanted) { return compare_names(source.slice(all[n].name), wanted) < 0; });
+  const bool is_found = place != by_name.end() && compare_names(source.slice(all[*place].name), name) == 0;
+  return is_found ? &all[*place] : nullptr;
 }
 
 }  // namespace
@@ -134,7 +150,7 @@ Document::Document(Source source, Findings& findings)
   if (!sections_.empty()) {
     sections_.back().end = source_.lines() + 1;
   }
-  find_duplicates(findings);
+  sort_names(findings);
 }
 
 void Document::read_line(std::uint32_t number, Findings& findings) {
@@ -186,7 +202,7 @@ void Document::read_section(std::uint32_t number, Span line, Findings& findings)
   if (!sections_.empty()) {
     sections_.back().end = number;
   }
-  sections_.push_back({name, number, number + 1, false, {}});
+  sections_.push_back({name, number, number + 1, false, {}, {}});
 }
 
 void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
@@ -213,40 +229,23 @@ void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
   }
 }
 
-void Document::find_duplicates(Findings& findings) {
-  by_name_.resize(sections_.size());
-  std::iota(by_name_.begin(), by_name_.end(), 0U);
-  std::sort(by_name_.begin(), by_name_.end(),
-            [this](std::uint32_t a, std::uint32_t b) { return comes_before(source_, sections_[a], sections_[b]); });
-  std::vector<Section*> sections;
-  for (const std::uint32_t place : by_name_) {
-    sections.push_back(&sections_[place]);
-  }
-  mark_duplicates(source_, sections, rules::duplicate_section, "a second section of this name: the first one is used",
-                  findings);
+void Document::sort_names(Findings& findings) {
+  by_name_ = sorted(source_, sections_);
+  mark_duplicates(source_, by_name_, sections_, rules::duplicate_section,
+                  "a second section of this name: the first one is used", findings);
   for (Section& section : sections_) {
-    std::vector<Key*> keys;
-    for (Key& key : section.keys) {
-      keys.push_back(&key);
-    }
-    std::sort(keys.begin(), keys.end(), [this](const Key* a, const Key* b) { return comes_before(source_, *a, *b); });
-    mark_duplicates(source_, keys, rules::duplicate_key, "a second key of this name: the first one is used", findings);
+    section.by_name = sorted(source_, section.keys);
+    mark_duplicates(source_, section.by_name, section.keys, rules::duplicate_key,
+                    "a second key of this name: the first one is used", findings);
   }
 }
 
 const Section* Document::find(std::string_view section) const {
-  const auto place = std::lower_bound(
-      by_name_.begin(), by_name_.end(), section,
-      [this](std::uint32_t n, std::string_view name) { return compare_names(raw(sections_[n].name), name) < 0; });
-  const bool is_found = place != by_name_.end() && compare_names(raw(sections_[*place].name), section) == 0;
-  return is_found ? &sections_[*place] : nullptr;
+  return find_named(source_, by_name_, sections_, section);
 }
 
 const Key* Document::find(const Section& section, std::string_view key) const {
-  const auto place = std::find_if(section.keys.begin(), section.keys.end(), [this, key](const Key& candidate) {
-    return compare_names(raw(candidate.name), key) == 0;
-  });
-  return place != section.keys.end() ? &*place : nullptr;
+  return find_named(source_, section.by_name, section.keys, key);
 }
 
 std::vector<Span> Document::comments(const Section& section) const {

@@ -31,6 +31,7 @@ struct Section {
   std::uint32_t end = 0;   ///< the line behind its last one
   bool is_duplicate = false;
   std::vector<Key> keys;
+  std::vector<std::uint32_t> by_name;  ///< their places, sorted by name and place
 };
 
 class Document {
@@ -71,7 +72,7 @@ class Document {
   void read_line(std::uint32_t number, Findings& findings);
   void read_section(std::uint32_t number, Span line, Findings& findings);
   void read_key(std::uint32_t number, Span line, Findings& findings);
-  void find_duplicates(Findings& findings);
+  void sort_names(Findings& findings);
 
   Source source_;
   Encoding encoding_ = Encoding::ascii;
