@@ -294,12 +294,47 @@ TEST_CASE("codict set: what an XDD does not say of an object becomes an attribut
   CHECK(bytes_of(path) == wanted);
 }
 
-TEST_CASE("codict set: a type that is the name of an element is not replaced") {
+TEST_CASE("codict set: a type that a parameter has is changed there, and where the object says it, too") {
   const Directory directory;
   const std::string path = directory / "device.xdd";
   test::write_bytes(path, typed_by_parameter);
-  CHECK(run("set " + path + " 2000 type=UINT").status == 2);
-  CHECK(bytes_of(path) == typed_by_parameter);
+  std::string wanted = typed_by_parameter;
+  const auto replace = [&wanted](const std::string& from, const std::string& to) {
+    wanted.replace(wanted.find(from), from.size(), to);
+  };
+  CHECK(run("get " + path + " 2000 type").out == "USINT\n");
+  CHECK(run("set " + path + " 2000 type=0x0006").status == 0);
+  replace("<USINT/>", "<UINT/>");
+  CHECK(bytes_of(path) == wanted);
+  CHECK(run("set " + path + " 2000 datatype=TIME_OF_DAY").status == 0);
+  replace("<UINT/>", "<BITSTRING/>");
+  replace(" uniqueIDRef=\"P\"/>", " uniqueIDRef=\"P\" dataType=\"0C\"/>");
+  CHECK(bytes_of(path) == wanted);
+  CHECK(run("set " + path + " 2000 type=UNSIGNED32").status == 0);
+  replace("<BITSTRING/>", "<UDINT/>");
+  replace("dataType=\"0C\"", "dataType=\"07\"");
+  CHECK(bytes_of(path) == wanted);
+  CHECK(has(run("list " + path).out, "2000     UNSIGNED32 "));
+  replace("<UDINT/>", "<x:UDINT xmlns:x=\"urn:x\"> </x:UDINT>");
+  test::write_bytes(path, wanted);
+  CHECK(run("set " + path + " 2000 type=5").status == 0);
+  replace("<x:UDINT xmlns:x=\"urn:x\"> </x:UDINT>", "<x:USINT xmlns:x=\"urn:x\"> </x:USINT>");
+  replace("dataType=\"07\"", "dataType=\"05\"");
+  CHECK(bytes_of(path) == wanted);
+}
+
+TEST_CASE("codict set: a type that others may have as well is not changed, and it is said why") {
+  const Directory directory;
+  const std::string path = copy_to(directory, "xdd/device10.xdd");
+  CHECK(run("set " + path + " 2000 type=06").err ==
+        "codict: " + path +
+            ": the type is that of the data type T_MODE, which others may use, too: it is not changed\n");
+  CHECK(run("set " + path + " 2000 type=06").status == 1);
+  CHECK(has(run("set " + path + " 2002:1 type=06").err, "the template TPL_RO"));
+  const Ran wrong = run("set " + path + " 1000 type=COLOUR");
+  CHECK(wrong.status == 1);
+  CHECK(wrong.err == "codict: " + path + ": this is no data type of CiA 301: COLOUR\n");
+  CHECK(bytes_of(path) == bytes_of(test::fixture("xdd/device10.xdd")));
 }
 
 TEST_CASE("codict: no command writes over what it reads, or two files into one") {

@@ -13,6 +13,11 @@ namespace lexican::codict::cli {
 
 namespace {
 
+// Of an XML description, the parameter may say it alone.
+const Text& type_of(const Entry& entry) {
+  return entry.data_type.is_given || !entry.type.iec.is_given ? entry.data_type : entry.type.iec;
+}
+
 struct Word {
   std::string_view field;
   std::string_view key;  // of CiA 306
@@ -22,7 +27,7 @@ struct Word {
 constexpr std::array<Word, 11> words = {{
     {"name", "ParameterName", [](const Entry& e) -> const Text& { return e.name; }},
     {"object", "ObjectType", [](const Entry& e) -> const Text& { return e.object_code; }},
-    {"type", "DataType", [](const Entry& e) -> const Text& { return e.data_type; }},
+    {"type", "DataType", type_of},
     {"access", "AccessType", [](const Entry& e) -> const Text& { return e.access; }},
     {"default", "DefaultValue", [](const Entry& e) -> const Text& { return e.default_value; }},
     {"value", "ParameterValue", [](const Entry& e) -> const Text& { return e.actual_value; }},

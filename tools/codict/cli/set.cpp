@@ -15,6 +15,7 @@
 #include "convert/merge.hpp"
 #include "text/edit.hpp"
 #include "text/number.hpp"
+#include "xdd/set_type.hpp"
 
 namespace lexican::codict::cli {
 
@@ -27,6 +28,12 @@ struct Options {
   std::string output;
   bool is_forced = false;
   bool is_json = false;
+};
+
+// Why nothing is changed.
+struct Refusal {
+  std::string why;
+  Status status = unusable;
 };
 
 bool assign(const eds::Document& document, const eds::Section& section, const Assignment& assignment, Edits& edits) {
@@ -42,7 +49,8 @@ std::string_view attribute_of(std::string_view field) {
     std::string_view field;
     std::string_view attribute;
   };
-  constexpr std::array<Word, 7> words = {{{"access", "accessType"},
+  constexpr std::array<Word, 8> words = {{{"type", "dataType"},
+                                          {"access", "accessType"},
                                           {"default", "defaultValue"},
                                           {"value", "actualValue"},
                                           {"low", "lowLimit"},
@@ -54,8 +62,13 @@ std::string_view attribute_of(std::string_view field) {
   return word != words.end() ? word->attribute : field == "denotation" ? field : std::string_view();
 }
 
-bool assign(const xdd::Document& document, const Entry& entry, const Assignment& assignment, Edits& edits) {
+bool assign(const xdd::Document& document, const Entry& entry, const Assignment& assignment, Edits& edits,
+            Refusal& refusal) {
   const Text* const text = find_text(entry, assignment.field);
+  if (equal_ignoring_case(key_of(assignment.field), "DataType") && xdd::has_parameter_type(entry)) {
+    refusal.status = found;
+    return xdd::set_type(document, entry, assignment.text, edits, refusal.why);
+  }
   if (text != nullptr && text->is_given) {
     return document.set_text(text->span, assignment.text, edits);
   }
@@ -83,28 +96,26 @@ bool assign_to_lists(const Input& input, const Reference& reference, const Optio
 }
 
 // False leaves why not.
-bool assign_all(const Input& input, const Options& options, Edits& edits, std::string& why) {
+bool assign_all(const Input& input, const Options& options, Edits& edits, Refusal& refusal) {
   if (input.json != nullptr) {
-    why = "values of JSON are changed by programs for JSON";
+    refusal.why = "values of JSON are changed by programs for JSON";
     return false;
   }
-  const eds::Section* const section = input.eds != nullptr ? find_section(input, options.target, why) : nullptr;
-  const Entry* const entry = input.xdd != nullptr ? find_entry(input, options.target, why) : nullptr;
+  const eds::Section* const section = input.eds != nullptr ? find_section(input, options.target, refusal.why) : nullptr;
+  const Entry* const entry = input.xdd != nullptr ? find_entry(input, options.target, refusal.why) : nullptr;
   if (section == nullptr && entry == nullptr) {
     return false;
   }
-  for (const std::string& each : options.assignments) {
+  return std::all_of(options.assignments.begin(), options.assignments.end(), [&](const std::string& each) {
     Assignment assignment;
-    if (!parse_assignment(each, assignment, why)) {
+    if (!parse_assignment(each, assignment, refusal.why)) {
       return false;
     }
-    if (!(section != nullptr ? assign(*input.eds, *section, assignment, edits)
-                             : assign(*input.xdd, *entry, assignment, edits))) {
-      why = (section != nullptr ? "the file cannot hold this text: " : "the file has no place for this text: ") + each;
-      return false;
-    }
-  }
-  return true;
+    refusal.why =
+        (section != nullptr ? "the file cannot hold this text: " : "the file has no place for this text: ") + each;
+    return section != nullptr ? assign(*input.eds, *section, assignment, edits)
+                              : assign(*input.xdd, *entry, assignment, edits, refusal);
+  });
 }
 
 // A second value for one field is a mistake.
@@ -127,16 +138,16 @@ bool has_fields_once(const Options& options, std::string& why) {
   return true;
 }
 
-bool change(const Input& input, const Options& options, std::string& bytes, std::string& why) {
-  if (!has_fields_once(options, why)) {
+bool change(const Input& input, const Options& options, std::string& bytes, Refusal& refusal) {
+  if (!has_fields_once(options, refusal.why)) {
     return false;
   }
   Reference reference;
   if (input.eds != nullptr && parse_reference(options.target, reference) && is_implied(input, reference)) {
-    return assign_to_lists(input, reference, options, bytes, why);
+    return assign_to_lists(input, reference, options, bytes, refusal.why);
   }
   Edits edits;
-  const bool is_done = assign_all(input, options, edits, why);
+  const bool is_done = assign_all(input, options, edits, refusal);
   bytes = edits.applied_to(input.source().bytes());
   return is_done;
 }
@@ -155,12 +166,13 @@ int run(const Options& options) {
   if (!input) {
     return unusable;
   }
-  std::string why;
+  Refusal refusal;
   std::string bytes;
-  if (!change(*input, options, bytes, why)) {
-    complain(input->source().name() + ": " + why);
-    return unusable;
+  if (!change(*input, options, bytes, refusal)) {
+    complain(input->source().name() + ": " + refusal.why);
+    return refusal.status;
   }
+  std::string why;
   std::optional<Input> changed = read(Source(input->source().name(), bytes), why);
   const std::string& path = options.output.empty() ? options.file : options.output;
   if (!options.is_forced && !(changed && review(*input, *changed, path))) {
