@@ -240,6 +240,22 @@ TEST_CASE("codict pdo: times are told, bits that lie across bytes are drawn, and
   CHECK(pdo.at("mapped").at(1).at("index") == 0x2001);
 }
 
+TEST_CASE(
+    "codict pdo, codict doc: without --node-id, COB-IDs are those of the node-ID that the description configures") {
+  CHECK(has(run("pdo xdd/device10.xdd").out, "TPDO 1: COB-ID 185h"));
+  CHECK(has(run("pdo --node-id 2 xdd/device10.xdd").out, "TPDO 1: COB-ID 182h"));
+  CHECK(has(run("doc xdd/device10.xdd --to md -o -").out, "COB-IDs of node 5\n"));
+  const Directory directory;
+  const std::string path = directory / "drive.dcf";
+  const auto with = [&path](const char* node_id) {
+    test::write_bytes(path, bytes_of(test::fixture("drive.eds")) + "[DeviceComissioning]\nNodeID=" + node_id + "\n");
+    return Json::parse(run("pdo --json " + path).out).at("node_id");
+  };
+  CHECK(with("0x7F") == 127);
+  CHECK(with("128") == 1);
+  CHECK(with("0") == 1);
+}
+
 TEST_CASE("codict set: what compact storage implies gets its entry in a list, and the list its count [306: 4.6.4]") {
   const Directory directory;
   const std::string path = test::copy_to(directory, "compact.dcf");

@@ -151,6 +151,18 @@ const Entry* find(const Device& device, const Reference& reference) {
   return reference.sub_index ? device.find(reference.index, *reference.sub_index) : device.find(reference.index);
 }
 
+void add_node_id(CLI::App& command, std::uint8_t& node_id) {
+  command
+      .add_option("--node-id", node_id,
+                  "Node-ID with which COB-IDs are shown; without it, that of the description, or 1")
+      ->check(CLI::Range(1, 127).description(""));
+}
+
+std::uint8_t node_id_of(const Device& device, std::uint8_t asked) {
+  const std::uint8_t configured = device.commissioning.node_id.value;
+  return asked != 0 ? asked : configured >= 1 && configured <= 127 ? configured : std::uint8_t{1};
+}
+
 std::string type_name(const Entry& entry) {
   const std::uint16_t code = entry.data_type.value;
   const DataType& type = data_type(code);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -99,6 +100,11 @@ const Entry* find(const Device& device, const Reference& reference);
 
 /// What the commands that read a description say of it in their help.
 constexpr const char* file_help = "EDS, DCF, XDD, XDC, XPD or JSON, - for the standard input";
+
+/// --node-id: 0 until the user says one.
+void add_node_id(CLI::App& command, std::uint8_t& node_id);
+/// What the user says, else what the device is configured to, else 1.
+std::uint8_t node_id_of(const Device& device, std::uint8_t asked);
 
 /// What a data type is called: by CiA 301, or by its number.
 std::string type_name(const Entry& entry);

@@ -14,10 +14,10 @@ struct Options {
   std::string file;
   std::string output;
   std::string format;
-  doc::Options doc;
+  doc::Options doc{"en", 0};
 };
 
-int run(const Options& options) {
+int run(Options options) {
   const std::string format = options.format.empty() ? ending_of(options.output) : options.format;
   if (format != "md" && format != "html") {
     complain("the output ends with .md or .html, or --to says which it is");
@@ -27,6 +27,7 @@ int run(const Options& options) {
   if (!input) {
     return unusable;
   }
+  options.doc.node_id = node_id_of(input->device(), options.doc.node_id);
   return write_output(options.output, format == "md" ? doc::markdown(input->device(), options.doc)
                                                      : doc::html(input->device(), options.doc));
 }
@@ -40,9 +41,7 @@ Command add_doc(CLI::App& app) {
   command->add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
       ->required();
   command->add_option("--to", options->format, "md or html")->check(CLI::IsMember({"md", "html"}).description(""));
-  command->add_option("--node-id", options->doc.node_id, "Node-ID with which COB-IDs are shown")
-      ->check(CLI::Range(1, 127).description(""))
-      ->capture_default_str();
+  add_node_id(*command, options->doc.node_id);
   command->add_option("--language", options->doc.language, "Of labels and descriptions")->capture_default_str();
   return {command, [options] { return run(*options); }};
 }

@@ -18,7 +18,7 @@ namespace {
 
 struct Options {
   std::string file;
-  doc::Options doc;
+  doc::Options doc{"en", 0};
   bool is_json = false;
 };
 
@@ -133,11 +133,12 @@ const CobId* find(const std::vector<CobId>& cob_ids, const Pdo& pdo) {
   return place != cob_ids.end() ? &*place : nullptr;
 }
 
-int run(const Options& options) {
+int run(Options options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
   }
+  options.doc.node_id = node_id_of(input->device(), options.doc.node_id);
   const doc::Contents contents = doc::contents_of(input->device(), options.doc);
   const std::vector<CobId> cob_ids = cob_ids_of(input->device(), options.doc.node_id);
   const std::vector<Pdo> pdos = pdos_of(input->device());
@@ -162,9 +163,7 @@ Command add_pdo(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("pdo", "Show the PDOs of a device: COB-IDs, times, and what is in them");
   command->add_option("file", options->file, file_help)->required();
-  command->add_option("--node-id", options->doc.node_id, "Node-ID with which COB-IDs are shown")
-      ->check(CLI::Range(1, 127).description(""))
-      ->capture_default_str();
+  add_node_id(*command, options->doc.node_id);
   command->add_option("--language", options->doc.language, "Of labels")->capture_default_str();
   command->add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
