@@ -20,6 +20,7 @@ using Json = nlohmann::json;
 using test::bytes_of;
 using test::copy_to;
 using test::Directory;
+using test::has;
 using test::Ran;
 using test::run;
 
@@ -351,6 +352,40 @@ TEST_CASE("codict get: one value as it is written, or all of an object or sectio
   const Json json = Json::parse(run("get --json octal.eds 0x2000 default").out);
   CHECK(json.at("keys").at(0).at("text") == "012");
   CHECK(json.at("keys").at(0).at("line") == 30);
+}
+
+namespace {
+
+// What a terminal gets.
+Ran run_at_terminal(const std::string& arguments) {
+  return test::run_shell("script -qec \"'" LEXICAN_CODICT_PROGRAM "' " + arguments + "\" /dev/null </dev/null");
+}
+
+bool has_escape(const Ran& ran) { return (ran.out + ran.err).find_first_of("\x1B\x07\x9B") != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("codict: control characters of a description are question marks, but in a value that get writes to a file") {
+  const Directory directory;
+  const std::string path = directory / "hostile.eds";
+  const std::string other = copy_to(directory, "drive.eds");
+  std::string text = bytes_of(other);
+  text.replace(text.find("ParameterName=Wanted speed"), 26,
+               "ParameterName=a\x1B[2Jb\xC2\x9B"
+               "1mc\x07");
+  text.replace(text.find("VendorName="), 11, "VendorName=a\x1B[2J");
+  test::write_bytes(path, text);
+  for (const std::string& command : {"list " + path, "info " + path, "pdo " + path, "diff " + other + " " + path,
+                                     "get " + path + " Own\x1B", "check --level note " + path}) {
+    CAPTURE(command);
+    CHECK_FALSE(has_escape(run(command)));
+  }
+  CHECK(has(run("list " + path).out, " a?[2Jb?1mc?\n"));
+  CHECK(run("get " + path + " 2000 name").out ==
+        "a\x1B[2Jb\xC2\x9B"
+        "1mc\x07\n");
+  CHECK(run_at_terminal("get " + path + " 2000 name").out == "a?[2Jb?1mc?\r\n");
+  CHECK(has(run_at_terminal("get " + path + " 2000").out, "ParameterName=a?[2Jb?1mc?\r\n"));
 }
 
 TEST_CASE("codict get: what is not there is named") {

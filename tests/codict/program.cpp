@@ -20,12 +20,15 @@ void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-Ran run_codict(const std::string& directory, const std::string& arguments) {
+Ran run_shell(const std::string& command) {
   const Directory output;
-  const std::string command = "cd '" + directory + "' && '" LEXICAN_CODICT_PROGRAM "' " + arguments + " >'" +
-                              output / "out" + "' 2>'" + output / "err" + "'";
-  const int status = std::system(command.c_str());
+  const std::string redirected = "{ " + command + "\n} >'" + output / "out" + "' 2>'" + output / "err" + "'";
+  const int status = std::system(redirected.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(output / "out"), bytes_of(output / "err")};
+}
+
+Ran run_codict(const std::string& directory, const std::string& arguments) {
+  return run_shell("cd '" + directory + "' && '" LEXICAN_CODICT_PROGRAM "' " + arguments);
 }
 
 Ran run(const std::string& arguments) { return run_codict(fixture(""), arguments); }

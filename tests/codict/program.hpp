@@ -19,6 +19,8 @@ struct Ran {
   std::string err;
 };
 
+/// A command of the shell.
+Ran run_shell(const std::string& command);
 /// directory: in which it is run.
 Ran run_codict(const std::string& directory, const std::string& arguments);
 /// In that of the fixtures.

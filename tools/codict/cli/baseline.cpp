@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "cli/letters.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
 
@@ -19,7 +20,7 @@ constexpr std::size_t longest_place = 200;
 Span shortened(const Source& source, Span span) {
   const std::string_view bytes = source.slice(span);
   std::size_t size = std::min(bytes.size(), longest_place);
-  while (size != 0 && size < bytes.size() && (static_cast<unsigned char>(bytes[size]) & 0xC0U) == 0x80) {
+  while (size != 0 && size < bytes.size() && continues_letter(bytes[size])) {
     --size;
   }
   return {span.begin, span.begin + static_cast<std::uint32_t>(size)};

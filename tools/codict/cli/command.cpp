@@ -2,6 +2,7 @@
 #include "cli/command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "check/check.hpp"
+#include "cli/letters.hpp"
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
 #include "eds/suppressions.hpp"
@@ -108,7 +110,9 @@ void check_all(Input& input) {
   suppress(input, report::Origin::checks, input.findings);
 }
 
-void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", text); }
+void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", visible(text)); }
+
+bool is_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
 void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 

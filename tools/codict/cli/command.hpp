@@ -79,8 +79,10 @@ void suppress(const Input& input, report::Origin origin, Findings& findings);
 /// That there is no such rule, and which one may be meant.
 std::string unknown_rule(const std::string& id);
 
-/// "codict: text", on the standard error output.
+/// "codict: text", on the standard error output; control characters are question marks.
 void complain(std::string_view text);
+/// Whether the standard output is one.
+bool is_terminal();
 /// To the standard output.
 void print(std::string_view text);
 std::string to_text(const Json& json);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -41,13 +42,14 @@ std::vector<Difference> wanted(std::vector<Difference> differences, const Option
   return differences;
 }
 
-std::string value(const std::string& text) { return text.empty() ? "-" : text; }
+std::string value(const std::string& text) { return text.empty() ? "-" : visible(text); }
 
 std::string render(const std::vector<Difference>& differences) {
   std::string text;
   for (const Difference& difference : differences) {
-    text += fmt::format("{:<13} {:<9} {}: {} -> {}\n", name_of(difference.kind), diff::to_string(difference.place),
-                        difference.what, value(difference.before), value(difference.after));
+    text +=
+        fmt::format("{:<13} {:<9} {}: {} -> {}\n", name_of(difference.kind), visible(diff::to_string(difference.place)),
+                    visible(difference.what), value(difference.before), value(difference.after));
   }
   return text;
 }

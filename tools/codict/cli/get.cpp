@@ -6,6 +6,7 @@
 
 #include "cli/command.hpp"
 #include "cli/field.hpp"
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -17,6 +18,9 @@ struct Options {
   std::string field;
   bool is_json = false;
 };
+
+// As it is written, to the byte; but a terminal must not obey it.
+std::string value(const std::string& text) { return is_terminal() ? visible(text) : text; }
 
 Json to_json(const Input& input, const eds::Key& key) {
   const Position position = input.source().position(key.value.begin);
@@ -31,7 +35,7 @@ int get_all(const Input& input, const eds::Section& section, bool is_json) {
   std::string lines;
   for (const eds::Key& key : section.keys) {
     keys.push_back(to_json(input, key));
-    lines += fmt::format("{}={}\n", input.eds->text(key.name), input.eds->text(key.value));
+    lines += fmt::format("{}={}\n", value(input.eds->text(key.name)), value(input.eds->text(key.value)));
   }
   if (is_json) {
     print_json(Json{{"schema", "codict-get-1"}, {"section", input.eds->text(section.name)}, {"keys", std::move(keys)}});
@@ -62,7 +66,7 @@ int get_from_sections(const Input& input, const Options& options) {
     json["keys"] = Json::array({to_json(input, *key)});
     print_json(json);
   } else {
-    print(input.eds->text(key->value) + "\n");
+    print(value(input.eds->text(key->value)) + "\n");
   }
   return clean;
 }
@@ -86,7 +90,7 @@ int get_from_elements(const Input& input, const Options& options) {
   for_each_text(*entry, [&](std::string_view field, const Text& text) {
     if (wants_all || find_text(*entry, options.field) == &text) {
       keys.push_back(to_json(input, field, text));
-      lines += wants_all ? fmt::format("{}={}\n", field, text.text) : text.text + "\n";
+      lines += wants_all ? fmt::format("{}={}\n", field, value(text.text)) : value(text.text) + "\n";
     }
   });
   if (keys.empty()) {

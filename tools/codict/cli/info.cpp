@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
-#include "cli/render.hpp"
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -122,7 +122,7 @@ int run(const Options& options) {
   }
   for (const auto& [name, value] : json.items()) {
     if (name != "schema") {
-      print(fmt::format("{:<16} {}\n", title(name), plain(value)));
+      print(fmt::format("{:<16} {}\n", title(name), visible(plain(value))));
     }
   }
   return clean;

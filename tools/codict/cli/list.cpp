@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cli/command.hpp"
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -16,17 +17,17 @@ struct Options {
   bool has_objects_only = false;
 };
 
-std::string word(const std::string& text) { return text.empty() ? "-" : text; }
+std::string word(const std::string& text) { return text.empty() ? "-" : visible(text); }
 
 std::string line(const Reference& reference, const Entry& entry) {
   const std::string place = to_string(reference);
   if (has_sub_objects(entry.object_code.value)) {
     return fmt::format("{:<8} {:<15} {:<5} {:<4} {:<18} {}\n", place, name_of(entry.object_code.value), "", "", "",
-                       entry.name.text);
+                       visible(entry.name.text));
   }
   const bool is_mapped = entry.pdo_mapping.value != PdoMapping::no;
   return fmt::format("{:<8} {:<15} {:<5} {:<4} {:<18} {}\n", place, type_name(entry), name_of(entry.access.value),
-                     is_mapped ? "PDO" : "", word(value_in_force(entry).text), entry.name.text);
+                     is_mapped ? "PDO" : "", word(value_in_force(entry).text), visible(entry.name.text));
 }
 
 Json to_json(const Reference& reference, const Entry& entry) {

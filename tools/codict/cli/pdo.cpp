@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/letters.hpp"
 #include "doc/contents.hpp"
 #include "model/cob_id.hpp"
 
@@ -92,7 +93,7 @@ std::string text_of(const Row& row) {
   for (std::size_t n = 0; n < row.item.parts.size(); ++n) {
     const doc::PdoPart& part = row.item.parts[n];
     text += fmt::format("  {}  {:<9} {} bits from {}  {}\n", n < signs.size() ? signs[n] : ' ', part.number, part.bits,
-                        part.first_bit, part.name);
+                        part.first_bit, visible(part.name));
   }
   return text;
 }

@@ -2,11 +2,12 @@
 #include "cli/render.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
+
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -27,19 +28,8 @@ std::string_view colour_of(Severity severity) {
   return "\x1B[1;31m";
 }
 
-bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
-
-// Letters, not bytes; nothing that a terminal would obey.
 std::string shown(const Source& source, Encoding encoding, Span span) {
-  std::string text = to_utf8(source.slice(span), encoding);
-  std::replace_if(
-      text.begin(), text.end(),
-      [](char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == '\x7F'; }, '?');
-  return text;
-}
-
-std::size_t letters(const std::string& text) {
-  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_letter));
+  return visible(to_utf8(source.slice(span), encoding), "\t");
 }
 
 // What is as wide as the text: tabs are as wide as tabs.
@@ -80,7 +70,7 @@ std::string plural(std::size_t number, std::string_view word) {
 
 bool wants_colour() {
   const char* const refusal = std::getenv("NO_COLOR");
-  return ::isatty(STDOUT_FILENO) == 1 && (refusal == nullptr || *refusal == '\0');
+  return is_terminal() && (refusal == nullptr || *refusal == '\0');
 }
 
 std::string render(const Source& source, Encoding encoding, const std::vector<Folded>& findings, bool has_colour) {
@@ -89,12 +79,12 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
     const Finding& finding = *folded.first;
     const Position position = source.position(finding.span.begin);
     const Severity severity = finding.severity;
-    text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", source.name(), position.line,
-                        position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
-                        name_of(severity), has_colour ? plain : "", finding.text, finding.rule->id);
+    text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", visible(source.name()),
+                        position.line, position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
+                        name_of(severity), has_colour ? plain : "", visible(finding.text), finding.rule->id);
     text += excerpt(source, encoding, finding.span);
     if (!finding.hint.empty()) {
-      text += fmt::format("    fix: {}\n", finding.hint);
+      text += fmt::format("    fix: {}\n", visible(finding.hint));
     }
     if (folded.more != 0) {
       text += fmt::format("    and {} more\n", folded.more);

@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
+
+#include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
 
@@ -47,8 +48,7 @@ std::size_t column_of(const Input& input, std::uint32_t offset) {
   const Source& source = input.source();
   const Position position = source.position(offset);
   const std::string before = to_utf8(source.slice({offset - (position.column - 1), offset}), input.encoding());
-  return 1 + static_cast<std::size_t>(std::count_if(
-                 before.begin(), before.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
+  return 1 + letters(before);
 }
 
 Json region_of(const Input& input, Span span) {
