@@ -15,14 +15,14 @@
 #include <utility>
 #include <vector>
 
+#include "catalogue/rules.hpp"
+#include "catalogue/suppress.hpp"
 #include "check/check.hpp"
 #include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "eds/read.hpp"
 #include "eds/suppressions.hpp"
 #include "gen/gen.hpp"
-#include "report/catalogue.hpp"
-#include "report/suppress.hpp"
 #include "xdd/read.hpp"
 #include "xdd/suppressions.hpp"
 
@@ -178,7 +178,7 @@ Findings judge(const Rule& rule, Source source, Read read, Suppressions suppress
   Findings findings;
   const Document document(std::move(source), findings);
   const Description description = read(document, findings);
-  const bool is_generator = report::is_of_generator(rule);
+  const bool is_generator = catalogue::is_of_generator(rule);
   if (is_generator) {
     findings = {};
     gen::Options options;
@@ -187,8 +187,8 @@ Findings judge(const Rule& rule, Source source, Read read, Suppressions suppress
   } else {
     check::check_all(description.devices.front(), findings);
   }
-  report::suppress(document.source(), suppressions(document),
-                   is_generator ? report::Origin::generator : report::Origin::checks, findings);
+  catalogue::suppress(document.source(), suppressions(document),
+                      is_generator ? catalogue::Origin::generator : catalogue::Origin::checks, findings);
   return findings;
 }
 
@@ -214,7 +214,7 @@ std::string listed(const Findings& findings) {
 
 TEST_CASE("rule pages: each rule has one, which begins with what the rule says") {
   std::string wrong;
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     const std::string beginning = "# " + std::string(rule->id) + "\n\n" + std::string(name_of(rule->severity)) + ": " +
                                   std::string(rule->about) + "\n\n";
     const Page page = page_of(*rule);
@@ -229,7 +229,7 @@ TEST_CASE("rule pages: each rule has one, which begins with what the rule says")
 TEST_CASE("rule pages: the list of pages has a line for each rule, and no page is of no rule") {
   const std::string list = test::bytes_of(pages + "README.md");
   std::string missing;
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     const std::string id(rule->id);
     const std::string line = "\n- [" + id + "](" + id + ".md): " + std::string(rule->about) + "\n";
     missing += list.find(line) == std::string::npos ? line : "";
@@ -237,13 +237,13 @@ TEST_CASE("rule pages: the list of pages has a line for each rule, and no page i
   CHECK(missing == "");
   for (const auto& file : std::filesystem::directory_iterator(pages)) {
     const std::string id = file.path().stem();
-    CHECK_MESSAGE((id == "README" || report::find_rule(id) != nullptr), id);
+    CHECK_MESSAGE((id == "README" || catalogue::find_rule(id) != nullptr), id);
   }
 }
 
 TEST_CASE("rule pages: the wrong example breaks the rule, and nothing else but notes") {
   std::string wrong;
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     const Page page = page_of(*rule);
     if (page.examples.empty()) {
       continue;
@@ -263,7 +263,7 @@ TEST_CASE("rule pages: the wrong example breaks the rule, and nothing else but n
 
 TEST_CASE("rule pages: in the right example, only notes are left, and not of this rule") {
   std::string wrong;
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     const Page page = page_of(*rule);
     if (page.examples.empty()) {
       continue;

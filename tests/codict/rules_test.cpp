@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "report/catalogue.hpp"
+#include "catalogue/rules.hpp"
 
 using namespace lexican::codict;
 
@@ -16,7 +16,7 @@ TEST_CASE("each rule has an id of its own, and its line in docs/codict.md") {
   std::ifstream file(LEXICAN_SOURCE_DIR "/docs/codict.md");
   const std::string manual{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::set<std::string_view> ids;
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     CHECK_MESSAGE(ids.insert(rule->id).second, rule->id);
     const std::string line = fmt::format("\n| `{}` | {} | {} |\n", rule->id, name_of(rule->severity), rule->about);
     CHECK_MESSAGE(manual.find(line) != std::string::npos, line);

@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "catalogue/suppress.hpp"
 #include "check/check.hpp"
 #include "eds/recognise.hpp"
 #include "eds/suppressions.hpp"
 #include "fuzz/fuzz.hpp"
-#include "report/suppress.hpp"
 
 namespace {
 
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(eds::formatted(document_of(formatted)) == formatted, "the normal form of a normal form is itself");
   const Description description = eds::read(document, findings);
   check::check_all(description.devices.front(), findings);
-  report::suppress(document.source(), eds::suppressions(document), report::Origin::checks, findings);
+  catalogue::suppress(document.source(), eds::suppressions(document), catalogue::Origin::checks, findings);
   check_places(findings, document.source());
   rewrite_values(document);
   add_keys(document);

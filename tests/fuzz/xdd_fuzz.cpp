@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
+#include "catalogue/suppress.hpp"
 #include "check/check.hpp"
 #include "fuzz/fuzz.hpp"
-#include "report/suppress.hpp"
 #include "xdd/document.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
@@ -35,7 +35,7 @@ Description description_of(const std::string& bytes) {
   for (const Device& device : description.devices) {
     check::check_all(device, findings);
   }
-  report::suppress(document.source(), xdd::suppressions(document), report::Origin::checks, findings);
+  catalogue::suppress(document.source(), xdd::suppressions(document), catalogue::Origin::checks, findings);
   for (const Finding& finding : findings.all()) {
     require(finding.span.begin <= finding.span.end && finding.span.end <= bytes.size(), "findings are in the source");
   }

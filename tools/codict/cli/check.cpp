@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "catalogue/rules.hpp"
 #include "cli/baseline.hpp"
 #include "cli/command.hpp"
 #include "cli/output.hpp"
 #include "cli/render.hpp"
-#include "cli/reports.hpp"
-#include "report/catalogue.hpp"
+#include "cli/services.hpp"
 
 namespace lexican::codict::cli {
 
@@ -71,7 +71,7 @@ std::vector<Finding> wanted(const Input& input, const Options& options, Report& 
 
 void say_what_has_gone(const Input& input, const Options& options, const Baseline& known) {
   const std::size_t number = known.left(input, [&options](const std::string& id) {
-    const Rule* const rule = report::find_rule(id);
+    const Rule* const rule = catalogue::find_rule(id);
     return rule == nullptr || is_wanted(*rule, options);
   });
   if (number != 0) {
@@ -133,7 +133,7 @@ void finish(const Options& options, Report& report, int status) {
 // False if something is wrong with them, which has been said.
 bool prepare(const Options& options, Report& report) {
   for (const std::string& id : options.disabled) {
-    if (report::find_rule(id) == nullptr) {
+    if (catalogue::find_rule(id) == nullptr) {
       complain(unknown_rule(id));
       return false;
     }

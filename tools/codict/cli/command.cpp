@@ -17,6 +17,7 @@
 #include "json/read.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
+#include "text/similar.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
 #include "xdd/suppressions.hpp"
@@ -96,18 +97,25 @@ std::optional<Input> open(const std::string& path) {
   return input;
 }
 
-void suppress(const Input& input, report::Origin origin, Findings& findings) {
+void suppress(const Input& input, catalogue::Origin origin, Findings& findings) {
   const std::vector<Suppression> suppressions = input.eds != nullptr   ? eds::suppressions(*input.eds)
                                                 : input.xdd != nullptr ? xdd::suppressions(*input.xdd)
                                                                        : std::vector<Suppression>();
-  report::suppress(input.source(), suppressions, origin, findings);
+  catalogue::suppress(input.source(), suppressions, origin, findings);
 }
 
 void check_all(Input& input) {
   for (const Device& device : input.description.devices) {
     check::check_all(device, input.findings);
   }
-  suppress(input, report::Origin::checks, input.findings);
+  suppress(input, catalogue::Origin::checks, input.findings);
+}
+
+std::string not_there(std::string_view what, std::string_view word, const std::vector<std::string_view>& words,
+                      std::string_view catalogue) {
+  const std::vector<std::string_view> near = similar(word, words);
+  return near.empty() ? fmt::format("there is no {} {}: {} names all", what, word, catalogue)
+                      : fmt::format("there is no {} {}: {}?", what, word, fmt::join(near, ", "));
 }
 
 void complain(std::string_view text) { fmt::print(stderr, "codict: {}\n", visible(text)); }

@@ -11,11 +11,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "catalogue/suppress.hpp"
 #include "eds/document.hpp"
 #include "json/document.hpp"
 #include "model/device.hpp"
-#include "report/suppress.hpp"
 #include "text/finding.hpp"
 #include "text/source.hpp"
 #include "xdd/document.hpp"
@@ -74,9 +75,12 @@ std::optional<Input> read(Source source, std::string& why);
 void check_all(Input& input);
 
 /// Leaves out what comments of the description suppress; findings end up sorted.
-void suppress(const Input& input, report::Origin origin, Findings& findings);
+void suppress(const Input& input, catalogue::Origin origin, Findings& findings);
 
-/// That there is no such rule, and which one may be meant.
+/// That there is no such thing, and which ones may be meant, or what names them all.
+std::string not_there(std::string_view what, std::string_view word, const std::vector<std::string_view>& words,
+                      std::string_view catalogue);
+/// The same of a rule.
 std::string unknown_rule(const std::string& id);
 
 /// "codict: text", on the standard error output; control characters are question marks.

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/render.hpp"
-
 namespace lexican::codict::cli {
 
 std::string costs_text(const std::vector<gen::Cost>& costs) {
@@ -24,17 +22,6 @@ Json costs_json(const std::vector<gen::Cost>& costs) {
     json.push_back({{"part", cost.part}, {"entries", cost.items}, {"ram", cost.ram}, {"flash", cost.flash}});
   }
   return json;
-}
-
-void show_findings(const Input& input, const Findings& findings, bool shows_notes) {
-  std::vector<Finding> wanted;
-  for (const Finding& finding : findings.all()) {
-    if (shows_notes || finding.rule->severity != Severity::note) {
-      wanted.push_back(finding);
-    }
-  }
-  const std::string text = render(input.source(), input.encoding(), fold(wanted), false);
-  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 }  // namespace lexican::codict::cli

@@ -15,7 +15,4 @@ namespace lexican::codict::cli {
 std::string costs_text(const std::vector<gen::Cost>& costs);
 Json costs_json(const std::vector<gen::Cost>& costs);
 
-/// What has been found while it was made, on the standard error output.
-void show_findings(const Input& input, const Findings& findings, bool shows_notes);
-
 }  // namespace lexican::codict::cli

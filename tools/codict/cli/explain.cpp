@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "catalogue/rules.hpp"
 #include "cli/command.hpp"
-#include "cli/reports.hpp"
-#include "report/catalogue.hpp"
+#include "cli/services.hpp"
 
 namespace lexican::codict::cli {
 
@@ -21,7 +21,7 @@ Json to_json(const Rule& rule) {
 }
 
 int explain_one(const Options& options) {
-  const Rule* const rule = report::find_rule(options.rule);
+  const Rule* const rule = catalogue::find_rule(options.rule);
   if (rule == nullptr) {
     complain(unknown_rule(options.rule));
     return unusable;
@@ -36,7 +36,7 @@ int explain_one(const Options& options) {
 
 int explain_all(const Options& options) {
   Json all = Json::array();
-  for (const Rule* rule : report::all_rules()) {
+  for (const Rule* rule : catalogue::all_rules()) {
     if (options.is_json) {
       all.push_back(to_json(*rule));
     } else {
@@ -52,13 +52,7 @@ int explain_all(const Options& options) {
 }  // namespace
 
 std::string unknown_rule(const std::string& id) {
-  std::string text = "there is no rule " + id;
-  std::string_view between = ": ";
-  for (const std::string_view similar : report::similar_rules(id)) {
-    text += fmt::format("{}{}", between, similar);
-    between = ", ";
-  }
-  return text + (between == ": " ? ": codict explain names all" : "?");
+  return not_there("rule", id, catalogue::all_ids(), "codict explain");
 }
 
 Command add_explain(CLI::App& app) {

@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/costs.hpp"
 #include "cli/output.hpp"
+#include "cli/render.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
@@ -131,7 +132,7 @@ int run(Options options) {
   }
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
-  suppress(*input, report::Origin::generator, findings);
+  suppress(*input, catalogue::Origin::generator, findings);
   show_findings(*input, findings, options.shows_notes);
   if (output.files.empty()) {
     return found;

@@ -93,6 +93,17 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
   return text;
 }
 
+void show_findings(const Input& input, const Findings& findings, bool shows_notes) {
+  std::vector<Finding> wanted;
+  for (const Finding& finding : findings.all()) {
+    if (shows_notes || finding.rule->severity != Severity::note) {
+      wanted.push_back(finding);
+    }
+  }
+  const std::string text = render(input.source(), input.encoding(), fold(wanted), false);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 Json to_json(const Source& source, const std::vector<Folded>& findings) {
   Json all = Json::array();
   for (const Folded& folded : findings) {

@@ -19,6 +19,9 @@ bool wants_colour();
 /// file:line:column: severity: text [rule], the line with a caret, and what to do; equal ones folded.
 std::string render(const Source& source, Encoding encoding, const std::vector<Folded>& findings, bool has_colour);
 
+/// What a command has found on its way, on the standard error output.
+void show_findings(const Input& input, const Findings& findings, bool shows_notes);
+
 Json to_json(const Source& source, const std::vector<Folded>& findings);
 
 /// "1 error, 2 warnings"; empty if there is nothing to count.

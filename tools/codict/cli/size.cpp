@@ -5,6 +5,7 @@
 
 #include "cli/command.hpp"
 #include "cli/costs.hpp"
+#include "cli/render.hpp"
 
 namespace lexican::codict::cli {
 
@@ -25,7 +26,7 @@ int run(Options options) {
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   if (output.files.empty()) {
-    suppress(*input, report::Origin::generator, findings);
+    suppress(*input, catalogue::Origin::generator, findings);
     show_findings(*input, findings, false);
     return found;
   }

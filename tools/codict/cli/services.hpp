@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file reports.hpp
+/// \file services.hpp
 /// Findings for services that show them beside the source.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/suppress.hpp"
+#include "catalogue/suppress.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,9 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "report/catalogue.hpp"
+#include "catalogue/rules.hpp"
+#include "text/similar.hpp"
 
-namespace lexican::codict::report {
+namespace lexican::codict::catalogue {
 
 namespace rules {
 
@@ -55,8 +56,8 @@ bool is_suppressed(const Finding& finding, Wanted& wanted) {
 }
 
 std::string hint_for(std::string_view id) {
-  const std::vector<std::string_view> similar = similar_rules(id);
-  return similar.empty() ? "codict explain names all rules" : std::string(similar.front());
+  const std::vector<std::string_view> near = similar(id, all_ids());
+  return near.empty() ? "codict explain names all rules" : std::string(near.front());
 }
 
 }  // namespace
@@ -89,4 +90,4 @@ void suppress(const Source& source, const std::vector<Suppression>& suppressions
   findings.sort();
 }
 
-}  // namespace lexican::codict::report
+}  // namespace lexican::codict::catalogue

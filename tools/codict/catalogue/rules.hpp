@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// \file catalogue.hpp
+/// \file rules.hpp
 /// All rules there are.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "text/finding.hpp"
 
-namespace lexican::codict::report {
+namespace lexican::codict::catalogue {
 
 /// In the order of docs/codict.md.
 const std::vector<const Rule*>& all_rules();
@@ -16,10 +16,10 @@ const std::vector<const Rule*>& all_rules();
 /// Null if there is none of this id.
 const Rule* find_rule(std::string_view id);
 
-/// Ids that may be meant by one that is none.
-std::vector<std::string_view> similar_rules(std::string_view id);
+/// In the same order.
+std::vector<std::string_view> all_ids();
 
 /// Whether a rule is about what cannot be generated: no check ever breaks it.
 bool is_of_generator(const Rule& rule);
 
-}  // namespace lexican::codict::report
+}  // namespace lexican::codict::catalogue

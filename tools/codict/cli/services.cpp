@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/reports.hpp"
+#include "cli/services.hpp"
 
 #include <fmt/format.h>
 

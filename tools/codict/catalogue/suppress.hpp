@@ -9,7 +9,7 @@
 #include "text/source.hpp"
 #include "text/suppression.hpp"
 
-namespace lexican::codict::report {
+namespace lexican::codict::catalogue {
 
 /// Who has made the findings: each has rules of its own.
 enum class Origin : unsigned char { checks, generator };
@@ -25,4 +25,4 @@ extern const Rule suppression_unused;
 
 const std::vector<const Rule*>& suppression_rules();
 
-}  // namespace lexican::codict::report
+}  // namespace lexican::codict::catalogue
