@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,64 +28,96 @@ const std::vector<const Rule*>& suppression_rules() {
 
 namespace {
 
-// Each finding is compared with all of its rule: a file must not make that take long.
-constexpr std::size_t most_wanted = 10000;
+// The suppressions of one rule, and where its findings are. Each is looked up by halving: a file may have many of both.
+struct Wanted {
+  std::vector<Suppression> suppressions;  // with a scope, by its begin
+  std::vector<std::uint32_t> reach;       // the last place that one of them covers, up to each
+  std::vector<std::uint32_t> places;
+  std::vector<Span> nowhere;  // comments that nothing follows
 
-struct Known {
-  Suppression suppression;
-  bool is_used = false;
-};
-
-// By rule.
-using Wanted = std::multimap<const Rule*, Known>;
-
-bool covers(const Suppression& suppression, Span place) {
-  return suppression.scope && place.begin >= suppression.scope->begin && place.begin <= suppression.scope->end;
-}
-
-// All that cover the finding have an effect.
-bool is_suppressed(const Finding& finding, Wanted& wanted) {
-  bool is_covered = false;
-  const auto [first, last] = wanted.equal_range(finding.rule);
-  for (auto each = first; each != last; ++each) {
-    if (covers(each->second.suppression, finding.span)) {
-      each->second.is_used = true;
-      is_covered = true;
+  bool covers(std::uint32_t place) const {
+    const auto behind =
+        std::upper_bound(suppressions.begin(), suppressions.end(), place,
+                         [](std::uint32_t at, const Suppression& each) { return at < each.scope->begin; });
+    return behind != suppressions.begin() &&
+           reach[static_cast<std::size_t>(behind - suppressions.begin()) - 1] >= place;
+  }
+  bool is_used(const Suppression& suppression) const {
+    const auto first = std::lower_bound(places.begin(), places.end(), suppression.scope->begin);
+    return first != places.end() && *first <= suppression.scope->end;
+  }
+  void sort() {
+    std::sort(suppressions.begin(), suppressions.end(),
+              [](const Suppression& a, const Suppression& b) { return a.scope->begin < b.scope->begin; });
+    std::sort(places.begin(), places.end());
+    std::uint32_t last = 0;
+    for (const Suppression& suppression : suppressions) {
+      last = std::max(last, suppression.scope->end);
+      reach.push_back(last);
     }
   }
-  return is_covered;
-}
+};
+
+using ByRule = std::map<const Rule*, Wanted>;
 
 std::string hint_for(std::string_view id) {
   const std::vector<std::string_view> near = similar(id, all_ids());
   return near.empty() ? "codict explain names all rules" : std::string(near.front());
 }
 
+void add_unused(const Wanted& wanted, Findings& findings) {
+  for (const Suppression& suppression : wanted.suppressions) {
+    if (!wanted.is_used(suppression)) {
+      findings.add(rules::suppression_unused, suppression.rule, "nothing to suppress where this comment is for");
+    }
+  }
+  for (const Span place : wanted.nowhere) {
+    findings.add(rules::suppression_unused, place, "nothing follows that this comment could be for");
+  }
+}
+
+// By rule; what is off in them is a finding.
+ByRule by_rule(const Source& source, const std::vector<Suppression>& suppressions, bool is_generator,
+               Findings& findings) {
+  constexpr std::size_t most_hints = 100;  // to look for one takes long
+  ByRule all;
+  std::size_t unknown = 0;
+  for (const Suppression& suppression : suppressions) {
+    const std::string_view id = source.slice(suppression.rule);
+    const Rule* const rule = find_rule(id);
+    if (rule == nullptr && !is_generator) {
+      findings.add(rules::suppression_unknown, suppression.rule, "there is no such rule",
+                   ++unknown > most_hints ? std::string() : hint_for(id));
+    } else if (rule != nullptr && suppression.scope) {
+      all[rule].suppressions.push_back(suppression);
+    } else if (rule != nullptr) {
+      all[rule].nowhere.push_back(suppression.rule);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 void suppress(const Source& source, const std::vector<Suppression>& suppressions, Origin origin, Findings& findings) {
   const bool is_generator = origin == Origin::generator;
-  Wanted wanted;
-  for (const Suppression& suppression : suppressions) {
-    if (wanted.size() == most_wanted) {
-      findings.add(rules::suppression_unused, suppression.rule, "too many of these comments: others are not looked at");
-      break;
-    }
-    const std::string_view id = source.slice(suppression.rule);
-    if (const Rule* const rule = find_rule(id)) {
-      wanted.emplace(rule, Known{suppression});
-    } else if (!is_generator) {
-      findings.add(rules::suppression_unknown, suppression.rule, "there is no such rule", hint_for(id));
+  ByRule all = by_rule(source, suppressions, is_generator, findings);
+  const auto may_go = [&](const Finding& finding) {
+    return all.count(finding.rule) != 0 && !(is_generator && finding.severity == Severity::error);
+  };
+  for (const Finding& finding : findings.all()) {
+    if (may_go(finding)) {
+      all[finding.rule].places.push_back(finding.span.begin);
     }
   }
-  findings.remove_if([&](const Finding& finding) {
-    return !(is_generator && finding.severity == Severity::error) && is_suppressed(finding, wanted);
-  });
-  for (const auto& [rule, known] : wanted) {
-    if (!known.is_used && is_of_generator(*rule) == is_generator) {
-      findings.add(rules::suppression_unused, known.suppression.rule,
-                   known.suppression.scope ? "nothing to suppress where this comment is for"
-                                           : "nothing follows that this comment could be for");
+  for (auto& [rule, wanted] : all) {
+    wanted.sort();
+  }
+  findings.remove_if(
+      [&](const Finding& finding) { return may_go(finding) && all[finding.rule].covers(finding.span.begin); });
+  for (const auto& [rule, wanted] : all) {
+    if (is_of_generator(*rule) == is_generator) {
+      add_unused(wanted, findings);
     }
   }
   findings.sort();
