@@ -33,7 +33,21 @@ TEST_CASE("codict: without a command, or with a wrong one, it says how it is use
   CHECK(run("check --nonsense octal.eds").status == 2);
   const Ran wrong = run("nonsense");
   CHECK(wrong.out.empty());
-  CHECK(wrong.err.find("--help") != std::string::npos);
+  CHECK(wrong.err == "codict: there is no command nonsense: codict --help names all\n");
+  CHECK(run("chek octal.eds").err == "codict: there is no command chek: check?\n");
+  CHECK(has(run("--nonsense").err, "--help"));
+  CHECK(has(run("check --nonsense octal.eds").err, "--nonsense"));
+}
+
+TEST_CASE("codict: no help has control characters, and all formats are named") {
+  CHECK(has(run("--help").out, "XPD"));
+  for (const char* command : {"check", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",
+                              "list","merge", "pdo", "set", "size"}) {
+    CAPTURE(command);
+    const Ran ran = run(command + std::string(" --help"));
+    CHECK(ran.status == 0);
+    CHECK(std::none_of(ran.out.begin(), ran.out.end(), [](char c) { return c >= 0 && c < ' ' && c != '\n'; }));
+  }
 }
 
 TEST_CASE("codict: help and version are products, and all is well") {
