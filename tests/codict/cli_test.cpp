@@ -41,12 +41,50 @@ TEST_CASE("codict: without a command, or with a wrong one, it says how it is use
 
 TEST_CASE("codict: no help has control characters, and all formats are named") {
   CHECK(has(run("--help").out, "XPD"));
-  for (const char* command : {"check", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",
-                              "list","merge", "pdo", "set", "size"}) {
+  for (const char* command : {"check", "completion", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",
+                              "list", "man", "merge", "pdo", "set", "size"}) {
     CAPTURE(command);
     const Ran ran = run(command + std::string(" --help"));
     CHECK(ran.status == 0);
     CHECK(std::none_of(ran.out.begin(), ran.out.end(), [](char c) { return c >= 0 && c < ' ' && c != '\n'; }));
+  }
+}
+
+namespace {
+
+// What bash offers when the tabulator key is pressed behind these words.
+std::string completed(const std::string& words) {
+  return test::run_shell("bash -c 'source /dev/stdin; COMP_WORDS=(" + words +
+                         "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _codict; echo \"${COMPREPLY[*]}\"' <<END\n$('" +
+                         std::string(LEXICAN_CODICT_PROGRAM) + "' completion)\nEND")
+      .out;
+}
+
+}  // namespace
+
+TEST_CASE("codict completion: bash completes commands, and the options of a command") {
+  CHECK(completed("codict che") == "check\n");
+  CHECK(completed("codict check --er") == "--error-format\n");
+  CHECK(completed("codict --ver") == "--version\n");
+  CHECK(completed("codict check dri") == "\n");  // bash knows the files
+  CHECK(completed("codict pdo --lev") == "\n");
+  CHECK(run("completion").err.empty());
+}
+
+TEST_CASE("codict man: the manual page has all commands and options, and nothing that roff complains about") {
+  const Ran page = run("man");
+  CHECK(page.status == 0);
+  for (const char* words :
+       {".TH CODICT 1 ", ".SS \"codict get file target [field]\"", "\\fB\\-\\-error\\-format\\fR", ".SH EXIT STATUS"}) {
+    CHECK(has(page.out, words));
+  }
+  if (test::run_shell("command -v groff").status == 0) {
+    const Directory directory;
+    test::write_bytes(directory / "codict.1", page.out);
+    CHECK(test::run_shell("groff -man -ww -z -Tutf8 '" + directory / "codict.1" + "'").err.empty());
+    const std::string shown = test::run_shell("groff -man -Tascii -P-cbu '" + directory / "codict.1" + "'").out;
+    CHECK(has(shown, "--string-capacity UINT\n"));
+    CHECK(has(shown, "--strict-loss\n"));
   }
 }
 

@@ -37,6 +37,7 @@ struct Command {
 };
 
 Command add_check(CLI::App& app);
+Command add_completion(CLI::App& app);
 Command add_convert(CLI::App& app);
 Command add_diff(CLI::App& app);
 Command add_doc(CLI::App& app);
@@ -45,6 +46,7 @@ Command add_gen(CLI::App& app);
 Command add_get(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_list(CLI::App& app);
+Command add_man(CLI::App& app);
 Command add_merge(CLI::App& app);
 Command add_fmt(CLI::App& app);
 Command add_pdo(CLI::App& app);

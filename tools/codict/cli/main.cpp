@@ -40,7 +40,7 @@ int run(int number, char** arguments) {
   const std::vector<Command> commands = {add_info(app),  add_list(app),    add_get(app),        add_set(app),
                                          add_check(app), add_diff(app),    add_convert(app),    add_merge(app),
                                          add_fmt(app),   add_doc(app),     add_pdo(app),        add_gen(app),
-                                         add_size(app),  add_explain(app)};
+                                         add_size(app),  add_explain(app), add_completion(app), add_man(app)};
   try {
     app.parse(number, arguments);
   } catch (const CLI::ParseError& error) {
