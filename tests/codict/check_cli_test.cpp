@@ -107,6 +107,19 @@ TEST_CASE("codict check --disable: every rule can be named, and a wrong one has 
   CHECK(check("--disable weather octal.eds").err == "codict: there is no rule weather: codict explain names all\n");
 }
 
+TEST_CASE("codict check --profile: a device profile is checked where that is asked for") {
+  const std::string text =
+      "[1000]\nParameterName=x\nObjectType=7\nDataType=7\nAccessType=ro\nDefaultValue=0x192\n" + variable("6040", "");
+  const auto profile_findings = [&text](const char* options) {
+    return test::has(check_text("a.eds", text, unlisted + options).out, "[profile-");
+  };
+  CHECK_FALSE(profile_findings(""));
+  CHECK(profile_findings("--profile auto"));
+  CHECK(profile_findings("--profile 402"));
+  CHECK_FALSE(profile_findings("--profile 401"));
+  CHECK(check_text("a.eds", text, unlisted + "--profile 403").status == 2);
+}
+
 TEST_CASE("codict check: a comment suppresses rules in the key below it") {
   const std::string octal = "DefaultValue=012";
   const auto found = [](const std::string& lines) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "check/check.hpp"
+#include "check/profile.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
 
@@ -361,4 +362,36 @@ TEST_CASE("check: od-standard-…: objects of the communication profile are what
   CHECK(check(record("1A00", {"1", "0x20000010"})) == "");
   CHECK(check(record("1003", {"1", "0"})) == "od-standard-kind: CiA 301 has another kind of object here\n");
   CHECK(check("[1010]\nParameterName=x\n[1010sub1]\nParameterName=x\nDataType=7\nAccessType=rw\n") == "");
+}
+
+TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 are what these profiles say") {
+  const auto io = [](const Device& device, Findings& findings) { check::check_profile(device, 401, findings); };
+  const auto drive = [](const Device& device, Findings& findings) { check::check_profile(device, 402, findings); };
+  const auto array = [](const std::string& index, const std::string& type, const std::string& access) {
+    return "[" + index + "]\nParameterName=x\nObjectType=8\n[" + index +
+           "sub0]\nParameterName=x\nDataType=5\nAccessType=ro\n[" + index + "sub1]\nParameterName=x\nDataType=" + type +
+           "\nAccessType=" + access + "\n";
+  };
+  const std::string words = variable("6040", "6", "rww") + variable("6041", "6", "ro");
+  CHECK(found(io, words) == "");
+  CHECK(found(drive, words) == "");
+  CHECK(found(drive, variable("6041", "6", "ro")) == "profile-object-missing: a drive has a controlword, 6040h\n");
+  CHECK(found(drive, words + variable("6060", "5", "rw")) == "profile-type: CiA 402 has another data type here\n");
+  CHECK(found(drive, words + variable("607A", "4", "ro")) == "profile-access: masters write this object of CiA 402\n");
+  CHECK(found(drive, words + variable("6064", "4", "rw")) ==
+        "profile-access: masters only read this object of CiA 402\n");
+  CHECK(found(drive, words + variable("6081", "7", "ro")) == "");  // a parameter may be fixed
+  CHECK(found(drive, words + array("6064", "4", "ro")) == "profile-kind: CiA 402 has another kind of object here\n");
+  CHECK(found(io, array("6000", "5", "ro") + array("6411", "3", "rww") + variable("6423", "1", "rw")) == "");
+  CHECK(found(io, array("6401", "6", "ro")) == "profile-type: CiA 401 has another data type here\n");
+  CHECK(found(io, variable("1000", "7", "ro", "0x00030191") + array("6000", "5", "ro")) ==
+        "profile-object-missing: 1000h says that there are digital outputs, 6200h\n");
+}
+
+TEST_CASE("check: the profile of a device is the lower half of object 1000h, and of an unknown one nothing is said") {
+  CHECK(check::profile_of(device_of(variable("1000", "7", "ro", "0x00020192"))) == 402);
+  CHECK(check::profile_of(device_of(variable("1000", "7", "ro", ""))) == 0);
+  CHECK(check::profile_of(device_of(variable("1001", "5", "ro", "1"))) == 0);
+  const auto of = [](const Device& device, Findings& findings) { check::check_profile(device, 410, findings); };
+  CHECK(found(of, variable("6040", "5", "ro")) == "");
 }

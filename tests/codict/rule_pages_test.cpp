@@ -18,6 +18,7 @@
 #include "catalogue/rules.hpp"
 #include "catalogue/suppress.hpp"
 #include "check/check.hpp"
+#include "check/profile.hpp"
 #include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "eds/read.hpp"
@@ -186,6 +187,7 @@ Findings judge(const Rule& rule, Source source, Read read, Suppressions suppress
     gen::generate(description.devices.front(), options, findings);
   } else {
     check::check_all(description.devices.front(), findings);
+    check::check_profile(description.devices.front(), check::profile_of(description.devices.front()), findings);
   }
   catalogue::suppress(document.source(), suppressions(document),
                       is_generator ? catalogue::Origin::generator : catalogue::Origin::checks, findings);

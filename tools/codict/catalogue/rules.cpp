@@ -6,6 +6,7 @@
 #include "catalogue/suppress.hpp"
 #include "check/check.hpp"
 #include "check/network.hpp"
+#include "check/profile.hpp"
 #include "eds/rules.hpp"
 #include "gen/rules.hpp"
 #include "json/read.hpp"
@@ -18,7 +19,7 @@ const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = [] {
     std::vector<const Rule*> joined;
     for (const auto* rules :
-         {&eds::all_rules(), &value_rules(), &check::all_rules(), &check::network_rules(),
+         {&eds::all_rules(), &value_rules(), &check::all_rules(), &check::network_rules(), &check::profile_rules(),
           &xdd::all_rules(), &json::all_rules(), &gen::all_rules(), &suppression_rules()}) {
       joined.insert(joined.end(), rules->begin(), rules->end());
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catalogue/rules.hpp"
+#include "check/profile.hpp"
 #include "cli/baseline.hpp"
 #include "cli/command.hpp"
 #include "cli/output.hpp"
@@ -23,6 +24,7 @@ struct Options {
   std::vector<std::string> files;
   Severity level = Severity::warning;
   std::vector<std::string> disabled;
+  std::string profile;
   std::string baseline;
   std::string new_baseline;
   Form form = Form::gcc;
@@ -94,11 +96,22 @@ void show(const Input& input, const std::vector<Finding>& findings, const Option
   }
 }
 
+void check_profiles(Input& input, const std::string& profile) {
+  if (profile.empty()) {
+    return;
+  }
+  for (const Device& device : input.description.devices) {
+    const auto number = profile == "auto" ? check::profile_of(device) : static_cast<std::uint16_t>(std::stoul(profile));
+    check::check_profile(device, number, input.findings);
+  }
+}
+
 int check_file(const std::string& path, const Options& options, Report& report) {
   std::optional<Input> input = open(path);
   if (!input) {
     return unusable;
   }
+  check_profiles(*input, options.profile);
   check_all(*input);
   const std::vector<Finding> findings = wanted(*input, options, report);
   if (input->findings.dropped() != 0) {
@@ -188,6 +201,10 @@ Command add_check(CLI::App& app) {
       ->default_str("warning");
   command->add_option("--disable", options->disabled, "Rule that is left out; may be given several times")
       ->allow_extra_args(false);
+  command
+      ->add_option("--profile", options->profile,
+                   "Check the objects of a device profile, too: 401, 402, or auto, which is what object 1000h says")
+      ->check(CLI::IsMember({"401", "402", "auto"}).description(""));
   command->add_flag("--werror", options->is_strict, "Take warnings for errors");
   CLI::Option* const known =
       command->add_option("--baseline", options->baseline, "File of findings that are known: only others are told");
