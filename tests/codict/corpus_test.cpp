@@ -3,13 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
+#include "codict/files.hpp"
 #include "eds/document.hpp"
 #include "eds/names.hpp"
 #include "eds/read.hpp"
@@ -19,23 +18,6 @@
 using namespace lexican::codict;
 
 namespace {
-
-const char* const corpus = std::getenv("LEXICAN_CORPUS");
-const auto skipped_without_corpus = doctest::skip(corpus == nullptr);
-
-// Those of a directory in the corpus that end so, or of all others.
-std::vector<std::string> files(const std::vector<std::string>& endings, bool are_foreign) {
-  std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
-    const bool is_foreign = entry.path().string().find("/_not-canopen/") != std::string::npos;
-    if (entry.is_regular_file() && is_foreign == are_foreign &&
-        std::find(endings.begin(), endings.end(), entry.path().extension()) != endings.end()) {
-      found.push_back(entry.path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 Source source_of(const std::string& path) {
   std::string why;
@@ -126,9 +108,9 @@ std::string rewritten(const eds::Document& document) {
 
 }  // namespace
 
-TEST_CASE("corpus: all EDS and DCF are read, and no value of an object is lost" * skipped_without_corpus) {
+TEST_CASE("corpus: all EDS and DCF are read, and no value of an object is lost" * test::skipped_without_corpus()) {
   std::size_t number = 0;
-  for (const std::string& path : files({".eds", ".dcf"}, false)) {
+  for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     CAPTURE(path);
     const Source source = source_of(path);
     REQUIRE(eds::refusal(source).empty());
@@ -143,8 +125,8 @@ TEST_CASE("corpus: all EDS and DCF are read, and no value of an object is lost" 
   CHECK(number > 0);
 }
 
-TEST_CASE("corpus: values that are written as they were read change no byte" * skipped_without_corpus) {
-  for (const std::string& path : files({".eds", ".dcf"}, false)) {
+TEST_CASE("corpus: values that are written as they were read change no byte" * test::skipped_without_corpus()) {
+  for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     CAPTURE(path);
     Findings findings;
     const eds::Document document(source_of(path), findings);
@@ -152,9 +134,9 @@ TEST_CASE("corpus: values that are written as they were read change no byte" * s
   }
 }
 
-TEST_CASE("corpus: what is no EDS is refused with one message" * skipped_without_corpus) {
-  std::vector<std::string> foreign = files({".eds", ".dcf", ".xdc"}, true);
-  for (const std::string& topology : files({".cpj"}, false)) {
+TEST_CASE("corpus: what is no EDS is refused with one message" * test::skipped_without_corpus()) {
+  std::vector<std::string> foreign = test::files_in(test::corpus(), {".eds", ".dcf", ".xdc"}, true);
+  for (const std::string& topology : test::files_in(test::corpus(), {".cpj"})) {
     foreign.push_back(topology);
   }
   for (const std::string& path : foreign) {

@@ -1,31 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The description of the demo's clock, and what is committed of what is made of it.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include "codict/directory.hpp"
+#include "codict/program.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
+using test::bytes_of;
+using test::Ran;
+using test::run_shell;
 
 const std::string root = LEXICAN_SOURCE_DIR;
-
-int status_of(const std::string& command) {
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 /// demo/generate with the codict of this build, in a copy of what it reads and writes.
 struct Copy {
@@ -35,9 +26,8 @@ struct Copy {
     fs::copy(root + "/demo/clock/clock.xdd", directory / "demo/clock/clock.xdd");
     fs::copy(root + "/demo/clock/generated", directory / "demo/clock/generated");
   }
-  int generate(const char* option = "") const {
-    return status_of("LEXICAN_CODICT='" LEXICAN_CODICT_PROGRAM "' '" + directory / "demo/generate" + "' " + option +
-                     " 2>'" + directory / "err" + "'");
+  Ran generate(const char* option = "") const {
+    return run_shell("LEXICAN_CODICT='" LEXICAN_CODICT_PROGRAM "' '" + directory / "demo/generate" + "' " + option);
   }
   std::string file(const std::string& name) const { return directory / "demo/clock/generated/" + name; }
 
@@ -49,27 +39,27 @@ const char* const made[] = {"clock_od.h", "clock_od.cpp", "clock.eds"};
 }  // namespace
 
 TEST_CASE("demo: nothing is to be said of the description of the clock, not even a note; of its EDS no warning") {
-  CHECK(status_of("'" LEXICAN_CODICT_PROGRAM "' check --level note '" + root + "/demo/clock/clock.xdd' >/dev/null") ==
-        0);
-  CHECK(status_of("'" LEXICAN_CODICT_PROGRAM "' check '" + root + "/demo/clock/generated/clock.eds' >/dev/null") == 0);
+  CHECK(run_shell("'" LEXICAN_CODICT_PROGRAM "' check --level note '" + root + "/demo/clock/clock.xdd'").status == 0);
+  CHECK(run_shell("'" LEXICAN_CODICT_PROGRAM "' check '" + root + "/demo/clock/generated/clock.eds'").status == 0);
 }
 
 TEST_CASE("demo: the dictionary and the EDS of the clock that are committed are those of its description") {
   const Copy copy;
-  CHECK(copy.generate("--check") == 0);
+  CHECK(copy.generate("--check").status == 0);
   for (const char* name : made) {
     CAPTURE(name);
     const std::string bytes = bytes_of(copy.file(name));
     std::ofstream(copy.file(name), std::ios::app) << "\n";
-    CHECK(copy.generate("--check") == 1);
-    CHECK(bytes_of(copy.directory / "err").find(std::string(name) + " is out of date") != std::string::npos);
-    CHECK(copy.generate() == 0);
+    const Ran checked = copy.generate("--check");
+    CHECK(checked.status == 1);
+    CHECK(test::has(checked.err, std::string(name) + " is out of date"));
+    CHECK(copy.generate().status == 0);
     CHECK(bytes_of(copy.file(name)) == bytes);
     fs::remove(copy.file(name));
-    CHECK(copy.generate("--check") == 1);
-    CHECK(copy.generate() == 0);
+    CHECK(copy.generate("--check").status == 1);
+    CHECK(copy.generate().status == 0);
   }
-  CHECK(copy.generate("--check") == 0);
+  CHECK(copy.generate("--check").status == 0);
 }
 
 TEST_CASE("demo: another description makes another dictionary and another EDS") {
@@ -79,8 +69,8 @@ TEST_CASE("demo: another description makes another dictionary and another EDS") 
   const std::string name = "value=\"Lexican demo clock\"";
   REQUIRE(text.find(name) != std::string::npos);
   std::ofstream(path) << text.replace(text.find(name), name.size(), "value=\"Another clock\"");
-  CHECK(copy.generate("--check") == 1);
-  CHECK(copy.generate() == 0);
+  CHECK(copy.generate("--check").status == 1);
+  CHECK(copy.generate().status == 0);
   CHECK(bytes_of(copy.file("clock_od.cpp")).find("\"Another clock\"") != std::string::npos);
   CHECK(bytes_of(copy.file("clock.eds")).find("DefaultValue=Another clock") != std::string::npos);
 }

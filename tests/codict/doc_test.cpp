@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "codict/program.hpp"
 #include "doc/contents.hpp"
 #include "doc/picture.hpp"
 #include "eds/document.hpp"
@@ -15,6 +16,7 @@ using lexican::codict::Device;
 using lexican::codict::Findings;
 using lexican::codict::Source;
 using namespace lexican::codict::doc;
+using test::has;
 
 namespace {
 
@@ -23,8 +25,6 @@ Device device_of(const std::string& eds) {
   const lexican::codict::eds::Document document(Source("device.eds", eds), findings);
   return lexican::codict::eds::read(document, findings).devices.front();
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;

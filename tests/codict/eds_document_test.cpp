@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
@@ -38,11 +37,6 @@ std::string added(const std::string& bytes, const char* section, const char* key
   return edits.applied_to(bytes);
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 }  // namespace
 
 TEST_CASE("EDS: without a change, what is written is what was read") {
@@ -50,7 +44,7 @@ TEST_CASE("EDS: without a change, what is written is what was read") {
     if (!entry.is_regular_file()) {
       continue;
     }
-    const std::string bytes = bytes_of(entry.path());
+    const std::string bytes = test::bytes_of(entry.path());
     CHECK(Edits().applied_to(document_of(bytes).source().bytes()) == bytes);
   }
 }

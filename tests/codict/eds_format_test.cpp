@@ -5,12 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "codict/files.hpp"
 #include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "diff/diff.hpp"
@@ -49,22 +48,16 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 std::size_t check_all_in(const std::string& directory) {
-  std::size_t number = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
-    const std::string path = entry.path();
-    const std::string ending = entry.path().extension();
-    if (!entry.is_regular_file() || (ending != ".eds" && ending != ".dcf") || test::has(path, "/_not-canopen/")) {
-      continue;
-    }
+  const std::vector<std::string> paths = test::files_in(directory, test::eds_endings());
+  for (const std::string& path : paths) {
     CAPTURE(path);
     const std::string before = test::bytes_of(path);
     const std::string after = formatted(before);
     CHECK(diff::compare(device_of(before, path), device_of(after, path)).empty());
     CHECK(formatted(after) == after);
     CHECK(words_of(after) == words_of(before));
-    ++number;
   }
-  return number;
+  return paths.size();
 }
 
 }  // namespace
@@ -74,8 +67,8 @@ TEST_CASE("EDS normal form: each fixture is the same device, has lost nothing, a
 }
 
 TEST_CASE("EDS normal form: each description of the corpus is the same device, and has lost nothing" *
-          doctest::skip(std::getenv("LEXICAN_CORPUS") == nullptr)) {
-  CHECK(check_all_in(std::getenv("LEXICAN_CORPUS")) > 50);
+          test::skipped_without_corpus()) {
+  CHECK(check_all_in(test::corpus()) > 50);
 }
 
 TEST_CASE("EDS normal form: sections have the order of CiA 306, and comments stay with what they precede") {

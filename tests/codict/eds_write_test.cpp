@@ -4,20 +4,18 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "codict/files.hpp"
+#include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "diff/diff.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
 
 using namespace lexican::codict;
+using test::has;
 
 namespace {
 
@@ -34,8 +32,6 @@ std::string written(const Device& device, bool as_dcf = false) {
   return eds::write(device, options);
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 // What a device has lost or got by being written and read again.
 std::string differences(const Device& device) {
   std::string text;
@@ -46,29 +42,9 @@ std::string differences(const Device& device) {
   return text;
 }
 
-std::vector<std::string> files_in(const std::string& directory) {
-  std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
-    const std::string extension = entry.path().extension();
-    if (entry.is_regular_file() && (extension == ".eds" || extension == ".dcf") &&
-        entry.path().string().find("/_not-canopen/") == std::string::npos) {
-      found.push_back(entry.path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream content;
-  content << file.rdbuf();
-  return content.str();
-}
-
 void check_round_trip(const std::string& path) {
   CAPTURE(path);
-  const Device device = device_of(content_of(path), path);
+  const Device device = device_of(test::bytes_of(path), path);
   CHECK(differences(device) == "");
   const std::string once = written(device, true);
   CHECK(written(device_of(once), true) == once);
@@ -77,7 +53,7 @@ void check_round_trip(const std::string& path) {
 }  // namespace
 
 TEST_CASE("EDS writer: each fixture, written and read again, is the same device") {
-  const std::vector<std::string> paths = files_in(test::fixture(""));
+  const std::vector<std::string> paths = test::files_in(test::fixture(""), test::eds_endings());
   CHECK(paths.size() > 50);
   for (const std::string& path : paths) {
     check_round_trip(path);
@@ -85,8 +61,8 @@ TEST_CASE("EDS writer: each fixture, written and read again, is the same device"
 }
 
 TEST_CASE("EDS writer: each description of the corpus, written and read again, is the same device" *
-          doctest::skip(std::getenv("LEXICAN_CORPUS") == nullptr)) {
-  for (const std::string& path : files_in(std::getenv("LEXICAN_CORPUS"))) {
+          test::skipped_without_corpus()) {
+  for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     check_round_trip(path);
   }
 }

@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include "codict/program.hpp"
 #include "codict/xdd_reading.hpp"
 #include "gen/gen.hpp"
 
 using namespace lexican::codict;
+using test::has;
 
 namespace {
 
@@ -29,8 +31,6 @@ std::string generated(const std::string& first, const std::string& second) {
   REQUIRE(output.files.size() == 2);
   return output.files[0].bytes + output.files[1].bytes;
 }
-
-bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 const std::string own = "<property name=\"CO_extensionIO\" value=\"true\"/>";
 

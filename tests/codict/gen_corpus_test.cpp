@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "codict/directory.hpp"
+#include "codict/files.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
@@ -25,8 +25,6 @@
 using namespace lexican::codict;
 
 namespace {
-
-const char* const corpus = std::getenv("LEXICAN_CORPUS");
 
 // A configuration in which everything is there that a description can ask for.
 const std::string options =
@@ -55,13 +53,12 @@ struct Named {
 
 std::vector<Named> devices() {
   std::vector<Named> all;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
+  for (const std::string& path : test::files_in(test::corpus(), test::all_endings())) {
     std::string why;
-    std::optional<Source> source =
-        entry.is_regular_file() && entry.path().extension() != ".md" ? read_file(entry.path(), why) : std::nullopt;
+    std::optional<Source> source = read_file(path, why);
     std::optional<Device> device = source ? device_of(std::move(*source)) : std::nullopt;
     if (device) {
-      all.push_back({entry.path(), std::move(*device)});
+      all.push_back({path, std::move(*device)});
     }
   }
   return all;
@@ -98,8 +95,7 @@ void in_two_threads(std::size_t number, Job job) {
 
 }  // namespace
 
-TEST_CASE("gen: of each description in the corpus comes a dictionary that compiles" *
-          doctest::skip(corpus == nullptr)) {
+TEST_CASE("gen: of each description in the corpus comes a dictionary that compiles" * test::skipped_without_corpus()) {
   const test::Directory directory;
   const std::vector<Named> all = devices();
   std::vector<std::string> faults(2 * all.size());

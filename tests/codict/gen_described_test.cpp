@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "codict/program.hpp"
 #include "codict/xdd_reading.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
@@ -11,6 +12,7 @@
 #include "gen/gen.hpp"
 
 using namespace lexican::codict;
+using test::has;
 
 namespace {
 
@@ -37,8 +39,6 @@ std::string matching_eds(const Device& device) {
 std::string matching_eds(const std::string& objects, const std::string& parameters) {
   return matching_eds(test::XmlReading(test::xdd_with(objects, parameters)).device);
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

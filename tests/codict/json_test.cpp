@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "codict/files.hpp"
 #include "codict/program.hpp"
 #include "codict/reading.hpp"
 #include "codict/xdd_dump.hpp"
@@ -28,8 +29,6 @@ using namespace lexican::codict;
 using test::has;
 
 namespace {
-
-const char* const corpus = std::getenv("LEXICAN_CORPUS");
 
 struct JsonReading {
   explicit JsonReading(const std::string& bytes, const std::string& name = "device.json")
@@ -98,17 +97,7 @@ void check_device(const Device& before, const Device& after) {
 
 std::size_t check_round_trips(const std::string& directory) {
   std::size_t number = 0;
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
-    const std::string ending = entry.path().extension();
-    const bool is_description = ending == ".eds" || ending == ".dcf" || ending == ".xdd" || ending == ".xdc" ||
-                                ending == ".nxdd" || ending == ".xpd" || ending == ".xml";
-    if (entry.is_regular_file() && is_description && !has(entry.path(), "/_not-canopen/")) {
-      paths.push_back(entry.path());
-    }
-  }
-  std::sort(paths.begin(), paths.end());
-  for (const std::string& path : paths) {
+  for (const std::string& path : test::files_in(directory, test::all_endings())) {
     CAPTURE(path);
     const std::optional<Description> before = description_of(path);
     if (!before) {
@@ -135,8 +124,8 @@ TEST_CASE("JSON: each fixture, written and read again, is the same device in all
 }
 
 TEST_CASE("JSON: each description of the corpus, written and read again, is the same device" *
-          doctest::skip(corpus == nullptr)) {
-  CHECK(check_round_trips(corpus) > 0);
+          test::skipped_without_corpus()) {
+  CHECK(check_round_trips(test::corpus()) > 0);
 }
 
 TEST_CASE("JSON: what is no JSON is refused with its line and column") {

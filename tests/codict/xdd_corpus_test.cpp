@@ -3,45 +3,20 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
+#include "codict/files.hpp"
+#include "codict/program.hpp"
 #include "codict/xdd_dump.hpp"
 #include "codict/xdd_reading.hpp"
-#include "text/file.hpp"
 #include "xdd/write.hpp"
 
 using namespace lexican::codict;
+using test::bytes_of;
 
 namespace {
-
-const char* const corpus = std::getenv("LEXICAN_CORPUS");
-const auto skipped_without_corpus = doctest::skip(corpus == nullptr);
-
-std::string bytes_of(const std::string& path) {
-  std::string why;
-  const std::optional<Source> source = read_file(path, why);
-  REQUIRE_MESSAGE(source, why);
-  return std::string(source->bytes());
-}
-
-std::vector<std::string> files(bool are_foreign) {
-  const std::vector<std::string> endings = {".xdd", ".xdc", ".xpd", ".xml", ".nxdd", ".nxdc"};
-  std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
-    const bool is_foreign = entry.path().string().find("/_not-canopen/") != std::string::npos;
-    if (entry.is_regular_file() && is_foreign == are_foreign &&
-        std::find(endings.begin(), endings.end(), entry.path().extension()) != endings.end()) {
-      found.push_back(entry.path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
 
 // Begins of everything that the model has from the source.
 class Places {
@@ -176,8 +151,8 @@ bool is_of_cia311(const Device& device) {
 }  // namespace
 
 TEST_CASE("corpus: all XML descriptions are read, and nothing of an object or parameter is lost" *
-          skipped_without_corpus) {
-  for (const std::string& path : files(false)) {
+          test::skipped_without_corpus()) {
+  for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const std::string bytes = bytes_of(path);
     REQUIRE(test::xml_refusal(bytes).empty());
@@ -188,8 +163,8 @@ TEST_CASE("corpus: all XML descriptions are read, and nothing of an object or pa
 }
 
 TEST_CASE("corpus: a description of CiA 311 that is written in either edition and read is the same" *
-          skipped_without_corpus) {
-  for (const std::string& path : files(false)) {
+          test::skipped_without_corpus()) {
+  for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const test::XmlReading reading(bytes_of(path), path);
     for (const xdd::Edition edition : {xdd::Edition::v10, xdd::Edition::v11}) {
@@ -203,8 +178,8 @@ TEST_CASE("corpus: a description of CiA 311 that is written in either edition an
   }
 }
 
-TEST_CASE("corpus: texts of XML that are written as they were read mean the same" * skipped_without_corpus) {
-  for (const std::string& path : files(false)) {
+TEST_CASE("corpus: texts of XML that are written as they were read mean the same" * test::skipped_without_corpus()) {
+  for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const std::string bytes = bytes_of(path);
     const test::XmlReading reading(bytes, path);
@@ -219,9 +194,9 @@ TEST_CASE("corpus: texts of XML that are written as they were read mean the same
   }
 }
 
-TEST_CASE("corpus: XML of others and what is no XML is refused with one message" * skipped_without_corpus) {
+TEST_CASE("corpus: XML of others and what is no XML is refused with one message" * test::skipped_without_corpus()) {
   std::size_t number = 0;
-  for (const std::string& path : files(true)) {
+  for (const std::string& path : test::files_in(test::corpus(), test::xml_endings(), true)) {
     CAPTURE(path);
     const std::string why = test::xml_refusal(bytes_of(path));
     CHECK_FALSE(why.empty());
