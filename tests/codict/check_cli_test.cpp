@@ -236,7 +236,8 @@ TEST_CASE("codict check: more comments than anybody writes for one place do what
 TEST_CASE("codict gen: comments suppress its warnings, and never its errors") {
   const Directory directory;
   const auto told = [&directory](const char* comment, const char* lines) {
-    test::write_bytes(directory / "a.eds", "[FileInfo]\n" + variable("2000", (std::string(comment) + lines).c_str()));
+    test::write_bytes(directory / "a.eds", "; codict: ignore od-mandatory\n[FileInfo]\n" +
+                                               variable("2000", (std::string(comment) + lines).c_str()));
     return test::run_codict(directory / "", "gen --notes a.eds -o out").err;
   };
   const char* const outside = "DefaultValue=1\nLowLimit=2\n";

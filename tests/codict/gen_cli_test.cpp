@@ -50,6 +50,46 @@ TEST_CASE("codict gen: an error is shown with file, line, column and rule, and n
   CHECK_FALSE(std::filesystem::exists(directory / "new"));
 }
 
+TEST_CASE("codict gen: of a description with errors, nothing is made without --force") {
+  const test::Directory directory;
+  std::string eds = bytes_of(test::fixture("gen/small.eds"));
+  eds.replace(eds.find("DefaultValue=100"), 16, "DefaultValue=501");
+  test::write_bytes(directory / "bad.eds", eds);
+  const Ran ran = run(directory, "bad.eds -o new");
+  CHECK(ran.status == 1);
+  CHECK(ran.err.find("[od-limit]\n") != std::string::npos);
+  CHECK(ran.err.find("codict: nothing is written: --force") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "new"));
+  CHECK(run(directory, "bad.eds -o new --check").status == 1);
+  const Ran forced = run(directory, "bad.eds -o new --force");
+  CHECK(forced.status == 0);
+  CHECK(forced.err.find("[od-limit]\n") != std::string::npos);
+  CHECK(std::filesystem::exists(directory / "new/bad_od.h"));
+  // A comment of the description has the same effect as it has on check.
+  eds.insert(eds.find("DefaultValue=501"), "; codict: ignore od-limit\n");
+  test::write_bytes(directory / "bad.eds", eds);
+  CHECK(run(directory, "bad.eds -o known").status == 0);
+}
+
+TEST_CASE("codict: where XML can be read no further, every command says so, and gen makes nothing of the rest") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --xdd whole.xdd").status == 0);
+  std::string xdd = bytes_of(directory / "whole.xdd");
+  xdd.replace(xdd.find("</CANopenObject>"), 16, "</CANopenObjec>");
+  test::write_bytes(directory / "broken.xdd", xdd);
+  const Ran made = run(directory, "broken.xdd -o made");
+  CHECK(made.status == 1);
+  CHECK(made.err.find("[xdd-syntax]\n") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "made"));
+  for (const char* command : {"list broken.xdd", "info broken.xdd", "size broken.xdd", "get broken.xdd 1000",
+                              "convert broken.xdd -o broken.eds", "diff whole.xdd broken.xdd"}) {
+    CAPTURE(command);
+    const std::string said = test::run_codict(directory / "", command).err;
+    CHECK(said.find("[xdd-syntax]\n") != std::string::npos);
+    CHECK(said.find("[xdd-syntax]\n") == said.rfind("[xdd-syntax]\n"));
+  }
+}
+
 TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary makes, and --check checks them, too") {
   const test::Directory directory;
   const std::string descriptions = " -o new --eds device.eds --xdd device.xdd ";

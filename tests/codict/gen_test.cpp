@@ -219,6 +219,16 @@ TEST_CASE("gen: a configuration that is too small stops the compiler") {
   CHECK(generated.has("#if !USE_TIME\n#error"));
 }
 
+TEST_CASE("gen: the default value of a string that can be written is no hint how long it may become") {
+  constexpr int visible_string = 9;
+  constexpr const char* text = "DefaultValue=cellar";
+  CHECK(generate(variable("2000", visible_string, "rw", text)).has("uint8_t od_2000_0_memory[33];"));
+  CHECK(generate(variable("2000", visible_string, "ro", text)).has("text_2000_0[] = \"cellar\";"));
+  gen::Options options;
+  options.string_capacity = 4;
+  CHECK(generate(variable("2000", visible_string, "rw", text), options).has("uint8_t od_2000_0_memory[7];"));
+}
+
 TEST_CASE("gen: limits that no value can break have no type") {
   CHECK_FALSE(generate(variable("2000", 5, "rw", "LowLimit=0\nHighLimit=255")).has("limits_1"));
   CHECK_FALSE(generate(variable("2000", 3, "rw", "LowLimit=-32768\nHighLimit=0x7FFF")).has("limits_1"));

@@ -107,7 +107,7 @@ void check_profiles(Input& input, const std::string& profile) {
 }
 
 int check_file(const std::string& path, const Options& options, Report& report) {
-  std::optional<Input> input = open(path);
+  std::optional<Input> input = load(path);
   if (!input) {
     return unusable;
   }

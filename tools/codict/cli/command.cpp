@@ -11,6 +11,7 @@
 
 #include "check/check.hpp"
 #include "cli/letters.hpp"
+#include "cli/render.hpp"
 #include "eds/read.hpp"
 #include "eds/recognise.hpp"
 #include "eds/suppressions.hpp"
@@ -20,6 +21,7 @@
 #include "text/similar.hpp"
 #include "xdd/read.hpp"
 #include "xdd/recognise.hpp"
+#include "xdd/rules.hpp"
 #include "xdd/suppressions.hpp"
 
 namespace lexican::codict::cli {
@@ -82,7 +84,7 @@ std::optional<Input> read(Source source, std::string& why) {
   return why.empty() ? std::optional<Input>(std::move(input)) : std::nullopt;
 }
 
-std::optional<Input> open(const std::string& path) {
+std::optional<Input> load(const std::string& path) {
   std::string why;
   std::optional<Source> source = read_file(path, why);
   if (!source) {
@@ -93,6 +95,14 @@ std::optional<Input> open(const std::string& path) {
   std::optional<Input> input = read(std::move(*source), why);
   if (!input) {
     complain(name + ": " + why);
+  }
+  return input;
+}
+
+std::optional<Input> open(const std::string& path) {
+  std::optional<Input> input = load(path);
+  if (input) {
+    show_findings(*input, input->findings, [](const Finding& finding) { return finding.rule == &xdd::rules::syntax; });
   }
   return input;
 }

@@ -69,6 +69,8 @@ struct Input {
 };
 
 /// Why not is said on the standard error output.
+std::optional<Input> load(const std::string& path);
+/// The same for commands that do not show what the reader has found: they say at least where it could read no further.
 std::optional<Input> open(const std::string& path);
 /// The same for what is in memory already; without a result, why is one line.
 std::optional<Input> read(Source source, std::string& why);

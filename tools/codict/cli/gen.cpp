@@ -32,6 +32,7 @@ struct Options {
   bool is_report = false;
   bool is_json = false;
   bool shows_notes = false;
+  bool is_forced = false;
 };
 
 // For --check: says what would be written.
@@ -118,8 +119,18 @@ bool make_directory(const std::string& path) {
   return !error;
 }
 
+// What the generator has found, and the errors of the description. True if there are none of these.
+bool show(Input& input, const Findings& findings, bool shows_notes) {
+  check_all(input);
+  show_findings(input, input.findings, Severity::error);
+  show_findings(input, findings, shows_notes ? Severity::note : Severity::warning);
+  const std::vector<Finding>& all = input.findings.all();
+  return std::none_of(all.begin(), all.end(),
+                      [](const Finding& finding) { return finding.rule->severity == Severity::error; });
+}
+
 int run(Options options) {
-  const std::optional<Input> input = open(options.file);
+  std::optional<Input> input = load(options.file);
   if (!input) {
     return unusable;
   }
@@ -133,8 +144,12 @@ int run(Options options) {
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   suppress(*input, catalogue::Origin::generator, findings);
-  show_findings(*input, findings, options.shows_notes);
+  const bool is_right = show(*input, findings, options.shows_notes);
   if (output.files.empty()) {
+    return found;
+  }
+  if (!is_right && !options.is_forced) {
+    complain("nothing is written: --force makes a dictionary nevertheless");
     return found;
   }
   const std::vector<gen::File> files = files_of(options, output);
@@ -172,6 +187,7 @@ Command add_gen(CLI::App& app) {
   command->add_flag("--report", options->is_report, "Bytes of RAM and flash where addresses have 32 bits");
   command->add_flag("--json", options->is_json, "The same for programs");
   command->add_flag("--notes", options->shows_notes, "Show notes, too");
+  command->add_flag("--force", options->is_forced, "Make a dictionary although the description has errors");
   command->add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
   command->add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
                     "A change of an object that a TPDO may map triggers it (flag A)");

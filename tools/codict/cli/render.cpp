@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <string_view>
 
 #include "cli/letters.hpp"
@@ -93,15 +94,15 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
   return text;
 }
 
-void show_findings(const Input& input, const Findings& findings, bool shows_notes) {
+void show_findings(const Input& input, const Findings& findings, const std::function<bool(const Finding&)>& is_wanted) {
   std::vector<Finding> wanted;
-  for (const Finding& finding : findings.all()) {
-    if (shows_notes || finding.rule->severity != Severity::note) {
-      wanted.push_back(finding);
-    }
-  }
+  std::copy_if(findings.all().begin(), findings.all().end(), std::back_inserter(wanted), is_wanted);
   const std::string text = render(input.source(), input.encoding(), fold(wanted), false);
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void show_findings(const Input& input, const Findings& findings, Severity least) {
+  show_findings(input, findings, [least](const Finding& finding) { return finding.rule->severity >= least; });
 }
 
 Json to_json(const Source& source, const std::vector<Folded>& findings) {

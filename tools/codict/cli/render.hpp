@@ -3,6 +3,7 @@
 /// Findings for people and for programs.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ bool wants_colour();
 std::string render(const Source& source, Encoding encoding, const std::vector<Folded>& findings, bool has_colour);
 
 /// What a command has found on its way, on the standard error output.
-void show_findings(const Input& input, const Findings& findings, bool shows_notes);
+void show_findings(const Input& input, const Findings& findings, const std::function<bool(const Finding&)>& is_wanted);
+void show_findings(const Input& input, const Findings& findings, Severity least);
 
 Json to_json(const Source& source, const std::vector<Folded>& findings);
 

@@ -27,7 +27,7 @@ int run(Options options) {
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   if (output.files.empty()) {
     suppress(*input, catalogue::Origin::generator, findings);
-    show_findings(*input, findings, false);
+    show_findings(*input, findings, Severity::warning);
     return found;
   }
   if (options.is_json) {

@@ -318,13 +318,14 @@ class Items {
                                                                       : item.value.octets.size();
     const std::uint32_t length = static_cast<std::uint32_t>(characters) * unit;
     const std::uint32_t asked = std::max(entry.node.byte_length.value, entry.node.string_length_min.value * unit);
-    item.capacity = std::min(std::max(length, asked), most_bytes) / unit * unit;
     item.storage = kind == TypeKind::domain ? Storage::domain : Storage::string;
+    const bool may_grow = length == 0 || (item.storage == Storage::string && is_writable(item.access));
+    const std::uint32_t room = asked == 0 && may_grow ? std::max(options_.string_capacity, unit) : asked;
+    item.capacity = std::min(std::max(length, room), most_bytes) / unit * unit;
     if (is_constant_text(item) && asked <= length) {
       item.storage = Storage::text;
       item.type = "CO_TSTRING";
-    } else if (item.capacity == 0) {
-      item.capacity = std::max(options_.string_capacity, unit) / unit * unit;
+    } else if (asked == 0 && may_grow) {
       findings_.add(rules::capacity, item.span,
                     fmt::format("nothing says how long it may be: {} bytes", item.capacity));
     }
