@@ -118,6 +118,12 @@ TEST_CASE("codict check --profile: a device profile is checked where that is ask
   CHECK(profile_findings("--profile 402"));
   CHECK_FALSE(profile_findings("--profile 401"));
   CHECK(check_text("a.eds", text, unlisted + "--profile 403").status == 2);
+  const std::string suppressed = "; codict: ignore profile-type profile-object-missing\n" + text;
+  for (const char* options : {"", "--profile auto"}) {
+    const Ran ran = check_text("a.eds", suppressed, unlisted + options);
+    CHECK_FALSE(test::has(ran.out, "[profile-"));
+    CHECK_FALSE(test::has(ran.out, "suppression-unused"));
+  }
 }
 
 TEST_CASE("codict check: a comment suppresses rules in the key below it") {

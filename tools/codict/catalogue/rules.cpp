@@ -15,6 +15,14 @@
 
 namespace lexican::codict::catalogue {
 
+namespace {
+
+bool has(const std::vector<const Rule*>& rules, const Rule& rule) {
+  return std::find(rules.begin(), rules.end(), &rule) != rules.end();
+}
+
+}  // namespace
+
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = [] {
     std::vector<const Rule*> joined;
@@ -42,8 +50,8 @@ std::vector<std::string_view> all_ids() {
   return ids;
 }
 
-bool is_of_generator(const Rule& rule) {
-  return std::find(gen::all_rules().begin(), gen::all_rules().end(), &rule) != gen::all_rules().end();
-}
+bool is_of_generator(const Rule& rule) { return has(gen::all_rules(), rule); }
+
+bool is_optional(const Rule& rule) { return has(check::profile_rules(), rule); }
 
 }  // namespace lexican::codict::catalogue

@@ -22,4 +22,7 @@ std::vector<std::string_view> all_ids();
 /// Whether a rule is about what cannot be generated: no check ever breaks it.
 bool is_of_generator(const Rule& rule);
 
+/// Whether a rule is looked for only where that is asked for: to have no effect is no fault of a suppression then.
+bool is_optional(const Rule& rule);
+
 }  // namespace lexican::codict::catalogue

@@ -116,7 +116,7 @@ void suppress(const Source& source, const std::vector<Suppression>& suppressions
   findings.remove_if(
       [&](const Finding& finding) { return may_go(finding) && all[finding.rule].covers(finding.span.begin); });
   for (const auto& [rule, wanted] : all) {
-    if (is_of_generator(*rule) == is_generator) {
+    if (is_of_generator(*rule) == is_generator && !is_optional(*rule)) {
       add_unused(wanted, findings);
     }
   }
