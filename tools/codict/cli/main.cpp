@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -21,11 +22,12 @@ std::string unknown_command(const CLI::App& app) {
 }
 
 std::string words_for_unknown(const std::string& word, const std::vector<Command>& commands) {
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
+  names.reserve(commands.size());
   for (const Command& command : commands) {
-    names.push_back(command.app->get_name());
+    names.emplace_back(command.app->get_name());
   }
-  return not_there("command", word, {names.begin(), names.end()}, "codict --help");
+  return not_there("command", word, names, "codict --help");
 }
 
 int run(int number, char** arguments) {

@@ -45,7 +45,7 @@ constexpr std::string_view signs = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqr
 
 // A line for each byte, bit 7 on the left.
 std::string picture_of(const doc::PdoItem& item) {
-  std::string bits((std::min(item.bits, 64U) + 7) / 8 * 8, '.');
+  std::string bits(std::size_t{8} * ((std::min(item.bits, 64U) + 7) / 8), '.');
   for (std::size_t n = 0; n < std::min(item.parts.size(), signs.size()); ++n) {
     const doc::PdoPart& part = item.parts[n];
     for (std::size_t bit = part.first_bit; bit < std::min<std::size_t>(part.first_bit + part.bits, bits.size());
