@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read"
 . "$root/tests/fuzz/build.sh"
-packages=("${build_packages[@]}" "${tool_packages[@]}" chromium)
+packages=("${build_packages[@]}" "${tool_packages[@]}" chromium groff-base=groff)
 
 lane() {
   local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict "${tool_fuzz_targets[@]/%/_fuzz}")
