@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "model/device.hpp"
@@ -72,7 +73,7 @@ struct Slot {
 
 /// False if no slot is that of the name, or its member has a text already.
 template <typename T, std::size_t size>
-bool read_into(T& target, std::string_view name, const Text& text, Span place, const std::array<Slot<T>, size>& slots,
+bool read_into(T& target, std::string_view name, Text text, Span place, const std::array<Slot<T>, size>& slots,
                const Reader& reader) {
   for (const Slot<T>& slot : slots) {
     if (!is_named(name, slot.name, place, reader)) {
@@ -83,7 +84,7 @@ bool read_into(T& target, std::string_view name, const Text& text, Span place, c
       report_duplicate(place, reader);
       return false;
     }
-    member = text;
+    member = std::move(text);
     member.is_given = true;
     return true;
   }
@@ -117,12 +118,15 @@ template <typename T, std::size_t size, typename Call>
 void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
                   const Reader& reader, const Call& call) {
   read_attributes(target, element, slots, others, reader);
+  bool has_text = false;
   for (const pugi::xml_node child : element.children()) {
-    if (child.type() == pugi::node_element && !call(child) && !read_leaf(target, child, slots, reader)) {
+    const bool is_element = child.type() == pugi::node_element;
+    has_text = has_text || !is_element;
+    if (is_element && !call(child) && !read_leaf(target, child, slots, reader)) {
       keep(child, others, reader);
     }
   }
-  Text text = reader.document.text(element);
+  Text text = has_text ? reader.document.text(element) : Text();
   if (!text.is_empty()) {
     others.push_back({{}, std::move(text), {}, {}});
   }

@@ -176,11 +176,11 @@ void append(std::vector<Kept>& to, std::vector<Kept>& from) {
 // A parameter is what its object is, and becomes the object's. [311: uniqueIDRef]
 void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.span = own.span;
-  entry.name = own.name;
-  entry.object_code = own.object_code;
-  entry.data_type = own.data_type;
-  entry.pdo_mapping = own.pdo_mapping;
-  entry.flags = own.flags;
+  entry.name = std::move(own.name);
+  entry.object_code = std::move(own.object_code);
+  entry.data_type = std::move(own.data_type);
+  entry.pdo_mapping = std::move(own.pdo_mapping);
+  entry.flags = std::move(own.flags);
   append(entry.others, own.others);
   const DataType& type = data_type(entry.type.code != 0 ? entry.type.code : entry.data_type.value);
   const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
@@ -196,23 +196,30 @@ void merge(Entry& entry, Entry& own, const Reader& reader) {
   choose_type(entry, reader);
 }
 
-Entry with_parameter(Entry& own, const Reader& reader) {
+// Null if there is none that may be read.
+pugi::xml_node parameter_of(const Entry& own, const Reader& reader) {
   if (own.parameter_id.is_empty()) {
-    return std::move(own);
+    return {};
   }
   const std::string_view id = trimmed(reader.document.raw(own.parameter_id.span));
   const pugi::xml_node element = find(reader.shared.parameters, id);
   if (!element) {
     reader.findings.add(rules::reference, own.parameter_id.span, "there is no such parameter");
-    return std::move(own);
+    return {};
   }
-  if (!reader.shared.used.try_emplace(id, true).second && !may_copy(element, reader)) {
-    return std::move(own);
+  const bool is_readable = reader.shared.used.try_emplace(id, true).second || may_copy(element, reader);
+  return is_readable ? element : pugi::xml_node();
+}
+
+void complete(Entry& entry, Entry& own, const Reader& reader) {
+  const pugi::xml_node parameter = parameter_of(own, reader);
+  if (!parameter) {
+    entry = std::move(own);
+    return;
   }
-  Entry entry = read_parameter(element, reader);
+  read_parameter(parameter, entry, reader);
   take_limits_of_range(entry);
   merge(entry, own, reader);
-  return entry;
 }
 
 // What stands for a name where there is none.
@@ -244,7 +251,8 @@ void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
   }
 }
 
-Entry interpreted(Part& part, bool has_subs, const Reader& reader) {
+// Into an entry that says nothing yet: they are large.
+void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reader) {
   interpret_object_code(part, has_subs, reader);
   interpret_access(part.access, false, reader);
   interpret_data_type(part, reader);
@@ -253,9 +261,8 @@ Entry interpreted(Part& part, bool has_subs, const Reader& reader) {
     part.flags.value = static_cast<std::uint32_t>(flags);
   }
   interpret_pdo_mapping(part.pdo_mapping, reader);
-  Entry entry = with_parameter(part, reader);
+  complete(entry, part, reader);
   complete_name(entry);
-  return entry;
 }
 
 // Elements of an ARRAY that say nothing of themselves are as the ARRAY says.
@@ -306,7 +313,7 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
     }
     Sub& sub = object.subs.emplace_back();
     sub.sub_index = static_cast<std::uint8_t>(number);
-    static_cast<Entry&>(sub) = interpreted(part, false, reader);
+    interpret_part(part, false, sub, reader);
     inherit_from_array(sub, object);
     complete_access(sub, true, reader);
     complete_type(sub, true, reader);
@@ -333,7 +340,7 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
   object.sub_number = part.sub_number;
   interpret_number(object.sub_number, 0xFF, reader.findings);
   const std::vector<pugi::xml_node> subs = std::move(part.subs);
-  static_cast<Entry&>(object) = interpreted(part, !subs.empty() || object.sub_number.is_given, reader);
+  interpret_part(part, !subs.empty() || object.sub_number.is_given, object, reader);
   const bool is_variable = !has_sub_objects(object.object_code.value);
   if (is_variable && !subs.empty()) {
     reader.findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
@@ -430,7 +437,7 @@ bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader
   indexed.index = static_cast<std::uint16_t>(index);
   indexed.sub_index = static_cast<std::uint8_t>(sub_index);
   indexed.is_whole = local_name(element) == "structuredParameter";
-  indexed.entry = read_parameter(element, reader);
+  read_parameter(element, indexed.entry, reader);
   indexed.entry.object_code.value = indexed.is_whole ? ObjectCode::record : ObjectCode::variable;
   choose_type(indexed.entry, reader);
   take_limits_of_range(indexed.entry);

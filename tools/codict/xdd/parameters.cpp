@@ -230,7 +230,7 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
   read_children(list, rest, reader, [&](pugi::xml_node child) {
     const std::string_view name = local_name(child);
     if (name == "parameterTemplate") {
-      reader.device.templates.push_back(read_parameter(child, reader));
+      read_parameter(child, reader.device.templates.emplace_back(), reader);
       finish_parameter(reader.device.templates.back(), reader);
       return true;
     }
@@ -311,8 +311,7 @@ void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reade
 
 }  // namespace
 
-Entry read_parameter(pugi::xml_node element, const Reader& reader) {
-  Entry entry;
+void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader) {
   entry.span = reader.document.tag(element);
   read_element(entry, element, parameter_slots, entry.others, reader,
                [&](pugi::xml_node child) { return read_parameter_part(entry, child, reader); });
@@ -325,7 +324,6 @@ Entry read_parameter(pugi::xml_node element, const Reader& reader) {
   if (entry.template_id.is_given) {
     inherit(entry, reader);
   }
-  return entry;
 }
 
 void read_process(pugi::xml_node element, const Reader& reader) {
@@ -354,11 +352,11 @@ void read_unused_parameters(pugi::xml_node list, const Reader& reader) {
     const std::string_view id = raw_attribute(element, "uniqueID");
     const bool is_used =
         !id.empty() && reader.shared.used.count(id) != 0 && find(reader.shared.parameters, id) == element;
-    if (local_name(element) != "parameter" || element.child("index") || is_used) {
+    if (is_used || local_name(element) != "parameter" || element.child("index")) {
       continue;
     }
     reader.findings.add(rules::parameter_unused, reader.document.tag(element), "no object refers to this parameter");
-    reader.device.parameters.push_back(read_parameter(element, reader));
+    read_parameter(element, reader.device.parameters.emplace_back(), reader);
     finish_parameter(reader.device.parameters.back(), reader);
   }
 }

@@ -24,7 +24,7 @@ TypeDefinition read_definition(pugi::xml_node element, const Reader& reader);
 bool is_definition(pugi::xml_node element);
 
 // parameters.cpp
-Entry read_parameter(pugi::xml_node element, const Reader& reader);
+void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader);
 void read_process(pugi::xml_node element, const Reader& reader);
 /// Parameters that no object has used.
 void read_unused_parameters(pugi::xml_node list, const Reader& reader);
