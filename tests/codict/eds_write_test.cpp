@@ -152,6 +152,8 @@ TEST_CASE("EDS writer: what CiA 306 does not know stays where it was") {
   CHECK(has(eds, "[Tools]\nItems=0\n"));
   CHECK(has(eds, "[Mine]\na=b\n"));
   CHECK(has(eds, "MyKey=my value\n"));
+  CHECK(has(written(device_of("[DeviceCommissioning]\nNodeID=5\nColour=red\n"), true),
+            "[DeviceComissioning]\nNodeID=5\nColour=red\n"));
 }
 
 TEST_CASE("EDS writer: no text can begin a line of its own") {

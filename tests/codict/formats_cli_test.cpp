@@ -414,6 +414,12 @@ TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where 
   CHECK_FALSE(std::filesystem::exists(directory / "no.xdd"));
 }
 
+TEST_CASE("codict convert: what CiA 311 cannot say of one device is told") {
+  CHECK(has(run("convert compact.dcf --to xdc -o -").err, "1 serial numbers"));
+  CHECK_FALSE(has(run("convert compact.dcf --to dcf -o -").err, "serial numbers"));
+  CHECK_FALSE(has(run("convert compact.dcf --to xdd -o -").err, "serial numbers"));  // nor the commissioning
+}
+
 TEST_CASE("codict convert: further devices, and characters that a format cannot have, are told") {
   const Directory directory;
   const std::string out = directory / "one.eds";
