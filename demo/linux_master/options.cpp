@@ -48,8 +48,8 @@ void add_object_options(CLI::App& app, CommandLine& line) {
   app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127 [tour: 1]")->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")
       ->type_name("N");
-  app.add_option("--index", arguments.index, "Index of the object, as 0x2100")->type_name("N");
-  app.add_option("--sub", arguments.sub, "Sub-index of the object")->type_name("N")->capture_default_str();
+  app.add_option("--index", arguments.index, "Index of the object: 0x2100, or decimal without 0x")->type_name("N");
+  app.add_option("--sub", arguments.sub, "Sub-index of the object, likewise")->type_name("N")->capture_default_str();
 }
 
 void add_value_options(CLI::App& app, CommandLine& line) {
