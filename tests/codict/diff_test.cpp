@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "codict/xdd_reading.hpp"
 #include "eds/document.hpp"
 #include "eds/read.hpp"
 
@@ -154,6 +155,73 @@ TEST_CASE("diff: names concern people, dates the file, values and node-IDs one d
   CHECK(line(speed, speed + "ParameterValue=7\n") == "configuration 2000h value:  -> 7");
   CHECK(line("[DeviceComissioning]\nNodeID=1\n", "[DeviceComissioning]\nNodeID=2\n") ==
         "configuration node-ID: 1 -> 2");
+}
+
+TEST_CASE("diff: a day and a time are the same in the form of an EDS and of XML") {
+  const auto file = [](const std::string& date, const std::string& time) {
+    return "[FileInfo]\nCreationDate=" + date + "\nCreationTime=" + time + "\n";
+  };
+  CHECK(lines(file("12-31-2020", "09:30PM"), file("2020-12-31", "21:30:00")).empty());
+  CHECK(line(file("12-31-2020", "09:30PM"), file("2020-12-30", "21:30:00")) ==
+        "file date of creation: 12-31-2020 -> 2020-12-30");
+  CHECK(line(file("12-31-2020", "09:30PM"), file("2020-12-31", "09:30:00")) ==
+        "file time of creation: 09:30PM -> 09:30:00");
+}
+
+TEST_CASE("diff: what a property says is compared, each of CANopenNode and those that nobody knows") {
+  const std::string original = test::bytes_of_fixture("device10.xdd");
+  const auto changed = [&original](const std::string& name, const std::string& value, const std::string& other) {
+    const std::string property = "<property name=\"" + name + "\" value=\"";
+    const std::string known = property + value + "\"/>";
+    const bool is_there = original.find(known) != std::string::npos;
+    const std::string before = is_there ? original : replaced(original, "<property", known + "<property");
+    const test::XmlReading a(before);
+    const test::XmlReading b(replaced(before, known, property + other + "\"/>"));
+    const std::vector<Difference> differences = compare(a.device, b.device);
+    REQUIRE(differences.size() == 1);
+    return std::string(name_of(differences.front().kind)) + " " + differences.front().what;
+  };
+  CHECK(changed("CO_disabled", "false", "true") == "compatible disabled");
+  CHECK(changed("CO_countLabel", "MODE", "OTHER") == "compatible count label");
+  CHECK(changed("CO_storageGroup", "PERSIST_COMM", "RAM") == "compatible storage group");
+  CHECK(changed("CO_accessSRDO", "trx", "tx") == "compatible SRDO access");
+  CHECK(changed("CO_stringLengthMin", "16", "8") == "breaking shortest capacity");
+  CHECK(changed("CO_byteLength", "16", "20") == "compatible capacity");
+  CHECK(changed("CO_flagsPDO", "true", "false") == "compatible TPDO on change");
+  CHECK(changed("CO_extensionIO", "true", "false") == "compatible extension");
+  CHECK(changed("Own", "kept", "changed") == "text property Own");
+}
+
+TEST_CASE("diff: the values of an enumeration are those of the objects that have its type") {
+  const std::string type =
+      "<enum name=\"Mode\" uniqueID=\"T_Mode\"><enumValue value=\"1\"><label lang=\"en\">on</label></enumValue>"
+      "<enumValue value=\"2\"/><USINT/></enum>";
+  const auto told = [&type](const std::string& other) {
+    const auto xdd = [](const std::string& definition) {
+      return "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\" "
+             "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\"><ISO15745Profile><ProfileBody "
+             "xsi:type=\"ProfileBody_Device_CANopen\"><ApplicationProcess><dataTypeList>" +
+             definition +
+             "</dataTypeList><parameterList><parameter uniqueID=\"P\" access=\"read\"><dataTypeIDRef "
+             "uniqueIDRef=\"T_Mode\"/></parameter></parameterList></ApplicationProcess></ProfileBody>"
+             "</ISO15745Profile><ISO15745Profile><ProfileBody xsi:type=\"ProfileBody_CommunicationNetwork_CANopen\">"
+             "<ApplicationLayers><CANopenObjectList><CANopenObject index=\"2000\" name=\"Mode\" objectType=\"7\" "
+             "uniqueIDRef=\"P\"/></CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile>"
+             "</ISO15745ProfileContainer>";
+    };
+    const test::XmlReading a(xdd(type));
+    const test::XmlReading b(xdd(other));
+    std::string result;
+    for (const Difference& one : compare(a.device, b.device)) {
+      result += std::string(name_of(one.kind)) + " " + to_string(one.place) + " " + one.what + ": " + one.before +
+                " -> " + one.after + "\n";
+    }
+    return result;
+  };
+  CHECK(told(replaced(type, "\"2\"", "\"0x2\"")).empty());
+  CHECK(told(replaced(type, "\"2\"", "\"3\"")) ==
+        "breaking 2000h allowed value: 2 -> \ncompatible 2000h allowed value:  -> 3\n");
+  CHECK(told(replaced(type, ">on<", ">ready<")) == "text 2000h name of allowed value 1: on -> ready\n");
 }
 
 TEST_CASE("diff: the objects of modules are compared by module") {

@@ -108,21 +108,28 @@ const AllowedValue* find_value(const std::vector<AllowedValue>& values, const Va
   return place != values.end() ? &*place : nullptr;
 }
 
+Text label_of(const AllowedValue& value) {
+  Text label;
+  label.text = text_in(value.words.labels, "en");
+  label.span = value.value.span;
+  return label;
+}
+
 // An enumeration without values allows all.
-void compare_allowed(const Allowed& before, const Allowed& after, const Recorder& recorder) {
+void compare_allowed(const std::vector<AllowedValue>& before, const std::vector<AllowedValue>& after,
+                     const Recorder& recorder) {
   static const Text nothing;
-  for (const AllowedValue& old_value : before.values) {
-    const AllowedValue* const same = find_value(after.values, old_value.value);
+  for (const AllowedValue& old_value : before) {
+    const AllowedValue* const same = find_value(after, old_value.value);
     if (same == nullptr) {
-      recorder.add(after.values.empty() ? Kind::compatible : Kind::breaking, "allowed value", old_value.value, nothing);
-    } else if (text_in(old_value.words.labels, "en") != text_in(same->words.labels, "en")) {
-      recorder.add(Kind::text, "name of an allowed value", old_value.value, same->value);
+      recorder.add(after.empty() ? Kind::compatible : Kind::breaking, "allowed value", old_value.value, nothing);
+    } else if (label_of(old_value).text != label_of(*same).text) {
+      recorder.add(Kind::text, "name of allowed value " + old_value.value.text, label_of(old_value), label_of(*same));
     }
   }
-  for (const AllowedValue& new_value : after.values) {
-    if (find_value(before.values, new_value.value) == nullptr) {
-      recorder.add(before.values.empty() ? Kind::breaking : Kind::compatible, "allowed value", nothing,
-                   new_value.value);
+  for (const AllowedValue& new_value : after) {
+    if (find_value(before, new_value.value) == nullptr) {
+      recorder.add(before.empty() ? Kind::breaking : Kind::compatible, "allowed value", nothing, new_value.value);
     }
   }
 }
@@ -166,6 +173,32 @@ void compare_properties(const NodeProperties& before, const NodeProperties& afte
   recorder.field(Kind::compatible, "SRDO access", before.srdo, after.srdo);
   recorder.ability("shortest capacity", before.string_length_min, after.string_length_min);
   recorder.ability("capacity", before.byte_length, after.byte_length);
+  recorder.field(Kind::compatible, "extension", before.extension_io, after.extension_io);
+  recorder.field(Kind::compatible, "TPDO on change", before.flags_pdo, after.flags_pdo);
+}
+
+// A property that has no meaning here; of an EDS, a key that nobody knows is the same.
+const Text* find_other(const Entry& entry, const std::string& name) {
+  const auto has_name = [&name](const auto& other) { return other.name == name; };
+  const auto property = std::find_if(entry.properties.begin(), entry.properties.end(), has_name);
+  if (property != entry.properties.end()) {
+    return &property->value;
+  }
+  const auto kept = std::find_if(entry.others.begin(), entry.others.end(), has_name);
+  return kept != entry.others.end() ? &kept->text : nullptr;
+}
+
+void compare_others(const Entry& before, const Entry& after, const Recorder& recorder) {
+  static const Text nothing;
+  for (const Property& property : before.properties) {
+    const Text* const same = find_other(after, property.name);
+    recorder.text(Kind::text, "property " + property.name, property.value, same != nullptr ? *same : nothing);
+  }
+  for (const Property& property : after.properties) {
+    if (find_other(before, property.name) == nullptr) {
+      recorder.text(Kind::text, "property " + property.name, nothing, property.value);
+    }
+  }
 }
 
 }  // namespace
@@ -176,7 +209,7 @@ void compare_entries(const Entry& before, const Entry& after, const Recorder& re
   compare_rights(before, after, recorder);
   compare_defaults(before, after, recorder);
   compare_limits(before, after, recorder);
-  compare_allowed(before.allowed, after.allowed, recorder);
+  compare_allowed(allowed_values_of(recorder.before, before), allowed_values_of(recorder.after, after), recorder);
   recorder.text(Kind::breaking, "unit", before.unit.uri, after.unit.uri);
   recorder.text(Kind::breaking, "unit's multiplier", before.unit.multiplier, after.unit.multiplier);
   recorder.text(Kind::breaking, "multiplier", before.multiplier, after.multiplier);
@@ -185,6 +218,7 @@ void compare_entries(const Entry& before, const Entry& after, const Recorder& re
   recorder.text(Kind::configuration, "upload file", before.upload_file, after.upload_file);
   recorder.text(Kind::configuration, "download file", before.download_file, after.download_file);
   compare_properties(before.node, after.node, recorder);
+  compare_others(before, after, recorder);
   compare_words(before, after, recorder);
 }
 

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "diff/recorder.hpp"
+#include "model/date.hpp"
 
 namespace lexican::codict::diff {
 
@@ -117,6 +119,14 @@ void compare_channels(const std::vector<DynamicChannel>& before, const std::vect
   }
 }
 
+// 12-31-2020 of an EDS and 2020-12-31 of an XDD are one day.
+void compare_moment(std::string_view what, const Text& before, const Text& after,
+                    std::string (*as_schema)(const std::string&), const Recorder& recorder) {
+  if (as_schema(before.text) != as_schema(after.text)) {
+    recorder.add(Kind::file, what, before, after);
+  }
+}
+
 void compare_files(const FileInfo& before, const FileInfo& after, const Recorder& recorder) {
   recorder.text(Kind::file, "file name", before.file_name, after.file_name);
   recorder.field(Kind::file, "file version", before.version, after.version);
@@ -124,11 +134,11 @@ void compare_files(const FileInfo& before, const FileInfo& after, const Recorder
   recorder.text(Kind::file, "version of the format", before.eds_version, after.eds_version);
   recorder.text(Kind::file, "description", before.description, after.description);
   recorder.text(Kind::file, "author", before.created_by, after.created_by);
-  recorder.text(Kind::file, "date of creation", before.creation_date, after.creation_date);
-  recorder.text(Kind::file, "time of creation", before.creation_time, after.creation_time);
+  compare_moment("date of creation", before.creation_date, after.creation_date, schema_date, recorder);
+  compare_moment("time of creation", before.creation_time, after.creation_time, schema_time, recorder);
   recorder.text(Kind::file, "last author", before.modified_by, after.modified_by);
-  recorder.text(Kind::file, "date of change", before.modification_date, after.modification_date);
-  recorder.text(Kind::file, "time of change", before.modification_time, after.modification_time);
+  compare_moment("date of change", before.modification_date, after.modification_date, schema_date, recorder);
+  compare_moment("time of change", before.modification_time, after.modification_time, schema_time, recorder);
   recorder.text(Kind::file, "EDS it was made of", before.last_eds, after.last_eds);
 }
 

@@ -93,6 +93,21 @@ ListKind list_of(std::uint16_t index) {
   return index >= 0x2000 && index < 0x6000 ? ListKind::manufacturer : ListKind::optional;
 }
 
+const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry) {
+  const std::vector<AllowedValue>* values = &entry.allowed.values;
+  std::string_view id = entry.type.reference.text;
+  for (std::size_t steps = 0; values->empty() && steps < device.types.size(); ++steps) {  // a type may name itself
+    const auto type = std::find_if(device.types.begin(), device.types.end(),
+                                   [id](const TypeDefinition& candidate) { return candidate.id.text == id; });
+    if (id.empty() || type == device.types.end() || type->kind == TypeDefinition::Kind::array) {
+      break;
+    }
+    values = &type->values;
+    id = type->type.reference.text;
+  }
+  return *values;
+}
+
 const DataType& data_type_of(const Device& device, std::uint16_t code) {
   const DataType& basic = data_type(code);
   const Object* own = basic.kind == TypeKind::unknown ? device.find(code) : nullptr;

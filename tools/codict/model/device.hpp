@@ -411,6 +411,9 @@ void for_each_variable(const Device& device,
 /// The list in which CiA 306 wants an object.
 ListKind list_of(std::uint16_t index);
 
+/// The values that an entry can have, with their names: its own, else those of its enumeration; empty: all of its type.
+const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry);
+
 /// The width and form of a type of this device: one of CiA 301, or what its DEFTYPE object is; kind structure for a
 /// DEFSTRUCT object; else unknown.
 const DataType& data_type_of(const Device& device, std::uint16_t code);

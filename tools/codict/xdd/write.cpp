@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "model/date.hpp"
 #include "text/number.hpp"
 #include "xdd/writer.hpp"
 
@@ -56,25 +57,6 @@ Device without_private_parts(const Device& device) {
     }
   }
   return plain;
-}
-
-// "12-31-2020" of an EDS is 2020-12-31, "09:30AM" is 09:30:00. What is neither stays.
-std::string date_of(const Text& text) {
-  const std::string& t = text.text;
-  const bool is_eds = t.size() == 10 && t[2] == '-' && t[5] == '-';
-  return is_eds ? t.substr(6) + "-" + t.substr(0, 5) : t;
-}
-
-std::string time_of(const Text& text) {
-  const std::string& t = text.text;
-  const bool is_eds =
-      t.size() == 7 && t[2] == ':' && (t[5] == 'A' || t[5] == 'P') && t[6] == 'M' && is_digit(t[0]) && is_digit(t[1]);
-  if (!is_eds) {
-    return t;
-  }
-  const int hour = ((t[0] - '0') * 10 + (t[1] - '0')) % 12 + (t[5] == 'P' ? 12 : 0);
-  return std::string(1, static_cast<char>('0' + hour / 10)) + static_cast<char>('0' + hour % 10) + t.substr(2, 3) +
-         ":00";
 }
 
 // Named by their schema, in its order. What is not given is left out.
@@ -148,10 +130,10 @@ class DeviceWriter {
     };
     attribute("fileName", file.file_name.text, true);
     attribute("fileCreator", file.created_by.text, true);
-    attribute("fileCreationDate", date_of(file.creation_date), true);
-    attribute("fileCreationTime", time_of(file.creation_time), file.creation_time.is_given);
-    attribute("fileModificationDate", date_of(file.modification_date), file.modification_date.is_given);
-    attribute("fileModificationTime", time_of(file.modification_time), file.modification_time.is_given);
+    attribute("fileCreationDate", schema_date(file.creation_date.text), true);
+    attribute("fileCreationTime", schema_time(file.creation_time.text), file.creation_time.is_given);
+    attribute("fileModificationDate", schema_date(file.modification_date.text), file.modification_date.is_given);
+    attribute("fileModificationTime", schema_time(file.modification_time.text), file.modification_time.is_given);
     attribute("fileModifiedBy", file.modified_by.text, file.modified_by.is_given);
     attribute("fileVersion", file.version.text, true);
     attribute("supportedLanguages", file.supported_languages.text, file.supported_languages.is_given);
