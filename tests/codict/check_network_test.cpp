@@ -169,6 +169,26 @@ TEST_CASE("check: pdo-time: inhibit and event time belong to PDOs with events") 
   CHECK(times("254", "10", "10") == "");
 }
 
+TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
+  const auto with = [](const char* communication, const char* mapping, const char* cob_id, const char* type,
+                       const std::string& others = "") {
+    return found(check::check_pdo_parameters,
+                 record(communication, {"2", cob_id, type}) + record(mapping, {"0"}) + others);
+  };
+  const std::string rpdo = "pdo-sync-missing: RPDO 1 waits for SYNC, and there is no object 1005h\n";
+  const std::string tpdo = "pdo-sync-missing: TPDO 1 waits for SYNC, and there is no object 1005h\n";
+  for (const char* const type : {"0", "1", "240"}) {
+    CHECK(with("1400", "1600", "0x201", type) == rpdo);
+    CHECK(with("1800", "1A00", "$NODEID+0x40000180", type) == tpdo);
+  }
+  CHECK(with("1800", "1A00", "0x181", "252") == tpdo);
+  CHECK(with("1800", "1A00", "0x181", "253") == "");
+  CHECK(with("1800", "1A00", "0x181", "255") == "");
+  CHECK(with("1800", "1A00", "0x80000181", "1") == "");
+  CHECK(with("1800", "1A00", "0x181", "1", variable("1005", "7", "rw", "0x80")) == "");
+  CHECK(with("1800", "1A00", "0x181", "1", record("1801", {"2", "0x281", "1"}) + record("1A01", {"0"})) == tpdo);
+}
+
 TEST_CASE("check: a DCF's values are checked, where it has them") {
   std::string mapping = record("1A00", {"1", "0x20000010"});
   mapping += "ParameterValue=0x20000020\n";

@@ -193,7 +193,7 @@ TEST_CASE("codict pdo: what each PDO has, where its bits lie, and when it is sen
   A  0005h:0   8 bits from 0  not used
   B  2000h     16 bits from 8  Wanted speed
 
-TPDO 1: COB-ID 185h; with each SYNC; 40 bits
+TPDO 1: COB-ID 185h; by events of the manufacturer; 40 bits
   byte  7 6 5 4 3 2 1 0
      0  A A A A A A A A
      1  A A A A A A A A

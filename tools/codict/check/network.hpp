@@ -35,6 +35,7 @@ extern const Rule pdo_dummy;
 extern const Rule pdo_granularity;
 extern const Rule pdo_type;
 extern const Rule pdo_time;
+extern const Rule pdo_sync;
 extern const Rule multiplexed;
 extern const Rule multiplexed_list;
 extern const Rule multiplexed_type;

@@ -21,6 +21,7 @@ const Rule pdo_type{"pdo-type", Severity::error,
                     "A transmission type is 0 to 240, 254 or 255, and of TPDOs also 252 or 253."};
 const Rule pdo_time{"pdo-time", Severity::note,
                     "Inhibit time and event time have an effect where PDOs are sent by events only."};
+const Rule pdo_sync{"pdo-sync-missing", Severity::warning, "A device that has PDOs with SYNC has object 1005h."};
 const Rule multiplexed{"pdo-multiplexed", Severity::warning,
                        "A device that has multiplexed PDOs says so, with GroupMessaging."};
 const Rule multiplexed_list{
@@ -48,10 +49,11 @@ const Rule sync_window{"sync-window", Severity::warning, "The window of SYNC (10
 const std::vector<const Rule*>& network_rules() {
   using namespace rules;
   static const std::vector<const Rule*> all = {
-      &pdo_pair,    &pdo_object,       &pdo_access,       &pdo_bits,          &pdo_part,       &pdo_length,
-      &pdo_gap,     &pdo_mapped_count, &pdo_dummy,        &pdo_granularity,   &pdo_type,       &pdo_time,
-      &multiplexed, &multiplexed_list, &multiplexed_type, &cob_id_restricted, &cob_id_twice,   &cob_id_form,
-      &mandatory,   &error_control,    &sdo_default,      &consumer_entry,    &consumer_twice, &sync_window};
+      &pdo_pair,         &pdo_object,        &pdo_access,       &pdo_bits,       &pdo_part,
+      &pdo_length,       &pdo_gap,           &pdo_mapped_count, &pdo_dummy,      &pdo_granularity,
+      &pdo_type,         &pdo_time,          &pdo_sync,         &multiplexed,    &multiplexed_list,
+      &multiplexed_type, &cob_id_restricted, &cob_id_twice,     &cob_id_form,    &mandatory,
+      &error_control,    &sdo_default,       &consumer_entry,   &consumer_twice, &sync_window};
   return all;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "check/network.hpp"
 #include "model/pdo.hpp"
@@ -137,10 +138,34 @@ void check_communication(const Pdo& pdo, Findings& findings) {
   }
 }
 
+// Whether it goes with SYNC as it is, before anybody configures it.
+bool is_synchronous(const Pdo& pdo) {
+  constexpr std::uint64_t is_off = 0x80000000U;
+  const Entry* const cob_id = pdo.parameter(1);
+  const Entry* const type = pdo.parameter(2);
+  if (cob_id == nullptr || type == nullptr || !value_in_force(*cob_id).is_integer() ||
+      !value_in_force(*type).is_integer()) {
+    return false;
+  }
+  const std::uint64_t number = value_in_force(*type).integer.bits();
+  const bool has_type = number <= last_synchronous || (number == remote_synchronous && pdo.is_transmit);
+  return has_type && (value_in_force(*cob_id).integer.bits() & is_off) == 0;
+}
+
+// The first one tells for all: one object is missing.
+void check_sync(const Device& device, const std::vector<Pdo>& pdos, Findings& findings) {
+  const auto pdo = std::find_if(pdos.begin(), pdos.end(), is_synchronous);
+  if (pdo != pdos.end() && device.find(0x1005) == nullptr) {
+    findings.add(rules::pdo_sync, value_in_force(*pdo->parameter(2)).span,
+                 title_of(*pdo) + " waits for SYNC, and there is no object 1005h");
+  }
+}
+
 }  // namespace
 
 void check_pdo_parameters(const Device& device, Findings& findings) {
-  for (const Pdo& pdo : pdos_of(device)) {
+  const std::vector<Pdo> pdos = pdos_of(device);
+  for (const Pdo& pdo : pdos) {
     check_pair(device, pdo, findings);
     if (pdo.mapping != nullptr) {
       check_mapping(device, pdo, findings);
@@ -149,6 +174,7 @@ void check_pdo_parameters(const Device& device, Findings& findings) {
       check_communication(pdo, findings);
     }
   }
+  check_sync(device, pdos, findings);
 }
 
 }  // namespace lexican::codict::check
