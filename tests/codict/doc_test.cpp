@@ -7,6 +7,7 @@
 #include <string>
 
 #include "codict/program.hpp"
+#include "codict/xdd_reading.hpp"
 #include "doc/contents.hpp"
 #include "doc/picture.hpp"
 #include "eds/document.hpp"
@@ -184,6 +185,17 @@ TEST_CASE("doc: an object tells its type, access, mapping, default and range") {
   CHECK(speed.mapping == "TPDO");
   CHECK(speed.default_value == "5");
   CHECK(speed.range == "-10 … 10");
+}
+
+TEST_CASE("doc: an enumeration tells its values with their names, and a string its room") {
+  const test::XmlReading xdd = test::fixture_xml("enumeration.xdd");
+  const std::string text = markdown(xdd.device, for_node(1));
+  CHECK(has(text, "0: off. 1: on."));
+  CHECK(has(text, "Has room for 16 characters."));
+  CHECK(has(text, "Has room for 12 bytes."));
+  const std::string page = html(xdd.device, for_node(1));
+  CHECK(has(page, "<br>0: off<br>1: on"));
+  CHECK(has(page, "Has room for 16 characters."));
 }
 
 TEST_CASE("doc: the same device has the same page, byte for byte") {

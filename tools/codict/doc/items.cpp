@@ -53,9 +53,9 @@ std::string unit_of(const Entry& entry, const Options& options) {
   return multiplier.empty() || multiplier == "1" ? unit : multiplier + " " + unit;
 }
 
-std::vector<Fact> allowed_values(const Entry& entry, const Options& options) {
+std::vector<Fact> allowed_values(const Device& device, const Entry& entry, const Options& options) {
   std::vector<Fact> facts;
-  for (const AllowedValue& allowed : entry.allowed.values) {
+  for (const AllowedValue& allowed : allowed_values_of(device, entry)) {
     facts.push_back({allowed.value.text, std::string(text_in(allowed.words.labels, options.language))});
   }
   return facts;
@@ -80,6 +80,12 @@ std::vector<std::string> words_of(const Entry& entry, const Options& options) {
   if ((entry.flags.value & needs_reset) != 0) {
     words.emplace_back("Takes effect after a reset.");
   }
+  if (entry.node.byte_length.value != 0) {
+    words.push_back(fmt::format("Has room for {} bytes.", entry.node.byte_length.value));
+  }
+  if (entry.node.string_length_min.value != 0) {
+    words.push_back(fmt::format("Has room for {} characters.", entry.node.string_length_min.value));
+  }
   if (entry.node.disabled.value) {
     words.emplace_back("Disabled: not in the device.");
   }
@@ -96,7 +102,7 @@ void describe(const Device& device, const Entry& entry, const Options& options, 
   item.range = range_of(entry);
   item.unit = unit_of(entry, options);
   item.group = entry.node.storage_group.text;
-  item.allowed = allowed_values(entry, options);
+  item.allowed = allowed_values(device, entry, options);
   item.words = words_of(entry, options);
 }
 
