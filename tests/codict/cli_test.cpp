@@ -284,7 +284,8 @@ TEST_CASE("codict convert: an EDS becomes a DCF, and is the same device") {
   const Directory directory;
   CHECK(run("convert drive.eds -o " + directory / "drive.dcf").status == 0);
   CHECK(bytes_of(directory / "drive.dcf").find("[DeviceComissioning]\r\n") != std::string::npos);
-  CHECK(run("diff drive.eds " + directory / "drive.dcf").status == 0);
+  CHECK(run("diff drive.eds " + directory / "drive.dcf").out ==
+        "file                    file name: drive.eds -> drive.dcf\n");
   CHECK(run("convert drive.eds -o -").status == 2);
   CHECK(run("convert drive.eds -o " + directory / "drive.txt").status == 2);
   CHECK(run("convert missing.eds --to dcf -o -").status == 2);
@@ -294,8 +295,8 @@ TEST_CASE("codict convert: an EDS becomes an XDD and an EDS again, and is the sa
   const Directory directory;
   for (const char* const name : {"drive.xdd", "drive.xdc"}) {
     CHECK(run("convert drive.eds -o " + directory / name).status == 0);
-    CHECK(run("convert " + directory / name + " -o " + directory / "again.eds").status == 0);
-    const Ran ran = run("diff drive.eds " + directory / "again.eds");
+    CHECK(run("convert " + directory / name + " -o " + directory / "drive.eds").status == 0);
+    const Ran ran = run("diff drive.eds " + directory / "drive.eds");
     CHECK(ran.status == 0);
     CHECK(ran.out.empty());
   }
@@ -307,15 +308,38 @@ TEST_CASE("codict convert: what the other format has no words for is told, or ke
   const Directory directory;
   const Ran told = run("convert xdd/device10.xdd -o " + directory / "valve.eds");
   CHECK(told.status == 0);
-  CHECK(told.err ==
-        "codict: xdd/device10.xdd: left out: 1 configured values, 2 denotations, 1 commissioning, 2 labels, 1 "
-        "descriptions, 2 units, 2 allowed values, 1 substitute values, 5 properties, 1 groups, 4 data types, 2 "
-        "templates, "
-        "1 parameters without an object, 1 order codes, 2 versions\n");
+  CHECK(
+      told.err ==
+      "codict: xdd/device10.xdd: left out: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
+      "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 2 allowed "
+      "values (2000h 0, 2000h 1), 1 substitute values (2000h), 5 properties (2000h Own, 2000h CO_disabled, 2000h "
+      "CO_countLabel, …), 1 groups (G_1), 4 data types (Errors, Identity, Modes, …), 2 templates (TPL_RO, TPL_01), 1 "
+      "parameters without an object (P_NOBODY), 1 order codes (V1-B), 2 versions (1.2, B), 1 comments\n");
+  const Ran all = run("convert --all xdd/device10.xdd -o " + directory / "valve.eds");
+  CHECK(has(all.err,
+            "5 properties (2000h Own, 2000h CO_disabled, 2000h CO_countLabel, 2000h CO_accessSRDO, 2001h "
+            "CO_stringLengthMin)"));
   CHECK(std::filesystem::exists(directory / "valve.eds"));
   CHECK(run("convert --strict-loss xdd/device10.xdd -o " + directory / "strict.eds").status == 1);
   CHECK_FALSE(std::filesystem::exists(directory / "strict.eds"));
   CHECK(run("convert xdd/device10.xdd --to xdc -o -").out == bytes_of(test::fixture("xdd/device10.xdd")));
+}
+
+TEST_CASE("codict convert: the product has the name of its file, and comments of XML are told as lost") {
+  const Directory directory;
+  const Ran ran = run("convert xdd/enumeration.xdd -o " + directory / "other.eds");
+  CHECK(has(ran.err, "1 comments"));
+  CHECK(run("get " + directory / "other.eds" + " FileInfo FileName").out == "other.eds\n");
+  CHECK(run("convert " + directory / "other.eds" + " -o " + directory / "third.xdd").status == 0);
+  CHECK(has(bytes_of(directory / "third.xdd"), "fileName=\"third.xdd\""));
+  CHECK(has(run("convert xdd/enumeration.xdd --to eds -o -").out, "FileName=enumeration.xdd\r\n"));
+}
+
+TEST_CASE("codict convert: an EDS without a granularity has none after it was an XDD") {
+  const Directory directory;
+  CHECK(run("convert semicolon.eds -o " + directory / "device.xdd").status == 0);
+  CHECK(run("convert " + directory / "device.xdd" + " -o " + directory / "device.eds").status == 0);
+  CHECK_FALSE(has(bytes_of(directory / "device.eds"), "Granularity"));
 }
 
 TEST_CASE("codict: what an XDD says is shown and changed as what an EDS says") {

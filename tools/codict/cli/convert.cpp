@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "eds/write.hpp"
 #include "json/texts.hpp"
 #include "json/write.hpp"
+#include "xdd/suppressions.hpp"
 #include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
@@ -27,6 +30,7 @@ struct Options {
   std::string output;
   std::string format;
   bool is_strict = false;
+  bool is_all = false;
 };
 
 // A name for --to or an ending, and the formats whose bytes it leaves as they are.
@@ -62,11 +66,15 @@ bool is_same(const Input& input, const Product& product) {
   return std::find(product.same.begin(), product.same.end(), input.device().format) != product.same.end();
 }
 
-std::string written(const Input& input, const Product& product) {
+std::string written(const Input& input, const Product& product, const std::string& path) {
   if (product.target == Target::json) {
     return json::write(input.description);
   }
-  const Device& device = input.device();
+  Device device = input.device();
+  if (path != "-") {
+    device.file.file_name.text = std::filesystem::path(path).filename().string();
+    device.file.file_name.is_given = true;
+  }
   const bool is_configuration = product.target == Target::dcf || product.target == Target::xdc;
   const Device described = is_configuration ? device : convert::without_configuration(device);
   if (product.target == Target::xdd || product.target == Target::xdc) {
@@ -94,16 +102,34 @@ std::vector<Loss> losses_of(const Input& input, Target target) {
   std::vector<Loss> losses = convert::losses(input.description, target);
   const std::size_t characters = target == Target::json ? 0 : impossible_characters(input.device(), target);
   if (characters != 0) {
-    losses.push_back({"characters that it cannot have", characters});
+    losses.push_back({"characters that it cannot have", std::vector<std::string>(characters)});
+  }
+  const std::size_t comments = input.xdd != nullptr && target != Target::json ? xdd::number_of_comments(*input.xdd) : 0;
+  if (comments != 0) {
+    losses.push_back({"comments", std::vector<std::string>(comments)});
   }
   return losses;
 }
 
-// "codict: drive.xdd: not in the product: 3 units, 40 descriptions"
-void report(const Input& input, const std::vector<Loss>& losses) {
+// " (2000h en, 2000h de, 2001h, …)": the first ones, each once; empty where there are no places.
+std::string places_of(const Loss& loss, bool is_all) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> places;
+  std::copy_if(loss.places.begin(), loss.places.end(), std::back_inserter(places),
+               [](const std::string& place) { return !place.empty(); });
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  if (!is_all && places.size() > most) {
+    places.resize(most);
+    places.emplace_back("…");
+  }
+  return places.empty() ? "" : fmt::format(" ({})", fmt::join(places, ", "));
+}
+
+// "codict: drive.xdd: left out: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de, 2001h en, …)"
+void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   std::vector<std::string> parts;
   for (const Loss& loss : losses) {
-    parts.push_back(fmt::format("{} {}", loss.count, loss.what));
+    parts.push_back(fmt::format("{} {}{}", loss.places.size(), loss.what, places_of(loss, is_all)));
   }
   complain(fmt::format("{}: left out: {}", input.source().name(), fmt::join(parts, ", ")));
 }
@@ -127,12 +153,12 @@ int run(const Options& options) {
   }
   const std::vector<Loss> losses = losses_of(*input, product->target);
   if (!losses.empty()) {
-    report(*input, losses);
+    report(*input, losses, options.is_all);
     if (options.is_strict) {
       return found;
     }
   }
-  return write_output(options.output, written(*input, *product));
+  return write_output(options.output, written(*input, *product, options.output));
 }
 
 }  // namespace
@@ -153,6 +179,8 @@ Command add_convert(CLI::App& app) {
       ->add_option("--to", options->format,
                    "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
       ->check(CLI::IsMember(std::move(names)).description(""));
+  command->add_flag("--all", options->is_all,
+                    "Name each place of what the format has no words for, not the first ones");
   command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
 }

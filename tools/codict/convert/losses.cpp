@@ -1,53 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "convert/losses.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <array>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 namespace lexican::codict::convert {
 
 namespace {
 
-using Entries = std::vector<const Entry*>;
+// What is lost at one place, or by its name: a detail for each, which may be empty.
+using Details = std::vector<std::string>;
 
-Entries entries_of(const Device& device) {
-  Entries entries;
-  for (const Object& object : device.objects) {
-    entries.push_back(&object);
-    for (const Sub& sub : object.subs) {
-      entries.push_back(&sub);
-    }
+Details one_if(bool is_there) { return Details(is_there ? 1 : 0); }
+Details one_of(const Text& text) { return one_if(!text.is_empty()); }
+
+template <typename Elements, typename NameOf>
+Details each_of(const Elements& elements, NameOf name_of) {
+  Details details;
+  for (const auto& element : elements) {
+    details.emplace_back(name_of(element));
   }
-  return entries;
+  return details;
 }
+
+void append(Details& details, Details others) { std::move(others.begin(), others.end(), std::back_inserter(details)); }
 
 class Counter {
  public:
-  explicit Counter(const Device& device) : entries_(entries_of(device)) {}
+  explicit Counter(const Device& device) {
+    for (const Object& object : device.objects) {
+      entries_.emplace_back(fmt::format("{:04X}h", object.index), &object);
+      for (const Sub& sub : object.subs) {
+        entries_.emplace_back(fmt::format("{:04X}h:{:X}", object.index, sub.sub_index), &sub);
+      }
+    }
+  }
 
-  void add(std::string_view what, std::size_t count) {
-    if (count != 0) {
-      losses_.push_back({what, count});
+  void add(std::string_view what, Details places) {
+    if (!places.empty()) {
+      losses_.push_back({what, std::move(places)});
     }
   }
   // Of each object and sub-object.
-  void each(std::string_view what, const std::function<std::size_t(const Entry&)>& count) {
-    std::size_t sum = 0;
-    for (const Entry* entry : entries_) {
-      sum += count(*entry);
+  void each(std::string_view what, const std::function<Details(const Entry&)>& details_of) {
+    Details places;
+    for (const auto& [place, entry] : entries_) {
+      for (const std::string& detail : details_of(*entry)) {
+        places.push_back(place + (detail.empty() ? "" : " ") + detail);
+      }
     }
-    add(what, sum);
+    add(what, std::move(places));
   }
   std::vector<Loss> take() { return std::move(losses_); }
 
  private:
-  Entries entries_;
+  std::vector<std::pair<std::string, const Entry*>> entries_;
   std::vector<Loss> losses_;
 };
 
-std::size_t one_if(bool is_there) { return is_there ? 1 : 0; }
-std::size_t number_of(const Text& text) { return one_if(!text.is_empty()); }
+std::string language_of(const Label& label) { return label.language; }
+std::string id_of(const TypeDefinition& type) { return type.name.is_empty() ? type.id.text : type.name.text; }
 
 void count_configuration(const Device& device, Counter& counter) {
   counter.each("configured values", [](const Entry& entry) { return one_if(entry.actual_value.is_given); });
@@ -55,56 +71,88 @@ void count_configuration(const Device& device, Counter& counter) {
   counter.add("commissioning", one_if(device.commissioning.is_given));
 }
 
+Details properties_of(const Entry& entry) {
+  const NodeProperties& node = entry.node;
+  const std::array<std::pair<const Text&, const char*>, 7> known = {{{node.disabled, "CO_disabled"},
+                                                                     {node.count_label, "CO_countLabel"},
+                                                                     {node.srdo, "CO_accessSRDO"},
+                                                                     {node.string_length_min, "CO_stringLengthMin"},
+                                                                     {node.byte_length, "CO_byteLength"},
+                                                                     {node.extension_io, "CO_extensionIO"},
+                                                                     {node.flags_pdo, "CO_flagsPDO"}}};
+  Details names = each_of(entry.properties, [](const Property& property) { return property.name; });
+  for (const auto& [text, name] : known) {
+    if (text.is_given && (&text != &node.count_label || !text.is_empty())) {
+      names.emplace_back(name);
+    }
+  }
+  return names;
+}
+
 // An EDS has one name for each object, and nothing else to say of it in words.
-void count_for_eds(const Device& device, Counter& counter) {
+void count_words_for_eds(const Device& device, Counter& counter) {
   counter.each("labels", [](const Entry& entry) {
-    const std::vector<Label>& labels = entry.words.labels;
-    return static_cast<std::size_t>(std::count_if(
-        labels.begin(), labels.end(), [&entry](const Label& label) { return label.text.text != entry.name.text; }));
+    Details languages;
+    for (const Label& label : entry.words.labels) {
+      append(languages, Details(label.text.text != entry.name.text ? 1 : 0, label.language));
+    }
+    return languages;
   });
   const bool has_python_keys = device.dialect == "python-canopen";
   if (!has_python_keys) {
-    counter.each("descriptions", [](const Entry& entry) { return entry.words.descriptions.size(); });
+    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.words.descriptions, language_of); });
     counter.each("units", [](const Entry& entry) { return one_if(entry.unit.is_given); });
-    counter.each("multipliers", [](const Entry& entry) { return number_of(entry.multiplier); });
+    counter.each("multipliers", [](const Entry& entry) { return one_of(entry.multiplier); });
   }
-  counter.each("offsets", [](const Entry& entry) { return number_of(entry.offset); });
-  counter.each("allowed values", [](const Entry& entry) { return entry.allowed.values.size(); });
-  counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value.is_given); });
-  counter.each("properties", [](const Entry& entry) {
-    const NodeProperties& node = entry.node;
-    return entry.properties.size() + one_if(node.disabled.is_given) + number_of(node.count_label) +
-           one_if(node.srdo.is_given) + one_if(node.string_length_min.is_given) + one_if(node.byte_length.is_given) +
-           one_if(node.extension_io.is_given) + one_if(node.flags_pdo.is_given);
+}
+
+void count_for_eds(const Device& device, Counter& counter) {
+  count_words_for_eds(device, counter);
+  counter.each("offsets", [](const Entry& entry) { return one_of(entry.offset); });
+  counter.each("allowed values", [](const Entry& entry) {
+    return each_of(entry.allowed.values, [](const AllowedValue& allowed) { return allowed.value.text; });
   });
-  counter.add("groups", device.groups.size());
-  counter.add("data types", device.types.size());
-  counter.add("templates", device.templates.size() + device.allowed_templates.size());
-  counter.add("parameters without an object", device.parameters.size());
-  counter.add("order codes", device.identity.order_codes.size() > 1 ? device.identity.order_codes.size() - 1 : 0);
-  counter.add("versions", device.identity.versions.size());
+  counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value.is_given); });
+  counter.each("properties", properties_of);
+  counter.add("groups", each_of(device.groups, [](const Group& group) { return group.id.text; }));
+  counter.add("data types", each_of(device.types, id_of));
+  Details templates = each_of(device.templates, [](const Entry& entry) { return entry.parameter_id.text; });
+  append(templates, each_of(device.allowed_templates, [](const AllowedTemplate& allowed) { return allowed.id.text; }));
+  counter.add("templates", std::move(templates));
+  counter.add("parameters without an object",
+              each_of(device.parameters, [](const Entry& entry) { return entry.parameter_id.text; }));
+  Details codes = each_of(device.identity.order_codes, [](const Text& code) { return code.text; });
+  codes.erase(codes.begin(), codes.begin() + (codes.empty() ? 0 : 1));
+  counter.add("order codes", std::move(codes));
+  counter.add("versions", each_of(device.identity.versions, [](const Version& version) { return version.text.text; }));
 }
 
 void count_for_xdd(const Device& device, Counter& counter) {
-  counter.add("lines of comment", device.comments.size());
-  counter.add("modules", device.modules.size());
-  counter.add("connected modules", device.connected_modules.size());
-  counter.add("sections that CiA 306 does not know", device.others.size());
-  counter.each("keys that CiA 306 does not know", [](const Entry& entry) { return entry.others.size(); });
-  counter.each("files of domains",
-               [](const Entry& entry) { return number_of(entry.upload_file) + number_of(entry.download_file); });
-  std::size_t links = 0;
+  counter.add("lines of comment", Details(device.comments.size()));
+  counter.add("modules", each_of(device.modules, [](const Module& module) { return std::to_string(module.number); }));
+  counter.add("connected modules", Details(device.connected_modules.size()));
+  const auto name_of = [](const Kept& kept) { return kept.name; };
+  counter.add("sections that CiA 306 does not know", each_of(device.others, name_of));
+  counter.each("keys that CiA 306 does not know",
+               [&name_of](const Entry& entry) { return each_of(entry.others, name_of); });
+  counter.each("files of domains", [](const Entry& entry) {
+    Details files = one_of(entry.upload_file);
+    append(files, one_of(entry.download_file));
+    return files;
+  });
+  Details links;
   for (const Object& object : device.objects) {
-    links += object.links.size();
+    append(links, Details(object.links.size(), fmt::format("{:04X}h", object.index)));
   }
-  counter.add("object links", links);
+  counter.add("object links", std::move(links));
 }
 
 // Of the commissioning of one device.
 void count_for_xdc(const Commissioning& commissioning, Counter& counter) {
-  counter.add("serial numbers", number_of(commissioning.serial_number));
-  counter.add("references to other files",
-              number_of(commissioning.node_reference) + number_of(commissioning.network_reference));
+  counter.add("serial numbers", one_of(commissioning.serial_number));
+  Details references = one_of(commissioning.node_reference);
+  append(references, one_of(commissioning.network_reference));
+  counter.add("references to other files", std::move(references));
 }
 
 bool is_of_eds(const Device& device) { return device.format == Format::eds || device.format == Format::dcf; }
@@ -115,7 +163,9 @@ std::vector<Loss> losses(const Description& description, Target target) {
   const Device& device = description.devices.front();
   Counter counter(device);
   if (target != Target::json) {
-    counter.add("further devices", description.devices.size() - 1);
+    Details names = each_of(description.devices, [](const Device& other) { return other.identity.product_name.text; });
+    names.erase(names.begin());
+    counter.add("further devices", std::move(names));
   }
   if (target == Target::eds || target == Target::xdd) {
     count_configuration(device, counter);

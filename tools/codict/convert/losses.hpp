@@ -3,7 +3,7 @@
 /// What a device says that another format has no words for.
 #pragma once
 
-#include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,8 +20,8 @@ enum class Target : unsigned char {
 };
 
 struct Loss {
-  std::string_view what;  ///< "descriptions"
-  std::size_t count = 0;
+  std::string_view what;            ///< "descriptions"
+  std::vector<std::string> places;  ///< "2000h:1 en", one for each; empty where it has none
 };
 
 /// Those that there are. What is written is the first device, but for JSON.

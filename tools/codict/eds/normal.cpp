@@ -126,6 +126,9 @@ Device normal_headers(const Device& device) {
   for_each_flag(result.features, normalise_flag);
   const bool is_of_eds = device.format == Format::eds || device.format == Format::dcf;
   if (!is_of_eds) {
+    if (result.features.granularity.value == 0) {  // an XDD must have it, an EDS that has none means 0
+      result.features.granularity = {};
+    }
     normalise_date(result.file.creation_date);
     normalise_date(result.file.modification_date);
     normalise_time(result.file.creation_time);

@@ -66,6 +66,16 @@ Span next_comment(std::string_view bytes, std::size_t at) {
 
 }  // namespace
 
+std::size_t number_of_comments(const Document& document) {
+  const std::string_view bytes = document.source().bytes();
+  std::size_t number = 0;
+  for (Span comment = next_comment(bytes, 0); comment.begin < bytes.size();
+       comment = next_comment(bytes, comment.end)) {
+    ++number;
+  }
+  return number;
+}
+
 std::vector<Suppression> suppressions(const Document& document) {
   const std::string_view bytes = document.source().bytes();
   std::vector<Suppression> all;
