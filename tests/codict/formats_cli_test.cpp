@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -31,6 +32,18 @@ TEST_CASE("codict convert: JSON has all that the other formats say, and becomes 
   CHECK(run("convert commissioning.dcf --to json -o - | '" LEXICAN_CODICT_PROGRAM
             "' convert - --to dcf -o - | '" LEXICAN_CODICT_PROGRAM "' diff - commissioning.dcf --only configuration")
             .status == 0);
+}
+
+TEST_CASE("codict set: a file has no name of another format") {
+  const Directory directory;
+  const Ran xml = run("set xdd/device10.xdd 2000 default=1 -o " + directory / "device.eds");
+  CHECK(xml.status == 2);
+  CHECK(has(xml.err, "device.eds: xdd/device10.xdd is of another format, which convert makes\n"));
+  CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.xdd").status == 2);
+  CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.json").status == 2);
+  CHECK_FALSE(std::filesystem::exists(directory / "drive.xdd"));
+  CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.dcf").status == 0);
+  CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.txt").status == 0);
 }
 
 TEST_CASE("codict convert: the JSON of an EDS becomes an EDS, which is not the same bytes") {

@@ -161,9 +161,22 @@ int write(const Options& options, const Input& input, const std::string& bytes) 
   return status;
 }
 
+// Whether a file of this name has the bytes of another format in it: set converts nothing.
+bool is_of_another_format(const Input& input, const std::string& path) {
+  const std::string ending = ending_of(path);
+  const bool is_sections = ending == "eds" || ending == "dcf";
+  const bool is_xml = ending == "xdd" || ending == "xdc" || ending == "xpd" || ending == "xml";
+  return (is_sections && input.eds == nullptr) || (is_xml && input.xdd == nullptr) ||
+         (ending == "json" && input.json == nullptr);
+}
+
 int run(const Options& options) {
   std::optional<Input> input = open(options.file);
   if (!input) {
+    return unusable;
+  }
+  if (is_of_another_format(*input, options.output)) {
+    complain(fmt::format("{}: {} is of another format, which convert makes", options.output, input->source().name()));
     return unusable;
   }
   Refusal refusal;
