@@ -40,6 +40,11 @@ std::vector<std::string> words_of(const std::string& text) {
     if (begin != std::string::npos && line[begin] != '[') {
       std::string word = line.substr(begin, is_comment ? std::string::npos : line.find('=') - begin);
       word.erase(word.find_last_not_of(" \t\r") + 1);
+      if (!is_comment) {  // of names, capitals and blanks mean nothing
+        word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
+        std::transform(word.begin(), word.end(), word.begin(),
+                       [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
+      }
       words.push_back(word);
     }
   }
@@ -93,6 +98,14 @@ TEST_CASE("EDS normal form: names and numbers are as the standard writes them, a
   CHECK(formatted("[2000]\nDataType=five\nAccessType=often\nObjectType=\n") ==
         "[2000]\nDataType=five\nAccessType=often\nObjectType=\n");
   CHECK(formatted("[2000] what\nDataType=5\nDataType=6\n") == "[2000] what\nDataType=0x0005\nDataType=6\n");
+}
+
+TEST_CASE("EDS normal form: keys and hexadecimal numbers are spelled as the standard does, others stay") {
+  CHECK(formatted("[FILEINFO]\nFILENAME=x\nOwn key=1\n[deviceinfo]\nvendornumber=0X5\nbaudrate_125=1\n") ==
+        "[FileInfo]\nFileName=x\nOwn key=1\n\n[DeviceInfo]\nVendorNumber=0X5\nbaudrate_125=1\n");
+  CHECK(formatted("[2000]\nparametername=x\nDATATYPE=0X5\ndefaultvalue=0X10\nsubNumber=0\ncolour=red\n") ==
+        "[2000]\nParameterName=x\nDataType=0x0005\nDefaultValue=0x10\nSubNumber=0\ncolour=red\n");
+  CHECK(formatted("[2000]\nDataType=9\nDefaultValue=0X10\n") == "[2000]\nDataType=0x0009\nDefaultValue=0X10\n");
 }
 
 TEST_CASE("EDS normal form: counts of lists and sub-objects are right") {

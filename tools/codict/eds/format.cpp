@@ -15,6 +15,7 @@
 #include "eds/fields.hpp"
 #include "eds/names.hpp"
 #include "eds/numbered.hpp"
+#include "eds/slots.hpp"
 #include "model/access.hpp"
 #include "model/device.hpp"
 #include "text/number.hpp"
@@ -89,10 +90,37 @@ bool is_any_of(std::string_view key, std::initializer_list<std::string_view> wor
                      [key](std::string_view word) { return compare_names(key, word) == 0; });
 }
 
+template <typename T, std::size_t size>
+std::string_view key_in(const std::array<Slot<T>, size>& slots, std::string_view key) {
+  const auto slot =
+      std::find_if(slots.begin(), slots.end(), [key](const Slot<T>& s) { return compare_names(s.key, key) == 0; });
+  return slot != slots.end() ? slot->key : std::string_view();
+}
+
+// As the standard writes it; empty if it knows none of this name in such a section.
+std::string_view standard_key(const SectionName& section, std::string_view key) {
+  if (section.kind == SectionKind::object || section.kind == SectionKind::sub) {
+    const std::string_view of_entry = key_in(entry_slots, key);
+    return of_entry.empty() ? key_in(object_slots, key) : of_entry;
+  }
+  if (section.word == "FileInfo") {
+    return key_in(file_slots, key);
+  }
+  return section.word == "DeviceInfo" ? key_in(device_slots, key) : std::string_view();
+}
+
 std::string hexadecimal(std::string_view text, int digits) {
   const ParsedInteger number = parse_integer(text);
   const bool fits = number.is_number() && number.base != Base::octal && fits_unsigned(number.value, 16);
   return fits ? fmt::format("0x{:0{}X}", number.value.magnitude, digits) : std::string(text);
+}
+
+// 0X10 of a number is 0x10.
+std::string with_small_x(std::string text) {
+  if (text.substr(0, 2) == "0X" && parse_integer(text).is_number()) {
+    text[1] = 'x';
+  }
+  return text;
 }
 
 std::string with_node_id(std::string_view text) {
@@ -201,7 +229,9 @@ class Formatter {
   }
 
   std::string key_line(const Block& block, const Key& key) const {
-    return fmt::format("{}={}", document_.raw(key.name), key.is_duplicate ? raw(key) : value_of(block, key));
+    const std::string_view name = document_.raw(key.name);
+    const std::string_view standard = standard_key(block.name, name);
+    return fmt::format("{}={}", standard.empty() ? name : standard, key.is_duplicate ? raw(key) : value_of(block, key));
   }
   std::string raw(const Key& key) const { return std::string(document_.raw(key.value)); }
 
@@ -237,7 +267,7 @@ class Formatter {
       return access == Access::unknown || access == Access::none ? text : std::string(name_of(access));
     }
     const bool is_value = is_any_of(name, {"DefaultValue", "ParameterValue", "LowLimit", "HighLimit"});
-    return is_value && is_of_numbers(section) ? with_node_id(text) : text;
+    return is_value && is_of_numbers(section) ? with_node_id(with_small_x(text)) : text;
   }
 
   // Whether values may depend on the node-ID: $NODEID in a string is a part of it.
