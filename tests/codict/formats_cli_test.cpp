@@ -46,6 +46,15 @@ TEST_CASE("codict set: a file has no name of another format") {
   CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.txt").status == 0);
 }
 
+TEST_CASE("codict: what fails says what was asked for") {
+  const Directory directory;
+  CHECK(has(run("get xdd/device10.xdd FileInfo").err, "no object: FileInfo; only an EDS or DCF has sections\n"));
+  CHECK(has(run("merge drive.eds --set version=1.2 -o " + directory / "drive.eds").err,
+            "--set version=1.2: there is no object 100A:00\n"));
+  CHECK(has(run("merge drive.eds --set nonsense=1 -o " + directory / "drive.eds").err,
+            "--set nonsense=1: neither a word (vendor,"));
+}
+
 TEST_CASE("codict convert: the JSON of an EDS becomes an EDS, which is not the same bytes") {
   const Directory directory;
   CHECK(run("convert drive.eds -o " + directory / "drive.json").status == 0);
@@ -151,7 +160,8 @@ TEST_CASE("codict merge: what cannot be merged is said, and nothing is written")
   const Directory directory;
   const std::string out = directory / "out.eds";
   CHECK(run("merge drive.eds missing.eds -o " + out).status == 2);
-  CHECK(run("merge drive.eds -o " + out + " --set serial=5").err == "codict: --set: there is no object 1018:04\n");
+  CHECK(run("merge drive.eds -o " + out + " --set serial=5").err ==
+        "codict: --set serial=5: there is no object 1018:04\n");
   CHECK(run("merge drive.eds -o " + out + " --set colour=5").status == 2);
   CHECK(run("merge drive.eds -o " + out + " --set 1018:1").status == 2);
   CHECK(run("merge xdd/device10.xdd -o " + out).err ==

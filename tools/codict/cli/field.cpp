@@ -134,7 +134,8 @@ const Entry* find_entry(const Input& input, const std::string& target, std::stri
   const bool is_reference = parse_reference(target, reference);
   const Entry* const entry = is_reference ? find(input.device(), reference) : nullptr;
   if (entry == nullptr) {
-    why = is_reference ? "there is no object " + to_string(reference) : "no object: " + target;
+    why = is_reference ? "there is no object " + to_string(reference)
+                       : "no object: " + target + "; only an EDS or DCF has sections";
   }
   return entry;
 }

@@ -139,8 +139,7 @@ std::string lines_for(const Input& input, std::string_view assignment, std::stri
   }
   const auto [place, value] = parsed;
   const std::size_t point = place.find_last_of('.');
-  why = fmt::format("{}: neither a word (vendor, product, revision, serial, version) nor TARGET.FIELD, with =VALUE",
-                    assignment);
+  why = "neither a word (vendor, product, revision, serial, version) nor TARGET.FIELD, with =VALUE";
   if (point != std::string_view::npos) {
     return lines_for(input, std::string(place.substr(0, point)), place.substr(point + 1), value, why);
   }
@@ -166,7 +165,7 @@ bool add_values(Merged& merged, const Options& options) {
     std::string why;
     const std::string lines = lines_for(merged.input, value, why);
     if (lines.empty()) {
-      complain(fmt::format("--set: {}", why));
+      complain(fmt::format("--set {}: {}", value, why));
       return false;
     }
     Findings findings;
