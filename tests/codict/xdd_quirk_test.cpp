@@ -159,6 +159,21 @@ TEST_CASE("XDD quirk: properties that have no such value") {
   CHECK(reading.at(0x2000).node.storage_group.value == "12");
 }
 
+TEST_CASE("XDD: a property that begins as those of CANopenNode is one of them") {
+  const auto found = [](const std::string& name) {
+    return test::XmlReading(
+        test::xdd_with("<CANopenObject index=\"2000\" name=\"x\" objectType=\"7\" dataType=\"05\" "
+                       "accessType=\"rw\" uniqueIDRef=\"P\"/>",
+                       "<parameter uniqueID=\"P\" access=\"readWrite\"><USINT/><property name=\"" + name +
+                           "\" value=\"RAM\"/></parameter>"));
+  };
+  const test::XmlReading slip = found("CO_storageGruop");
+  REQUIRE(slip.has("xdd-property"));
+  CHECK(slip.findings.all().front().hint == "maybe CO_storageGroup");
+  CHECK_FALSE(found("CO_storageGroup").has("xdd-property"));
+  CHECK_FALSE(found("Own").has("xdd-property"));
+}
+
 TEST_CASE("XDD quirk: a dummy that is none") {
   const XmlReading reading(xdd_with("", "", "<dummyUsage>\n<dummy entry=\"Dummy0005\"/><dummy/></dummyUsage>"));
   CHECK(reading.device.dummies.empty());

@@ -2,8 +2,11 @@
 // ApplicationProcess: types, templates, parameters and groups. [311]
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "text/similar.hpp"
 #include "xdd/parts.hpp"
 
 namespace lexican::codict::xdd {
@@ -103,6 +106,20 @@ constexpr std::array<Slot<NodeProperties>, 8> property_slots = {{
     {"CO_flagsPDO", [](NodeProperties& n) -> Text& { return n.flags_pdo; }},
 }};
 
+// Names that begin so are those of CANopenNode: another one is a slip, which would have no effect.
+void check_property_name(const Text& name, Findings& findings) {
+  if (name.text.substr(0, 3) != "CO_") {
+    return;
+  }
+  std::vector<std::string_view> known;
+  for (const Slot<NodeProperties>& slot : property_slots) {
+    known.push_back(slot.name);
+  }
+  const std::vector<std::string_view> near = similar(name.text, known);
+  findings.add(rules::property, name.span, "CANopenNode knows no property of this name",
+               near.empty() ? "" : "maybe " + std::string(near.front()));
+}
+
 void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
   struct Raw {
     Text name;
@@ -115,6 +132,7 @@ void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
   read_element(raw, element, slots, rest, reader, [](pugi::xml_node) { return false; });
   keep_rest(element, std::move(rest), entry.others, reader);
   if (!read_into(entry.node, raw.name.text, raw.value, raw.name.span, property_slots, reader)) {
+    check_property_name(raw.name, reader.findings);
     entry.properties.push_back({raw.name.text, raw.value});
   }
 }

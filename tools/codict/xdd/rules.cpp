@@ -41,7 +41,8 @@ const Rule access_unknown{"xdd-access-unknown", Severity::error,
 const Rule access_missing{"xdd-access-missing", Severity::warning, "Each value has an access."};
 const Rule access_case{"xdd-access-case", Severity::note, "Words of access have the capitals that CiA 311 gives them."};
 const Rule pdo_mapping{"xdd-pdo-mapping", Severity::warning, "PDOmapping is no, optional, default, TPDO or RPDO."};
-const Rule property{"xdd-property", Severity::warning, "A property of CANopenNode has a value that it knows."};
+const Rule property{"xdd-property", Severity::warning,
+                    "A property of CANopenNode has a name and a value that it knows."};
 const Rule list_count{"xdd-list-count", Severity::warning, "Counts of objects are right."};
 const Rule boolean{"xdd-boolean", Severity::note, "Booleans are true or false, or 1 or 0."};
 const Rule bit_rate{"xdd-bit-rate", Severity::warning, "Bit rates are \"125 Kbps\", or \"auto-baudRate\"."};
