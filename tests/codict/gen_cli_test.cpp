@@ -126,6 +126,8 @@ TEST_CASE("codict gen: wrong use ends with 2") {
   CHECK(run(directory, small).status == 2);
   CHECK(run(directory, small + " -o new --name Large").status == 2);
   CHECK(run(directory, small + " -o new --language basic").status == 2);
+  CHECK(run(directory, small + " -o new --eds device.xdd").status == 2);
+  CHECK(run(directory, small + " -o new --xdd device.eds").status == 2);
   CHECK(run(directory, "none.eds -o new").status == 2);
   test::write_bytes(directory / "out", "a file");
   CHECK(run(directory, small + " -o out/new").status == 2);  // "out" is a file

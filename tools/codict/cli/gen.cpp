@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gen/gen.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <system_error>
@@ -171,13 +174,22 @@ int run(Options options) {
 
 }  // namespace
 
+// A file of another format under this name would be taken for what it is not.
+std::function<std::string(const std::string&)> ends_with(const char* ending) {
+  return [ending](const std::string& path) {
+    const std::string given = ending_of(path);
+    return given.empty() || given == ending ? "" : fmt::format("{}: the ending is .{}", path, ending);
+  };
+}
+
 Command add_gen(CLI::App& app) {
   const auto options = std::make_shared<Options>();
   CLI::App* const command = app.add_subcommand("gen", "Make the dictionary of a device: C or C++ source");
   command->add_option("file", options->file, file_help)->required();
   command->add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp")->required();
-  command->add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes");
-  command->add_option("--xdd", options->xdd, "Write an XDD of it");
+  command->add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes")
+      ->check(ends_with("eds"));
+  command->add_option("--xdd", options->xdd, "Write an XDD of it")->check(ends_with("xdd"));
   command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
   const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command->add_option("--language", options->gen.language, "Language of the source: c, c++; the header is of both")
