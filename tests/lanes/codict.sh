@@ -4,7 +4,8 @@ about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may nam
 packages=("${build_packages[@]}" "${tool_packages[@]}" chromium groff-base=groff)
 
 lane() {
-  local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict "${tool_fuzz_targets[@]/%/_fuzz}")
+  local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
+    "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
     -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
@@ -12,5 +13,15 @@ lane() {
   for target in "${tool_fuzz_targets[@]}"; do
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
+  check "installation with the manual page and completion" install_codict
   run_tap "$root/tests/codict/page_test.sh" "$build/codict/tools/codict/codict" "$root/tests/codict/fixtures"
+}
+
+install_codict() {
+  local prefix=$build/codict/prefix
+  rm -rf "$prefix"
+  cmake --install "$build/codict" --component codict --prefix "$prefix" &&
+    "$prefix/bin/codict" --version &&
+    grep '^\.TH CODICT 1' "$prefix/share/man/man1/codict.1" &&
+    grep '^complete .* codict$' "$prefix/share/bash-completion/completions/codict"
 }
