@@ -97,6 +97,7 @@ TEST_CASE("EDS normal form: names and numbers are as the standard writes them, a
         "DefaultValue=$NODEID+0x180\nLowLimit=010\nHighLimit=0xff\n");
   CHECK(formatted("[2000]\nDataType=five\nAccessType=often\nObjectType=\n") ==
         "[2000]\nDataType=five\nAccessType=often\nObjectType=\n");
+  CHECK(formatted("[2000]\nDataType=010\n") == "[2000]\nDataType=010\n");  // octal, or a mistake
   CHECK(formatted("[2000] what\nDataType=5\nDataType=6\n") == "[2000] what\nDataType=0x0005\nDataType=6\n");
 }
 
