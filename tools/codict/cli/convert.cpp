@@ -128,6 +128,7 @@ std::string places_of(const Loss& loss, bool is_all) {
 // "codict: drive.xdd: left out: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de, 2001h en, …)"
 void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   std::vector<std::string> parts;
+  parts.reserve(losses.size());
   for (const Loss& loss : losses) {
     parts.push_back(fmt::format("{} {}{}", loss.places.size(), loss.what, places_of(loss, is_all)));
   }
@@ -165,6 +166,7 @@ int run(const Options& options) {
 
 Command add_convert(CLI::App& app) {
   std::vector<std::string> names;
+  names.reserve(products.size());
   for (const Product& product : products) {
     names.emplace_back(product.name);
   }

@@ -30,6 +30,16 @@ std::string line(const Reference& reference, const Entry& entry) {
                      is_mapped ? "PDO" : "", word(value_in_force(entry).text), visible(entry.name.text));
 }
 
+void add_values(Json& json, const Entry& entry) {
+  for (const auto& [name, value] :
+       {std::make_pair("default", &entry.default_value), std::make_pair("value", &entry.actual_value),
+        std::make_pair("low_limit", &entry.low_limit), std::make_pair("high_limit", &entry.high_limit)}) {
+    if (value->is_given) {
+      json[name] = value->text;
+    }
+  }
+}
+
 Json to_json(const Reference& reference, const Entry& entry) {
   Json json;
   json["index"] = reference.index;
@@ -42,13 +52,7 @@ Json to_json(const Reference& reference, const Entry& entry) {
     json["type"] = type_name(entry);
     json["access"] = name_of(entry.access.value);
     json["pdo_mapping"] = name_of(entry.pdo_mapping.value);
-    for (const auto& [name, value] :
-         {std::make_pair("default", &entry.default_value), std::make_pair("value", &entry.actual_value),
-          std::make_pair("low_limit", &entry.low_limit), std::make_pair("high_limit", &entry.high_limit)}) {
-      if (value->is_given) {
-        json[name] = value->text;
-      }
-    }
+    add_values(json, entry);
   }
   return json;
 }
@@ -69,10 +73,11 @@ int run(const Options& options) {
   };
   for (const Object& object : input->device().objects) {
     show({object.index, std::nullopt}, object);
-    if (!options.has_objects_only) {
-      for (const Sub& sub : object.subs) {
-        show({object.index, sub.sub_index}, sub);
-      }
+    if (options.has_objects_only) {
+      continue;
+    }
+    for (const Sub& sub : object.subs) {
+      show({object.index, sub.sub_index}, sub);
     }
   }
   print(lines);

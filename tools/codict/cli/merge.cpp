@@ -149,13 +149,14 @@ std::string lines_for(const Input& input, std::string_view assignment, std::stri
   std::string lines;
   for (const Word& word : identity_words) {
     const bool is_object = word.target != "DeviceInfo";
-    if (word.name == place && (is_object || input.eds->find("DeviceInfo") != nullptr)) {
-      const std::string more = lines_for(input, std::string(word.target), word.field, value, why);
-      if (more.empty()) {
-        return {};
-      }
-      lines += more;
+    if (word.name != place || (!is_object && input.eds->find("DeviceInfo") == nullptr)) {
+      continue;
     }
+    const std::string more = lines_for(input, std::string(word.target), word.field, value, why);
+    if (more.empty()) {
+      return {};
+    }
+    lines += more;
   }
   return lines;
 }

@@ -50,7 +50,7 @@ class Counter {
     Details places;
     for (const auto& [place, entry] : entries_) {
       for (const std::string& detail : details_of(*entry)) {
-        places.push_back(place + (detail.empty() ? "" : " ") + detail);
+        places.push_back(detail.empty() ? place : fmt::format("{} {}", place, detail));
       }
     }
     add(what, std::move(places));

@@ -378,7 +378,8 @@ class Reader {
     const bool is_settled = untyped.has_meaning ? untyped.has_kind || !is_typed : untyped.has_kind && !is_of_text;
     Findings ignored;
     Value value;
-    static_cast<Text&>(value) = said;
+    const Text& written = said;
+    static_cast<Text&>(value) = written;
     codict::interpret(value, type, is_settled ? ignored : context_.findings);
     const bool is_contradiction = untyped.has_meaning && contradicts(said, value);
     if (is_contradiction) {

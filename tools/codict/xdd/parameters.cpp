@@ -112,6 +112,7 @@ void check_property_name(const Text& name, Findings& findings) {
     return;
   }
   std::vector<std::string_view> known;
+  known.reserve(property_slots.size());
   for (const Slot<NodeProperties>& slot : property_slots) {
     known.push_back(slot.name);
   }
