@@ -53,6 +53,7 @@
 #if USE_CSDO
 #include "co_csdo.h"
 #endif
+#include "co_callbacks.h"
 #include "co_dict.h"
 #include "co_emcy.h"
 #include "co_if.h"
@@ -168,6 +169,7 @@ typedef struct CO_NODE_EXT_T {
 #if USE_OD
   struct OD_T_* Od;  ///< the index of the dictionary (co_od.h), or null: no object is extended
 #endif
+  const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
 } CO_NODE_EXT;
 
 /// \cond internal
