@@ -223,6 +223,7 @@ void Fixture::init() {
   ext_.Writable = setup_.may_write_ ? Drivers::writable : nullptr;
   ext_.Nvm = setup_.nvm_;
   ext_.NvmCtx = setup_.nvm_context_;
+  ext_.Callbacks = setup_.callbacks_;
   ext_.OdLock = Drivers::od_lock;
   ext_.OdUnlock = Drivers::od_unlock;
 #if USE_REAL_TIME

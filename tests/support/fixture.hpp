@@ -118,6 +118,7 @@ class Setup {
   Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
   Setup& nvm(const CO_IF_NVM_DRV_EX& driver, void* context);  ///< must outlive the fixture
   Setup& no_nvm();
+  Setup& callbacks(const CO_CALLBACKS& table);  ///< CO_NODE_EXT.Callbacks; must outlive the fixture
 #if USE_REAL_TIME
   Setup& turns();                ///< CO_NODE_EXT.Enter and Leave
   Setup& mainline(CO_RING& of);  ///< CO_NODE_EXT.Mainline; must outlive the fixture
@@ -158,6 +159,7 @@ class Setup {
   std::function<void(Objects&)> before_init_;
   const CO_IF_NVM_DRV_EX* nvm_ = nullptr;
   void* nvm_context_ = nullptr;
+  const CO_CALLBACKS* callbacks_ = nullptr;
   bool turns_ = false;
   CO_RING* mainline_ = nullptr;
   bool foreign_ = false;

@@ -37,6 +37,7 @@ Setup& Setup::mainline(CO_RING& of) { return mainline_ = &of, *this; }
 Setup& Setup::foreign() { return foreign_ = true, *this; }
 #endif
 Setup& Setup::no_nvm() { return nvm_ = nullptr, *this; }
+Setup& Setup::callbacks(const CO_CALLBACKS& table) { return callbacks_ = &table, *this; }
 Setup& Setup::may_change(std::uint16_t index, std::uint8_t sub) {
   may_change_.emplace_back(index, sub);
   return *this;
