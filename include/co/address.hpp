@@ -4,6 +4,8 @@
 /// initialises it with `&structure`. Size and layout are those of the C type (uint8_t *).
 #pragma once
 
+extern "C++" {  // co_core.h may be included inside extern "C" { }
+
 #include <stdint.h>
 
 #include <type_traits>
@@ -41,3 +43,5 @@ static_assert(alignof(Address) == alignof(uint8_t*));
 static_assert(std::is_trivial_v<Address> && std::is_standard_layout_v<Address>);
 
 }  // namespace co
+
+}  // extern "C++"

@@ -4,6 +4,8 @@
 /// Size and layout are those of the C type (uintptr_t).
 #pragma once
 
+extern "C++" {  // co_core.h may be included inside extern "C" { }
+
 #include <stdint.h>
 
 #include <type_traits>
@@ -70,3 +72,5 @@ union CO_DATA {
 static_assert(sizeof(CO_DATA) == sizeof(uintptr_t));
 static_assert(alignof(CO_DATA) == alignof(uintptr_t));
 static_assert(std::is_trivial_v<CO_DATA> && std::is_standard_layout_v<CO_DATA>);
+
+}  // extern "C++"

@@ -17,6 +17,8 @@
 /// -fconstexpr-ops-limit).
 #pragma once
 
+extern "C++" {  // co_core.h may be included inside extern "C" { }
+
 #ifdef CO_DATA_INTEGER
 #error "co/dictionary.hpp: with CO_DATA_INTEGER the compiler cannot look into a dictionary"
 #endif
@@ -356,3 +358,5 @@ constexpr CO_OBJ* entry() {
 }
 
 }  // namespace co
+
+}  // extern "C++"

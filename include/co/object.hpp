@@ -11,6 +11,8 @@
 /// Context: the loop (see co_obj.h).
 #pragma once
 
+extern "C++" {  // co_core.h may be included inside extern "C" { }
+
 #include <cstdint>
 #include <type_traits>
 
@@ -240,3 +242,5 @@ auto object(CO_NODE& node) noexcept {
 #endif
 
 }  // namespace co
+
+}  // extern "C++"

@@ -10,6 +10,8 @@
 /// - Values against addresses, and what must not lie in read-only memory: CO_OD_CHECK() only (co/dictionary.hpp).
 #pragma once
 
+extern "C++" {  // co_core.h may be included inside extern "C" { }
+
 #include <cstddef>
 #include <cstdint>
 
@@ -161,3 +163,5 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
 }
 
 }  // namespace co::rules
+
+}  // extern "C++"
