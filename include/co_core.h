@@ -115,9 +115,11 @@ typedef enum CO_CAN_EVENT_T {
 
 /// What the node has counted since CONodeInit(). All counters saturate.
 typedef struct CO_NODE_COUNTERS_T {
-  uint32_t Received;                     ///< frames read from the driver
-  uint32_t Unclaimed;                    ///< of these: for nobody here, or for a service that the NMT state forbids
-  uint32_t Malformed;                    ///< of these: for us, but of a wrong length or kind; ignored
+  uint32_t Received;   ///< frames read from the driver
+  uint32_t Unclaimed;  ///< of these: for nobody here, or for a service that the NMT state forbids
+  /// Of these: for us, but of a wrong length or kind, or with a DLC above 15; ignored. Frames with such a DLC that the
+  /// application wants to send are counted, too.
+  uint32_t Malformed;
   uint32_t Sent;                         ///< frames that the driver took
   uint32_t Dropped;                      ///< frames that found a queue full, or that a reset or NMT state threw away
   uint32_t SdoAborts;                    ///< SDO transfers that the server aborted

@@ -36,13 +36,14 @@ void COIfInit(CO_IF* cif, struct CO_NODE_T* node, uint32_t freq);
 void COIfCanInit(CO_IF* cif, struct CO_NODE_T* node);
 /// Goes on the bus with \a baud bit/s; 0 keeps the node's rate.
 void COIfCanEnable(CO_IF* cif, uint32_t baud);
-/// Reads a frame. Returns sizeof(CO_IF_FRM), 0 (none), or < 0 (error; the node's error is then CO_ERR_IF_CAN_READ).
+/// Reads a frame. Frames with a DLC above 15 are counted (CO_NODE_COUNTERS.Malformed) and skipped. Returns
+/// sizeof(CO_IF_FRM), 0 (none), or < 0 (error; the node's error is then CO_ERR_IF_CAN_READ).
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
 /// Sends a frame of the application, in any NMT state; in CO_INIT it waits for the boot-up message. Takes its place by
 /// priority among frames that wait. Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as
-/// dropped), -1: an argument is null, or the node is in CO_INVALID. Up to half of the queue (one frame for each SDO
-/// server and client and one more, at most) is kept for the node's own frames. A driver error leaves the frame in the
-/// queue and sets CO_ERR_IF_CAN_SEND.
+/// dropped), -1: an argument is null, the node is in CO_INVALID, or the DLC is above 15 (counted as malformed). Up to
+/// half of the queue (one frame for each SDO server and client and one more, at most) is kept for the node's own
+/// frames. A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm);
 /// Clears errors and queues of the controller.
 void COIfCanReset(CO_IF* cif);

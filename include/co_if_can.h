@@ -22,7 +22,9 @@ extern "C" {
 typedef struct CO_IF_FRM_T {
   uint32_t Identifier;  ///< CAN-ID and flags
   uint8_t Data[8];
-  uint8_t DLC;  ///< bytes of Data in use, 0…8
+  /// Bytes of Data in use, 0…8. 9…15 mean 8 bytes [ISO 11898-1]; a frame with a larger value is malformed: the node
+  /// counts it (CO_NODE_COUNTERS.Malformed) and drops it.
+  uint8_t DLC;
 } CO_IF_FRM;
 
 /// \name Members of a frame; \a f is a pointer, \a pos a position in Data (modulo 8), multi-byte values are little

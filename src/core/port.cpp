@@ -4,6 +4,7 @@
 #include "core/count.hpp"
 #include "core/transmit.hpp"
 #include "wire/cob_id.hpp"
+#include "wire/frame.hpp"
 
 namespace co::port {
 namespace {
@@ -158,7 +159,12 @@ int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm) {
   ASSERT_PTR_ERR(cif, -1);
   ASSERT_PTR_ERR(cif->Node, -1);
   ASSERT_PTR_ERR(frm, -1);
-  return port::can_read(*cif->Node, *frm);
+  int16_t result = port::can_read(*cif->Node, *frm);
+  while (result > 0 && !wire::normalise_length(*frm)) {
+    count(cif->Node->Count.Malformed);
+    result = port::can_read(*cif->Node, *frm);
+  }
+  return result;
 }
 
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
@@ -168,6 +174,10 @@ int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
   ASSERT_NOT_ERR(cif->Node->Nmt.Mode, CO_INVALID, -1);
   CO_IF_FRM frame = *frm;
   frame.Identifier = wire::normalised(frame.Identifier);
+  if (!wire::normalise_length(frame)) {
+    count(cif->Node->Count.Malformed);
+    return -1;
+  }
   return transmit::send_for_application(*cif->Node, frame) ? static_cast<int16_t>(sizeof frame)
                                                            : static_cast<int16_t>(0);
 }

@@ -201,18 +201,25 @@ void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
   }
 }
 
-void normalise(CO_IF_FRM& frame) {
-  frame.Identifier = wire::normalised(frame.Identifier);
-  frame.DLC = frame.DLC > sizeof frame.Data ? static_cast<uint8_t>(sizeof frame.Data) : frame.DLC;
+// Returns false, and counts the frame, if its DLC is none.
+[[nodiscard]] bool check_length(CO_NODE& node, CO_IF_FRM& frame) {
+  const bool is_valid = wire::normalise_length(frame);
+  if (!is_valid) {
+    count(node.Count.Malformed);
+  }
+  return is_valid;
 }
 
 void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   if (frame.Identifier > wire::base_ids || frame.DLC > sizeof frame.Data) {
+    if (!check_length(node, frame)) {
+      return;
+    }
     if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
       report_error(node, frame);
       return;
     }
-    normalise(frame);
+    frame.Identifier = wire::normalised(frame.Identifier);
   }
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
   if (place != routes::nowhere && services::dispatch(node, frame, place)) {
@@ -257,11 +264,14 @@ bool is_for_mainline(const CO_NODE& node, unsigned place) {
 }
 
 void share_out(CO_NODE& node, CO_IF_FRM frame) {
+  if (!check_length(node, frame)) {
+    return;
+  }
   if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
     leave(node, frame);
     return;
   }
-  normalise(frame);
+  frame.Identifier = wire::normalised(frame.Identifier);
   const unsigned place = routes::find(node, frame.Identifier & ~CO_IF_FRM_RTR);
   is_for_mainline(node, place) ? leave(node, frame) : serve_at_once(node, frame, place);
 }

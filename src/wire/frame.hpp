@@ -25,4 +25,17 @@ inline CO_IF_FRM empty_frame(uint32_t identifier, uint8_t dlc) {
   return frame;
 }
 
+// Sets the DLC to the number of data bytes: 9…15 stand for 8 bytes [ISO 11898-1]. Returns false for a larger value,
+// which is malformed: a driver has passed the length of a CAN FD frame, or garbage.
+[[nodiscard]] inline bool normalise_length(CO_IF_FRM& frame) {
+  constexpr uint8_t highest_dlc = 15;
+  if (frame.DLC > highest_dlc) {
+    return false;
+  }
+  if (frame.DLC > sizeof frame.Data) {
+    frame.DLC = sizeof frame.Data;
+  }
+  return true;
+}
+
 }  // namespace co::wire

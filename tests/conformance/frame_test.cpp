@@ -47,6 +47,64 @@ TEST_CASE("frames: a length code of 9 to 15 means 8 bytes [Q1]") {
   CHECK(dlc == 8);
 }
 
+CO_IF_FRM with_dlc(std::string_view text, unsigned dlc) {
+  CO_IF_FRM frm = frame(text);
+  frm.DLC = static_cast<std::uint8_t>(dlc);
+  return frm;
+}
+
+TEST_CASE("frames: a DLC above 15 is malformed: counted, neither served nor passed on [ISO 11898-1]") {
+  Fixture node;
+  unsigned passed_on = 0;
+  unsigned events = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
+  std::uint32_t malformed = node.counters().Malformed;
+  for (const unsigned dlc : {16U, 17U, 64U, 255U}) {
+    CAPTURE(dlc);
+    for (const char* const text :
+         {"601#4000100000000000", "000#0101", "123#1122334455667788", "00012345#0102", "20000040#0000000000000000"}) {
+      node.rx(with_dlc(text, dlc));
+      CHECK(node.counters().Malformed == ++malformed);
+    }
+  }
+  CHECK(passed_on == 0);
+  CHECK(events == 0);
+  CHECK(node.mode() == CO_PREOP);
+  CHECK(node.counters().Unclaimed == 0);
+  node.silent();
+  node.ask("601#4000100000000000", "581#4300100091010F00");
+}
+
+TEST_CASE("frames: the application sends 8 bytes for a DLC of 9 to 15; a DLC above 15 is refused and counted") {
+  Fixture node;
+  const std::uint32_t malformed = node.counters().Malformed;
+  for (unsigned dlc = 9; dlc <= 15; ++dlc) {
+    CO_IF_FRM frm = with_dlc("123#1122334455667788", dlc);
+    node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+    node.tx("123#1122334455667788");
+  }
+  for (const unsigned dlc : {16U, 64U, 255U}) {
+    CO_IF_FRM frm = with_dlc("123#1122334455667788", dlc);
+    node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == -1); });
+    node.silent();
+  }
+  CHECK(node.counters().Malformed == malformed + 3);
+}
+
+TEST_CASE("frames: COIfCanRead() gives at most 8 bytes, and skips and counts frames with a DLC above 15") {
+  Fixture node;
+  const std::uint32_t malformed = node.counters().Malformed;
+  node.can.to_node.push_back(with_dlc("123#01", 16));
+  node.can.to_node.push_back(with_dlc("123#02", 255));
+  node.can.to_node.push_back(with_dlc("123#1122334455667788", 12));
+  CO_IF_FRM frm{};
+  node.call([&] { CHECK(COIfCanRead(&node->If, &frm) == sizeof(CO_IF_FRM)); });
+  CHECK(notation(frm) == "123#1122334455667788");
+  node.call([&] { CHECK(COIfCanRead(&node->If, &frm) == 0); });
+  CHECK(node.counters().Malformed == malformed + 2);
+}
+
 TEST_CASE("frames: what nobody claims goes to the application as it came, and is counted") {
   Fixture node;
   std::vector<std::string> passed_on;

@@ -175,6 +175,29 @@ TEST_CASE("real time: identifiers of 29 bits, remote frames, and a DLC beyond 8"
   node.frames();
 }
 
+TEST_CASE("real time: a frame with a DLC above 15 is counted and dropped; the mainline does not see it") {
+  SyncTable table;
+  table.rpdo[0].on(0x201, 255, {0x22080140});
+  RealTimeNode node(table, [](Setup& setup) { setup.foreign(); });
+  unsigned passed_on = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  node.start();
+  const std::uint64_t before = node.u64[0];
+  const std::uint32_t malformed = node.counters().Malformed;
+  for (const char* const text : {"201#0102030405060708", "601#4000100000000000", "123#00", "20000040#0000"}) {
+    CO_IF_FRM frm = frame(text);
+    frm.DLC = 16;
+    node.can.to_node.push_back(frm);
+  }
+  node.real_time();
+  CHECK(waiting(node) == 0);
+  node.mainline();
+  node.silent();
+  CHECK(node.counters().Malformed == malformed + 4);
+  CHECK(node.u64[0] == before);
+  CHECK(passed_on == 0);
+}
+
 TEST_CASE("real time: reports of the controller are for CONodeProcess") {
   RealTimeNode node(pdos());
   unsigned events = 0;

@@ -87,7 +87,14 @@ TEST_CASE("socketcan: DLC 9 to 15 stand for 8 bytes") {
     frame.DLC = static_cast<std::uint8_t>(dlc);
     CHECK(co::to_socketcan(frame).can_dlc == 8);
   }
-  CHECK(co::from_socketcan(raw_frame(0x181, 64)).DLC == 8);
+  CHECK(co::from_socketcan(raw_frame(0x181, 15)).DLC == 8);
+}
+
+TEST_CASE("socketcan: a length above 15 is left to the node, which counts it as malformed; no data is copied") {
+  const CO_IF_FRM frame = co::from_socketcan(raw_frame(0x181, 64));
+  CHECK(frame.DLC == 64);
+  CHECK(frame.Data[0] == 0);
+  CHECK(frame.Data[7] == 0);
 }
 
 TEST_CASE("socketcan: an identifier beyond 11 bits never becomes another message") {

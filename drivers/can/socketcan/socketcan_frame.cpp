@@ -20,6 +20,8 @@ static_assert(CO_IF_FRM_EXT == CAN_EFF_FLAG && CO_IF_FRM_RTR == CAN_RTR_FLAG && 
 
 namespace {
 
+constexpr std::uint8_t highest_dlc = 15;
+
 std::uint8_t bytes_in_use(std::uint8_t length) { return std::min<std::uint8_t>(length, CAN_MAX_DLEN); }
 
 // A remote frame has a length, but no data.
@@ -76,8 +78,9 @@ can_frame to_socketcan(const CO_IF_FRM& frame) {
 CO_IF_FRM from_socketcan(const can_frame& frame) {
   CO_IF_FRM frm{};
   frm.Identifier = frame.can_id;
-  frm.DLC = bytes_in_use(frame.can_dlc);
-  if (has_data(frame.can_id)) {
+  const bool is_classic = frame.can_dlc <= highest_dlc;
+  frm.DLC = is_classic ? bytes_in_use(frame.can_dlc) : frame.can_dlc;
+  if (is_classic && has_data(frame.can_id)) {
     std::copy_n(frame.data, frm.DLC, frm.Data);
   }
   return frm;

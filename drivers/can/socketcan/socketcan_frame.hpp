@@ -18,7 +18,8 @@ namespace co {
 /// would be another message, at worst an NMT command. DLC 9…15 stand for 8 bytes [ISO 11898-1]. Bytes not in use are 0.
 can_frame to_socketcan(const CO_IF_FRM& frame);
 
-/// The frame received; bytes not in use are 0.
+/// The frame received; bytes not in use are 0. A length above 15 is kept, without data: the node counts such a frame as
+/// malformed.
 CO_IF_FRM from_socketcan(const can_frame& frame);
 
 /// Filters that let exactly these identifiers through; none of them if there are more than the kernel takes: then
