@@ -99,7 +99,7 @@ typedef struct CO_NODE_SPEC_T {
   struct CO_EMCY_TBL_T* EmcyCode;  ///< errors of the application (co_emcy.h), may be null
   struct CO_TMR_MEM_T* TmrMem;     ///< timers for the application; the stack needs none of them
   uint16_t TmrNum;                 ///< length of that array, may be 0
-  uint32_t TmrFreq;                ///< ticks of the timer driver per second
+  uint32_t TmrFreq;                ///< ticks of the timer driver per second, not 0
   CO_IF_DRV* Drv;                  ///< drivers without context; may be null if CO_NODE_EXT names all drivers
   uint8_t* SdoBuf;                 ///< CO_SSDO_N * CO_SDO_BUF_BYTE bytes, or null
 } CO_NODE_SPEC;
@@ -286,8 +286,12 @@ typedef struct CO_NODE_T {
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;
-/// what went wrong is told by CONodeGetErr(): CO_ERR_DICT_INIT (CODictGetFault() names the entry) and CO_ERR_BAD_ARG
-/// (node-ID, drivers, no dictionary) leave it in CO_INVALID, anything else does not keep it from running.
+/// CONodeGetErr() returns what went wrong. These errors leave the node in CO_INVALID, no other one stops it:
+/// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: no driver has been called, and none
+/// will;
+/// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT: the drivers are initialised, the controller stays off the bus;
+/// - CO_ERR_DICT_INIT, likewise: the dictionary is refused, CODictGetFault() names the entry.
+///
 /// \a node and what \a spec points to stay the caller's and must live as long as the node; \a spec itself need not.
 /// Null arguments end in CONodeFatalError().
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec);

@@ -80,8 +80,9 @@ CO_ERR CODictWrBuffer(CO_DICT* cod, uint32_t key, uint8_t* buf, uint32_t len);
 /// at its next frame. The table stays the caller's and must live as long as the node. An empty table is legal. Not to
 /// be called from a type function.
 ///
-/// CO_ERR_BAD_ARG: null or \a max 0; CO_ERR_DICT_INIT: a structural fault, see CODictGetFault(); nothing is found then.
-CO_ERR CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
+/// Returns the number of entries (32767 if there are more); -1: an argument is null, \a max is 0, or the table has a
+/// structural fault, which CODictGetFault() names. Nothing is found then.
+int16_t CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t max);
 
 /// Runs the Init function of every entry, from the first to the last. Returns the last error, or CO_ERR_NONE.
 CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);

@@ -95,15 +95,21 @@ typedef enum CO_ERR_T {
   CO_ERR_MSG_INIT,
   CO_ERR_MSG_CREATE,
   CO_ERR_MSG_READ,
-  CO_ERR_TYPE_INIT,     ///< an object type is used at an index or sub-index where it must not be
-  CO_ERR_TYPE_RD,       ///< a type function cannot give the value (SDO abort 0800 0020h)
-  CO_ERR_TYPE_WR,       ///< a type function cannot take the value (SDO abort 0800 0020h)
-  CO_ERR_TYPE_RESET,    ///< a type function cannot reset the object
-  CO_ERR_OBJ_STATE,     ///< not possible in the present device state (SDO abort 0800 0022h)
-  CO_ERR_OBJ_NO_DATA,   ///< there is no data to give (SDO abort 0800 0024h)
-  CO_ERR_LSS_BUSY,      ///< a service of the LSS master is going on
-  CO_ERR_LSS_NO_STORE,  ///< node-ID and bit rate cannot be stored
-  CO_ERR_TYPE_AGAIN,    ///< a Reset function that has not come to the position yet (co_obj.h)
+  CO_ERR_TYPE_INIT,      ///< an object type is used at an index or sub-index where it must not be
+  CO_ERR_TYPE_RD,        ///< a type function cannot give the value (SDO abort 0800 0020h)
+  CO_ERR_TYPE_WR,        ///< a type function cannot take the value (SDO abort 0800 0020h)
+  CO_ERR_TYPE_RESET,     ///< a type function cannot reset the object
+  CO_ERR_OBJ_STATE,      ///< not possible in the present device state (SDO abort 0800 0022h)
+  CO_ERR_OBJ_NO_DATA,    ///< there is no data to give (SDO abort 0800 0024h)
+  CO_ERR_LSS_BUSY,       ///< a service of the LSS master is going on
+  CO_ERR_LSS_NO_STORE,   ///< node-ID and bit rate cannot be stored
+  CO_ERR_TYPE_AGAIN,     ///< a Reset function that has not come to the position yet (co_obj.h)
+  CO_ERR_NODE_EXT,       ///< CONodeInitEx(): CO_NODE_EXT.Size is less than sizeof(CO_NODE_EXT)
+  CO_ERR_NODE_CAN,       ///< CONodeInit(): there is no CAN driver
+  CO_ERR_NODE_TIMER,     ///< CONodeInit(): there is no timer driver
+  CO_ERR_NODE_TMR_FREQ,  ///< CONodeInit(): CO_NODE_SPEC.TmrFreq is 0
+  CO_ERR_NODE_ID,        ///< CONodeInit(): CO_NODE_SPEC.NodeId is not 1…127, nor CO_LSS_NO_NODE_ID with USE_LSS
+  CO_ERR_NODE_DICT,      ///< CONodeInit(): CO_NODE_SPEC.Dict is null, or DictLen is 0
 } CO_ERR;
 
 #ifdef __cplusplus

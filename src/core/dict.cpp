@@ -211,9 +211,9 @@ CO_OBJ* find_entry(CO_DICT* cod, uint32_t key) { return cod == nullptr ? nullptr
 
 extern "C" {
 
-CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
+int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (cod == nullptr || node == nullptr || root == nullptr || max == 0) {
-    return CO_ERR_BAD_ARG;
+    return -1;
   }
   *cod = {};
   cod->Node = node;
@@ -229,7 +229,10 @@ CO_ERR CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   access::lose_moved(*node);
   event::defer(*node, event::remap);
   event::settle(*node);
-  return err;
+  if (err != CO_ERR_NONE) {
+    return -1;
+  }
+  return static_cast<int16_t>(cod->Num < INT16_MAX ? cod->Num : INT16_MAX);
 }
 
 CO_ERR CODictObjInit(CO_DICT* cod, CO_NODE_T* node) {

@@ -119,15 +119,41 @@ void settle(CO_NODE& node, uint8_t what) {
   }
 }
 
-bool has_drivers(const CO_NODE& node) {
-  const bool can = node.Ext->Can != nullptr || node.If.Drv->Can != nullptr;
-  const bool timer = node.Ext->Timer != nullptr || node.If.Drv->Timer != nullptr;
-  return can && timer;
+// Returns the reason why no driver may be called.
+CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
+  if (node.Ext->Size < sizeof(CO_NODE_EXT)) {
+    return CO_ERR_NODE_EXT;
+  }
+  if (node.Ext->Can == nullptr && node.If.Drv->Can == nullptr) {
+    return CO_ERR_NODE_CAN;
+  }
+  if (node.Ext->Timer == nullptr && node.If.Drv->Timer == nullptr) {
+    return CO_ERR_NODE_TIMER;
+  }
+  return spec.TmrFreq == 0 ? CO_ERR_NODE_TMR_FREQ : CO_ERR_NONE;
 }
 
-bool is_usable(const CO_NODE& node) {
-  const bool waits_for_one = USE_LSS != 0 && node.NodeId == wire::no_node_id;
-  return (wire::is_node_id(node.NodeId) || waits_for_one) && node.Ext->Size >= sizeof(CO_NODE_EXT) && has_drivers(node);
+// Returns the reason why the node cannot run with the drivers that it has.
+CO_ERR check_spec(const CO_NODE_SPEC& spec) {
+  const bool is_unconfigured = USE_LSS != 0 && spec.NodeId == wire::no_node_id;
+  if (!wire::is_node_id(spec.NodeId) && !is_unconfigured) {
+    return CO_ERR_NODE_ID;
+  }
+  return spec.Dict == nullptr || spec.DictLen == 0 ? CO_ERR_NODE_DICT : CO_ERR_NONE;
+}
+
+// Starts the drivers and what needs nothing else. A node without drivers gets drivers that do nothing.
+CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
+  const CO_ERR err = check_drivers(node, spec);
+  if (err == CO_ERR_NONE) {
+    node.Tmr.Freq = spec.TmrFreq;
+    port::init(node);
+  } else {
+    node.Ext = &port::no_drivers;
+  }
+  COTmrInit(&node.Tmr, &node, spec.TmrMem, spec.TmrNum, spec.TmrFreq);
+  transmit::init(node);
+  return err != CO_ERR_NONE ? err : check_spec(spec);
 }
 
 void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) {
@@ -307,23 +333,13 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   ASSERT_PTR_FATAL(node);
   ASSERT_PTR_FATAL(spec);
   node::take_over(*node, *spec, ext == nullptr ? port::no_extension : *ext);
-  const bool usable = node::is_usable(*node);
-  if (usable) {
-    node->Tmr.Freq = spec->TmrFreq;
-    port::init(*node);
-  } else {
-    node->Error = CO_ERR_BAD_ARG;
-    node->Ext = &port::no_drivers;
-  }
-  COTmrInit(&node->Tmr, node, spec->TmrMem, spec->TmrNum, spec->TmrFreq);
-  transmit::init(*node);
-  if (!usable) {
+  node->Error = node::begin(*node, *spec);
+  if (node->Error != CO_ERR_NONE) {
     return;
   }
   services::begin_lss(*node);
-  const CO_ERR err = CODictInit(&node->Dict, node, spec->Dict, spec->DictLen);
-  if (err != CO_ERR_NONE) {
-    node->Error = err;
+  if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) < 0) {
+    node->Error = CO_ERR_DICT_INIT;
     return;
   }
   bool initialised = false;

@@ -24,7 +24,7 @@ class LookUp : public Operation {
     for (unsigned n = 0; n < entries_; ++n) {
       table[n] = {key_of(n) | CO_OBJ_D___R_, CO_TUNSIGNED32, (CO_DATA)(0)};
     }
-    if (CODictInit(&owner.Dict, &owner, table, static_cast<std::uint16_t>(entries_)) != CO_ERR_NONE) {
+    if (CODictInit(&owner.Dict, &owner, table, static_cast<std::uint16_t>(entries_)) < 0) {
       fail("dictionary", "it is refused");
     }
   }

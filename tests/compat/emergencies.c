@@ -114,9 +114,11 @@ static void test_the_user_adds_bytes_and_a_history_word(void) {
   uint32_t entry = 0;
   TEST_ASSERT_EQUAL(CO_ERR_NONE, CODictRdLong(&Node.Dict, CO_DEV(0x1003, 1), &entry));
   TEST_ASSERT_EQUAL_HEX32(0x12346200, entry);
-  TEST_ASSERT_EQUAL(CO_ERR_OBJ_NO_DATA, CODictRdLong(&Node.Dict, CO_DEV(0x1003, 2), &entry));
+  TEST_ASSERT_EQUAL(CO_ERR_TYPE_RD, CODictRdLong(&Node.Dict, CO_DEV(0x1003, 2), &entry));
   BusReceive(&Node, "605#4003100100000000");
   TEST_ASSERT_SENT("585#4303100100623412");
+  BusReceive(&Node, "605#4003100200000000");
+  TEST_ASSERT_SENT("585#8003100224000008");
 }
 
 static void test_the_history_is_cleared_by_the_application_and_by_the_network(void) {

@@ -101,6 +101,8 @@ static void test_each_error_code_has_its_number(void) {
 static void test_new_error_codes_follow_the_old_ones(void) {
   TEST_ASSERT_EQUAL_HEX32(0x150, CO_ERR_OBJ_STATE);
   TEST_ASSERT_EQUAL_HEX32(0x151, CO_ERR_OBJ_NO_DATA);
+  TEST_ASSERT_EQUAL_HEX32(0x155, CO_ERR_NODE_EXT);
+  TEST_ASSERT_EQUAL_HEX32(0x15A, CO_ERR_NODE_DICT);
 }
 
 static void test_the_numbers_begin_at_the_base(void) {

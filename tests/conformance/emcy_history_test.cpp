@@ -21,6 +21,16 @@ TEST_CASE("1003h: empty at first; an entry that is not in use has no data [E4] [
   node.ask("601#4003100500000000", "581#8003100511000906");
 }
 
+TEST_CASE("1003h: reading an entry that is not in use by the API returns CO_ERR_TYPE_RD") {
+  EmcyNode node;
+  std::uint32_t entry = 0x12345678;
+  node.call([&] {
+    CHECK(CODictRdLong(&node->Dict, CO_DEV(0x1003, 1), &entry) == CO_ERR_TYPE_RD);
+    CHECK(COObjRdValue(node.find(0x1003, 4), &node.node, &entry, 4) == CO_ERR_TYPE_RD);
+  });
+  CHECK(entry == 0x12345678);
+}
+
 TEST_CASE("1003h: the newest error is at sub-index 1, the oldest falls out [E4]") {
   EmcyNode node;
   node.set(general);

@@ -51,7 +51,7 @@ OD_entry_t* entry_of(Node& node, const OD_stream_t* stream) { return OD_find(&no
 // Without the last entry, and as it was.
 void shorten(Node& node) {
   const auto n = static_cast<std::uint16_t>(node->Dict.Num);
-  CHECK(CODictInit(&node->Dict, &node.node, node->Dict.Root, n) == CO_ERR_NONE);
+  CHECK(CODictInit(&node->Dict, &node.node, node->Dict.Root, n) == n);
 }
 
 void index_anew(Node& node) {

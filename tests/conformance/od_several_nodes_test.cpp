@@ -51,7 +51,7 @@ TEST_CASE("OD several nodes: one constant table, an index for each") {
     nodes[n]->call([&] {
       CHECK(OD_init(&ods[n], lists[n], 3, &nodes[n]->node, root, 2) == ODR_OK);
       const_cast<CO_NODE_EXT*>(nodes[n]->node.Ext)->Od = &ods[n];
-      CHECK(CODictInit(&nodes[n]->node.Dict, &nodes[n]->node, root, 2) == CO_ERR_NONE);
+      CHECK(CODictInit(&nodes[n]->node.Dict, &nodes[n]->node, root, 2) == 2);
     });
   }
   LoggedExtension of_one;

@@ -389,7 +389,7 @@ class Moved : public Fixture {
   Moved() {
     ask("601#2108200008000000", "581#6008200000000000");
     table_.assign(node.Dict.Root, node.Dict.Root + node.Dict.Num);
-    call([this] { CHECK(CODictInit(&node.Dict, &node, table_.data(), node.Dict.Num) == CO_ERR_NONE); });
+    call([this] { CHECK(CODictInit(&node.Dict, &node, table_.data(), node.Dict.Num) == node.Dict.Num); });
   }
   ~Moved() { CONodeStop(&node); }  // before its table is gone
   Moved(const Moved&) = delete;

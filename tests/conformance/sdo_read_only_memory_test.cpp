@@ -41,7 +41,7 @@ bool may_write(const void* address, std::uint32_t) {
 class Device : public Fixture {
  public:
   Device() : Fixture(Setup().only_small().writable(may_write)) {
-    call([this] { CHECK(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(table), std::size(table)) == CO_ERR_NONE); });
+    call([this] { CHECK(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(table), std::size(table)) >= 0); });
   }
 };
 

@@ -57,7 +57,7 @@ typedef struct NODE_TASK_T {
 } NODE_TASK;
 
 /// Initialises the node, starts it, and gives it its task. To be called in a task: the scheduler runs. \a spec needs no
-/// drivers but one for memory, and TmrFreq is set here. Returns the node's error; CO_ERR_DICT_INIT and CO_ERR_BAD_ARG
+/// drivers but one for memory, and TmrFreq is set here. Returns the node's error; CO_ERR_DICT_INIT and CO_ERR_NODE_…
 /// leave it silent.
 CO_ERR NodeTaskStart(NODE_TASK* self, const CO_NODE_SPEC* spec);
 

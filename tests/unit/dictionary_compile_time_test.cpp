@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 
 #include "co/dictionary.hpp"
 #include "co_core.h"
@@ -127,7 +128,7 @@ TEST_CASE("compile-time dictionary: a table in a function is checked as well") {
 
 TEST_CASE("compile-time dictionary: an entry found by the compiler is that of the run-time search") {
   CO_NODE node = {};
-  REQUIRE(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == CO_ERR_NONE);
+  REQUIRE(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == std::size(od) - 1);
   CHECK(node.Dict.Num == 15);
   CHECK(CODictFind(&node.Dict, CO_DEV(0x2100, 1)) == co::entry<od, 0x2100, 1>());
   CHECK(CODictFind(&node.Dict, CO_DEV(0xFFFF, 0xFF)) == co::entry<od, 0xFFFF, 0xFF>());

@@ -64,13 +64,15 @@ struct Failure {
 
 const std::vector<Failure>& failures() {
   static const std::vector<Failure> all = {
-    {"node-ID 0", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 0; }},
-    {"node-ID 128", CO_ERR_BAD_ARG, [](Device& d) { d.spec.NodeId = 128; }},
-    {"no drivers", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Drv = nullptr; }},
-    {"no CAN driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Can = nullptr; }},
-    {"no timer driver", CO_ERR_BAD_ARG, [](Device& d) { d.drivers.Timer = nullptr; }},
-    {"extension without size", CO_ERR_BAD_ARG, [](Device& d) { d.ext.Size = 0; }},
-    {"no dictionary", CO_ERR_BAD_ARG, [](Device& d) { d.spec.Dict = nullptr; }},
+    {"node-ID 0", CO_ERR_NODE_ID, [](Device& d) { d.spec.NodeId = 0; }},
+    {"node-ID 128", CO_ERR_NODE_ID, [](Device& d) { d.spec.NodeId = 128; }},
+    {"no drivers", CO_ERR_NODE_CAN, [](Device& d) { d.spec.Drv = nullptr; }},
+    {"no CAN driver", CO_ERR_NODE_CAN, [](Device& d) { d.drivers.Can = nullptr; }},
+    {"no timer driver", CO_ERR_NODE_TIMER, [](Device& d) { d.drivers.Timer = nullptr; }},
+    {"timer frequency 0", CO_ERR_NODE_TMR_FREQ, [](Device& d) { d.spec.TmrFreq = 0; }},
+    {"extension without size", CO_ERR_NODE_EXT, [](Device& d) { d.ext.Size = 0; }},
+    {"no dictionary", CO_ERR_NODE_DICT, [](Device& d) { d.spec.Dict = nullptr; }},
+    {"a dictionary of length 0", CO_ERR_NODE_DICT, [](Device& d) { d.spec.DictLen = 0; }},
 #if USE_DICT_CHECK
     {"doubled entry", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Key = d.dictionary[0].Key; }},
     {"entry without type", CO_ERR_DICT_INIT, [](Device& d) { d.dictionary[1].Type = nullptr; }},

@@ -142,20 +142,22 @@ TEST_CASE("node: the controller is reached through its driver") {
 TEST_CASE("node: what a node cannot do without") {
   struct Case {
     std::string name;
+    CO_ERR error;
     void (*break_it)(OldNode&);
   };
   const Case cases[] = {
-      {"node-ID 0", [](OldNode& n) { n.spec.NodeId = 0; }},
-      {"node-ID 128", [](OldNode& n) { n.spec.NodeId = 128; }},
-      {"no drivers", [](OldNode& n) { n.spec.Drv = nullptr; }},
-      {"no CAN driver", [](OldNode& n) { n.drivers.Can = nullptr; }},
-      {"no timer driver", [](OldNode& n) { n.drivers.Timer = nullptr; }},
+      {"node-ID 0", CO_ERR_NODE_ID, [](OldNode& n) { n.spec.NodeId = 0; }},
+      {"node-ID 128", CO_ERR_NODE_ID, [](OldNode& n) { n.spec.NodeId = 128; }},
+      {"no drivers", CO_ERR_NODE_CAN, [](OldNode& n) { n.spec.Drv = nullptr; }},
+      {"no CAN driver", CO_ERR_NODE_CAN, [](OldNode& n) { n.drivers.Can = nullptr; }},
+      {"no timer driver", CO_ERR_NODE_TIMER, [](OldNode& n) { n.drivers.Timer = nullptr; }},
+      {"timer frequency 0", CO_ERR_NODE_TMR_FREQ, [](OldNode& n) { n.spec.TmrFreq = 0; }},
   };
   for (const Case& one : cases) {
     CAPTURE(one.name);
     OldNode n;
     one.break_it(n);
-    CHECK(n.init() == CO_ERR_BAD_ARG);
+    CHECK(n.init() == one.error);
     CHECK(n.node.Nmt.Mode == CO_INVALID);
     CONodeStart(&n.node);
     CONodeProcess(&n.node);
@@ -191,13 +193,13 @@ TEST_CASE("node: an object whose Init function fails is told, and the node runs 
   node.tx("701#00");
 }
 
-TEST_CASE("node: without a dictionary it ends with CO_ERR_BAD_ARG in CO_INVALID, and does not start") {
+TEST_CASE("node: without a dictionary it ends with CO_ERR_NODE_DICT in CO_INVALID, and does not start") {
   for (const bool null : {true, false}) {
     CAPTURE(null);
     OldNode n;
     n.spec.Dict = null ? nullptr : n.dictionary;
     n.spec.DictLen = null ? 4 : 0;
-    CHECK(n.init() == CO_ERR_BAD_ARG);
+    CHECK(n.init() == CO_ERR_NODE_DICT);
     CHECK(n.node.Nmt.Mode == CO_INVALID);
     CONodeStart(&n.node);
     CONodeProcess(&n.node);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 
@@ -67,7 +68,7 @@ struct Node : CO_NODE {
     static constexpr CO_NODE_EXT nothing = {};
     NodeId = 5;
     Ext = &nothing;
-    REQUIRE(CODictInit(&Dict, this, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == CO_ERR_NONE);
+    REQUIRE(CODictInit(&Dict, this, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == std::size(od) - 1);
   }
 };
 

@@ -43,7 +43,11 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_NONE;
   }
   CO_OBJ* const place = sub > history.Num ? nullptr : dict::find(node->Dict, CO_DEV(index, place_of(history, sub)));
-  return place == nullptr ? CO_ERR_OBJ_NO_DATA : CO_TUNSIGNED32->Read(place, node, buffer, size);
+  if (place == nullptr) {
+    COObjTypeUserSDOAbort(obj, node, CO_SDO_ERR_NO_DATA);
+    return CO_ERR_TYPE_RD;
+  }
+  return CO_TUNSIGNED32->Read(place, node, buffer, size);
 }
 
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
