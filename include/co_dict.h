@@ -7,6 +7,7 @@
 #define CO_DICT_H_
 
 #include "co_cfg.h"
+#include "co_nmt.h"
 #include "co_obj.h"
 
 #ifdef __cplusplus
@@ -37,7 +38,8 @@ typedef struct CO_DICT_T {
   struct CO_OBJ_T*
       Next;  ///< entry behind the one found last: the next sub-index is found without a search; null: no entries
 #endif
-  uint16_t Num;  ///< entries in use
+  struct CO_OBJ_T* End;  ///< end mark with a type (CO_OBJ_DICT_DEFAULTS()), or null
+  uint16_t Num;          ///< entries in use
 #if USE_FAST_PATHS
   uint8_t Steps;  ///< halvings that a search needs in either half
 #endif
@@ -47,6 +49,50 @@ typedef struct CO_DICT_T {
 #endif
   struct CO_NODE_T* Node;  ///< owner
 } CO_DICT;
+
+/// \name Power-on values [301:7.3.2.2.1]
+/// Variables that no parameter group stores (co_para.h) have their default values after CONodeInit() and after NMT
+/// resets if the end mark of the table names them:
+///
+///     static struct { uint32_t SyncId; uint16_t Heartbeat; } Com;   // 1005h, 1017h
+///     static struct { int16_t Setpoint; } App;                      // 2100h
+///     static const struct … ComDefault = {0x80, 1000};
+///     static const CO_DEFAULTS Defaults[] = {CO_DEFAULTS_OF(Com, ComDefault, CO_RESET_COM),
+///                                            CO_DEFAULTS_ZERO(App, CO_RESET_NODE), CO_DEFAULTS_END};
+///     …
+///     CO_OBJ_DICT_DEFAULTS(Defaults)};   // in place of CO_OBJ_DICT_ENDMARK
+///
+/// The values are copied before parameter groups are loaded and before the Init functions of the entries run. So every
+/// service uses them. The end mark must be among the entries that DictLen counts. Memory of any kind can be named: a
+/// string is reset completely if its CO_OBJ_STR_RW and its bytes are. Not to be named: 1001h and 1003h, which the stack
+/// writes.
+/// \{
+
+/// Variables that get their default values together.
+typedef struct CO_DEFAULTS_T {
+  void* Start;               ///< the variables
+  const void* Default;       ///< their default values, or null: all bytes are 0
+  uint32_t Size;             ///< bytes; 0 ends the list
+  enum CO_NMT_RESET_T Type;  ///< CO_RESET_COM: reset by both NMT resets; CO_RESET_NODE: by reset node
+} CO_DEFAULTS;
+
+#define CO_DEFAULTS_OF(variables, defaults, type) \
+  { &(variables), &(defaults), sizeof(variables), (type) }
+#define CO_DEFAULTS_ZERO(variables, type) \
+  { &(variables), 0, sizeof(variables), (type) }
+#define CO_DEFAULTS_END \
+  { 0, 0, 0, CO_RESET_INVALID }
+
+/// End mark of a table: \a list is an array of CO_DEFAULTS.
+#define CO_OBJ_DICT_DEFAULTS(list) \
+  { 0, CO_TDEFAULTS, (CO_DATA)(&(list)[0]) }
+
+/// Type of that end mark. An end mark may have a type of the application in its place, which has a Reset function and
+/// no Size function: Reset(end mark, node, CO_RESET_NODE or CO_RESET_COM) is called then. CONodeInit() calls it with
+/// CO_RESET_NODE.
+extern const CO_OBJ_TYPE COTDefaults;
+#define CO_TDEFAULTS ((const CO_OBJ_TYPE*)&COTDefaults)
+/// \}
 
 /// Finds an entry by index and sub-index (CO_DEV(); flags of \a key are ignored).
 /// Returns the entry; null if there is none or \a cod is null.

@@ -86,7 +86,8 @@ struct CO_OBJ_T;
 #define CO_IS_DIRECT(key) ((uint32_t)((key)&CO_OBJ_D_____))
 /// \}
 
-/// Ends a dictionary table. Tables that are as long as DictLen says need none.
+/// Ends a dictionary table. Tables that are as long as DictLen says need none. CO_OBJ_DICT_DEFAULTS() (co_dict.h) ends
+/// a table whose variables get their default values at power-on and by NMT resets.
 #define CO_OBJ_DICT_ENDMARK \
   { 0, (CO_OBJ_TYPE*)0, 0 }
 

@@ -14,8 +14,8 @@
 /// communication, 3 = application, 4…127 = the manufacturer's. It names a CO_PARA then, too, whose memory is neither
 /// stored nor loaded: { 0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E }. A group is loaded, before anything uses
 /// its values, by CONodeInit() and by the NMT reset of its Type: CO_RESET_COM by both resets, CO_RESET_NODE by reset
-/// node. "load" takes effect then, too, also after the power was off in between. Where nothing was stored, and after
-/// "load", a group gets its Default values; without any its memory stays as it is.
+/// node (and its first ComSize bytes by both). "load" takes effect then, too, also after the power was off in between.
+/// Where nothing was stored, and after "load", a group gets its Default values; without any its memory stays as it is.
 ///
 /// What is stored is never torn: with a driver that tells the shape of the memory (CO_IF_NVM_DRV_EX.Shape) a group
 /// holds after a power failure, at whatever moment, exactly its old or exactly its new values. It takes CO_PARA_SPACE()
@@ -73,6 +73,13 @@ typedef struct CO_PARA_T {
   enum CO_NMT_RESET_T Type;  ///< the reset that loads them
   void* Ident;               ///< for the application; where it calls OD_findStorageGroup(), a name or null
   uint32_t Value;            ///< CO_PARA_…, plus CO_PARA_VERSION()
+  /// Of a group with Type CO_RESET_NODE: bytes, from Start on, that hold objects of the communication profile
+  /// (1000h…1FFFh). Reset communication loads them, or copies their Default; COParaDefault() is not called for it.
+#ifdef __cplusplus
+  uint32_t ComSize = 0;
+#else
+  uint32_t ComSize;
+#endif
 } CO_PARA;
 
 /// Types of 1010h and 1011h: sub-index 0 as an UNSIGNED8, the others name a CO_PARA. Reading 1010h tells CO_PARA.Value

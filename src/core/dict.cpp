@@ -33,6 +33,12 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
 
 namespace {
 
+// The end mark, if it has a type for power-on values: any other one is ignored, as its members may hold anything.
+CO_OBJ* typed_end(CO_OBJ* root, uint16_t num, uint16_t max) {
+  const CO_OBJ_TYPE* const type = num < max ? root[num].Type : nullptr;
+  return type != nullptr && type->Size == nullptr && type->Reset != nullptr ? &root[num] : nullptr;
+}
+
 #if USE_DICT_CHECK
 CO_ERR check(CO_DICT& dict) {
   uint32_t key_before = 0;
@@ -158,6 +164,13 @@ CO_OBJ* find(CO_DICT& dict, uint32_t key) {
 
 #endif
 
+void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
+  CO_OBJ* const end = node.Dict.End;
+  if (end != nullptr) {
+    (void)end->Type->Reset(end, &node, type);
+  }
+}
+
 // Only asked when a look-up has failed: the plain search is small.
 bool has_index(const CO_DICT& dict, uint32_t key) {
   const uint32_t place = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
@@ -219,6 +232,7 @@ int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   cod->Node = node;
   cod->Root = root;
   cod->Num = dict::count_entries(root, max);
+  cod->End = dict::typed_end(root, cod->Num, max);
   const CO_ERR err = dict::check(*cod);
   if (err != CO_ERR_NONE) {
     cod->Num = 0;

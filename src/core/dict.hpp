@@ -13,6 +13,9 @@ namespace co::dict {
 [[nodiscard]] uint16_t count_entries(const CO_OBJ* root, uint16_t max);
 [[nodiscard]] uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key);
 
+// Gives the variables that the end mark of the table names their default values.
+void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
+
 // Is there an entry with this index, at whatever sub-index?
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 

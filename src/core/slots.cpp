@@ -170,14 +170,15 @@ struct Slots {
   Slot other;
 };
 
-// To where the application has its data: in the node's turn.
-bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to) {
+// Copies the first size bytes to where the application has its data: in the node's turn.
+bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
+  const uint32_t start = slot.start + header_size(node);
   wire::Crc32 crc = crc_of(slot.header);
-  if (port::nvm_read(node, slot.start + header_size(node), to, record.size) != record.size) {
+  if (port::nvm_read(node, start, to, size) != size) {
     return false;
   }
-  crc.add(to, record.size);
-  return crc.value() == slot.header.crc;
+  crc.add(to, size);
+  return add(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
 }
 
 bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
@@ -283,11 +284,11 @@ Found look(const CO_NODE& node, const Record& record) {
   return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
 }
 
-Found load(const CO_NODE& node, const Record& record, uint8_t* to) {
+Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   const Slots slots(node, record);
   const Slot* const by_age[] = {&slots.newest, &slots.other};
   for (const Slot* const slot : by_age) {
-    if (slot->found == Found::defaults || (slot->found == Found::data && copy(node, record, *slot, to))) {
+    if (slot->found == Found::defaults || (slot->found == Found::data && copy(node, record, *slot, to, size))) {
       return slot->found;
     }
   }

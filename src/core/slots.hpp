@@ -11,7 +11,7 @@ namespace co::slots {
 [[nodiscard]] bool fits(const CO_NODE& node, const store::Record& record);
 
 [[nodiscard]] store::Found look(const CO_NODE& node, const store::Record& record);
-[[nodiscard]] store::Found load(const CO_NODE& node, const store::Record& record, uint8_t* to);
+[[nodiscard]] store::Found load(const CO_NODE& node, const store::Record& record, uint8_t* to, uint32_t size);
 
 // What is stored already is not written again. Success means that it was read back. data: null for the defaults.
 [[nodiscard]] CO_ERR save(const CO_NODE& node, const store::Record& record, const uint8_t* data);

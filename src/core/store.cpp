@@ -73,13 +73,13 @@ Found look(const CO_NODE& node, const Record& record) {
   return slots::fits(node, record) ? slots::look(node, record) : Found::no_place;
 }
 
-Found load(const CO_NODE& node, const Record& record, uint8_t* to) {
+Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   if (port::nvm_has_shape(node)) {
-    return slots::fits(node, record) ? slots::load(node, record, to) : Found::no_place;
+    return slots::fits(node, record) ? slots::load(node, record, to, size) : Found::no_place;
   }
   const Found found = look(node, record);
   const bool is_data = found == Found::data;
-  return is_data && port::nvm_read(node, record.start, to, record.size) != record.size ? Found::lost : found;
+  return is_data && port::nvm_read(node, record.start, to, size) != size ? Found::lost : found;
 }
 
 CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data) {

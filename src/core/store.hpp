@@ -27,9 +27,9 @@ enum class Found : uint8_t {
 // What there is.
 [[nodiscard]] Found look(const CO_NODE& node, const Record& record);
 
-// The same, and copies the data if this is the answer. They have been checked before, if they can be: nothing is copied
-// else, unless the memory cannot be read twice.
-[[nodiscard]] Found load(const CO_NODE& node, const Record& record, uint8_t* to);
+// The same, and copies the first size bytes of the data if this is the answer. All data have been checked before, if
+// they can be: nothing is copied else, unless the memory cannot be read twice.
+[[nodiscard]] Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size);
 
 // Stores data; CO_ERR_PARA_STORE: no place, CO_ERR_IF_NVM_WRITE: the memory does not hold them.
 [[nodiscard]] CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data);

@@ -38,10 +38,8 @@ void check_mandatory_objects(CO_NODE& node) {
     return false;
   }
   routes::clear(node);
-  if (type == CO_RESET_NODE) {
-    services::load(node, CO_RESET_NODE);
-  }
-  services::load(node, CO_RESET_COM);
+  dict::set_power_on_values(node, type);
+  services::load(node, type);
   if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
     node.Error = CO_ERR_OBJ_INIT;
   }

@@ -125,7 +125,14 @@ bool is_started(const CO_NODE& node) { return node.Lss.Started != 0; }
 #endif
 
 #if USE_PARA
-void load(CO_NODE& node, CO_NMT_RESET type) { (void)para::load(node, type); }
+void load(CO_NODE& node, CO_NMT_RESET type) {
+  if (type == CO_RESET_NODE) {
+    (void)para::load(node, CO_RESET_NODE);
+  } else {
+    para::load_communication(node);
+  }
+  (void)para::load(node, CO_RESET_COM);
+}
 void save_changes(CO_NODE& node) { para::save_changes(node); }
 #endif
 

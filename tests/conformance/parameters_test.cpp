@@ -180,6 +180,113 @@ TEST_CASE("parameters: a reset loads what was stored: communication its groups, 
   }
 }
 
+// A group of reset node whose first bytes are an object of the communication profile.
+struct MixedGroup {
+  struct Memory {
+    std::uint16_t heartbeat;
+    std::uint8_t unused[2];
+    std::uint32_t number;
+  };
+
+  explicit MixedGroup(const CO_NVM_SHAPE* shape) : nvm(shape == nullptr ? CO_NVM_SHAPE{1024, 1, 0} : *shape) {
+    has_shape = shape != nullptr;
+  }
+
+  Setup setup() {
+    static const CO_IF_NVM_DRV_EX without_shape = [] {
+      CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
+      driver.Shape = nullptr;
+      return driver;
+    }();
+    return Setup()
+        .only_small()
+        .may_change(0x1017, 0)
+        .may_change(0x2300, 1)
+        .nvm(has_shape ? FailingNvm::driver : without_shape, &nvm)
+        .with({CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, Device::data(&group)})
+        .with({CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, Device::data(&group)})
+        .with({CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, Device::data(&ram.heartbeat)})
+        .with({CO_KEY(0x2300, 1, CO_OBJ_____RW), CO_TUNSIGNED32, Device::data(&ram.number)});
+  }
+
+  FailingNvm nvm;
+  bool has_shape;
+  Memory ram = {0, {}, 0};
+  Memory defaults = {1000, {}, 10};
+  CO_PARA group{0, sizeof(Memory), &ram, &defaults, CO_RESET_NODE, nullptr, CO_PARA___E};
+};
+
+TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a group of reset node, and no others") {
+  const CO_NVM_SHAPE bytes = {1024, 1, 0};
+  const CO_NVM_SHAPE pages = {1024, 8, 128};
+  for (const CO_NVM_SHAPE* shape : {&bytes, &pages, static_cast<const CO_NVM_SHAPE*>(nullptr)}) {
+    CAPTURE(shape == nullptr);
+    MixedGroup device(shape);
+    device.group.ComSize = offsetof(MixedGroup::Memory, number);
+    Fixture node(device.setup());
+    // Nothing was stored: the default value, for 1017h alone.
+    node.ask("601#2B171000FA000000", "581#6017100000000000");
+    node.ask("601#2300230101000000", "581#6000230100000000");
+    node.rx("000#8201");
+    node.tx("701#00");
+    node.ask("601#4017100000000000", "581#4B171000E8030000");
+    node.ask("601#4000230100000000", "581#4300230101000000");
+    // 7 and 2 are stored; then other values are written.
+    node.ask("601#2B17100007000000", "581#6017100000000000");
+    node.ask("601#2300230102000000", "581#6000230100000000");
+    node.ask("601#2310100173617665", "581#6010100100000000");
+    node.ask("601#2B17100000000000", "581#6017100000000000");
+    node.ask("601#2300230103000000", "581#6000230100000000");
+    node.rx("000#8201");
+    node.tx("701#00");
+    node.ask("601#4017100000000000", "581#4B17100007000000");
+    node.ask("601#4000230100000000", "581#4300230103000000");
+    node.ask("601#2B17100000000000", "581#6017100000000000");
+    node.rx("000#8101");
+    node.tx("701#00");
+    node.ask("601#4000230100000000", "581#4300230102000000");
+    // "load" acts on 1017h alone, too.
+    node.ask("601#231110016C6F6164", "581#6011100100000000");
+    node.rx("000#8201");
+    node.tx("701#00");
+    node.ask("601#4017100000000000", "581#4B171000E8030000");
+    node.ask("601#4000230100000000", "581#4300230102000000");
+    CHECK(node.error() == CO_ERR_NONE);
+  }
+}
+
+TEST_CASE("parameters: without such a part, or with one that is larger than the group, nothing is loaded") {
+  for (const std::uint32_t size : {0U, 9U, UINT32_MAX}) {
+    const CO_NVM_SHAPE bytes = {1024, 1, 0};
+    MixedGroup device(&bytes);
+    device.group.ComSize = size;
+    Fixture node(device.setup());
+    node.ask("601#2B17100000000000", "581#6017100000000000");
+    node.ask("601#2300230101000000", "581#6000230100000000");
+    node.rx("000#8201");
+    node.tx("701#00");
+    node.ask("601#4017100000000000", "581#4B17100000000000");
+    node.ask("601#4000230100000000", "581#4300230101000000");
+  }
+}
+
+TEST_CASE(
+    "parameters: a part that is damaged in the memory gets its default values, and COParaLost() names the group") {
+  const CO_NVM_SHAPE bytes = {1024, 1, 0};
+  MixedGroup device(&bytes);
+  device.group.ComSize = offsetof(MixedGroup::Memory, number);
+  Fixture node(device.setup());
+  node.ask("601#2B17100000000000", "581#6017100000000000");
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  node.ask("601#2300230102000000", "581#6000230100000000");
+  device.nvm.bytes[20 + offsetof(MixedGroup::Memory, number)] ^= 1;  // of the other part
+  node.rx("000#8201");
+  node.tx("701#00");
+  node.ask("601#4017100000000000", "581#4B171000E8030000");
+  node.ask("601#4000230100000000", "581#4300230102000000");
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+}
+
 TEST_CASE("parameters: \"load\" changes nothing before the reset that the group names [S5]") {
   Device device;
   Fixture node(device.setup());

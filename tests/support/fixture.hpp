@@ -111,6 +111,7 @@ class Setup {
   Setup& emergencies(std::vector<CO_EMCY_TBL> table);
   Setup& with(CO_OBJ entry);  ///< adds an entry to the dictionary, or replaces it
   Setup& without(std::uint16_t index, std::uint8_t sub);
+  Setup& ends_with(CO_OBJ end_mark);
   Setup& only_small();          ///< without the domains of more than 15 bytes: fast, for sweeps
   Setup& with_70000();          ///< a domain of that size: looking at it after each frame takes its time
   Setup& with_mebibyte();       ///< a domain of that size, which is not watched
@@ -155,6 +156,7 @@ class Setup {
   bool sdo_buffer_ = true;
   std::map<std::uint32_t, CO_OBJ> with_;
   std::vector<std::uint32_t> without_;
+  CO_OBJ end_mark_ = CO_OBJ_DICT_ENDMARK;
   std::function<bool(const void*, std::uint32_t)> may_write_;
   std::function<void(Objects&)> before_init_;
   const CO_IF_NVM_DRV_EX* nvm_ = nullptr;

@@ -22,6 +22,7 @@ Setup& Setup::without(std::uint16_t index, std::uint8_t sub) { return without_.p
 Setup& Setup::only_small() { return large_domains_ = false, *this; }
 Setup& Setup::with_70000() { return long_ = true, *this; }
 Setup& Setup::with_mebibyte() { return mebibyte_ = true, *this; }
+Setup& Setup::ends_with(CO_OBJ end_mark) { return end_mark_ = end_mark, *this; }
 Setup& Setup::without_sdo_buffer() { return sdo_buffer_ = false, *this; }
 Setup& Setup::writable(std::function<bool(const void*, std::uint32_t)> may_write) {
   return may_write_ = std::move(may_write), *this;
@@ -163,7 +164,7 @@ std::vector<CO_OBJ> Setup::dictionary(Objects& objects) const {
   }
   table.clear();
   std::transform(sorted.begin(), sorted.end(), std::back_inserter(table), [](const auto& pair) { return pair.second; });
-  table.push_back(CO_OBJ CO_OBJ_DICT_ENDMARK);
+  table.push_back(end_mark_);
   return table;
 }
 

@@ -28,7 +28,7 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
-  const store::Found found = store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored));
+  const store::Found found = store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored);
   if (found == store::Found::data) {
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);

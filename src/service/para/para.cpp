@@ -21,20 +21,22 @@ uint8_t* bytes(const CO_PARA& group) { return group.Start; }
 // CO_PARA.Value holds the version of the layout above its flags.
 store::Record record_of(const CO_PARA& group) { return {group.Offset, group.Size, group.Value >> version_bit}; }
 
-CO_ERR use_defaults(const CO_PARA& group, Found found) {
+CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
-    __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), group.Size);
+    __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
   }
-  const bool asked = found == Found::defaults;
+  // The callback of the application sets the whole group.
+  const bool asked = found == Found::defaults && size == group.Size;
   return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
 }
 
-CO_ERR load(CO_NODE& node, const CO_PARA& group) {
-  const Found found = store::load(node, record_of(group), bytes(group));
+// Loads the first size bytes of a group.
+CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
+  const Found found = store::load(node, record_of(group), bytes(group), size);
   if (found == Found::data) {
     return CO_ERR_NONE;
   }
-  const CO_ERR err = use_defaults(group, found);
+  const CO_ERR err = use_defaults(group, size, found);
   if (found == Found::lost) {
     COParaLost(&node, &group);
     return CO_ERR_PARA_LOAD;
@@ -108,16 +110,28 @@ CO_ERR save(CO_NODE& node, const CO_PARA& group) { return store::save(node, reco
 
 CO_ERR restore(CO_NODE& node, const CO_PARA& group) { return store::save_defaults(node, record_of(group)); }
 
-CO_ERR load(CO_NODE& node, CO_NMT_RESET type) {
+namespace {
+
+// Loads the first bytes of the groups of a reset, as many as a member says: all of them, or a part.
+CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
+  const bool is_part = member != &CO_PARA::Size;
   CO_ERR last = CO_ERR_NONE;
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
-    const CO_ERR err = group->Type == type ? load(node, *group) : CO_ERR_NONE;
+    const uint32_t size = group->*member;
+    const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
+    const CO_ERR err = is_loaded ? load(node, *group, size) : CO_ERR_NONE;
     last = err == CO_ERR_NONE ? last : err;
   }
   node.Error = last == CO_ERR_NONE ? node.Error : last;
   return last;
 }
+
+}  // namespace
+
+CO_ERR load(CO_NODE& node, CO_NMT_RESET type) { return load(node, type, &CO_PARA::Size); }
+
+void load_communication(CO_NODE& node) { (void)load(node, CO_RESET_NODE, &CO_PARA::ComSize); }
 
 void save_changes(CO_NODE& node) {
   Groups groups(node, store_index);

@@ -10,6 +10,9 @@ namespace co::para {
 // what went wrong last, which is the node's error, too.
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type);
 
+// Loads the objects of the communication profile in groups of reset node (CO_PARA.ComSize).
+void load_communication(CO_NODE& node);
+
 // What groups that are stored autonomously have not yet been stored.
 void save_changes(CO_NODE& node);
 
