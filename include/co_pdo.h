@@ -145,8 +145,8 @@ typedef struct CO_MPDO_T {                  ///< the lists, resolved
 /// keeps it from being sent is the node's error; \a num out of range: CO_ERR_TPDO_NUM_TRIGGER.
 void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num);
 
-/// The same for all TPDOs of \a tpdo (node.TPdo) that map \a obj. An object that cannot be mapped (flag P), or that no
-/// TPDO maps: CO_ERR_TPDO_OBJ_TRIGGER.
+/// Like COTPdoTrigPdo(), for all TPDOs of \a tpdo (node.TPdo) that map \a obj. If no TPDO maps it, or it is not an
+/// entry of the node's dictionary: CO_ERR_TPDO_OBJ_TRIGGER.
 void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 
 /// An event for TPDO \a num, 0…CO_TPDO_N-1. [301:7.2.2.5] It is sent now, or as soon as its inhibit time has passed, or

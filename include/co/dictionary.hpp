@@ -289,10 +289,67 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   return of_type != CO_DICT_OK ? of_type : check_content(entry.Key, data);
 }
 
+/// Position of an entry, or the length of the table.
+template <std::size_t Length>
+constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
+  for (std::size_t i = 0; i < Length && od[i].Key != 0; ++i) {
+    if ((od[i].Key >> 8) == (key >> 8)) {
+      return i;
+    }
+  }
+  return Length;
+}
+
+constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
+  return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
+}
+
+/// The number of mapped objects in a mapping, if it is a constant of the table. Otherwise the highest that there is.
+template <const auto& Od>
+constexpr std::uintptr_t mapped_number(std::uint16_t index) {
+  constexpr std::uintptr_t highest = 64;
+  const std::size_t number = position(Od, key_of(index, 0));
+  if (number == length(Od) || !rules::has(Od[number].Key, CO_OBJ_D_____)) {
+    return highest;
+  }
+  return content<Od>(number) == Content::address ? highest : Od[number].Data.value();
+}
+
+/// The entry without flag P that the mapping entry at \a place maps, or the length of the table. A mapping in a
+/// variable is not known to the compiler. FEh and FFh are the numbers of multiplex PDOs, which do not use their
+/// entries.
+template <const auto& Od>
+constexpr std::size_t find_unmappable(std::size_t place) {
+  const std::uint32_t key = Od[place].Key;
+  const bool is_mapping = rules::is_place(rules::pdo_mapping, key) && rules::has(key, CO_OBJ_D_____);
+  if (!is_mapping || content<Od>(place) != Content::value) {
+    return length(Od);
+  }
+  const std::uintptr_t number = mapped_number<Od>(rules::index_of(key));
+  const auto mapping = static_cast<std::uint32_t>(Od[place].Data.value());
+  if (number > rules::pdo_mapping.last_sub || rules::sub_of(key) > number || rules::is_static_type(mapping)) {
+    return length(Od);
+  }
+  const std::size_t mapped = position(Od, mapping);
+  return mapped < length(Od) && !rules::has(Od[mapped].Key, CO_OBJ____P__) ? mapped : length(Od);
+}
+
 struct Finding {
   CO_DICT_FAULT fault;
   std::uint32_t key;
 };
+
+/// The first object that a PDO maps and that has no flag P.
+template <const auto& Od>
+constexpr Finding check_mappings() {
+  for (std::size_t place = 0; place < length(Od); ++place) {
+    const std::size_t mapped = find_unmappable<Od>(place);
+    if (mapped < length(Od)) {
+      return {CO_DICT_NOT_MAPPABLE, Od[mapped].Key};
+    }
+  }
+  return {CO_DICT_OK, 0};
+}
 
 /// The first fault of the table.
 template <const auto& Od>
@@ -311,28 +368,13 @@ constexpr Finding check() {
     }
     previous = key;
   }
-  return {CO_DICT_OK, 0};
+  return check_mappings<Od>();
 }
 
 template <const auto& Od>
 constexpr bool is_proved() {
   constexpr Finding finding = check<Od>();
   return Dictionary<finding.fault, IndexOf<rules::index_of(finding.key)>, SubOf<rules::sub_of(finding.key)>>::proved;
-}
-
-/// Position of an entry, or the length of the table.
-template <std::size_t Length>
-constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
-  for (std::size_t i = 0; i < Length && od[i].Key != 0; ++i) {
-    if ((od[i].Key >> 8) == (key >> 8)) {
-      return i;
-    }
-  }
-  return Length;
-}
-
-constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
-  return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
 }
 
 }  // namespace dictionary

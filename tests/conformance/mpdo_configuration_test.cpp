@@ -403,6 +403,44 @@ TEST_CASE("MPDO lists: with plain types they are read when the PDO is switched o
   CHECK(node.u8[1] == 0xA1);
 }
 
+TEST_CASE("MPDO lists: 1FCFh and 1FFFh are the last of them; the next index is none [301:7.5.2.39-40]") {
+  MpdoTable table;
+  table.tpdo[0].on(0x40000181, 255, {}).number = sam;
+  table.rpdo[0].on(0x201, 255, {}).number = sam;
+  table.scan[0] = 0x01220101;
+  table.dispatch[0] = 0x0122010160000105;
+  std::uint32_t last_scan = 0x01220102;
+  std::uint32_t no_scan = 0x01220103;
+  std::uint64_t last_dispatch = 0x0122010260000205;
+  std::uint64_t no_dispatch = 0x0122010360000305;
+  MpdoNode node(table, [&](Setup& setup) {
+    setup.with({CO_KEY(0x1FCF, 254, CO_OBJ_____RW), CO_TPDO_SCAN, CO_DATA(&last_scan)});
+    setup.with({CO_KEY(0x1FFF, 254, CO_OBJ_____RW), CO_TPDO_DISPATCH, CO_DATA(&last_dispatch)});
+    setup.with({CO_KEY(0x2000, 1, CO_OBJ_____RW), CO_TUNSIGNED64, CO_DATA(&no_dispatch)});
+  });
+  CHECK(node.error() == CO_ERR_NONE);
+  node.start();
+  node.frames_per_call(2);
+  CHECK(node.request(0) == CO_ERR_NONE);
+  node.tx({"181#0101220111000000", "181#0101220221000000"});
+  node.rx("201#05006002A2000000");
+  CHECK(node.u8[1] == 0xA2);
+  node.rx("201#05006003A3000000");
+  CHECK(node.u8[2] == 0x31);
+
+  MpdoNode without_dispatching(table, [&](Setup& setup) {
+    setup.with({CO_KEY(0x1FCF, 254, CO_OBJ_____RW), CO_TPDO_SCAN, CO_DATA(&last_scan)});
+    for (std::uint8_t sub = 0; sub <= 4; ++sub) {
+      setup.without(0x1FD0, sub).without(0x1FD1, sub);
+    }
+    setup.with({CO_KEY(0x1FD0, 1, CO_OBJ_____RW), CO_TUNSIGNED32, CO_DATA(&no_scan)});
+  });
+  without_dispatching.start();
+  without_dispatching.frames_per_call(3);
+  CHECK(without_dispatching.request(0) == CO_ERR_NONE);
+  without_dispatching.tx({"181#0101220111000000", "181#0101220221000000"});
+}
+
 // What the compiler checks.
 
 static_assert(CO_MPDO_SCAN(3, 0x2201, 4) == 0x03220104);

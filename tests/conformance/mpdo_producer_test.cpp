@@ -266,6 +266,33 @@ TEST_CASE("MPDO from a source: all objects, an inhibit time apart [X6]") {
   node.silent();
 }
 
+#if USE_SDO_BLOCK
+
+TEST_CASE("MPDO from a source: a block upload that goes on does not shorten the inhibit time [X6]") {
+  MpdoNode node(from_source(100));
+  node.start();
+  node.ask("601#A008100014000000", "581#C608100011000000");
+  write(node, 0x2211, 0x42);
+  node.tx("181#0111220142000000");
+  write(node, 0x2211, 0x43);
+  node.can.refuse_all();
+  node.rx("601#A300000000000000");
+  node.silent();
+  node.can.accept_all();
+  node.frames_per_call(4);
+  node.loop();
+  node.tx({"581#014C65786963616E", "581#022074657374206E", "581#836F646500000000"});
+  node.after(9ms);
+  node.silent();
+  node.after(1ms);
+  node.tx("181#0111220143000000");
+  node.ask("601#A203140000000000", "581#D100000000000000");
+  node.rx("601#A100000000000000");
+  node.silent();
+}
+
+#endif
+
 TEST_CASE("MPDO from a source: the event timer sends all objects [X7]") {
   MpdoTable table = from_source();
   table.tpdo[0].event = 50;

@@ -139,7 +139,6 @@ const Constant wrong_mappings[] = {
     {0, 1, {0x30000108}},
     {0, 2, {0x22010108, 0x30000108}},
     {0, 1, {0x22010908}},
-    {0, 2, {0x22010108, 0x22410108}},
     {0, 1, {0x00020010}},
     {0, 1, {0x00020108}},
     {0, 1, {0x00080020}},
@@ -272,6 +271,133 @@ TEST_CASE("PDO static: a transmission type that the network must not write makes
     node.check_others();
     node.check_no_tpdo();
   }
+}
+
+// The designer maps 2241h:1 and 2242h:1, which have no flag P ---------------------------------------------------------
+
+constexpr std::uint32_t abort_not_mappable = 0x06040041;
+
+/// RPDO 0 on 201h and TPDO 0 on 181h, in variables that the network may write.
+PdoTable without_flag_p() {
+  PdoTable table;
+  table.rpdo[0].on(0x201, 255, {0x22010108, 0x22410108});
+  table.tpdo[0].on(0x40000181, 254, {0x22420110, 0x22410108});
+  return table;
+}
+
+void check_works(PdoNode& node) {
+  node.start();
+  node.n8 = 0;
+  node.rx("201#A1A2");
+  CHECK(node.u8[0] == 0xA1);
+  CHECK(node.n8 == 0xA2);
+  node.trigger(0);
+  node.tx("181#1112A2");
+}
+
+TEST_CASE("PDO static: constant entries may map objects without flag P") {
+  Static node({{0x1600, 2, {0x22010108, 0x22410108}}, {0x1A00, 2, {0x22420110, 0x22410108}}});
+  CHECK(node.error() == CO_ERR_NONE);
+  node.check_others();
+  check_works(node);
+}
+
+TEST_CASE("PDO static: objects without flag P work after resets, and when the PDO was off meanwhile") {
+  PdoNode node(without_flag_p());
+  CHECK(node.error() == CO_ERR_NONE);
+  check_works(node);
+  for (const std::string reset : {"000#8201", "000#8101"}) {
+    CAPTURE(reset);
+    node.rx(reset);
+    node.tx("701#00");
+    CHECK(node.error() == CO_ERR_NONE);
+    check_works(node);
+    CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
+    CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+    node.rx("201#B1B2");
+    CHECK(node.n8 == 0xA2);
+    CHECK(node.set(0x1400, 1, 4, 0x201) == 0);
+    CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
+    check_works(node);
+  }
+}
+
+TEST_CASE("PDO static: the network does not map objects without flag P, also where the table did: 0604 0041h [M5]") {
+  for (const std::string reset : {"", "000#8201", "000#8101"}) {
+    CAPTURE(reset);
+    PdoNode node(without_flag_p());
+    if (!reset.empty()) {
+      node.rx(reset);
+      node.frames();
+    }
+    node.start();
+    CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
+    CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+    CHECK(node.set(0x1600, 0, 1, 0) == 0);
+    CHECK(node.set(0x1A00, 0, 1, 0) == 0);
+    CHECK(node.set(0x1600, 1, 4, 0x22010108) == 0);
+    CHECK(node.set(0x1600, 2, 4, 0x22410108) == abort_not_mappable);
+    CHECK(node.set(0x1A00, 1, 4, 0x22420110) == abort_not_mappable);
+    CHECK(node.set(0x1A00, 2, 4, 0x22410108) == abort_not_mappable);
+    CHECK(node.set(0x1600, 0, 1, 2) == abort_not_mappable);
+    CHECK(node.set(0x1A00, 0, 1, 2) == abort_not_mappable);
+    CHECK(node.get(0x1600, 0) == 0);
+    CHECK(node.get(0x1A00, 0) == 0);
+    CHECK(node.set(0x1400, 1, 4, 0x201) == 0x06090030);
+    CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0x06090030);
+    CHECK(node.set(0x1600, 0, 1, 1) == 0);
+    CHECK(node.set(0x1400, 1, 4, 0x201) == 0);
+    node.rx("201#C1");
+    CHECK(node.u8[0] == 0xC1);
+    CHECK(node.n8 == 0x11);
+  }
+}
+
+TEST_CASE("PDO static: another number of entries is the network's mapping, the same number is the table's [M1]") {
+  PdoNode node(without_flag_p());
+  node.start();
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  CHECK(node.set(0x1A00, 0, 1, 2) == 0);
+  CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
+  node.trigger(0);
+  node.tx("181#111211");
+  CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
+  CHECK(node.set(0x1A00, 0, 1, 1) == abort_not_mappable);
+  CHECK(node.get(0x1A00, 0) == 0);
+}
+
+TEST_CASE("PDO static: without flag P, access rights and lengths are checked as with it [M9]") {
+  for (const std::uint32_t word : {0x22410110U, 0x22410104U, 0x22410208U, 0x30000108U}) {
+    CAPTURE(word);
+    CHECK(Static({{0x1600, 1, {word}}, right_tpdo}).error() == CO_ERR_RPDO_MAP_OBJ);
+    CHECK(Static({right_rpdo, {0x1A00, 1, {word}}}).error() == CO_ERR_TPDO_MAP_OBJ);
+  }
+  std::uint8_t byte = 0x42;
+  const auto error_with = [&](std::uint32_t flags, const Constant& mapping) {
+    PdoTable table;
+    table.rpdo[0].on(mapping.index == 0x1600 ? 0x201 : 0x80000201, 255, {0x22010108});
+    table.tpdo[0].on(mapping.index == 0x1A00 ? 0x40000181 : 0xC0000181, 254, {0x22010108});
+    PdoNode node(table, [&](Setup& setup) {
+      setup.with({CO_KEY(0x2100, 0, flags), CO_TUNSIGNED8, &byte});
+      mapping.add_to(setup);
+    });
+    return node.error();
+  };
+  CHECK(error_with(CO_OBJ_____R_, {0x1600, 1, {0x21000008}}) == CO_ERR_RPDO_MAP_OBJ);
+  CHECK(error_with(CO_OBJ______W, {0x1600, 1, {0x21000008}}) == CO_ERR_NONE);
+  CHECK(error_with(CO_OBJ______W, {0x1A00, 1, {0x21000008}}) == CO_ERR_TPDO_MAP_OBJ);
+  CHECK(error_with(CO_OBJ_____R_, {0x1A00, 1, {0x21000008}}) == CO_ERR_NONE);
+}
+
+TEST_CASE("PDO static: an object without flag P is an event for the TPDOs that map it") {
+  PdoNode node(without_flag_p());
+  node.start();
+  node.call([&] { COTPdoTrigObj(node->TPdo, node.find(0x2241, 1)); });
+  node.tx("181#111211");
+  CHECK(node.error() == CO_ERR_NONE);
+  node.find(0x2241, 1)->Key |= CO_OBJ___A___;
+  CHECK(node.set(0x2241, 1, 1, 0x77) == 0);
+  node.tx("181#111277");
 }
 
 TEST_CASE("PDO static: dummies are mapped in the table as by the network [M8] [D5]") {

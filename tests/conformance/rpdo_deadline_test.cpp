@@ -150,6 +150,59 @@ TEST_CASE("RPDO deadline: an RPDO that is switched off is not missed") {
   node.silent();
 }
 
+#if USE_LED
+
+// COLedChange() is called when the error LED goes off because the RPDO is received again.
+TEST_CASE("RPDO deadline: a callback that ends the PDO when it is received again ends that reception, too") {
+  const std::function<void(PdoNode&)> ends[] = {
+      [](PdoNode& node) { (void)CODictWrLong(&node->Dict, CO_DEV(0x1400, 1), 0x80000201); },
+      [](PdoNode& node) { CONmtSetMode(&node->Nmt, CO_PREOP); },
+      [](PdoNode& node) { CONodeStop(&node.node); },
+  };
+  for (const auto& end : ends) {
+    for (const std::uint8_t type : {std::uint8_t{255}, std::uint8_t{1}}) {
+      if (type == 1 && USE_SYNC == 0) {
+        continue;
+      }
+      SyncTable table;
+      table.rpdo[0].on(0x201, type, {0x22010108}).event = 100;
+      SyncNode node(table);
+      node.may_change(0x1400, 1);
+      node.start();
+      std::uint8_t lit = 0;
+      callbacks().led_change = [&](CO_NODE*, std::uint8_t leds) { lit = leds; };
+      node.call([&] { COLedStart(&node.node); });
+      node.rx("201#01");
+      node.rx("080#");
+      node.after(100ms);
+      node.tx(emcy(0x8250, 1));
+      for (unsigned ms = 0; ms < 2000 && (lit & CO_LED_ERR) == 0; ++ms) {
+        node.after(1ms);
+      }
+      unsigned ended = 0;
+      unsigned received = 0;
+      callbacks().led_change = [&](CO_NODE*, std::uint8_t) {
+        if (ended++ == 0) {
+          end(node);
+        }
+      };
+      callbacks().pdo_receive = [&](CO_IF_FRM*) { return static_cast<std::int16_t>(received++); };
+      callbacks().pdo_update = [&](CO_RPDO*) { ++received; };
+      node.rx("201#02");
+      CHECK(ended > 0);
+      node.frames();
+      node.rx("080#");
+      callbacks() = Callbacks{};
+      CHECK(received == 0);
+      CHECK(node.u8[0] == 1);
+      node.after(1000ms);
+      node.silent();
+    }
+  }
+}
+
+#endif
+
 TEST_CASE("RPDO deadline: the longest time, and the shortest") {
   for (const std::uint16_t ms : {std::uint16_t{1}, std::uint16_t{65535}}) {
     PdoNode node(watched(ms));

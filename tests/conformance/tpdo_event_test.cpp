@@ -188,6 +188,25 @@ TEST_CASE("TPDO event: COTPdoTrigObj of an object that cannot be mapped, or is n
   node.silent();
 }
 
+TEST_CASE("TPDO event: COTPdoTrigObj of an entry of another dictionary is CO_ERR_TPDO_OBJ_TRIGGER [N15]") {
+  PdoNode node(with(255));
+  node.start();
+  CO_OBJ* const mapped = node.find(0x2211, 1);
+  trigger_object(node, mapped);
+  CHECK(node.frames().size() == 1);
+  // The number of an entry has 16 bits.
+  const auto far = reinterpret_cast<std::uintptr_t>(mapped) + 65536 * sizeof(CO_OBJ);
+  CO_OBJ copy = *mapped;
+  for (CO_OBJ* const other : {reinterpret_cast<CO_OBJ*>(far), &copy, node->Dict.Root + node->Dict.Num}) {
+    trigger_object(node, other);
+    CHECK(node.error() == CO_ERR_TPDO_OBJ_TRIGGER);
+    node.call([&] { CHECK_FALSE(COTPdoObjWasSent(&node.node, other)); });
+    node.call([&] { CHECK_FALSE(CORPdoObjWasReceived(&node.node, other)); });
+  }
+  node.silent();
+  node.call([&] { CHECK(COTPdoObjWasSent(&node.node, mapped)); });
+}
+
 TEST_CASE("TPDO event: COTPdoTrigObj does not find a mapping that has been replaced [D41]") {
   PdoNode node(with(255));
   node.start();

@@ -79,7 +79,8 @@ CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t ke
     return dict::has_index(node.Dict, key) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
   }
   const uint32_t bytes = obj::size(*obj, node, 0);
-  return bytes > wire::mpdo_data ? CO_ERR_OBJ_MAP_TYPE : pdo::check(node, direction, key | bytes * 8U);
+  return bytes > wire::mpdo_data ? CO_ERR_OBJ_MAP_TYPE
+                                 : pdo::check(node, direction, key | bytes * 8U, pdo::MappedBy::network);
 }
 
 // Consumer -----------------------------------------------------------------------------------------------------------

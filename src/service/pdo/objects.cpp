@@ -12,6 +12,7 @@ namespace {
 
 using namespace co;
 using pdo::Direction;
+using pdo::MappedBy;
 
 constexpr uint32_t changeable_flags = CO_TPDO_COBID_OFF | CO_TPDO_COBID_REMOTE;
 
@@ -174,15 +175,19 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Mapping ------------------------------------------------------------------------------------------------------------
 
+// The number that sub 0 already has leaves the mapping as it is: it may be the designer's.
 CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (size != sizeof(uint8_t)) {
+  uint8_t before = 0;
+  if (!read_before(*obj, *node, COTInt8, size, before)) {
     return CO_ERR_BAD_ARG;
   }
   if (exists(*node, *obj)) {
     return CO_ERR_OBJ_ACC;
   }
   CO_PDO_MAP map;
-  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value_in<uint8_t>(buffer), map);
+  const auto value = value_in<uint8_t>(buffer);
+  const MappedBy author = value == before ? MappedBy::designer : MappedBy::network;
+  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value, map, author);
   uint8_t none = 0;
   const CO_ERR stored = COTInt8.Write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
   return err != CO_ERR_NONE ? err : stored;
@@ -198,7 +203,7 @@ CO_ERR write_mapping(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_OBJ_ACC;
   }
   const auto value = value_in<uint32_t>(buffer);
-  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value);
+  const CO_ERR err = value == 0 ? CO_ERR_NONE : pdo::check(*node, direction_of(*obj), value, MappedBy::network);
   return err == CO_ERR_NONE ? COTInt32.Write(obj, node, buffer, size) : err;
 }
 

@@ -36,6 +36,16 @@ bool was_sent(CO_NODE&, const CO_OBJ&) { return false; }
 
 using namespace co;
 
+namespace {
+
+// Entries of another dictionary may have the number of one of this dictionary.
+bool is_entry(const CO_NODE& node, const CO_OBJ* obj) {
+  const auto root = reinterpret_cast<uintptr_t>(node.Dict.Root);
+  return reinterpret_cast<uintptr_t>(obj) - root < node.Dict.Num * sizeof *obj;
+}
+
+}  // namespace
+
 extern "C" {
 
 void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
@@ -50,10 +60,10 @@ void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
 void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
-  const bool is_mappable = obj != nullptr && CO_IS_PDOMAP(obj->Key) != 0;
-  const CO_ERR err = is_mappable ? pdo::change_object(*tpdo->Node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER;
+  CO_NODE& node = *tpdo->Node;
+  const CO_ERR err = is_entry(node, obj) ? pdo::change_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER;
   if (err != CO_ERR_NONE) {
-    tpdo->Node->Error = err;
+    node.Error = err;
   }
 }
 
@@ -87,11 +97,11 @@ bool COTPdoWasSent(CO_NODE* node, uint16_t num) {
 }
 
 bool CORPdoObjWasReceived(CO_NODE* node, const CO_OBJ* obj) {
-  return node != nullptr && obj != nullptr && pdo::was_received(*node, *obj);
+  return node != nullptr && is_entry(*node, obj) && pdo::was_received(*node, *obj);
 }
 
 bool COTPdoObjWasSent(CO_NODE* node, const CO_OBJ* obj) {
-  return node != nullptr && obj != nullptr && pdo::was_sent(*node, *obj);
+  return node != nullptr && is_entry(*node, obj) && pdo::was_sent(*node, *obj);
 }
 
 }  // extern "C"

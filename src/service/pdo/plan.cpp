@@ -40,9 +40,10 @@ auto function_of(const CO_OBJ& obj, Direction direction) {
   return direction == Direction::receive ? obj.Type->Write : obj.Type->Read;
 }
 
-bool is_mappable(const CO_OBJ& obj, Direction direction) {
-  const uint32_t right = direction == Direction::receive ? CO_OBJ____P_W : CO_OBJ____PR_;
-  return (obj.Key & right) == right && function_of(obj, direction) != nullptr;
+bool is_mappable(const CO_OBJ& obj, Direction direction, MappedBy author) {
+  const uint32_t right = direction == Direction::receive ? CO_OBJ______W : CO_OBJ_____R_;
+  const uint32_t flags = right | static_cast<uint32_t>(author);
+  return (obj.Key & flags) == flags && function_of(obj, direction) != nullptr;
 }
 
 bool is_bit(const CO_OBJ& obj) { return maps_bits && obj.Type == CO_TBOOLEAN; }
@@ -268,7 +269,7 @@ uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t other
   return known ? number : otherwise;
 }
 
-CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
+CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author) {
   if (is_static_type(mapping)) {
     return is_skipped(direction, mapping) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
   }
@@ -276,10 +277,11 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping) {
   if (obj == nullptr) {
     return dict::has_index(node.Dict, mapping) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
   }
-  return is_mappable(*obj, direction) && has_length(node, *obj, mapping & 0xFFU) ? CO_ERR_NONE : CO_ERR_OBJ_MAP_TYPE;
+  return is_mappable(*obj, direction, author) && has_length(node, *obj, mapping & 0xFFU) ? CO_ERR_NONE
+                                                                                         : CO_ERR_OBJ_MAP_TYPE;
 }
 
-CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
+CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
   bool plain = copies;
@@ -295,7 +297,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
     if (mapping == 0) {
       return CO_ERR_OBJ_MAP_LEN;
     }
-    if (check(node, direction, mapping) != CO_ERR_NONE) {
+    if (check(node, direction, mapping, author) != CO_ERR_NONE) {
       return CO_ERR_OBJ_MAP_TYPE;
     }
     const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node.Dict, mapping);

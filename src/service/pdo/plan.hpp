@@ -10,6 +10,10 @@ namespace co::pdo {
 
 enum class Direction : uint8_t { receive, transmit };
 
+// Who has chosen the mapped objects. The value holds the flags of CO_OBJ.Key that such an object needs besides R or W:
+// what the network maps needs flag P, a mapping of the table is the designer's decision.
+enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
+
 // Of CO_PDO_MAP.Flags; the others belong to the PDO.
 constexpr uint8_t passed = 0x40;  // sent or received since the application has asked
 constexpr uint8_t served = 0x80;  // being sent or received; cleared by whatever changes the PDO, or ends Operational
@@ -35,10 +39,10 @@ constexpr Direction direction_of(unsigned index) {
 [[nodiscard]] uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise);
 
 // May the object that a mapping entry names be mapped so? [301:7.4.7, 7.5.2.36]
-[[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping);
+[[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author);
 
 // Resolves num entries of the mapping at index (1600h…, 1A00h…). Only a map that is resolved gets a length.
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
+[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author);
 
 // Holds CO_NODE_EXT.OdLock while it lives.
 class Lock {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// expect: Dictionary<CO_DICT_NOT_MAPPABLE, co::Index<'2', '0', '0', '1'>, co::Sub<'0', '2'>
+// A TPDO of the table maps an object that has no flag P.
+#include "co/dictionary.hpp"
+
+std::uint8_t first;
+std::uint8_t second;
+
+constexpr CO_OBJ od[] = {
+    {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TPDO_NUM, (CO_DATA)(2)},
+    {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2001, 1, 8))},
+    {CO_KEY(0x1A00, 2, CO_OBJ_D___R_), CO_TPDO_MAP, (CO_DATA)(CO_LINK(0x2001, 2, 8))},
+    {CO_KEY(0x2001, 1, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&first)},
+    {CO_KEY(0x2001, 2, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&second)},
+    CO_OBJ_DICT_ENDMARK,
+};
+CO_OD_CHECK(od);
