@@ -218,6 +218,20 @@
 #define USE_LSS_MASTER 0
 #endif
 
+/// The LSS slave serves the LSS master in Operational: 0 or 1. CiA 305 makes LSS independent of the NMT state (1). With
+/// 0 all LSS frames are ignored in Operational; a node in Pre-operational or Stopped, or without node-ID, is still
+/// configured. 0 costs 4 bytes of flash.
+#ifndef CO_LSS_IN_OPERATIONAL
+#define CO_LSS_IN_OPERATIONAL 1
+#endif
+
+/// Access hook: the functions AccessSdo, AccessNmt and AccessLss in CO_CALLBACKS (co_callbacks.h) permit or refuse SDO
+/// transfers, NMT commands and LSS services of the network: 0 or 1. With 0 these members do not exist, and nothing is
+/// called.1 costs 540 bytes of flash (Cortex-M0+, -Os), 310 of them with USE_LSS.
+#ifndef USE_ACCESS_HOOK
+#define USE_ACCESS_HOOK 0
+#endif
+
 /// Parameter groups (1010h, 1011h, 1020h): 0 or 1.
 #ifndef USE_PARA
 #define USE_PARA 1

@@ -9,6 +9,10 @@
 
 #include "co_types.h"
 
+#include "co_cfg.h"
+#include "co_nmt.h"
+#include "co_obj.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -16,10 +20,71 @@ extern "C" {
 struct CO_NODE_T;
 struct CO_PARA_T;
 
+/// \name Access hook (USE_ACCESS_HOOK)
+/// Decides about each access of the network before it has an effect: configuration locks, roles, rate limits
+/// (docs/access.md). Only the network is checked: neither API functions (CODict…, COObj…, OD_…, CONmtCommand()) nor an
+/// SDO client that accesses its own node are. PDOs write mapped objects without a check.
+///
+/// The functions may call the API. A reset is carried out when the request has been answered; a node that
+/// CONodeStop() stops does not answer. The structures are valid during the call; later versions may append members.
+/// \{
+
+/// An SDO transfer that a client initiates. It passed the checks of index, sub-index and access right; its length was
+/// not checked yet.
+typedef struct CO_ACCESS_SDO_T {
+  CO_OBJ_TRANSFER Direction;  ///< CO_OBJ_UPLOAD: the client reads; CO_OBJ_DOWNLOAD: it writes
+  uint16_t Index;
+  uint8_t Sub;
+  uint8_t Channel;      ///< SDO server, from 0: the one with the parameters 1200h + Channel
+  uint32_t Size;        ///< bytes that the client announces for a download; 0: unknown, and in an upload
+  const uint8_t* Data;  ///< expedited download: Size bytes, or 4 if that is 0, in the order of the bus; else null
+} CO_ACCESS_SDO;
+
+/// A command of the NMT master that addresses this node. [301:7.2.8.2.1]
+typedef struct CO_ACCESS_NMT_T {
+  uint8_t Command;  ///< 1 start, 2 stop, 128 enter Pre-operational, 129 reset node, 130 reset communication
+  uint8_t NodeId;   ///< as commanded: the node-ID of this node, or 0 for all nodes
+} CO_ACCESS_NMT;
+
+/// An LSS service with valid parameters that changes something in this node. Services that only identify slaves or
+/// inquire values are not checked. [305]
+typedef struct CO_ACCESS_LSS_T {
+  uint8_t Service;    ///< command specifier, CO_LSS_SERVICE_… (co_lss.h)
+  uint8_t State;      ///< the LSS state to be entered (services 04h, 43h, 51h): CO_LSS_WAIT, CO_LSS_CONF; else 0
+  uint8_t NodeId;     ///< to be configured (11h), to be stored (17h): 1…127, CO_LSS_NO_NODE_ID; else 0
+  uint8_t Specific;   ///< out: the manufacturer's error code, transmitted if the result is 255
+  uint32_t Baudrate;  ///< bit/s, to be configured (13h), activated (15h) or stored (17h); else 0
+  uint16_t Delay;     ///< ms, switch delay (15h); else 0
+  /// Activate bit timing (15h): in: the NMT state that the node enters before the switch delay. A node in Operational
+  /// enters Stopped if 1029h:1 is 2, otherwise Pre-operational; any other node keeps its state. out: CO_PREOP,
+  /// CO_OPERATIONAL or CO_STOP chooses another one; anything else, and a node in CO_INIT, keeps the present state.
+  CO_MODE Mode;
+} CO_ACCESS_LSS;
+/// \}
+
 /// Initialise it with zero, set the functions that the application needs. It must live as long as the node.
 typedef struct CO_CALLBACKS_T {
   /// Called when the newest stored record of a parameter group is damaged and an older one was loaded in its place.
   void (*ParaRecovered)(struct CO_NODE_T* node, void* user, const struct CO_PARA_T* group);
+#if USE_ACCESS_HOOK
+  /// Called when a client initiates an SDO transfer: expedited, segmented or block, in either direction. 1010h and
+  /// 1011h are objects like any other.
+  /// \retval 0      the transfer goes on
+  /// \retval other  the transfer is refused with this abort code, e.g. CO_SDO_ERR_TOS_LOCAL
+  uint32_t (*AccessSdo)(struct CO_NODE_T* node, void* user, const CO_ACCESS_SDO* access);
+
+  /// Called before a command of the NMT master is carried out.
+  /// \retval 0      the command is carried out
+  /// \retval other  the command is ignored
+  uint8_t (*AccessNmt)(struct CO_NODE_T* node, void* user, const CO_ACCESS_NMT* access);
+
+  /// Called before an LSS service has an effect.
+  /// \retval 0      the service is carried out
+  /// \retval other  the service is refused: 11h, 13h and 17h are answered with this error code (1: out of range or not
+  ///                supported; 2, 17h only: storage failed; 255: CO_ACCESS_LSS.Specific tells more), other services
+  ///                are not answered and have no effect
+  uint8_t (*AccessLss)(struct CO_NODE_T* node, void* user, CO_ACCESS_LSS* access);
+#endif
 } CO_CALLBACKS;
 
 #ifdef __cplusplus

@@ -3,15 +3,21 @@
 /// LSS slave: node-ID and bit rate by the network. [305]
 ///
 /// A node is addressed by its identity, the four numbers of 1018h; a dictionary that lacks one of them has no LSS. All
-/// services are served in every NMT state: switch state global and selective, configure node-ID and bit timing,
-/// activate bit timing, store, inquire, identify remote and non-configured slave, fastscan.
+/// services are served in every NMT state (with CO_LSS_IN_OPERATIONAL 0 not in Operational): switch state global and
+/// selective, configure node-ID and bit timing, activate bit timing, store, inquire, identify remote and non-configured
+/// slave, fastscan.
 ///
 /// A node without node-ID (CO_NODE_SPEC.NodeId or COLssLoad(): CO_LSS_NO_NODE_ID) waits after CONodeStart() in CO_INIT,
 /// silent but for LSS. It gets to work, with its boot-up message, when it is switched back to the state waiting with
 /// a node-ID. A node that has one takes a new one with the next NMT reset.
 ///
-/// While the bit rate is switched nothing is sent: a delay before, which the LSS master commands, and the same after
-/// it. Frames wait meanwhile. The CAN driver's Init and Enable are called for the new rate.
+/// A node in Operational that has to activate a bit rate leaves Operational first: it enters Stopped if 1029h:1 is 2,
+/// otherwise Pre-operational. The NMT master starts it again. CO_CALLBACKS.AccessLss may choose another state, and may
+/// refuse each service that changes the node (co_callbacks.h).
+///
+/// While the bit rate is switched no RPDO is applied and nothing is sent: a delay before, which the LSS master
+/// commands, and the same after it. Frames wait meanwhile. The CAN driver's Init and Enable are called for the new
+/// rate.
 ///
 /// Context: the loop.
 #ifndef CO_LSS_H_
@@ -33,6 +39,17 @@ struct CO_NODE_T;
 
 #define CO_LSS_WAIT 1u  ///< state waiting
 #define CO_LSS_CONF 2u  ///< state configuration
+
+/// \name Command specifiers of services that change the slave
+/// \{
+#define CO_LSS_SERVICE_SWITCH_GLOBAL 0x04u
+#define CO_LSS_SERVICE_NODE_ID 0x11u
+#define CO_LSS_SERVICE_BIT_TIMING 0x13u
+#define CO_LSS_SERVICE_ACTIVATE 0x15u
+#define CO_LSS_SERVICE_STORE 0x17u
+#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< the last of 40h…43h: the whole address has matched
+#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< the whole address has matched
+/// \}
 
 /// The LSS slave of a node. The application touches nothing of it.
 typedef struct CO_LSS_T {

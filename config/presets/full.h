@@ -17,6 +17,7 @@
 #define USE_NMT_MASTER 1
 #define USE_LSS_MASTER 1
 #define USE_LED 1
+#define USE_ACCESS_HOOK 1
 #define CO_TX_QUEUE_N 32
 
 #endif

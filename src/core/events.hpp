@@ -77,6 +77,10 @@ void forget(CO_NODE& node, Fault fault);
 // The node has lost the network: bus-off, a node that it monitors, or the NMT master. [301:7.5.2.32]
 void lose_communication(CO_NODE& node);
 
+// Returns the NMT state in which the node switches its bit rate: Stopped or Pre-operational by 1029h:1 if it is in
+// Operational, otherwise its present state.
+[[nodiscard]] CO_MODE mode_for_switch(CO_NODE& node);
+
 // What the CAN controller has reported.
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 

@@ -221,6 +221,8 @@ void event::forget([[maybe_unused]] CO_NODE& node, [[maybe_unused]] Fault fault)
 
 void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
 
+CO_MODE event::mode_for_switch(CO_NODE& node) { return nmt::mode_for_switch(node); }
+
 // A bus-off is over when messages can be sent again.
 void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
   if (what == CO_CAN_BUS_OFF) {

@@ -229,6 +229,43 @@ TEST_CASE("LSS: activate bit timing, and the node is stopped or reset meanwhile:
   CHECK(node.can.baud == 500000);
 }
 
+TEST_CASE("LSS: frames of other than 8 bytes are malformed: counted, without effect [L1]") {
+  Fixture node(slave());
+  for (const char* request : {"7E5#04010000000000", "7E5#0401", "7E5#"}) {
+    const std::uint32_t before = node.counters().Malformed;
+    node.rx(request);
+    CHECK(node.counters().Malformed == before + 1);
+  }
+  node.rx("7E5#5E00000000000000");
+  node.silent();
+}
+
+TEST_CASE("LSS: while the bit rate is switched LSS requests are ignored, not answered afterwards [L4]") {
+  Configured device;
+  device.node.rx("7E5#1564000000000000");
+  device.node.rx("7E5#5E00000000000000");
+  device.node.after(100ms);
+  device.node.rx("7E5#1105000000000000");
+  device.node.after(100ms);
+  device.node.silent();
+  CHECK(device.node->Lss.CfgNodeId == 1);
+  device.node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
+}
+
+TEST_CASE("LSS: a node that is stopped while the bit rate is switched leaves its controller alone") {
+  for (const Time elapsed : {Time{50ms}, Time{150ms}}) {
+    Configured device;
+    device.node.rx("7E5#1564000000000000");
+    device.node.after(elapsed);
+    const unsigned before = device.node.can.init_calls;
+    device.node.call([&] { CONodeStop(&device.node.node); });
+    CHECK(device.node.armed_timers() == 0);
+    CHECK(device.node->Held == 0);
+    device.node.after(1s);
+    CHECK(device.node.can.init_calls == before);
+  }
+}
+
 TEST_CASE("LSS: store: what is pending is given to the application, whose answer is told [L5]") {
   Configured device;
   Fixture& node = device.node;

@@ -17,9 +17,9 @@ lane() {
   configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
   configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
-  # Mapping of single bits, no remote requests, reserved CAN-IDs for everybody, the most PDOs.
+  # Mapping of single bits, no remote requests (and no LSS in Operational), reserved CAN-IDs for everybody, the most PDOs.
   configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"
-  configuration no-remote "-O2 -DUSE_PDO_RTR=0"
+  configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0"
   configuration restricted-ids "-O2 -DCO_RESTRICTED_IDS=1"
   configuration pdo-512 "-O2 -DCO_RPDO_N=512 -DCO_TPDO_N=512" slave
 }

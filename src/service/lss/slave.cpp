@@ -5,6 +5,7 @@
 
 #include "core/dict.hpp"
 #include "core/events.hpp"
+#include "core/gate.hpp"
 #include "core/machine.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
@@ -36,6 +37,11 @@ enum class Event : uint8_t {
 };
 
 using Service = void (*)(CO_NODE& node, const CO_IF_FRM& request);
+
+// Error codes of the services 11h, 13h and 17h.
+constexpr uint32_t not_supported = 1;
+constexpr uint32_t medium = 2;
+constexpr uint32_t manufacturers_error = 255;
 
 bool is_unconfigured(const CO_NODE& node) { return node.NodeId == wire::no_node_id; }
 
@@ -104,11 +110,51 @@ void enter(CO_NODE& node, State state) {
   }
 }
 
+// Access hook --------------------------------------------------------------------------------------------------------
+
+// Parameters of a service that changes the node; 0 where it has none.
+struct Change {
+  uint8_t state;  // CO_LSS_WAIT, CO_LSS_CONF
+  uint8_t node_id;
+  uint32_t rate;
+};
+
+// Asks the application. Returns 0, or the error code that is answered, with the manufacturer's in the next byte. A node
+// that the application has stopped refuses as well.
+uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
+#if USE_ACCESS_HOOK
+  const uint8_t error = gate::ask(node, &CO_CALLBACKS::AccessLss, access);
+  const bool is_stopped = !event::is_allowed(node, CO_LSS_ALLOWED);
+  return error == manufacturers_error || is_stopped ? manufacturers_error | uint32_t{access.Specific} << 8 : error;
+#else
+  return 0;
+#endif
+}
+
+uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& request,
+             [[maybe_unused]] Change change) {
+#if USE_ACCESS_HOOK
+  CO_ACCESS_LSS access = {};
+  access.Service = request.Data[0];
+  access.State = change.state;
+  access.NodeId = change.node_id;
+  access.Baudrate = change.rate;
+  return ask(node, access);
+#else
+  return 0;
+#endif
+}
+
+bool may_enter(CO_NODE& node, const CO_IF_FRM& request, State state) {
+  return ask(node, request, {static_cast<uint8_t>(state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF), 0, 0}) == 0;
+}
+
 // [305] Switch state global, selective -------------------------------------------------------------------------------
 
 void switch_global(CO_NODE& node, const CO_IF_FRM& request) {
-  if (request.Data[1] <= 1) {
-    enter(node, request.Data[1] == 0 ? State::waiting : State::configuration);
+  const State state = request.Data[1] == 0 ? State::waiting : State::configuration;
+  if (request.Data[1] <= 1 && may_enter(node, request, state)) {
+    enter(node, state);
   }
 }
 
@@ -118,7 +164,7 @@ void switch_selective(CO_NODE& node, const CO_IF_FRM& request) {
   const unsigned part = request.Data[0] - static_cast<unsigned>(Lss::switch_selective);
   const bool matches = (part == 0 || part == lss.Selected) && wire::get_u32(request.Data + 1) == part_of(node, part);
   lss.Selected = static_cast<uint8_t>(matches ? part + 1 : 0);
-  if (lss.Selected == wire::lss_address_parts) {
+  if (lss.Selected == wire::lss_address_parts && may_enter(node, request, State::configuration)) {
     enter(node, State::configuration);
     answer(node, Lss::selected);
   }
@@ -126,20 +172,18 @@ void switch_selective(CO_NODE& node, const CO_IF_FRM& request) {
 
 // Configure ----------------------------------------------------------------------------------------------------------
 
-constexpr uint32_t not_supported = 1;
-constexpr uint32_t medium = 2;
-
 void configure_node_id(CO_NODE& node, const CO_IF_FRM& request) {
   const uint8_t id = request.Data[1];
-  const bool possible = wire::may_be_configured(id);
-  node.Lss.CfgNodeId = possible ? id : node.Lss.CfgNodeId;
-  answer(node, request, possible ? 0 : not_supported);
+  const uint32_t error = wire::may_be_configured(id) ? ask(node, request, {0, id, 0}) : not_supported;
+  node.Lss.CfgNodeId = error == 0 ? id : node.Lss.CfgNodeId;
+  answer(node, request, error);
 }
 
 void configure_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint32_t rate = request.Data[1] == 0 ? wire::bit_rate(request.Data[2]) : 0;
-  node.Lss.CfgBaudrate = rate != 0 ? rate : node.Lss.CfgBaudrate;
-  answer(node, request, rate != 0 ? 0 : not_supported);
+  const uint32_t error = rate != 0 ? ask(node, request, {0, 0, rate}) : not_supported;
+  node.Lss.CfgBaudrate = error == 0 ? rate : node.Lss.CfgBaudrate;
+  answer(node, request, error);
 }
 
 void end_switch(void* node_pointer) {
@@ -163,8 +207,25 @@ void switch_rate(void* node_pointer) {
   wait(node, end_switch);
 }
 
+// Enters the NMT state of the switch. Returns false if the application has stopped the node.
+bool prepare_switch(CO_NODE& node, CO_MODE mode) {
+  if (node.Nmt.Mode > CO_INIT && mode > CO_INIT && mode < CO_MODE_NUM) {
+    event::change_mode(node, mode);
+  }
+  return event::is_allowed(node, CO_LSS_ALLOWED);
+}
+
+// The node must not act on process data of a bus that it is about to leave: it leaves Operational first.
 void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
-  const uint32_t delay = wire::get_u16(request.Data + 1);
+  const uint16_t delay = wire::get_u16(request.Data + 1);
+  CO_ACCESS_LSS access = {};
+  access.Service = CO_LSS_SERVICE_ACTIVATE;
+  access.Baudrate = node.Lss.CfgBaudrate;
+  access.Delay = delay;
+  access.Mode = event::mode_for_switch(node);
+  if (ask(node, access) != 0 || !prepare_switch(node, access.Mode)) {
+    return;
+  }
   const uint32_t ticks = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // whatever a reset loads meanwhile
@@ -172,14 +233,22 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   wait(node, switch_rate);
 }
 
-void store(CO_NODE& node, const CO_IF_FRM& request) {
+// Returns an error code of LSS.
+uint32_t store_pending(CO_NODE& node) {
   const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
   if (err == CO_ERR_NONE) {
-    answer(node, request, 0);
-    return;
+    return 0;
   }
   node.Error = CO_ERR_LSS_STORE;
-  answer(node, request, err == CO_ERR_LSS_NO_STORE ? not_supported : medium);
+  return err == CO_ERR_LSS_NO_STORE ? not_supported : medium;
+}
+
+void store(CO_NODE& node, const CO_IF_FRM& request) {
+  uint32_t error = ask(node, request, {0, node.Lss.CfgNodeId, node.Lss.CfgBaudrate});
+  if (error == 0) {
+    error = store_pending(node);
+  }
+  answer(node, request, error);
 }
 
 // Inquire, identify --------------------------------------------------------------------------------------------------
@@ -235,11 +304,13 @@ void fastscan(CO_NODE& node, const CO_IF_FRM& request) {
   if (!wire::is_possible(scan) || scan.part != lss.Scanned || !wire::is_match(scan, part_of(node, scan.part))) {
     return;
   }
-  if (scan.bit == 0) {
-    lss.Scanned = scan.next;
-    if (scan.next < scan.part) {
-      enter(node, State::configuration);
-    }
+  const bool is_selected = scan.bit == 0 && scan.next < scan.part;
+  if (is_selected && !may_enter(node, request, State::configuration)) {
+    return;
+  }
+  lss.Scanned = scan.bit == 0 ? scan.next : lss.Scanned;
+  if (is_selected) {
+    enter(node, State::configuration);
   }
   answer(node, Lss::identified);
 }
@@ -272,6 +343,12 @@ bool has_address(CO_NODE& node) {
     ++part;
   }
   return part == wire::lss_address_parts;
+}
+
+// A node is served after CONodeStart(), in Operational if the configuration says so.
+bool is_served(const CO_NODE& node) {
+  const CO_MODE mode = node.Nmt.Mode;
+  return mode == CO_INIT ? node.Lss.Started != 0 : CO_LSS_IN_OPERATIONAL != 0 || mode != CO_OPERATIONAL;
 }
 
 }  // namespace
@@ -321,13 +398,11 @@ void on_mode(CO_NODE& node) {
   }
 }
 
-// Before CONodeStart() the node is not there.
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
-  const bool is_there = node.Nmt.Mode != CO_INIT || node.Lss.Started != 0;
   if (frame.DLC != wire::lss_dlc) {
     return false;
   }
-  if (is_there && node.Held == 0) {
+  if (node.Held == 0 && is_served(node)) {
     const State state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
     machine(state, event_of(frame.Data[0]))(node, frame);
   }

@@ -29,6 +29,13 @@ void lose_communication(CO_NODE& node) {
   }
 }
 
+CO_MODE mode_for_switch(CO_NODE& node) {
+  if (node.Nmt.Mode != CO_OPERATIONAL) {
+    return node.Nmt.Mode;
+  }
+  return communication_error(node) == CO_ERROR_BEHAVIOUR_STOP ? CO_STOP : CO_PREOP;
+}
+
 }  // namespace co::nmt
 
 namespace {

@@ -2,6 +2,7 @@
 #include "service/nmt/nmt.hpp"
 
 #include "core/events.hpp"
+#include "core/gate.hpp"
 #include "core/routes.hpp"
 #include "core/transmit.hpp"
 #include "wire/nmt.hpp"
@@ -34,9 +35,18 @@ constexpr Command commands[] = {
     {wire::NmtCommand::reset_communication, event::reset_communication, CO_INIT},
 };
 
-void obey(CO_NODE& node, uint8_t specifier) {
+bool is_permitted([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& frame) {
+#if USE_ACCESS_HOOK
+  const CO_ACCESS_NMT access = {frame.Data[0], frame.Data[1]};
+  return gate::ask(node, &CO_CALLBACKS::AccessNmt, access) == 0;
+#else
+  return true;
+#endif
+}
+
+void obey(CO_NODE& node, const CO_IF_FRM& frame) {
   for (const Command& command : commands) {
-    if (static_cast<uint8_t>(command.specifier) != specifier) {
+    if (static_cast<uint8_t>(command.specifier) != frame.Data[0] || !is_permitted(node, frame)) {
       continue;
     }
     if (command.reset != 0) {
@@ -58,7 +68,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
     return false;
   }
   if (wire::addresses(frame, node.NodeId)) {
-    obey(node, frame.Data[0]);
+    obey(node, frame);
   }
   return true;
 }

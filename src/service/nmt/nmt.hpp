@@ -20,6 +20,9 @@ void on_mode(CO_NODE& node);
 // What 1029h:1 asks for.
 void lose_communication(CO_NODE& node);
 
+// See event::mode_for_switch().
+[[nodiscard]] CO_MODE mode_for_switch(CO_NODE& node);
+
 // From CO_INIT to Pre-operational, by the boot-up message.
 void boot(CO_NODE& node);
 

@@ -158,9 +158,14 @@ void tell(CO_NODE& node, uint16_t first) {
   }
 }
 
+// While the bit rate is switched, no RPDO is applied.
+bool is_switching([[maybe_unused]] const CO_NODE& node) {
+  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.Held != 0;
+}
+
 // The application may end Operational meanwhile, or the PDO. False: the frame is too short.
 [[gnu::noinline]] bool take(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
-  if (is_synchronous(pdo) && node.WindowOver != 0) {
+  if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
     return true;
   }
   set(pdo.Map, served);
@@ -236,6 +241,10 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return t
 void apply(CO_NODE& node) {
   const uint16_t first = node.RPdoFirst;
   if (first == none) {
+    return;
+  }
+  if (is_switching(node)) {
+    forget_kept(node);
     return;
   }
   node.RPdoFirst = none;

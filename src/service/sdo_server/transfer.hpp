@@ -70,12 +70,20 @@ uint32_t close(CO_SDO& channel, uint32_t code);
 // A new transfer, of the object that the request names; its client has given up the one before.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
-// The same, with the checks that every transfer begins with: the object, which is node.Served then, and its access
-// right.
+// Asks the application whether the client may begin this transfer of an object that exists and has the access right.
+// Afterwards looks the object up again: the application may have changed the dictionary. Returns an abort code.
+[[nodiscard]] uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request);
+
+// Calls restart() and makes the checks that every transfer begins with: object, access right, access hook. The object
+// becomes node.Served. Returns an abort code.
 [[nodiscard]] inline uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
-  return access::open(*channel.Node, channel.Key, transfer);
+  const uint32_t abort = access::open(*channel.Node, channel.Key, transfer);
+  if constexpr (USE_ACCESS_HOOK != 0) {
+    return abort == no_abort ? ask(channel, request) : abort;
+  }
+  return abort;
 }
 
 // The transfer of the object takes more than this frame: the time-out watches it.

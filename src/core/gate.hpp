@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Access hook: the application permits or refuses what the network requests (co_callbacks.h).
+#pragma once
+
+#include "co_core.h"
+
+#if USE_ACCESS_HOOK
+
+namespace co::gate {
+
+// Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if it permits the access or does not exist. It may have called
+// any function of the API: the node may be stopped or in another NMT state, and the dictionary may have changed.
+template <class Result, class Access>
+[[nodiscard]] inline Result ask(CO_NODE& node, Result (*CO_CALLBACKS::*hook)(CO_NODE*, void*, Access*),
+                                Access& access) {
+  const CO_CALLBACKS* const callbacks = node.Ext->Callbacks;
+  if (callbacks == nullptr || callbacks->*hook == nullptr) {
+    return 0;
+  }
+  return (callbacks->*hook)(&node, node.Ext->User, &access);
+}
+
+}  // namespace co::gate
+
+#endif
