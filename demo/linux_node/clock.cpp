@@ -10,10 +10,9 @@ namespace {
 std::uint8_t picture[picture_size];
 constexpr std::uint8_t hardware[] = "host";
 
-/// All variables get the values that they have when the program begins; those that are stored get theirs from the node.
+/// Gives all variables the values that they have when the program begins. CONodeInit() loads those that are stored.
 void forget_variables() {
-  static const clock_ram_t at_first = clock_ram;
-  clock_ram = at_first;
+  clock_set_defaults();
   std::fill(std::begin(picture), std::end(picture), std::uint8_t{0});
 }
 

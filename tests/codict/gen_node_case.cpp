@@ -5,7 +5,10 @@
 #include <cstring>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "clock/dictionary.hpp"
 #include "codict/gen_node.hpp"
 #include "every_c_od.h"
 #include "every_cpp_od.h"
@@ -167,8 +170,9 @@ TEST_CASE("gen: every object of a generated dictionary answers with its default 
     GeneratedNode node(dictionary.od, dictionary.length, memory);
     CHECK(node.fault == CO_DICT_OK);
     CHECK(node.error == CO_ERR_NONE);
-    CHECK(dictionary.length == values.size());
-    for (std::size_t n = 0; n < dictionary.length; ++n) {
+    CHECK(dictionary.length == values.size() + 1);
+    CHECK(dictionary.od[values.size()].Key == 0);
+    for (std::size_t n = 0; n < values.size(); ++n) {
       const std::uint32_t key = dictionary.od[n].Key;
       CAPTURE(CO_GET_IDX(key));
       CAPTURE(CO_GET_SUB(key));
@@ -298,6 +302,156 @@ TEST_CASE("gen: whatever is written of a storage group, 1020h is 0 [301:7.5.2.23
       }
     }
   }
+}
+
+const char* const reset_node = "81 05";
+const char* const reset_communication = "82 05";
+
+TEST_CASE("gen: reset communication gives 1017h its default value, and heartbeats their period [301:7.3.2.2]") {
+  for (const Dictionary& dictionary : dictionaries) {
+    CAPTURE(dictionary.language);
+    Memory memory;
+    GeneratedNode node(dictionary.od, dictionary.length, memory);
+    CHECK(node.write(0x1017, 0, "FA 00") == "ok");
+    CHECK(node.read(0x1017, 0) == "FA 00");
+    node.say(0, reset_communication);
+    CHECK(node.read(0x1017, 0) == "00 00");
+  }
+}
+
+TEST_CASE("gen: resets give every entry that the network has written its default value [301:7.3.2.2]") {
+  // PDOs are mapped while they are off.
+  const std::vector<std::pair<std::uint32_t, std::string>> of_communication = {
+      {0x100500, "81 00 00 00"}, {0x100600, "10 27 00 00"}, {0x100700, "E8 03 00 00"}, {0x101400, "85 00 00 80"},
+      {0x101500, "01 00"},       {0x101602, "E8 03 07 00"}, {0x101700, "E8 03"},       {0x102001, "01 00 00 00"},
+      {0x102901, "01"},          {0x140001, "05 02 00 80"}, {0x140002, "01"},          {0x160000, "00"},
+      {0x180005, "0A 00"},
+  };
+  const std::vector<std::pair<std::uint32_t, std::string>> of_application = {
+      {0x200100, "00"},
+      {0x200300, "01 00"},
+      {0x200800, "00 00 80 3F"},
+      {0x200900, "6C 6F 6E 67 65 72"},
+      {0x200A00, "07"},
+      {0x200B00, "42 00"},
+      {0x200C00, "01 00 00 00 01 00"},
+      {0x200F00, "09 08 07 06"},
+      {0x201B00, "01 00 00 00 00 00 00 00"},
+      {0x202400, "06 01 00 00"},
+      {0x203000, "65 00"},
+      {0x203300, "01 00 00 00 00 00 00 00"},
+      {0x210000, "09"},
+      {0x210300, "61 62"},
+      {0x210600, "05 04 03 02 01"},
+  };
+  const auto index_of = [](std::uint32_t key) { return static_cast<std::uint16_t>(key >> 8); };
+  const auto sub_of = [](std::uint32_t key) { return static_cast<std::uint8_t>(key); };
+  for (const Dictionary& dictionary : dictionaries) {
+    CAPTURE(dictionary.language);
+    Memory memory;
+    GeneratedNode node(dictionary.od, dictionary.length, memory);
+    const auto write_all = [&](const auto& objects) {
+      for (const auto& [key, bytes] : objects) {
+        CAPTURE(key);
+        CHECK(node.write(index_of(key), sub_of(key), bytes) == "ok");
+      }
+    };
+    const auto check_defaults = [&](const auto& objects) {
+      for (const auto& [key, bytes] : objects) {
+        CAPTURE(key);
+        CHECK(node.read(index_of(key), sub_of(key)) == values.at(key));
+      }
+    };
+    write_all(of_application);
+    write_all(of_communication);
+    node.say(0, reset_communication);
+    check_defaults(of_communication);
+    for (const auto& [key, bytes] : of_application) {
+      CAPTURE(key);
+      CHECK(node.read(index_of(key), sub_of(key)) == (key == 0x200F00 ? bytes + " 44 55 66 77 88 99" : bytes));
+    }
+    write_all(of_communication);
+    node.say(0, reset_node);
+    check_defaults(of_communication);
+    check_defaults(of_application);
+    CHECK(node.read(0x1020, 1) == values.at(0x102001));
+  }
+}
+
+TEST_CASE("gen: reset communication brings back what was stored of the communication profile") {
+  for (const Dictionary& dictionary : dictionaries) {
+    CAPTURE(dictionary.language);
+    Memory memory;
+    GeneratedNode node(dictionary.od, dictionary.length, memory);
+    CHECK(node.write(0x1017, 0, "FA 00") == "ok");
+    CHECK(node.write(0x1010, 2, save) == "ok");
+    CHECK(node.write(0x1017, 0, "07 00") == "ok");
+    node.say(0, reset_communication);
+    CHECK(node.read(0x1017, 0) == "FA 00");
+    CHECK(node.write(0x1011, 2, load) == "ok");
+    node.say(0, reset_communication);
+    CHECK(node.read(0x1017, 0) == "00 00");
+  }
+}
+
+TEST_CASE("gen: a PDO that the network has mapped anew is mapped as by default after reset communication") {
+  for (const Dictionary& dictionary : dictionaries) {
+    CAPTURE(dictionary.language);
+    Memory memory;
+    GeneratedNode node(dictionary.od, dictionary.length, memory);
+    CHECK(node.write(0x1400, 1, "05 02 00 80") == "ok");
+    CHECK(node.write(0x1600, 0, "00") == "ok");
+    CHECK(node.write(0x1600, 1, "10 00 30 20") == "ok");
+    CHECK(node.write(0x1600, 0, "01") == "ok");
+    CHECK(node.write(0x1400, 1, "05 03 00 00") == "ok");
+    node.say(0, "01 05");
+    node.say(0x305, "2C 01");
+    CHECK(node.read(0x2030, 0) == "2C 01");
+    node.say(0, reset_communication);
+    node.say(0, "01 05");
+    node.say(0x305, "2D 01");
+    CHECK(node.read(0x2030, 0) == "2C 01");
+    CHECK(node.read(0x1400, 1) == values.at(0x140001));
+    CHECK(node.read(0x1600, 0) == values.at(0x160000));
+    CHECK(node.read(0x1600, 1) == values.at(0x160001));
+  }
+}
+
+TEST_CASE("gen: variables that the network only reads belong to the application: resets leave them alone") {
+  Memory memory;
+  every_c_set_defaults();
+  CHECK(every_c_ram.read_only == 7);
+  CHECK(every_c_ram.od_2030_0 == 500);
+  every_c_ram.read_only = 8;
+  every_c_ram.od_2030_0 = 501;
+  GeneratedNode node(every_c_od, EVERY_C_OD_NUM, memory);
+  CHECK(node.read(0x2020, 0) == "08 00");
+  CHECK(node.read(0x2030, 0) == "F4 01");
+  node.say(0, reset_node);
+  CHECK(node.read(0x2020, 0) == "08 00");
+  every_c_set_defaults();
+  CHECK(every_c_ram.read_only == 7);
+}
+
+TEST_CASE("gen: the demo clock: 1017h written as 250 and not stored is 1000 after reset communication") {
+  Memory memory;
+  clock_set_defaults();
+  GeneratedNode node(clock_od, CLOCK_OD_NUM, memory);
+  CHECK(node.write(0x1017, 0, "FA 00") == "ok");
+  CHECK(node.write(0x1020, 1, "05 00 00 00") == "ok");
+  CHECK(node.write(0x2101, 0, "3C 00") == "ok");
+  CHECK(node.write(0x2201, 0, "61 62") == "ok");
+  CHECK(node.write(0x2100, 2, "0A") == "ok");
+  node.say(0, reset_communication);
+  CHECK(node.read(0x1017, 0) == "E8 03");
+  CHECK(node.read(0x1020, 1) == "00 00 00 00");
+  CHECK(node.read(0x2101, 0) == "3C 00");
+  CHECK(node.read(0x2201, 0) == "61 62");
+  CHECK(node.read(0x2100, 2) == "0A");
+  node.say(0, reset_node);
+  CHECK(node.read(0x2101, 0) == "00 00");
+  CHECK(node.read(0x2201, 0) == "");
+  CHECK(node.read(0x2100, 2) == "00");
 }
 
 TEST_CASE("gen: variables have the names of the description, and entries are typed values in C++") {

@@ -257,6 +257,88 @@ TEST_CASE("gen: the version of a stored layout changes with its entries, and wit
   CHECK(layout != layout_of(variable("2001", 5, "rw", ";StorageLocation=APP\n")));
 }
 
+TEST_CASE("gen: resets copy the default values from the first variable on that they set") {
+  const Generated generated =
+      generate(variable("2001", 7, "rw") + variable("2000", 6, "ro") + variable("1005", 7, "rw", "DefaultValue=0x80") +
+               variable("1017", 6, "rw", "DefaultValue=5") + variable("2002", 6, "rwr"));
+  CHECK(
+      generated.has("typedef struct small_ram_t_ {\n"
+                    "  union { uint16_t od_2000_0; uint16_t value_2000; };  ///< Value 2000, UNSIGNED16 ro\n"
+                    "  union { uint16_t od_2002_0; uint16_t value_2002; };  ///< Value 2002, UNSIGNED16 rwr\n"
+                    "  union { uint32_t od_2001_0; uint32_t value_2001; };  ///< Value 2001, UNSIGNED32 rw\n"
+                    "  union { uint32_t od_1005_0; uint32_t value_1005; };  ///< Value 1005, UNSIGNED32 rw\n"
+                    "  union { uint16_t od_1017_0; uint16_t value_1017; };  ///< Value 1017, UNSIGNED16 rw\n"
+                    "} small_ram_t;"));
+  CHECK(generated.has("reset == CO_RESET_NODE ? offsetof(small_ram_t, od_2002_0) : offsetof(small_ram_t, od_1005_0);"));
+  CHECK(generated.has("\nsmall_ram_t small_ram;\nstatic const small_ram_t small_ram_default = {\n"));
+  CHECK(generated.has("  small_ram = small_ram_default;\n"));
+  CHECK(generated.has("    {0, &power_on_type, (CO_DATA)(0)},\n};"));
+  CHECK(generated.has("#define SMALL_OD_NUM 6 "));
+}
+
+TEST_CASE("gen: reset communication sets nothing where the network writes no object of the communication profile") {
+  const Generated generated = generate(variable("1001", 5, "ro") + variable("2000", 5, "rw"));
+  CHECK(generated.has("reset == CO_RESET_NODE ? offsetof(small_ram_t, od_2000_0) : sizeof small_ram;"));
+}
+
+TEST_CASE("gen: what the network only reads has its value from the compiler, and 1003h is the stack's") {
+  const Generated generated = generate(type_object + variable("1001", 5, "ro") + record("1003") +
+                                       sub("1003sub0", 5, "rw", "0") + sub("1003sub1", 7, "ro", ""));
+  CHECK(generated.has("small_ram_t small_ram = {"));
+  CHECK_FALSE(generated.has("power_on_type"));
+  CHECK(generated.has("void small_set_defaults(void);"));
+}
+
+TEST_CASE(
+    "gen: reset communication loads the first bytes of a storage group: its objects of the communication profile") {
+  const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
+  const char* const group = ";StorageLocation=APP\n";
+  const Generated mixed = generate(store + variable("1017", 6, "rw", group) + variable("2000", 7, "rw", group) +
+                                   variable("2001", 5, "rw", group));
+  CHECK(mixed.has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 2};"));
+  CHECK(
+      mixed.has("typedef struct small_app_t_ {\n"
+                "  union { uint16_t od_1017_0; uint16_t value_1017; };  ///< Value 1017, UNSIGNED16 rw\n"
+                "  uint8_t unused_com[2];\n"
+                "  union { uint32_t od_2000_0; uint32_t value_2000; };  ///< Value 2000, UNSIGNED32 rw\n"
+                "  union { uint8_t od_2001_0; uint8_t value_2001; };  ///< Value 2001, UNSIGNED8 rw\n"
+                "  uint8_t unused[3];\n"
+                "} small_app_t;"));
+  CHECK(mixed.has("offsetof(small_app_t, od_2000_0) == 4 "));
+  CHECK(generate(store + variable("1017", 6, "rw", group))
+            .has("CO_RESET_COM, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 0};"));
+  CHECK(generate(store + variable("2000", 6, "rw", ";StorageLocation=COMM\n"))
+            .has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_COMM_LAYOUT), 0};"));
+}
+
+TEST_CASE("gen: a storage group that no 1010h loads has its default values, as nothing was stored") {
+  const char* const group = "DefaultValue=5\n;StorageLocation=APP\n";
+  const Generated generated = generate(variable("1017", 6, "rw", group) + variable("2000", 7, "rw", group));
+  CHECK(generated.has("memcpy(&small_app, &small_app_default, reset == CO_RESET_NODE ? sizeof small_app : 2);"));
+  CHECK(generated.has("power_on_type"));
+}
+
+TEST_CASE("gen: the size of the RAM has the padding between variables, where addresses have 32 bits") {
+  // 1 byte, 4 of the domain, 3 of padding, 12 of its CO_OBJ_DOM, 4 of padding, 8
+  const std::string octets = variable("2000", 15, "rw", "DefaultValue=01020304");
+  const auto wide_at = [](const char* index) { return variable(index, 0x1B, "rw", "DefaultValue=1"); };
+  const std::string wide = wide_at("2001");
+  const Generated generated = generate(octets + wide + variable("2002", 5, "rw"));
+  REQUIRE(generated.output.costs.at(0).part == "RAM");
+  CHECK(generated.output.costs.at(0).ram == 32);
+  CHECK(generated.output.costs.at(0).flash == 32);
+  // 8 and 1 that the network only reads, 7 of padding, 8 that reset node sets, 1 that both resets set, 7 of padding
+  CHECK(generate(variable("2000", 0x1B, "ro") + variable("2001", 5, "ro") + wide_at("2002") + variable("100D", 5, "rw"))
+            .output.costs.at(0)
+            .ram == 32);
+  // 4 of the domain, 12 of its CO_OBJ_DOM, 8
+  CHECK(generate(octets + wide).output.costs.at(0).ram == 24);
+  // 8, 12 of the CO_OBJ_DOM, 4 of the domain: what the network only reads is in descending order
+  CHECK(generate(variable("2000", 15, "ro", "DefaultValue=01020304") + variable("2001", 0x1B, "ro"))
+            .output.costs.at(0)
+            .ram == 24);
+}
+
 TEST_CASE("gen: words become identifiers of C") {
   CHECK(gen::identifier("Time of day (UTC)") == "time_of_day_utc");
   CHECK(gen::identifier("  2nd  ") == "n2nd");

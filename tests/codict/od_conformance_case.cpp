@@ -40,11 +40,6 @@ using test::GeneratedNode;
 using test::Memory;
 using test::OdConformance;
 
-// As they are before any test has changed them.
-const clock_ram_t clock_at_first = clock_ram;
-const every_c_ram_t every_c_at_first = every_c_ram;
-const every_cpp_ram_t every_cpp_at_first = every_cpp_ram;
-
 struct Described {
   const char* eds;
   const CO_OBJ* od;
@@ -69,9 +64,9 @@ Contradictions check(const Described& described, std::string eds, Check one, tes
   Findings findings;
   const lexican::codict::eds::Document document(Source("device.eds", std::move(eds)), findings);
   const Description description = lexican::codict::eds::read(document, findings);
-  clock_ram = clock_at_first;
-  every_c_ram = every_c_at_first;
-  every_cpp_ram = every_cpp_at_first;
+  clock_set_defaults();
+  every_c_set_defaults();
+  every_cpp_set_defaults();
   Memory memory;
   const demo::Errors errors = demo::clock_errors();
   GeneratedNode node(described.od, described.length, memory, {errors.first, errors.number});

@@ -2,6 +2,7 @@
 #include "clock_od.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "co/dictionary.hpp"
 
@@ -117,28 +118,28 @@ static const CO_OBJ_TYPE stored_string_type = {stored_string_size, stored_string
 
 static const uint8_t text_1008_0[] = "Lexican demo clock";
 
-clock_ram_t clock_ram = {
+clock_ram_t clock_ram;
+static const clock_ram_t clock_ram_default = {
     {{0, text_1008_0}},  // od_1008_0
     {0u},  // od_1003_1
     {0u},  // od_1003_2
     {0u},  // od_1003_3
     {0u},  // od_1003_4
+    {1u},  // od_1018_4
+    {0u},  // od_1001_0
+    {0u},  // od_1003_0
+    {0u},  // od_2100_1
+    {0u},  // od_2100_2
+    {0u},  // od_2100_3
     {128u},  // od_1005_0
     {0u},  // od_1006_0
-    {1u},  // od_1018_4
     {0u},  // od_100C_0
     {1000u},  // od_1017_0
     {1000u},  // od_1800_3
     {0u},  // od_1800_5
-    {0u},  // od_1001_0
-    {0u},  // od_1003_0
     {0u},  // od_100D_0
     {255u},  // od_1400_2
     {255u},  // od_1800_2
-    {0u},  // od_2100_1
-    {0u},  // od_2100_2
-    {0u},  // od_2100_3
-    {0},
 };
 
 clock_settings_t clock_settings;
@@ -152,7 +153,29 @@ static const clock_settings_t clock_settings_default = {
 };
 
 static stored_string_t string_2201_0 = {{0, 0, 32, (uint8_t *)clock_settings.od_2201_0}, &clock_settings.od_2201_0_length, CO_TVISIBLE_STRING};
-const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET, sizeof clock_settings, &clock_settings, &clock_settings_default, CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT)};
+const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET, sizeof clock_settings, &clock_settings, &clock_settings_default, CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT), 8};
+
+static uint8_t has_defaults;  // CONodeInit() or clock_set_defaults() was called
+
+void clock_set_defaults(void) {
+  clock_ram = clock_ram_default;
+  clock_settings = clock_settings_default;
+  has_defaults = 1;
+}
+
+// Called by CONodeInit() and at each NMT reset. Variables that the network cannot write are set once.
+static CO_ERR set_power_on_values(CO_OBJ *end, CO_NODE *node, uint32_t reset) {
+  const size_t written = reset == CO_RESET_NODE ? offsetof(clock_ram_t, od_2100_1) : offsetof(clock_ram_t, od_1005_0);
+  const size_t first = has_defaults != 0 ? written : 0;
+  (void)end;
+  (void)node;
+  (void)reset;
+  memcpy((uint8_t *)&clock_ram + first, (const uint8_t *)&clock_ram_default + first, sizeof clock_ram - first);
+  has_defaults = 1;
+  return CO_ERR_NONE;
+}
+
+static const CO_OBJ_TYPE power_on_type = {NULL, NULL, NULL, NULL, set_power_on_values};
 
 constexpr CO_OBJ clock_od[CLOCK_OD_NUM] = {
     {CLOCK_1000_0 | CO_OBJ_D___R_, CO_TUNSIGNED32, (CO_DATA)(0u)},
@@ -209,6 +232,7 @@ constexpr CO_OBJ clock_od[CLOCK_OD_NUM] = {
     {CLOCK_2101_0 | CO_OBJ_____RW, &limits_1.Type, (CO_DATA)(&clock_settings.od_2101_0)},
     {CLOCK_2200_0 | CO_OBJ_____RW, CO_TDOMAIN, (CO_DATA)(&clock_2200_0)},
     {CLOCK_2201_0 | CO_OBJ_____RW, &stored_string_type, (CO_DATA)(&string_2201_0)},
+    {0, &power_on_type, (CO_DATA)(0)},
 };
 
 // What the compiler proves: the order of the table,

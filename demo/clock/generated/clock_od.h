@@ -28,7 +28,7 @@
 #define CLOCK_OD_SSDO_N 1  ///< of co_cfg.h, at least
 #define CLOCK_OD_TPDO_N 1  ///< of co_cfg.h, at least
 
-#define CLOCK_OD_NUM 54  ///< entries: CO_NODE_SPEC.DictLen
+#define CLOCK_OD_NUM 55  ///< entries and end mark: CO_NODE_SPEC.DictLen
 
 /// \name Keys of the entries
 /// \{
@@ -146,29 +146,29 @@
 extern "C" {
 #endif
 
-/// Variables that are not stored.
+/// Variables that are not stored. CONodeInit() gives them their default values; NMT resets do so for those
+/// that the network can write.
 typedef struct clock_ram_t_ {
   union { CO_OBJ_STR od_1008_0; CO_OBJ_STR manufacturer_device_name; };  ///< Manufacturer device name, VISIBLE_STRING const
   union { uint32_t od_1003_1; uint32_t pre_defined_error_field_standard_error_field_1; };  ///< Pre-defined error field Standard error field 1, UNSIGNED32 ro
   union { uint32_t od_1003_2; uint32_t pre_defined_error_field_standard_error_field_2; };  ///< Pre-defined error field Standard error field 2, UNSIGNED32 ro
   union { uint32_t od_1003_3; uint32_t pre_defined_error_field_standard_error_field_3; };  ///< Pre-defined error field Standard error field 3, UNSIGNED32 ro
   union { uint32_t od_1003_4; uint32_t pre_defined_error_field_standard_error_field_4; };  ///< Pre-defined error field Standard error field 4, UNSIGNED32 ro
+  union { uint32_t od_1018_4; uint32_t identity_object_serial_number; };  ///< Identity object Serial number, UNSIGNED32 ro
+  union { uint8_t od_1001_0; uint8_t error_register; };  ///< Error register, UNSIGNED8 ro
+  union { uint8_t od_1003_0; uint8_t pre_defined_error_field_number_of_errors; };  ///< Pre-defined error field Number of errors, UNSIGNED8 rw
+  union { uint8_t od_2100_1; uint8_t time_hour; };  ///< Time Hour, UNSIGNED8 rw
+  union { uint8_t od_2100_2; uint8_t time_minute; };  ///< Time Minute, UNSIGNED8 rw
+  union { uint8_t od_2100_3; uint8_t time_second; };  ///< Time Second, UNSIGNED8 rw
   union { uint32_t od_1005_0; uint32_t cob_id_sync_message; };  ///< COB-ID SYNC message, UNSIGNED32 rw
   union { uint32_t od_1006_0; uint32_t communication_cycle_period; };  ///< Communication cycle period, UNSIGNED32 rw
-  union { uint32_t od_1018_4; uint32_t identity_object_serial_number; };  ///< Identity object Serial number, UNSIGNED32 ro
   union { uint16_t od_100C_0; uint16_t guard_time; };  ///< Guard time, UNSIGNED16 rw
   union { uint16_t od_1017_0; uint16_t producer_heartbeat_time; };  ///< Producer heartbeat time, UNSIGNED16 rw
   union { uint16_t od_1800_3; uint16_t tpdo_communication_parameter_inhibit_time; };  ///< TPDO communication parameter Inhibit time, UNSIGNED16 rw
   union { uint16_t od_1800_5; uint16_t tpdo_communication_parameter_event_timer; };  ///< TPDO communication parameter Event timer, UNSIGNED16 rw
-  union { uint8_t od_1001_0; uint8_t error_register; };  ///< Error register, UNSIGNED8 ro
-  union { uint8_t od_1003_0; uint8_t pre_defined_error_field_number_of_errors; };  ///< Pre-defined error field Number of errors, UNSIGNED8 rw
   union { uint8_t od_100D_0; uint8_t life_time_factor; };  ///< Life time factor, UNSIGNED8 rw
   union { uint8_t od_1400_2; uint8_t rpdo_communication_parameter_transmission_type; };  ///< RPDO communication parameter Transmission type, UNSIGNED8 rw
   union { uint8_t od_1800_2; uint8_t tpdo_communication_parameter_transmission_type; };  ///< TPDO communication parameter Transmission type, UNSIGNED8 rw
-  union { uint8_t od_2100_1; uint8_t time_hour; };  ///< Time Hour, UNSIGNED8 rw
-  union { uint8_t od_2100_2; uint8_t time_minute; };  ///< Time Minute, UNSIGNED8 rw
-  union { uint8_t od_2100_3; uint8_t time_second; };  ///< Time Second, UNSIGNED8 rw
-  uint8_t unused[4];
 } clock_ram_t;
 extern clock_ram_t clock_ram;
 
@@ -202,6 +202,10 @@ extern const CO_PARA clock_settings_para;
 #define CLOCK_SETTINGS_END (CLOCK_SETTINGS_OFFSET + CO_PARA_SPACE(sizeof(clock_settings_t), CLOCK_PARA_UNIT, CLOCK_PARA_PROGRAM))
 #define CLOCK_PARA_END CLOCK_SETTINGS_END  ///< behind the last group
 /// \}
+
+/// Gives all variables their default values, for an application that uses them before CONodeInit(). Those that
+/// the network cannot write then keep what the application writes to them.
+void clock_set_defaults(void);
 
 /// \name To be defined by the application
 /// \{

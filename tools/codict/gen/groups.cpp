@@ -8,12 +8,13 @@
 #include "gen/names.hpp"
 #include "gen/parts.hpp"
 #include "gen/rules.hpp"
+#include "model/access.hpp"
 
 namespace lexican::codict::gen {
 
 namespace {
 
-constexpr std::uint8_t address_alignment = 8;  // before all others, on any CPU
+constexpr std::uint8_t address_size = 4;
 
 // Strings have a NUL behind them, whatever their length.
 std::uint32_t array_length(const Item& item) {
@@ -36,7 +37,7 @@ Member memory_of(const Item& item) {
 Member descriptor_of(const Item& item) {
   Member member;
   member.role = Role::descriptor;
-  member.alignment = address_alignment;
+  member.alignment = address_size;
   member.name = item.member;
   member.has_alias = true;
   switch (item.storage) {
@@ -117,25 +118,59 @@ std::uint32_t hash(const Plan& plan, const Group& group) {
   return (state >> 24 ^ state) & 0x00FFFFFFU;
 }
 
-void lay_out(const Plan& plan, Group& group) {
-  std::stable_sort(group.members.begin(), group.members.end(),
-                   [](const Member& a, const Member& b) { return a.alignment > b.alignment; });
+bool is_communication(const Item& item) { return item.index >= 0x1000 && item.index <= 0x1FFF; }
+
+constexpr std::uint32_t rounded_up(std::uint32_t size, std::uint32_t unit) { return (size + unit - 1) / unit * unit; }
+
+// Numbers of 64 bits, then addresses, which have 32 or 64 bits, then all others: no padding is between them on any CPU.
+unsigned rank_of(const Member& member) {
+  return member.role == Role::descriptor ? address_size + 1U : member.alignment;
+}
+
+// First what the network only reads, then what reset node sets, last what both resets set: a reset copies all from a
+// member on. The middle part ascends in alignment, so that there is little padding between the parts.
+void lay_out_ram(const Plan& plan, Group& group) {
+  std::stable_sort(group.members.begin(), group.members.end(), [&](const Member& a, const Member& b) {
+    const Reset first = reset_of(plan.items[a.item]);
+    const Reset second = reset_of(plan.items[b.item]);
+    if (first != second) {
+      return first < second;
+    }
+    return first == Reset::node ? rank_of(a) < rank_of(b) : rank_of(a) > rank_of(b);
+  });
+  std::uint32_t alignment = 1;
   for (const Member& member : group.members) {
-    group.size += member.size;
+    group.size = rounded_up(group.size, member.alignment) + member.size;
+    alignment = std::max<std::uint32_t>(alignment, member.alignment);
   }
-  const std::uint32_t alignment = group.members.empty() ? 1 : group.members.front().alignment;
-  group.unused = (alignment - group.size % alignment) % alignment;
+  group.size = rounded_up(group.size, alignment);
+}
+
+// Objects of the communication profile first, as reset communication loads these and no others; within both parts the
+// larger alignment first. Nothing lies between two members but bytes that have a name.
+void lay_out_stored(const Plan& plan, Group& group) {
+  const auto is_first = [&](const Member& member) { return is_communication(plan.items[member.item]); };
+  std::stable_sort(group.members.begin(), group.members.end(), [&](const Member& a, const Member& b) {
+    return is_first(a) != is_first(b) ? is_first(a) : a.alignment > b.alignment;
+  });
+  std::uint32_t alignment = 1;
+  bool is_mixed = false;
+  for (Member& member : group.members) {
+    is_mixed = is_mixed || (!is_first(member) && is_first(group.members.front()));
+    group.com_size = is_mixed && group.com_size == 0 ? group.size : group.com_size;
+    member.unused_before = rounded_up(group.size, member.alignment) - group.size;
+    group.size += member.unused_before + member.size;
+    alignment = std::max<std::uint32_t>(alignment, member.alignment);
+  }
+  group.is_communication = !is_mixed && is_first(group.members.front());
+  group.unused = rounded_up(group.size, alignment) - group.size;
   group.size += group.unused;
   group.layout = hash(plan, group);
 }
 
 bool has_word(const std::string& id, const char* word) { return id.find(word) != std::string::npos; }
 
-bool is_communication(const Plan& plan, const Group& group) {
-  return has_word(group.id, "comm") ||
-         std::all_of(group.members.begin(), group.members.end(),
-                     [&](const Member& member) { return plan.items[member.item].index < 0x2000; });
-}
+bool is_for_communication(const Group& group) { return has_word(group.id, "comm") || group.is_communication; }
 
 // 2: communication, 3: application, 4…: the manufacturer's. [301:7.5.2.13]
 class StoreSubs {
@@ -152,11 +187,11 @@ class StoreSubs {
   bool has_all() const { return has_all_; }  ///< sub 1 is none of a group
   bool has_any() const { return !subs_.empty(); }
 
-  std::uint8_t take(const Plan& plan, const Group& group) {
+  std::uint8_t take(const Group& group) {
     if (!has_all()) {
       return take_from(1);
     }
-    const std::uint8_t wanted = is_communication(plan, group) ? 2 : (has_word(group.id, "app") ? 3 : 4);
+    const std::uint8_t wanted = is_for_communication(group) ? 2 : (has_word(group.id, "app") ? 3 : 4);
     const std::uint8_t taken = take_from(wanted);
     return taken != 0 || wanted == 4 ? taken : take_from(4);
   }
@@ -185,8 +220,7 @@ void assign_subs(Plan& plan, Findings& findings) {
   }
   for (std::size_t n = 1; n < plan.groups.size(); ++n) {
     Group& group = plan.groups[n];
-    group.is_communication = is_communication(plan, group);
-    group.sub_index = subs.take(plan, group);
+    group.sub_index = subs.take(group);
     if (group.sub_index == 0) {
       findings.add(rules::store, plan.items[group.members.front().item].span,
                    fmt::format("1010h has no sub-index left for the storage group {}", group.name));
@@ -230,6 +264,27 @@ void tell_of_unused_subs(const Plan& plan, Findings& findings) {
 
 }  // namespace
 
+// The stack writes 1003h: it empties it at reset node.
+Reset reset_of(const Item& item) {
+  if (!is_writable(item.access) || item.index == 0x1003) {
+    return Reset::none;
+  }
+  return is_communication(item) ? Reset::communication : Reset::node;
+}
+
+const Member* first_reset(const Plan& plan, Reset reset) {
+  const std::vector<Member>& members = plan.groups.front().members;
+  const auto first = std::find_if(members.begin(), members.end(),
+                                  [&](const Member& member) { return reset_of(plan.items[member.item]) >= reset; });
+  return first == members.end() ? nullptr : &*first;
+}
+
+bool has_defaults(const Plan& plan) {
+  const bool has_unloaded_group =
+      std::any_of(plan.groups.begin() + 1, plan.groups.end(), [](const Group& group) { return group.sub_index == 0; });
+  return has_unloaded_group || first_reset(plan, Reset::node) != nullptr;
+}
+
 void plan_groups(Plan& plan, Findings& findings) {
   join_groups(plan, findings);
   std::set<std::string> ids = {"od", "objects"};
@@ -237,8 +292,11 @@ void plan_groups(Plan& plan, Findings& findings) {
     const Item& item = plan.items[n];
     add(plan.groups[item.group].members, item.group == 0 ? plain_members(item) : stored_members(item), n);
   }
+  lay_out_ram(plan, plan.groups.front());
   for (Group& group : plan.groups) {
-    lay_out(plan, group);
+    if (&group != &plan.groups.front()) {
+      lay_out_stored(plan, group);
+    }
     if (!ids.insert(group.id).second || group.id.empty()) {
       findings.add(rules::name, {}, fmt::format("the storage group {} has the name of another one", group.name));
     }

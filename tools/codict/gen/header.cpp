@@ -96,7 +96,9 @@ void write_keys(const Plan& plan, const Options& options, Lines& out) {
 
 void write_counts(const Plan& plan, const Options& options, Lines& out) {
   const std::string prefix = upper(options.name);
-  out.add("#define {}_OD_NUM {}  ///< entries: CO_NODE_SPEC.DictLen", prefix, plan.items.size());
+  const std::size_t end_mark = has_defaults(plan) ? 1 : 0;
+  out.add("#define {}_OD_NUM {}  ///< entries{}: CO_NODE_SPEC.DictLen", prefix, plan.items.size() + end_mark,
+          end_mark == 0 ? "" : " and end mark");
   for (const auto& [label, count] : plan.labels) {
     out.add("#define {}_OD_CNT_{} {}", prefix, label, count);
   }
@@ -116,6 +118,9 @@ void write_struct(const Plan& plan, const Group& group, const Options& options, 
     const std::string text =
         has_alias ? fmt::format("union {{ {} {} }};", declaration(member, member.name), declaration(member, item.alias))
                   : declaration(member, member.name);
+    if (member.unused_before != 0) {
+      out.add("  uint8_t unused_com[{}];", member.unused_before);
+    }
     out.add("  {}{}", text, member.has_alias ? "  ///< " + about(item) : "");
   }
   if (group.unused != 0) {
@@ -133,7 +138,10 @@ void write_groups(const Plan& plan, const Options& options, Lines& out) {
     const bool is_ram = &group == &plan.groups.front();
     out.blank();
     if (is_ram) {
-      out.raw("/// Variables that are not stored.\n");
+      out.add("/// Variables that are not stored.{}",
+              has_defaults(plan) ? " CONodeInit() gives them their default values; NMT resets do so for those\n"
+                                   "/// that the network can write."
+                                 : "");
       write_struct(plan, group, options, out);
       continue;
     }
@@ -247,6 +255,11 @@ std::string write_header(const Plan& plan, const Options& options) {
   write_keys(plan, options, out);
   out.raw("\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
   write_groups(plan, options, out);
+  out.raw(
+      "\n/// Gives all variables their default values, for an application that uses them before CONodeInit(). Those "
+      "that\n");
+  out.raw("/// the network cannot write then keep what the application writes to them.\n");
+  out.add("void {}_set_defaults(void);", options.name);
   const std::vector<std::string> externals = externals_of(plan, options);
   if (!externals.empty()) {
     out.raw("\n/// \\name To be defined by the application\n/// \\{\n");

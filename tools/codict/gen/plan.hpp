@@ -84,12 +84,20 @@ enum class Role : unsigned char {
 struct Member {
   std::size_t item = 0;  ///< in Plan::items
   Role role = Role::value;
-  std::string type;         ///< of C
-  std::string name;         ///< "od_2201_0_length"
-  std::uint32_t count = 0;  ///< of an array; 0: it is none
-  std::uint32_t size = 0;   ///< bytes, where addresses have 32 bits
-  std::uint8_t alignment = 1;
+  std::string type;                 ///< of C
+  std::string name;                 ///< "od_2201_0_length"
+  std::uint32_t count = 0;          ///< of an array; 0: it is none
+  std::uint32_t size = 0;           ///< bytes, where addresses have 32 bits
+  std::uint8_t alignment = 1;       ///< where addresses have 32 bits
+  std::uint32_t unused_before = 0;  ///< bytes without use in front of it
   bool has_alias = false;
+};
+
+/// Which NMT reset gives a variable its power-on value.
+enum class Reset : unsigned char {
+  none,           ///< the network cannot write it: it gets its default value once, at power-on
+  node,           ///< reset node
+  communication,  ///< both resets: an object of the communication profile
 };
 
 /// Variables in one struct. The first group is the RAM, which is not stored.
@@ -97,11 +105,12 @@ struct Group {
   std::string name;               ///< of the description: "PERSIST_COMM"
   std::string id;                 ///< "persist_comm"
   std::uint8_t sub_index = 0;     ///< of 1010h; 0: none
-  bool is_communication = false;  ///< loaded by "reset communication"
-  std::vector<Member> members;    ///< as they lie in memory: the larger alignment first, so that nothing lies between
+  bool is_communication = false;  ///< all of it is loaded by "reset communication"
+  std::uint32_t com_size = 0;     ///< otherwise: bytes at the beginning that are
+  std::vector<Member> members;    ///< in the order of their memory
   std::uint32_t layout = 0;       ///< hash over all of them, 24 bits
-  std::uint32_t size = 0;         ///< bytes, with
-  std::uint32_t unused = 0;       ///< … those at the end that make it a multiple of its alignment on every CPU
+  std::uint32_t size = 0;         ///< bytes, with padding, where addresses have 32 bits
+  std::uint32_t unused = 0;       ///< bytes at the end of a storage group: a multiple of its alignment on every CPU
 };
 
 struct PdoSum {
@@ -124,6 +133,16 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
 
 /// The device that a plan makes: without what has no entry, with the values that it has from the beginning.
 Device described(const Device& device, const Plan& plan);
+
+/// The reset of an entry that is not stored.
+Reset reset_of(const Item& item);
+
+/// The first member of the RAM that a reset sets: all behind it are set, too. Null: there is none.
+const Member* first_reset(const Plan& plan, Reset reset);
+
+/// Whether there are variables that resets set and no 1010h loads: the end mark of the table gives all variables that
+/// are not stored their default values then. Otherwise the compiler does.
+bool has_defaults(const Plan& plan);
 
 /// "2100h sub 1"
 std::string place_name(const Item& item);

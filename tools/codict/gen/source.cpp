@@ -198,6 +198,7 @@ class SourceText {
     write_variables();
     write_group_descriptors();
     write_paras();
+    write_defaults();
     write_table();
     write_proofs();
     return out_.take();
@@ -226,7 +227,8 @@ class SourceText {
 
   void write_top() {
     out_.raw(generated_comment(options_));
-    out_.add("#include \"{}_od.h\"\n\n#include <stddef.h>", options_.name);
+    out_.add("#include \"{}_od.h\"\n\n#include <stddef.h>{}", options_.name,
+             has_defaults(plan_) ? "\n#include <string.h>" : "");
     const bool has_reals = std::any_of(plan_.items.begin(), plan_.items.end(), [](const Item& item) {
       return data_type(item.form->code).kind == TypeKind::real;
     });
@@ -377,6 +379,9 @@ class SourceText {
 
   void write_initialiser(const Group& group) {
     for (const Member& member : group.members) {
+      if (member.unused_before != 0) {
+        out_.raw("    {0},\n");
+      }
       const bool is_union = member.has_alias && !plan_.items[member.item].alias.empty();
       const std::string text = initialiser(member);
       out_.add("    {},  // {}", is_union ? "{" + text + "}" : text, member.name);
@@ -386,15 +391,18 @@ class SourceText {
     }
   }
 
-  // A group that CONodeInit() fills begins with nothing.
+  // Whether CONodeInit() gives a struct its values.
+  bool is_set_by_node(const Group& group) const {
+    return !group.members.empty() && (&group != &plan_.groups.front() || has_defaults(plan_));
+  }
+
   void write_variables() {
     for (const Group& group : plan_.groups) {
       if (group.members.empty()) {
         continue;
       }
       const std::string name = struct_of(group, options_);
-      const bool is_filled = group.sub_index != 0;
-      if (is_filled) {
+      if (is_set_by_node(group)) {
         out_.add("\n{}_t {};\nstatic const {}_t {}_default = {{", name, name, name, name);
       } else {
         out_.add("\n{}_t {} = {{", name, name);
@@ -427,8 +435,8 @@ class SourceText {
         const std::string name = struct_of(group, options_);
         out_.add(
             "const CO_PARA {0}_para = {{{1}_OFFSET, sizeof {0}, {2}&{0}, {2}&{0}_default, {3}, NULL, CO_PARA___E | "
-            "CO_PARA_VERSION({1}_LAYOUT)}};",
-            name, upper(name), cast, group.is_communication ? "CO_RESET_COM" : "CO_RESET_NODE");
+            "CO_PARA_VERSION({1}_LAYOUT), {4}}};",
+            name, upper(name), cast, group.is_communication ? "CO_RESET_COM" : "CO_RESET_NODE", group.com_size);
       }
     }
     std::set<std::string> others;
@@ -436,10 +444,10 @@ class SourceText {
       others.insert(para_of(*item));
     }
     if (others.count("all_groups") != 0) {
-      out_.raw("static const CO_PARA all_groups = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E};\n");
+      out_.raw("static const CO_PARA all_groups = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E, 0};\n");
     }
     if (others.count("no_group") != 0) {
-      out_.raw("static const CO_PARA no_group = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA____};\n");
+      out_.raw("static const CO_PARA no_group = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA____, 0};\n");
     }
   }
 
@@ -450,6 +458,71 @@ class SourceText {
       }
     }
     return item.sub_index == 1 && plan_.stores_all ? "all_groups" : "no_group";
+  }
+
+  // Power-on values
+  // ----------------------------------------------------------------------------------------------------
+
+  void write_defaults() {
+    const bool has_type = has_defaults(plan_);
+    if (has_type) {
+      out_.add("\nstatic uint8_t has_defaults;  // CONodeInit() or {}_set_defaults() was called", options_.name);
+    }
+    out_.add("\nvoid {}_set_defaults(void) {{", options_.name);
+    for (const Group& group : plan_.groups) {
+      if (is_set_by_node(group)) {
+        out_.add("  {0} = {0}_default;", struct_of(group, options_));
+      }
+    }
+    out_.raw(has_type ? "  has_defaults = 1;\n}\n" : "}\n");
+    if (has_type) {
+      write_power_on_type();
+    }
+  }
+
+  // Where the part of the RAM begins that a reset sets.
+  std::string begin_of(Reset reset) const {
+    const std::string name = struct_of(plan_.groups.front(), options_);
+    const Member* const first = first_reset(plan_, reset);
+    return first == nullptr ? "sizeof " + name : fmt::format("offsetof({}_t, {})", name, first->name);
+  }
+
+  void write_first() {
+    const std::string of_node = begin_of(Reset::node);
+    const std::string of_communication = begin_of(Reset::communication);
+    const bool is_same = of_node == of_communication;
+    out_.add("  const size_t written = {};",
+             is_same ? of_node : fmt::format("reset == CO_RESET_NODE ? {} : {}", of_node, of_communication));
+    out_.raw("  const size_t first = has_defaults != 0 ? written : 0;\n");
+  }
+
+  void write_power_on_type() {
+    out_.raw(
+        "\n// Called by CONodeInit() and at each NMT reset. Variables that the network cannot write are set once.\n"
+        "static CO_ERR set_power_on_values(CO_OBJ *end, CO_NODE *node, uint32_t reset) {\n");
+    if (!plan_.groups.front().members.empty()) {
+      write_first();
+    }
+    out_.raw("  (void)end;\n  (void)node;\n  (void)reset;\n");
+    for (const Group& group : plan_.groups) {
+      if (group.sub_index == 0 && is_set_by_node(group)) {
+        write_copy(group);
+      }
+    }
+    out_.raw(
+        "  has_defaults = 1;\n  return CO_ERR_NONE;\n}\n\n"
+        "static const CO_OBJ_TYPE power_on_type = {NULL, NULL, NULL, NULL, set_power_on_values};\n");
+  }
+
+  void write_copy(const Group& group) {
+    const std::string name = struct_of(group, options_);
+    if (&group == &plan_.groups.front()) {
+      out_.add("  memcpy((uint8_t *)&{0} + first, (const uint8_t *)&{0}_default + first, sizeof {0} - first);", name);
+    } else if (group.is_communication) {
+      out_.add("  memcpy(&{0}, &{0}_default, sizeof {0});", name);
+    } else {
+      out_.add("  memcpy(&{0}, &{0}_default, reset == CO_RESET_NODE ? sizeof {0} : {1});", name, group.com_size);
+    }
   }
 
   // Table ------------------------------------------------------------------------------------------------------------
@@ -502,6 +575,9 @@ class SourceText {
       out_.add("    {{{} | {}, {}, (CO_DATA)({})}},", macro_of(item, options_), flags_text(item.flags), type_text(item),
                data_text(item));
     }
+    if (has_defaults(plan_)) {
+      out_.raw("    {0, &power_on_type, (CO_DATA)(0)},\n");
+    }
     out_.raw("};\n");
   }
 
@@ -535,6 +611,7 @@ class SourceText {
     const std::string name = struct_of(group, options_);
     std::uint32_t offset = 0;
     for (const Member& member : group.members) {
+      offset += member.unused_before;
       out_.add("{0}(offsetof({1}_t, {2}) == {3} && sizeof {1}.{2} == {4}, \"{2}\");", proof(), name, member.name,
                offset, member.size);
       offset += member.size;
