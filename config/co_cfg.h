@@ -21,8 +21,8 @@
 /// Check of the dictionary while the node runs, by CODictInit() and the Init functions of types: 0 or 1. C++ tables can
 /// be proven by the compiler instead (CO_OD_CHECK()), C tables by a build with 1. With 0 a wrong table is taken as it
 /// is: what is in the wrong place may not be found, or do nothing, and numbers of services that are not configured
-/// reach no memory; but each Type must be there, and Data must be what it asks for. 0 saves 670 bytes of flash
-/// (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// reach no memory; but each Type must be there, and Data must be null or what the type requires. 0 saves 670 bytes of
+/// flash (Cortex-M0+, -Os) and 4 bytes of RAM.
 #ifndef USE_DICT_CHECK
 #define USE_DICT_CHECK 1
 #endif

@@ -309,15 +309,16 @@ void CONodeStop(CO_NODE* node);
 CO_ERR CONodeGetErr(CO_NODE* node);
 
 /// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver.
-/// Blocks only if the driver's Read does.
+/// Blocks only if the driver's Read does. In CO_INVALID it reads one frame and drops it, counted as received and
+/// unclaimed, unless the node has no drivers.
 void CONodeProcess(CO_NODE* node);
 
 #if USE_REAL_TIME
 /// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
 /// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
 /// and the timers of SYNC and PDOs. The driver's Read must not block. All in one turn, for which it waits, at most, for
-/// a frame or a timer action of another thread, or for what the application does in a turn. After CONodeStop() it is
-/// COTmrService() alone: the timers of the application go on.
+/// a frame or a timer action of another thread, or for what the application does in a turn. After CONodeStop() the
+/// timers of the application go on, and each call drops a frame, as CONodeProcess() does.
 ///
 /// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
 /// among the frames of either. Resets (CONmtReset()) are the mainline's, too: whoever asks for one, and wherever, it

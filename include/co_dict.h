@@ -14,20 +14,25 @@
 extern "C" {
 #endif
 
-/// What makes CODictInit() refuse a table. The same checks run at compile time with CO_OD_CHECK() (co/dictionary.hpp).
-/// Without USE_DICT_CHECK they run there alone, and nothing is refused: see there.
+/// Faults of a dictionary. CO_OD_CHECK() (co/dictionary.hpp) refuses all of them at compile time. At run time a fault
+/// stops the node (CO_INVALID, CO_ERR_DICT_INIT) only if it breaks the search or memory safety; any other concerns its
+/// entry alone: the node runs, its error is CO_ERR_OBJ_INIT, and CODictGetFault() names the entry. Without
+/// USE_DICT_CHECK nothing is checked at run time.
 typedef enum CO_DICT_FAULT_T {
   CO_DICT_OK = 0,
-  CO_DICT_NOT_ASCENDING,   ///< key not greater than the one before it
-  CO_DICT_NO_TYPE,         ///< Type is null, or an OD_TYPE in front of an OD_TYPE (co_od.h)
-  CO_DICT_NO_DATA,         ///< a basic type without flag D needs the address of its variable
+  CO_DICT_NOT_ASCENDING,  ///< key not greater than the one before it
+  CO_DICT_NO_TYPE,        ///< Type is null, or an OD_TYPE in front of an OD_TYPE (co_od.h)
+  /// A basic type without flag D needs the address of its variable. The node runs: SDO transfers of the entry are
+  /// aborted with 0800 0020h, functions of the API return an error, and a PDO that maps it does not exist. That holds
+  /// without USE_DICT_CHECK, too.
+  CO_DICT_NO_DATA,
   CO_DICT_DIRECT_TYPE,     ///< flag D with a type that needs an address, or that does not fit into a pointer
-  CO_DICT_NODEID_TYPE,     ///< flag N with a type that has no node-ID relative values
+  CO_DICT_NODEID_TYPE,     ///< flag N with a type that has no node-ID relative values; the node runs
   CO_DICT_WRONG_PLACE,     ///< type not allowed at this index or sub-index
   CO_DICT_NOT_CONFIGURED,  ///< number of the service beyond the configuration (CO_SSDO_N, …)
   CO_DICT_DIRECT_ADDRESS,  ///< flag D with an address, or no flag D with a value (found at compile time only)
   CO_DICT_DIRECT_CONST,    ///< flags D and W in a table in read-only memory (found at compile time only)
-  CO_DICT_RESERVED_INDEX,  ///< entry at an index below 0001h, or an entry of a static data type with data
+  CO_DICT_RESERVED_INDEX,  ///< entry at an index below 0001h; or a static data type with data: the node runs then
   CO_DICT_NOT_MAPPABLE,    ///< a PDO of the table maps this entry, which has no flag P (found at compile time only)
 } CO_DICT_FAULT;
 
@@ -134,8 +139,9 @@ int16_t CODictInit(CO_DICT* cod, struct CO_NODE_T* node, CO_OBJ* root, uint16_t 
 /// Runs the Init function of every entry, from the first to the last. Returns the last error, or CO_ERR_NONE.
 CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 
-/// What CODictInit(), or the Init function of a basic type, found; \a key (may be null) receives the key of the entry.
-/// Also legal after a CONodeInit() that ended with CO_ERR_DICT_INIT. Without USE_DICT_CHECK: CO_DICT_OK.
+/// Returns the first fault that CODictInit() or the Init function of a basic type has found; a fault that stops the
+/// node comes before all others. \a key (may be null) receives the key of the entry. Also legal after a CONodeInit()
+/// that ended with CO_ERR_DICT_INIT. Without USE_DICT_CHECK: CO_DICT_OK.
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
 
 #ifdef __cplusplus

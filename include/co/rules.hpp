@@ -3,7 +3,8 @@
 /// What a dictionary must look like, written once for the compiler and for the node. [301:7.4]
 ///
 /// Who applies which rule:
-/// - check_entry(): needs no more than the table. CO_OD_CHECK() and CODictInit().
+/// - check_entry(): needs no more than the table. CO_OD_CHECK() and CODictInit(), which leaves the data of static data
+///   types to check_type().
 /// - check_type(): needs the rule of the entry's type. CO_OD_CHECK() finds it by the address of the type object, which
 ///   only the compiler may do: in the running program a list of all types would link them all into a firmware that
 ///   uses three. There a type that belongs to one place applies its rule in its Init function.
@@ -148,7 +149,7 @@ constexpr bool may_be_direct(const Rule& rule) {
 /// The rules of a type, for an entry that has passed check_entry().
 constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has_data) {
   if (is_static_type(key)) {
-    return CO_DICT_OK;
+    return has_data ? CO_DICT_RESERVED_INDEX : CO_DICT_OK;
   }
   if (!is_place(rule, key)) {
     return CO_DICT_WRONG_PLACE;
@@ -160,6 +161,13 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
     return CO_DICT_NODEID_TYPE;
   }
   return (has_data || has(key, CO_OBJ_D_____)) ? CO_DICT_OK : CO_DICT_NO_DATA;
+}
+
+/// Does a fault that check_type() has found stop the node? Only what breaks memory safety does: types compute the
+/// number of a service from the place of their entry, and take Data for an address. Everything else concerns one entry.
+constexpr bool stops_node(CO_DICT_FAULT fault) {
+  return fault != CO_DICT_OK && fault != CO_DICT_NO_DATA && fault != CO_DICT_NODEID_TYPE &&
+         fault != CO_DICT_RESERVED_INDEX;
 }
 
 }  // namespace co::rules

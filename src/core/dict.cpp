@@ -44,7 +44,7 @@ CO_ERR check(CO_DICT& dict) {
   uint32_t key_before = 0;
   for (uint16_t n = 0; n < dict.Num; ++n) {
     const CO_OBJ& entry = dict.Root[n];
-    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, uintptr_t{entry.Data} != 0);
+    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, false);
     if (dict.Fault != CO_DICT_OK) {
       dict.FaultKey = entry.Key;
       return CO_ERR_DICT_INIT;
@@ -179,7 +179,7 @@ bool has_index(const CO_DICT& dict, uint32_t key) {
 
 #if USE_DICT_CHECK
 CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
-  if (node.Dict.Fault == CO_DICT_OK) {
+  if (node.Dict.Fault == CO_DICT_OK || (rules::stops_node(fault) && !stops_node(node.Dict))) {
     node.Dict.Fault = fault;
     node.Dict.FaultKey = obj.Key;
   }

@@ -19,8 +19,9 @@ void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 // Is there an entry with this index, at whatever sub-index?
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 
-// For the Init functions of types: CO_ERR_TYPE_INIT if the entry breaks the type's rule. The first one that does is
-// named by CODictGetFault(), and keeps the node from starting. refuse: for what the rules do not know.
+// For the Init functions of types: returns CO_ERR_TYPE_INIT if the entry breaks the type's rule. CODictGetFault() names
+// the first one that does; one that stops the node is named before one that does not. refuse: for what the rules do not
+// know.
 #if USE_DICT_CHECK
 CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
@@ -44,6 +45,9 @@ inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_T
   return 0;
 #endif
 }
+
+// Has a fault been found that keeps the node from running?
+[[nodiscard]] inline bool stops_node(const CO_DICT& dict) { return rules::stops_node(fault_of(dict)); }
 
 template <const rules::Rule& rule>
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {

@@ -269,6 +269,21 @@ bool receive(CO_NODE& node, CO_IF_FRM& frame) {
   return true;
 }
 
+// Reads the frame that waits in CO_INVALID, and drops it: a loop that processes frames until there is none has to end.
+// The error that has stopped the node stays. A node that was never initialised has no drivers.
+void drop_received(CO_NODE& node) {
+  if (node.Ext == nullptr || node.State != 0) {
+    return;
+  }
+  const CO_ERR error = node.Error;
+  CO_IF_FRM frame = wire::empty_frame(0, 0);
+  if (port::can_read(node, frame) > 0) {
+    count(node.Count.Received);
+    count(node.Count.Unclaimed);
+  }
+  node.Error = error;
+}
+
 #if USE_REAL_TIME
 // What the NMT state forbids now is lost: kept for CONodeProcess() it would come behind newer ones.
 void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
@@ -347,7 +362,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
     event::forget_resets(*node);
   }
   event::settle(*node);
-  if (dict::fault_of(node->Dict) != CO_DICT_OK) {
+  if (dict::stops_node(node->Dict)) {
     event::change_mode(*node, CO_INVALID);
     node->Error = CO_ERR_DICT_INIT;
     return;
@@ -390,6 +405,7 @@ void CONodeProcess(CO_NODE* node) {
     node::settle_all(*node);
   }
   if (node->State != event::running) {
+    node::drop_received(*node);
     return;
   }
   node->Burst = 0;
@@ -416,6 +432,7 @@ void CONodeRealTime(CO_NODE* node) {
   }
   (void)COTmrService(&node->Tmr);
   if ((node->State & event::running) == 0) {
+    node::drop_received(*node);
     return;
   }
   const event::Serving serving(*node);

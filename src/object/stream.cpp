@@ -3,7 +3,14 @@
 
 #include "co_domain.h"
 #include "co_string.h"
+#include "core/access.hpp"
 #include "core/dict.hpp"
+#if USE_OD
+#include "co_od.h"
+
+// Comparing with it does not link it.
+#pragma weak ODTypeInit
+#endif
 
 namespace co::stream {
 
@@ -11,6 +18,29 @@ static_assert(offsetof(CO_OBJ_DOM, Offset) == 0 && offsetof(CO_OBJ_STR, Offset) 
 static_assert(offsetof(CO_OBJ_STR_RW, Offset) == 0);
 
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) { return seek(*obj, position); }
+
+namespace {
+
+bool is_missing(const CO_OBJ& obj) {
+  const CO_OBJ_TYPE* const type = original_type(obj);
+  return type != nullptr && type->Reset == reset && uintptr_t{obj.Data} == 0;
+}
+
+}  // namespace
+
+uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
+  const uint32_t abort = access::open(node, key, transfer);
+  return abort == no_abort && is_missing(*node.Served) ? CO_SDO_ERR_TOS : abort;
+}
+
+#if USE_OD
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
+  const bool is_extensible = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
+  return is_extensible ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
+}
+#else
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
+#endif
 
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
   const CO_ERR err = dict::check_type(*obj, *node, rules::variable);

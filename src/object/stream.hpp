@@ -26,6 +26,15 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
   return CO_ERR_NONE;
 }
 
+// The same as Reset function.
+CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
+
+// The type that an entry has without its extension (co_od.h); null: none.
+[[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
+
+// Like access::open(), and refuses one of our own streams whose Data is null.
+[[nodiscard]] uint32_t open(CO_NODE_T& node, uint32_t key, CO_OBJ_TRANSFER transfer);
+
 // Somebody passes a piece: whoever goes on with COObj…Cont() finds the position where it was.
 class KeptPosition {
  public:
@@ -43,8 +52,5 @@ class KeptPosition {
   uint32_t* offset_;
   uint32_t before_;
 };
-
-// The same as Reset function.
-CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
 }  // namespace co::stream

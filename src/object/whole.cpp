@@ -6,20 +6,12 @@
 #include "object/stream.hpp"
 #if USE_OD
 #include "co_od.h"
-
-// Comparing with it does not link it.
-#pragma weak ODTypeInit
 #endif
 
 namespace co::obj {
 namespace {
 
 #if USE_OD
-
-const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
-  const bool is_extensible = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
-  return is_extensible ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
-}
 
 // Extended streams have one place for the application, until one of them gets another extension.
 class KeptAccess {
@@ -46,8 +38,6 @@ class KeptAccess {
 
 #else
 
-const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
-
 class KeptAccess {
  public:
   explicit KeptAccess(const CO_NODE&) {}
@@ -62,7 +52,7 @@ CO_ERR pass_at_beginning(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, 
 
 [[gnu::noinline]] CO_ERR pass_stream(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, void* data,
                                      uint32_t bytes) {
-  const CO_OBJ_TYPE* const type = original_type(obj);
+  const CO_OBJ_TYPE* const type = stream::original_type(obj);
   const KeptAccess access(node);
   if (type == nullptr || type->Reset != stream::reset) {
     return pass_at_beginning(obj, node, function, data, bytes);

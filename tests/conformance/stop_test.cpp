@@ -101,6 +101,37 @@ TEST_CASE("stop: when the start is announced, the boot-up message is the last fr
   check_stopped(node);
 }
 
+TEST_CASE("stop: frames that wait are read and dropped, one in each call; nothing is sent, no error is told") {
+  Fixture node;
+  unsigned passed_on = 0;
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  node.call([&] { CONodeStop(&node.node); });
+  const CO_NODE_COUNTERS before = node.counters();
+  for (const char* const text : {"601#4000100000000000", "000#0101", "000#8101", "7E5#0401000000000000", "123#00"}) {
+    node.can.to_node.push_back(frame(text));
+  }
+  unsigned calls = 0;
+  while (!node.can.to_node.empty() && calls < 100) {
+    node.call([&] { CONodeProcess(&node.node); });
+    ++calls;
+  }
+  CHECK(calls == 5);
+  node.can.read_result = -1;
+  node.call([&] { CONodeProcess(&node.node); });
+  CHECK(node.error() == CO_ERR_NONE);
+  CHECK(node.counters().Received == before.Received + 5);
+  CHECK(node.counters().Unclaimed == before.Unclaimed + 5);
+  CHECK(node.mode() == CO_INVALID);
+  CHECK(passed_on == 0);
+  node.silent();
+}
+
+TEST_CASE("stop: a node that was never initialised reads no frame") {
+  static CO_NODE node;
+  CONodeProcess(&node);
+  CHECK(CONodeGetCounters(&node).Received == 0);
+}
+
 TEST_CASE("timers: an id of a place that the pool does not have deletes nothing") {
   Fixture node;
   const std::int16_t beyond = static_cast<std::int16_t>(node->Tmr.Max);

@@ -17,7 +17,13 @@ uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
   return static_cast<uint8_t>(newest + 1U - sub);
 }
 
-uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return CO_GET_SUB(obj->Key) == 0 ? 1 : 4; }
+// Sub-index 0 needs no variable.
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
+  if (CO_GET_SUB(obj->Key) == 0) {
+    return 1;
+  }
+  return uintptr_t{obj->Data} == 0 ? 0 : 4;
+}
 
 // Entries are counted from sub-index 1 without a gap.
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
@@ -28,14 +34,15 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
     return err == CO_ERR_NONE && !has_entries ? CO_ERR_TYPE_INIT : err;
   }
   uint8_t& found = node->Emcy.Hist.Found;
-  found = sub == 1 || sub == found + 1 ? sub : found;
+  const bool has_data = uintptr_t{obj->Data} != 0;
+  found = has_data && (sub == 1 || sub == found + 1) ? sub : found;
   return dict::check_type(*obj, *node, rules::emcy_history);
 }
 
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_EMCY_HIST& history = node->Emcy.Hist;
   const uint8_t sub = CO_GET_SUB(obj->Key);
-  if (size != COTEmcyHist.Size(obj, node, size)) {
+  if (size == 0 || size != COTEmcyHist.Size(obj, node, size)) {
     return CO_ERR_BAD_ARG;
   }
   if (sub == 0) {

@@ -152,7 +152,10 @@ CO_ERR change(CO_NODE& node, const CO_HBCONS& cons, uint16_t ms, uint8_t node_id
 bool is_entry(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) != 0; }
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
-  return is_entry(*obj) ? sizeof(uint32_t) : CO_TUNSIGNED8->Size(obj, node, width);
+  if (!is_entry(*obj)) {
+    return CO_TUNSIGNED8->Size(obj, node, width);
+  }
+  return data_of<CO_HBCONS>(*obj) == nullptr ? 0 : sizeof(uint32_t);
 }
 
 CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
@@ -161,7 +164,7 @@ CO_ERR init(CO_OBJ* obj, CO_NODE* node) {
   if (!entry || err != CO_ERR_NONE) {
     return err;
   }
-  if (!dict::is_number(CO_GET_SUB(obj->Key) - 1U, CO_HBCONS_N)) {
+  if (data_of<CO_HBCONS>(*obj) == nullptr || !dict::is_number(CO_GET_SUB(obj->Key) - 1U, CO_HBCONS_N)) {
     return CO_ERR_TYPE_INIT;
   }
   CO_HB_WATCH& watch = node->HbCons[CO_GET_SUB(obj->Key) - 1];

@@ -45,7 +45,7 @@ CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   const CO_OBJ_TYPE* const type = is_number(*obj) ? CO_TUNSIGNED8 : CO_TUNSIGNED32;
-  return is_number(*obj) ? type->Size(obj, node, width) : sizeof(uint32_t);
+  return type->Size(obj, node, width);
 }
 
 // What the network can do with the groups of an entry. [301:7.5.2.13 figure 60]
@@ -62,7 +62,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_TUNSIGNED8->Read(obj, node, buffer, size);
   }
   const uint32_t value = abilities<bits>(*node, *obj);
-  if (size != sizeof value) {
+  if (size != sizeof value || uintptr_t{obj->Data} == 0) {
     return CO_ERR_OBJ_SIZE;
   }
   __builtin_memcpy(buffer, &value, sizeof value);
@@ -77,7 +77,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return is_number(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
   }
   __builtin_memcpy(&value, buffer, sizeof value);
-  if (value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
+  if (uintptr_t{obj->Data} == 0 || value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
     return CO_ERR_TYPE_WR;
   }
   CO_ERR first = CO_ERR_NONE;

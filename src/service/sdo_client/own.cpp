@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A client whose server is the own node: the dictionary with the rights of the network, and without the network.
 #include "core/access.hpp"
+#include "object/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
 
 namespace co::sdo_client {
@@ -108,7 +109,7 @@ uint32_t access_own(CO_CSDO& client) {
   const uint32_t others_abort = node.UserAbort;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
   access::serve(node, nullptr);
-  uint32_t abort = access::open(node, client.Key, direction);
+  uint32_t abort = stream::open(node, client.Key, direction);
   if (abort == no_abort) {
     CO_OBJ& obj = *node.Served;
     const bool taken = obj::is_stream(obj) && access::is_taken(node, obj, nullptr);

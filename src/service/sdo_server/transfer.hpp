@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/access.hpp"
+#include "object/stream.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "wire/sdo.hpp"
 
@@ -79,7 +80,7 @@ void restart(CO_SDO& channel, const CO_IF_FRM& request);
 [[nodiscard]] inline uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
-  const uint32_t abort = access::open(*channel.Node, channel.Key, transfer);
+  const uint32_t abort = stream::open(*channel.Node, channel.Key, transfer);
   if constexpr (USE_ACCESS_HOOK != 0) {
     return abort == no_abort ? ask(channel, request) : abort;
   }
