@@ -5,7 +5,8 @@
 /// A slave is addressed by four numbers, those of its 1018h: vendor-ID, product code, revision number and serial
 /// number. It is configured in its state configuration: COLssmSwitchSelective() leads one slave there, a fastscan the
 /// one that it has found, COLssmSwitchGlobal() all of them. The services to configure, store and inquire are answered
-/// by every slave in that state, and the first answer is taken: let it be one slave. Bit rates may be given to all at
+/// by every slave in that state, and the first answer is taken: let it be one slave (CO_LSSM.Heard counts the answers).
+/// Bit rates may be given to all at
 /// once, without knowing who refuses.
 ///
 ///     COLssmFastscan(&node.Lssm, NULL, 0, found);                                      // whoever has no node-ID
@@ -88,20 +89,23 @@ typedef struct CO_LSSM_T {
   uint8_t Error;                    ///< read: error code of a slave that refuses, 1…255
   uint8_t Specific;                 ///< read: the manufacturer's error code, if Error is 255
   uint8_t State;                    ///< of the protocol; 0: no service is going on
-  uint8_t Heard;                    ///< a slave has answered
-  uint8_t Request;                  ///< command of the first frame
-  uint8_t Frames;                   ///< of the request
-  uint8_t Sent;                     ///< of these
-  uint8_t Answer;                   ///< command that is awaited
-  uint8_t Then;                     ///< State behind the last frame
-  uint8_t Known;                    ///< fastscan: parts that need no scan
-  uint8_t Part;                     ///< fastscan: of the address
-  uint8_t Bit;                      ///< fastscan: the lowest that is compared
-  uint8_t Routed;                   ///< answers are received
-  uint32_t Number[6];               ///< of the frames of the request
-  uint32_t Baudrate;                ///< activate bit timing: the own new one, 0: none
-  uint32_t Timeout;                 ///< ms; 0: CO_LSSM_TIMEOUT_MS
-  uint32_t Listen;                  ///< ms; 0: CO_LSSM_LISTEN_MS
+  /// Read: answers to the last request, also after the service has ended, until the next request; at most 255. More
+  /// than 1 for a service of one slave, some time after its end, or at the end of a fastscan: several slaves have the
+  /// same address or are in configuration. Equal answers that slaves transmit in the same moment are one frame.
+  uint8_t Heard;
+  uint8_t Request;     ///< command of the first frame
+  uint8_t Frames;      ///< of the request
+  uint8_t Sent;        ///< of these
+  uint8_t Answer;      ///< command that is awaited
+  uint8_t Then;        ///< State behind the last frame
+  uint8_t Known;       ///< fastscan: parts that need no scan
+  uint8_t Part;        ///< fastscan: of the address
+  uint8_t Bit;         ///< fastscan: the lowest that is compared
+  uint8_t Routed;      ///< answers are received
+  uint32_t Number[6];  ///< of the frames of the request
+  uint32_t Baudrate;   ///< activate bit timing: the own new one, 0: none
+  uint32_t Timeout;    ///< ms; 0: CO_LSSM_TIMEOUT_MS
+  uint32_t Listen;     ///< ms; 0: CO_LSSM_LISTEN_MS
   CO_LSSM_CALLBACK Call;
   CO_TMR_MEM Tmr;
 } CO_LSSM;
@@ -173,7 +177,9 @@ CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
 /// 0…4, are known and need no scan; may be null if \a num is 0.
 /// CO_LSSM_NOT_FOUND: there is none (with these parts). CO_LSSM_TIMEOUT: the slave has not answered when its number was
 /// complete: frames were lost, or it is gone. Perhaps it is in configuration: switch all to waiting before scanning
-/// again. CO_ERR_BAD_ARG: \a num is above 4, or \a known is null though there are any.
+/// again. A slave that answers every request is found as 0, 0, 0, 0, again and again: end a loop of fastscans at an
+/// address that was found before, and inquire the identity of what was found. CO_ERR_BAD_ARG: \a num is above 4, or \a
+/// known is null though there are any.
 CO_ERR COLssmFastscan(CO_LSSM* lssm, const uint32_t* known, uint8_t num, CO_LSSM_CALLBACK callback);
 
 #ifdef __cplusplus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "client/lss_master.hpp"
 
+#include <utility>
+
 #include "trace/text.hpp"
 
 #if USE_LSS_MASTER
@@ -12,7 +14,8 @@ constexpr unsigned manufacturers_error = 255;  // the specific error code tells 
 
 }  // namespace
 
-LssMaster::LssMaster(Node& node, Loop& loop, Times times) : node_(node), lssm_(node.stack().Lssm), loop_(loop) {
+LssMaster::LssMaster(Node& node, Loop& loop, Times times)
+    : node_(node), lssm_(node.stack().Lssm), loop_(loop), listen_(times.listen) {
   COLssmSetTimes(&lssm_, times.timeout, times.listen);
 }
 
@@ -25,6 +28,7 @@ void LssMaster::note_end(CO_LSSM* lssm, CO_LSSM_RESULT result) {
 void LssMaster::begin() {
   node_.set_user(this);  // the SDO client of the same node does so, too
   ended_ = false;
+  fault_.clear();
 }
 
 bool LssMaster::wait_for_end(CO_ERR begun) {
@@ -35,7 +39,26 @@ bool LssMaster::wait_for_end(CO_ERR begun) {
   return error_ == CO_ERR_NONE && result_ == CO_LSSM_OK;
 }
 
+bool LssMaster::is_alone() {
+  loop_.run_for(listen_ * millisecond);
+  if (lssm_.Heard <= 1) {
+    return true;
+  }
+  return fail(
+      text("%u nodes have answered where one was addressed; give each node its own serial number, or connect "
+           "one at a time",
+           lssm_.Heard));
+}
+
+bool LssMaster::fail(std::string fault) {
+  fault_ = std::move(fault);
+  return false;
+}
+
 std::string LssMaster::fault() const {
+  if (!fault_.empty()) {
+    return fault_;
+  }
   if (error_ != CO_ERR_NONE) {
     return error_ == CO_ERR_IF_CAN_SEND ? "the bus takes no frames"
                                         : text("error %04Xh", static_cast<unsigned>(error_));

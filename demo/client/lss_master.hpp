@@ -37,10 +37,24 @@ class LssMaster {
     return wait_for_end(service(&lssm_, given..., note_end));
   }
 
+  /// The same for a service that one node alone must answer: listens on for further answers. False, too, if there are
+  /// any.
+  template <class... Argument, class... Given>
+  bool run_alone(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
+    return run(service, given...) && is_alone();
+  }
+  /// Listens on for the time of a request that looks for nodes. False: several nodes have answered the last request.
+  bool is_alone();
+  /// The program has found a fault of its own, which fault() tells. Always false.
+  bool fail(std::string fault);
+
+  /// To the last request.
+  unsigned answers() const { return lssm_.Heard; }
   std::uint32_t value() const { return lssm_.Value; }
   LssAddress address() const { return {lssm_.Address[0], lssm_.Address[1], lssm_.Address[2], lssm_.Address[3]}; }
-  bool nobody_found() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
-  bool cancelled() const { return error_ == CO_ERR_NONE && result_ == CO_LSSM_CANCELLED; }
+  bool nobody_found() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
+  bool timed_out() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_TIMEOUT; }
+  bool cancelled() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_CANCELLED; }
   std::string fault() const;
 
  private:
@@ -51,6 +65,8 @@ class LssMaster {
   Node& node_;
   CO_LSSM& lssm_;
   Loop& loop_;
+  std::uint32_t listen_;  // ms
+  std::string fault_;     // of the program; empty: none
   bool ended_ = false;
   CO_ERR error_ = CO_ERR_NONE;  // of the last service, when it was started
   CO_LSSM_RESULT result_ = CO_LSSM_OK;

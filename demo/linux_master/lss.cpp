@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "linux_master/lss.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "client/lss_master.hpp"
 #include "client/sdo_client.hpp"
 #include "host/exit.hpp"
@@ -22,23 +25,96 @@ std::string shown(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
 
-/// A slave that was found stays in the state configuration, where no fastscan finds it again.
+/// The node in the state configuration has this address. False: the fault is told by \a master.
+bool has_identity(LssMaster& master, const LssAddress& address) {
+  for (std::uint8_t part = 0; part < CO_LSSM_PARTS; ++part) {
+    if (!master.run_alone(COLssmInquire, part)) {
+      return false;
+    }
+    if (master.value() != address[part]) {
+      return master.fail("the node at " + shown(address) + text(" names another number: 0x%08X", master.value()));
+    }
+  }
+  return true;
+}
+
+/// Finds a node without node-ID, which is then in the state configuration.
+bool find(LssMaster& master) {
+  if (!master.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
+    return false;
+  }
+  if (master.address() == LssAddress{}) {
+    return master.fail(
+        "fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a fastscan; "
+        "disconnect it, or name the node to configure by --address");
+  }
+  return master.answers() <= 1 || master.is_alone();  // a fastscan has listened
+}
+
+/// Alone in the state configuration, the node answers to its address and has the identity that was found.
+bool verify(LssMaster& master, const LssAddress& address) {
+  if (!master.run(COLssmSwitchGlobal, waiting)) {
+    return false;
+  }
+  if (!master.run_alone(COLssmSwitchSelective, address.data())) {
+    return master.timed_out() ? master.fail(shown(address) + " was found, but does not answer to its address") : false;
+  }
+  return has_identity(master, address);
+}
+
+/// In the state configuration no fastscan finds a node again.
+bool select_all(LssMaster& master, const std::vector<LssAddress>& addresses) {
+  return std::all_of(addresses.begin(), addresses.end(),
+                     [&](const LssAddress& address) { return master.run(COLssmSwitchSelective, address.data()); });
+}
+
 bool scan(LssMaster& master, std::ostream& out) {
-  while (master.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
-    out << shown(master.address()) << std::endl;
+  std::vector<LssAddress> found;
+  while (find(master)) {
+    const LssAddress address = master.address();
+    if (std::find(found.begin(), found.end(), address) != found.end()) {
+      return master.fail("fastscan has found " + shown(address) +
+                         " again: this node answers although it is selected or has a node-ID; disconnect it, or name "
+                         "the node to configure by --address");
+    }
+    if (!verify(master, address)) {
+      return false;
+    }
+    out << shown(address) << std::endl;
+    if (!select_all(master, found)) {
+      return false;
+    }
+    found.push_back(address);
   }
   return master.nobody_found();
 }
 
 bool select(LssMaster& master, const LssRequest& request, std::ostream& out) {
   if (request.address) {
-    return master.run(COLssmSwitchSelective, request.address->data());
+    return master.run_alone(COLssmSwitchSelective, request.address->data()) && has_identity(master, *request.address);
   }
-  const bool found = master.run(COLssmFastscan, nullptr, std::uint8_t{0});
-  if (found) {
-    out << shown(master.address()) << std::endl;
+  if (!find(master)) {
+    return false;
   }
-  return found;
+  const LssAddress address = master.address();
+  if (!has_identity(master, address)) {
+    return false;
+  }
+  out << shown(address) << std::endl;
+  return true;
+}
+
+/// Two nodes must not start with the same node-ID: it is taken back from all that have answered.
+bool set_node_id(LssMaster& master, std::uint8_t id) {
+  if (!master.run(COLssmConfigureNodeId, id)) {
+    return false;
+  }
+  if (master.is_alone()) {
+    return true;
+  }
+  const std::string fault = master.fault();
+  master.run(COLssmConfigureNodeId, no_node_id);
+  return master.fail(fault);
 }
 
 bool inquire(LssMaster& master, std::ostream& out) {
@@ -58,7 +134,7 @@ bool inquire(LssMaster& master, std::ostream& out) {
 
 bool act(LssMaster& master, const LssRequest& request, std::ostream& out) {
   switch (request.action) {
-    case LssAction::set_id: return master.run(COLssmConfigureNodeId, static_cast<std::uint8_t>(request.value));
+    case LssAction::set_id: return set_node_id(master, static_cast<std::uint8_t>(request.value));
     case LssAction::set_bit_rate: return master.run(COLssmConfigureBitTiming, request.value);
     case LssAction::store: return true;
     case LssAction::inquire: return inquire(master, out);

@@ -16,6 +16,17 @@ void forget_variables() {
   std::fill(std::begin(picture), std::end(picture), std::uint8_t{0});
 }
 
+std::vector<CO_OBJ> dictionary_with(std::uint32_t serial) {
+  const Table table = clock_dictionary();
+  std::vector<CO_OBJ> entries(table.first, table.first + table.length);
+  for (CO_OBJ& entry : entries) {
+    if (CO_GET_DEV(entry.Key) == CLOCK_1018_4) {
+      entry = {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, serial};
+    }
+  }
+  return entries;
+}
+
 }  // namespace
 }  // namespace demo
 
@@ -24,8 +35,24 @@ CO_OBJ_DOM clock_2200_0 = {0, demo::picture_size, demo::picture};
 
 namespace demo {
 
-Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory)
-    : setup_{node_id, can, timer, clock_dictionary(), std::move(observer), false, clock_errors(), memory} {
+std::uint32_t serial_number_from(const std::string& text) {
+  std::uint32_t hash = 0x811C9DC5;  // FNV-1a
+  for (const char c : text) {
+    hash = (hash ^ static_cast<std::uint8_t>(c)) * 0x01000193;
+  }
+  return hash != 0 ? hash : 1;
+}
+
+Clock::Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory, std::uint32_t serial)
+    : dictionary_(dictionary_with(serial)),
+      setup_{node_id,
+             can,
+             timer,
+             {dictionary_.data(), static_cast<std::uint16_t>(dictionary_.size())},
+             std::move(observer),
+             false,
+             clock_errors(),
+             memory} {
   lose_power();
 }
 

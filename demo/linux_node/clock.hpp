@@ -9,6 +9,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "clock/dictionary.hpp"
 
@@ -21,12 +23,17 @@ constexpr DeviceTraits clock_traits = {192, 128, true, 1};
 
 constexpr std::uint32_t picture_size = clock_traits.picture_size();
 
+/// Derives a serial number from a text, the same in every run; 1 or above.
+std::uint32_t serial_number_from(const std::string& text);
+
 /// The clock as a CANopen node. Starts at 00:00:00.
 class Clock : public Device {
  public:
   /// \a node_id: unless the memory holds one; no_node_id: the clock waits for the LSS master. \a memory: of
-  /// clock_memory_size bytes, that can be written byte by byte. The drivers' contexts must outlive the clock.
-  Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory = {});
+  /// clock_memory_size bytes, that can be written byte by byte. \a serial: 1018h:4, which keeps the LSS addresses of
+  /// several clocks apart. The drivers' contexts must outlive the clock.
+  Clock(std::uint8_t node_id, Can can, Timer timer, Node::Observer observer, Memory memory = {},
+        std::uint32_t serial = clock_serial_number);
 
   const DeviceTraits& traits() const override { return clock_traits; }
 
@@ -44,6 +51,7 @@ class Clock : public Device {
   static TimeOfDay time() { return clock_time(); }
 
  private:
+  std::vector<CO_OBJ> dictionary_;  // of clock.xdd, with the serial number of this clock
   Node::Setup setup_;
   std::optional<Node> node_;
 };

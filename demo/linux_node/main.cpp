@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <random>
 
 #include "clock/dictionary.hpp"
 #include "clock/names.hpp"
@@ -68,10 +70,27 @@ std::uint8_t first_node_id(const Options& options) {
   return none ? no_node_id : options.node_id;
 }
 
-std::string about_node(Clock& clock, const Options& options) {
+/// Two nodes of one bus need different LSS addresses. The storage file identifies a node, also when it is started
+/// again.
+std::uint32_t serial_number(const Options& options) {
+  if (!options.serial.empty()) {
+    return static_cast<std::uint32_t>(std::stoul(options.serial, nullptr, 0));
+  }
+  if (!options.serve) {
+    return clock_serial_number;
+  }
+  if (options.storage.empty()) {
+    return serial_number_from(std::to_string(std::random_device()()));
+  }
+  char host[256] = "";
+  (void)::gethostname(host, sizeof host - 1);
+  return serial_number_from(std::string(host) + ":" + std::filesystem::absolute(options.storage).string());
+}
+
+std::string about_node(Clock& clock, const Options& options, std::uint32_t serial) {
   return "Node: the demo clock, " +
          (clock.node_id() == no_node_id ? "without node-ID" : text("node-ID %u", clock.node_id())) +
-         (options.serve ? "; Ctrl-C ends it\n" : "\n");
+         (options.serve ? text(", serial number 0x%08X; Ctrl-C ends it\n", serial) : "\n");
 }
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
@@ -149,9 +168,10 @@ int run(const Options& options) {
       view.frame(host.now() - begin, received, frame);
     }
   };
-  Clock clock(first_node_id(options), host.device_can(), timer, observer, storage.memory());
+  const std::uint32_t serial = serial_number(options);
+  Clock clock(first_node_id(options), host.device_can(), timer, observer, storage.memory(), serial);
   view.line("Bus:  " + bus.about);
-  view.line(about_node(clock, options));
+  view.line(about_node(clock, options, serial));
   view.columns();
   return options.serve ? serve(host, clock, heartbeats, view) : show_tour(host, clock, options, view);
 }

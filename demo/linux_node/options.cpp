@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <limits>
+
 #include "co_ver.h"
 #include "trace/text.hpp"
 
@@ -41,6 +43,10 @@ CommandLine read_command_line(int argc, char** argv) {
   auto* const serve = app.add_flag("--serve", options.serve, "Run the node alone, and show what it receives and sends");
   app.add_option("--storage", options.storage, "File in which the clock keeps node-ID, name and time zone [RAM]")
       ->type_name("FILE")
+      ->needs(serve);
+  app.add_option("--serial", options.serial, "Serial number, 1018h:4 [one for each storage file, else a random one]")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()).description(""))
       ->needs(serve);
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
       ->excludes(can)

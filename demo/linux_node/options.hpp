@@ -15,6 +15,7 @@ struct Options {
   std::uint8_t node_id = 1;
   bool unconfigured = false;  // the node starts without
   std::string storage;        // file; empty: none
+  std::string serial;         // number as typed; empty: the program chooses
   bool serve = false;
   bool virtual_bus = false;
   bool every_frame = false;

@@ -296,6 +296,45 @@ TEST_CASE("LSS master: answers are received from the first service on, until a r
   }
 }
 
+TEST_CASE("LSS master: the answers to the last request are counted, those after its end as well") {
+  LssMaster node;
+  node.run("7E5#1105000000000000", COLssmConfigureNodeId, std::uint8_t{5});
+  node.rx("7E4#1300000000000000");  // of another service
+  CHECK(node->Lssm.Heard == 0);
+  node.rx("7E4#1100000000000000");
+  node.end(CO_LSSM_OK);
+  CHECK(node->Lssm.Heard == 1);
+  node.rx("7E4#1100000000000000");
+  node.rx("7E4#1300000000000000");
+  CHECK(node->Lssm.Heard == 2);
+  for (unsigned n = 0; n < 300; ++n) {
+    node.rx("7E4#1100000000000000");
+  }
+  CHECK(node->Lssm.Heard == 255);
+  node.run("7E5#5D00000000000000", COLssmInquire, std::uint8_t{3});
+  CHECK(node->Lssm.Heard == 0);
+  node.rx("7E4#1100000000000000");
+  CHECK(node->Lssm.Heard == 0);
+  node.rx("7E4#5D04000000000000");
+  CHECK(node->Lssm.Heard == 1);
+  CHECK(node.end(CO_LSSM_OK).value == 4);
+}
+
+TEST_CASE("LSS master: several answers to the end of a fastscan are counted") {
+  LssMaster node;
+  const std::uint32_t known[] = {1, 2, 3, 4};
+  CHECK(node.start(COLssmFastscan, known, std::uint8_t{4}) == CO_ERR_NONE);
+  for (unsigned request = 0; request < 5; ++request) {
+    node.frames();
+    node.rx("7E4#4F00000000000000");
+    node.rx("7E4#4F00000000000000");
+    CHECK(node->Lssm.Heard == 2);
+    node.after(50ms);
+  }
+  node.end(CO_LSSM_OK);
+  CHECK(node->Lssm.Heard == 2);
+}
+
 }  // namespace
 
 #endif

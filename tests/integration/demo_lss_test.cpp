@@ -74,6 +74,95 @@ struct Desk {
   demo::Node slave{{255, host.device_can(), host.device_timer(), {slave_dictionary, 7}}};
 };
 
+/// A slave at a port of its own that does what is planned here: by default what CiA 305 says.
+class OddSlave {
+ public:
+  explicit OddSlave(Desk& desk, demo::LssAddress own) : desk_(desk), own_(own), port_(desk.host.bus.attach({"odd"})) {
+    port_.enable();
+    auto others = desk.host.others;
+    desk.host.others = [this, others] {
+      const bool busy = others && others();
+      return process() || busy;
+    };
+  }
+
+  bool answers_every_scan = false;    ///< 4Fh to each request of a fastscan
+  bool scanned_always = false;        ///< a fastscan finds it in configuration, too
+  bool ignores_selection = false;     ///< switch state selective is not answered
+  bool always_configures = false;     ///< 11h is answered in the state waiting, too
+  std::uint32_t inquired_serial = 0;  ///< 5Dh answers another number than 1018h:4; 0: the same
+  unsigned node_ids = 0;              ///< 11h received in configuration
+  std::uint8_t node_id = 255;         ///< the last
+
+ private:
+  bool process() {
+    bool busy = false;
+    while (const auto request = port_.read()) {
+      busy = true;
+      if (request->Identifier == 0x7E5 && serve(*request)) {
+        port_.send(answer_);
+      }
+    }
+    return busy;
+  }
+  bool answer(std::uint8_t command, std::uint32_t data = 0) {
+    answer_ = {0x7E4, {command}, 8};
+    CO_SET_LONG(&answer_, data, 1);
+    return true;
+  }
+  bool serve(const CO_IF_FRM& request) {
+    const std::uint8_t command = request.Data[0];
+    const std::uint32_t number = CO_GET_LONG(&request, 1);
+    if (command == 0x04) {
+      configuration_ = request.Data[1] == 1;
+      return false;
+    }
+    if (command == 0x51) {
+      return (answers_every_scan || ((!configuration_ || scanned_always) && matches(request))) && answer(0x4F);
+    }
+    if (command >= 0x40 && command <= 0x43) {
+      selected_ = number == own_[command - 0x40U] && (command == 0x40 || selected_);
+      const bool whole = command == 0x43 && selected_ && !ignores_selection && !configuration_;
+      configuration_ = configuration_ || whole;
+      return whole && answer(0x44);
+    }
+    if (command == 0x11 && (configuration_ || always_configures)) {
+      ++node_ids;
+      node_id = request.Data[1];
+      return answer(0x11);
+    }
+    if (command >= 0x5A && command <= 0x5D && configuration_) {
+      const bool other = command == 0x5D && inquired_serial != 0;
+      return answer(command, other ? inquired_serial : own_[command - 0x5AU]);
+    }
+    return false;
+  }
+  bool matches(const CO_IF_FRM& request) {
+    const unsigned bit = request.Data[5];
+    const unsigned part = request.Data[6];
+    if (bit == 0x80) {
+      part_ = 0;
+      return node_id == 255;
+    }
+    if (part != part_ || ((CO_GET_LONG(&request, 1) ^ own_[part]) >> bit) != 0) {
+      return false;
+    }
+    if (bit == 0) {
+      part_ = request.Data[7];
+      configuration_ = part_ < part;
+    }
+    return true;
+  }
+
+  Desk& desk_;
+  demo::LssAddress own_;
+  co::VirtualBus::Port& port_;
+  bool configuration_ = false;
+  bool selected_ = false;
+  unsigned part_ = 0;
+  CO_IF_FRM answer_{};
+};
+
 const std::vector<std::string> address = {"0x319", "0xC10C", "0x10002", "0x80000001"};
 constexpr const char* shown = "0x00000319 0x0000C10C 0x00010002 0x80000001\n";
 
@@ -143,5 +232,97 @@ TEST_CASE("demo lss: an interruption ends it with status 130") {
   CHECK(desk.run(LssAction::scan) == 130);
   CHECK(desk.err.str() == "LSS: cancelled\n");
   CHECK(desk.last_request() == "7E5#0400000000000000");
+}
+
+TEST_CASE("demo lss: scan finds several nodes, each once") {
+  Desk desk;
+  OddSlave second(desk, {0x319, 0xC10C, 0x10002, 0x80000002});
+  OddSlave third(desk, {0x400, 1, 2, 3});
+  CHECK(desk.run(LssAction::scan) == 0);
+  CHECK(desk.out.str() == std::string(shown) + "0x00000319 0x0000C10C 0x00010002 0x80000002\n" +
+                              "0x00000400 0x00000001 0x00000002 0x00000003\n");
+  CHECK(desk.err.str() == "");
+}
+
+TEST_CASE("demo lss: scan ends at a node that answers every request of a fastscan") {
+  Desk desk;
+  OddSlave odd(desk, {1, 2, 3, 4});
+  odd.answers_every_scan = true;
+  odd.node_id = 9;
+  CHECK(desk.run(LssAction::scan) == 1);
+  CHECK(desk.err.str() ==
+        "LSS: fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a fastscan; "
+        "disconnect it, or name the node to configure by --address\n");
+  CHECK(desk.out.str() == "");
+  CHECK(desk.last_request() == "7E5#0400000000000000");
+  CHECK(desk.run(LssAction::set_id, "5") == 1);
+  CHECK(desk.err.str().find("0 0 0 0") != std::string::npos);
+  CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
+}
+
+TEST_CASE("demo lss: scan ends at a node that it has found before") {
+  Desk desk;
+  OddSlave odd(desk, {1, 2, 3, 4});
+  odd.scanned_always = true;
+  CHECK(desk.run(LssAction::scan) == 1);
+  CHECK(desk.out.str() == "0x00000001 0x00000002 0x00000003 0x00000004\n");
+  CHECK(desk.err.str() ==
+        "LSS: fastscan has found 0x00000001 0x00000002 0x00000003 0x00000004 again: this node answers although it is "
+        "selected or has a node-ID; disconnect it, or name the node to configure by --address\n");
+}
+
+TEST_CASE("demo lss: scan verifies what it has found: a node must answer to its address") {
+  Desk desk;
+  OddSlave odd(desk, {1, 2, 3, 4});
+  odd.ignores_selection = true;
+  CHECK(desk.run(LssAction::scan) == 1);
+  CHECK(desk.out.str() == "");
+  CHECK(desk.err.str() ==
+        "LSS: 0x00000001 0x00000002 0x00000003 0x00000004 was found, but does not answer to its address\n");
+}
+
+TEST_CASE("demo lss: a node must have the identity that was found") {
+  for (const LssAction action : {LssAction::scan, LssAction::set_id}) {
+    Desk desk;
+    OddSlave odd(desk, {1, 2, 3, 4});
+    odd.inquired_serial = 5;
+    CHECK(desk.run(action, "5") == 1);
+    CHECK(desk.out.str() == "");
+    CHECK(desk.err.str() ==
+          "LSS: the node at 0x00000001 0x00000002 0x00000003 0x00000004 names another number: 0x00000005\n");
+    CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
+  }
+}
+
+constexpr const char* several =
+    "LSS: 2 nodes have answered where one was addressed; give each node its own serial number, or connect one at a "
+    "time\n";
+
+TEST_CASE("demo lss: two nodes of the same address are not configured") {
+  Desk desk;
+  OddSlave twin(desk, {0x319, 0xC10C, 0x10002, 0x80000001});
+  for (const auto& by : {std::vector<std::string>{}, address}) {
+    CHECK(desk.run(LssAction::set_id, "5", by) == 1);
+    CHECK(desk.err.str() == several);
+    CHECK(desk.out.str() == "");
+    CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
+    CHECK_FALSE(desk.was_sent("705#00"));
+    CHECK(desk.last_request() == "7E5#0400000000000000");
+  }
+  CHECK(desk.run(LssAction::scan) == 1);
+  CHECK(desk.err.str() == several);
+}
+
+TEST_CASE("demo lss: a node-ID that two nodes have taken is taken back from both") {
+  Desk desk;
+  OddSlave odd(desk, {1, 2, 3, 4});
+  odd.always_configures = true;
+  CHECK(desk.run(LssAction::set_id, "5", address, true) == 1);
+  CHECK(desk.err.str() == several);
+  CHECK(desk.was_sent("7E5#1105000000000000"));
+  CHECK(desk.was_sent("7E5#11FF000000000000"));
+  CHECK_FALSE(desk.was_sent("7E5#1700000000000000"));
+  CHECK_FALSE(desk.was_sent("705#00"));
+  CHECK(odd.node_id == 255);
 }
 #endif

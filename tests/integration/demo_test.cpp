@@ -253,6 +253,30 @@ TEST_CASE("demo: a clock without memory refuses \"save\" with 0606 0000h") {
 }
 #endif
 
+TEST_CASE("demo: a clock has the serial number that it is given, also after NMT resets and a loss of power") {
+  SimulatedHost host;
+  demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {}, 0x12345678);
+  demo::Master master(host, clock, node_id);
+  const Bytes serial = {0x78, 0x56, 0x34, 0x12};
+  REQUIRE(clock.start());
+  CHECK(master.sdo().upload(0x1018, 4).data == serial);
+  for (const CO_NMT_RESET type : {CO_RESET_COM, CO_RESET_NODE}) {
+    CONmtReset(&clock.node().stack().Nmt, type);
+    CHECK(master.sdo().upload(0x1018, 4).data == serial);
+  }
+  clock.lose_power();
+  REQUIRE(clock.start());
+  CHECK(master.sdo().upload(0x1018, 4).data == serial);
+}
+
+TEST_CASE("demo: serial numbers of different storage files differ, and stay") {
+  const std::uint32_t one = demo::serial_number_from("host:/tmp/one");
+  CHECK(one == demo::serial_number_from("host:/tmp/one"));
+  CHECK(one != demo::serial_number_from("host:/tmp/two"));
+  CHECK(one != demo::serial_number_from("other:/tmp/one"));
+  CHECK(demo::serial_number_from("") != 0);
+}
+
 TEST_CASE("demo: no line of the trace is longer than 120 characters, and long transfers are folded") {
   Bench bench;
   demo::take_tour(bench.clock, bench.master, bench.view);

@@ -279,12 +279,12 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::lss_dlc) {
     return false;
   }
-  if (!is_awaiting(master) || frame.Data[0] != master.Answer) {
+  const bool is_idle = state_of(master) == State::idle;
+  if ((!is_idle && !is_awaiting(master)) || frame.Data[0] != master.Answer) {
     return true;
   }
-  if (is_looking(master)) {
-    master.Heard = 1;
-  } else {
+  master.Heard = static_cast<uint8_t>(master.Heard == UINT8_MAX ? UINT8_MAX : master.Heard + 1);
+  if (state_of(master) == State::answer) {
     finish(master, read(master, frame));
   }
   return true;

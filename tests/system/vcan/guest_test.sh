@@ -128,7 +128,7 @@ cansend vcan0 123#DEADBEEF
 expect "vcan0 carries a frame" 123#DEADBEEF
 
 listen $heartbeat 2
-$node --can vcan0 --node-id 5 --serve >/tmp/trace 2>&1 &
+$node --can vcan0 --node-id 5 --serve --serial 1 >/tmp/trace 2>&1 &
 server=$!
 expect "boot-up, then heartbeats: pre-operational" "$heartbeat#00 $heartbeat#7F"
 period "a heartbeat each second" 800 1200
@@ -360,7 +360,7 @@ cat /tmp/end
 address="0x00000000 0x0000C10C 0x???????? 0x00000001"
 
 serve() {  # ARGUMENT... of the node
-  $node --can vcan0 --serve "$@" >/tmp/trace 2>&1 &
+  $node --can vcan0 --serve --serial 1 "$@" >/tmp/trace 2>&1 &
   server=$!
 }
 
