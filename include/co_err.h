@@ -69,8 +69,8 @@ typedef enum CO_ERR_T {
   CO_ERR_SDO_OFF,
   CO_ERR_SDO_BUSY,
   CO_ERR_SDO_ABORT,
-  CO_ERR_SDO_READ,   ///< reading an object for an SDO transfer failed
-  CO_ERR_SDO_WRITE,  ///< writing an object for an SDO transfer failed
+  CO_ERR_SDO_READ,   ///< an SDO upload failed for a hardware error (SDO abort 0606 0000h)
+  CO_ERR_SDO_WRITE,  ///< an SDO download failed for a hardware error (SDO abort 0606 0000h)
   CO_ERR_SYNC_MSG,
   CO_ERR_SYNC_RES,
   CO_ERR_IF_CAN_INIT,

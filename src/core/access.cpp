@@ -79,8 +79,11 @@ uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
 }
 
 uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
-  node.Error = transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE;
-  return abort_for(node, err);
+  const uint32_t abort = abort_for(node, err);
+  if (abort == CO_SDO_ERR_HW_ACCESS) {
+    node.Error = transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE;
+  }
+  return abort;
 }
 
 }  // namespace co::access

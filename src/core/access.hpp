@@ -23,6 +23,23 @@ inline void serve(CO_NODE& node, CO_OBJ* obj) {
   node.UserAbort = no_abort;
 }
 
+// Serves another object, or none, as long as it exists: a type function of the one that is being served has led here.
+class Nested {
+ public:
+  Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), served_(node.Served), abort_(node.UserAbort) { serve(node, obj); }
+  ~Nested() {
+    node_.Served = served_;
+    node_.UserAbort = abort_;
+  }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+
+ private:
+  CO_NODE& node_;
+  CO_OBJ* served_;
+  uint32_t abort_;
+};
+
 // Transfers of SDO servers whose entries are no longer where they were lose them.
 void lose_moved(CO_NODE& node);
 
@@ -45,8 +62,10 @@ void lose_moved(CO_NODE& node);
 // Can the object be written with this length? Returns an abort code.
 [[nodiscard]] uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
 
-// The abort code for what a type function has returned; of a Read or Write function, which is the node's error, too.
+// The abort code for what a type function has returned.
 [[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
+// The same for a Read, Write or End function. A hardware error (0606 0000h) becomes the node's error; any other is a
+// refused request, which is not the application's concern.
 [[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Abort codes that an object type chooses itself (COObjTypeUserSDOAbort).
-#include "support/fixture.hpp"
+#include "support/block_frames.hpp"
+#include "support/logged_stream.hpp"
 
 namespace {
 
@@ -73,5 +74,59 @@ TEST_CASE("SDO custom abort: set in the Size function at the last segment of a d
   node.ask("601#1D08000000000000", "581#8000300000000606");
   check_idle(node);
 }
+
+#if USE_OBJ_EX && CO_SSDO_N > 1
+// Server 2 has a transfer open, whose type is told its end.
+struct TwoTransfers : LoggedStream, Fixture {
+  explicit TwoTransfers(CO_OBJ other)
+      : Fixture(Setup().only_small().with(extended(0x3100)).with(other).before_init([](Objects& memory) {
+          memory.sdo2_rx = 0x640;
+          memory.sdo2_tx = 0x5C0;
+        })) {
+    data = counting(20);
+    ask("640#4000310000000000", "5C0#4100310014000000");
+  }
+};
+
+void end_other_transfers(CO_NODE* node) {
+  CONmtSetMode(&node->Nmt, CO_STOP);
+  CONmtSetMode(&node->Nmt, CO_PREOP);
+}
+
+TEST_CASE("SDO custom abort: set before the type function ends another transfer, or after it, it is the answer") {
+  for (const bool before : {true, false}) {
+    CAPTURE(before);
+    LoggedStream refusing;
+    refusing.data = {1, 2, 3, 4};
+    refusing.on_piece = [&](CO_OBJ* obj, CO_NODE* node) {
+      if (before) {
+        COObjTypeUserSDOAbort(obj, node, 0x12345678);
+      }
+      end_other_transfers(node);
+      if (!before) {
+        COObjTypeUserSDOAbort(obj, node, 0x12345678);
+      }
+      return CO_ERR_TYPE_WR;
+    };
+    TwoTransfers node(refusing.value(0x3101));
+    node.ask("601#2301310001020304", "581#8001310078563412");
+    CHECK(node.log.back() == "end up 08000022");
+    node.ask("601#4001310000000000", "581#8001310078563412");
+  }
+}
+
+TEST_CASE("SDO custom abort: set in the End of a transfer that a new one drops, it is not the answer to that [D8]") {
+  LoggedStream refusing;
+  refusing.data = {1, 2, 3, 4};
+  refusing.on_piece = [](CO_OBJ*, CO_NODE*) { return CO_ERR_OBJ_RANGE; };
+  TwoTransfers node(refusing.value(0x3101));
+  node.on_end = [](CO_OBJ* obj, CO_NODE* of) {
+    COObjTypeUserSDOAbort(obj, of, 0x12345678);
+    return CO_ERR_TYPE_WR;
+  };
+  node.ask("640#2301310001020304", "5C0#8001310030000906");
+  CHECK(node.log.back() == "end up 08000022");
+}
+#endif
 
 }  // namespace

@@ -105,18 +105,14 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
 // A type function of another transfer may have led here.
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
-  CO_OBJ* const other = node.Served;
-  const uint32_t others_abort = node.UserAbort;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
-  access::serve(node, nullptr);
+  const access::Nested nested(node, nullptr);
   uint32_t abort = stream::open(node, client.Key, direction);
   if (abort == no_abort) {
     CO_OBJ& obj = *node.Served;
     const bool taken = obj::is_stream(obj) && access::is_taken(node, obj, nullptr);
     abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, obj, direction);
   }
-  node.Served = other;
-  node.UserAbort = others_abort;
   return abort;
 }
 

@@ -75,14 +75,13 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
   return err;
 }
 
+// A type function of another transfer may have led here.
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
-  access::serve(node, &obj);
+  const access::Nested nested(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
-  const uint32_t abort = refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : no_abort;
-  node.Served = nullptr;
-  return abort;
+  return refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : no_abort;
 }
 
 }  // namespace
@@ -183,7 +182,10 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
     if (has_block && err == CO_ERR_TYPE_AGAIN) {
       return again;
     }
-    if (err == CO_ERR_NONE && channel.Obj != nullptr) {
+    if (channel.Obj == nullptr) {
+      return CO_SDO_ERR_TOS_STATE;
+    }
+    if (err == CO_ERR_NONE) {
       err = run(channel, *channel.Obj, data, n);
     }
   }
