@@ -19,9 +19,9 @@ typedef struct CO_SDO_T {
   struct CO_NODE_T* Node;
   uint8_t State;
   uint8_t Flags;
-  uint8_t Toggle;  ///< toggle bit expected next, in place (00h or 10h)
-  uint8_t Idle;    ///< time slices since the last frame of the transfer
+  uint8_t Idle;  ///< time slices since the last frame of the transfer
 #if USE_SDO_BLOCK
+  uint8_t Heard;    ///< block download: highest number of a segment of the present block that has arrived; 0: none
   uint8_t BlkSize;  ///< segments of the present block
   uint8_t Seq;      ///< last segment of the block that was sent, or received in order
   uint8_t AckSeq;   ///< block download: last acknowledge

@@ -128,6 +128,13 @@ constexpr uint8_t expedited_download_request(uint32_t length) {
 }
 constexpr uint8_t upload_segment_request(uint8_t toggle) { return static_cast<uint8_t>(0x60U | toggle); }
 
+// Bytes of data in a segment of a transfer whose size is announced, of which left bytes are still to come: n = 0 in the
+// last segment indicates no size, so that it holds the rest. [301:7.2.4.3.4, 7.2.4.3.6]
+constexpr uint32_t segment_length(uint8_t command, uint32_t left) {
+  const bool is_open = (command & 0x0F) == 0x01;
+  return is_open && left - 1 < segment_bytes ? left : segment_length(command);
+}
+
 // The same from either side.
 constexpr uint8_t segment(uint8_t toggle, uint32_t length, bool last) {
   return static_cast<uint8_t>(toggle | ((segment_bytes - length) << 1) | (last ? 1U : 0U));
@@ -189,6 +196,8 @@ static_assert(expedited_upload_response(2) == 0x4B && expedited_upload_response(
 static_assert(expedited_download_request(4) == 0x23 && expedited_download_request(1) == 0x2F);
 static_assert(expedited_length(0x2F) == 1 && expedited_length(0x23) == 4 && !is_size_indicated(0x22));
 static_assert(segment_length(0x0F) == 0 && segment_length(0x00) == 7 && segment_length(0x1D) == 1);
+static_assert(segment_length(0x11, 3) == 3 && segment_length(0x01, 0) == 7 && segment_length(0x01, 8) == 7);
+static_assert(segment_length(0x10, 3) == 7 && segment_length(0x03, 3) == 6 && segment_length(0x01, 7) == 7);
 static_assert(segment(0x10, 2, true) == 0x1B && download_segment_response(0x10) == 0x30);
 static_assert(end_block(3) == 0xCD && unused_in_block(0xDD) == 7 && block_segment(1, true) == 0x81);
 static_assert(has_crc(0xA4) && !has_crc(0xC2) && is_block_sized(0xC2) && !is_block_sized(0xC4));

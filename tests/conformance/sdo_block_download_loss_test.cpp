@@ -212,6 +212,32 @@ TEST_CASE("SDO block download: number 0, and numbers beyond the block, are ignor
   node.finish(127, 127);
 }
 
+TEST_CASE("SDO block download: a number beyond the block with the last flag does not end the block [D22] [D23]") {
+  Download node;
+  node.segments(0, 2);
+  node.segments(3, 124, 4);
+  node.tx("581#A2027D0000000000");
+  node.segments(2, 1);
+  node.rx("601#FE55555555555555");
+  node.silent();
+  node.rx("601#FF55555555555555");
+  node.silent();
+  node.segments(3, 124, 2);
+  node.tx("581#A27D7F0000000000");
+  node.finish(127, 127);
+}
+
+TEST_CASE("SDO block download: the only segment of all comes again, and counts once [D11] [D27]") {
+  Fixture node(Setup().only_small());
+  node.ask("601#C600210505000000", "581#A40021057F000000");
+  node.ask("601#8101020304050000", "581#A2017E0000000000");
+  node.rx("601#8101020304050000");
+  node.silent();
+  node.rx(block_end(0x601, {1, 2, 3, 4, 5}));
+  node.tx("581#A100000000000000");
+  CHECK(node.objects.memory[5] == Bytes{1, 2, 3, 4, 5});
+}
+
 TEST_CASE("SDO block download: a segment without a number is none: what was sent last is repeated [D11] [D23]") {
   Download node;
   node.rx("601#0055555555555555");
@@ -287,21 +313,55 @@ TEST_CASE("SDO block download: the answer to the end is lost, the repeated end i
 
 // Silence ------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: each segment starts the time anew, in order or not [D11] [D18]") {
+TEST_CASE("SDO block download: each new segment starts the time anew, in order or behind a gap [D11] [D18]") {
   Download node;
   for (unsigned n = 0; n < 10; ++n) {
     node.after(250ms);
     node.silent();
     node.segments(n, 1, n + 1);
   }
-  for (unsigned n = 0; n < 10; ++n) {
+  for (unsigned n = 11; n < 126; ++n) {  // number 11 is lost
     node.after(250ms);
     node.silent();
     node.segments(n, 1, n + 1);
   }
-  node.segments(10, 117, 11);
-  node.tx("581#A27F7F0000000000");
-  node.finish(127, 127);
+  node.segments(126, 1, 127);
+  node.tx("581#A20A750000000000");
+  node.finish(10, 117);
+}
+
+TEST_CASE("SDO block download: a segment that comes again does not start the time anew [D11] [D18]") {
+  Download node;
+  node.segments(0, 10);
+  std::vector<std::string> sent;
+  for (unsigned n = 0; n < 50 && (sent.empty() || sent.back() != "581#8004210000000405"); ++n) {
+    node.segments(4, 1, 5);
+    node.after(100ms);
+    sent = node.frames();
+  }
+  REQUIRE_FALSE(sent.empty());
+  CHECK(sent.back() == "581#8004210000000405");
+}
+
+TEST_CASE("SDO block download: a second block of which nothing is in order does not start the time anew [D18]") {
+  Download node;
+  for (unsigned n = 1; n < 126; ++n) {  // number 1 is lost
+    node.after(250ms);
+    node.silent();
+    node.segments(n, 1, n + 1);
+  }
+  node.segments(126, 1, 127);
+  node.tx("581#A2007F0000000000");
+  std::vector<std::string> sent;
+  for (unsigned n = 1; n < 10 && (sent.empty() || sent.back() != "581#8004210000000405"); ++n) {
+    node.after(250ms);
+    sent = node.frames();
+    if (sent.empty() || sent.back() != "581#8004210000000405") {
+      node.segments(n, 1, n + 1);
+    }
+  }
+  REQUIRE_FALSE(sent.empty());
+  CHECK(sent.back() == "581#8004210000000405");
 }
 
 TEST_CASE("SDO block download: after the acknowledge for a silence, numbers begin with 1 again [D11]") {

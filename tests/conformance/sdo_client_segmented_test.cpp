@@ -161,9 +161,54 @@ TEST_CASE(
   node.tx("605#6000000000000000");
   node.rx("585#0001020304050607");
   node.tx("605#7000000000000000");
-  node.rx("585#1108090A0B0C0D0E");
+  node.rx("585#1008090A0B0C0D0E");
   node.tx("605#8000200512000706");
   node.ended(CO_SDO_ERR_LEN_HIGH);
+}
+
+TEST_CASE("SDO client: n = 0 in the last segment indicates no size: it has the rest of what was announced [D4] [D5]") {
+  for (const std::uint32_t buffer : {10U, 16U}) {
+    SdoClient node;
+    node.start_upload(0x2000, 5, buffer);
+    node.tx("605#4000200500000000");
+    node.rx("585#410020050A000000");
+    node.tx("605#6000000000000000");
+    node.rx("585#0001020304050607");
+    node.tx("605#7000000000000000");
+    node.rx("585#1108090AFFFFFFFF");
+    node.has_read(counted(10));
+  }
+}
+
+TEST_CASE("SDO client: n = 0 is 7 bytes where nothing or more is left, was announced, or in any other segment [D5]") {
+  SdoClient node;
+  node.start_upload(0x2000, 5, 20);
+  node.tx("605#4000200500000000");
+  node.rx("585#4100200500000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0101020304050607");
+  node.tx("605#8000200512000706");
+  node.ended(CO_SDO_ERR_LEN_HIGH);
+  node.start_upload(0x2000, 5, 20);
+  node.tx("605#4000200500000000");
+  node.rx("585#4100200508000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0101020304050607");
+  node.tx("605#8000200513000706");
+  node.ended(CO_SDO_ERR_LEN_SMALL);
+  node.start_upload(0x2000, 5, 20);
+  node.tx("605#4000200500000000");
+  node.rx("585#4100200505000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0001020304050607");
+  node.tx("605#8000200512000706");
+  node.ended(CO_SDO_ERR_LEN_HIGH);
+  node.start_upload(0x2000, 5, 20);
+  node.tx("605#4000200500000000");
+  node.rx("585#4000200500000000");
+  node.tx("605#6000000000000000");
+  node.rx("585#0101020304050607");
+  node.has_read(counted(7));
 }
 
 TEST_CASE("SDO client: fewer bytes than announced are refused with 0607 0013h [D5]") {

@@ -6,6 +6,13 @@ namespace {
 
 using namespace test;
 
+// What 2100h:sub is answered when the length is wrong.
+CO_IF_FRM abort_of(unsigned sub, bool too_long) {
+  CO_IF_FRM frm = frame(too_long ? "581#8000210012000706" : "581#8000210013000706");
+  frm.Data[3] = static_cast<std::uint8_t>(sub);
+  return frm;
+}
+
 TEST_CASE("SDO download: one to four bytes expedited, confirmed with the multiplexer [D2] [D3]") {
   Fixture node;
   node.ask("601#2F012000A5000000", "581#6001200000000000");
@@ -170,6 +177,64 @@ TEST_CASE("SDO download: more bytes than announced are refused at the segment th
   node.ask("601#2100210F08000000", "581#6000210F00000000");
   node.ask("601#0001020304050607", "581#2000000000000000");
   node.ask("601#1B08090000000000", "581#8000210F12000706");
+}
+
+TEST_CASE(
+    "SDO download: n = 0 in the last segment indicates no size: it has the rest of what was announced [D4] [D5]") {
+  Fixture node;
+  node.ask("601#2108200008000000", "581#6008200000000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#1108FFFFFFFFFFFF", "581#3000000000000000");
+  CHECK(node.objects.u64 == 0x0807060504030201);
+  node.ask("601#2104200004000000", "581#6004200000000000");
+  node.ask("601#01A1A2A3A4FFFFFF", "581#2000000000000000");
+  CHECK(node.objects.u32 == 0xA4A3A2A1);
+  node.ask("601#2100210F0F000000", "581#6000210F00000000");
+  node.ask("601#0001020304050607", "581#2000000000000000");
+  node.ask("601#1008090A0B0C0D0E", "581#3000000000000000");
+  node.ask("601#010FFFFFFFFFFFFF", "581#2000000000000000");
+  CHECK(node.objects.memory[15] == Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+}
+
+TEST_CASE("SDO download: n = 0 in the last segment, for each remainder; any other n is checked as before [D5]") {
+  for (unsigned size = 1; size <= 9; ++size) {
+    for (unsigned n = 0; n < 8; ++n) {
+      CAPTURE(size);
+      CAPTURE(n);
+      Fixture node(Setup().only_small());
+      CO_IF_FRM initiate = frame("601#2100210000000000");
+      initiate.Data[3] = static_cast<std::uint8_t>(size);
+      initiate.Data[4] = static_cast<std::uint8_t>(size);
+      node.rx(initiate);
+      node.frames();
+      const unsigned left = size > 7 ? size - 7 : size;
+      if (size > 7) {
+        node.ask("601#00A1A2A3A4A5A6A7", "581#2000000000000000");
+      }
+      CO_IF_FRM last = frame("601#01B1B2B3B4B5B6B7");
+      last.Data[0] = static_cast<std::uint8_t>((size > 7 ? 0x11U : 0x01U) | (n << 1));
+      node.rx(last);
+      const std::string done = size > 7 ? "581#3000000000000000" : "581#2000000000000000";
+      const std::string end = n == 0 || 7 - n == left ? done : notation(abort_of(size, 7 - n > left));
+      CHECK(node.frames() == std::vector<std::string>{end});
+      if (end == done) {
+        CHECK(node.objects.memory[size].back() == 0xB0 + left);
+      }
+    }
+  }
+}
+
+TEST_CASE("SDO download: n = 0 is 7 bytes where nothing or more is left, was announced, or in any other segment [D5]") {
+  Fixture node;
+  node.ask("601#2100210000000000", "581#6000210000000000");
+  node.ask("601#0101020304050607", "581#8000210012000706");
+  node.ask("601#2100210808000000", "581#6000210800000000");
+  node.ask("601#0101020304050607", "581#8000210813000706");
+  node.ask("601#2100210505000000", "581#6000210500000000");
+  node.ask("601#0001020304050607", "581#8000210512000706");
+  node.ask("601#2004200000000000", "581#6004200000000000");
+  node.ask("601#0101020304050607", "581#8004200012000706");
+  CHECK(node.objects.u32 == 0x44332211);
 }
 
 TEST_CASE("SDO download: more bytes than announced are refused even before the last segment [D5]") {

@@ -196,7 +196,9 @@ SdoClientModel::Answer SdoClientModel::take_size(const SdoBytes& response, bool 
 }
 
 SdoClientModel::Answer SdoClientModel::take(const SdoBytes& response) {
-  const std::size_t n = segment_bytes - ((response[0] >> 1) & 7U);
+  const std::size_t left = total_.value_or(0) - data_.size();
+  const bool is_open = (response[0] & 0x0FU) == 0x01 && total_ && left > 0 && left <= segment_bytes;
+  const std::size_t n = is_open ? left : segment_bytes - ((response[0] >> 1) & 7U);
   const bool last = (response[0] & 0x01U) != 0;
   if ((response[0] & 0x10U) != toggle_) {
     return give_up(wrong_toggle);

@@ -46,13 +46,13 @@ void SdoObject::set(const Bytes& bytes) {
 // Requests and answers -----------------------------------------------------------------------------------------------
 
 std::optional<SdoBytes> SdoServerModel::answer(const SdoBytes& request) {
-  idle_ = 0;
   if (state_ == State::block_download && request[0] != 0x80) {
     return take_in_block(request);
   }
   if (state_ == State::block_download_end && request == last_segment_ && !is_right_end(request)) {
     return std::nullopt;
   }
+  idle_ = 0;
   return answer_by_command(request);
 }
 
@@ -146,7 +146,7 @@ std::optional<SdoBytes> SdoServerModel::slice() {
   if (!receives || idle_ % reminder_slices != 0) {
     return std::nullopt;
   }
-  return heard_ ? end_block(false) : reminder_;
+  return highest_ != 0 ? end_block(false) : reminder_;
 }
 
 SdoBytes SdoServerModel::continued(bool shorter) const {
@@ -283,7 +283,9 @@ SdoServerModel::Answer SdoServerModel::expedited(const SdoBytes& request) {
 
 SdoServerModel::Answer SdoServerModel::take(const SdoBytes& request) {
   const std::uint8_t toggle = request[0] & 0x10U;
-  const std::size_t length = segment_bytes - ((request[0] >> 1) & 7U);
+  const std::size_t left = size_ - data_.size();
+  const bool is_open = (request[0] & 0x0FU) == 0x01 && sized_ && left > 0 && left <= segment_bytes;
+  const std::size_t length = is_open ? left : segment_bytes - ((request[0] >> 1) & 7U);
   if (toggle != toggle_) {
     return abort(wrong_toggle);
   }

@@ -126,7 +126,8 @@ class SdoServerModel {
   bool has_crc_ = false;
   std::size_t blksize_ = 0;
   std::size_t seq_ = 0;            // last segment of the block that was taken or sent
-  bool heard_ = false;             // a segment of the block has come
+  std::size_t highest_ = 0;        // number of a segment of the block that has come
+  bool is_stuck_ = false;          // nothing of the block before was in order
   bool has_acknowledged_ = false;  // a block
   bool last_sent_ = false;
   std::uint32_t fault_ = 0;  // of a segment, told at the end of the block

@@ -33,8 +33,9 @@ SdoServerModel::Answer SdoServerModel::initiate_block_download(const SdoBytes& r
   has_crc_ = (request[0] & 0x04U) != 0;
   blksize_ = buffer_;
   seq_ = 0;
-  heard_ = false;
+  highest_ = 0;
   has_acknowledged_ = false;
+  is_stuck_ = false;
   state_ = State::block_download;
   reminder_ = head(0xA4);
   reminder_[4] = static_cast<std::uint8_t>(blksize_);
@@ -42,7 +43,7 @@ SdoServerModel::Answer SdoServerModel::initiate_block_download(const SdoBytes& r
 }
 
 // [D21] [D22] [D23] The end of a block that comes before anything else of it may be that of the block before, once
-// more.
+// more. A new segment keeps the transfer open, one behind a gap not if the block before brought nothing. [D18]
 SdoServerModel::Answer SdoServerModel::take_in_block(const SdoBytes& request) {
   const std::size_t number = request[0] & 0x7FU;
   const bool last = (request[0] & 0x80U) != 0;
@@ -50,9 +51,12 @@ SdoServerModel::Answer SdoServerModel::take_in_block(const SdoBytes& request) {
   if (number == 0 || number > blksize_) {
     return std::nullopt;
   }
-  const bool repeated = number > 1 && !heard_ && has_acknowledged_;
-  heard_ = true;
+  const bool repeated = number > 1 && highest_ == 0 && has_acknowledged_;
   const bool in_order = number == seq_ + 1;
+  if ((in_order && fault_ == 0) || (number > highest_ && !is_stuck_)) {
+    idle_ = 0;
+  }
+  highest_ = std::max(highest_, number);
   if (in_order && fault_ == 0) {
     collect(request);
   }
@@ -83,8 +87,9 @@ SdoServerModel::Answer SdoServerModel::end_block(bool all) {
   const std::size_t room = buffer_ - (data_.size() - done_) / segment_bytes;
   blksize_ = room != 0 ? room : buffer_;
   reminder_ = {0xA2, static_cast<std::uint8_t>(seq_), static_cast<std::uint8_t>(blksize_)};
+  is_stuck_ = seq_ == 0;
   seq_ = 0;
-  heard_ = false;
+  highest_ = 0;
   has_acknowledged_ = true;
   return reminder_;
 }

@@ -60,8 +60,9 @@ uint32_t segment_uploaded(Step& step) {
   if (wire::toggle(step.response) != client.Toggle) {
     return CO_SDO_ERR_TBIT;
   }
-  const uint32_t n = wire::segment_length(command);
-  if (has(client, sized) && n > client.Total - client.Num) {
+  const uint32_t left = client.Total - client.Num;
+  const uint32_t n = has(client, sized) ? wire::segment_length(command, left) : wire::segment_length(command);
+  if (has(client, sized) && n > left) {
     return CO_SDO_ERR_LEN_HIGH;
   }
   const uint32_t abort = append(client, step.response.Data + 1, n);

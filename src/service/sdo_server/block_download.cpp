@@ -14,7 +14,7 @@ void begin_block(CO_SDO& channel) {
   const auto room = static_cast<uint8_t>((CO_SDO_BUF_BYTE - channel.Fill) / wire::segment_bytes);
   channel.BlkSize = room != 0 ? room : CO_SDO_BUF_SEG;
   channel.Seq = 0;
-  clear(channel, heard);
+  channel.Heard = 0;
 }
 
 void sum(CO_SDO& channel, uint32_t n) {
@@ -90,6 +90,17 @@ void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   answer.Data[4] = channel.BlkSize;
 }
 
+// Restarts the time-out for a segment in order, and for one behind a gap whose number is higher than all before: the
+// client is sending the rest of its block. A block of which nothing was in order allows that once only. So requests of
+// a client that polls, which look like segments, do not keep the transfer open, nor do data beyond its size.
+void restart_time_out(CO_SDO& channel, unsigned number) {
+  const bool in_order = number == channel.Seq + 1U && !has(channel, too_long);
+  const bool nothing_acknowledged = channel.AckSize != 0 && channel.AckSeq == 0;
+  if (in_order || (number > channel.Heard && !nothing_acknowledged)) {
+    channel.Idle = 0;
+  }
+}
+
 // The end of a block that comes before anything else of the block is the repeated end of the block before; or all
 // others are lost, then the server is silent for a while and asks for them.
 bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
@@ -99,8 +110,9 @@ bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   }
   const bool is_last = wire::is_last_in_block(segment.Data[0]);
   const bool in_order = number == channel.Seq + 1U;
-  const bool begins = !has(channel, heard);
-  set(channel, heard);
+  const bool begins = channel.Heard == 0;
+  restart_time_out(channel, number);
+  channel.Heard = static_cast<uint8_t>(number > channel.Heard ? number : channel.Heard);
   if (in_order) {
     keep(channel, segment);
   }
@@ -159,7 +171,7 @@ void remind(CO_SDO& channel) {
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(channel.TxId);
-  if (has(channel, heard)) {
+  if (channel.Heard != 0) {
     acknowledge(channel, frame);
   } else if (channel.AckSize != 0) {
     put_acknowledge(channel, frame);

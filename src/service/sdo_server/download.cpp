@@ -108,8 +108,9 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   if (abort != no_abort) {
     return abort;
   }
-  const uint32_t n = wire::segment_length(command);
-  if (n > channel.Size - channel.Num) {
+  const uint32_t left = channel.Size - channel.Num;
+  const uint32_t n = has(channel, sized) ? wire::segment_length(command, left) : wire::segment_length(command);
+  if (n > left) {
     return CO_SDO_ERR_LEN_HIGH;
   }
   if (wire::is_last_segment(command)) {
@@ -118,8 +119,8 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   CO_IF_FRM segment = request;  // a type function may change what it is given
   abort = pass(channel, channel.Num, segment.Data + 1, n);
   channel.Num = channel.Read;
-  answer.Data[0] = wire::download_segment_response(channel.Toggle);
-  channel.Toggle ^= wire::toggle_bit;
+  answer.Data[0] = wire::download_segment_response(channel.Flags & toggled);
+  channel.Flags ^= toggled;
   if (abort != no_abort || !wire::is_last_segment(command)) {
     return abort;
   }

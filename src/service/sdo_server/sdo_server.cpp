@@ -81,10 +81,11 @@ void give_up(CO_SDO& channel, uint32_t abort) {
 inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
+  const uint8_t idle = channel.Idle;
   channel.Idle = busy;
   access::serve(node, channel.Obj);
   const uint32_t abort = service(channel, request, answer);
-  channel.Idle = 0;
+  channel.Idle = idle;
   node.Served = nullptr;
   if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
     give_up(channel, abort);
@@ -100,8 +101,10 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) 
   }
   const bool in_block = is_segment(channel, frame);
   if (in_block && !take_segment(channel, frame)) {
-    channel.Idle = 0;
     return true;
+  }
+  if (!in_block) {
+    channel.Idle = 0;
   }
   const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
   perform(channel, machine(state_of(channel), request), frame);
@@ -170,11 +173,10 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 #if USE_SDO_BLOCK
   CO_SDO& channel = node.Sdo[number];
   if (state_of(channel) == State::block_upload) {
-    const uint8_t idle = channel.Idle;
     const uint8_t before = channel.Seq;
     perform(channel, send_next, wire::empty_frame(wire::no_frame));
     const bool sent = channel.Seq != before;
-    channel.Idle = sent ? 0 : idle;
+    channel.Idle = sent ? 0 : channel.Idle;
     return sent;
   }
 #endif

@@ -106,7 +106,6 @@ void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
   channel.Obj = &obj;
   channel.Num = 0;
   channel.Read = 0;
-  channel.Toggle = 0;
   set_state(channel, state);
   if (!has_time_out || tmr::is_running(node.SdoTmr)) {
     return;

@@ -27,9 +27,9 @@ enum Flag : uint8_t {
   whole = 0x02,      // a value: collected in Value, read or written in one piece
   too_long = 0x04,   // block download: more data than the object can have
   download = 0x08,   // direction
-  begun = 0x10,      // see is_told()
+  toggled = 0x10,    // segmented transfer: toggle bit that is expected next, in place
   crc = 0x20,        // both sides support the CRC
-  heard = 0x40,      // block download: a segment of the block has arrived
+  begun = 0x40,      // see is_told()
   last_sent = 0x80,  // block upload: the last segment of all was sent
 };
 
@@ -43,6 +43,8 @@ inline void set_state(CO_SDO& channel, State state) { channel.State = static_cas
 inline bool has(const CO_SDO& channel, Flag flag) { return (channel.Flags & flag) != 0; }
 inline void set(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags | flag); }
 inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint8_t>(channel.Flags & ~flag); }
+
+static_assert(toggled == wire::toggle_bit);
 
 // Was the type told of the begin, and does it want to know the end?
 inline bool is_told(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
@@ -98,7 +100,7 @@ void rest(CO_NODE& node);
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  return wire::toggle(request) != channel.Toggle ? CO_SDO_ERR_TBIT : no_abort;
+  return wire::toggle(request) != (channel.Flags & toggled) ? CO_SDO_ERR_TBIT : no_abort;
 }
 
 // The same, and tells the client.
@@ -158,7 +160,8 @@ void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
 // Sends segments of a block upload, as many as there are and transmit::offer() takes. Returns an abort code.
 [[nodiscard]] uint32_t send_segments(CO_SDO& channel);
 
-// Keeps a segment of a block download. True: it ends the block, and end_block() answers.
+// Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. True: it ends
+// the block, and end_block() answers.
 [[nodiscard]] bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment);
 
 // Block download: is this the last segment of all once more?

@@ -82,8 +82,8 @@ uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& an
   }
   channel.Num = channel.Read;
   const bool last = channel.Num == channel.Size;
-  answer.Data[0] = wire::segment(channel.Toggle, channel.Num - position, last);
-  channel.Toggle ^= wire::toggle_bit;
+  answer.Data[0] = wire::segment(channel.Flags & toggled, channel.Num - position, last);
+  channel.Flags ^= toggled;
   return last ? close(channel, no_abort) : no_abort;
 }
 
