@@ -282,8 +282,8 @@
 #error "CO_SDO_BUF_SEG: 1...127 segments"
 #endif
 
-/// Segments of block transfers that CONodeProcess() sends at most in one call, by servers and clients together: 1…127.
-/// 32 are 4 ms at 1 Mbit/s. No cost.
+/// Segments of block transfers that CONodeProcess(), or COTmrProcess(), sends at most in one call, by servers and
+/// clients together: 1…127. 32 are 4 ms at 1 Mbit/s. No cost.
 #ifndef CO_SDO_BLOCK_PACE
 #define CO_SDO_BLOCK_PACE 32
 #endif

@@ -208,7 +208,7 @@ typedef struct CO_NODE_T {
   uint8_t NodeId;
   uint8_t State;       ///< runs, serves a frame, changes its NMT state: bits
   uint8_t Pending;     ///< what is to be done when it has been answered
-  uint8_t Paused;      ///< a block transfer waits for the controller, or for the next call
+  uint8_t Paused;      ///< a block transfer waits for the controller, or for the next call that continues it
   uint8_t Burst;       ///< segments of block transfers in this call
   uint8_t Turn;        ///< whose turn it is when a block transfer may go on
   uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
@@ -308,7 +308,8 @@ void CONodeStop(CO_NODE* node);
 /// The last error, which is thereby cleared. CO_ERR_BAD_ARG if \a node is null.
 CO_ERR CONodeGetErr(CO_NODE* node);
 
-/// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver.
+/// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver and
+/// paused block transfers continued, by up to CO_SDO_BLOCK_PACE segments in a call. COTmrProcess() continues both, too.
 /// Blocks only if the driver's Read does. In CO_INVALID it reads one frame and drops it, counted as received and
 /// unclaimed, unless the node has no drivers.
 void CONodeProcess(CO_NODE* node);
@@ -334,8 +335,9 @@ void CONodeProcess(CO_NODE* node);
 void CONodeRealTime(CO_NODE* node);
 #endif
 
-/// Ticks until COTmrService() and COTmrProcess(), or CONodeProcess() for frames that wait to be sent (again after 1
-/// ms), have something to do: 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait sooner.
+/// Ticks until COTmrService() and COTmrProcess() have something to do: timers, frames that the driver has refused
+/// (again after 1 ms), paused block transfers. 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait
+/// sooner.
 uint32_t CONodeNextDeadline(CO_NODE* node);
 
 /// To be called by a CAN driver or the loop: the controller has changed its state. Counts it and calls

@@ -74,10 +74,16 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
 int16_t COTmrDelete(CO_TMR* tmr, int16_t actId);
 
 /// To be called from the timer interrupt (or the loop, where the driver is polled). Takes no lock and runs no action.
-/// Returns 1: elapsed timers wait for COTmrProcess(), 0: none, -1: \a tmr null.
+/// \retval 1 COTmrProcess() has work: elapsed timers, frames that the driver has refused, a paused block transfer
+/// \retval 0 it has none
+/// \retval -1 \a tmr is null
 int16_t COTmrService(CO_TMR* tmr);
 
-/// Runs the actions of all timers that COTmrService() has found elapsed, without the lock held.
+/// Runs the actions of all timers that COTmrService() has found elapsed, without the lock held. Before that, it offers
+/// frames that the driver has refused again, and continues block transfers by up to CO_SDO_BLOCK_PACE segments, as
+/// CONodeProcess() does. So a firmware may call CONodeProcess() only when a frame has arrived, if it calls
+/// COTmrProcess() cyclically, or whenever a cyclic COTmrService() returns 1. A firmware whose timer interrupt comes
+/// only for the next timer has to ask CONodeNextDeadline(): frames and segments that wait do not start a timer.
 void COTmrProcess(CO_TMR* tmr);
 
 /// Prepares the timer management of a node; CONodeInit() does it. \a mem: \a num timers, the caller's for as long as

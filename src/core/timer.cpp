@@ -30,6 +30,12 @@ static_assert(offsetof(CO_TMR_MEM, Next) == 0);
 CO_TMR_MEM** first_armed(const CO_TMR& t) { return __atomic_load_n(&t.Armed, __ATOMIC_RELAXED); }
 bool has_due(const CO_TMR& t) { return first_armed(t) != &t.First; }
 
+// Do frames or segments wait that COTmrProcess() continues to send? Called in the timer interrupt, without the lock.
+bool has_to_send(const CO_NODE& node) {
+  return __atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) != 0 ||
+         __atomic_load_n(&node.Paused, __ATOMIC_RELAXED) != 0;
+}
+
 // Lets the time go on; what has elapsed becomes due.
 void advance(CO_TMR& t, uint32_t now) {
   const uint32_t passed = now - t.Clock;
@@ -195,10 +201,8 @@ const CO_TMR_MEM& take_due(CO_TMR& t) {
   return take(t, t.First);
 }
 
-// A timer management that was never initialised seems to have such timers. What elapses while actions run waits for the
-// next call.
+// Timers that elapse while actions run are left to the next call.
 [[gnu::noinline]] void run_due(CO_TMR& t) {
-  ASSERT_PTR_FATAL(t.Node);
   const uint32_t first = t.First->At;
   const uint32_t span = owner_of(first_armed(t)).At - first;
   do {
@@ -270,12 +274,13 @@ bool has_turns(const CO_TMR& t) {
 }
 
 // Each action in a turn of its own.
-void run_in_turns(CO_TMR& t) {
+void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
   const Share share = share_of_mainline(t);
   Span span = {};
   bool more = false;
   {
     const port::Turn turn(*t.Node);
+    before(*t.Node);
     more = find_span(t, share, span);
   }
   while (more) {
@@ -364,6 +369,19 @@ uint32_t next_deadline(CO_TMR& timers) {
   }
   const CO_TMR_MEM* const next = USE_REAL_TIME != 0 ? *timers.Armed : timers.First;
   return next == nullptr ? UINT32_MAX : next->At - now;
+}
+
+void run(CO_TMR& timers, void (*before)(CO_NODE_T& node)) {
+#if USE_REAL_TIME
+  if (has_turns(timers)) {
+    run_in_turns(timers, before);
+    return;
+  }
+#endif
+  before(*timers.Node);
+  if (has_due(timers)) {
+    run_due(timers);
+  }
 }
 
 #if USE_REAL_TIME
@@ -458,24 +476,11 @@ int16_t COTmrService(CO_TMR* tmr) {
   if (port::has_clock(*tmr->Node)) {
     now = port::now(*tmr->Node);
   } else if (!port::has_elapsed(*tmr->Node)) {
-    return 0;
+    return tmr::has_to_send(*tmr->Node) ? 1 : 0;
   }
   tmr::advance(*tmr, now);
   tmr::program(*tmr, now);
-  return tmr::has_due(*tmr) ? 1 : 0;
-}
-
-void COTmrProcess(CO_TMR* tmr) {
-  ASSERT_PTR_FATAL(tmr);
-#if USE_REAL_TIME
-  if (tmr::has_turns(*tmr)) {
-    tmr::run_in_turns(*tmr);
-    return;
-  }
-#endif
-  if (tmr::has_due(*tmr)) {
-    tmr::run_due(*tmr);
-  }
+  return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }
 
 }  // extern "C"

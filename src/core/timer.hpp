@@ -22,6 +22,10 @@ void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 // Stops a timer that is part of its owner; a stopped one stays stopped.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
 
+// Calls a function, then runs the actions of all timers that have elapsed: where there is a real-time thread, of those
+// of the mainline. Where threads take turns, the function and the search for timers share one.
+void run(CO_TMR& timers, void (*before)(CO_NODE_T& node));
+
 // A timer of SYNC or of a PDO: run_real_time() runs it where there is a real-time thread. For a timer that is part of
 // its owner, once.
 #if USE_REAL_TIME

@@ -204,17 +204,28 @@ void settle_all(CO_NODE& node) {
 void settle_all(CO_NODE& node) { event::settle(node); }
 #endif
 
-// What has found the controller full: frames, then block transfers and multiplex PDOs. False: the node was stopped.
-[[nodiscard]] bool go_on(CO_NODE& node) {
+bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || node.Paused != 0; }
+
+// Offers the frames that the driver has refused again, then continues block transfers and multiplex PDOs.
+void resume_sending(CO_NODE& node) {
   transmit::flush(node);
   if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
-    {
-      const event::Serving serving(node);
-      services::on_free(node);
-    }
-    settle_all(node);
+    const event::Serving serving(node);
+    services::on_free(node);
   }
-  return node.Nmt.Mode != CO_INVALID;
+}
+
+// For COTmrProcess(), so that a firmware may call CONodeProcess() for received frames only. Resets are left to
+// CONodeProcess() where there is a real-time thread.
+void resume_sending_between_frames(CO_NODE& node) {
+  if (node.State != event::running) {
+    return;
+  }
+  node.Burst = 0;
+  if (waits_to_send(node)) {
+    resume_sending(node);
+    event::settle(node);
+  }
 }
 
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
@@ -409,8 +420,12 @@ void CONodeProcess(CO_NODE* node) {
     return;
   }
   node->Burst = 0;
-  if ((transmit::is_waiting(*node) || node->Paused != 0) && !node::go_on(*node)) {
-    return;
+  if (node::waits_to_send(*node)) {
+    node::resume_sending(*node);
+    node::settle_all(*node);
+    if (node->Nmt.Mode == CO_INVALID) {
+      return;
+    }
   }
   CO_IF_FRM frame = wire::empty_frame(0, 0);
   if (!node::receive(*node, frame)) {
@@ -420,6 +435,12 @@ void CONodeProcess(CO_NODE* node) {
   node::dispatch(*node, frame);
   node->State &= static_cast<uint8_t>(~event::serving);
   node::settle_all(*node);
+}
+
+void COTmrProcess(CO_TMR* tmr) {
+  ASSERT_PTR_FATAL(tmr);
+  ASSERT_PTR_FATAL(tmr->Node);
+  tmr::run(*tmr, node::resume_sending_between_frames);
 }
 
 #if USE_REAL_TIME
@@ -453,7 +474,7 @@ uint32_t CONodeNextDeadline(CO_NODE* node) {
     return 0;
   }
   const uint32_t timers = tmr::next_deadline(node->Tmr);
-  if (!transmit::is_waiting(*node) && node->Paused == 0) {
+  if (!node::waits_to_send(*node)) {
     return timers;
   }
   if (transmit::is_paced(*node)) {

@@ -37,6 +37,27 @@ TEST_CASE("timer: drivers without context, cyclic and tickless, run timers at th
   }
 }
 
+bool is_refusing = false;
+std::int16_t send_unless_refusing(CO_IF_FRM*) { return is_refusing ? std::int16_t{0} : sizeof(CO_IF_FRM); }
+
+TEST_CASE("timer: drivers without context: COTmrService() returns 1 in each tick while a frame waits to be sent") {
+  OldNode t(true);
+  CO_IF_CAN_DRV can = *t.drivers.Can;
+  can.Send = send_unless_refusing;
+  t.drivers.Can = &can;
+  CO_IF_FRM frm{0x181, {}, 8};
+  CHECK(COTmrService(&t.node.Tmr) == 0);
+  is_refusing = true;
+  CHECK(COIfCanSend(&t.node.If, &frm) == sizeof(CO_IF_FRM));
+  CHECK(COTmrService(&t.node.Tmr) == 1);
+  COTmrProcess(&t.node.Tmr);
+  CHECK(COTmrService(&t.node.Tmr) == 1);
+  is_refusing = false;
+  COTmrProcess(&t.node.Tmr);
+  CHECK(CONodeGetCounters(&t.node).Sent == 2);  // the boot-up message, and this
+  CHECK(COTmrService(&t.node.Tmr) == 0);
+}
+
 TEST_CASE("timer: drivers without context, no drift in a million ticks") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);

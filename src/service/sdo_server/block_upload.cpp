@@ -24,7 +24,7 @@ void sum(CO_SDO& channel, uint32_t position) {
   channel.Summed = channel.Read;
 }
 
-// This call of CONodeProcess() has done enough.
+// Lets the next call of CONodeProcess() or COTmrProcess() continue.
 void pause(CO_NODE& node) {
   node.Paused = 1;
   node.Burst = CO_SDO_BLOCK_PACE;
