@@ -128,7 +128,7 @@ ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed)
   if (result == ODR_PARTIAL && (state.Passed + passed) % bytes_of_character(access) != 0) {
     OD_size_t ahead = 0;
     result = call_read(access, &state.Held, 1, ahead);
-    if (is_good(result) && ahead != 0) {
+    if (ahead != 0) {
       set(state, holds);
     }
   }

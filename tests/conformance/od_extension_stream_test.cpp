@@ -471,6 +471,28 @@ TEST_CASE("OD extension, stream: a text shorter than its capacity comes with its
   CHECK(node.extension.take_log().empty());
 }
 
+// Passes all data at once, and says in the next call only that this was the end.
+ODR_t read_with_late_end(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
+  const OutsideStack outside;
+  const auto& self = *static_cast<LoggedExtension*>(stream->object);
+  const auto left = static_cast<OD_size_t>(self.data.size()) - stream->dataOffset;
+  *passed = std::min(left, count);
+  std::copy_n(self.data.data() + stream->dataOffset, *passed, static_cast<std::uint8_t*>(buf));
+  stream->dataOffset += *passed;
+  return *passed == 0 ? ODR_OK : ODR_PARTIAL;
+}
+
+TEST_CASE("OD extension, stream: a UNICODE_STRING that ends with half a character gets no byte that nobody has read") {
+  for (const bool late : {false, true}) {
+    CAPTURE(late);
+    Node node(0x3002, {0x41, 0x00, 0x42, 0x00, 0x43, 0x00, 0x44});
+    if (late) {
+      node.extension.extension.read = read_with_late_end;
+    }
+    CHECK(node.upload(0x3002, 0) == node.extension.data);
+  }
+}
+
 TEST_CASE("OD extension, stream: a zero character behind a short UNICODE_STRING has two bytes") {
   for (unsigned size = 0; size <= 16; size += 2) {
     CAPTURE(size);

@@ -41,8 +41,11 @@ TEST_CASE("SDO client: COCSdoFind gives the clients that 1280h and following con
     CHECK(COCSdoGetNum(csdo) == 0);
     CHECK(COCSdoGetTotal(csdo) == 0);
   }
+  const auto* const memory = reinterpret_cast<const std::uint8_t*>(&node.node);
+  const Bytes before(memory, memory + sizeof node.node);
   CHECK(COCSdoFind(&node.node, CO_CSDO_N) == nullptr);
   CHECK(COCSdoFind(&node.node, 255) == nullptr);
+  CHECK(Bytes(memory, memory + sizeof node.node) == before);
   CHECK(COCSdoFind(nullptr, 0) == nullptr);
 }
 

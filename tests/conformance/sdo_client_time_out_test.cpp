@@ -83,6 +83,8 @@ TEST_CASE("SDO client: a time-out of 0 waits for ever, in every state") {
     CAPTURE(state.name);
     SdoClient node;
     enter(node, state, 0);
+    CHECK_FALSE(node.is_watched());
+    CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
     node.after(std::chrono::hours{24});
     node.goes_on();
     CHECK(without_acknowledges(node.frames()).empty());

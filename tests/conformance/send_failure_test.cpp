@@ -74,6 +74,23 @@ TEST_CASE("send failure: waiting frames go out by priority, equal ones in order 
   node.tx({"091#0102030405060708", "091#1112131415161718", "581#4300100091010F00", "701#05", "7FF#"});
 }
 
+// [ISO 11898-1] Arbitration: the base identifier first, then 11-bit before 29-bit identifiers.
+TEST_CASE("send failure: 29-bit identifiers wait in the order of arbitration among themselves and 11-bit ones [Q4]") {
+  Fixture node(Setup().tx_queue(20));
+  node.can.refuse_all();
+  node.call([&] {
+    for (const char* text : {"0607FFFF#01", "06040001#02", "182#03", "06040000#04", "181#05", "00000001#06",
+                             "0603FFFF#07", "1FFFFFFF#08", "180#09", "7FF#0A", "06080000#0B"}) {
+      CO_IF_FRM frm = frame(text);
+      CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM));
+    }
+  });
+  node.can.accept_all();
+  node.loop();
+  node.tx({"00000001#06", "180#09", "0603FFFF#07", "181#05", "06040000#04", "06040001#02", "0607FFFF#01", "182#03",
+           "06080000#0B", "7FF#0A", "1FFFFFFF#08"});
+}
+
 TEST_CASE("send failure: a new frame does not overtake waiting ones of the same identifier [Q4]") {
   Fixture node;
   CO_IF_FRM first = frame("181#01");
