@@ -129,4 +129,28 @@ TEST_CASE("SDO custom abort: set in the End of a transfer that a new one drops, 
 }
 #endif
 
+#if USE_OD
+TEST_CASE("SDO custom abort: set in an access of the application, it is nothing, before an SDO transfer and after it") {
+  LoggedStream refusing;
+  refusing.data = {1, 2, 3, 4};
+  Fixture node(Setup().only_small().with(refusing.value(0x3101)));
+  const auto write = [&] {
+    ODR_t result = ODR_OK;
+    refusing.on_piece = [](CO_OBJ* obj, CO_NODE* of) {
+      COObjTypeUserSDOAbort(obj, of, CO_SDO_ERR_RANGE_HIGH);
+      return CO_ERR_OBJ_RANGE;
+    };
+    node.call([&] { result = OD_set_u32(OD_find(&node.od, 0x3101), 0, 5, false); });
+    refusing.on_piece = nullptr;
+    return result;
+  };
+  refusing.data = {1, 2, 3, 4};
+  CHECK(write() == ODR_INVALID_VALUE);
+  refusing.data = {1, 2, 3, 4};
+  node.rx("601#4001310000000000");
+  CHECK(node.frames().size() == 1);
+  CHECK(write() == ODR_INVALID_VALUE);
+}
+#endif
+
 }  // namespace
