@@ -100,6 +100,30 @@ TEST_CASE("check: pdo-access: what is mapped may be mapped, in that direction") 
   CHECK(of_tpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == no_tpdo);
 }
 
+TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the description names the object") {
+  const std::string no_tpdo = "pdo-access: the object cannot be in a TPDO\n";
+  const std::string no_rpdo = "pdo-access: the object cannot be in an RPDO\n";
+  const std::string unsaid = "[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=0\n";
+  const std::string of_array =
+      "[2000]\nParameterName=x\nObjectType=8\nSubNumber=2\n"
+      "[2000sub0]\nParameterName=x\nDataType=5\nAccessType=ro\nDefaultValue=1\n"
+      "[2000sub1]\nParameterName=x\nDataType=6\nAccessType=rw\nPDOMapping=0\n";
+  const std::string compact =
+      "[2000]\nParameterName=x\nObjectType=8\nDataType=6\nAccessType=rw\nPDOMapping=0\n"
+      "CompactSubObj=2\n";
+  CHECK(of_rpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == no_rpdo);
+  CHECK(of_tpdo({"1", "0x20000010"}, unsaid) == no_tpdo);
+  CHECK(of_rpdo({"1", "0x20000010"}, unsaid) == no_rpdo);
+  CHECK(of_tpdo({"1", "0x20000110"}, of_array) == no_tpdo);
+  CHECK(of_tpdo({"1", "0x20000210"}, compact) == no_tpdo);
+  CHECK(of_tpdo({"2", "0x20010010", "0x20000010"}, unsaid + variable("2001", "6", "ro")) == no_tpdo);
+  // A PDO that is off has a mapping, too.
+  CHECK(found(check::check_pdo_parameters,
+              record("1800", {"2", "0x80000180", "255"}) + record("1A00", {"1", "0x20000010"}) + unsaid) == no_tpdo);
+  // Beyond the number of mapped objects nothing is mapped.
+  CHECK(of_tpdo({"0", "0x20000010"}, unsaid) == "");
+}
+
 TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may be a byte") {
   CHECK(of_tpdo({"1", "0x20000020"}) == "pdo-bits: the object has 16 bits\n");
   CHECK(of_tpdo({"1", "0x20000008"}) == "pdo-part: the object has 16 bits\n");

@@ -6,8 +6,10 @@ if(NOT LEXICAN_PRESET STREQUAL "minimal")
     od_conformance_case.cpp)
   foreach(language IN ITEMS C CXX)
     string(REPLACE CXX cpp name ${language})
-    string(TOLOWER every_${name} name)
-    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/every_kind.eds NAME ${name}
+    string(TOLOWER ${name} name)
+    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/every_kind.eds NAME every_${name}
+      LANGUAGE ${language})
+    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/unmappable.eds NAME unmappable_${name}
       LANGUAGE ${language})
   endforeach()
   target_include_directories(lexican_codict_node_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)

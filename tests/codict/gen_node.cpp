@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codict/gen_node.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <vector>
@@ -114,6 +116,20 @@ GeneratedNode::Frame GeneratedNode::ask(const Frame& request) {
     }
   }
   return {};
+}
+
+std::string GeneratedNode::sent_by(const std::function<void()>& call) {
+  while (client_.read()) {
+  }
+  call();
+  process();
+  const auto heard = client_.read();
+  if (!heard) {
+    return "";
+  }
+  std::string text;
+  add(text, heard->Data, heard->DLC);
+  return fmt::format("{:X}: {}", heard->Identifier, text);
 }
 
 // [301:7.2.4.3.5, 7.2.4.3.6]

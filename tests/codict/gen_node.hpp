@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -46,6 +47,8 @@ class GeneratedNode {
   std::string write(std::uint16_t index, std::uint8_t sub_index, std::string_view hex_bytes);
   /// A frame from another node.
   void say(std::uint32_t identifier, std::string_view hex_bytes);
+  /// The first frame that the node sends because of a call: "185: 01 02"; empty: none.
+  std::string sent_by(const std::function<void()>& call);
   /// CODictGetFault() and CONodeGetErr() after the start.
   CO_DICT_FAULT fault = CO_DICT_OK;
   CO_ERR error = CO_ERR_NONE;

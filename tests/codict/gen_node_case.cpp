@@ -12,6 +12,8 @@
 #include "codict/gen_node.hpp"
 #include "every_c_od.h"
 #include "every_cpp_od.h"
+#include "unmappable_c_od.h"
+#include "unmappable_cpp_od.h"
 
 namespace {
 
@@ -452,6 +454,37 @@ TEST_CASE("gen: the demo clock: 1017h written as 250 and not stored is 1000 afte
   CHECK(node.read(0x2101, 0) == "00 00");
   CHECK(node.read(0x2201, 0) == "");
   CHECK(node.read(0x2100, 2) == "00");
+}
+
+TEST_CASE("gen: a PDO whose mapping names an object with PDOMapping=0 works; the network cannot map the object") {
+  struct Unmappable {
+    const CO_OBJ* od;
+    std::uint16_t length;
+  };
+  for (const Unmappable& device :
+       {Unmappable{unmappable_c_od, UNMAPPABLE_C_OD_NUM}, Unmappable{unmappable_cpp_od, UNMAPPABLE_CPP_OD_NUM}}) {
+    Memory memory;
+    GeneratedNode node(device.od, device.length, memory);
+    CHECK(node.fault == CO_DICT_OK);
+    CHECK(node.error == CO_ERR_NONE);
+    node.say(0, "01 05");  // operational
+    node.say(0x205, "11 22");
+    CHECK(node.read(0x2000, 0) == "11 22");
+    node.say(0x305, "33 44");
+    CHECK(node.read(0x2001, 0) == "33 44");
+    CHECK(node.sent_by([&] { COTPdoTrigPdo(node.node.TPdo, 0); }) == "185: 01 02");
+    CHECK(node.sent_by([&] { COTPdoTrigPdo(node.node.TPdo, 1); }) == "285: 03 04");
+    // The network needs PDOMapping=1.
+    CHECK(node.write(0x1401, 1, "05 03 00 80") == "ok");
+    CHECK(node.write(0x1601, 0, "00") == "ok");
+    CHECK(node.write(0x1601, 1, "10 00 04 20") == "abort 06040041");
+    CHECK(node.write(0x1601, 1, "10 00 01 20") == "abort 06040041");
+    // Reset communication brings back the mapping of the description.
+    node.say(0, reset_communication);
+    node.say(0, "01 05");
+    node.say(0x305, "55 66");
+    CHECK(node.read(0x2001, 0) == "55 66");
+  }
 }
 
 TEST_CASE("gen: variables have the names of the description, and entries are typed values in C++") {

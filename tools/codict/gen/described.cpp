@@ -60,6 +60,11 @@ void set_entry(Entry& entry, const Item& item) {
     entry.data_type.value = item.form->code;
     entry.type = {};
   }
+  if (item.pdo != entry.pdo_mapping.value) {
+    entry.pdo_mapping.value = item.pdo;
+    entry.pdo_mapping.text = "1";
+    entry.pdo_mapping.is_given = true;
+  }
   if (item.storage == Storage::string) {
     entry.node.string_length_min.value = item.capacity / item.form->alignment;
     entry.node.string_length_min.text = std::to_string(item.capacity / item.form->alignment);

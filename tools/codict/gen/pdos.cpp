@@ -10,6 +10,8 @@ namespace lexican::codict::gen {
 namespace {
 
 constexpr unsigned most_bits = 64;
+constexpr std::uint32_t flag_pdo = 0x04;
+constexpr std::uint32_t flag_direct = 0x80;
 constexpr std::uint64_t multiplexed = 0xFE;  // and FFh: no number of objects [301:7.5.2.36]
 
 constexpr bool is_receive(std::uint16_t index) { return index < 0x1800; }
@@ -24,7 +26,18 @@ unsigned bits_of(const Item& item) {
   return is_bit ? 1U : 8U * (item.form->bytes != 0 ? item.form->bytes : item.capacity);
 }
 
-void check_object(const Plan& plan, const Item& mapping, Findings& findings) {
+// The mapping of the description is its author's decision: the PDO works. CO_OD_CHECK() refuses a constant mapping of
+// an object without flag P, so the object gets it.
+void accept_unmappable(Plan& plan, const Item& mapping, const Item& object, Span span, Findings& findings) {
+  findings.add(rules::pdo_mappable, span, "PDOMapping of the object is 0; the PDO maps it nevertheless");
+  if ((mapping.flags & flag_direct) != 0) {
+    Item& changed = plan.items[static_cast<std::size_t>(&object - plan.items.data())];
+    changed.pdo = PdoMapping::optional;
+    changed.flags |= flag_pdo;
+  }
+}
+
+void check_object(Plan& plan, const Item& mapping, Findings& findings) {
   const std::uint64_t link = mapping.value.integer.magnitude;
   const auto index = static_cast<std::uint16_t>(link >> 16);
   const auto sub_index = static_cast<std::uint8_t>(link >> 8);
@@ -39,9 +52,14 @@ void check_object(const Plan& plan, const Item& mapping, Findings& findings) {
     findings.add(rules::pdo_object, span, "it maps an object that has no entry");
     return;
   }
-  if (object->pdo == PdoMapping::no || (receives ? !is_writable(object->access) : !is_readable(object->access))) {
+  if (receives ? !is_writable(object->access) : !is_readable(object->access)) {
     findings.add(rules::pdo_object, span, "it maps an object that may not be mapped");
-  } else if (bits != bits_of(*object) && !(bits == 8 && bits_of(*object) == 1)) {
+    return;
+  }
+  if (object->pdo == PdoMapping::no) {
+    accept_unmappable(plan, mapping, *object, span, findings);
+  }
+  if (bits != bits_of(*object) && !(bits == 8 && bits_of(*object) == 1)) {
     findings.add(rules::pdo_object, span, "the length is not that of the object");
   }
   const bool goes_out = object->access == Access::rwr || object->pdo == PdoMapping::tpdo;

@@ -24,7 +24,8 @@ const Rule store_unused{"gen-store-unused", Severity::warning, "What 1010h can s
 const Rule pdo_bits{"gen-pdo-bits", Severity::error, "A PDO has at most 64 bits."};
 const Rule pdo_object{
     "gen-pdo-object", Severity::warning,
-    "A PDO maps objects that exist, may be mapped and have the mapped length; else it will not exist."};
+    "A PDO maps objects that exist, may be read or written and have the mapped length; else it will not exist."};
+const Rule pdo_mappable{"gen-pdo-mappable", Severity::warning, "A PDO maps objects with PDOMapping=1."};
 const Rule pdo_direction{"gen-pdo-direction", Severity::warning,
                          "rwr and TPDO go out, rww and RPDO come in: a mapping in the other direction is a mistake."};
 const Rule limits{"gen-limits", Severity::warning, "Limits that cannot be kept are left out."};
@@ -43,11 +44,11 @@ namespace lexican::codict::gen {
 
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {
-      &rules::type,          &rules::access,       &rules::value,          &rules::value_none,  &rules::node_id,
-      &rules::no_subs,       &rules::place,        &rules::name,           &rules::name_shared, &rules::count,
-      &rules::store,         &rules::store_joined, &rules::store_unused,   &rules::pdo_bits,    &rules::pdo_object,
-      &rules::pdo_direction, &rules::limits,       &rules::limits_default, &rules::sub_zero,    &rules::cob_id,
-      &rules::left_out,      &rules::external,     &rules::capacity};
+      &rules::type,         &rules::access,        &rules::value,        &rules::value_none,     &rules::node_id,
+      &rules::no_subs,      &rules::place,         &rules::name,         &rules::name_shared,    &rules::count,
+      &rules::store,        &rules::store_joined,  &rules::store_unused, &rules::pdo_bits,       &rules::pdo_object,
+      &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,       &rules::limits_default, &rules::sub_zero,
+      &rules::cob_id,       &rules::left_out,      &rules::external,     &rules::capacity};
   return all;
 }
 

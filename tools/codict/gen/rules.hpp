@@ -24,6 +24,7 @@ extern const Rule store_joined;
 extern const Rule store_unused;
 extern const Rule pdo_bits;
 extern const Rule pdo_object;
+extern const Rule pdo_mappable;
 extern const Rule pdo_direction;
 extern const Rule limits;
 extern const Rule limits_default;
