@@ -227,7 +227,7 @@
 
 /// Access hook: the functions AccessSdo, AccessNmt and AccessLss in CO_CALLBACKS (co_callbacks.h) permit or refuse SDO
 /// transfers, NMT commands and LSS services of the network: 0 or 1. With 0 these members do not exist, and nothing is
-/// called.1 costs 540 bytes of flash (Cortex-M0+, -Os), 310 of them with USE_LSS.
+/// called. 1 costs 540 bytes of flash (Cortex-M0+, -Os), 310 of them with USE_LSS.
 #ifndef USE_ACCESS_HOOK
 #define USE_ACCESS_HOOK 0
 #endif
