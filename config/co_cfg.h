@@ -246,6 +246,18 @@
 #error "CO_PARA_PERIOD: 1...65535 ms"
 #endif
 
+/// Stores that the bus can cause in a row, one more each minute: 0…255; 0: no limit. A "save" (1010h), a "load" (1011h)
+/// or an LSS store that writes the memory is one, so is a round of autonomous stores. Beyond it "save" and "load" are
+/// aborted with 0800 0022h, LSS store answers 255, and autonomous groups are stored later. Bounds the wear of a flash
+/// memory (docs/storage.md). Anything but 0 costs 28 bytes of RAM (32-bit CPU) and 310 bytes of flash (Cortex-M0+,
+/// -Os).
+#ifndef CO_PARA_BUDGET
+#define CO_PARA_BUDGET 32
+#endif
+#if CO_PARA_BUDGET < 0 || CO_PARA_BUDGET > 255
+#error "CO_PARA_BUDGET: 0...255 stores"
+#endif
+
 /// Bytes of stack for a piece of what is stored: 8…1024, at least the ProgramSize of the memory. With USE_REAL_TIME a
 /// multiple of 8, and of ProgramSize: between two pieces another thread has its turn and may change what is stored, so
 /// no number may lie in both. That holds for numbers at a multiple of their size behind the begin of their group.

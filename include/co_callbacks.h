@@ -64,7 +64,9 @@ typedef struct CO_ACCESS_LSS_T {
 
 /// Initialise it with zero, set the functions that the application needs. It must live as long as the node.
 typedef struct CO_CALLBACKS_T {
-  /// Called when the newest stored record of a parameter group is damaged and an older one was loaded in its place.
+  /// Called when the newest stored record of a parameter group is damaged and an older one was loaded in its place, by
+  /// CONodeInit() and by NMT resets: in CO_INIT, before anything uses the values. No EMCY can be sent then;
+  /// docs/storage.md shows how to send one.
   void (*ParaRecovered)(struct CO_NODE_T* node, void* user, const struct CO_PARA_T* group);
 #if USE_ACCESS_HOOK
   /// Called when a client initiates an SDO transfer: expedited, segmented or block, in either direction. 1010h and

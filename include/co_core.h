@@ -269,6 +269,11 @@ typedef struct CO_NODE_T {
 #endif
 #if USE_PARA
   CO_TMR_MEM ParaTmr;  ///< groups that are stored autonomously
+#if CO_PARA_BUDGET > 0
+  uint8_t StoresUsed;    ///< of CO_PARA_BUDGET
+  uint8_t StorePayer;    ///< whether the write in progress is counted
+  CO_TMR_MEM BudgetTmr;  ///< refills CO_PARA_BUDGET
+#endif
 #endif
 #if USE_GUARDING
   uint8_t GuardToggle;  ///< bit 7 of the next answer

@@ -34,6 +34,7 @@ typedef enum CO_DICT_FAULT_T {
   CO_DICT_DIRECT_CONST,    ///< flags D and W in a table in read-only memory (found at compile time only)
   CO_DICT_RESERVED_INDEX,  ///< entry at an index below 0001h; or a static data type with data: the node runs then
   CO_DICT_NOT_MAPPABLE,    ///< a PDO of the table maps this entry, which has no flag P (found at compile time only)
+  CO_DICT_PARA_OVERLAP,    ///< 1010h: parameter group that overlaps one before it; the node runs without the group
 } CO_DICT_FAULT;
 
 typedef struct CO_DICT_T {

@@ -76,8 +76,10 @@ typedef struct CO_LSS_T {
 /// reset node. [305] An error, or another node-ID, is CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 
-/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. CO_ERR_LSS_NO_STORE is told to the
-/// master as "not supported", any other error as "medium". Default: CO_ERR_LSS_NO_STORE.
+/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. CO_ERR_LSS_NO_STORE is
+/// answered by error 1 (not supported), CO_ERR_OBJ_STATE by error 255 with the specific error 22h (the budget of stores
+/// is used up, see CO_PARA_BUDGET; 22h as in SDO abort 0800 0022h), any other error by error 2 (access to the medium).
+/// Default: CO_ERR_LSS_NO_STORE.
 CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// \}
 
@@ -96,8 +98,13 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// CO_ERR_IF_NVM_READ: what is stored is damaged, or cannot be read; CO_ERR_BAD_ARG: an argument is null.
 CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId);
 
-/// CO_ERR_LSS_NO_STORE: the node has no memory; CO_ERR_PARA_STORE: no place at \a offset; CO_ERR_IF_NVM_WRITE: the
-/// memory does not hold the values, the old ones stay; CO_ERR_BAD_ARG: \a node is null.
+/// Values that are stored already are not written again. The place is not compared with those of parameter groups.
+/// \retval CO_ERR_NONE          the values are stored
+/// \retval CO_ERR_LSS_NO_STORE  the node has no memory
+/// \retval CO_ERR_PARA_STORE    no place at \a offset
+/// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
+/// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only while COLssStore() serves the
+/// bus \retval CO_ERR_BAD_ARG       \a node is null
 CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId);
 /// \}
 

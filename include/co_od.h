@@ -376,7 +376,7 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
 #define OD_GROUP(name, variable, defaults, offset, reset, value)                                                \
   {                                                                                                             \
     (offset), (uint32_t)sizeof(variable), (uint8_t*)&(variable), (uint8_t*)&(defaults), (reset), (void*)(name), \
-        (value)                                                                                                 \
+        (value), 0, 0                                                                                           \
   }
 
 #if USE_PARA

@@ -17,13 +17,23 @@
 /// node (and its first ComSize bytes by both). "load" takes effect then, too, also after the power was off in between.
 /// Where nothing was stored, and after "load", a group gets its Default values; without any its memory stays as it is.
 ///
-/// What is stored is never torn: with a driver that tells the shape of the memory (CO_IF_NVM_DRV_EX.Shape) a group
-/// holds after a power failure, at whatever moment, exactly its old or exactly its new values. It takes CO_PARA_SPACE()
-/// bytes from Offset on. Bits 31…8 of Value are the version of its layout (CO_PARA_VERSION()): values of another
-/// version or size are not loaded. docs/storage.md shows how. With a driver that tells no shape the bytes of a group
-/// lie at Offset as they are, and FFh everywhere means that nothing was stored.
+/// Stores are atomic (power-fail safe) with a driver that has a Shape function (CO_IF_NVM_DRV_EX): a group holds after
+/// a power failure, at whatever moment, exactly its old or exactly its new values. It occupies CO_PARA_SPACE() bytes
+/// from Offset on. The checksum of its record covers its sub-index of 1010h, Offset, Size and the version of its layout
+/// (Version, or CO_PARA_VERSION() in Value): the record of another group, place, size or version is not loaded. See
+/// docs/storage.md. With any other driver the bytes of a group are stored unchanged at Offset, and FFh everywhere means
+/// that nothing was stored.
 ///
-/// Groups must not overlap: nothing checks that. Of a string (co_string.h) a group holds the bytes, and its Size only
+/// Stored groups must not overlap in the non-volatile memory. One that overlaps a group with a lower sub-index of 1010h
+/// is neither loaded nor stored; it holds its Default values, and the node's error is CO_ERR_PARA_OVERLAP. The
+/// variables of groups may overlap.
+///
+/// The bus can cause CO_PARA_BUDGET stores in a row and one more each minute (co_cfg.h). The budget is full after
+/// CONodeInit(); NMT resets do not refill it. Every write to 1010h or 1011h counts that changes the memory, also that
+/// of CODictWrLong() and OD_storeGroup(), so do LSS store and a round of autonomous stores. COParaStore() and
+/// COParaRestore() are not limited: the application decides how often it calls them.
+///
+/// Of a string (co_string.h) a group holds the bytes, and its Size only
 /// if that lies in the group, too.
 ///
 /// Context: the loop. Functions return when the memory has been read or written.
@@ -53,13 +63,13 @@ extern "C" {
 /// \{
 #define CO_PARA____ 0u  ///< not stored
 #define CO_PARA___E 1u  ///< stored on command
-#define CO_PARA__A_ 2u  ///< stored autonomously; only with a driver that tells the shape of its memory
+#define CO_PARA__A_ 2u  ///< stored autonomously; only with a driver that has a Shape function
 #define CO_PARA__AE 3u  ///< both
 /// Version \a n of the layout, 0…FFFFFFh, to be added. Values that were stored under another are not loaded.
 #define CO_PARA_VERSION(n) ((uint32_t)(n) << 8)
 /// \}
 
-/// Bytes of memory that a group of \a size bytes takes, with a driver that tells the shape of the memory. \a unit: the
+/// Bytes of memory that a group of \a size bytes occupies with a driver that has a Shape function. \a unit: the
 /// larger of its ProgramSize and EraseSize. Offset is a multiple of \a unit.
 #define CO_PARA_SPACE(size, unit, program) \
   (2u * CO_PARA_ROUND_UP(CO_PARA_ROUND_UP(20u, program) + CO_PARA_ROUND_UP((uint32_t)(size), program), unit))
@@ -77,14 +87,17 @@ typedef struct CO_PARA_T {
   /// (1000h…1FFFh). Reset communication loads them, or copies their Default; COParaDefault() is not called for it.
 #ifdef __cplusplus
   uint32_t ComSize = 0;
+  uint32_t Version = 0;
 #else
   uint32_t ComSize;
+  uint32_t Version;  ///< of the layout; 0: the one of CO_PARA_VERSION() in Value
 #endif
 } CO_PARA;
 
-/// Types of 1010h and 1011h: sub-index 0 as an UNSIGNED8, the others name a CO_PARA. Reading 1010h tells CO_PARA.Value
-/// (bit 0: stored on command, bit 1: autonomously), reading 1011h bit 0. Aborts: 0800 0020h another word, or a group
-/// that is not stored on command; 0606 0000h the memory does not hold the values, the old ones stay.
+/// Types of 1010h and 1011h: sub-index 0 as an UNSIGNED8, the others name a CO_PARA. Reading 1010h returns bits 0 and 1
+/// of CO_PARA.Value (stored on command, autonomously), reading 1011h bit 0. Aborts: 0800 0020h another word, or a group
+/// that is not stored on command; 0606 0000h the memory does not hold the values, the old ones stay, or the group
+/// overlaps another; 0800 0022h the budget of stores is used up (CO_PARA_BUDGET).
 extern const CO_OBJ_TYPE COTParaStore;
 extern const CO_OBJ_TYPE COTParaRestore;
 
@@ -96,17 +109,25 @@ extern const CO_OBJ_TYPE COTVerifyConfig;
 #define CO_TPARA_RESTORE ((const CO_OBJ_TYPE*)&COTParaRestore)
 #define CO_TVERIFY_CONFIG ((const CO_OBJ_TYPE*)&COTVerifyConfig)
 
-/// Stores the group; one that is not stored on command (CO_PARA___E) is left alone. CO_ERR_NONE: it is safe, or was so
-/// before. CO_ERR_PARA_STORE: Offset and Size do not fit the memory; CO_ERR_IF_NVM_WRITE: the memory does not hold the
-/// values; the old ones stay. CO_ERR_BAD_ARG: an argument is null.
+/// Stores the group, unless its values are stored already, then runs a reset that was requested meanwhile. A group that
+/// is not stored on command (CO_PARA___E) is ignored. Not limited by CO_PARA_BUDGET. \retval CO_ERR_NONE          the
+/// values are stored \retval CO_ERR_PARA_STORE    Offset and Size do not fit the memory \retval CO_ERR_PARA_OVERLAP the
+/// group overlaps one with a lower sub-index of 1010h \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values;
+/// the old ones stay \retval CO_ERR_BAD_ARG       an argument is null
 CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node);
 
 /// The group gets its default values at the reset of its Type. Errors as COParaStore().
 CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
 
-/// Loads all groups of 1010h of this \a type. Returns the last error, which is also the node's: CO_ERR_PARA_LOAD: what
-/// is stored is damaged or foreign, or cannot be read (COParaLost() was called); CO_ERR_PARA_STORE: a group does not
-/// fit the memory; CO_ERR_PARA_RESTORE: COParaDefault() has failed. CO_ERR_BAD_ARG: \a node is null.
+/// Loads all groups of 1010h of this \a type. An autonomous group whose change the budget delays keeps its values.
+/// Returns the last error, which is also the node's.
+/// \retval CO_ERR_PARA_LOAD     a record is damaged, belongs to another group or layout, or cannot be read
+/// (COParaLost()
+///                              was called)
+/// \retval CO_ERR_PARA_STORE    a group does not fit the memory
+/// \retval CO_ERR_PARA_OVERLAP  a group overlaps one with a lower sub-index
+/// \retval CO_ERR_PARA_RESTORE  COParaDefault() has failed
+/// \retval CO_ERR_BAD_ARG       \a node is null
 CO_ERR CONodeParaLoad(struct CO_NODE_T* node, enum CO_NMT_RESET_T type);
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
@@ -118,8 +139,9 @@ CO_ERR CONodeParaLoad(struct CO_NODE_T* node, enum CO_NMT_RESET_T type);
 /// else: CO_ERR_PARA_RESTORE.
 int16_t COParaDefault(struct CO_PARA_T* pg);
 
-/// What is stored for a group cannot be used; it has its default values now. An application that wants the network to
-/// know raises an error of its own (COEmcySet(), code 6300h).
+/// Called when the stored record of a group is invalid; the group now holds its default values. Where an older record
+/// is loaded in place of a damaged one, CO_CALLBACKS.ParaRecovered is called. docs/storage.md shows how the application
+/// reports either to the network (EMCY 6300h).
 void COParaLost(struct CO_NODE_T* node, const CO_PARA* pg);
 /// \}
 

@@ -167,7 +167,7 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
 /// number of a service from the place of their entry, and take Data for an address. Everything else concerns one entry.
 constexpr bool stops_node(CO_DICT_FAULT fault) {
   return fault != CO_DICT_OK && fault != CO_DICT_NO_DATA && fault != CO_DICT_NODEID_TYPE &&
-         fault != CO_DICT_RESERVED_INDEX;
+         fault != CO_DICT_RESERVED_INDEX && fault != CO_DICT_PARA_OVERLAP;
 }
 
 }  // namespace co::rules

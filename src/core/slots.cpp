@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/slots.hpp"
 
+#include "core/budget.hpp"
 #include "core/events.hpp"
 #include "core/port.hpp"
 #include "wire/crc32.hpp"
@@ -11,10 +12,12 @@ namespace co::slots {
 namespace {
 
 using store::Found;
+using store::Loaded;
 using store::Record;
 
-constexpr uint32_t magic = 0x314E584C;     // "LXN1"
-constexpr uint32_t defaults = UINT32_MAX;  // in place of the size
+constexpr uint32_t magic = 0x324E584C;      // "LXN2"
+constexpr uint32_t old_magic = 0x314E584C;  // "LXN1": version 0.1.0, whose CRC is without the identity
+constexpr uint32_t defaults = UINT32_MAX;   // in place of the size
 constexpr uint8_t erased = 0xFF;
 
 struct Header {
@@ -22,7 +25,7 @@ struct Header {
   uint32_t version;
   uint32_t size;
   uint32_t generation;
-  uint32_t crc;  // of the members above and the data
+  uint32_t crc;  // of the members above, the identity of the record and the data
 };
 
 struct Slot {
@@ -54,9 +57,12 @@ uint32_t slot_size(const CO_NODE& node, uint32_t size) {
   return round_up(header_size(node) + round_up(size, program_size(node)), unit(node));
 }
 
-wire::Crc32 crc_of(const Header& header) {
+wire::Crc32 crc_of(const Header& header, const Record& record) {
   wire::Crc32 crc;
   crc.add(reinterpret_cast<const uint8_t*>(&header), offsetof(Header, crc));
+  if (header.magic == magic) {
+    crc.add(reinterpret_cast<const uint8_t*>(&record), sizeof record);
+  }
   return crc;
 }
 
@@ -137,10 +143,11 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
     return Found::blank;
   }
   const bool is_default = header.size == defaults;
-  if (header.magic != magic || header.version != record.version || (!is_default && header.size != record.size)) {
+  const bool is_known = header.magic == magic || header.magic == old_magic;
+  if (!is_known || header.version != record.version || (!is_default && header.size != record.size)) {
     return Found::lost;
   }
-  wire::Crc32 crc = crc_of(header);
+  wire::Crc32 crc = crc_of(header, record);
   if (!add(node, start + header_size(node), is_default ? 0 : record.size, crc) || crc.value() != header.crc) {
     return Found::lost;
   }
@@ -148,6 +155,9 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
 }
 
 bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
+
+// Version 0.1.0 has written it.
+bool is_old(const Slot& slot) { return is_whole(slot) && slot.header.magic == old_magic; }
 
 bool is_newer(const Slot& slot, const Slot& other) {
   return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
@@ -170,10 +180,16 @@ struct Slots {
   Slot other;
 };
 
-// Copies the first size bytes to where the application has its data: in the node's turn.
+// Returns whether the slot that does not count is damaged and was written last. A store that the power has interrupted
+// leaves an erased header there, or that of the record before.
+bool is_newest_damaged(const Slots& slots) {
+  return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
+}
+
+// Copies the first size bytes to the memory of the application, with the node lock held.
 bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
   const uint32_t start = slot.start + header_size(node);
-  wire::Crc32 crc = crc_of(slot.header);
+  wire::Crc32 crc = crc_of(slot.header, record);
   if (port::nvm_read(node, start, to, size) != size) {
     return false;
   }
@@ -181,12 +197,9 @@ bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* 
   return add(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
 }
 
-bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
-  uint32_t n = 0;
-  while (n < num && a[n] == b[n]) {
-    ++n;
-  }
-  return n == num;
+// Puts what a slot holds where the application has it. False: that cannot be used.
+bool use(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
+  return slot.found == Found::defaults || (slot.found == Found::data && copy(node, record, slot, to, size));
 }
 
 bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t size) {
@@ -204,6 +217,9 @@ bool is_equal(const CO_NODE& node, uint32_t start, const uint8_t* data, uint32_t
 }
 
 bool is_stored(const CO_NODE& node, const Record& record, const Slot& slot, const uint8_t* data) {
+  if (is_old(slot)) {
+    return false;
+  }
   if (data == nullptr) {
     return slot.found == Found::defaults;
   }
@@ -241,7 +257,7 @@ bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
 
 // The header comes last: until it is there the slot is not whole.
 bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uint8_t* data) {
-  wire::Crc32 crc = crc_of(slot.header);
+  wire::Crc32 crc = crc_of(slot.header, record);
   wire::Crc32 unused;
   if (!erase(node, slot.start, slot_size(node, record.size))) {
     return false;
@@ -253,10 +269,12 @@ bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uin
   return write(node, slot.start, reinterpret_cast<const uint8_t*>(&slot.header), sizeof slot.header, unused);
 }
 
-// Takes the slot that does not count. data: null for the defaults.
+// Writes the slot that does not count. data: null for the defaults. The generation follows the one of the slot that
+// stays, also where that holds something else: load() takes the newer of both for the newest.
 CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
-  const uint32_t generation = is_whole(slots.newest) ? slots.newest.header.generation + 1 : 0;
-  const Slot& target = is_whole(slots.newest) ? slots.other : slots.newest;
+  const bool has_record = is_whole(slots.newest);
+  const Slot& target = has_record ? slots.other : slots.newest;
+  const uint32_t generation = (has_record ? slots.newest : slots.other).header.generation + 1;
   Slot slot = {target.start, {magic, record.version, data == nullptr ? defaults : record.size, generation, 0}, {}};
   Header stored = {};
   const bool written = write_slot(node, record, slot, data);
@@ -264,7 +282,27 @@ CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const 
   return whole && stored.crc == slot.header.crc && stored.generation == generation ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
+// Rewrites a record of version 0.1.0 in both slots: such a record may be that of any group. Power may fail meanwhile, a
+// slot with the values is always there; the next load goes on.
+void renew(const CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
+  constexpr unsigned both = 2;
+  for (unsigned n = 0; n < both && (is_old(slots.newest) || is_old(slots.other)); ++n) {
+    (void)put(node, record, slots, data);
+    slots = Slots(node, record);
+  }
+}
+
 }  // namespace
+
+bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
+  uint32_t n = 0;
+  while (n < num && a[n] == b[n]) {
+    ++n;
+  }
+  return n == num;
+}
+
+uint32_t space(const CO_NODE& node, uint32_t size) { return 2 * slot_size(node, size); }
 
 // Whole units of programming can be erased, and nothing here exceeds 32 bits.
 bool fits(const CO_NODE& node, const Record& record) {
@@ -284,20 +322,27 @@ Found look(const CO_NODE& node, const Record& record) {
   return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
 }
 
-Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  const Slots slots(node, record);
-  const Slot* const by_age[] = {&slots.newest, &slots.other};
-  for (const Slot* const slot : by_age) {
-    if (slot->found == Found::defaults || (slot->found == Found::data && copy(node, record, *slot, to, size))) {
-      return slot->found;
+Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+  Slots slots(node, record);
+  if (use(node, record, slots.newest, to, size)) {
+    const Loaded loaded = {slots.newest.found, is_newest_damaged(slots)};
+    if (size == record.size) {
+      renew(node, record, slots, loaded.found == Found::data ? to : nullptr);
     }
+    return loaded;
   }
-  return slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost;
+  if (use(node, record, slots.other, to, size)) {
+    return {slots.other.found, true};
+  }
+  return {slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost, false};
 }
 
-CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data) {
+CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   const Slots slots(node, record);
-  return is_stored(node, record, slots.newest, data) ? CO_ERR_NONE : put(node, record, slots, data);
+  if (is_stored(node, record, slots.newest, data)) {
+    return CO_ERR_NONE;
+  }
+  return budget::take(node) ? put(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 }  // namespace co::slots

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/store.hpp"
 
+#include "core/budget.hpp"
 #include "core/port.hpp"
 #include "core/slots.hpp"
 
@@ -11,7 +12,7 @@ namespace {
 
 constexpr uint8_t erased = 0xFF;
 
-// Calls function(offset, bytes) for pieces of a record, until it says false.
+// Calls function(offset, bytes) for pieces of a record, until it returns false.
 template <class Function>
 bool for_pieces(uint32_t size, Function function) {
   for (uint32_t done = 0; done < size;) {
@@ -33,7 +34,7 @@ bool is_erased(const uint8_t* bytes, uint32_t num) {
   return n == num;
 }
 
-// Without a shape: FFh everywhere is a memory in which nothing was stored.
+// FFh everywhere is a memory in which nothing was stored.
 Found look_at_bytes(const CO_NODE& node, const Record& record) {
   uint8_t buffer[CO_STORE_BUFFER];
   Found found = Found::blank;
@@ -45,7 +46,14 @@ Found look_at_bytes(const CO_NODE& node, const Record& record) {
   return found;
 }
 
-CO_ERR erase_bytes(const CO_NODE& node, const Record& record) {
+// Writes FFh, unless they are there already.
+CO_ERR erase_bytes(CO_NODE& node, const Record& record) {
+  if (look_at_bytes(node, record) == Found::blank) {
+    return CO_ERR_NONE;
+  }
+  if (!budget::take(node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   uint8_t buffer[CO_STORE_BUFFER];
   __builtin_memset(buffer, erased, sizeof buffer);
   const bool done = for_pieces(record.size, [&](uint32_t from, uint32_t num) {
@@ -54,14 +62,41 @@ CO_ERR erase_bytes(const CO_NODE& node, const Record& record) {
   return done ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
-CO_ERR save_bytes(const CO_NODE& node, const Record& record, const uint8_t* data) {
+bool are_stored(const CO_NODE& node, const Record& record, const uint8_t* data) {
+  uint8_t buffer[CO_STORE_BUFFER];
+  return for_pieces(record.size, [&](uint32_t from, uint32_t num) {
+    return port::nvm_read(node, record.start + from, buffer, num) == num && slots::is_same(buffer, data + from, num);
+  });
+}
+
+CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data) {
+  if (are_stored(node, record, data)) {
+    return CO_ERR_NONE;
+  }
+  if (!budget::take(node)) {
+    return CO_ERR_OBJ_STATE;
+  }
   const bool done = port::nvm_write(node, record.start, const_cast<uint8_t*>(data), record.size) == record.size;
   return done ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
+Loaded load_bytes(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+  const Found found = look(node, record);
+  const bool is_data = found == Found::data;
+  const bool failed = is_data && port::nvm_read(node, record.start, to, size) != size;
+  return {failed ? Found::lost : found, false};
+}
+
 }  // namespace
 
-bool is_never_torn(const CO_NODE& node) { return port::nvm_has_shape(node); }
+bool is_atomic(const CO_NODE& node) { return port::nvm_has_shape(node); }
+
+uint32_t space(const CO_NODE& node, uint32_t size) {
+  if (!port::nvm_exists(node)) {
+    return 0;
+  }
+  return port::nvm_has_shape(node) ? slots::space(node, size) : size;
+}
 
 Found look(const CO_NODE& node, const Record& record) {
   if (!port::nvm_exists(node)) {
@@ -73,23 +108,27 @@ Found look(const CO_NODE& node, const Record& record) {
   return slots::fits(node, record) ? slots::look(node, record) : Found::no_place;
 }
 
-Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  if (port::nvm_has_shape(node)) {
-    return slots::fits(node, record) ? slots::load(node, record, to, size) : Found::no_place;
+Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+  if (!port::nvm_has_shape(node)) {
+    return load_bytes(node, record, to, size);
   }
-  const Found found = look(node, record);
-  const bool is_data = found == Found::data;
-  return is_data && port::nvm_read(node, record.start, to, size) != size ? Found::lost : found;
+  return slots::fits(node, record) ? slots::load(node, record, to, size) : Loaded{Found::no_place, false};
 }
 
-CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data) {
+CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
+  if (!port::nvm_exists(node)) {
+    return CO_ERR_IF_NVM_WRITE;
+  }
   if (!port::nvm_has_shape(node)) {
     return save_bytes(node, record, data);
   }
   return slots::fits(node, record) ? slots::save(node, record, data) : CO_ERR_PARA_STORE;
 }
 
-CO_ERR save_defaults(const CO_NODE& node, const Record& record) {
+CO_ERR save_defaults(CO_NODE& node, const Record& record) {
+  if (!port::nvm_exists(node)) {
+    return CO_ERR_IF_NVM_WRITE;
+  }
   if (!port::nvm_has_shape(node)) {
     return erase_bytes(node, record);
   }

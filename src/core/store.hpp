@@ -1,40 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records in non-volatile memory. With a driver that tells the shape of the memory they are never torn (slots.hpp);
-// with any other the bytes lie as they are at the address that the record names.
+// Records in non-volatile memory. With a driver that has a Shape function a store is atomic (slots.hpp); with any other
+// driver the bytes of a record are stored unchanged at its address.
 #pragma once
 
 #include "co_core.h"
 
 namespace co::store {
 
+// Identity of a record: all of it enters the checksum.
 struct Record {
   uint32_t start;    // address
   uint32_t size;     // bytes of data
-  uint32_t version;  // of their layout: others are foreign
+  uint32_t version;  // of their layout
+  uint32_t group;    // sub-index of 1010h; 0: not a group of 1010h
 };
 
 enum class Found : uint8_t {
   data,      // they were stored
   defaults,  // these were asked for
   blank,     // nothing has ever been stored, or there is no memory
-  lost,      // what is there is damaged, foreign, or cannot be read
+  lost,      // the record is damaged, belongs to something else, or cannot be read
   no_place,  // the record does not fit the memory
 };
 
-// Does the driver tell its shape?
-[[nodiscard]] bool is_never_torn(const CO_NODE& node);
+struct Loaded {
+  Found found;
+  bool is_older;  // the newest record is damaged, the one before it was loaded
+};
 
-// What there is.
+// Returns whether stores are atomic: the driver has a Shape function.
+[[nodiscard]] bool is_atomic(const CO_NODE& node);
+
+// Returns the bytes of memory that a record of size bytes occupies; 0: there is no memory.
+[[nodiscard]] uint32_t space(const CO_NODE& node, uint32_t size);
+
+// Returns what is stored.
 [[nodiscard]] Found look(const CO_NODE& node, const Record& record);
 
-// The same, and copies the first size bytes of the data if this is the answer. All data have been checked before, if
-// they can be: nothing is copied else, unless the memory cannot be read twice.
-[[nodiscard]] Found load(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size);
+// Copies the first size bytes of the data if there are any. All data are checked before, if they can be: nothing else
+// is copied, unless the memory cannot be read twice. Records in the form of version 0.1.0 are rewritten.
+[[nodiscard]] Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size);
 
-// Stores data; CO_ERR_PARA_STORE: no place, CO_ERR_IF_NVM_WRITE: the memory does not hold them.
-[[nodiscard]] CO_ERR save(const CO_NODE& node, const Record& record, const uint8_t* data);
+// Stores data, unless they are stored already. CO_ERR_PARA_STORE: no place, CO_ERR_IF_NVM_WRITE: the memory does not
+// hold them, CO_ERR_OBJ_STATE: the budget is used up.
+[[nodiscard]] CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data);
 
 // Stores that the defaults are to be used.
-[[nodiscard]] CO_ERR save_defaults(const CO_NODE& node, const Record& record);
+[[nodiscard]] CO_ERR save_defaults(CO_NODE& node, const Record& record);
 
 }  // namespace co::store

@@ -295,7 +295,7 @@ TEST_CASE(
   const char* const group = ";StorageLocation=APP\n";
   const Generated mixed = generate(store + variable("1017", 6, "rw", group) + variable("2000", 7, "rw", group) +
                                    variable("2001", 5, "rw", group));
-  CHECK(mixed.has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 2};"));
+  CHECK(mixed.has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 2, 0};"));
   CHECK(
       mixed.has("typedef struct small_app_t_ {\n"
                 "  union { uint16_t od_1017_0; uint16_t value_1017; };  ///< Value 1017, UNSIGNED16 rw\n"
@@ -306,9 +306,9 @@ TEST_CASE(
                 "} small_app_t;"));
   CHECK(mixed.has("offsetof(small_app_t, od_2000_0) == 4 "));
   CHECK(generate(store + variable("1017", 6, "rw", group))
-            .has("CO_RESET_COM, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 0};"));
+            .has("CO_RESET_COM, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_APP_LAYOUT), 0, 0};"));
   CHECK(generate(store + variable("2000", 6, "rw", ";StorageLocation=COMM\n"))
-            .has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_COMM_LAYOUT), 0};"));
+            .has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_COMM_LAYOUT), 0, 0};"));
 }
 
 TEST_CASE("gen: a storage group that no 1010h loads has its default values, as nothing was stored") {

@@ -422,7 +422,9 @@ TEST_CASE("parameters: an autonomous group is stored when it has changed, at mos
   Device device;
   {
     Fixture node(device.setup());
-    node.after(std::chrono::milliseconds(CO_PARA_PERIOD));
+    node.after(std::chrono::milliseconds(CO_PARA_PERIOD - 1));
+    CHECK(device.nvm.steps == 0);
+    node.after(1ms);
     const auto at_first = device.nvm.steps;
     CHECK(at_first > 0);
     node.after(std::chrono::milliseconds(5 * CO_PARA_PERIOD));
@@ -545,6 +547,38 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("parameters: a group may fill the whole memory; a byte less is too little") {
+  for (const std::uint32_t missing : {0U, 1U}) {
+    Device device({CO_PARA_SPACE(sizeof(Device::Memory), 1, 1) - missing, 1, 0});
+    device.application.Offset = 0;
+    Fixture node(device.single());
+    CHECK(node.error() == (missing == 0 ? CO_ERR_NONE : CO_ERR_PARA_STORE));
+    node.ask("601#2310100173617665", missing == 0 ? "581#6010100100000000" : "581#8010100100000606");
+    CHECK_FALSE(device.nvm.misused);
+  }
+}
+
+TEST_CASE("parameters: a memory that cannot be erased aborts \"save\" with 0606 0000h; nothing is written") {
+  static unsigned writes;
+  writes = 0;
+  CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
+  driver.Write = [](void* context, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
+    ++writes;
+    return FailingNvm::driver.Write(context, start, buffer, size);
+  };
+  SUBCASE("Erase fails") {
+    driver.Erase = [](void*, std::uint32_t, std::uint32_t) { return false; };
+  }
+  SUBCASE("Erase is null") { driver.Erase = nullptr; }
+  Device device({1024, 4, 64});
+  device.application.Offset = 128;
+  Fixture node(device.single().nvm(driver, &device.nvm));
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#2310100173617665", "581#8010100100000606");
+  node.ask("601#231110016C6F6164", "581#8011100100000606");
+  CHECK(writes == 0);
+}
+
 #if USE_DICT_CHECK
 
 TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the dictionary") {
@@ -552,8 +586,9 @@ TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the d
                               CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, 0}}) {
     Device device;
     Fixture node(device.single().with(wrong).stay_in_init());
-    CHECK(node.mode() == CO_INVALID);
-    CHECK(node.error() == CO_ERR_DICT_INIT);
+    const bool has_data = wrong.Data != 0;  // null concerns the entry alone
+    CHECK((node.mode() == CO_INVALID) == has_data);
+    CHECK(node.error() == (has_data ? CO_ERR_DICT_INIT : CO_ERR_OBJ_INIT));
     std::uint32_t key = 0;
     CHECK(CODictGetFault(&node->Dict, &key) != CO_DICT_OK);
     CHECK(CO_GET_IDX(key) == 0x1010);
@@ -561,6 +596,101 @@ TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the d
 }
 
 #endif
+
+// A classic driver whose accesses can be refused.
+struct RefusingMemory {
+  std::uint8_t bytes[256];
+  unsigned reads = 0;
+  unsigned writes = 0;
+  unsigned refuse_read = 0;   // this one, from 1
+  unsigned refuse_write = 0;  // this one, from 1
+};
+RefusingMemory refusing;
+const CO_IF_NVM_DRV_EX refusing_driver = {
+    [](void*) {},
+    [](void*, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
+      std::copy_n(refusing.bytes + start, size, buffer);
+      return ++refusing.reads == refusing.refuse_read ? size - 1 : size;
+    },
+    [](void*, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
+      if (++refusing.writes == refusing.refuse_write) return size - 1;
+      std::copy_n(buffer, size, refusing.bytes + start);
+      return size;
+    },
+    nullptr, nullptr};
+
+struct ClassicDevice : Device {
+  ClassicDevice() {
+    refusing = {};
+    std::fill(std::begin(refusing.bytes), std::end(refusing.bytes), std::uint8_t{0xFF});
+  }
+  Setup setup() { return single().nvm(refusing_driver, nullptr); }
+  void hold(std::uint32_t number) {
+    std::memset(refusing.bytes + 100, 0, sizeof(Memory));
+    std::memcpy(refusing.bytes + 100, &number, sizeof number);
+  }
+};
+
+TEST_CASE("parameters: a classic driver that cannot read: default values, CO_ERR_PARA_LOAD, COParaLost()") {
+  for (const unsigned read : {1U, 2U}) {  // the first finds out whether anything is stored
+    ClassicDevice device;
+    device.hold(0x44);
+    refusing.refuse_read = read;
+    unsigned lost = 0;
+    callbacks().para_lost = [&](CO_NODE*, const CO_PARA*) { ++lost; };
+    Fixture node(device.setup());
+    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    CHECK(lost == 1);
+    node.ask("601#4000230200000000", "581#4300230214000000");
+  }
+}
+
+TEST_CASE("parameters: a classic driver that cannot write aborts \"save\" and \"load\" with 0606 0000h") {
+  ClassicDevice device;
+  device.hold(0x44);
+  Fixture node(device.setup());
+  node.ask("601#2300230255000000", "581#6000230200000000");
+  refusing.refuse_write = 1;
+  node.ask("601#2310100173617665", "581#8010100100000606");
+  refusing.refuse_write = refusing.writes + 1;
+  node.ask("601#231110016C6F6164", "581#8011100100000606");
+  CHECK(refusing.bytes[100] == 0x44);
+}
+
+TEST_CASE("parameters: with a classic driver, a group whose old bytes cannot be read is written all the same") {
+  ClassicDevice device;
+  Fixture node(device.setup());
+  refusing.refuse_read = refusing.reads + 1;
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  CHECK(refusing.bytes[100] == 20);
+  refusing.refuse_read = refusing.reads + 1;
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  CHECK(refusing.bytes[100] == 0xFF);
+}
+
+TEST_CASE("parameters: with a classic driver, what is stored already is not written again") {
+  ClassicDevice device;
+  Fixture node(device.setup());
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  node.ask("601#2310100173617665", "581#6010100100000000");
+  CHECK(refusing.writes == 1);
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  const unsigned writes = refusing.writes;
+  node.ask("601#231110016C6F6164", "581#6011100100000000");
+  CHECK(refusing.writes == writes);
+}
+
+TEST_CASE("parameters: with a classic driver, groups overlap where their bytes do") {
+  for (const std::uint32_t distance : {7U, 8U}) {
+    ClassicDevice device;
+    device.own.Offset = 100;
+    device.application.Offset = 100 + distance;
+    Fixture node(static_cast<Device&>(device).setup().nvm(refusing_driver, nullptr));
+    CHECK(node.error() == (distance == 8 ? CO_ERR_NONE : CO_ERR_PARA_OVERLAP));
+    node.ask("601#2310100373617665", distance == 8 ? "581#6010100300000000" : "581#8010100300000606");
+    CHECK((refusing.writes == 0) == (distance == 7));
+  }
+}
 
 TEST_CASE("parameters: a node that is stopped while it loads stores nothing afterwards") {
   Device device;

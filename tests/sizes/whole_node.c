@@ -11,7 +11,7 @@ static uint8_t Values[8];
 static uint32_t History[2];
 static uint8_t HistoryNum;
 static uint32_t Consumer = 0x000203E8;
-static const CO_PARA Group = {0, sizeof(Values), Values, 0, CO_RESET_NODE, 0, CO_PARA___E};
+static const CO_PARA Group = {0, sizeof(Values), Values, 0, CO_RESET_NODE, 0, CO_PARA___E, 0, 0};
 static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 static uint8_t Answer[4];
 #endif

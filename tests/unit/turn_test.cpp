@@ -282,7 +282,7 @@ TEST_CASE("turn: it is kept while a memory without shape has the bytes of the ap
   Fixture node(nvm.setup());
   const Diary diary;
   node.ask(save, saved);
-  CHECK(Diary::take() == Entries{"enter", "write", "leave"});
+  CHECK(Diary::take() == Entries{"enter", "read", "write", "leave"});
 }
 
 TEST_CASE("turn: it is kept while what was stored goes to where the application has it") {
@@ -324,6 +324,35 @@ TEST_CASE("turn: a reset that another thread asks for while the memory works wai
   NotedNvm::meanwhile() = nullptr;
   node.tx({saved, "701#00"});
   CHECK(asked);
+}
+
+TEST_CASE("turn: functions that work in the memory run a reset that was requested meanwhile when they are done") {
+  NotedNvm nvm(true);
+  Fixture node(nvm.setup());
+  const auto with_reset = [&](const std::function<CO_ERR()>& function) {
+    nvm.values[0] += 1;
+    bool asked = false;
+    NotedNvm::meanwhile() = [&] {
+      if (!std::exchange(asked, true)) {
+        CONmtReset(&node->Nmt, CO_RESET_COM);
+        CHECK(node->Pending != 0);
+      }
+    };
+    node.call([&] { CHECK(function() == CO_ERR_NONE); });
+    NotedNvm::meanwhile() = nullptr;
+    CHECK(asked);
+    node.tx("701#00");
+  };
+  with_reset([&] { return COParaStore(&nvm.group, &node.node); });
+  with_reset([&] { return COParaRestore(&nvm.group, &node.node); });
+  with_reset([&] { return CONodeParaLoad(&node.node, CO_RESET_NODE); });
+#if USE_LSS
+  std::uint32_t baud = 0;
+  std::uint8_t id = 0;
+  with_reset([&] { return COLssNvmStore(&node.node, 256, 250000, 5); });
+  with_reset([&] { return COLssNvmLoad(&node.node, 256, &baud, &id); });
+  CHECK(id == 5);
+#endif
 }
 
 #endif

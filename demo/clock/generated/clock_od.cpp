@@ -153,7 +153,7 @@ static const clock_settings_t clock_settings_default = {
 };
 
 static stored_string_t string_2201_0 = {{0, 0, 32, (uint8_t *)clock_settings.od_2201_0}, &clock_settings.od_2201_0_length, CO_TVISIBLE_STRING};
-const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET, sizeof clock_settings, &clock_settings, &clock_settings_default, CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT), 8};
+const CO_PARA clock_settings_para = {CLOCK_SETTINGS_OFFSET, sizeof clock_settings, &clock_settings, &clock_settings_default, CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(CLOCK_SETTINGS_LAYOUT), 8, 0};
 
 static uint8_t has_defaults;  // CONodeInit() or clock_set_defaults() was called
 

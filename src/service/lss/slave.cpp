@@ -3,6 +3,7 @@
 
 #if USE_LSS
 
+#include "core/budget.hpp"
 #include "core/dict.hpp"
 #include "core/events.hpp"
 #include "core/gate.hpp"
@@ -42,6 +43,7 @@ using Service = void (*)(CO_NODE& node, const CO_IF_FRM& request);
 constexpr uint32_t not_supported = 1;
 constexpr uint32_t medium = 2;
 constexpr uint32_t manufacturers_error = 255;
+constexpr uint32_t budget_used_up = manufacturers_error | 0x2200;  // 22h as in SDO abort 0800 0022h
 
 bool is_unconfigured(const CO_NODE& node) { return node.NodeId == wire::no_node_id; }
 
@@ -233,14 +235,21 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   wait(node, switch_rate);
 }
 
+uint32_t code_of(CO_ERR err) {
+  switch (err) {
+    case CO_ERR_NONE: return 0;
+    case CO_ERR_LSS_NO_STORE: return not_supported;
+    case CO_ERR_OBJ_STATE: return budget_used_up;
+    default: return medium;
+  }
+}
+
 // Returns an error code of LSS.
 uint32_t store_pending(CO_NODE& node) {
+  const budget::Command counted(node);
   const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
-  if (err == CO_ERR_NONE) {
-    return 0;
-  }
-  node.Error = CO_ERR_LSS_STORE;
-  return err == CO_ERR_LSS_NO_STORE ? not_supported : medium;
+  node.Error = err == CO_ERR_NONE ? node.Error : CO_ERR_LSS_STORE;
+  return code_of(err);
 }
 
 void store(CO_NODE& node, const CO_IF_FRM& request) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Node-ID and bit rate in the node's memory.
+#include "core/events.hpp"
 #include "core/port.hpp"
 #include "core/store.hpp"
 
@@ -16,7 +17,7 @@ struct Stored {
 
 store::Record record_at(uint32_t offset) {
   constexpr uint32_t version = 0x4C535331;  // "LSS1": no parameter group
-  return {offset, sizeof(Stored), version};
+  return {offset, sizeof(Stored), version, 0};
 }
 
 }  // namespace
@@ -28,7 +29,10 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
-  const store::Found found = store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored);
+  // A reset that is requested while the memory works follows.
+  const store::Found found =
+      store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
+  event::settle(*node);
   if (found == store::Found::data) {
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);
@@ -45,7 +49,9 @@ CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t node
     return CO_ERR_LSS_NO_STORE;
   }
   const Stored stored = {baud, nodeId};
-  return store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
+  const CO_ERR err = store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
+  event::settle(*node);
+  return err;
 }
 
 }  // extern "C"

@@ -19,11 +19,15 @@ class Groups {
  public:
   Groups(CO_NODE& node, uint16_t index);
 
-  // The next group; null: there is none.
+  // Returns the next group; null: there is none.
   [[nodiscard]] const CO_PARA* next();
+
+  // Returns the entry whose group next() has returned.
+  [[nodiscard]] const CO_OBJ& entry() const { return *entry_; }
 
  private:
   CO_NODE& node_;
+  const CO_OBJ* entry_;
   uint16_t index_;
   uint8_t sub_;
   uint8_t last_;

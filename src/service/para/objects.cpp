@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1010h, 1011h and 1020h. [301:7.5.2.13, 7.5.2.14, 7.5.2.23]
+#include "core/budget.hpp"
 #include "core/dict.hpp"
+#include "core/events.hpp"
 #include "core/store.hpp"
 #include "object/place.hpp"
 #include "service/para/groups.hpp"
@@ -53,7 +55,7 @@ template <uint32_t bits>
 uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t all = 0;
   for_groups(node, obj, [&](const CO_PARA& group) { all |= group.Value & bits; });
-  return store::is_never_torn(node) ? all : all & CO_PARA___E;
+  return store::is_atomic(node) ? all : all & CO_PARA___E;
 }
 
 template <uint32_t bits>
@@ -80,6 +82,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (uintptr_t{obj->Data} == 0 || value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
     return CO_ERR_TYPE_WR;
   }
+  const budget::Command counted(*node);
   CO_ERR first = CO_ERR_NONE;
   for_groups(*node, *obj, [&](const CO_PARA& group) {
     const CO_ERR err = is_saved_on_command(group) ? command(*node, group) : CO_ERR_NONE;
@@ -115,6 +118,21 @@ CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return err;
 }
 
+// For the application. A reset that is requested while the memory works follows.
+template <CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
+CO_ERR run(CO_NODE& node, const CO_PARA& group) {
+  if (!is_saved_on_command(group)) {
+    return CO_ERR_NONE;
+  }
+  CO_ERR err = CO_ERR_NONE;
+  {
+    const event::Serving serving(node);
+    err = command(node, group);
+  }
+  event::settle(node);
+  return err;
+}
+
 }  // namespace
 }  // namespace co::para
 
@@ -132,18 +150,20 @@ const CO_OBJ_TYPE COTVerifyConfig = {para::size_verify, para::init_verify, para:
 CO_ERR COParaStore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::is_saved_on_command(*pg) ? para::save(*node, *pg) : CO_ERR_NONE;
+  return para::run<para::save>(*node, *pg);
 }
 
 CO_ERR COParaRestore(const CO_PARA* pg, CO_NODE* node) {
   ASSERT_PTR_ERR(pg, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::is_saved_on_command(*pg) ? para::restore(*node, *pg) : CO_ERR_NONE;
+  return para::run<para::restore>(*node, *pg);
 }
 
 CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  return para::load(*node, type);
+  const CO_ERR err = para::load(*node, type);
+  event::settle(*node);
+  return err;
 }
 
 }  // extern "C"

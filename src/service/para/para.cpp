@@ -3,6 +3,7 @@
 
 #if USE_PARA
 
+#include "core/budget.hpp"
 #include "core/dict.hpp"
 #include "core/obj.hpp"
 #include "core/port.hpp"
@@ -18,8 +19,38 @@ using store::Found;
 
 uint8_t* bytes(const CO_PARA& group) { return group.Start; }
 
-// CO_PARA.Value holds the version of the layout above its flags.
-store::Record record_of(const CO_PARA& group) { return {group.Offset, group.Size, group.Value >> version_bit}; }
+bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0; }
+
+bool is_same(const CO_PARA& a, const CO_PARA& b) {
+  return a.Offset == b.Offset && a.Size == b.Size && bytes(a) == bytes(b);
+}
+
+bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
+  return has_record(a) && has_record(b) &&
+         (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
+}
+
+// The record of a group; its sub-index of 1010h is part of the record's identity.
+struct Located {
+  store::Record record;
+  bool is_refused;  // the group overlaps one with a lower sub-index
+};
+
+// CO_PARA.Value may hold the version of the layout above its flags.
+uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Version : group.Value >> version_bit; }
+
+Located locate(CO_NODE& node, const CO_PARA& group) {
+  Located located = {{group.Offset, group.Size, version_of(group), 0}, false};
+  Groups groups(node, store_index);
+  for (const CO_PARA* other = groups.next(); other != nullptr; other = groups.next()) {
+    if (is_same(*other, group)) {
+      located.record.group = CO_GET_SUB(groups.entry().Key);
+      break;
+    }
+    located.is_refused = located.is_refused || overlap(node, *other, group);
+  }
+  return located;
+}
 
 CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
@@ -30,28 +61,54 @@ CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
 }
 
+// Returns whether the group is stored when it has changed. Defaults that a "load" has asked for stay until the reset.
+bool is_followed(CO_NODE& node, const CO_PARA& group) {
+  return is_saved_autonomously(group) && store::is_atomic(node) &&
+         store::look(node, locate(node, group).record) != Found::defaults;
+}
+
+// A group that is not stored may lie at any Offset; classic firmware loads it all the same.
+store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
+  const bool is_loaded = has_record(group) || !store::is_atomic(node);
+  return is_loaded ? store::load(node, record, bytes(group), size) : store::Loaded{Found::blank, false};
+}
+
+void report_recovered(CO_NODE& node, const CO_PARA& group) {
+  const CO_CALLBACKS* const callbacks = node.Ext->Callbacks;
+  if (callbacks != nullptr && callbacks->ParaRecovered != nullptr) {
+    callbacks->ParaRecovered(&node, node.Ext->User, &group);
+  }
+}
+
 // Loads the first size bytes of a group.
 CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
-  const Found found = store::load(node, record_of(group), bytes(group), size);
-  if (found == Found::data) {
-    return CO_ERR_NONE;
+  const Located located = locate(node, group);
+  if (located.is_refused) {
+    (void)use_defaults(group, size, Found::no_place);
+    return CO_ERR_PARA_OVERLAP;
   }
-  const CO_ERR err = use_defaults(group, size, found);
-  if (found == Found::lost) {
+  const store::Loaded loaded = load_record(node, group, located.record, size);
+  const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : use_defaults(group, size, loaded.found);
+  if (loaded.is_older) {
+    report_recovered(node, group);
+  }
+  if (loaded.found == Found::lost) {
     COParaLost(&node, &group);
     return CO_ERR_PARA_LOAD;
   }
-  return found == Found::no_place ? CO_ERR_PARA_STORE : err;
+  return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
+// What the budget delays is tried again.
 void save_change(CO_NODE& node, const CO_PARA& group) {
-  // Defaults that wait for their reset stay.
-  if (is_saved_autonomously(group) && store::is_never_torn(node) &&
-      store::look(node, record_of(group)) != Found::defaults) {
+  if (is_followed(node, group)) {
     const CO_ERR err = save(node, group);
-    node.Error = err == CO_ERR_NONE ? node.Error : err;
+    node.Error = err == CO_ERR_NONE || err == CO_ERR_OBJ_STATE ? node.Error : err;
   }
 }
+
+// A change that the budget has delayed is newer than what is stored.
+bool must_stay(CO_NODE& node, const CO_PARA& group) { return budget::is_empty(node) && is_followed(node, group); }
 
 bool has_autonomous_group(CO_NODE& node) {
   Groups groups(node, store_index);
@@ -85,7 +142,7 @@ bool is_stored(CO_NODE& node, const CO_OBJ& obj) {
 
 }  // namespace
 
-Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), index_(index), sub_(1), last_(0) {
+Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), entry_(nullptr), index_(index), sub_(1), last_(0) {
   constexpr uint8_t highest = 127;
   if (CODictRdByte(&node.Dict, CO_DEV(index, 0), &last_) != CO_ERR_NONE) {
     last_ = 1;
@@ -100,15 +157,22 @@ const CO_PARA* Groups::next() {
     // Groups are loaded before the Init functions check their entries.
     if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE) &&
         CO_IS_DIRECT(obj->Key) == 0 && data_of<const CO_PARA>(*obj) != nullptr) {
+      entry_ = obj;
       return data_of<const CO_PARA>(*obj);
     }
   }
   return nullptr;
 }
 
-CO_ERR save(CO_NODE& node, const CO_PARA& group) { return store::save(node, record_of(group), bytes(group)); }
+CO_ERR save(CO_NODE& node, const CO_PARA& group) {
+  const Located located = locate(node, group);
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save(node, located.record, bytes(group));
+}
 
-CO_ERR restore(CO_NODE& node, const CO_PARA& group) { return store::save_defaults(node, record_of(group)); }
+CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
+  const Located located = locate(node, group);
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save_defaults(node, located.record);
+}
 
 namespace {
 
@@ -120,8 +184,11 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     const uint32_t size = group->*member;
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
-    const CO_ERR err = is_loaded ? load(node, *group, size) : CO_ERR_NONE;
+    const CO_ERR err = is_loaded && !must_stay(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
     last = err == CO_ERR_NONE ? last : err;
+    if (err == CO_ERR_PARA_OVERLAP) {
+      (void)dict::refuse(groups.entry(), node, CO_DICT_PARA_OVERLAP);
+    }
   }
   node.Error = last == CO_ERR_NONE ? node.Error : last;
   return last;
@@ -134,6 +201,7 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type) { return load(node, type, &CO_PARA
 void load_communication(CO_NODE& node) { (void)load(node, CO_RESET_NODE, &CO_PARA::ComSize); }
 
 void save_changes(CO_NODE& node) {
+  const budget::Command command(node);
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
     save_change(node, *group);
@@ -161,6 +229,7 @@ void on_write(CO_NODE& node, const CO_OBJ& obj) {
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
     tmr::stop(node.Tmr, node.ParaTmr);
+    budget::stop(node);
   }
 }
 

@@ -13,7 +13,7 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type);
 // Loads the objects of the communication profile in groups of reset node (CO_PARA.ComSize).
 void load_communication(CO_NODE& node);
 
-// What groups that are stored autonomously have not yet been stored.
+// Stores the autonomous groups that have changed, within the budget.
 void save_changes(CO_NODE& node);
 
 void init(CO_NODE& node);

@@ -435,7 +435,7 @@ class SourceText {
         const std::string name = struct_of(group, options_);
         out_.add(
             "const CO_PARA {0}_para = {{{1}_OFFSET, sizeof {0}, {2}&{0}, {2}&{0}_default, {3}, NULL, CO_PARA___E | "
-            "CO_PARA_VERSION({1}_LAYOUT), {4}}};",
+            "CO_PARA_VERSION({1}_LAYOUT), {4}, 0}};",
             name, upper(name), cast, group.is_communication ? "CO_RESET_COM" : "CO_RESET_NODE", group.com_size);
       }
     }
@@ -444,10 +444,10 @@ class SourceText {
       others.insert(para_of(*item));
     }
     if (others.count("all_groups") != 0) {
-      out_.raw("static const CO_PARA all_groups = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E, 0};\n");
+      out_.raw("static const CO_PARA all_groups = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA___E, 0, 0};\n");
     }
     if (others.count("no_group") != 0) {
-      out_.raw("static const CO_PARA no_group = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA____, 0};\n");
+      out_.raw("static const CO_PARA no_group = {0, 0, NULL, NULL, CO_RESET_NODE, NULL, CO_PARA____, 0, 0};\n");
     }
   }
 

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// How often the bus can make a node write its memory: CO_PARA_BUDGET stores in a row, one more each minute.
+#include "support/parameter_groups.hpp"
+
+#if USE_PARA && CO_PARA_BUDGET > 0
+
+namespace {
+
+using namespace test;
+
+constexpr const char* save_all = "601#2310100173617665";
+constexpr const char* all_saved = "581#6010100100000000";
+constexpr const char* save_refused = "581#8010100122000008";
+constexpr const char* save_second = "601#2310100373617665";
+constexpr const char* second_saved = "581#6010100300000000";
+constexpr const char* second_refused = "581#8010100322000008";
+constexpr const char* load_second = "601#231110036C6F6164";
+constexpr auto budget = CO_PARA_BUDGET;
+
+// A device, and a client that changes 2300h:2 before each "save".
+struct BudgetDevice : GroupDevice {
+  BudgetDevice() = default;
+  explicit BudgetDevice(CO_NVM_SHAPE shape) : GroupDevice(shape) {}
+
+  void change(Fixture& node) {
+    node.call([this] { ram[1].number += 1; });
+  }
+  void save_new(Fixture& node, const char* answer = second_saved) {
+    change(node);
+    node.ask(save_second, answer);
+  }
+  void use_up(Fixture& node) {
+    for (int n = 0; n < budget; ++n) save_new(node);
+  }
+};
+
+TEST_CASE("budget: beyond it \"save\" is aborted with 0800 0022h, and nothing is written") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  device.use_up(node);
+  const Bytes before = device.nvm.bytes;
+  const auto steps = device.nvm.steps;
+  device.save_new(node, second_refused);
+  node.ask(save_all, save_refused);
+  CHECK(device.nvm.bytes == before);
+  CHECK(device.nvm.steps == steps);
+}
+
+TEST_CASE("budget: one more store each minute, up to the whole budget") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  device.use_up(node);
+  node.after(59999ms);
+  device.save_new(node, second_refused);
+  node.after(1ms);
+  device.save_new(node);
+  device.save_new(node, second_refused);
+  node.after(2min);
+  device.save_new(node);
+  device.save_new(node);
+  device.save_new(node, second_refused);
+  node.after(std::chrono::minutes{2 * budget});
+  CHECK(node.armed_timers() == 0);
+  device.use_up(node);
+  device.save_new(node, second_refused);
+}
+
+TEST_CASE("budget: 1000 \"save\" with new values in a row are as many stores as the budget has") {
+  BudgetDevice device({1024, 8, 128});
+  device.first.Offset = 512;
+  device.second.Offset = 0;
+  static unsigned erases;
+  erases = 0;
+  CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
+  driver.Erase = [](void* context, std::uint32_t start, std::uint32_t size) {
+    ++erases;
+    return FailingNvm::driver.Erase(context, start, size);
+  };
+  Fixture node(device.setup().nvm(driver, &device.nvm));
+  for (int n = 0; n < 1000; ++n) {
+    device.save_new(node, n < budget ? second_saved : second_refused);
+  }
+  CHECK(erases == budget);
+}
+
+TEST_CASE("budget: a \"save\" that changes nothing is free, and answered also when the budget is used up") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  device.save_new(node);
+  for (int n = 0; n < 100; ++n) node.ask(save_second, second_saved);
+  for (int n = 1; n < budget; ++n) device.save_new(node);
+  for (int n = 0; n < 100; ++n) node.ask(save_second, second_saved);
+  device.save_new(node, second_refused);
+}
+
+TEST_CASE("budget: \"save\" to all groups is one store, however many have changed") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  for (int n = 0; n < budget; ++n) {
+    node.call([&] { ++device.ram[0].number, ++device.ram[1].number; });
+    node.ask(save_all, all_saved);
+  }
+  node.call([&] { ++device.ram[0].number, ++device.ram[1].number; });
+  const auto steps = device.nvm.steps;
+  node.ask(save_all, save_refused);
+  CHECK(device.nvm.steps == steps);
+}
+
+TEST_CASE("budget: \"load\" is a store; a \"load\" that was asked for already is free") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  for (int n = 0; n < budget; n += 2) {
+    device.save_new(node);
+    node.ask(load_second, "581#6011100300000000");
+  }
+  node.ask(load_second, "581#6011100300000000");
+  device.save_new(node, second_refused);
+  node.after(1min);
+  device.save_new(node);
+  node.ask(load_second, "581#8011100322000008");
+}
+
+TEST_CASE("budget: NMT resets and their commands do not refill it; a power-on does") {
+  BudgetDevice device;
+  {
+    Fixture node(device.setup());
+    device.use_up(node);
+    for (const char* reset : {"000#8101", "000#8201"}) {
+      node.ask(reset, "701#00");
+      device.save_new(node, second_refused);
+    }
+    node.after(30s);
+    node.ask("000#8101", "701#00");
+    node.after(29999ms);
+    device.save_new(node, second_refused);
+    node.after(1ms);
+    device.save_new(node);
+  }
+  Fixture node(device.setup());
+  device.use_up(node);
+}
+
+TEST_CASE("budget: the application's own COParaStore() and COParaRestore() are not counted, nor limited") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  const auto store = [&] {
+    device.change(node);
+    node.call([&] { CHECK(COParaStore(&device.second, &node.node) == CO_ERR_NONE); });
+    node.call([&] { CHECK(COParaRestore(&device.second, &node.node) == CO_ERR_NONE); });
+  };
+  for (int n = 0; n < 2 * budget; ++n) store();
+  CHECK(node.armed_timers() == 0);
+  device.use_up(node);
+  store();
+}
+
+TEST_CASE("budget: a \"save\" that fails has been written in part, and is counted") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  for (int n = 0; n < budget; ++n) {
+    device.change(node);
+    device.nvm.cut_at = device.nvm.steps + 3;
+    node.ask(save_second, "581#8010100300000606");
+    device.nvm.is_off = false;
+  }
+  device.save_new(node, second_refused);
+}
+
+TEST_CASE("budget: what does not get as far as the memory is not counted") {
+  BudgetDevice device;
+  SUBCASE("no place") { device.second.Offset = 1020; }
+  SUBCASE("overlap") { device.second.Offset = 1; }
+  Fixture node(device.setup());
+  for (int n = 0; n < 2 * budget; ++n) node.ask(save_second, "581#8010100300000606");
+  node.ask("601#2310100373617664", "581#8010100320000008");
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("budget: without a memory it is not counted") {
+  BudgetDevice device;
+  Fixture node(device.setup().no_nvm());
+  for (int n = 0; n < 2 * budget; ++n) {
+    node.ask(save_second, "581#8010100300000606");
+    node.ask(load_second, "581#8011100300000606");
+  }
+}
+
+TEST_CASE("budget: it holds for a driver without Shape function, too") {
+  BudgetDevice device;
+  CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
+  driver.Shape = nullptr;
+  Fixture node(device.setup().nvm(driver, &device.nvm));
+  for (int n = 0; n < budget; n += 2) {
+    device.save_new(node);
+    node.ask(save_second, second_saved);
+    node.ask(load_second, "581#6011100300000000");
+    node.ask(load_second, "581#6011100300000000");
+  }
+  device.save_new(node, second_refused);
+  const Bytes before = device.nvm.bytes;
+  node.after(1min);
+  device.save_new(node);
+  node.ask(load_second, "581#8011100322000008");
+  CHECK(device.nvm.bytes != before);
+}
+
+// Autonomous groups ------------------------------------------------------------------------------------------------
+
+constexpr std::chrono::milliseconds period{CO_PARA_PERIOD};
+
+struct AutonomousDevice : BudgetDevice {
+  AutonomousDevice() { second.Value = CO_PARA__AE; }
+  // Takes what is left, by "save" of the other group.
+  void use_up(Fixture& node) {
+    node.call([this] { ++ram[0].number; });
+    while (true) {
+      node.call([this] { ++ram[0].number; });
+      node.rx("601#2310100273617665");
+      const std::string answer = node.frames().back();
+      if (answer != "581#6010100200000000") {
+        CHECK(answer == "581#8010100222000008");
+        (void)node.error();
+        return;
+      }
+    }
+  }
+};
+
+TEST_CASE("budget: an autonomous group is stored later when it is used up, without an error") {
+  AutonomousDevice device;
+  Fixture node(device.setup());
+  node.after(period);
+  device.use_up(node);
+  const auto steps = device.nvm.steps;
+  device.change(node);
+  node.after(period);
+  CHECK(device.nvm.steps == steps);
+  CHECK(node.error() == CO_ERR_NONE);
+  node.after(1min + period);
+  CHECK(device.nvm.steps > steps);
+  device.ram[1].number = 0;
+  node.init_again();
+  CHECK(device.ram[1].number == 21);
+}
+
+TEST_CASE("budget: a group that changes all the time is stored once a minute in the long run") {
+  AutonomousDevice device;
+  Fixture node(device.setup());
+  Bytes before = device.nvm.bytes;
+  const auto stores_in = [&](int rounds) {
+    int stores = 0;
+    for (int n = 0; n < rounds; ++n) {
+      device.change(node);
+      node.after(period);
+      stores += device.nvm.bytes != before ? 1 : 0;
+      before = device.nvm.bytes;
+    }
+    return stores;
+  };
+  constexpr int hour = 3600000 / CO_PARA_PERIOD;
+  const int first_hour = stores_in(hour);
+  CHECK(first_hour <= budget + 60);
+  CHECK(stores_in(hour) <= 60);
+  CHECK(stores_in(hour) >= std::min(59, hour - 1));
+}
+
+TEST_CASE("budget: an NMT reset does not lose a change that the budget has delayed, and writes nothing") {
+  AutonomousDevice device;
+  Fixture node(device.setup());
+  node.after(period);
+  device.use_up(node);
+  const auto steps = device.nvm.steps;
+  for (const char* reset : {"000#8101", "000#8201", "000#8101"}) {
+    device.change(node);
+    const std::uint32_t number = device.ram[1].number;
+    node.ask(reset, "701#00");
+    CHECK(device.ram[1].number == number);
+    CHECK(node.error() == CO_ERR_NONE);
+  }
+  CHECK(device.nvm.steps == steps);
+  CHECK(device.ram[0].number > 10);
+  const std::uint32_t number = device.ram[1].number;
+  node.after(1min + period);
+  CHECK(device.nvm.steps > steps);
+  device.ram[1].number = 0;
+  node.init_again();
+  CHECK(device.ram[1].number == number);
+}
+
+TEST_CASE("budget: NMT resets with an autonomous group that changes are as many stores as the budget has") {
+  AutonomousDevice device;
+  Fixture node(device.setup());
+  Bytes before = device.nvm.bytes;
+  int stores = 0;
+  for (int n = 0; n < 1000; ++n) {
+    device.change(node);
+    node.ask("000#8101", "701#00");
+    stores += device.nvm.bytes != before ? 1 : 0;
+    before = device.nvm.bytes;
+  }
+  CHECK(stores == budget);
+}
+
+TEST_CASE("budget: defaults that were asked for are loaded by the reset, also when it is used up") {
+  AutonomousDevice device;
+  Fixture node(device.setup());
+  device.change(node);
+  node.ask(load_second, "581#6011100300000000");
+  device.use_up(node);
+  node.ask("000#8101", "701#00");
+  CHECK(device.ram[1].number == 20);
+}
+
+TEST_CASE("budget: a node that is stopped does not refill it") {
+  BudgetDevice device;
+  Fixture node(device.setup());
+  device.save_new(node);
+  CHECK(node.armed_timers() == 1);
+  node.call([&] { CONodeStop(&node.node); });
+  CHECK(node.armed_timers() == 0);
+}
+
+TEST_CASE("budget: a timer too fast to count a minute refills it later") {
+  BudgetDevice device;
+  Fixture node(device.setup().rate(100000000));
+  device.use_up(node);
+  node.after(43s);  // 2^32 ticks are 42.9 s
+  device.save_new(node);
+  device.save_new(node, second_refused);
+}
+
+#if USE_LSS
+
+TEST_CASE("budget: LSS store is a store; beyond the budget it answers 255 with 22h") {
+  BudgetDevice device;
+  CO_NODE* slave = nullptr;
+  Setup setup = device.setup().with({CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4});
+  setup.with({CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x44});
+  callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(slave, 400, baud, id); };
+  Fixture node(setup);
+  slave = &node.node;
+  for (int n = 0; n < budget; ++n) {
+    node.rx("7E5#0401000000000000");
+    node.ask(n % 2 == 0 ? "7E5#1105000000000000" : "7E5#1106000000000000", "7E4#1100000000000000");
+    for (int repeated = 0; repeated < 3; ++repeated) {
+      node.ask("7E5#1700000000000000", "7E4#1700000000000000");
+    }
+  }
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("7E5#1107000000000000", "7E4#1100000000000000");
+  node.ask("7E5#1700000000000000", "7E4#17FF220000000000");
+  CHECK(node.error() == CO_ERR_LSS_STORE);
+  node.call([&] { CHECK(COLssNvmStore(slave, 400, 125000, 9) == CO_ERR_NONE); });
+  device.save_new(node, second_refused);
+}
+
+#endif
+
+}  // namespace
+
+#endif

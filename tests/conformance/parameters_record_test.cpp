@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which record belongs to which parameter group: exchanged and overlapping groups, records of version 0.1.0, and
+// records that are damaged. (docs/storage.md)
+#include <algorithm>
+#include <utility>
+
+#include "support/emcy_fixture.hpp"
+#include "support/parameter_groups.hpp"
+
+#if USE_PARA
+
+namespace {
+
+using namespace test;
+
+constexpr const char* save_all = "601#2310100173617665";
+constexpr const char* all_saved = "581#6010100100000000";
+constexpr const char* save_second = "601#2310100373617665";
+constexpr const char* second_saved = "581#6010100300000000";
+
+void store_one_and_two(GroupDevice& device) {
+  Fixture node(device.setup());
+  node.ask("601#2300230101000000", "581#6000230100000000");
+  node.ask("601#2300230202000000", "581#6000230200000000");
+  node.ask(save_all, all_saved);
+}
+
+TEST_CASE("parameters: two groups of equal size whose offsets were exchanged do not load each other's values") {
+  GroupDevice device;
+  store_one_and_two(device);
+  std::swap(device.first.Offset, device.second.Offset);
+  std::vector<const CO_PARA*> lost;
+  callbacks().para_lost = [&](CO_NODE*, const CO_PARA* group) { lost.push_back(group); };
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  CHECK(lost == std::vector<const CO_PARA*>{&device.second, &device.first});
+  node.ask("601#4000230100000000", "581#430023010A000000");
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: a group does not load the record of another sub-index, or of another place") {
+  GroupDevice device;
+  store_one_and_two(device);
+  SUBCASE("another sub-index") {
+    device.first.Value = CO_PARA____;
+    device.second.Offset = 0;
+  }
+  SUBCASE("another place: the memory was moved as a whole") {
+    device.nvm.bytes.insert(device.nvm.bytes.begin(), 4, 0xFF);
+    device.nvm.bytes.resize(1024);
+    device.second.Offset = 104;
+  }
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: the version of a layout is CO_PARA.Version, or CO_PARA_VERSION() where that is 0") {
+  GroupDevice device;
+  device.second.Value |= CO_PARA_VERSION(5);
+  store_one_and_two(device);
+  bool is_loaded = false;
+  SUBCASE("same version, as a member") {
+    device.second.Value = CO_PARA___E;
+    device.second.Version = 5;
+    is_loaded = true;
+  }
+  SUBCASE("both: the member counts") {
+    device.second.Version = 5;
+    device.second.Value = CO_PARA___E | CO_PARA_VERSION(6);
+    is_loaded = true;
+  }
+  SUBCASE("another member") { device.second.Version = 6; }
+  SUBCASE("a member of 32 bits") { device.second.Version = 0xFF000005; }
+  SUBCASE("none") { device.second.Value = CO_PARA___E; }
+  Fixture node(device.setup());
+  CHECK(node.error() == (is_loaded ? CO_ERR_NONE : CO_ERR_PARA_LOAD));
+  node.ask("601#4000230200000000", is_loaded ? "581#4300230202000000" : "581#4300230214000000");
+}
+
+TEST_CASE("parameters: a group that is not stored loads no record, whatever lies at its Offset") {
+  GroupDevice device;
+  store_one_and_two(device);
+  device.second.Value = CO_PARA____;
+  device.second.Offset = 0;
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#4000230100000000", "581#4300230101000000");
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+// Index and sub-index that CODictGetFault() names, 0: none. It names none without USE_DICT_CHECK.
+unsigned refused_entry(const Fixture& node, bool expected) {
+  std::uint32_t key = 0;
+  const CO_DICT_FAULT fault = CODictGetFault(&node.node.Dict, &key);
+  CHECK(fault == (expected && USE_DICT_CHECK != 0 ? CO_DICT_PARA_OVERLAP : CO_DICT_OK));
+  return CO_GET_IDX(key) << 8 | CO_GET_SUB(key);
+}
+
+// Groups that overlap ----------------------------------------------------------------------------------------------
+
+TEST_CASE("parameters: a group that overlaps the memory of one before it is refused; the other works") {
+  constexpr std::uint32_t space = CO_PARA_SPACE(8, 1, 1);
+  for (const std::uint32_t distance : {0U, 1U, space - 1, space}) {
+    CAPTURE(distance);
+    for (const bool reversed : {false, true}) {
+      CAPTURE(reversed);
+      GroupDevice device;
+      device.first.Offset = reversed ? 200 + distance : 200;
+      device.second.Offset = reversed ? 200 : 200 + distance;
+      const bool is_free = distance == space;
+      Fixture node(device.setup());
+      CHECK(node.error() == (is_free ? CO_ERR_NONE : CO_ERR_PARA_OVERLAP));
+      CHECK(refused_entry(node, !is_free) == (is_free || USE_DICT_CHECK == 0 ? 0 : 0x101003));
+      node.ask("601#2300230101000000", "581#6000230100000000");
+      node.ask("601#2310100273617665", "581#6010100200000000");
+      const Bytes before = device.nvm.bytes;
+      node.ask(save_second, is_free ? second_saved : "581#8010100300000606");
+      node.ask("601#231110036C6F6164", is_free ? "581#6011100300000000" : "581#8011100300000606");
+      CHECK((device.nvm.bytes == before) == !is_free);
+      node.call(
+          [&] { CHECK(COParaStore(&device.second, &node.node) == (is_free ? CO_ERR_NONE : CO_ERR_PARA_OVERLAP)); });
+      node.rx("000#8101");
+      node.tx("701#00");
+      CHECK(node.error() == (is_free ? CO_ERR_NONE : CO_ERR_PARA_OVERLAP));
+      node.ask("601#4000230100000000", "581#4300230101000000");
+    }
+  }
+}
+
+#if USE_DICT_CHECK
+
+TEST_CASE("parameters: groups that overlap do not hide a fault that keeps the node from starting") {
+  GroupDevice device;
+  device.second.Offset = 0;
+  Fixture node(device.setup().with({CO_KEY(0x1017, 0, CO_OBJ_D___RW), CO_TSYNC_ID, 0x80}).stay_in_init());
+  CHECK(node.mode() == CO_INVALID);
+  CHECK(node.error() == CO_ERR_DICT_INIT);
+  CHECK(CODictGetFault(&node->Dict, nullptr) == CO_DICT_WRONG_PLACE);
+}
+
+#endif
+
+TEST_CASE("parameters: nothing is loaded for a group that overlaps another, not even its own record") {
+  GroupDevice device;
+  store_one_and_two(device);
+  device.first.Offset = 99;
+  Fixture node(device.setup());
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: without a memory, groups at the same Offset are no overlap") {
+  GroupDevice device;
+  device.second.Offset = 0;
+  Fixture node(device.setup().no_nvm());
+  CHECK(node.error() == CO_ERR_NONE);
+}
+
+TEST_CASE("parameters: groups whose variables overlap are accepted: each has its own record") {
+  GroupDevice device;
+  device.second.Start = device.first.Start;
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask(save_all, all_saved);
+}
+
+// Records of version 0.1.0 ----------------------------------------------------------------------------------------
+
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+
+// "LXN1", version 0, 8 bytes, generation 0 and 1, CRC, data: numbers 2Ah and 2Bh.
+constexpr std::array<std::uint8_t, 28> old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
+                                                     0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x12, 0x44, 0xB8, 0x63,
+                                                     0x2A, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
+constexpr std::array<std::uint8_t, 28> newer_old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
+                                                           0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0xE3, 0x08, 0xB7, 0x34,
+                                                           0x2B, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
+// "load", generation 1.
+constexpr std::array<std::uint8_t, 20> old_defaults = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF,
+                                                       0xFF, 0xFF, 0x01, 0x00, 0x00, 0x00, 0xFA, 0x97, 0x5B, 0x56};
+constexpr std::uint32_t slot = 28;
+
+unsigned old_records(const GroupDevice& device) {
+  constexpr std::array<std::uint8_t, 4> magic = {'L', 'X', 'N', '1'};
+  unsigned num = 0;
+  for (auto at = device.nvm.bytes.begin();; ++num, ++at) {
+    at = std::search(at, device.nvm.bytes.end(), magic.begin(), magic.end());
+    if (at == device.nvm.bytes.end()) return num;
+  }
+}
+
+TEST_CASE("parameters: a record of version 0.1.0 is loaded, and rewritten so that it names its group") {
+  GroupDevice device;
+  const char* value = "581#430023022A000000";
+  SUBCASE("stored once") { device.put(100, old_record); }
+  SUBCASE("stored once, in the other slot") { device.put(100 + slot, old_record); }
+  SUBCASE("stored twice") {
+    device.put(100, old_record);
+    device.put(100 + slot, newer_old_record);
+    value = "581#430023022B000000";
+  }
+  SUBCASE("defaults asked for") {
+    device.put(100, old_record);
+    device.put(100 + slot, old_defaults);
+    value = "581#4300230214000000";
+  }
+  {
+    Fixture node(device.setup());
+    CHECK(node.error() == CO_ERR_NONE);
+    node.ask("601#4000230200000000", value);
+    CHECK(old_records(device) == 0);
+    const auto steps = device.nvm.steps;
+    CHECK(steps <= 2 * slot);
+    node.rx("000#8101");
+    node.tx("701#00");
+    node.ask("601#4000230200000000", value);
+    CHECK(device.nvm.steps == steps);
+  }
+  {
+    Fixture node(device.setup());
+    CHECK(node.error() == CO_ERR_NONE);
+    node.ask("601#4000230200000000", value);
+  }
+  std::swap(device.first.Offset, device.second.Offset);
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  node.ask("601#4000230100000000", "581#430023010A000000");
+}
+
+TEST_CASE("parameters: a record of version 0.1.0 of another size, layout version or checksum is not loaded") {
+  GroupDevice device;
+  device.put(100, old_record);
+  SUBCASE("size") { device.second.Size = 4; }
+  SUBCASE("version") { device.second.Value |= CO_PARA_VERSION(1); }
+  SUBCASE("checksum") { device.nvm.bytes[116] ^= 1; }
+  SUBCASE("data") { device.nvm.bytes[120] ^= 1; }
+  SUBCASE("another magic word") { device.nvm.bytes[103] = '3'; }
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_PARA_LOAD);
+  node.ask("601#4000230200000000", "581#4300230214000000");
+}
+
+TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is rewritten costs nothing") {
+  for (std::uint64_t step = 1; step <= 2 * slot; ++step) {
+    GroupDevice device;
+    device.put(100, old_record);
+    device.nvm.deaf_from = step;
+    device.nvm.deaf_to = step + 1000;
+    for (int n = 0; n < 2; ++n) {
+      Fixture node(device.setup());
+      CHECK(node.error() == CO_ERR_NONE);
+      node.ask("601#4000230200000000", "581#430023022A000000");
+      device.nvm.deaf_to = 0;
+    }
+    CHECK(old_records(device) == 0);
+  }
+}
+
+#if USE_LSS
+
+TEST_CASE("LSS: node-ID and bit rate that version 0.1.0 has stored are loaded, and rewritten") {
+  constexpr std::array<std::uint8_t, 28> record = {0x4C, 0x58, 0x4E, 0x31, 0x31, 0x53, 0x53, 0x4C, 0x08, 0x00,
+                                                   0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xF8, 0x62, 0xB0, 0xEA,
+                                                   0x90, 0xD0, 0x03, 0x00, 0x05, 0x00, 0x00, 0x00};
+  GroupDevice device;
+  device.put(400, record);
+  Fixture node(device.setup());
+  for (int n = 0; n < 2; ++n) {
+    std::uint32_t baud = 0;
+    std::uint8_t id = 0;
+    node.call([&] { CHECK(COLssNvmLoad(&node.node, 400, &baud, &id) == CO_ERR_NONE); });
+    CHECK(baud == 250000);
+    CHECK(id == 5);
+    CHECK(old_records(device) == 0);
+  }
+}
+
+#endif
+#endif
+
+// Records that are damaged ----------------------------------------------------------------------------------------
+
+struct Recovered {
+  std::vector<const CO_PARA*> groups;
+  static void note(CO_NODE* node, void*, const CO_PARA* group) {
+    const OutsideStack outside;
+    all().groups.push_back(group);
+    CHECK(node->Nmt.Mode == CO_INIT);
+  }
+  static Recovered& all() {
+    static Recovered recovered;
+    return recovered;
+  }
+  static std::vector<const CO_PARA*> take() { return std::exchange(all().groups, {}); }
+};
+const CO_CALLBACKS recovered_callbacks = [] {
+  CO_CALLBACKS table{};
+  table.ParaRecovered = Recovered::note;
+  return table;
+}();
+
+GroupDevice stored_twice(std::uint32_t older = 1, std::uint32_t newer = 2) {
+  GroupDevice device;
+  Fixture node(device.setup());
+  for (const std::uint32_t number : {older, newer}) {
+    device.ram[1].number = number;
+    node.call([&] { CHECK(COParaStore(&device.second, &node.node) == CO_ERR_NONE); });
+  }
+  return device;
+}
+
+TEST_CASE("parameters: if the newest record is damaged, the one before it is loaded and ParaRecovered() is called") {
+  const Bytes image = stored_twice().nvm.bytes;
+  constexpr std::uint32_t size = CO_PARA_SPACE(8, 1, 1) / 2;
+  for (std::uint32_t bit = 0; bit < 8 * size; ++bit) {
+    CAPTURE(bit);
+    GroupDevice device;
+    device.nvm.bytes = image;
+    device.nvm.bytes[100 + size + bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    Fixture node(device.setup().callbacks(recovered_callbacks));
+    CHECK(node.error() == CO_ERR_NONE);
+    CHECK(device.ram[1].number == 1);
+    CHECK(Recovered::take() == std::vector<const CO_PARA*>{&device.second});
+  }
+}
+
+TEST_CASE("parameters: ParaRecovered() is not called for a damaged older record, or where nothing is damaged") {
+  const Bytes image = stored_twice().nvm.bytes;
+  GroupDevice device;
+  device.nvm.bytes = image;
+  SUBCASE("nothing damaged") {}
+  SUBCASE("data of the older record") { device.nvm.bytes[100 + 20] ^= 1; }
+  SUBCASE("checksum of the older record") { device.nvm.bytes[100 + 16] ^= 1; }
+  SUBCASE("older record erased") { std::fill_n(device.nvm.bytes.begin() + 100, 28, std::uint8_t{0xFF}); }
+  Fixture node(device.setup().callbacks(recovered_callbacks));
+  CHECK(node.error() == CO_ERR_NONE);
+  CHECK(device.ram[1].number == 2);
+  CHECK(Recovered::take().empty());
+}
+
+TEST_CASE("parameters: ParaRecovered() is not called after a firmware update that has changed the layout") {
+  GroupDevice device;
+  device.nvm.bytes = stored_twice().nvm.bytes;
+  device.second.Value |= CO_PARA_VERSION(7);
+  {
+    Fixture node(device.setup().callbacks(recovered_callbacks));
+    CHECK(node.error() == CO_ERR_PARA_LOAD);
+    node.ask(save_second, second_saved);
+    node.ask("601#2300230205000000", "581#6000230200000000");
+  }
+  Fixture node(device.setup().callbacks(recovered_callbacks));
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#4000230200000000", "581#4300230214000000");
+  CHECK(Recovered::take().empty());
+}
+
+TEST_CASE("parameters: ParaRecovered() is called for defaults that were asked for before the damaged record") {
+  GroupDevice device;
+  {
+    Fixture node(device.setup());
+    node.ask("601#231110036C6F6164", "581#6011100300000000");
+    node.ask("601#2300230205000000", "581#6000230200000000");
+    node.ask(save_second, second_saved);
+  }
+  device.nvm.bytes[100 + 28 + 20] ^= 1;
+  Fixture node(device.setup().callbacks(recovered_callbacks));
+  node.ask("601#4000230200000000", "581#4300230214000000");
+  CHECK(Recovered::take() == std::vector<const CO_PARA*>{&device.second});
+}
+
+TEST_CASE("parameters: a damaged record without callback is no fault: the table or its entry may be null") {
+  const Bytes image = stored_twice().nvm.bytes;
+  const CO_CALLBACKS none{};
+  for (const bool table : {false, true}) {
+    GroupDevice device;
+    device.nvm.bytes = image;
+    device.nvm.bytes[100 + 28] ^= 1;
+    Fixture node(table ? device.setup().callbacks(none) : device.setup());
+    CHECK(node.error() == CO_ERR_NONE);
+    node.ask("601#4000230200000000", "581#4300230201000000");
+  }
+}
+
+#if USE_EMCY
+
+TEST_CASE("parameters: the application tells the network of a recovered group by EMCY 6300h") {
+  GroupDevice device;
+  device.nvm.bytes = stored_twice().nvm.bytes;
+  device.nvm.bytes[100 + 28] ^= 1;
+  EmcyNode node(device.setup().callbacks(recovered_callbacks).emergencies({{CO_EMCY_REG_GENERAL, 0x6300}}));
+  // The loop, after CONodeStart(): see docs/storage.md.
+  if (!Recovered::take().empty()) {
+    node.set(0);
+  }
+  node.tx("081#0063010000000000");
+}
+
+#endif
+
+}  // namespace
+
+#endif
