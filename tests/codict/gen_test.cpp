@@ -339,6 +339,19 @@ TEST_CASE("gen: the size of the RAM has the padding between variables, where add
             .ram == 24);
 }
 
+TEST_CASE("gen: an object gets flag P if a constant mapping in use names it, so that CO_OD_CHECK() accepts the table") {
+  const auto flags = [](const char* number_access, const char* number, const char* mapping_access) {
+    const Generated generated = generate(record("1A00") + sub("1A00sub0", 5, number_access, number) +
+                                         sub("1A00sub1", 7, mapping_access, "0x20000010") + variable("2000", 6, "rw"));
+    return generated.has("{SMALL_2000_0 | CO_OBJ____PRW,");
+  };
+  CHECK(flags("const", "1", "const"));
+  CHECK(flags("rw", "0", "const"));
+  CHECK_FALSE(flags("const", "0", "const"));
+  CHECK_FALSE(flags("const", "0xFF", "const"));
+  CHECK_FALSE(flags("rw", "1", "rw"));
+}
+
 TEST_CASE("gen: words become identifiers of C") {
   CHECK(gen::identifier("Time of day (UTC)") == "time_of_day_utc");
   CHECK(gen::identifier("  2nd  ") == "n2nd");

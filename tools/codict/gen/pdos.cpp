@@ -26,18 +26,7 @@ unsigned bits_of(const Item& item) {
   return is_bit ? 1U : 8U * (item.form->bytes != 0 ? item.form->bytes : item.capacity);
 }
 
-// The mapping of the description is its author's decision: the PDO works. CO_OD_CHECK() refuses a constant mapping of
-// an object without flag P, so the object gets it.
-void accept_unmappable(Plan& plan, const Item& mapping, const Item& object, Span span, Findings& findings) {
-  findings.add(rules::pdo_mappable, span, "PDOMapping of the object is 0; the PDO maps it nevertheless");
-  if ((mapping.flags & flag_direct) != 0) {
-    Item& changed = plan.items[static_cast<std::size_t>(&object - plan.items.data())];
-    changed.pdo = PdoMapping::optional;
-    changed.flags |= flag_pdo;
-  }
-}
-
-void check_object(Plan& plan, const Item& mapping, Findings& findings) {
+void check_object(const Plan& plan, const Item& mapping, Findings& findings) {
   const std::uint64_t link = mapping.value.integer.magnitude;
   const auto index = static_cast<std::uint16_t>(link >> 16);
   const auto sub_index = static_cast<std::uint8_t>(link >> 8);
@@ -57,7 +46,7 @@ void check_object(Plan& plan, const Item& mapping, Findings& findings) {
     return;
   }
   if (object->pdo == PdoMapping::no) {
-    accept_unmappable(plan, mapping, *object, span, findings);
+    findings.add(rules::pdo_mappable, span, "PDOMapping of the object is 0; the PDO maps it nevertheless");
   }
   if (bits != bits_of(*object) && !(bits == 8 && bits_of(*object) == 1)) {
     findings.add(rules::pdo_object, span, "the length is not that of the object");
@@ -91,6 +80,29 @@ void check_pdo(Plan& plan, const Item& number, Findings& findings) {
   plan.pdos.push_back(std::move(sum));
 }
 
+// Whether a mapping is a constant of the table and can be in use: CO_OD_CHECK() knows it.
+bool is_constant_mapping(const Plan& plan, const Item& item) {
+  const Item* const number = plan.find(item.index, 0);
+  const bool is_beyond =
+      number != nullptr && (number->flags & flag_direct) != 0 &&
+      (number->value.integer.magnitude >= multiplexed || item.sub_index > number->value.integer.magnitude);
+  return item.type == "CO_TPDO_MAP" && (item.flags & flag_direct) != 0 && !is_beyond;
+}
+
+// The mapping of the description is its author's decision: the PDO works. CO_OD_CHECK() refuses a constant mapping of
+// an object without flag P, so the object gets it.
+void make_mappable(Plan& plan) {
+  for (const Item& mapping : plan.items) {
+    const std::uint64_t link = mapping.value.integer.magnitude;
+    const Item* const object = plan.find(static_cast<std::uint16_t>(link >> 16), static_cast<std::uint8_t>(link >> 8));
+    if (object != nullptr && object->pdo == PdoMapping::no && is_constant_mapping(plan, mapping)) {
+      Item& changed = plan.items[static_cast<std::size_t>(object - plan.items.data())];
+      changed.pdo = PdoMapping::optional;
+      changed.flags |= flag_pdo;
+    }
+  }
+}
+
 }  // namespace
 
 void plan_pdos(Plan& plan, Findings& findings) {
@@ -99,6 +111,7 @@ void plan_pdos(Plan& plan, Findings& findings) {
       check_pdo(plan, item, findings);
     }
   }
+  make_mappable(plan);
 }
 
 }  // namespace lexican::codict::gen
