@@ -6,5 +6,5 @@ static CO_NODE_SPEC empty;
 
 int main(void) {
   CONodeInit(&node, &empty);
-  return CONodeGetErr(&node) == CO_ERR_BAD_ARG ? 0 : 1;
+  return CONodeGetErr(&node) != CO_ERR_NONE ? 0 : 1;
 }

@@ -9,5 +9,5 @@ CO_OD_CHECK(od);
 
 int main() {
   CONodeInit(&node, &empty);
-  return CONodeGetErr(&node) == CO_ERR_BAD_ARG ? 0 : 1;
+  return CONodeGetErr(&node) != CO_ERR_NONE ? 0 : 1;
 }
