@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cfg.h
-/// Configuration. Each value can be given as a compiler definition, by a preset (CO_CFG_PRESET names a header of
-/// config/presets), or by a co_cfg.h of your own that is found first. Library and application must agree.
+/// Configuration. Each value can be given as a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of
+/// config/presets), or by a co_cfg.h of your own that is found first. A definition has priority over the preset.
+/// Library and application need the same values: the linker refuses others (co_configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 

@@ -54,6 +54,7 @@
 #include "co_csdo.h"
 #endif
 #include "co_callbacks.h"
+#include "co_configuration.h"
 #include "co_dict.h"
 #include "co_emcy.h"
 #include "co_if.h"
@@ -299,10 +300,14 @@ typedef struct CO_NODE_T {
 ///
 /// \a node and what \a spec points to stay the caller's and must live as long as the node; \a spec itself need not.
 /// Null arguments end in CONodeFatalError().
-void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec);
+///
+/// "undefined reference to CONodeInit_of_a_library_with_the_same_co_cfg_values_…" is the linker's refusal of a library
+/// that was compiled with another configuration than the program (co_configuration.h): give both the same definitions,
+/// preset and co_cfg.h.
+void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) CO_CONFIGURED("CONodeInit");
 
 /// The same with everything that CO_NODE_SPEC has no place for. CONodeInit() is this with a null \a ext.
-void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext);
+void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) CO_CONFIGURED("CONodeInitEx");
 
 /// From CO_INIT: sends the boot-up message and enters Pre-operational. [301:7.3.2.2.1] Else nothing.
 void CONodeStart(CO_NODE* node);

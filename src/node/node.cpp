@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#define CO_CONFIGURATION_OF_LIBRARY  // see co_configuration.h
 #include "co_core.h"
 #include "core/count.hpp"
 #include "core/dict.hpp"
@@ -495,5 +496,14 @@ void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
 CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr ? CO_NODE_COUNTERS{} : node->Count; }
 
 void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
+
+// What programs link that include co_core.h and have this library's configuration.
+#ifdef CO_CONFIGURED_SYMBOL
+void node_init_of_configuration(CO_NODE*, const CO_NODE_SPEC*) __asm__(CO_CONFIGURED_SYMBOL("CONodeInit"))
+    __attribute__((alias("CONodeInit")));
+void node_init_ex_of_configuration(CO_NODE*, const CO_NODE_SPEC*,
+                                   const CO_NODE_EXT*) __asm__(CO_CONFIGURED_SYMBOL("CONodeInitEx"))
+    __attribute__((alias("CONodeInitEx")));
+#endif
 
 }  // extern "C"

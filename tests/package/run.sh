@@ -14,6 +14,15 @@ esac
 rm -rf "$directory"
 mkdir -p "$directory"
 
+# A program whose configuration is not that of the installed library is not linked, and the linker's message says why.
+# COMPILER OPTION...
+build_and_refuse() {
+  "$@" -o "$directory/consumer"
+  if "$@" -DCO_RPDO_N=16 -o "$directory/refused" 2>"$directory/said"; then return 1; fi
+  grep CONodeInit_of_a_library_with_the_same_co_cfg_values_ "$directory/said"
+  ! grep -i warning "$directory/said"
+}
+
 by_cmake() {
   cmake -S "$here/$way" -B "$directory" -G Ninja -DCONSUMER_LANGUAGE="$language" -DCONSUMER_SOURCE="$program" \
     -DLEXICAN_SOURCE="$source" -DCMAKE_PREFIX_PATH="$prefix"
@@ -27,10 +36,10 @@ case $way in
   pkg_config)
     export PKG_CONFIG_PATH=$library/pkgconfig
     read -ra flags < <(pkg-config --cflags --libs lexican)
-    "${compiler[@]}" -o "$directory/consumer" "$program" "${flags[@]}"
+    build_and_refuse "${compiler[@]}" "$program" "${flags[@]}"
     ;;
   bare_compiler)
-    "${compiler[@]}" -I "$prefix/include/lexican" -L "$library" -o "$directory/consumer" "$program" -llexican
+    build_and_refuse "${compiler[@]}" -I "$prefix/include/lexican" -L "$library" "$program" -llexican
     ;;
   *) by_cmake ;;
 esac
