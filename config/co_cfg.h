@@ -149,6 +149,18 @@
 #define USE_SYNC 1
 #endif
 
+/// Shortest period of SYNC in µs that 1006h may hold, besides 0 (none is produced): 1…1000000. A write below it is
+/// refused (0609 0032h); what a table or a store holds below it is not produced, and sets the node's error
+/// (CO_ERR_OBJ_RANGE_LOW). Without a bound one SDO write could occupy the CPU with timer interrupts, and the bus with
+/// SYNC. 500 µs is half the shortest cycle that drives commonly use, and ten times the length of a SYNC frame at 1
+/// Mbit/s. 40 bytes of flash (Cortex-M0+, -Os).
+#ifndef CO_SYNC_PERIOD_MIN
+#define CO_SYNC_PERIOD_MIN 500
+#endif
+#if CO_SYNC_PERIOD_MIN < 1 || CO_SYNC_PERIOD_MIN > 1000000
+#error "CO_SYNC_PERIOD_MIN: 1...1000000 us"
+#endif
+
 /// TIME, consumer and producer (1012h), and a running clock: 0 or 1. 1 costs 68 bytes of RAM (32-bit CPU) and 1.3 KB of
 /// flash (Cortex-M0+, -Os).
 #ifndef USE_TIME

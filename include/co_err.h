@@ -111,6 +111,7 @@ typedef enum CO_ERR_T {
   CO_ERR_NODE_ID,        ///< CONodeInit(): CO_NODE_SPEC.NodeId is not 1…127, nor CO_LSS_NO_NODE_ID with USE_LSS
   CO_ERR_NODE_DICT,      ///< CONodeInit(): CO_NODE_SPEC.Dict is null, or DictLen is 0
   CO_ERR_PARA_OVERLAP,   ///< a parameter group overlaps one with a lower sub-index of 1010h; it is not used
+  CO_ERR_OBJ_RANGE_LOW,  ///< value too low (SDO abort 0609 0032h)
 } CO_ERR;
 
 #ifdef __cplusplus

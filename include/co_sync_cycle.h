@@ -2,8 +2,10 @@
 /// \file co_sync_cycle.h
 /// 1006h, communication cycle period: the period of SYNC in µs, 0: no SYNC is produced. [301:7.5.2.6] And 1007h,
 /// synchronous window length: µs after a SYNC in which synchronous PDOs are sent and taken, 0: always. [301:7.5.2.7]
-/// Data: a uint32_t, or the value itself (flag D). A time that the timer cannot hold is refused (0609 0030h). A write
-/// takes effect at once; with a plain CO_TUNSIGNED32 in its place, at the next reset.
+/// Data: a uint32_t, or the value itself (flag D). A time that the timer cannot hold is refused (0609 0030h), and so is
+/// a period below CO_SYNC_PERIOD_MIN (0609 0032h). A producer whose table or store holds a shorter period sends no
+/// SYNC; the node's error is CO_ERR_OBJ_RANGE_LOW then. A write takes effect at once; with a plain CO_TUNSIGNED32 in
+/// its place, at the next reset.
 #ifndef CO_SYNC_CYCLE_H_
 #define CO_SYNC_CYCLE_H_
 

@@ -54,16 +54,23 @@ uint32_t first_cycle(const CO_TMR_MEM* list) {
   return list == nullptr ? 0 : list->Cycle;
 }
 
-// While nothing is armed, but elapsed cyclic timers are still to be run, a driver without a clock has to go on
-// counting, so that they can keep their phase.
-void program(CO_TMR& t, uint32_t now) {
+// Ticks for which a driver without a clock has to go on counting while nothing is armed, so that elapsed cyclic timers
+// keep their phase until the loop runs them; 0: there are none. The first wait is their cycle: a loop that is in time
+// finds the driver programmed for the next expiry. Once that wait is over, the loop is late, and interrupts at each
+// cycle would only delay it further.
+uint32_t wait_for_loop(const CO_TMR& t, bool is_late) {
+  const uint32_t cycle = first_cycle(t.First);
+  return is_late && cycle != 0 ? UINT32_MAX : cycle;
+}
+
+void program(CO_TMR& t, uint32_t now, bool is_late) {
   const CO_TMR_MEM* const first = *t.Armed;
   const uint32_t next = first != nullptr ? first->At - now : 0;
   if (port::has_clock(*t.Node)) {
     port::set_alarm(*t.Node, next);
     return;
   }
-  const uint32_t wait = next != 0 ? next : first_cycle(t.First);
+  const uint32_t wait = next != 0 ? next : wait_for_loop(t, is_late);
   port::count_down(*t.Node, wait, t.Programmed == 0);
   t.Clock = now + wait;
   t.Programmed = wait;
@@ -74,7 +81,7 @@ bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now
 
 void reprogram(CO_TMR& t, uint32_t now) {
   if (!is_pending(t, now)) {
-    program(t, now);
+    program(t, now, false);
   }
 }
 
@@ -478,8 +485,9 @@ int16_t COTmrService(CO_TMR* tmr) {
   } else if (!port::has_elapsed(*tmr->Node)) {
     return tmr::has_to_send(*tmr->Node) ? 1 : 0;
   }
+  const bool is_late = *tmr->Armed == nullptr;
   tmr::advance(*tmr, now);
-  tmr::program(*tmr, now);
+  tmr::program(*tmr, now, is_late);
   return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }
 

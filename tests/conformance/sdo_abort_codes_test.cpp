@@ -119,9 +119,9 @@ TEST_CASE("SDO abort codes: each that an error code stands for, expedited and se
       {CO_ERR_IF_NVM_WRITE, "00000606"},     {CO_ERR_PARA_IDX, "00000606"},      {CO_ERR_PARA_STORE, "00000606"},
       {CO_ERR_PARA_RESTORE, "00000606"},     {CO_ERR_PARA_LOAD, "00000606"},     {CO_ERR_OBJ_RANGE, "30000906"},
       {CO_ERR_TYPE_RD, "20000008"},          {CO_ERR_TYPE_WR, "20000008"},       {CO_ERR_OBJ_STATE, "22000008"},
-      {CO_ERR_OBJ_NO_DATA, "24000008"},
+      {CO_ERR_OBJ_NO_DATA, "24000008"},      {CO_ERR_OBJ_RANGE_LOW, "32000906"}, {CO_ERR_PARA_OVERLAP, "00000606"},
   };
-  for (int number = CO_ERR_BASE; number <= CO_ERR_OBJ_NO_DATA; ++number) {
+  for (int number = CO_ERR_BASE; number <= CO_ERR_OBJ_RANGE_LOW; ++number) {
     const auto error = static_cast<CO_ERR>(number);
     std::string code = "00000008";
     for (const Row& row : rows) {

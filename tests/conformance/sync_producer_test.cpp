@@ -176,9 +176,9 @@ TEST_CASE("SYNC producer: the counter restarts at 1 after Stopped, and goes on t
   }
 }
 
-TEST_CASE("SYNC producer: the period 1 us to the longest; a timer rounds up and does not end [Y4]") {
+TEST_CASE("SYNC producer: the shortest period to the longest; a timer rounds up and does not end [Y4]") {
   SyncNode node(producer(0));
-  CHECK(node.set(0x1006, 0, 4, 1) == 0);
+  CHECK(node.set(0x1006, 0, 4, CO_SYNC_PERIOD_MIN) == 0);
   node.after(3ms);
   CHECK(node.frames().size() == 3);
   CHECK(node.set(0x1006, 0, 4, 0xFFFFFFFF) == 0);
@@ -186,6 +186,52 @@ TEST_CASE("SYNC producer: the period 1 us to the longest; a timer rounds up and 
   node.silent();
   node.after(1ms);
   node.tx("080#");
+}
+
+TEST_CASE("SYNC producer: a period below CO_SYNC_PERIOD_MIN is refused: 0609 0032h; 0 ends the production [Y4]") {
+  static_assert(CO_SYNC_PERIOD_MIN == 500);
+  SyncNode node(producer(10000));
+  for (const std::uint32_t us : {1U, 2U, 100U, 499U}) {
+    CAPTURE(us);
+    CHECK(node.set(0x1006, 0, 4, us) == 0x06090032);
+    CHECK(node.get(0x1006, 0) == 10000);
+    node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1006, 0), us) == CO_ERR_OBJ_RANGE_LOW); });
+  }
+  node.after(20ms);
+  CHECK(node.frames() == Texts{"080#", "080#"});
+  node.ask("601#2306100000000000", "581#6006100000000000");
+  node.after(100ms);
+  node.silent();
+  node.ask("601#23061000F4010000", "581#6006100000000000");
+  node.after(2ms);
+  CHECK(node.frames().size() == 2);
+  CHECK(node.set(0x1007, 0, 4, 1) == 0);  // the window is no period
+}
+
+TEST_CASE("SYNC producer: a table or a store that holds a period below CO_SYNC_PERIOD_MIN produces none [Y4]") {
+  SyncNode node(producer(499));
+  CHECK(node.error() == CO_ERR_OBJ_RANGE_LOW);
+  CHECK(node.mode() == CO_PREOP);
+  node.rx("000#0101");
+  node.after(100ms);
+  node.silent();
+  CHECK(node.get(0x1006, 0) == 499);
+  node.rx("000#8201");
+  node.tx("701#00");
+  CHECK(node.error() == CO_ERR_OBJ_RANGE_LOW);
+  CHECK(node.set(0x1006, 0, 4, 500) == 0);
+  node.after(2ms);
+  CHECK(node.frames().size() == 2);
+}
+
+TEST_CASE("SYNC producer: a consumer may have any period in 1006h") {
+  SyncTable table = producer(1);
+  table.sync_id = 0x80;
+  SyncNode node(table);
+  CHECK(node.error() == CO_ERR_NONE);
+  CHECK(node.set(0x1005, 0, 4, 0x40000080) == 0);
+  node.after(100ms);
+  node.silent();
 }
 
 TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [N13]") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Timers when the timer interrupt is late: what has elapsed in the hardware, the stack hears of only later.
+#include <algorithm>
 #include <cstring>
 
 #include "support/fixture.hpp"
@@ -269,6 +270,58 @@ TEST_CASE("timer lateness: a driver without a clock is programmed once for each 
   device.until(50);
   CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}, {1, 40}, {1, 50}});
   CHECK(hardware.reloads == 6);
+}
+
+TEST_CASE(
+    "timer lateness: elapsed cyclic timers leave the CPU to the loop, whatever their cycles; their phase is kept") {
+  for (const std::uint32_t cycle : {1U, 2U, 7U, 1000U}) {
+    CAPTURE(cycle);
+    Device device(Driver::counter);
+    device.create(0, cycle, 1);
+    device.create(0, cycle, 2);
+    const unsigned reloads = hardware.reloads;
+    const unsigned starts = hardware.starts;
+    unsigned interrupts = 0;
+    const std::uint64_t late = 100 * cycle + 3 * cycle / 5;
+    while (hardware.now < late) {  // the loop does not run
+      ++hardware.now;
+      interrupts += has_elapsed() ? 1U : 0U;
+      device.interrupt();
+    }
+    CHECK(interrupts == 2);  // at the expiry; and a cycle later, when it is clear that the loop is late
+    CHECK(hardware.reloads == reloads + 2);
+    CHECK(hardware.starts == starts);
+    CHECK(runs.empty());
+    device.process();
+    CHECK(runs == Runs{{1, late}, {2, late}});
+    device.until(102 * cycle);
+    const std::uint64_t next = 101 * cycle;
+    CHECK(runs == Runs{{1, late}, {2, late}, {1, next}, {2, next}, {1, next + cycle}, {2, next + cycle}});
+  }
+}
+
+TEST_CASE("timer lateness: a timer that is armed elapses at its time while an elapsed cyclic one waits for the loop") {
+  Device device(Driver::counter);
+  device.create(0, 1, 1);
+  device.create(500, 0, 2);
+  unsigned interrupts = 0;
+  while (hardware.now < 600) {
+    ++hardware.now;
+    interrupts += has_elapsed() ? 1U : 0U;
+    device.interrupt();
+  }
+  CHECK(interrupts == 3);  // of the cyclic one, of the other, and a cycle later
+  device.process();
+  CHECK(runs == Runs{{1, 600}, {2, 600}});
+  device.create(10, 0, 3);
+  while (hardware.now < 605) {
+    ++hardware.now;
+    device.interrupt();
+  }
+  device.create(2, 0, 4);
+  device.until(610);
+  CHECK(std::count(runs.begin(), runs.end(), Run{4, 607}) == 1);
+  CHECK(std::count(runs.begin(), runs.end(), Run{3, 610}) == 1);
 }
 
 TEST_CASE("timer lateness: time does not go back when a driver without a clock waits for longer than it was told") {

@@ -59,10 +59,14 @@ void produce(void* node_pointer) {
   take(node, sync.Counter);
 }
 
+// 0 is no period.
+bool is_too_short(uint32_t period) { return period != 0 && period < CO_SYNC_PERIOD_MIN; }
+
 // The first SYNC comes after a period. The counter goes on where only the period has changed.
 void run_producer(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
-  const uint32_t period = ticks(node, read(node, cycle_index));
+  const uint32_t time = read(node, cycle_index);
+  const uint32_t period = is_too_short(time) ? 0 : ticks(node, time);
   if (sync.Produces == 0 || period == 0 || !event::is_allowed(node, CO_SYNC_ALLOWED)) {
     tmr::stop(node.Tmr, sync.Tmr);
     return;
@@ -122,6 +126,10 @@ CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
     return CO_ERR_BAD_ARG;
   }
   __builtin_memcpy(&value, buffer, sizeof value);
+  const bool is_cycle = CO_GET_IDX(obj->Key) == cycle_index;
+  if (is_cycle && is_too_short(value)) {
+    return CO_ERR_OBJ_RANGE_LOW;
+  }
   const uint32_t time = ticks(*node, value);
   if (value != 0 && time == 0) {
     return CO_ERR_OBJ_RANGE;
@@ -130,7 +138,7 @@ CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (err != CO_ERR_NONE) {
     return err;
   }
-  if (CO_GET_IDX(obj->Key) == cycle_index) {
+  if (is_cycle) {
     run_producer(*node);
   } else {
     node->Sync.Window = time;
@@ -174,6 +182,9 @@ void init(CO_NODE& node) {
   sync.Overflow = CODictRdByte(&node.Dict, CO_DEV(0x1019, 0), &overflow) == CO_ERR_NONE ? overflow : 0;
   open_window(node);
   configure(node);
+  if (sync.Produces != 0 && is_too_short(read(node, cycle_index))) {
+    node.Error = CO_ERR_OBJ_RANGE_LOW;
+  }
 }
 
 void on_mode(CO_NODE& node) {
