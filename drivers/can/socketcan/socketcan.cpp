@@ -252,6 +252,6 @@ void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { can(ctx).f
 
 }  // namespace
 
-const CO_IF_CAN_DRV_EX SocketCanDriver = {init, enable, read, send, reset, close, filter};
-
 }  // namespace co
+
+const CO_IF_CAN_DRV_EX COSocketCanDriver = {co::init, co::enable, co::read, co::send, co::reset, co::close, co::filter};

@@ -32,7 +32,7 @@
 #include <string>
 #include <vector>
 
-#include "co_if_can.h"
+#include "co_can_socketcan.h"
 #include "socketcan_frame.hpp"
 
 namespace co {
@@ -90,7 +90,7 @@ class SocketCan {
 };
 
 /// The driver; its context is a SocketCan.
-extern const CO_IF_CAN_DRV_EX SocketCanDriver;
+inline constexpr const CO_IF_CAN_DRV_EX& SocketCanDriver = COSocketCanDriver;
 
 }  // namespace co
 

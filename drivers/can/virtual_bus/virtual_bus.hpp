@@ -46,7 +46,7 @@
 #include <string>
 #include <vector>
 
-#include "co_if_can.h"
+#include "co_can_virtual.h"
 #include "paced_wire.hpp"
 
 namespace co {
@@ -241,7 +241,7 @@ class VirtualBus::Port {
 };
 
 /// The driver; its context is a VirtualBus::Port.
-extern const CO_IF_CAN_DRV_EX VirtualBusDriver;
+inline constexpr const CO_IF_CAN_DRV_EX& VirtualBusDriver = COVirtualBusDriver;
 
 }  // namespace co
 

@@ -25,6 +25,7 @@ void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { port(ctx).
 
 }  // namespace
 
-const CO_IF_CAN_DRV_EX VirtualBusDriver = {init, enable, read, send, reset, close, filter};
-
 }  // namespace co
+
+const CO_IF_CAN_DRV_EX COVirtualBusDriver = {co::init,  co::enable, co::read,  co::send,
+                                             co::reset, co::close,  co::filter};

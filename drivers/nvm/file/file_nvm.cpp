@@ -159,6 +159,6 @@ CO_NVM_SHAPE shape(void* ctx) { return {file(ctx).capacity(), 1, 0}; }
 
 }  // namespace
 
-const CO_IF_NVM_DRV_EX FileNvmDriver = {init, read, write, nullptr, shape};
-
 }  // namespace co
+
+const CO_IF_NVM_DRV_EX COFileNvmDriver = {co::init, co::read, co::write, nullptr, co::shape};

@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <string>
 
-#include "co_if_nvm.h"
+#include "co_nvm_file.h"
 
 namespace co {
 
@@ -54,7 +54,7 @@ class FileNvm {
 };
 
 /// The driver; its context is a FileNvm.
-extern const CO_IF_NVM_DRV_EX FileNvmDriver;
+inline constexpr const CO_IF_NVM_DRV_EX& FileNvmDriver = COFileNvmDriver;
 
 }  // namespace co
 

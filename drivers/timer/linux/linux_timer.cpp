@@ -128,6 +128,6 @@ void alarm(void* ctx, std::uint32_t ticks) { timer(ctx).set_alarm(ticks); }
 
 }  // namespace
 
-const CO_IF_TIMER_DRV_EX LinuxTimerDriver = {init, now, alarm};
-
 }  // namespace co
+
+const CO_IF_TIMER_DRV_EX COLinuxTimerDriver = {co::init, co::now, co::alarm};

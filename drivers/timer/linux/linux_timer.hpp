@@ -25,7 +25,7 @@
 
 #include <cstdint>
 
-#include "co_if_timer.h"
+#include "co_timer_linux.h"
 
 namespace co {
 
@@ -80,7 +80,7 @@ class LinuxTimer {
 };
 
 /// The driver; its context is a LinuxTimer.
-extern const CO_IF_TIMER_DRV_EX LinuxTimerDriver;
+inline constexpr const CO_IF_TIMER_DRV_EX& LinuxTimerDriver = COLinuxTimerDriver;
 
 }  // namespace co
 

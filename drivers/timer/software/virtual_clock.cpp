@@ -100,6 +100,6 @@ void alarm(void* ctx, std::uint32_t ticks) { timer(ctx).set_alarm(ticks); }
 
 }  // namespace
 
-const CO_IF_TIMER_DRV_EX VirtualTimerDriver = {init, now, alarm};
-
 }  // namespace co
+
+const CO_IF_TIMER_DRV_EX COVirtualTimerDriver = {co::init, co::now, co::alarm};

@@ -23,7 +23,7 @@
 #include <functional>
 #include <vector>
 
-#include "co_if_timer.h"
+#include "co_virtual_clock.h"
 
 namespace co {
 
@@ -93,7 +93,7 @@ class VirtualTimer {
 };
 
 /// The driver; its context is a VirtualTimer.
-extern const CO_IF_TIMER_DRV_EX VirtualTimerDriver;
+inline constexpr const CO_IF_TIMER_DRV_EX& VirtualTimerDriver = COVirtualTimerDriver;
 
 }  // namespace co
 
