@@ -16,7 +16,7 @@ mkdir -p "$build"
 cd "$build"
 
 # clang's objects need a linker of its own.
-linker=-flto=auto  # without a word about the number of processes
+linker=-flto-partition=one  # needs no make, and no warning about the number of processes
 if [ "$cc" = clang ]; then
   linker=-fuse-ld=lld
   command -v ld.lld >/dev/null || { echo "skipped: no ld.lld"; exit 77; }
