@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # lexican_doctest: the doctest header of the distribution, for native and for cross builds.
-find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h PATHS /usr/local/include /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h PATHS /usr/local/include /usr/include NO_CMAKE_FIND_ROOT_PATH)
+if(NOT LEXICAN_DOCTEST_DIR)
+  message(FATAL_ERROR
+    "The tests need doctest. On Debian: apt-get install doctest-dev. Without the tests: -DLEXICAN_TESTS=OFF.")
+endif()
 
 add_library(lexican_doctest INTERFACE)
 # An exception in an assertion ends its test case either way; without the code for it, test code compiles in a tenth to a
