@@ -1,9 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read"
+about="the tool for device descriptions${full:+, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
 . "$root/tests/fuzz/build.sh"
-packages=("${build_packages[@]}" "${tool_packages[@]}" chromium groff-base=groff)
+packages=("${build_packages[@]}" "${tool_packages[@]}")
+[ -z "$full" ] || packages+=(chromium groff-base=groff)
 
 lane() {
+  if [ -z "$full" ]; then
+    core_cases
+  else
+    all_cases
+  fi
+}
+
+# What a contributor runs: without sanitizers, fuzz targets, installation and browser.
+core_cases() {
+  local targets=(lexican_codict_tests lexican_codict_node_tests)
+  build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON \
+    -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+  run_doctest codict "$build/codict-core/tests/codict/lexican_codict_tests"
+  run_doctest "codict nodes" "$build/codict-core/tests/codict/lexican_codict_node_tests"
+}
+
+all_cases() {
   local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \

@@ -2,14 +2,16 @@
 # shellcheck shell=bash
 # What all lanes share. A lane file sets
 #   about      one line for --list
+#   minutes    how long the lane takes alone on two cores, for --list
 #   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
-#   optional   not empty: the lane is skipped, with a reason, where its packages cannot be had
-# and defines lane(), which reports every case by the functions below. $lane_name, $root and $build are known.
+#   optional   not empty: the lane is skipped, with a reason, where its packages cannot be installed
+#   exclusive  not empty: no other lane runs at the same time
+# and defines lane(), which reports every case by the functions below. $lane_name, $root, $build and $results are known;
+# $full is empty in the contributor's run.
 
 passed=0
 failed=0
 skipped=0
-excused=0  # skipped cases that are missing in the comparison with tests/expected_counts
 
 pass() { passed=$((passed + 1)); }
 
@@ -30,21 +32,13 @@ check() {
   fi
 }
 
-skip() {  # WHAT: one case
-  skipped=$((skipped + 1)) excused=$((excused + 1))
+skip() {  # WHAT AND WHY: one case
+  skipped=$((skipped + 1))
   echo "   SKIPPED $1"
 }
 
-# The rest of the lane cannot be run: as many cases are skipped as are committed and have not been run.
-skip_rest() {  # REASON
-  local expected
-  expected=$(expected_count "$lane_name")
-  local rest=$((${expected:-1} - passed - failed))
-  [ "$rest" -gt 0 ] || rest=1
-  excused=$((excused + rest))
-  skipped=$((skipped + rest))
-  echo "   SKIPPED $1"
-}
+# Tells tests/run which log shows the lane's progress, and how many cases its program has: now_in LOG [CASES]
+now_in() { echo "${2:-0} $1" >"$results/$lane_name.now"; }
 
 # Does the thread sanitizer find a race in what runs unprotected?
 finds_races() {  # PROGRAM
@@ -54,18 +48,24 @@ finds_races() {  # PROGRAM
 }
 
 measure_lane() {
-  trap 'echo "$passed $failed $skipped $excused" >"$results/$lane_name.count"' EXIT
+  trap 'echo "$passed $failed $skipped" >"$results/$lane_name.count"' EXIT
   rm -f "$results/$lane_name.count"
   lane || [ "$failed" -gt 0 ] || fail "$lane_name ended early"
   [ $((passed + failed + skipped)) -gt 0 ] || fail "$lane_name ran nothing"
 }
 
-# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... All of it, or "${targets[@]}". In the largest configuration, unless
-# told otherwise: it has several SDO servers. Without the tools, which have a lane of their own.
+# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... All of it, or "${targets[@]}". In the largest configuration,
+# unless told otherwise: it has several SDO servers. Without the tools, which have a lane of their own. Lanes that share
+# a tree wait for each other.
 build_tree() {
   local name=$1 log=$results/build-$1.log
   shift
-  if ! { cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"; } >"$log" 2>&1; then
+  mkdir -p "$build"
+  now_in "$log"
+  if ! {
+    flock 9
+    cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"
+  } 9>"$build/$name.lock" >"$log" 2>&1; then
     fail "build of $name" "$log"
     return 1
   fi
@@ -78,30 +78,31 @@ build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
   (cd "$root" && build_tree "$name" --preset "$preset" "${@:2}")
 }
 
-# Counts the cases of a doctest program: run_doctest WHAT COMMAND... In two processes at the same time, which have half of
-# the work each: the cases of SDO, and all others.
+# Counts the cases of a doctest program: run_doctest WHAT COMMAND... In two processes at the same time, which have half
+# of the work each: the cases of SDO, and all others. All cases that the program lists must have run.
 run_doctest() {
-  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} sdo='*/sdo_*' ran=0 all=0 status
+  local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} sdo='*/sdo_*' ran=0 listed
   shift
-  ("$@" --no-colors -sf="$sdo" >"$log-1.log" 2>&1) 2>>"$log-1.log" &
-  ("$@" --no-colors -sfe="$sdo" >"$log-2.log" 2>&1) 2>>"$log-2.log"
-  status=$?
-  count_doctest "$what" $status "$log-2.log"
+  listed=$("$@" --no-colors --count 2>/dev/null | grep -oE '[0-9]+$')
+  now_in "$log" "${listed:-0}"
+  (LEXICAN_PROGRESS=$log-1.log.progress "$@" --no-colors -sf="$sdo" >"$log-1.log" 2>&1) 2>>"$log-1.log" &
+  (LEXICAN_PROGRESS=$log-2.log.progress "$@" --no-colors -sfe="$sdo" >"$log-2.log" 2>&1) 2>>"$log-2.log"
+  count_doctest "$what" $? "$log-2.log"
   wait $!
   count_doctest "$what" $? "$log-1.log"
-  [ "$ran" -gt 0 ] || fail "$what: no test case"
-  skipped=$((skipped + all - ran)) excused=$((excused + all - ran))
+  [ "$ran" -gt 0 ] && [ "$ran" -eq "${listed:-0}" ] || fail "$what: $ran of ${listed:-an unknown number of} test cases ran"
+  count_unrun "$what" "$@"
 }
 
-# Adds what one process says that it ran to $ran; $all is what the program has.
+# Adds what one process says that it ran to $ran.
 count_doctest() {  # WHAT STATUS LOG
-  local summary='^\[doctest\] test cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
+  local summary='^\[doctest\] test cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed'
   if ! [[ $(grep '^\[doctest\] test cases:' "$3") =~ $summary ]]; then
     fail "$1: ended without a summary (status $2)" "$3"
     return
   fi
   local bad=${BASH_REMATCH[3]}
-  ran=$((ran + BASH_REMATCH[1])) all=$((BASH_REMATCH[1] + BASH_REMATCH[4])) passed=$((passed + BASH_REMATCH[2]))
+  ran=$((ran + BASH_REMATCH[1])) passed=$((passed + BASH_REMATCH[2]))
   if [ "$bad" -gt 0 ]; then
     fail "$1: $bad test cases" "$3"
     failed=$((failed + bad - 1))
@@ -110,11 +111,25 @@ count_doctest() {  # WHAT STATUS LOG
   fi
 }
 
+# Cases that the program leaves out on this machine (doctest::skip), by suite, with the reason that the suite states
+# (doctest::description).
+count_unrun() {  # WHAT COMMAND...
+  local what=$1 unrun line
+  shift
+  unrun=$(diff <("$@" --no-colors --list-test-cases --no-skip=true 2>/dev/null) <("$@" --no-colors --list-test-cases 2>/dev/null) |
+    sed -n 's/^< //p' | grep -v '^\[doctest\]\|^===')
+  [ -n "$unrun" ] || return 0
+  line=$(wc -l <<<"$unrun")
+  skipped=$((skipped + line))
+  echo "   SKIPPED $line cases of $what that this machine cannot run: $(sed 's/:.*//' <<<"$unrun" | sort | uniq -c | awk '{ n = $1; $1 = ""; printf "%s%s (%d)", (NR > 1) ? "," : "", $0, n }')"
+}
+
 # Counts the ctest cases below a build directory: run_ctest WHAT DIRECTORY [CTEST-ARGUMENT...]
 run_ctest() {
   local what=$1 directory=$2 log=$results/ctest-${1//[^a-zA-Z0-9_]/-}
   shift 2
   rm -f "$log.xml"
+  now_in "$log.log"
   ctest --test-dir "$directory" --no-tests=error --output-on-failure -j "$(nproc)" --output-junit "$log.xml" "$@" \
     >"$log.log" 2>&1
   local status=$?
@@ -124,14 +139,21 @@ run_ctest() {
   fi
   local ran bad unrun
   ran=$(junit_count tests "$log.xml") bad=$(junit_count failures "$log.xml") unrun=$(junit_count skipped "$log.xml")
-  passed=$((passed + ran - bad - unrun)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  passed=$((passed + ran - bad - unrun)) skipped=$((skipped + unrun))
+  [ "$unrun" -eq 0 ] || skipped_tests "$log.log"
   if [ "$bad" -gt 0 ]; then
     fail "$what: $bad tests" "$log.log"
     failed=$((failed + bad - 1))
   elif [ $status -ne 0 ] || [ "$ran" -eq 0 ]; then
     fail "$what: ctest status $status" "$log.log"
   fi
+  local listed
+  listed=$(ctest --test-dir "$directory" -N "$@" | sed -n 's/^Total Tests: //p')
+  [ "$ran" -eq "${listed:-0}" ] || fail "$what: $ran of ${listed:-an unknown number of} tests ran"
 }
+
+# The reasons that skipped tests print.
+skipped_tests() { grep -A 3 -E '\*\*\*Skipped' "$1" | grep -oE 'skipped: .*' | sort | uniq -c | sed 's/^ */   SKIPPED /'; }
 
 junit_count() { grep -oE "\b$1=\"[0-9]+\"" "$2" | head -n 1 | grep -oE '[0-9]+'; }
 
@@ -139,16 +161,17 @@ junit_count() { grep -oE "\b$1=\"[0-9]+\"" "$2" | head -n 1 | grep -oE '[0-9]+';
 # be ("1..N"). With status 77 it says, in its last line, why it cannot be run here: run_tap COMMAND...
 run_tap() {
   local log=$results/$lane_name.tap
+  now_in "$log"
   "$@" >"$log" 2>&1
   local status=$? ok bad unrun planned
   if [ $status -eq 77 ]; then
-    skip_rest "$(tail -n 1 "$log")"
+    skip "$(tail -n 1 "$log")"
     return
   fi
   ok=$(grep -c '^ok ' "$log") bad=$(grep -c '^not ok ' "$log")
   unrun=$(grep -c '^ok .*# SKIP ' "$log")
   planned=$(sed -n 's/^1\.\.\([0-9][0-9]*\)$/\1/p' "$log" | head -n 1)
-  passed=$((passed + ok - unrun)) failed=$((failed + bad)) skipped=$((skipped + unrun)) excused=$((excused + unrun))
+  passed=$((passed + ok - unrun)) failed=$((failed + bad)) skipped=$((skipped + unrun))
   sed -n 's/^ok .*# SKIP /   SKIPPED /p' "$log" | sort | uniq -c
   sed -n 's/^not ok/   FAILED/p' "$log"
   if [ "${planned:-0}" -ne $((ok + bad)) ]; then

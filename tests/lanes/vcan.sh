@@ -17,9 +17,10 @@ lane() {
     "$build/heater/heater"
 }
 
-# As the README says it; with the codict that is there, if one is.
+# As README says it; with the codict of lane codict, if that has been built.
 heater() {
   local codict=$build/codict/tools/codict/codict known=()
+  flock "$build/codict.lock" true  # lane codict may be building it
   [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")
   cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja "${known[@]}" && cmake --build "$build/heater"
 }
