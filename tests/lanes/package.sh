@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 about="small C and C++ projects that use the library in every way that is promised${full:+, and codict, also for another machine}"
 packages=("${build_packages[@]}" pkg-config)
-[ -z "$full" ] || packages+=("${tool_packages[@]}" "${arm_packages[@]}")
+[ -z "$full" ] || packages+=("${tool_packages[@]}" "${arm_packages[@]}" make)
 
 lane() {
   build_preset release || return
   local without=()
-  [ -n "$full" ] || without=(-LE generated)
+  [ -n "$full" ] || without=(-LE cross)
   run_ctest package "$build/release/tests/package" "${without[@]}"
 }
