@@ -154,8 +154,7 @@
           CO_CONFIGURATION_D3 CO_CONFIGURATION_D2 CO_CONFIGURATION_D1 CO_CONFIGURATION_D0
 #endif
 
-// The file of the library that defines the functions gives them their plain names, and these symbols as aliases.
-#if defined(CO_CONFIGURED_SYMBOL) && !defined(CO_CONFIGURATION_OF_LIBRARY)
+#ifdef CO_CONFIGURED_SYMBOL
 #define CO_CONFIGURED(function) __asm__(CO_CONFIGURED_SYMBOL(function))
 #else
 #define CO_CONFIGURED(function)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#define CO_CONFIGURATION_OF_LIBRARY  // see co_configuration.h
 #include "co_core.h"
 #include "core/count.hpp"
 #include "core/dict.hpp"
@@ -497,13 +496,13 @@ CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr
 
 void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
 
-// What programs link that include co_core.h and have this library's configuration.
+// The symbols of both functions name this library's configuration (co_configuration.h); programs that declare them
+// without co_core.h link these aliases.
 #ifdef CO_CONFIGURED_SYMBOL
-void node_init_of_configuration(CO_NODE*, const CO_NODE_SPEC*) __asm__(CO_CONFIGURED_SYMBOL("CONodeInit"))
-    __attribute__((alias("CONodeInit")));
-void node_init_ex_of_configuration(CO_NODE*, const CO_NODE_SPEC*,
-                                   const CO_NODE_EXT*) __asm__(CO_CONFIGURED_SYMBOL("CONodeInitEx"))
-    __attribute__((alias("CONodeInitEx")));
+void node_init_plain(CO_NODE*, const CO_NODE_SPEC*) __asm__("CONodeInit")
+    __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInit"))));
+void node_init_ex_plain(CO_NODE*, const CO_NODE_SPEC*, const CO_NODE_EXT*) __asm__("CONodeInitEx")
+    __attribute__((alias(CO_CONFIGURED_SYMBOL("CONodeInitEx"))));
 #endif
 
 }  // extern "C"

@@ -46,7 +46,7 @@ uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request) {
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  return access::open(node, channel.Key, access.Direction);
+  return stream::open(node, channel.Key, access.Direction);
 }
 
 }  // namespace co::sdo_server
