@@ -36,6 +36,26 @@ TEST_CASE("1016h: a length other than four bytes is refused") {
   node.ask("601#2316100000000000", "581#8016100002000106");
 }
 
+TEST_CASE("1016h: the application reads and writes exactly four bytes of an entry; 1016h:0 has one byte") {
+  Monitor node({{5, 100}});
+  CO_OBJ* const entry = node.find(0x1016, 1);
+  CO_OBJ* const number = node.find(0x1016, 0);
+  for (std::uint8_t size = 0; size <= 8; ++size) {
+    CAPTURE(unsigned{size});
+    std::uint64_t read = 0;
+    std::uint64_t value = 0x000600C8;
+    node.call([&] {
+      const CO_ERR expected = size == 4 ? CO_ERR_NONE : CO_ERR_BAD_ARG;
+      CHECK(COObjRdValue(entry, &node.node, &read, size) == expected);
+      CHECK(read == (size == 4 ? 0x00050064 : 0));
+      if (size != 4) CHECK(COObjWrValue(entry, &node.node, &value, size) == CO_ERR_BAD_ARG);
+      CHECK((COObjRdValue(number, &node.node, &read, size) == CO_ERR_NONE) == (size == 1));
+    });
+    CHECK(unsigned{node.entry[0].NodeId} == 5);
+    CHECK(node.entry[0].Time == 100);
+  }
+}
+
 TEST_CASE("1016h: node-ID 0 or above 127, or time 0, is an unused entry, and accepted [H2] [H6] [N4]") {
   Monitor node({});
   const std::uint32_t identifiers = node->Routes.Start[17];
@@ -299,15 +319,18 @@ TEST_CASE("heartbeat consumer: missed heartbeats are counted up to 255") {
   node.record.clear();
 }
 
-TEST_CASE("heartbeat consumer: nodes that are not monitored, and null") {
+TEST_CASE("heartbeat consumer: nodes that are not monitored, null, and an NMT object without a node") {
   Monitor node({{5, 0}});
   for (const unsigned id : {0U, 5U, 6U, 127U, 128U, 255U}) {
     CHECK(CONmtGetHbEvents(&node->Nmt, static_cast<std::uint8_t>(id)) == -1);
     CHECK(CONmtLastHbState(&node->Nmt, static_cast<std::uint8_t>(id)) == CO_INVALID);
   }
-  CHECK(CONmtGetHbEvents(nullptr, 5) == -1);
-  CHECK(CONmtLastHbState(nullptr, 5) == CO_INVALID);
-  CHECK(callbacks().fatal_errors == 2);
+  CO_NMT without_node = {};
+  for (CO_NMT* const nmt : {static_cast<CO_NMT*>(nullptr), &without_node}) {
+    CHECK(CONmtGetHbEvents(nmt, 5) == -1);
+    CHECK(CONmtLastHbState(nmt, 5) == CO_INVALID);
+  }
+  CHECK(callbacks().fatal_errors == 4);
 }
 
 TEST_CASE("heartbeat consumer: a callback that changes the entry wins over the heartbeat that called it [Q9]") {

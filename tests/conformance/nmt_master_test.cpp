@@ -99,7 +99,17 @@ TEST_CASE("NMT master: what is no command, and no node-ID, is refused") {
   }
   for (unsigned id = 128; id < 256; ++id) CHECK(node.command(CO_NMT_COMMAND_START, id) == CO_ERR_BAD_ARG);
   node.silent();
-  CHECK(CONmtCommand(nullptr, CO_NMT_COMMAND_START, 5) == CO_ERR_BAD_ARG);
+}
+
+TEST_CASE("NMT master: null, and an NMT object without a node, are refused") {
+  CO_NMT without_node = {};
+  for (CO_NMT* const nmt : {static_cast<CO_NMT*>(nullptr), &without_node}) {
+    for (const CO_NMT_COMMAND command : commands) {
+      CHECK(CONmtCommand(nmt, command, 0) == CO_ERR_BAD_ARG);
+      CHECK(CONmtCommand(nmt, command, 5) == CO_ERR_BAD_ARG);
+    }
+  }
+  CHECK(callbacks().fatal_errors == 0);
 }
 
 TEST_CASE("NMT master: not while initialising, and not after a stop of the node") {

@@ -155,9 +155,12 @@ TEST_CASE("TPDO event: COTPdoTrigPdo leaves its reason in the node's error [D36]
 
 TEST_CASE("TPDO event: COTPdoTrigPdo and COTPdoTrigObj without a node are fatal errors") {
   PdoNode node;
-  COTPdoTrigPdo(nullptr, 0);
-  COTPdoTrigObj(nullptr, nullptr);
-  CHECK(callbacks().fatal_errors == 2);
+  CO_TPDO without_node = {};
+  for (CO_TPDO* const tpdo : {static_cast<CO_TPDO*>(nullptr), &without_node}) {
+    COTPdoTrigPdo(tpdo, 0);
+    COTPdoTrigObj(tpdo, nullptr);
+  }
+  CHECK(callbacks().fatal_errors == 4);
 }
 
 TEST_CASE("TPDO event: COTPdoTrigObj sends all PDOs that map the object, each once") {
