@@ -71,6 +71,10 @@ def opening(line, place):
     return 0
 
 
+# A symbol that is given by its name (*), and the configuration in those of CONodeInit() and CONodeInitEx().
+DECORATION = re.compile(r"^\*|_of_a_library_with_the_same_co_cfg_values_\d+$")
+
+
 class Program:
     """Of all objects below a directory, of sources below another."""
 
@@ -97,6 +101,7 @@ class Program:
 
     def title(self, text):
         path, colon, symbol = text.rpartition(":")
+        symbol = DECORATION.sub("", symbol)
         return f"{self.relative(path)}:{symbol}" if colon else symbol
 
     def read_graph(self, text):
@@ -139,6 +144,7 @@ class Program:
 
     def title_in(self, file, symbol):
         """Of a symbol that this file knows. A constructor (C1) is the same as that of a base class (C2)."""
+        symbol = DECORATION.sub("", symbol)
         for known in (symbol, re.sub("(?<=[CD])1E", "2E", symbol)):
             for title in (f"{file}:{known}", known):
                 if title in self.functions:
