@@ -38,5 +38,5 @@ int main(void) {
     COTmrService(&node.Tmr);
     COTmrProcess(&node.Tmr);
   }
-  return CONodeGetErr(&node);
+  return (int)CONodeGetErr(&node);
 }
