@@ -38,6 +38,9 @@ using namespace co;
 
 namespace {
 
+// Does a PDO have this number? A function, since a comparison with a count of 0 PDOs causes a compiler warning.
+constexpr bool is_pdo(uint16_t number, unsigned count) { return number < count; }
+
 // Entries of another dictionary may have the number of one of this dictionary.
 bool is_entry(const CO_NODE& node, const CO_OBJ* obj) {
   const auto root = reinterpret_cast<uintptr_t>(node.Dict.Root);
@@ -70,11 +73,11 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
 #if USE_MPDO && CO_TPDO_N > 0
-  if (num < CO_TPDO_N) {
+  if (is_pdo(num, CO_TPDO_N)) {
     mpdo::mark_all(node->TPdo[num]);
   }
 #endif
-  return num < CO_TPDO_N ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
+  return is_pdo(num, CO_TPDO_N) ? pdo::request(*node, num) : CO_ERR_TPDO_NUM_TRIGGER;
 }
 
 #if USE_MPDO
@@ -84,16 +87,16 @@ CO_ERR COTPdoSendTo(CO_NODE* node, uint16_t num, uint8_t node_id, uint32_t key, 
   if (node_id > last_node_id) {
     return CO_ERR_BAD_ARG;
   }
-  return num < CO_TPDO_N ? pdo::send_to(*node, num, node_id, key, value) : CO_ERR_TPDO_NUM_TRIGGER;
+  return is_pdo(num, CO_TPDO_N) ? pdo::send_to(*node, num, node_id, key, value) : CO_ERR_TPDO_NUM_TRIGGER;
 }
 #endif
 
 bool CORPdoWasReceived(CO_NODE* node, uint16_t num) {
-  return node != nullptr && num < CO_RPDO_N && pdo::was_received(*node, num);
+  return node != nullptr && is_pdo(num, CO_RPDO_N) && pdo::was_received(*node, num);
 }
 
 bool COTPdoWasSent(CO_NODE* node, uint16_t num) {
-  return node != nullptr && num < CO_TPDO_N && pdo::was_sent(*node, num);
+  return node != nullptr && is_pdo(num, CO_TPDO_N) && pdo::was_sent(*node, num);
 }
 
 bool CORPdoObjWasReceived(CO_NODE* node, const CO_OBJ* obj) {
