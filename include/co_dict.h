@@ -72,7 +72,8 @@ typedef struct CO_DICT_T {
 /// The values are copied before parameter groups are loaded and before the Init functions of the entries run. So every
 /// service uses them. The end mark must be among the entries that DictLen counts. Memory of any kind can be named: a
 /// string is reset completely if its CO_OBJ_STR_RW and its bytes are. Not to be named: 1001h and 1003h, which the stack
-/// writes.
+/// writes, and variables of a group that is stored autonomously (CO_PARA__A_): a reset would store their default values
+/// over changes that are not stored yet.
 /// \{
 
 /// Variables that get their default values together.

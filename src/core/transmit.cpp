@@ -14,9 +14,10 @@ uint32_t rank(const CO_IF_FRM& frame) {
   return extended ? (id << 1) | 1U : id << 19;
 }
 
-// In Initialisation only what a reset has left to be sent: the boot-up message comes before anything else.
+// In Initialisation only what a reset has left to be sent: the boot-up message comes before anything else. Nothing is
+// sent in CO_INVALID: while CONodeStop() stops one service, a callback may run the timer of another one.
 bool may_send_next(const CO_NODE& node) {
-  return node.Held == 0 && (node.TxQueue.Fixed != 0 || node.Nmt.Mode != CO_INIT);
+  return node.Held == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
 
 void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {

@@ -204,6 +204,17 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("SDO client: a callback of CONodeStop that runs the timers sends no heartbeat") {
+  SdoClient node(Setup().only_small().heartbeat(100));
+  node.start_upload(0x2000, 0, 4);
+  node.frames();
+  node.elapse_only(100ms);
+  node.on_end = [&](const ClientEnd&) { COTmrProcess(&node->Tmr); };
+  node.call([&] { CONodeStop(&node.node); });
+  node.silent();
+  node.ended(CO_SDO_ERR_TOS_STATE);
+}
+
 TEST_CASE("SDO client: a request within the callback of CONodeStop is refused") {
   SdoClient node;
   CO_ERR err = CO_ERR_NONE;
