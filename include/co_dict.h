@@ -93,10 +93,13 @@ typedef struct CO_DEFAULTS_T {
 
 /// End mark of a table: \a list is an array of CO_DEFAULTS.
 #define CO_OBJ_DICT_DEFAULTS(list) \
-  { 0, CO_TDEFAULTS, (CO_DATA)(&(list)[0]) }
+  { CO_DEFAULTS_KEY, CO_TDEFAULTS, (CO_DATA)(&(list)[0]) }
 
-/// Type of that end mark. An end mark may have a type of the application in its place, which has a Reset function and
-/// no Size function: Reset(end mark, node, CO_RESET_NODE or CO_RESET_COM) is called then. CONodeInit() calls it with
+/// Key of that end mark. With the key 0 an end mark has no type: its other members are not read.
+#define CO_DEFAULTS_KEY 0xFFu
+
+/// Type of that end mark. An end mark with the key CO_DEFAULTS_KEY may have a type of the application in its place:
+/// Reset(end mark, node, CO_RESET_NODE or CO_RESET_COM) is called then. CONodeInit() calls it with
 /// CO_RESET_NODE.
 extern const CO_OBJ_TYPE COTDefaults;
 #define CO_TDEFAULTS ((const CO_OBJ_TYPE*)&COTDefaults)

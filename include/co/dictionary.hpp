@@ -292,7 +292,7 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
 /// Position of an entry, or the length of the table.
 template <std::size_t Length>
 constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
-  for (std::size_t i = 0; i < Length && od[i].Key != 0; ++i) {
+  for (std::size_t i = 0; i < Length && !rules::is_end(od[i].Key); ++i) {
     if ((od[i].Key >> 8) == (key >> 8)) {
       return i;
     }
@@ -358,7 +358,7 @@ constexpr Finding check() {
   bool ended = false;
   for (std::size_t position = 0; position < length(Od); ++position) {
     const std::uint32_t key = Od[position].Key;
-    if (key == 0) {
+    if (rules::is_end(key)) {
       ended = true;
       continue;
     }

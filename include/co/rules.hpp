@@ -163,6 +163,9 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
   return (has_data || has(key, CO_OBJ_D_____)) ? CO_DICT_OK : CO_DICT_NO_DATA;
 }
 
+/// Does this key end the table? CO_OBJ_DICT_ENDMARK, or CO_OBJ_DICT_DEFAULTS(): CO_DEFAULTS_KEY.
+constexpr bool is_end(std::uint32_t key) { return key == 0 || key == 0xFF; }
+
 /// Does a fault that check_type() has found stop the node? Only what breaks memory safety does: types compute the
 /// number of a service from the place of their entry, and take Data for an address. Everything else concerns one entry.
 constexpr bool stops_node(CO_DICT_FAULT fault) {

@@ -25,7 +25,7 @@ uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key) {
 
 uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
   uint16_t num = 0;
-  while (num < max && root[num].Key != 0) {
+  while (num < max && !rules::is_end(root[num].Key)) {
     ++num;
   }
   return num;
@@ -33,10 +33,10 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
 
 namespace {
 
-// The end mark, if it has a type for power-on values: any other one is ignored, as its members may hold anything.
+// Returns the end mark if it has a type for power-on values, else null. With the key 0 its members may hold anything.
 CO_OBJ* typed_end(CO_OBJ* root, uint16_t num, uint16_t max) {
-  const CO_OBJ_TYPE* const type = num < max ? root[num].Type : nullptr;
-  return type != nullptr && type->Size == nullptr && type->Reset != nullptr ? &root[num] : nullptr;
+  const bool is_typed = num < max && root[num].Key == CO_DEFAULTS_KEY && root[num].Type != nullptr;
+  return is_typed && root[num].Type->Reset != nullptr ? &root[num] : nullptr;
 }
 
 #if USE_DICT_CHECK

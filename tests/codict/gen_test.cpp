@@ -272,7 +272,7 @@ TEST_CASE("gen: resets copy the default values from the first variable on that t
   CHECK(generated.has("reset == CO_RESET_NODE ? offsetof(small_ram_t, od_2002_0) : offsetof(small_ram_t, od_1005_0);"));
   CHECK(generated.has("\nsmall_ram_t small_ram;\nstatic const small_ram_t small_ram_default = {\n"));
   CHECK(generated.has("  small_ram = small_ram_default;\n"));
-  CHECK(generated.has("    {0, &power_on_type, (CO_DATA)(0)},\n};"));
+  CHECK(generated.has("    {CO_DEFAULTS_KEY, &power_on_type, (CO_DATA)(0)},\n};"));
   CHECK(generated.has("#define SMALL_OD_NUM 6 "));
 }
 

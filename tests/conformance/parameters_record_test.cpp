@@ -94,7 +94,7 @@ unsigned refused_entry(const Fixture& node, bool expected) {
   std::uint32_t key = 0;
   const CO_DICT_FAULT fault = CODictGetFault(&node.node.Dict, &key);
   CHECK(fault == (expected && USE_DICT_CHECK != 0 ? CO_DICT_PARA_OVERLAP : CO_DICT_OK));
-  return CO_GET_IDX(key) << 8 | CO_GET_SUB(key);
+  return uint32_t{CO_GET_IDX(key)} << 8U | CO_GET_SUB(key);
 }
 
 // Groups that overlap ----------------------------------------------------------------------------------------------

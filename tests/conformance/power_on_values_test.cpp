@@ -207,7 +207,7 @@ TEST_CASE("power-on values: a type of the application in the end mark is called 
   Calls calls;
   Fixture node(Setup()
                    .only_small()
-                   .ends_with({0, &type, data(&calls)})
+                   .ends_with({CO_DEFAULTS_KEY, &type, data(&calls)})
                    .with({CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, data(&calls.heartbeat)}));
   CHECK(calls.number == 1);
   node.ask("601#2B171000FA000000", "581#6017100000000000");
@@ -228,9 +228,10 @@ TEST_CASE("power-on values: an end mark with what is left of an entry, or withou
   const CO_OBJ_TYPE without_reset = {nullptr, nullptr, nullptr, nullptr, nullptr};
   std::uint8_t byte = 0;
   CO_OBJ_DOM domain = {0, 1, &byte};
-  for (const CO_OBJ end :
-       {CO_OBJ{0, CO_TDOMAIN, data(&domain)}, CO_OBJ{0, CO_TUNSIGNED8, data(&byte)},
-        CO_OBJ{0, &without_reset, data(&byte)}, CO_OBJ{0, CO_TDEFAULTS, 0}, CO_OBJ{0, nullptr, data(&byte)}}) {
+  for (const CO_OBJ end : {CO_OBJ{0, CO_TDOMAIN, data(&domain)}, CO_OBJ{0, CO_TUNSIGNED8, data(&byte)},
+                           CO_OBJ{0, reinterpret_cast<const CO_OBJ_TYPE*>(&byte), data(&byte)},
+                           CO_OBJ{CO_DEFAULTS_KEY, &without_reset, data(&byte)},
+                           CO_OBJ{CO_DEFAULTS_KEY, CO_TDEFAULTS, 0}, CO_OBJ{CO_DEFAULTS_KEY, nullptr, data(&byte)}}) {
     device.com.heartbeat = 0;
     device.app.value = 3;
     Fixture node(device.setup().ends_with(end));

@@ -77,7 +77,7 @@ struct Desk {
 /// A slave at a port of its own that does what is planned here: by default what CiA 305 says.
 class OddSlave {
  public:
-  explicit OddSlave(Desk& desk, demo::LssAddress own) : desk_(desk), own_(own), port_(desk.host.bus.attach({"odd"})) {
+  explicit OddSlave(Desk& desk, demo::LssAddress own) : own_(own), port_(desk.host.bus.attach({"odd"})) {
     port_.enable();
     auto others = desk.host.others;
     desk.host.others = [this, others] {
@@ -154,7 +154,6 @@ class OddSlave {
     return true;
   }
 
-  Desk& desk_;
   demo::LssAddress own_;
   co::VirtualBus::Port& port_;
   bool configuration_ = false;

@@ -232,7 +232,7 @@ constexpr CO_OBJ clock_od[CLOCK_OD_NUM] = {
     {CLOCK_2101_0 | CO_OBJ_____RW, &limits_1.Type, (CO_DATA)(&clock_settings.od_2101_0)},
     {CLOCK_2200_0 | CO_OBJ_____RW, CO_TDOMAIN, (CO_DATA)(&clock_2200_0)},
     {CLOCK_2201_0 | CO_OBJ_____RW, &stored_string_type, (CO_DATA)(&string_2201_0)},
-    {0, &power_on_type, (CO_DATA)(0)},
+    {CO_DEFAULTS_KEY, &power_on_type, (CO_DATA)(0)},
 };
 
 // What the compiler proves: the order of the table,

@@ -576,7 +576,7 @@ class SourceText {
                data_text(item));
     }
     if (has_defaults(plan_)) {
-      out_.raw("    {0, &power_on_type, (CO_DATA)(0)},\n");
+      out_.raw("    {CO_DEFAULTS_KEY, &power_on_type, (CO_DATA)(0)},\n");
     }
     out_.raw("};\n");
   }
