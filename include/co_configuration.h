@@ -2,14 +2,14 @@
 /// \file co_configuration.h
 /// Keeps a program from being linked with a library that was compiled with other values of co_cfg.h: structures would
 /// differ in size, and CONodeInit() would write behind the program's CO_NODE. In a program that includes co_core.h the
-/// functions that take a node into use have linker symbols whose names end in a number, which the preprocessor computes
-/// from all settings. The library defines the symbols of its own configuration only, so that the linker answers:
+/// functions CONodeInit() and CONodeInitEx() have linker symbols whose names end in a number, which the preprocessor
+/// computes from all settings. The library defines the symbols of its own configuration only, so the linker reports:
 ///
 ///     undefined reference to `CONodeInit_of_a_library_with_the_same_co_cfg_values_013213220321'
 ///
-/// Remedy: compile library and program with the same definitions (-D), the same preset and the same co_cfg.h. Nothing
-/// of this is in the linked program. Objects that name the plain symbol CONodeInit, without this header, are linked,
-/// too. Only for ELF; elsewhere nothing is checked.
+/// Remedy: compile library and program with the same definitions (-D), the same preset and the same co_cfg.h. The check
+/// adds no code and no data. Objects that use the plain symbol CONodeInit, without this header, are linked unchecked.
+/// Only for ELF; on other targets nothing is checked.
 #ifndef CO_CONFIGURATION_H_
 #define CO_CONFIGURATION_H_
 

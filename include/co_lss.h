@@ -98,13 +98,14 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// CO_ERR_IF_NVM_READ: what is stored is damaged, or cannot be read; CO_ERR_BAD_ARG: an argument is null.
 CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId);
 
-/// Values that are stored already are not written again. The place is not compared with those of parameter groups.
+/// Stores node-ID and bit rate, unless they are stored already. The memory is not checked for an overlap with parameter
+/// groups.
 /// \retval CO_ERR_NONE          the values are stored
 /// \retval CO_ERR_LSS_NO_STORE  the node has no memory
 /// \retval CO_ERR_PARA_STORE    no place at \a offset
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
-/// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only while COLssStore() serves the
-/// bus \retval CO_ERR_BAD_ARG       \a node is null
+/// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only when called in COLssStore()
+/// \retval CO_ERR_BAD_ARG       \a node is null
 CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId);
 /// \}
 

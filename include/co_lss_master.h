@@ -5,9 +5,8 @@
 /// A slave is addressed by four numbers, those of its 1018h: vendor-ID, product code, revision number and serial
 /// number. It is configured in its state configuration: COLssmSwitchSelective() leads one slave there, a fastscan the
 /// one that it has found, COLssmSwitchGlobal() all of them. The services to configure, store and inquire are answered
-/// by every slave in that state, and the first answer is taken: let it be one slave (CO_LSSM.Heard counts the answers).
-/// Bit rates may be given to all at
-/// once, without knowing who refuses.
+/// by every slave in that state, and the first answer is used: only one slave should be in configuration
+/// (CO_LSSM.Heard counts the answers). Bit rates may be given to all slaves at once; it is then unknown which refuse.
 ///
 ///     COLssmFastscan(&node.Lssm, NULL, 0, found);                                      // whoever has no node-ID
 ///     void found(CO_LSSM* lssm, CO_LSSM_RESULT result) {

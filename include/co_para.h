@@ -110,10 +110,12 @@ extern const CO_OBJ_TYPE COTVerifyConfig;
 #define CO_TVERIFY_CONFIG ((const CO_OBJ_TYPE*)&COTVerifyConfig)
 
 /// Stores the group, unless its values are stored already, then runs a reset that was requested meanwhile. A group that
-/// is not stored on command (CO_PARA___E) is ignored. Not limited by CO_PARA_BUDGET. \retval CO_ERR_NONE          the
-/// values are stored \retval CO_ERR_PARA_STORE    Offset and Size do not fit the memory \retval CO_ERR_PARA_OVERLAP the
-/// group overlaps one with a lower sub-index of 1010h \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values;
-/// the old ones stay \retval CO_ERR_BAD_ARG       an argument is null
+/// is not stored on command (CO_PARA___E) is ignored. Not limited by CO_PARA_BUDGET.
+/// \retval CO_ERR_NONE          the values are stored, or the group is ignored
+/// \retval CO_ERR_PARA_STORE    Offset and Size do not fit the memory
+/// \retval CO_ERR_PARA_OVERLAP  the group overlaps one with a lower sub-index of 1010h
+/// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
+/// \retval CO_ERR_BAD_ARG       an argument is null
 CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node);
 
 /// The group gets its default values at the reset of its Type. Errors as COParaStore().
@@ -121,9 +123,8 @@ CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
 
 /// Loads all groups of 1010h of this \a type. An autonomous group whose change the budget delays keeps its values.
 /// Returns the last error, which is also the node's.
-/// \retval CO_ERR_PARA_LOAD     a record is damaged, belongs to another group or layout, or cannot be read
-/// (COParaLost()
-///                              was called)
+/// \retval CO_ERR_NONE          all groups of this type are loaded
+/// \retval CO_ERR_PARA_LOAD     a record is damaged, of another group or layout, or unreadable; COParaLost() was called
 /// \retval CO_ERR_PARA_STORE    a group does not fit the memory
 /// \retval CO_ERR_PARA_OVERLAP  a group overlaps one with a lower sub-index
 /// \retval CO_ERR_PARA_RESTORE  COParaDefault() has failed

@@ -23,7 +23,8 @@ inline void serve(CO_NODE& node, CO_OBJ* obj) {
   node.UserAbort = no_abort;
 }
 
-// Serves another object, or none, as long as it exists: a type function of the one that is being served has led here.
+// Sets node.Served to another object, or to none, and restores it at the end of the scope. For an access that begins in
+// a type function of the object that is being served.
 class Nested {
  public:
   Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), served_(node.Served), abort_(node.UserAbort) { serve(node, obj); }
@@ -64,8 +65,8 @@ void lose_moved(CO_NODE& node);
 
 // The abort code for what a type function has returned.
 [[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
-// The same for a Read, Write or End function. A hardware error (0606 0000h) becomes the node's error; any other is a
-// refused request, which is not the application's concern.
+// The abort code for what a Read, Write or End function has returned. Only a hardware error (0606 0000h) becomes the
+// node's error: any other is a refused request of the client.
 [[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

@@ -33,7 +33,7 @@ class Command {
 // Returns whether a record may be written now.
 [[nodiscard]] bool take(CO_NODE& node);
 
-// Stops the timer that refills the budget of a node that is stopped.
+// Stops the timer that refills the budget, when the node is stopped.
 void stop(CO_NODE& node);
 
 #else

@@ -180,8 +180,8 @@ struct Slots {
   Slot other;
 };
 
-// Returns whether the slot that does not count is damaged and was written last. A store that the power has interrupted
-// leaves an erased header there, or that of the record before.
+// Returns whether the other slot is damaged and was written last. A store that the power has interrupted leaves an
+// erased header there, or that of the record before.
 bool is_newest_damaged(const Slots& slots) {
   return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
 }
@@ -197,7 +197,8 @@ bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* 
   return add(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
 }
 
-// Puts what a slot holds where the application has it. False: that cannot be used.
+// Copies the first size bytes of a slot's data, if it holds data, to the memory of the application. Returns false if
+// the slot holds neither valid data nor the request for default values.
 bool use(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
   return slot.found == Found::defaults || (slot.found == Found::data && copy(node, record, slot, to, size));
 }

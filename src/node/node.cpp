@@ -236,7 +236,7 @@ void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
   }
 }
 
-// Returns false, and counts the frame, if its DLC is none.
+// Returns false, and counts the frame as malformed, if its DLC is above 15.
 [[nodiscard]] bool check_length(CO_NODE& node, CO_IF_FRM& frame) {
   const bool is_valid = wire::normalise_length(frame);
   if (!is_valid) {

@@ -26,7 +26,7 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
   return CO_ERR_NONE;
 }
 
-// The same as Reset function.
+// Reset function of the stream types: calls seek().
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
 // The type that an entry has without its extension (co_od.h); null: none.

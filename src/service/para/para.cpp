@@ -67,7 +67,8 @@ bool is_followed(CO_NODE& node, const CO_PARA& group) {
          store::look(node, locate(node, group).record) != Found::defaults;
 }
 
-// A group that is not stored may lie at any Offset; classic firmware loads it all the same.
+// A group that is not stored may have any Offset, so its record is not read. With a classic driver it is, as in
+// CANopen-Stack.
 store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
   const bool is_loaded = has_record(group) || !store::is_atomic(node);
   return is_loaded ? store::load(node, record, bytes(group), size) : store::Loaded{Found::blank, false};
@@ -99,7 +100,7 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
-// What the budget delays is tried again.
+// A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
 void save_change(CO_NODE& node, const CO_PARA& group) {
   if (is_followed(node, group)) {
     const CO_ERR err = save(node, group);

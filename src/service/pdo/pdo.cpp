@@ -41,7 +41,8 @@ namespace {
 // Does a PDO have this number? A function, since a comparison with a count of 0 PDOs causes a compiler warning.
 constexpr bool is_pdo(uint16_t number, unsigned count) { return number < count; }
 
-// Entries of another dictionary may have the number of one of this dictionary.
+// Returns whether an entry belongs to the table of the node: the index of an entry of another table would select an
+// unrelated entry.
 bool is_entry(const CO_NODE& node, const CO_OBJ* obj) {
   const auto root = reinterpret_cast<uintptr_t>(node.Dict.Root);
   return reinterpret_cast<uintptr_t>(obj) - root < node.Dict.Num * sizeof *obj;
