@@ -194,7 +194,7 @@ struct Calls {
 
 CO_ERR note_reset(CO_OBJ* end, CO_NODE* node, std::uint32_t type) {
   auto& calls = *reinterpret_cast<Calls*>(static_cast<std::uintptr_t>(end->Data));
-  CHECK(end->Key == 0);
+  CHECK(end->Key == CO_DEFAULTS_KEY);
   CHECK(CONodeGetUser(node) != nullptr);
   REQUIRE(calls.number < 4);
   calls.found[calls.number] = calls.heartbeat;
