@@ -27,7 +27,7 @@ std::vector<std::string> tick(Fixture& node, Call call = Call::always) {
   return node.frames();
 }
 
-void append(std::vector<std::string>& all, const std::vector<std::string>& some) {
+[[maybe_unused]] void append(std::vector<std::string>& all, const std::vector<std::string>& some) {
   all.insert(all.end(), some.begin(), some.end());
 }
 
