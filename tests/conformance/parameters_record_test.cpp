@@ -101,7 +101,7 @@ unsigned refused_entry(const Fixture& node, bool expected) {
 
 TEST_CASE("parameters: a group that overlaps the memory of one before it is refused; the other works") {
   constexpr std::uint32_t space = CO_PARA_SPACE(8, 1, 1);
-  for (const std::uint32_t distance : {0U, 1U, space - 1, space}) {
+  for (const std::uint32_t distance : std::initializer_list<std::uint32_t>{0U, 1U, space - 1, space}) {
     CAPTURE(distance);
     for (const bool reversed : {false, true}) {
       CAPTURE(reversed);

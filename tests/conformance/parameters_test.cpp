@@ -256,7 +256,7 @@ TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a
 }
 
 TEST_CASE("parameters: without such a part, or with one that is larger than the group, nothing is loaded") {
-  for (const std::uint32_t size : {0U, 9U, UINT32_MAX}) {
+  for (const std::uint32_t size : std::initializer_list<std::uint32_t>{0U, 9U, UINT32_MAX}) {
     const CO_NVM_SHAPE bytes = {1024, 1, 0};
     MixedGroup device(&bytes);
     device.group.ComSize = size;
