@@ -75,6 +75,7 @@ extern "C" {
   (2u * CO_PARA_ROUND_UP(CO_PARA_ROUND_UP(20u, program) + CO_PARA_ROUND_UP((uint32_t)(size), program), unit))
 #define CO_PARA_ROUND_UP(n, unit) (((n) + (unit)-1u) / (unit) * (unit))
 
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): an aggregate, initialised by position
 typedef struct CO_PARA_T {
   uint32_t Offset;           ///< start address in the non-volatile memory
   uint32_t Size;             ///< bytes

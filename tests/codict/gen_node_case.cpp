@@ -173,7 +173,7 @@ TEST_CASE("gen: every object of a generated dictionary answers with its default 
     CHECK(node.fault == CO_DICT_OK);
     CHECK(node.error == CO_ERR_NONE);
     CHECK(dictionary.length == values.size() + 1);
-    CHECK(dictionary.od[values.size()].Key == 0);
+    CHECK(dictionary.od[values.size()].Key == CO_DEFAULTS_KEY);
     for (std::size_t n = 0; n < values.size(); ++n) {
       const std::uint32_t key = dictionary.od[n].Key;
       CAPTURE(CO_GET_IDX(key));
