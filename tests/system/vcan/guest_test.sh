@@ -249,6 +249,7 @@ expect "the node is in pre-operational; the next request ends the error" "$heart
 listen $heartbeat 1
 cansend vcan0 000#8205
 expect "reset communication: boot-up" "$heartbeat#00"
+sdo "the reset has restored the heartbeat; no heartbeat again" 2B17100000000000 6017100000000000
 guard "node guarding after a reset: the toggle bit begins with 0" \
   "$heartbeat#7F $heartbeat#FF $heartbeat#7F $heartbeat#FF"
 sdo "no life guarding" 2F0D100000000000 600D100000000000
