@@ -33,8 +33,7 @@
 /// of CODictWrLong() and OD_storeGroup(), so do LSS store and a round of autonomous stores. COParaStore() and
 /// COParaRestore() are not limited: the application decides how often it calls them.
 ///
-/// Of a string (co_string.h) a group holds the bytes, and its Size only
-/// if that lies in the group, too.
+/// A string (co_string.h) is stored completely only if the group contains both its bytes and its Size.
 ///
 /// Context: the loop. Functions return when the memory has been read or written.
 #ifndef CO_PARA_H_
@@ -84,8 +83,8 @@ typedef struct CO_PARA_T {
   enum CO_NMT_RESET_T Type;  ///< the reset that loads them
   void* Ident;               ///< for the application; where it calls OD_findStorageGroup(), a name or null
   uint32_t Value;            ///< CO_PARA_…, plus CO_PARA_VERSION()
-  /// Of a group with Type CO_RESET_NODE: bytes, from Start on, that hold objects of the communication profile
-  /// (1000h…1FFFh). Reset communication loads them, or copies their Default; COParaDefault() is not called for it.
+  /// Number of bytes from Start on that hold objects of the communication profile (1000h…1FFFh), in a group with Type
+  /// CO_RESET_NODE. Reset communication loads them, or copies their Default, without calling COParaDefault().
 #ifdef __cplusplus
   uint32_t ComSize = 0;
   uint32_t Version = 0;

@@ -37,8 +37,8 @@ class LssMaster {
     return wait_for_end(service(&lssm_, given..., note_end));
   }
 
-  /// The same for a service that one node alone must answer: listens on for further answers. False, too, if there are
-  /// any.
+  /// Like run(), for a service that exactly one node must answer: waits for further answers and returns false if there
+  /// are any.
   template <class... Argument, class... Given>
   bool run_alone(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
     return run(service, given...) && is_alone();

@@ -224,7 +224,7 @@ TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a
     MixedGroup device(shape);
     device.group.ComSize = offsetof(MixedGroup::Memory, number);
     Fixture node(device.setup());
-    // Nothing was stored: the default value, for 1017h alone.
+    // Without a stored record only 1017h gets its default value.
     node.ask("601#2B171000FA000000", "581#6017100000000000");
     node.ask("601#2300230101000000", "581#6000230100000000");
     node.rx("000#8201");

@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-// What 2100h:sub is answered when the length is wrong.
+// Returns the abort frame for a download of the wrong length to 2100h:sub.
 CO_IF_FRM abort_of(unsigned sub, bool too_long) {
   CO_IF_FRM frm = frame(too_long ? "581#8000210012000706" : "581#8000210013000706");
   frm.Data[3] = static_cast<std::uint8_t>(sub);

@@ -211,7 +211,7 @@ std::uint32_t crc_of(const OldHeader& header, const std::uint8_t* data) {
   return crc.value();
 }
 
-// What version 0.1.0 has stored. values: null for "load".
+// Writes a record in the format of version 0.1.0. values: null for the record that "load" writes.
 void put_old_record(Device& device, unsigned slot, std::uint32_t generation, const Values* values) {
   std::uint8_t* const start = &device.nvm.bytes[slot_start(device.nvm.shape, slot)];
   std::uint8_t* const data = start + CO_PARA_ROUND_UP(20, device.nvm.shape.ProgramSize);

@@ -23,7 +23,7 @@ uint8_t start_value(CO_NODE& node, unsigned number) {
 
 uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return tmr::ticks(node.Tmr, time, unit); }
 
-// What the network has mapped was checked for flag P when it was written.
+// Resolves the mapping without a check of flag P: a write by the network checked it, a static mapping needs none.
 CO_ERR resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {
   const unsigned mapping = index + from_communication_to_mapping;
   const unsigned num = read_number(node, CO_DEV(mapping, 0), sizeof(uint8_t), 0);

@@ -10,8 +10,8 @@ namespace co::pdo {
 
 enum class Direction : uint8_t { receive, transmit };
 
-// Who has chosen the mapped objects. The value holds the flags of CO_OBJ.Key that such an object needs besides R or W:
-// what the network maps needs flag P, a mapping of the table is the designer's decision.
+// Origin of a mapping: the table (designer) or a write by the network. The value is the flag of CO_OBJ.Key that a
+// mapped object needs besides R or W: flag P if the network maps it, none if the designer does.
 enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
 // Of CO_PDO_MAP.Flags; the others belong to the PDO.
