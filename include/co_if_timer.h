@@ -20,7 +20,9 @@ extern "C" {
 /// All but Update run in the loop context with COTmrLock() held, or in COTmrService().
 typedef struct CO_IF_TIMER_DRV_T {
   void (*Init)(uint32_t freq);     ///< ticks per second; called once
-  void (*Reload)(uint32_t ticks);  ///< elapse \a ticks (> 0) from now
+  /// Elapse \a ticks from now: 1 … UINT32_MAX, which a narrower counter counts in parts. UINT32_MAX is programmed while
+  /// the loop has yet to run an elapsed cyclic timer: Delay() then tells how late the loop is.
+  void (*Reload)(uint32_t ticks);
   uint32_t (*Delay)(void);         ///< ticks left, 0: elapsed
   void (*Stop)(void);              ///< nothing to wait for
   void (*Start)(void);             ///< after a Stop, directly after Reload

@@ -110,18 +110,20 @@ extern const CO_OBJ_TYPE COTVerifyConfig;
 #define CO_TVERIFY_CONFIG ((const CO_OBJ_TYPE*)&COTVerifyConfig)
 
 /// Stores the group, unless its values are stored already, then runs a reset that was requested meanwhile. A group that
-/// is not stored on command (CO_PARA___E) is ignored. Not limited by CO_PARA_BUDGET.
+/// is not stored on command (CO_PARA___E) is ignored. Not limited by CO_PARA_BUDGET, except in COLssStore().
 /// \retval CO_ERR_NONE          the values are stored, or the group is ignored
 /// \retval CO_ERR_PARA_STORE    Offset and Size do not fit the memory
 /// \retval CO_ERR_PARA_OVERLAP  the group overlaps one with a lower sub-index of 1010h
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
+/// \retval CO_ERR_OBJ_STATE     in COLssStore(), which the LSS master has caused: the budget of stores is used up
 /// \retval CO_ERR_BAD_ARG       an argument is null
 CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node);
 
 /// The group gets its default values at the reset of its Type. Errors as COParaStore().
 CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
 
-/// Loads all groups of 1010h of this \a type. An autonomous group whose change the budget delays keeps its values.
+/// Loads all groups of 1010h of this \a type, then runs a reset that a callback has requested meanwhile. An autonomous
+/// group whose change the budget delays keeps its values.
 /// Returns the last error, which is also the node's.
 /// \retval CO_ERR_NONE          all groups of this type are loaded
 /// \retval CO_ERR_PARA_LOAD     a record is damaged, of another group or layout, or unreadable; COParaLost() was called

@@ -47,30 +47,25 @@ void advance(CO_TMR& t, uint32_t now) {
   __atomic_store_n(&t.Armed, armed, __ATOMIC_RELAXED);
 }
 
-uint32_t first_cycle(const CO_TMR_MEM* list) {
+bool has_cyclic(const CO_TMR_MEM* list) {
   while (list != nullptr && list->Cycle == 0) {
     list = list->Next;
   }
-  return list == nullptr ? 0 : list->Cycle;
+  return list != nullptr;
 }
 
-// Ticks for which a driver without a clock has to go on counting while nothing is armed, so that elapsed cyclic timers
-// keep their phase until the loop runs them; 0: there are none. The first wait is their cycle: a loop that is in time
-// finds the driver programmed for the next expiry. Once that wait is over, the loop is late, and interrupts at each
-// cycle would only delay it further.
-uint32_t wait_for_loop(const CO_TMR& t, bool is_late) {
-  const uint32_t cycle = first_cycle(t.First);
-  return is_late && cycle != 0 ? UINT32_MAX : cycle;
-}
+// Ticks for which a driver without a clock counts while no timer is armed; 0: it stops. It counts as long as it can
+// while elapsed cyclic timers wait for the loop: these keep their phase, and cause no further interrupt.
+uint32_t wait_for_loop(const CO_TMR& t) { return has_cyclic(t.First) ? UINT32_MAX : 0; }
 
-void program(CO_TMR& t, uint32_t now, bool is_late) {
+void program(CO_TMR& t, uint32_t now) {
   const CO_TMR_MEM* const first = *t.Armed;
   const uint32_t next = first != nullptr ? first->At - now : 0;
   if (port::has_clock(*t.Node)) {
     port::set_alarm(*t.Node, next);
     return;
   }
-  const uint32_t wait = next != 0 ? next : wait_for_loop(t, is_late);
+  const uint32_t wait = next != 0 ? next : wait_for_loop(t);
   port::count_down(*t.Node, wait, t.Programmed == 0);
   t.Clock = now + wait;
   t.Programmed = wait;
@@ -81,7 +76,7 @@ bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now
 
 void reprogram(CO_TMR& t, uint32_t now) {
   if (!is_pending(t, now)) {
-    program(t, now, false);
+    program(t, now);
   }
 }
 
@@ -485,9 +480,8 @@ int16_t COTmrService(CO_TMR* tmr) {
   } else if (!port::has_elapsed(*tmr->Node)) {
     return tmr::has_to_send(*tmr->Node) ? 1 : 0;
   }
-  const bool is_late = *tmr->Armed == nullptr;
   tmr::advance(*tmr, now);
-  tmr::program(*tmr, now, is_late);
+  tmr::program(*tmr, now);
   return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
 }
 

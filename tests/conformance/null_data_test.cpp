@@ -254,7 +254,7 @@ TEST_CASE("dictionary: a fault that stops the node is named before one that does
 
 #endif
 
-#if CO_RPDO_N > 0 && CO_TPDO_N > 0
+#if CO_RPDO_N > 1 && CO_TPDO_N > 1
 TEST_CASE("null Data: a PDO that maps the entry does not exist, the others do") {
   for (const CO_OBJ_TYPE* const type : {CO_TUNSIGNED8, CO_TBOOLEAN, CO_TVISIBLE_STRING, CO_TDOMAIN}) {
     PdoTable table;

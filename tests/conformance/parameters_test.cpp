@@ -645,6 +645,22 @@ TEST_CASE("parameters: a classic driver that cannot read: default values, CO_ERR
   }
 }
 
+TEST_CASE("parameters: a reset that COParaLost() requests follows when CONodeParaLoad() is done") {
+  ClassicDevice device;
+  device.hold(0x44);
+  unsigned lost = 0;
+  Fixture node(device.setup());
+  refusing.refuse_read = refusing.reads + 1;
+  callbacks().para_lost = [&](CO_NODE*, const CO_PARA*) {
+    ++lost;
+    CONmtReset(&node->Nmt, CO_RESET_COM);
+    node.silent();
+  };
+  node.call([&] { CHECK(CONodeParaLoad(&node.node, CO_RESET_NODE) == CO_ERR_PARA_LOAD); });
+  node.tx("701#00");
+  CHECK(lost == 1);
+}
+
 TEST_CASE("parameters: a classic driver that cannot write aborts \"save\" and \"load\" with 0606 0000h") {
   ClassicDevice device;
   device.hold(0x44);

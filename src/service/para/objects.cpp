@@ -161,7 +161,11 @@ CO_ERR COParaRestore(const CO_PARA* pg, CO_NODE* node) {
 
 CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  const CO_ERR err = para::load(*node, type);
+  CO_ERR err = CO_ERR_NONE;
+  {
+    const event::Serving serving(*node);
+    err = para::load(*node, type);
+  }
   event::settle(*node);
   return err;
 }
