@@ -128,6 +128,21 @@ TEST_CASE("parameters: a group that overlaps the memory of one before it is refu
   }
 }
 
+TEST_CASE("parameters: two groups of the same bytes and the same Offset overlap if their reset or version differs") {
+  for (const bool has_version : {false, true}) {
+    GroupDevice device;
+    device.second = device.first;
+    device.first.Type = CO_RESET_NODE;
+    device.second.Type = has_version ? CO_RESET_NODE : CO_RESET_COM;
+    device.second.Version = has_version ? 1 : 0;
+    Fixture node(device.setup());
+    CHECK(node.error() == CO_ERR_PARA_OVERLAP);
+    CHECK(refused_entry(node, true) == (USE_DICT_CHECK == 0 ? 0 : 0x101003));
+    node.ask("601#2310100273617665", "581#6010100200000000");
+    node.ask(save_second, "581#8010100300000606");
+  }
+}
+
 #if USE_DICT_CHECK
 
 TEST_CASE("parameters: groups that overlap do not hide a fault that keeps the node from starting") {

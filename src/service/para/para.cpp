@@ -21,10 +21,6 @@ uint8_t* bytes(const CO_PARA& group) { return group.Start; }
 
 bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0; }
 
-bool is_same(const CO_PARA& a, const CO_PARA& b) {
-  return a.Offset == b.Offset && a.Size == b.Size && bytes(a) == bytes(b);
-}
-
 bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
   return has_record(a) && has_record(b) &&
          (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
@@ -38,6 +34,12 @@ struct Located {
 
 // CO_PARA.Value may hold the version of the layout above its flags.
 uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Version : group.Value >> version_bit; }
+
+// 1010h and 1011h may name a group by two CO_PARA.
+bool is_same(const CO_PARA& a, const CO_PARA& b) {
+  return a.Offset == b.Offset && a.Size == b.Size && bytes(a) == bytes(b) && a.Type == b.Type &&
+         version_of(a) == version_of(b);
+}
 
 Located locate(CO_NODE& node, const CO_PARA& group) {
   Located located = {{group.Offset, group.Size, version_of(group), 0}, false};

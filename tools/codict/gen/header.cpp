@@ -255,10 +255,17 @@ std::string write_header(const Plan& plan, const Options& options) {
   write_keys(plan, options, out);
   out.raw("\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n");
   write_groups(plan, options, out);
-  out.raw(
-      "\n/// Gives all variables their default values, for an application that uses them before CONodeInit(). Those "
-      "that\n");
-  out.raw("/// the network cannot write then keep what the application writes to them.\n");
+  if (has_defaults(plan)) {
+    out.raw(
+        "\n/// Gives all variables their default values, for an application that uses them before CONodeInit(). Those "
+        "that\n");
+    out.raw("/// the network cannot write then keep what the application writes to them.\n");
+  } else {
+    out.raw(
+        "\n/// Gives the variables of the storage groups their default values, for an application that uses them "
+        "before\n"
+        "/// CONodeInit(). The compiler initialises all others, and no reset changes them.\n");
+  }
   out.add("void {}_set_defaults(void);", options.name);
   const std::vector<std::string> externals = externals_of(plan, options);
   if (!externals.empty()) {
