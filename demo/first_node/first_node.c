@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// A complete node on a CAN bus inside the program: prints its boot-up message and two seconds of heartbeats.
 #include <stdio.h>
 
 #include "co_can_virtual.h"
@@ -8,7 +7,6 @@
 
 static uint8_t ErrorRegister, Hour = 12;
 static uint16_t HeartbeatTime = 500;  // ms
-
 static CO_OBJ Dictionary[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},  // device type: no profile
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&ErrorRegister)},
@@ -18,8 +16,8 @@ static CO_OBJ Dictionary[] = {
     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&Hour)},
     CO_OBJ_DICT_ENDMARK};
 
-static void Print(void* user, const CO_IF_FRM* frame, const char* sender) {
-  printf("%s%s: %03X [%u] %02X\n", (const char*)user, sender, (unsigned)frame->Identifier, frame->DLC, frame->Data[0]);
+static void Print(void* clock, const CO_IF_FRM* frame, const char* sender) {
+  printf("%4u ms, %s: %03X %02X\n", COVirtualClockNow(clock), sender, frame->Identifier, frame->Data[0]);
 }
 
 int main(void) {
@@ -27,11 +25,11 @@ int main(void) {
   CO_VIRTUAL_BUS* bus = COVirtualBusNew();
   CO_VIRTUAL_CLOCK* clock = COVirtualClockNew();
   CO_NODE_SPEC spec = {.NodeId = 5, .Baudrate = 250000, .Dict = Dictionary, .DictLen = 7, .TmrFreq = 1000};
-  CO_NODE_EXT ext = {.Size = sizeof(ext), .Can = &COVirtualBusDriver, .CanCtx = COVirtualBusAttach(bus, "node 5")};
-  ext.Timer = &COVirtualTimerDriver;
-  ext.TimerCtx = COVirtualTimerNew(clock);
-  COVirtualBusTrace(bus, Print, "");
-  CONodeInitEx(&node, &spec, &ext);
+  CO_NODE_EXT drivers = {.Size = sizeof(drivers), .Can = &COVirtualBusDriver, .Timer = &COVirtualTimerDriver};
+  drivers.CanCtx = COVirtualBusAttach(bus, "node 5");
+  drivers.TimerCtx = COVirtualTimerNew(clock);
+  COVirtualBusTrace(bus, Print, clock);
+  CONodeInitEx(&node, &spec, &drivers);
   CONodeStart(&node);
   for (int ms = 0; ms < 2000; ++ms, COVirtualClockAdvance(clock, 1)) {  // the main loop
     CONodeProcess(&node);

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases and the C programs, clang with address and undefined behaviour sanitizers"
-packages=("${build_packages[@]}" "${clang_packages[@]}")
+packages=("${build_packages[@]}" python3 "${clang_packages[@]}")
 
 # Lane gcc makes the whole sweeps; lane sweeps makes them with sanitizers.
 lane() {
   build_preset development clang -DLEXICAN_THIN_SWEEPS=ON -DLEXICAN_TEST_OPTIONS="-O0;-g1" || return
   run_doctest clang "$build/clang/tests/lexican_tests"
   run_ctest clang-compat "$build/clang/tests/compat"
+  run_ctest clang-cookbook "$build/clang/tests/cookbook"
 }

@@ -1,28 +1,34 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""excerpts.py ROOT PAGE | --self-test
+"""excerpts.py [--some] ROOT PAGE | --self-test
 
-Every block of C in PAGE stands behind a comment that names a file, <!-- tests/… -->, and is an excerpt of it, line by line.
+Compares the blocks of C and C++ in PAGE with files of ROOT. A comment in front of a block names its file:
+  <!-- tests/… -->         the block is an excerpt of the file, line by line
+  <!-- all of tests/… -->  the block is the whole file
+A block without such a comment is a fault; with --some it is not compared.
 Prints "1..N" and a line "ok …" or "not ok …" for each block.
 """
 import pathlib
 import re
 import sys
 
-BLOCK = re.compile(r"(?:<!-- (\S+) -->\n)?```(c|cpp)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"(?:<!-- (all of )?(\S+) -->\n)?```(c|cpp)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-def judge(page, read):
+def judge(page, read, some=False):
     """Returns (good, text) for each block; read gives the text of a file, or None."""
     verdicts = []
     for block in BLOCK.finditer(page):
-        name, code = block.group(1), block.group(3)
+        whole, name, code = block.group(1), block.group(2), block.group(4)
         line = page.count("\n", 0, block.start()) + 1
         text = read(name) if name else None
         if name is None:
-            verdicts.append((False, f"line {line}: a block of C without a file"))
+            if not some:
+                verdicts.append((False, f"line {line}: a block of C without a file"))
         elif text is None:
             verdicts.append((False, f"line {line}: there is no {name}"))
+        elif whole:
+            verdicts.append((code == text, f"line {line}: the whole of {name}"))
         else:
             is_excerpt = ("\n" + code) in ("\n" + text)
             verdicts.append((is_excerpt, f"line {line}: an excerpt of {name}"))
@@ -39,21 +45,26 @@ def self_test():
         ("no file", "```c\nint a;\n```\n", [False]),
         ("a missing file", page.replace("a.c", "b.c").format("int a;\n"), [False]),
         ("no C", "```sh\nmake\n```\n", []),
+        ("a whole file", page.replace("a.c", "all of a.c").format("int a;\nint b;\n"), [True]),
+        ("half a file", page.replace("a.c", "all of a.c").format("int b;\n"), [False]),
     ]
-    return [([good for good, _ in judge(text, files.get)] == want, f"self-test: {name}") for name, text, want in cases]
+    verdicts = [([good for good, _ in judge(text, files.get)] == want, f"self-test: {name}") for name, text, want in cases]
+    verdicts.append((judge(cases[3][1], files.get, some=True) == [], "self-test: --some, no file"))
+    return verdicts
 
 
 def main():
     if sys.argv[1:] == ["--self-test"]:
         verdicts = self_test()
     else:
-        root = pathlib.Path(sys.argv[1])
+        some = sys.argv[1] == "--some"
+        root, page = pathlib.Path(sys.argv[-2]), sys.argv[-1]
 
         def read(name):
             path = root / name
             return path.read_text(encoding="utf-8") if path.is_file() else None
 
-        verdicts = judge((root / sys.argv[2]).read_text(encoding="utf-8"), read)
+        verdicts = judge((root / page).read_text(encoding="utf-8"), read, some)
     print(f"1..{len(verdicts)}")
     for good, text in verdicts:
         print(f"{'ok' if good else 'not ok'} {text}")
