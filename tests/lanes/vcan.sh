@@ -17,10 +17,9 @@ lane() {
     "$build/heater/heater"
 }
 
-# As README says it; with the codict of lane codict, if that has been built.
+# As README says it; with the codict of lane package, if that has been built.
 heater() {
-  local codict=$build/codict/tools/codict/codict known=()
-  flock "$build/codict.lock" true  # lane codict may be building it
+  local codict=$build/release/tests/package/generate.cross/lexican_host_codict/tools/codict/codict known=()
   [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")
   cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja "${known[@]}" && cmake --build "$build/heater"
 }
