@@ -16,7 +16,7 @@ lane() {
 core_cases() {
   local targets=(lexican_codict_tests lexican_codict_node_tests)
   build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON \
-    -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+    -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict-core/tests/codict/lexican_codict_tests"
   run_doctest "codict nodes" "$build/codict-core/tests/codict/lexican_codict_node_tests"
 }
@@ -25,7 +25,7 @@ all_cases() {
   local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
-    -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+    -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
   run_doctest "codict nodes" "$build/codict/tests/codict/lexican_codict_node_tests"
   for target in "${tool_fuzz_targets[@]}"; do
