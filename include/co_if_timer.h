@@ -19,14 +19,14 @@ extern "C" {
 /// not drift; any other Reload counts from now.
 /// All but Update run in the loop context with COTmrLock() held, or in COTmrService().
 typedef struct CO_IF_TIMER_DRV_T {
-  void (*Init)(uint32_t freq);     ///< ticks per second; called once
+  void (*Init)(uint32_t freq);  ///< ticks per second; called once
   /// Elapse \a ticks from now: 1 … UINT32_MAX, which a narrower counter counts in parts. UINT32_MAX is programmed while
   /// the loop has yet to run an elapsed cyclic timer: Delay() then tells how late the loop is.
   void (*Reload)(uint32_t ticks);
-  uint32_t (*Delay)(void);         ///< ticks left, 0: elapsed
-  void (*Stop)(void);              ///< nothing to wait for
-  void (*Start)(void);             ///< after a Stop, directly after Reload
-  uint8_t (*Update)(void);         ///< called by COTmrService(): 1 if the time has elapsed
+  uint32_t (*Delay)(void);  ///< ticks left, 0: elapsed
+  void (*Stop)(void);       ///< nothing to wait for
+  void (*Start)(void);      ///< after a Stop, directly after Reload
+  uint8_t (*Update)(void);  ///< called by COTmrService(): 1 if the time has elapsed
 } CO_IF_TIMER_DRV;
 
 /// A timer driver with a context and a free running clock (CO_NODE_EXT): no drift, no early expiry, whatever the
