@@ -201,6 +201,12 @@ Shown show(ValueType type, const Bytes& bytes) {
   return {hex_bytes(bytes.data(), bytes.size()), {}};
 }
 
+std::string visible_text(const Bytes& bytes) {
+  const auto last = std::find_if(bytes.rbegin(), bytes.rend(), [](std::uint8_t byte) { return byte != 0; });
+  const std::string characters(bytes.begin(), last.base());
+  return is_readable(bytes.data(), characters.size()) ? characters : std::string();
+}
+
 std::string guess(const Bytes& bytes) {
   const std::size_t size = bytes.size();
   if (size == 1 || size == 2 || size == 4 || size == 8) {

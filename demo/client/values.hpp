@@ -47,6 +47,10 @@ struct Shown {
 /// The reverse of encode(). A boolean that is not 0 is shown as 1.
 Shown show(ValueType type, const Bytes& bytes);
 
+/// The characters of a VISIBLE_STRING without the zeros at its end; empty if others are among them than printable ones.
+/// [301:7.1.6]
+std::string visible_text(const Bytes& bytes);
+
 /// Bytes of which nothing is known but their number: 1, 2, 4 and 8 as a number in hex digits; others as the lines of a
 /// hex dump, with the characters that can be read.
 std::string guess(const Bytes& bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lexican-demo-master: reads or writes one object of a CANopen node, with the stack's SDO client, gives node-IDs with
-// its LSS master, or shows what a demo clock can do.
+// lexican-demo-master: reads or writes one object of a CANopen node, sends an NMT command, finds and configures nodes
+// by LSS, or takes a tour with a demo clock. The requests are functions of the library lexican_demo_client
+// (demo/client).
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,11 +9,12 @@
 #include <memory>
 #include <utility>
 
+#include "client/lss.hpp"
+#include "client/nmt.hpp"
+#include "client/request.hpp"
 #include "host/linux_host.hpp"
 #include "host/slcan_host.hpp"
-#include "linux_master/lss.hpp"
 #include "linux_master/options.hpp"
-#include "linux_master/request.hpp"
 #include "linux_master/tour.hpp"
 
 namespace demo {
@@ -69,6 +71,16 @@ int run(const CommandLine& line) {
   return report(prepared.request, outcome, std::cout, std::cerr);
 }
 
+int run_nmt(const CommandLine& line) {
+  const NmtPrepared prepared = prepare(line.nmt);
+  if (!prepared.fault.empty()) {
+    return refuse(prepared.fault);
+  }
+  const Interruption interruption;
+  const Bus bus = open_bus(line, interruption);
+  return bus.host == nullptr ? refuse(bus.fault) : carry_out(prepared.request, *bus.host, std::cerr);
+}
+
 int run_lss(const CommandLine& line) {
   const LssPrepared prepared = prepare(line.lss);
   if (!prepared.fault.empty()) {
@@ -95,7 +107,11 @@ int run_tour(const CommandLine& line) {
 }
 
 int run_any(const CommandLine& line) {
+  if (line.every_frame && line.work != Work::tour) {
+    return refuse("--every-frame: only tour shows frames");
+  }
   switch (line.work) {
+    case Work::nmt: return run_nmt(line);
     case Work::lss: return run_lss(line);
     case Work::tour: return run_tour(line);
     default: return run(line);

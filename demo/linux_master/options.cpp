@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 #include "co_ver.h"
 #include "trace/text.hpp"
 
@@ -11,29 +13,46 @@ namespace {
 
 constexpr const char* description =
     "Reads or writes an object of a CANopen node by SDO: expedited, segmented or by block transfer.\n"
+    "Or commands the NMT state of a node or of all nodes.\n"
     "Or finds nodes without node-ID, and configures nodes, by LSS.\n"
     "Or takes a tour with a demo clock somewhere on the bus, and shows what goes over it.\n"
     "It boots on the bus as a node of its own. Standard output gets what was read or found, and nothing else.";
 
 constexpr const char* footer =
-    "Without --type, read shows 1, 2, 4 and 8 bytes as a number in hex digits, others as a hex dump.\n"
+    "Index and sub-index are hexadecimal: 1008 and 0x1008 are the same; 0d4104 is decimal. Other numbers are decimal, "
+    "or\n"
+    "hexadecimal behind 0x.\n"
+    "Without --type, read shows 1008h, 1009h and 100Ah as text, 1, 2, 4 and 8 bytes of other objects as a number in "
+    "hex\n"
+    "digits, and anything else as a hex dump.\n"
     "bytes are written as pairs of hex digits: '01 02 FF'. A value that begins with - comes after --.\n"
     "\n"
     "Examples:\n"
-    "  lexican-demo-master --node 1 --index 0x1008 --type string read\n"
-    "  lexican-demo-master --node 1 --index 0x2100 --sub 1 --type u8 write 12\n"
-    "  lexican-demo-master --node 1 --index 0x2200 --file picture.rgb read\n"
-    "  lexican-demo-master --slcan /dev/ttyACM0 --bit-rate 500000 --node 1 --index 0x1000 read\n"
+    "  lexican-demo-master --node 1 --index 1008 read\n"
+    "  lexican-demo-master --node 1 --index 2100 --sub 1 --type u8 write 12\n"
+    "  lexican-demo-master --node 1 --index 2200 --file picture.rgb read\n"
+    "  lexican-demo-master --slcan /dev/ttyACM0 --bit-rate 500000 --node 1 --index 1000 read\n"
+    "  lexican-demo-master --node 1 nmt start\n"
     "  lexican-demo-master lss scan\n"
     "  lexican-demo-master lss set-id 5 --store\n"
-    "  lexican-demo-master lss --address 0x319 0x1234 1 7 inquire\n"
     "\n"
     "Exit codes:\n"
-    "    0  the object was transferred, the LSS services are done, or all steps of the tour went as expected\n"
+    "    0  the object was transferred, the command was sent, the LSS services are done, or all steps of the tour "
+    "went\n"
+    "       as expected\n"
     "    1  the transfer was aborted or refused, there was no answer, the value read is not of the type, or a step of\n"
     "       the tour went wrong\n"
     "    2  wrong arguments, or the CAN interface, the adapter or the file cannot be used\n"
     "  130  Ctrl-C or SIGTERM has cancelled it";
+
+constexpr const char* lss_footer =
+    "Numbers are decimal, or hexadecimal behind 0x. The options --can, --slcan, --own-id and --timeout can be used, "
+    "too.\n"
+    "\n"
+    "Examples:\n"
+    "  lexican-demo-master lss scan\n"
+    "  lexican-demo-master lss set-id 5 --store\n"
+    "  lexican-demo-master lss --address 0x319 0x1234 1 7 inquire";
 
 void add_object_options(CLI::App& app, CommandLine& line) {
   Arguments& arguments = line.arguments;
@@ -45,11 +64,12 @@ void add_object_options(CLI::App& app, CommandLine& line) {
   app.add_option("--bit-rate", line.bit_rate, "Bit rate that the adapter sets, in bit/s [what it has]")
       ->type_name("N")
       ->needs(slcan);
-  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127 [tour: 1]")->type_name("N");
+  app.add_option("--node", arguments.node, "Node-ID of the node to talk to, 1...127, or all for nmt [tour: 1]")
+      ->type_name("N");
   app.add_option("--own-id", arguments.own_id, "Node-ID of this master, 1...127 [127, or 126 if that is the node]")
       ->type_name("N");
-  app.add_option("--index", arguments.index, "Index of the object: 0x2100, or decimal without 0x")->type_name("N");
-  app.add_option("--sub", arguments.sub, "Sub-index of the object, likewise")->type_name("N")->capture_default_str();
+  app.add_option("--index", arguments.index, "Index of the object, hexadecimal; decimal behind 0d")->type_name("HEX");
+  app.add_option("--sub", arguments.sub, "Sub-index of the object, likewise")->type_name("HEX")->capture_default_str();
 }
 
 void add_value_options(CLI::App& app, CommandLine& line) {
@@ -63,6 +83,7 @@ void add_value_options(CLI::App& app, CommandLine& line) {
   app.add_option("--max", arguments.max, "Bytes that an object without a fixed size may have")
       ->type_name("BYTES")
       ->capture_default_str();
+  app.add_flag("--every-frame", line.every_frame, "tour: show all frames of long transfers");
   app.add_flag("--progress", line.progress, "Show the progress also where standard error is no terminal");
 }
 
@@ -73,7 +94,6 @@ void add_action(CLI::App& lss, CommandLine& line, LssAction action, const char* 
   app->callback([&line, action] { line.lss.action = action; });
   if (value[0] != 0) {
     app->add_option(value, line.lss.value, "The value")->type_name("")->required();
-    app->add_flag("--store", line.lss.store, "Store it as well");
   }
 }
 
@@ -88,11 +108,19 @@ void add_lss(CLI::App& app, CommandLine& line) {
   lss->add_option("--listen", line.lss.listen, "Time for each of the requests that look for nodes")
       ->type_name("MS")
       ->capture_default_str();
+  lss->add_flag("--store", line.lss.store, "set-id and set-bitrate: let the node store it as well");
+  lss->footer(lss_footer);
   add_action(*lss, line, LssAction::scan, "scan", "Find all nodes without node-ID, print their addresses", "");
   add_action(*lss, line, LssAction::set_id, "set-id", "Give a node its node-ID, 1...127", "NODE-ID");
   add_action(*lss, line, LssAction::set_bit_rate, "set-bitrate", "Give a node its bit rate, in bit/s", "BITRATE");
   add_action(*lss, line, LssAction::store, "store", "Let a node store node-ID and bit rate", "");
   add_action(*lss, line, LssAction::inquire, "inquire", "Print the address and the node-ID of a node", "");
+}
+
+void add_nmt(CLI::App& app, CommandLine& line) {
+  CLI::App* const nmt = app.add_subcommand("nmt", std::string("Command a node, or all: ") + nmt_command_names);
+  nmt->set_help_flag();
+  nmt->add_option("COMMAND", line.nmt.command, "The command")->type_name("")->required();
 }
 
 }  // namespace
@@ -115,10 +143,10 @@ CommandLine read_command_line(int argc, char** argv) {
     transfer->needs(app.get_option("--index"));
   }
   write->add_option("VALUE", line.arguments.value, "The value")->type_name("");
+  add_nmt(app, line);
   add_lss(app, line);
   CLI::App* const tour = app.add_subcommand("tour", "Show what a demo clock on the bus can do");
   tour->set_help_flag();
-  tour->add_flag("--every-frame", line.every_frame, "Show all frames of long transfers");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -126,7 +154,12 @@ CommandLine read_command_line(int argc, char** argv) {
     return line;
   }
   line.arguments.write = write->parsed();
-  line.work = app.got_subcommand("lss") ? Work::lss : tour->parsed() ? Work::tour : Work::transfer;
+  line.work = app.got_subcommand("lss")   ? Work::lss
+              : app.got_subcommand("nmt") ? Work::nmt
+              : tour->parsed()            ? Work::tour
+                                          : Work::transfer;
+  line.nmt.node = line.arguments.node;
+  line.nmt.own_id = line.arguments.own_id;
   line.lss.timeout = line.arguments.timeout;
   line.lss.own_id = line.arguments.own_id.empty() ? line.lss.own_id : line.arguments.own_id;
   line.run = true;

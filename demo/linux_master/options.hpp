@@ -6,16 +6,17 @@
 #include <cstdint>
 #include <string>
 
+#include "client/arguments.hpp"
 #include "host/exit.hpp"
-#include "linux_master/arguments.hpp"
 
 namespace demo {
 
-enum class Work { transfer, lss, tour };
+enum class Work { transfer, nmt, lss, tour };
 
 struct CommandLine {
   Work work = Work::transfer;
   Arguments arguments;
+  NmtArguments nmt;
   LssArguments lss;
   std::string interface = "vcan0";
   std::string slcan;           // device or socket of an adapter; empty: the interface is used

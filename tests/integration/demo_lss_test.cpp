@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "client/lss.hpp"
 #include "demo_simulation.hpp"
 #include "host/node.hpp"
-#include "linux_master/lss.hpp"
 #include "support/callbacks.hpp"
 #include "support/notation.hpp"
 

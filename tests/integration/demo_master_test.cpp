@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "client/arguments.hpp"
+#include "client/nmt.hpp"
+#include "client/request.hpp"
 #include "demo_simulation.hpp"
-#include "linux_master/arguments.hpp"
-#include "linux_master/request.hpp"
 #include "linux_node/clock.hpp"
 #include "support/notation.hpp"
 
@@ -104,10 +105,19 @@ TEST_CASE("demo master: a value that was read is all that goes to standard outpu
   CHECK(desk.out.str() == "0x0000C10C\n");
   CHECK(desk.run(to_read("0x1008", "0", "string")) == 0);
   CHECK(desk.out.str() == "Lexican demo clock\n");
-  CHECK(desk.run(to_read("0x1008", "0", "")) == 0);
-  CHECK(desk.out.str() ==
-        "00000000  4C 65 78 69 63 61 6E 20 64 65 6D 6F 20 63 6C 6F  |Lexican demo clo|\n"
-        "00000010  63 6B                                            |ck|\n");
+}
+
+TEST_CASE("demo master: name and versions of the device are shown as text, other objects without a type as bytes") {
+  Desk desk;
+  CHECK(desk.run(to_read("1008", "0", "")) == 0);
+  CHECK(desk.out.str() == "Lexican demo clock\n");
+  CHECK(desk.run(to_read("1009", "0", "")) == 0);  // four bytes, but no number
+  CHECK(desk.out.str() == "host\n");
+  CHECK(desk.run(to_read("1008", "0", "bytes")) == 0);
+  CHECK(desk.out.str() == "4C 65 78 69 63 61 6E 20 64 65 6D 6F 20 63 6C 6F 63 6B\n");
+  CHECK(desk.run(to_write("2201", "0", "string", "Halt 7 and more")) == 0);
+  CHECK(desk.run(to_read("2201", "0", "")) == 0);
+  CHECK(desk.out.str() == "00000000  48 61 6C 74 20 37 20 61 6E 64 20 6D 6F 72 65     |Halt 7 and more|\n");
 }
 
 TEST_CASE("demo master: it boots with its own node-ID and asks the node by its default SDO [301:7.3.3]") {
@@ -216,6 +226,45 @@ TEST_CASE("demo master: a file that cannot be written is named, with status 2; a
   CHECK(desk.run(arguments) == 1);
   CHECK(file.content() == "kept");
 }
+
+#if USE_NMT_MASTER
+TEST_CASE("demo master: an NMT command is one message, behind the boot-up message of the master [301:7.2.8.3.1]") {
+  Desk desk;
+  const auto run = [&desk](const char* command, const char* node) {
+    const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{command, node, ""});
+    REQUIRE(prepared.fault == "");
+    desk.err.str("");
+    desk.frames.clear();
+    return demo::carry_out(prepared.request, desk.host, desk.err);
+  };
+  CHECK(run("start", "5") == 0);
+  CHECK(desk.frames == std::vector<std::string>{"77F#00", "000#0105"});
+  CHECK(desk.err.str() == "");
+  desk.clock.node().process();
+  CHECK(CONmtGetMode(&desk.clock.node().stack().Nmt) == CO_OPERATIONAL);
+  CHECK(run("stop", "6") == 0);
+  CHECK(desk.was_sent("000#0206"));
+  CHECK(run("preop", "all") == 0);
+  CHECK(desk.was_sent("000#8000"));
+  desk.clock.node().process();
+  CHECK(CONmtGetMode(&desk.clock.node().stack().Nmt) == CO_PREOP);
+  CHECK(run("reset-node", "127") == 0);
+  CHECK(desk.frames == std::vector<std::string>{"77E#00", "000#817F"});
+  CHECK(run("reset-comm", "5") == 0);
+  CHECK(desk.was_sent("000#8205"));
+  desk.clock.node().process();
+  CHECK(desk.was_sent("705#00"));
+}
+
+TEST_CASE("demo master: a bus that takes no NMT command is a failure") {
+  Desk desk;
+  desk.host.fault = "CAN interface 'can0' is down";
+  desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
+  const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{"start", "5", ""});
+  CHECK(demo::carry_out(prepared.request, desk.host, desk.err) == 1);
+  CHECK(desk.err.str() == "NMT: CAN interface 'can0' is down\n");
+}
+#endif
 
 TEST_CASE("demo master: an interruption cancels the transfer with an abort, with status 130 [301:7.2.4.3.17]") {
   Desk desk;

@@ -9,7 +9,8 @@
 #include <fstream>
 #include <string>
 
-#include "linux_master/arguments.hpp"
+#include "client/arguments.hpp"
+#include "co_core.h"
 
 namespace {
 
@@ -60,12 +61,28 @@ TEST_CASE("demo arguments: node and index are enough to read") {
   CHECK(prepared.request.capacity == 16777216);
 }
 
-TEST_CASE("demo arguments: numbers are decimal or hexadecimal, and within their limits") {
+TEST_CASE("demo arguments: index and sub-index are hexadecimal, with or without 0x, and decimal behind 0d") {
+  const auto device = [](const char* index, const char* sub) {
+    Arguments arguments = to_read();
+    arguments.index = index;
+    arguments.sub = sub;
+    const Prepared prepared = demo::prepare(arguments);
+    CHECK(prepared.fault == "");
+    return CO_DEV(prepared.request.index, prepared.request.sub);
+  };
+  CHECK(device("1008", "0") == CO_DEV(0x1008, 0));
+  CHECK(device("0x1008", "0x10") == CO_DEV(0x1008, 0x10));
+  CHECK(device("0X1a00", "1F") == CO_DEV(0x1A00, 0x1F));
+  CHECK(device("0d4096", "0D10") == CO_DEV(0x1000, 10));
+  CHECK(device("ffff", "ff") == CO_DEV(0xFFFF, 0xFF));
+}
+
+TEST_CASE("demo arguments: other numbers are decimal or hexadecimal, and within their limits") {
   Arguments arguments = to_read();
   arguments.node = "0x7F";
   arguments.own_id = "1";
-  arguments.index = "65535";
-  arguments.sub = "255";
+  arguments.index = "0d65535";
+  arguments.sub = "0d255";
   arguments.timeout = "0";
   arguments.max = "4294967295";
   const Prepared prepared = demo::prepare(arguments);
@@ -88,10 +105,15 @@ TEST_CASE("demo arguments: numbers outside their limits are named") {
   CHECK(with(&Arguments::node, "128") == "--node: '128' is no number in 1...127");
   CHECK(with(&Arguments::node, "5x") == "--node: '5x' is no number in 1...127");
   CHECK(with(&Arguments::own_id, "128") == "--own-id: '128' is no number in 1...127");
-  CHECK(with(&Arguments::index, "0x10000") == "--index: '0x10000' is no number in 0...65535");
-  CHECK(with(&Arguments::index, "2100h") == "--index: '2100h' is no number in 0...65535");
-  CHECK(with(&Arguments::sub, "256") == "--sub: '256' is no number in 0...255");
-  CHECK(with(&Arguments::sub, "-1") == "--sub: '-1' is no number in 0...255");
+  for (const char* text :
+       {"0x10000", "10000", "0d65536", "0d10FF", "2100h", "0x", "0d", "", "-1", "0x-1", "100000000"}) {
+    CAPTURE(text);
+    CHECK(with(&Arguments::index, text) ==
+          "--index: '" + std::string(text) + "' is no hexadecimal number in 0...FFFF (0d before decimal digits)");
+  }
+  CHECK(with(&Arguments::sub, "100") == "--sub: '100' is no hexadecimal number in 0...FF (0d before decimal digits)");
+  CHECK(with(&Arguments::sub, "0d256") ==
+        "--sub: '0d256' is no hexadecimal number in 0...FF (0d before decimal digits)");
   CHECK(with(&Arguments::timeout, "4294967296") == "--timeout: '4294967296' is no number in 0...4294967295");
   CHECK(with(&Arguments::max, "0") == "--max: '0' is no number in 1...4294967295");
 }
@@ -153,6 +175,38 @@ TEST_CASE("demo arguments: a number is read into little room, anything else into
   CHECK(demo::prepare(arguments).request.capacity == 1000);
   arguments.type = "u64";
   CHECK(demo::prepare(arguments).request.capacity == CO_CSDO_BLOCK - 1);  // no block transfer for a number
+}
+
+// --- nmt
+
+TEST_CASE("demo arguments: nmt: the five commands of CiA 301, for one node or all [301:7.2.8.2.1]") {
+  const auto specifier = [](const char* name) {
+    const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{name, "5", ""});
+    CHECK(prepared.fault == "");
+    CHECK(prepared.request.node == 5);
+    CHECK(prepared.request.own_id == 127);
+    return static_cast<int>(prepared.request.command);
+  };
+  CHECK(specifier("start") == 1);
+  CHECK(specifier("stop") == 2);
+  CHECK(specifier("preop") == 128);
+  CHECK(specifier("reset-node") == 129);
+  CHECK(specifier("reset-comm") == 130);
+  CHECK(demo::prepare(demo::NmtArguments{"stop", "all", "3"}).request.node == 0);
+  CHECK(demo::prepare(demo::NmtArguments{"stop", "all", "3"}).request.own_id == 3);
+  CHECK(demo::prepare(demo::NmtArguments{"stop", "127", ""}).request.own_id == 126);
+}
+
+TEST_CASE("demo arguments: nmt: another command, no node and a wrong node are refused") {
+  const auto fault = [](const char* command, const char* node, const char* own_id) {
+    return demo::prepare(demo::NmtArguments{command, node, own_id}).fault;
+  };
+  CHECK(fault("begin", "5", "") == "nmt: 'begin' is none of start, stop, preop, reset-node, reset-comm");
+  CHECK(fault("1", "5", "") == "nmt: '1' is none of start, stop, preop, reset-node, reset-comm");
+  CHECK(fault("start", "", "") == "nmt needs the node to command: --node 1...127, or --node all");
+  CHECK(fault("start", "0", "") == "--node: '0' is no number in 1...127");
+  CHECK(fault("start", "128", "") == "--node: '128' is no number in 1...127");
+  CHECK(fault("start", "5", "5") == "--own-id: the node to talk to has this node-ID");
 }
 
 // --- lss
@@ -220,6 +274,14 @@ TEST_CASE("demo arguments: lss: node-IDs and bit rates that there are") {
               "' is none of 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000");
   }
   CHECK(fault_of(lss(LssAction::set_bit_rate, "fast")) == "set-bitrate: 'fast' is no number in 0...4294967295");
+}
+
+TEST_CASE("demo arguments: lss: what changes nothing is not stored") {
+  for (const LssAction action : {LssAction::scan, LssAction::inquire}) {
+    LssArguments arguments = lss(action);
+    arguments.store = true;
+    CHECK(fault_of(arguments) == "--store: scan and inquire change nothing that could be stored");
+  }
 }
 
 TEST_CASE("demo arguments: lss: times, the own node-ID and --store") {

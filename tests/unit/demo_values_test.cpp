@@ -147,6 +147,17 @@ TEST_CASE("demo values: without a type 1, 2, 4 and 8 bytes are a number, others 
         "00000010  51                                               |Q|");
 }
 
+TEST_CASE("demo values: a visible string is text without the zeros at its end, if all of it can be read [301:7.1.6]") {
+  CHECK(demo::visible_text({'D', ' ', '1'}) == "D 1");
+  CHECK(demo::visible_text({'1', '.', '2', 0, 0}) == "1.2");
+  CHECK(demo::visible_text({0x20, 0x7E}) == " ~");
+  CHECK(demo::visible_text({'a', 0, 'b'}) == "");
+  CHECK(demo::visible_text({'a', 0x1F}) == "");
+  CHECK(demo::visible_text({'a', 0x7F}) == "");
+  CHECK(demo::visible_text({0, 0}) == "");
+  CHECK(demo::visible_text({}) == "");
+}
+
 TEST_CASE("demo values: the names of the types") {
   for (const char* const name : {"u8", "u64", "i8", "i24", "r32", "r64", "bool", "string", "bytes", "domain"}) {
     CAPTURE(name);

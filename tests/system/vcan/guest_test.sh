@@ -274,6 +274,8 @@ verdict $status "raw block transfers: all of them" "$(tail -n 1 /tmp/raw_block)"
 says "master: a number without a type" 0x0000C10C --index 0x1018 --sub 2 read
 says "master: a number of its type" 49420 --index 0x1018 --sub 2 --type u32 read
 says "master: a string" "Lexican demo clock" --index 0x1008 --type string read
+says "master: a name without a type" "Lexican demo clock" --index 1008 read
+says "master: a decimal index" "Lexican demo clock" --index 0d4104 read
 says "master: a number written" "" --index 0x2100 --sub 1 --type u8 write 17
 says "master: and read back" 17 --index 0x2100 --sub 1 --type u8 read
 says "master: a string written" "" --index 0x2201 --type string write "Grand Central Terminal"
@@ -283,6 +285,16 @@ says "master: and read back" "A station with a very long name" --index 0x2201 --
 echo "From a file" >/tmp/station
 says "master: a short object written from standard input" "" --index 0x2201 --file - write </tmp/station
 says "master: and read to standard output" "From a file" --index 0x2201 --file - read
+
+listen 000 1
+says "master: NMT stop" "" nmt stop
+expect "master: is one message for the node" "000#0205"
+listen 000 1
+$master --node all nmt preop >/tmp/said 2>&1
+verdict $? "master: NMT enter pre-operational, for all nodes" "$(cat /tmp/said)"
+expect "master: is one message for all" "000#8000"
+says "master: the node answers SDO again" 0x0000C10C --index 1018 --sub 2 read
+refuses "master: NMT without a node" 2 "nmt needs the node to command: --node 1...127, or --node all" nmt start
 
 refuses "master: an abort of the node in words" 1 \
   "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist" --node 5 --index 0x2FFF read
@@ -452,8 +464,13 @@ expect "a described node boots" "$heartbeat#00"
 sdo "a described node has the default value of its description" 4001200000000000 4B012000C8000000
 sdo "a described node keeps the limits of its description" 2B012000E8030000 8001200031000906
 sdo "a described node takes what lies within them" 2B01200064000000 6001200000000000
+got=$($master --node 9 --index 2001 --type i16 write 250 2>&1 && $master --node 9 --index 2001 --type i16 read 2>&1)
+[ "$got" = 250 ]
+verdict $? "a described node takes its setpoint from the master" "got '$got'"
+refuses "a described node refuses a setpoint above its limit" 1 \
+  "node 9, 2001h:00: aborted with 0609 0031h value too high" --node 9 --index 2001 --type i16 write 9000
 listen $tpdo 2
-cansend vcan0 000#0109
+$master --node 9 nmt start
 expect "a described node sends what changes" "$tpdo#??00 $tpdo#??00"
 kill $server
 

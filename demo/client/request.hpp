@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file request.hpp
-/// What lexican-demo-master does on the bus, and what it says about it.
+/// Transfers one object by SDO for a command line, and reports how it ended.
 #pragma once
 
 #include <ostream>
 #include <string>
 
+#include "client/arguments.hpp"
 #include "client/progress.hpp"
 #include "client/sdo_client.hpp"
 #include "host/host.hpp"
-#include "linux_master/arguments.hpp"
 
 namespace demo {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file lss.hpp
-/// lexican-demo-master lss: finds and configures nodes by their LSS address. [305]
+/// Finds and configures nodes by their LSS address, for a command line. [305]
 #pragma once
 
 #include <ostream>
 
+#include "client/arguments.hpp"
 #include "host/host.hpp"
-#include "linux_master/arguments.hpp"
 
 namespace demo {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file arguments.hpp
-/// What the user of lexican-demo-master has typed, and the request that it means.
+/// The arguments of a master's command line as typed, and the requests that they mean.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct Arguments {
   bool write = false;
   std::string node;
   std::string own_id;  // empty: 127, or 126 if that is the node to talk to
-  std::string index;
+  std::string index;   // hexadecimal with or without 0x, decimal behind 0d; so is sub
   std::string sub = "0";
   std::string type;                  // empty: read guesses, write takes a file as it is
   std::optional<std::string> value;  // of write
@@ -47,6 +47,34 @@ struct Prepared {
 
 /// Reads the file that shall be written to the object.
 Prepared prepare(const Arguments& arguments);
+
+// --- nmt
+
+/// Command specifiers. [301:7.2.8.2.1]
+enum class NmtCommand : std::uint8_t { start = 1, stop = 2, preop = 128, reset_node = 129, reset_comm = 130 };
+
+/// The names of all commands, for --help.
+constexpr const char* nmt_command_names = "start, stop, preop, reset-node, reset-comm";
+
+/// As typed.
+struct NmtArguments {
+  std::string command;  // one of nmt_command_names
+  std::string node;     // or "all"
+  std::string own_id;   // empty: 127, or 126 if that is the node to command
+};
+
+struct NmtRequest {
+  NmtCommand command;
+  std::uint8_t node;  // 0: all
+  std::uint8_t own_id;
+};
+
+struct NmtPrepared {
+  NmtRequest request;
+  std::string fault;  // empty: nothing is wrong with the arguments
+};
+
+NmtPrepared prepare(const NmtArguments& arguments);
 
 // --- tour
 

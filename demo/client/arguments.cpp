@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_master/arguments.hpp"
+#include "client/arguments.hpp"
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <limits>
+#include <system_error>
+#include <utility>
 
 #include "client/sdo_client.hpp"
+#include "trace/text.hpp"
 
 namespace demo {
 namespace {
@@ -37,9 +41,29 @@ class Conversion {
     return static_cast<std::uint32_t>(value);
   }
 
+  /// Converts the number of an object: hexadecimal with or without 0x, decimal behind 0d.
+  std::uint32_t object_number(const char* name, const std::string& text, std::uint32_t highest) {
+    const std::string prefix = text.substr(0, 2);
+    const bool is_decimal = prefix == "0d" || prefix == "0D";
+    const bool has_prefix = is_decimal || prefix == "0x" || prefix == "0X";
+    const std::string digits = text.substr(has_prefix ? 2 : 0);
+    std::uint32_t value = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, value, is_decimal ? 10 : 16);
+    if (error != std::errc() || stop != end || value > highest) {
+      fail(std::string(name) + ": '" + text + "' is no hexadecimal number in 0..." + hex(highest) +
+           " (0d before decimal digits)");
+      return 0;
+    }
+    return value;
+  }
+
   void fail(const std::string& text) { fault = fault.empty() ? text : fault; }
 
   std::string fault;
+
+ private:
+  static std::string hex(std::uint32_t number) { return demo::text("%X", static_cast<unsigned>(number)); }
 };
 
 std::string read_all(std::istream& in, Bytes& bytes) {
@@ -112,6 +136,33 @@ std::uint32_t lss_value(const LssArguments& arguments, Conversion& conversion) {
   }
 }
 
+NmtCommand nmt_command(const std::string& name, Conversion& conversion) {
+  constexpr std::pair<const char*, NmtCommand> commands[] = {{"start", NmtCommand::start},
+                                                             {"stop", NmtCommand::stop},
+                                                             {"preop", NmtCommand::preop},
+                                                             {"reset-node", NmtCommand::reset_node},
+                                                             {"reset-comm", NmtCommand::reset_comm}};
+  for (const auto& [known, command] : commands) {
+    if (name == known) {
+      return command;
+    }
+  }
+  conversion.fail("nmt: '" + name + "' is none of " + nmt_command_names);
+  return {};
+}
+
+/// The node-ID of the master, which must not be that of \a node.
+std::uint8_t own_id_beside(std::uint8_t node, const std::string& typed, Conversion& conversion) {
+  if (typed.empty()) {
+    return node == usual_own_id ? usual_own_id - 1 : usual_own_id;
+  }
+  const auto own_id = static_cast<std::uint8_t>(conversion.number("--own-id", typed, 1, 127));
+  if (own_id == node) {
+    conversion.fail("--own-id: the node to talk to has this node-ID");
+  }
+  return own_id;
+}
+
 }  // namespace
 
 Prepared prepare(const Arguments& arguments) {
@@ -119,20 +170,14 @@ Prepared prepare(const Arguments& arguments) {
   Request request{};
   request.write = arguments.write;
   request.node = static_cast<std::uint8_t>(conversion.number("--node", arguments.node, 1, 127));
-  const std::uint8_t free_id = request.node == usual_own_id ? usual_own_id - 1 : usual_own_id;
-  request.own_id = arguments.own_id.empty()
-                       ? free_id
-                       : static_cast<std::uint8_t>(conversion.number("--own-id", arguments.own_id, 1, 127));
-  request.index = static_cast<std::uint16_t>(conversion.number("--index", arguments.index, 0, 0xFFFF));
-  request.sub = static_cast<std::uint8_t>(conversion.number("--sub", arguments.sub, 0, 0xFF));
+  request.own_id = own_id_beside(request.node, arguments.own_id, conversion);
+  request.index = static_cast<std::uint16_t>(conversion.object_number("--index", arguments.index, 0xFFFF));
+  request.sub = static_cast<std::uint8_t>(conversion.object_number("--sub", arguments.sub, 0xFF));
   request.timeout = conversion.number("--timeout", arguments.timeout, 0, longest);
   request.type = value_type(arguments.type);
   request.file = arguments.file;
   const std::uint32_t max = conversion.number("--max", arguments.max, 1, longest);
   request.capacity = is_any_bytes(request.type) ? max : SdoClient::small;
-  if (request.own_id == request.node) {
-    conversion.fail("--own-id: the node to talk to has this node-ID");
-  }
   if (!request.type && !arguments.type.empty()) {
     conversion.fail("--type: '" + arguments.type + "' is none of " + value_type_names);
   }
@@ -142,6 +187,19 @@ Prepared prepare(const Arguments& arguments) {
   if (request.write && conversion.fault.empty()) {
     request.data = data_to_write(arguments, request.type, conversion);
   }
+  return {request, conversion.fault};
+}
+
+NmtPrepared prepare(const NmtArguments& arguments) {
+  Conversion conversion;
+  NmtRequest request{};
+  request.command = nmt_command(arguments.command, conversion);
+  if (arguments.node.empty()) {
+    conversion.fail("nmt needs the node to command: --node 1...127, or --node all");
+  } else if (arguments.node != "all") {
+    request.node = static_cast<std::uint8_t>(conversion.number("--node", arguments.node, 1, 127));
+  }
+  request.own_id = own_id_beside(request.node, arguments.own_id, conversion);
   return {request, conversion.fault};
 }
 
@@ -161,6 +219,9 @@ LssPrepared prepare(const LssArguments& arguments) {
   request.own_id = static_cast<std::uint8_t>(conversion.number("--own-id", arguments.own_id, 1, 127));
   request.timeout = conversion.number("--timeout", arguments.timeout, 1, longest);
   request.listen = conversion.number("--listen", arguments.listen, 1, longest);
+  if (arguments.store && (request.action == LssAction::scan || request.action == LssAction::inquire)) {
+    conversion.fail("--store: scan and inquire change nothing that could be stored");
+  }
   if (request.action == LssAction::scan && request.address) {
     conversion.fail("--address: scan looks for all nodes without node-ID");
   }

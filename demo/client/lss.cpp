@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_master/lss.hpp"
+#include "client/lss.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "linux_master/request.hpp"
+#include "client/request.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -65,6 +65,20 @@ std::string what_went_wrong(const Request& request, const Outcome& outcome) {
   return outcome.bus_fault.empty() ? words : words + '\n' + outcome.bus_fault;
 }
 
+/// Device name, hardware and software version are of the type VISIBLE_STRING. [301:7.5.2.8]
+bool is_visible_string(const Request& request) {
+  return request.index >= 0x1008 && request.index <= 0x100A && request.sub == 0;
+}
+
+/// The value in the form of its type; without one, a visible string as text, anything else as guess() shows it.
+Shown show(const Request& request, const Bytes& bytes) {
+  if (request.type) {
+    return demo::show(*request.type, bytes);
+  }
+  const std::string text = is_visible_string(request) ? visible_text(bytes) : std::string();
+  return {text.empty() ? guess(bytes) : text, {}};
+}
+
 int put(const Bytes& bytes, std::ostream& out, const std::string& file, std::ostream& err) {
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!out.flush()) {
@@ -116,7 +130,7 @@ int report(const Request& request, const Outcome& outcome, std::ostream& out, st
   if (!request.file.empty()) {
     return save(transfer.data, request.file, out, err);
   }
-  const Shown shown = request.type ? show(*request.type, transfer.data) : Shown{guess(transfer.data), {}};
+  const Shown shown = show(request, transfer.data);
   if (!shown.fault.empty()) {
     err << text("node %u, %04Xh:%02X: ", request.node, request.index, request.sub) << shown.fault << std::endl;
     return exit_failed;

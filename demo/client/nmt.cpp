@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "client/nmt.hpp"
+
+#include "client/sdo_client.hpp"
+#include "host/exit.hpp"
+#include "host/loop.hpp"
+#include "host/node.hpp"
+#include "trace/text.hpp"
+
+namespace demo {
+
+#if USE_NMT_MASTER
+
+namespace {
+
+constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
+constexpr std::uint8_t no_sdo = 1;                 // server of an SDO client that is not used
+
+std::string fault_of(CO_ERR error) {
+  switch (error) {
+    case CO_ERR_NONE: return {};
+    case CO_ERR_IF_CAN_SEND: return "the bus takes no frames";
+    default: return text("error %04Xh", static_cast<unsigned>(error));
+  }
+}
+
+}  // namespace
+
+int carry_out(const NmtRequest& request, Host& host, std::ostream& err) {
+  ClientDictionary dictionary(no_sdo);
+  Node node({request.own_id, host.master_can(), host.master_timer(), dictionary.table()});
+  Loop loop(host, {&node});
+  CONodeStart(&node.stack());
+  std::string fault =
+      fault_of(CONmtCommand(&node.stack().Nmt, static_cast<CO_NMT_COMMAND>(request.command), request.node));
+  loop.flush(last_frames);
+  if (fault.empty()) {
+    fault = host.bus_fault();
+  }
+  if (!fault.empty()) {
+    err << "NMT: " << fault << std::endl;
+  }
+  return fault.empty() ? exit_ok : exit_failed;
+}
+
+#else
+
+int carry_out(const NmtRequest&, Host&, std::ostream& err) {
+  err << "this build of the stack has no NMT master" << std::endl;
+  return exit_usage;
+}
+
+#endif
+
+}  // namespace demo

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file nmt.hpp
+/// Sends an NMT command for a command line. [301:7.2.8.2.1]
+#pragma once
+
+#include <ostream>
+
+#include "client/arguments.hpp"
+#include "host/host.hpp"
+
+namespace demo {
+
+/// Goes on the bus as a node, and sends the command. Faults go to \a err. Returns the exit code.
+int carry_out(const NmtRequest& request, Host& host, std::ostream& err);
+
+}  // namespace demo
