@@ -65,11 +65,24 @@ with_board() (
     -chardev "socket,id=can,path=$place/can,server=on,wait=on" -serial chardev:can -kernel "$program" \
     >"$place/log" 2>&1 &
   emulator=$!
-  while [ ! -S "$place/can" ] && kill -0 "$emulator" 2>/dev/null; do
-    sleep 0.05
-  done
+  await_socket "$place/can" "$emulator"
   "$@" --slcan "$place/can"
   status=$?
   grep -v 'info: QEMU waiting for connection' "$place/log" >&2
   exit $status
 )
+
+# Runs the board with its UART at a Unix socket, which one program after the other can connect to. Replaces the shell that
+# calls it, in the background: serve_board BOARD PROGRAM SOCKET &
+serve_board() {
+  local qemu
+  read -ra qemu <<<"$(machine "$1")"
+  exec "${qemu[@]}" -display none -monitor none -semihosting-config enable=on,target=native \
+    -chardev "socket,id=can,path=$3,server=on,wait=off" -serial chardev:can -kernel "$2"
+}
+
+await_socket() {  # SOCKET PID-OF-THE-EMULATOR
+  while [ ! -S "$1" ] && kill -0 "$2" 2>/dev/null; do
+    sleep 0.05
+  done
+}

@@ -47,14 +47,16 @@ void LinuxHost::wait(Micros time) {
 }
 
 VirtualBusHost::VirtualBusHost(const Interruption& interruption) : LinuxHost(interruption) {
-  bus_.set_time([this] { return std::chrono::microseconds{now()}; });
+  bus_.set_time([this] { return clock_.time(); });
   bus_.pace(bit_rate);
 }
 
 void VirtualBusHost::wait(Micros time) {
+  LinuxHost::wait(0);  // lets signals in
   const auto next = static_cast<Micros>(bus_.next_due().count());
-  const Micros passed = now();
-  LinuxHost::wait(std::min(time, next > passed ? next - passed : 0));
+  const Micros until_next = next > now() ? next - now() : 0;
+  const auto step = static_cast<std::int64_t>(std::min({time, until_next, second}));
+  clock_.advance(clock_.ticks(std::chrono::microseconds{step}));
 }
 
 std::string SocketCanHost::open(const std::string& interface, bool device, bool master) {

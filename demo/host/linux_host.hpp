@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file linux_host.hpp
-/// Real time, and a bus: SocketCAN, or the one inside the program.
+/// Real time and SocketCAN, or the bus inside the program with a simulated time.
 #pragma once
 
 #include <poll.h>
@@ -13,6 +13,7 @@
 #include "linux_timer.hpp"
 #include "socketcan.hpp"
 #include "virtual_bus.hpp"
+#include "virtual_clock.hpp"
 
 namespace demo {
 
@@ -52,7 +53,8 @@ class LinuxHost : public Host {
   co::LinuxTimer master_timer_;
 };
 
-/// The bus inside the program. Frames take the time that they take on a wire.
+/// The bus inside the program, with a simulated time: it passes when the program waits, and only then. Frames take the
+/// time that they take on a wire.
 class VirtualBusHost : public LinuxHost {
  public:
   static constexpr std::uint32_t bit_rate = 1'000'000;  // bit/s
@@ -60,9 +62,15 @@ class VirtualBusHost : public LinuxHost {
   explicit VirtualBusHost(const Interruption& interruption);
   Can device_can() override { return {&co::VirtualBusDriver, &device_}; }
   Can master_can() override { return {&co::VirtualBusDriver, &master_}; }
+  Timer device_timer() override { return {&co::VirtualTimerDriver, &device_timer_}; }
+  Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
+  Micros now() override { return static_cast<Micros>(clock_.time().count()); }
   void wait(Micros time) override;
 
  private:
+  co::VirtualClock clock_;
+  co::VirtualTimer device_timer_{clock_};
+  co::VirtualTimer master_timer_{clock_};
   co::VirtualBus bus_;
   co::VirtualBus::Port& device_ = bus_.attach({"node"});
   co::VirtualBus::Port& master_ = bus_.attach({"master"});

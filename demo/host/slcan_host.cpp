@@ -2,12 +2,14 @@
 #include "host/slcan_host.hpp"
 
 #include <fcntl.h>
+#include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -42,16 +44,33 @@ int open_socket(const std::string& path) {
   return -1;
 }
 
-// Adapters that are a USB device pass over the speed; others have this one.
+// Adapters that are a USB device pass over the speed; others have this one. What arrived for an earlier program is
+// discarded.
 int open_terminal(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   termios settings{};
   if (fd >= 0 && ::tcgetattr(fd, &settings) == 0) {
     ::cfmakeraw(&settings);
     ::cfsetspeed(&settings, B115200);
-    ::tcsetattr(fd, TCSANOW, &settings);
+    ::tcsetattr(fd, TCSAFLUSH, &settings);
   }
   return fd;
+}
+
+// The name of a new pseudo-terminal; empty, with errno: there is none. It passes bytes on as they are, and seems to
+// have been closed until another program opens it.
+std::string name_of(int pseudo_terminal) {
+  char name[64] = "";
+  if (pseudo_terminal < 0 || ::grantpt(pseudo_terminal) != 0 || ::unlockpt(pseudo_terminal) != 0 ||
+      ::ptsname_r(pseudo_terminal, name, sizeof name) != 0) {
+    return {};
+  }
+  const int other_end = open_terminal(name);
+  if (other_end < 0) {
+    return {};
+  }
+  ::close(other_end);
+  return name;
 }
 
 // A socket without another end is an error here, and no signal.
@@ -90,11 +109,26 @@ std::string SlcanHost::open(const std::string& path, std::uint32_t bit_rate) {
   if (fd_ < 0) {
     return "slcan adapter '" + path + "': " + words(errno);
   }
+  begin();
+  can_.Baud = bit_rate;
+  return {};
+}
+
+std::string SlcanHost::open_pseudo_terminal() {
+  is_pseudo_terminal_ = true;
+  fd_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  path_ = name_of(fd_);
+  if (path_.empty()) {
+    return "no pseudo-terminal: " + words(errno);
+  }
+  begin();
+  return {};
+}
+
+void SlcanHost::begin() {
   ::fcntl(fd_, F_SETFL, O_NONBLOCK);
   const auto start = [](void* host) { at(host).send(); };
   COSlcanInit(&can_, frames_.data(), static_cast<std::uint16_t>(frames_.size()), start, this);
-  can_.Baud = bit_rate;
-  return {};
 }
 
 std::string SlcanHost::bus_fault() {
@@ -105,7 +139,20 @@ std::string SlcanHost::bus_fault() {
   return gone_;
 }
 
+bool SlcanHost::has_other_end() const {
+  pollfd end{fd_, 0, 0};
+  return !is_pseudo_terminal_ || ::poll(&end, 1, 0) <= 0 || (end.revents & POLLHUP) == 0;
+}
+
+void SlcanHost::wait(Micros time) {
+  constexpr Micros until_next_look = 10 * millisecond;  // poll() does not report that another program opens it
+  LinuxHost::wait(has_other_end() ? time : std::min(time, until_next_look));
+}
+
 std::vector<pollfd> SlcanHost::wake_ups() {
+  if (!has_other_end()) {
+    return {};
+  }
   const std::uint8_t* bytes = nullptr;
   const bool is_waiting = COSlcanPending(&can_, &bytes) != 0;
   return {{fd_, static_cast<short>(is_waiting ? POLLIN | POLLOUT : POLLIN), 0}};
@@ -119,6 +166,9 @@ void SlcanHost::receive() {
     return;  // the rest waits in the kernel
   }
   const ssize_t size = ::read(fd_, bytes.data(), bytes.size());
+  if (size < 0 && errno == EIO && is_pseudo_terminal_) {
+    return;  // no program has opened it
+  }
   if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
     lose(size == 0 ? "the other end is closed" : words(errno));
   }
@@ -130,8 +180,9 @@ void SlcanHost::receive() {
 void SlcanHost::send() {
   const std::uint8_t* bytes = nullptr;
   std::uint32_t size = COSlcanPending(&can_, &bytes);
+  const bool dropped = !has_other_end();
   while (fd_ >= 0 && size != 0) {
-    const ssize_t sent = put(fd_, bytes, size);
+    const ssize_t sent = dropped ? static_cast<ssize_t>(size) : put(fd_, bytes, size);
     if (sent < 0 && (errno == EAGAIN || errno == EINTR)) {
       return;
     }

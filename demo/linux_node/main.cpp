@@ -7,10 +7,12 @@
 #include <iostream>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "clock/dictionary.hpp"
 #include "clock/names.hpp"
 #include "host/linux_host.hpp"
+#include "host/slcan_host.hpp"
 #include "linux_node/clock.hpp"
 #include "linux_node/heartbeat_watch.hpp"
 #include "linux_node/options.hpp"
@@ -30,25 +32,50 @@ constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 struct Bus {
   std::unique_ptr<Host> host;
   std::string about;
+  std::string master_options = {};  // by which lexican-demo-master uses the same bus
 };
 
-std::string virtual_bus() { return text("built-in virtual bus, %u kbit/s", VirtualBusHost::bit_rate / 1000); }
+std::string virtual_bus() {
+  return text("built-in virtual bus, %u kbit/s, simulated time", VirtualBusHost::bit_rate / 1000);
+}
+
+Bus open_pseudo_terminal(const std::string& why, const Interruption& interruption) {
+  auto host = std::make_unique<SlcanHost>(interruption);
+  const std::string fault = host->open_pseudo_terminal();
+  if (!fault.empty()) {
+    return {nullptr, fault};
+  }
+  const std::string path = host->path();
+  return {std::move(host), "slcan on the pseudo-terminal " + path + why, " --slcan " + path};
+}
+
+Bus open_interface(const Options& options, const Interruption& interruption) {
+  const bool chosen = !options.interface.empty();
+  const std::string interface = chosen ? options.interface : default_interface;
+  auto host = std::make_unique<SocketCanHost>(interruption);
+  const std::string fault = host->open(interface, true, !options.serve);
+  if (!fault.empty()) {
+    return {nullptr, fault};
+  }
+  return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", as told by --can" : ", which is up"),
+          chosen ? " --can " + interface : ""};
+}
 
 Bus open_bus(const Options& options, const Interruption& interruption) {
   if (options.virtual_bus) {
     return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + ", as told by --virtual"};
   }
-  const bool chosen = !options.interface.empty();
-  const std::string interface = chosen ? options.interface : default_interface;
-  auto host = std::make_unique<SocketCanHost>(interruption);
-  const std::string fault = host->open(interface, true, !options.serve);
-  if (fault.empty()) {
-    return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", as told by --can" : ", which is up")};
+  if (options.pseudo_terminal) {
+    return open_pseudo_terminal(", as told by --pty", interruption);
   }
-  if (chosen || options.serve) {
-    return {nullptr, (chosen ? "" : "--serve needs a CAN interface. ") + fault};
+  Bus bus = open_interface(options, interruption);
+  if (bus.host != nullptr || !options.interface.empty()) {
+    return bus;
   }
-  return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + "; " + fault};
+  if (options.serve) {
+    return open_pseudo_terminal("; " + bus.about, interruption);
+  }
+  return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + "; " + bus.about};
 }
 
 View::Style style_for(const Options& options) {
@@ -91,6 +118,13 @@ std::string about_node(Clock& clock, const Options& options, std::uint32_t seria
   return "Node: the demo clock, " +
          (clock.node_id() == no_node_id ? "without node-ID" : text("node-ID %u", clock.node_id())) +
          (options.serve ? text(", serial number 0x%08X; Ctrl-C ends it\n", serial) : "\n");
+}
+
+/// A first command for a master on the same bus.
+std::string about_master(Clock& clock, const Bus& bus) {
+  const std::string request =
+      clock.node_id() == no_node_id ? " lss set-id 5 --store" : text(" --node %u --index 1008 read", clock.node_id());
+  return "Master: demo/run master" + bus.master_options + request;
 }
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
@@ -171,6 +205,9 @@ int run(const Options& options) {
   const std::uint32_t serial = serial_number(options);
   Clock clock(first_node_id(options), host.device_can(), timer, observer, storage.memory(), serial);
   view.line("Bus:  " + bus.about);
+  if (options.serve) {
+    view.line(about_master(clock, bus));
+  }
   view.line(about_node(clock, options, serial));
   view.columns();
   return options.serve ? serve(host, clock, heartbeats, view) : show_tour(host, clock, options, view);

@@ -15,8 +15,10 @@ constexpr const char* unconfigured = "unconfigured";
 
 constexpr const char* description =
     "A CANopen node, the demo clock of Lexican, and a small master that shows what the node can do.\n"
-    "Without options: uses vcan0 if there is one, else a bus built into the program.\n"
-    "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C.\n"
+    "Without options: uses vcan0 if there is one, else a bus built into the program, with a simulated time.\n"
+    "With --serve: the node alone, for lexican-demo-master or your own tools, until Ctrl-C. Uses vcan0 if there is "
+    "one,\n"
+    "else slcan on a pseudo-terminal, whose name it prints.\n"
     "An unconfigured node waits until an LSS master gives it a node-ID, as lexican-demo-master lss set-id does.";
 
 constexpr const char* footer =
@@ -51,6 +53,9 @@ CommandLine read_command_line(int argc, char** argv) {
   app.add_flag("--virtual", options.virtual_bus, "Use the built-in bus, even if there is a vcan0")
       ->excludes(can)
       ->excludes(serve);
+  app.add_flag("--pty", options.pseudo_terminal, "Serve on a pseudo-terminal (slcan), even if there is a vcan0")
+      ->excludes(can)
+      ->needs(serve);
   auto* const quiet = app.add_flag("--quiet", options.quiet, "Show no frames");
   app.add_flag("--every-frame", options.every_frame, "Show all frames of long transfers")->excludes(quiet);
   try {

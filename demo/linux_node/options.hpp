@@ -18,6 +18,7 @@ struct Options {
   std::string serial;         // number as typed; empty: the program chooses
   bool serve = false;
   bool virtual_bus = false;
+  bool pseudo_terminal = false;
   bool every_frame = false;
   bool quiet = false;
 };

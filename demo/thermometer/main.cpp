@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thermometer on a bus inside of this program, in a time of its own: three seconds, in which it gets warm. What is
-// on the bus is shown. A program for a device has a driver of its own for each: docs/porting.md.
+// The thermometer on a bus inside of this program, in a simulated time: three seconds, in which it gets warm. The
+// frames of the bus are shown with their meaning. A program for a device has a driver of its own for each:
+// docs/porting.md.
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 
 #include "thermometer/thermometer.hpp"
+#include "trace/decode.hpp"
+#include "trace/text.hpp"
 #include "virtual_bus.hpp"
 #include "virtual_clock.hpp"
 
@@ -14,22 +18,57 @@ namespace {
 
 constexpr std::uint8_t node_id = 1;
 
-void show(co::VirtualClock& clock, const CO_IF_FRM& frame) {
-  std::printf("%6lld ms  %03X ", static_cast<long long>(clock.time() / 1ms), static_cast<unsigned>(frame.Identifier));
-  for (unsigned n = 0; n < frame.DLC; ++n) {
-    std::printf(" %02X", static_cast<unsigned>(frame.Data[n]));
+constexpr const char* help =
+    "Shows a small CANopen node, a thermometer, on a bus inside of the program: three seconds of a simulated time, in\n"
+    "which it gets too warm. Each frame is printed with its time, CAN-ID, bytes and meaning.\n"
+    "Its dictionary is written by hand, in demo/thermometer/thermometer.cpp: a beginning for one of your own.\n"
+    "Usage: lexican-demo-thermometer [OPTIONS]\n"
+    "\n"
+    "Options:\n"
+    "  -h,--help               Print this help message and exit\n"
+    "\n"
+    "Exit codes:\n"
+    "    0  the node has worked as expected\n"
+    "    1  the node has reported an error\n"
+    "    2  wrong arguments\n";
+
+const demo::trace::Names names = {
+    {0x2000, 0, "temperature in 0.1 degrees Celsius", demo::trace::Form::decimal},
+    {0x2001, 0, "limit of the temperature", demo::trace::Form::decimal},
+};
+const demo::trace::Mappings mappings = {{0x180, {{0x2000, 0, 2}}}};  // TPDO1
+
+void show(co::VirtualClock& clock, const CO_IF_FRM& frame, demo::trace::Decoder& decoder) {
+  const std::string bytes = demo::hex_bytes(frame.Data, frame.DLC);
+  std::printf("%6lld ms  %03X  %-23s  %s\n", static_cast<long long>(clock.time() / 1ms),
+              static_cast<unsigned>(frame.Identifier), bytes.c_str(), decoder.decode(frame).text.c_str());
+}
+
+/// Returns -1 without arguments, otherwise the exit code.
+int answer_arguments(int argc, char** argv) {
+  if (argc == 1) {
+    return -1;
   }
-  std::printf("\n");
+  if (argc == 2 && (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0)) {
+    std::fputs(help, stdout);
+    return 0;
+  }
+  std::fprintf(stderr, "unknown argument '%s'; see --help\n", argv[1]);
+  return 2;
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (const int exit_code = answer_arguments(argc, argv); exit_code >= 0) {
+    return exit_code;
+  }
   CO_NODE node{};
   co::VirtualClock clock;
   co::VirtualTimer timer(clock, [&node] { COTmrService(&node.Tmr); });
   co::VirtualBus bus;
-  bus.set_trace([&clock](const co::VirtualBus::Traffic& traffic) { show(clock, traffic.frame); });
+  demo::trace::Decoder decoder(names, mappings);
+  bus.set_trace([&](const co::VirtualBus::Traffic& traffic) { show(clock, traffic.frame, decoder); });
 
   CO_NODE_EXT drivers{};
   drivers.Can = &co::VirtualBusDriver;

@@ -28,6 +28,7 @@ lane() {
   for board in "${boards[@]}"; do
     count_steps "$board" "$results/bare-metal-$board-tour.log"
     verdict "$board: alarms and clock of its timer" "$results/bare-metal-$board-timer.log"
+    verdict "$board: two masters, one after the other, at the node that serves" "$results/bare-metal-$board-serve.log"
     verdict "$board: its name, read by lexican-demo-master --slcan" "$results/bare-metal-$board-name.log"
   done
 }
@@ -36,6 +37,7 @@ run_board() {  # BOARD LOGS
   logged "$2-tour.log" master_at "$1" tour
   logged "$2-timer.log" run_alone "$1" "$build/bare-metal-$1/demo/bare_metal/lexican-timer-test"
   logged "$2-name.log" name_of "$1"
+  logged "$2-serve.log" served "$1"
 }
 
 logged() {  # LOG COMMAND...
@@ -78,5 +80,18 @@ count_steps() {
 
 name_of() {  # BOARD
   local name
-  name=$(master_at "$1" --node 1 --index 0x1009 --type string --timeout 30000 read) && echo "$name" && [ "$name" = "$1" ]
+  name=$(master_at "$1" --node 1 --index 1009 --timeout 30000 read) && echo "$name" && [ "$name" = "$1" ]
 }
+
+# As demo/run --bare-metal BOARD --serve: the emulator goes on when a master has gone.
+served() (  # BOARD
+  place=$(mktemp -d)
+  serve_board "$1" "$build/bare-metal-$1/demo/bare_metal/lexican-demo-bare-metal" "$place/can" &
+  emulator=$!
+  trap 'kill "$emulator"; wait "$emulator"; rm -r "$place"' EXIT
+  await_socket "$place/can" "$emulator"
+  at_board() {
+    "$build/release/demo/linux_master/lexican-demo-master" --slcan "$place/can" --node 1 --timeout 30000 "$@"
+  }
+  [ "$(at_board --index 1009 read)" = "$1" ] && at_board nmt start && [ "$(at_board --index 1008 read)" = "Lexican demo clock" ]
+)

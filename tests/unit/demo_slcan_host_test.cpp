@@ -199,4 +199,58 @@ TEST_CASE("slcan host: what cannot be opened is told in words") {
   CHECK(host.open("/no/such/adapter", 0) == "slcan adapter '/no/such/adapter': No such file or directory");
   CHECK(host.open("/", 0).find("slcan adapter '/': ") == 0);
 }
+
+TEST_CASE("slcan host: a pseudo-terminal carries frames while another program has opened it, one after the other") {
+  const Interruption interruption;
+  SlcanHost device(interruption);
+  REQUIRE(device.open_pseudo_terminal() == "");
+  const demo::Can can = device.device_can();
+  can.driver->Init(can.context);
+  can.driver->Enable(can.context, 0);
+  const CO_IF_FRM nobody = test::frame("705#00");
+  for (unsigned n = 0; n < 10000; ++n) {
+    REQUIRE(can.driver->Send(can.context, &nobody) == taken);  // dropped: it fills no buffer
+  }
+  const auto read = [&] {
+    CO_IF_FRM frame{};
+    for (unsigned tries = 0; tries < 100; ++tries) {
+      if (can.driver->Read(can.context, &frame) > 0) {
+        return test::notation(frame);
+      }
+      device.wait(50 * demo::millisecond);
+    }
+    return std::string();
+  };
+  for (const char* request : {"605#4000100000000000", "605#4008100000000000"}) {
+    SlcanHost master(interruption);
+    REQUIRE(master.open(device.path(), 0) == "");
+    const demo::Can other = master.master_can();
+    other.driver->Init(other.context);
+    other.driver->Enable(other.context, 0);
+    const CO_IF_FRM frame = test::frame(request);
+    REQUIRE(other.driver->Send(other.context, &frame) == taken);
+    CHECK(read() == request);
+    const CO_IF_FRM answer = test::frame("585#4300100000000000");
+    REQUIRE(can.driver->Send(can.context, &answer) == taken);
+    CO_IF_FRM received{};
+    master.wait(demo::second);
+    CHECK(other.driver->Read(other.context, &received) == taken);
+    CHECK(test::notation(received) == "585#4300100000000000");
+  }
+  CHECK(device.bus_fault().empty());
+}
+
+TEST_CASE("linux host: the time of the built-in bus passes only while the program waits") {
+  const Interruption interruption;
+  demo::VirtualBusHost host(interruption);
+  const demo::Timer timer = host.device_timer();
+  timer.driver->Init(timer.context, 1000000);
+  CHECK(host.now() == 0);
+  ::usleep(20000);
+  CHECK(host.now() == 0);
+  host.wait(250 * demo::millisecond);
+  CHECK(host.now() == 250 * demo::millisecond);
+  host.wait(demo::for_ever);  // with nothing that could end it
+  CHECK(host.now() == 250 * demo::millisecond + demo::second);
+}
 #endif

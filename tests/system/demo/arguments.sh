@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# arguments.sh NODE MASTER THERMOMETER
+#
+# demo/run checks its arguments, and shows its help, before it installs or builds anything. The commands of README are
+# right. The help texts have the options of the programs.
+set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer}
+trap 'rm -r "$work"' EXIT
+
+# Instead of the tools that install and build: they take a note.
+mkdir "$work/bin"
+for tool in apt-get sudo cmake ninja g++; do
+  printf '#!/bin/sh\necho "%s $*" >>"%s"\nexit 1\n' "$tool" "$work/called" >"$work/bin/$tool"
+  chmod +x "$work/bin/$tool"
+done
+checked() { PATH=$work/bin:$PATH "$root/demo/run" "$@"; }
+
+answers() {  # CASE STATUS PATTERN [ARGUMENT]...: at once, and without any of the tools
+  local begin
+  rm -f "$work/called"
+  begin=$(date +%s%N)
+  ends "$1" "$2" "$3" checked "${@:4}"
+  [ $(($(date +%s%N) - begin)) -lt 1000000000 ]
+  verdict $? "$1: in less than a second" "took $((($(date +%s%N) - begin) / 1000000)) ms"
+  [ ! -e "$work/called" ]
+  verdict $? "$1: nothing is installed or built" "$(cat "$work/called" 2>/dev/null)"
+}
+
+answers "help" 0 "Usage: demo/run *--bare-metal*--serve*" --help
+answers "help of the master" 0 "*--index HEX*nmt *" master --help
+answers "help of lss" 0 "*--address V P R S*set-bitrate*" master lss --help
+answers "help of the thermometer" 0 "*Usage: demo/run thermometer*" thermometer --help
+answers "help of the boards" 0 "*mps2-an385*--serve*" --bare-metal --help
+
+answers "unknown option" 2 "demo/run: unknown option '--frames' of the node*--every-frame*" --frames
+answers "unknown option with a value" 2 "demo/run: unknown option '--id' of the node*" --id=5
+answers "unknown program" 2 "demo/run: unknown program 'slave'; one of master, thermometer*" slave
+answers "missing value" 2 "demo/run: option '--node-id' of the node needs a value*" --serve --node-id
+answers "unknown option of the master" 2 "demo/run: unknown option '--id' of master*--node N*--store*" master --id 5 read
+answers "missing value of the master" 2 "demo/run: option '--address' of master needs 4 values*" master lss inquire --address 1 2 3
+answers "missing command of the master" 2 "demo/run: master needs a command: read, write, nmt, lss or tour" master --node 5
+answers "unknown command of the master" 2 "demo/run: unknown command 'get' of master*" master --node 5 get
+answers "unknown NMT command" 2 "demo/run: nmt needs one of: start stop preop reset-node reset-comm" master nmt begin
+answers "unknown LSS service" 2 "demo/run: lss needs one of: scan set-id set-bitrate store inquire" master lss find
+answers "argument of the thermometer" 2 "demo/run: unknown argument '20' of thermometer*" thermometer 20
+answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal uno
+answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
+answers "several boards to be served" 2 "demo/run: --serve runs one board, not all" --bare-metal all --serve
+
+# All commands of README: the arguments are right. What is missing is then looked for, and cannot be installed here.
+readme_commands() { sed -nE 's/^(demo\/run( [^#]*)?)(#.*)?$/\1/p' "$root/README.md" | sed 's/ *&* *$//; s/ \[BOARD\]//'; }
+count=0
+while read -r command; do
+  count=$((count + 1))
+  read -ra words <<<"$command"
+  output=$(checked "${words[@]:1}" 2>&1 </dev/null)
+  [[ $output != "demo/run: "* ]]
+  verdict $? "README: $command" "$output"
+done < <(readme_commands)
+[ $count -ge 9 ]
+verdict $? "README has commands of the demo" "$count found"
+
+# The help texts and the programs name the same options, with as many values.
+. <(sed -n '/^options_of()/,/^}/p' "$root/demo/run")
+same_options() {  # HELP COMMAND...
+  "${@:2}" --help >"$work/help"
+  ends "options in demo/help/$1" 0 "" diff <(help=$root/demo/help options_of "$1") <(help=$work options_of help)
+}
+same_options node.txt "$node"
+same_options master.txt "$master"
+same_options lss.txt "$master" lss
+same_options thermometer.txt "$thermometer"
+
+# What is missing is named with its size before it is installed.
+ends "missing packages" 0 "missing Debian packages: sl
+installing them and what they need: 23 packages, 45.2 MB to download, 1,201 MB on disk" bash -c '
+  . "$1/cmake/install_packages.sh"
+  as_root() { "$@"; }
+  apt-get() {
+    echo "0 upgraded, 23 newly installed, 0 to remove and 1 not upgraded."
+    echo "Need to get 45.2 MB of archives."
+    echo "After this operation, 1,201 MB of additional disk space will be used."
+    echo "Abort."
+  }
+  apt_install() { return 0; }
+  probe_found() { return 1; }
+  install_packages sl' - "$root"
+ends "progress of a long command" 3 "building the demo: 15 s, 12 of 89*" bash -c '
+  . "$1/cmake/progress.sh"
+  sleep() { SECONDS=$((SECONDS + 1)); command sleep 0.02; }
+  with_progress "building the demo" "$2/log" bash -c "echo \"[12/89] Building\"; sleep 1; exit 3"' - "$root" "$work"
+finish

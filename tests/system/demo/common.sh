@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# What the shell tests of the demo share. Each prints a line for each case; its status is 0 if all are right.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
+work=$(mktemp -d)
+failures=0
+
+verdict() {  # STATUS CASE DETAIL
+  if [ "$1" -eq 0 ]; then
+    echo "ok $2"
+  else
+    failures=$((failures + 1))
+    echo "not ok $2: $3"
+  fi
+}
+
+# Ends the test: the status is that of all cases.
+finish() { exit $((failures > 0)); }
+
+# The command ends with this status, and its output (of both kinds) matches the pattern.
+ends() {  # CASE STATUS PATTERN COMMAND...
+  local name=$1 expected=$2 pattern=$3 output status=0
+  shift 3
+  output=$("$@" 2>&1 </dev/null) || status=$?
+  # shellcheck disable=SC2053  # a pattern
+  [ "$status" -eq "$expected" ] && [[ $output == $pattern ]]
+  verdict $? "$name" "expected status $expected and '$pattern', got status $status and '$output'"
+}
+
+# Waits until a file has a line that matches: await FILE REGEX
+await() {
+  local tries=200
+  until grep -qE "$2" "$1" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.05; done
+  [ $tries -gt 0 ]
+}

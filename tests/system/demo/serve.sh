@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# serve.sh NODE MASTER
+#
+# The demo node on a pseudo-terminal, and the master at its other end: a bus without CAN sockets of the kernel.
+set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+node=${1:?the demo node} master=${2:?the demo master}
+server=
+trap 'kill $server 2>/dev/null; rm -r "$work"' EXIT
+
+serve() {  # ARGUMENT... of the node
+  "$node" --serve --pty "$@" >"$work/trace" 2>&1 &
+  server=$!
+  await "$work/trace" '^ *time/s'
+  pty=$(grep -oE '/dev/pts/[0-9]+' "$work/trace" | head -n 1)
+}
+
+stop() {  # CASE
+  local status=0
+  kill -TERM $server
+  wait $server || status=$?
+  verdict $status "$1" "status $status"
+}
+
+at_node() { "$master" --slcan "$pty" "$@"; }
+
+serve --node-id 5
+grep -qx "Master: demo/run master --slcan $pty --node 5 --index 1008 read" "$work/trace"
+verdict $? "the output names the master's command" "$(cat "$work/trace")"
+ends "a name is text" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
+ends "an index with 0x" 0 "Lexican demo clock" at_node --node 5 --index 0x1008 read
+ends "a decimal index behind 0d" 0 "Lexican demo clock" at_node --node 5 --index 0d4104 read
+ends "a name as bytes" 0 "4C 65 78 69 *" at_node --node 5 --index 1008 --type bytes read
+ends "a version is text" 0 "host" at_node --node 5 --index 1009 read
+ends "a number is written" 0 "" at_node --node 5 --index 2100 --sub 1 --type u8 write 7
+ends "a number is read" 0 "0x07" at_node --node 5 --index 2100 --sub 1 read
+ends "an index that is no number" 2 "--index: '2100h' is no hexadecimal number in 0...FFFF *" at_node --node 5 --index 2100h read
+ends "the picture by block transfer" 0 "" at_node --node 5 --index 2200 --file "$work/picture" read
+[ "$(stat -c %s "$work/picture")" -eq 73728 ]
+verdict $? "every byte of the picture" "$(ls -l "$work/picture")"
+
+ends "NMT without a node" 2 "nmt needs the node to command: --node 1...127, or --node all" at_node nmt start
+ends "NMT with an unknown command" 2 "nmt: 'begin' is none of start, stop, *" at_node --node 5 nmt begin
+ends "NMT start" 0 "" at_node --node 5 nmt start
+await "$work/trace" 'bus +000 +01 05 .*NMT start' && await "$work/trace" '705 +05 .*operational'
+verdict $? "the node is operational" "$(tail "$work/trace")"
+ends "NMT reset communication of all nodes" 0 "" at_node nmt reset-comm --node all
+await "$work/trace" '000 +82 00' && await "$work/trace" '705 +00 .*boot-up'
+verdict $? "the node has booted" "$(tail "$work/trace")"
+stop "the node ends with status 0"
+
+serve --node-id unconfigured --storage "$work/clock.nvm"
+grep -qx "Master: demo/run master --slcan $pty lss set-id 5 --store" "$work/trace"
+verdict $? "without node-ID, the output names the LSS command" "$(cat "$work/trace")"
+ends "LSS gives the node-ID" 0 "0x00000000 0x0000C10C *" at_node lss set-id 5 --store
+ends "the node answers with it" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
+stop "the node without node-ID ends with status 0"
+
+# The master is terminated in a transfer: what the node sends then is not what the next master reads.
+serve --node-id 5
+"$master" --slcan "$pty" --node 5 --index 2200 --file "$work/half" read &
+client=$!
+await "$work/trace" '2200h'
+kill -KILL $client
+wait $client 2>/dev/null
+ends "another master after one that was killed" 0 "0x0000C10C" at_node --node 5 --index 1018 --sub 2 read
+stop "it, too, ends with status 0"
+
+# On its own bus the time is simulated: it passes only while the program waits, so a slow machine cannot be late.
+begin=$(date +%s%N)
+ends "the tour on the built-in bus" 0 "*built-in virtual bus*simulated time*22 of 22 steps in 1?.? s, all as expected" \
+  "$node" --virtual
+[ $(($(date +%s%N) - begin)) -lt 10000000000 ]
+verdict $? "it takes less time than it shows" "took $((($(date +%s%N) - begin) / 1000000)) ms"
+finish
