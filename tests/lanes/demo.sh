@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+about="demo/run as a user runs it: builds the demo, shows it, serves it on a pseudo-terminal; the commands of README"
+minutes=2
+packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp)
+
+lane() {
+  now_in "$build/demo/build.log"
+  check "demo/run --virtual" shows "steps in .* all as expected" --virtual
+  check "demo/run thermometer" shows "TPDO1 temperature in 0.1 degrees Celsius = 1010" thermometer
+  check "demo/run --serve, and the commands of README for the master" served
+  check "demo/run --serve without node-ID, and lss set-id" configured
+}
+
+demo() { "$root/demo/run" "$@"; }
+
+shows() {  # REGEX ARGUMENT...
+  demo "${@:2}" | tee "$results/demo-shown.log" | grep -E "$1"
+}
+
+# Runs the command while the node serves, with the name of its pseudo-terminal: with_node COMMAND ARGUMENT-OF-THE-NODE...
+with_node() (
+  log=$results/demo-serve.log
+  "$root/demo/run" --serve --pty "${@:2}" >"$log" 2>&1 &
+  node=$!
+  trap 'kill "$node"; wait "$node"; cat "$log"' EXIT
+  for _ in $(seq 600); do
+    ! grep -q '^ *time/s' "$log" || break
+    sleep 0.1
+  done
+  "$1" "$(grep -oE '/dev/pts/[0-9]+' "$log" | head -n 1)"
+)
+
+read_and_command() {  # PSEUDO-TERMINAL
+  local master=(demo master --slcan "$1")
+  [ "$("${master[@]}" --node 5 --index 1008 read)" = "Lexican demo clock" ] &&
+    "${master[@]}" --node 5 --index 2100 --sub 1 --type u8 write 12 &&
+    [ "$("${master[@]}" --node 5 --index 2100 --sub 1 read)" = 0x0C ] &&
+    "${master[@]}" --node 5 nmt start
+}
+
+served() { with_node read_and_command --node-id 5; }
+
+give_node_id() {  # PSEUDO-TERMINAL
+  demo master --slcan "$1" lss set-id 5 --store &&
+    [ "$(demo master --slcan "$1" --node 5 --index 1008 read)" = "Lexican demo clock" ]
+}
+
+configured() {
+  rm -f "$results/clock.nvm"
+  with_node give_node_id --node-id unconfigured --storage "$results/clock.nvm"
+}
