@@ -237,6 +237,7 @@ typedef struct CO_NODE_T {
   CO_DICT Dict;
   CO_TMR Tmr;
   uint32_t Baudrate;
+  uint32_t ErrorKey;  ///< key of the object that Error is about
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
   CO_TMR_MEM SdoTmr;
@@ -315,8 +316,27 @@ void CONodeStart(CO_NODE* node);
 /// Stops the timers of the stack, goes off the bus; the node is in CO_INVALID until CONodeInit().
 void CONodeStop(CO_NODE* node);
 
-/// The last error, which is thereby cleared. CO_ERR_BAD_ARG if \a node is null.
+/// Returns the last error and clears it. COErrName() and COErrText() (co_err.h) say what it means, CONodeGetErrKey()
+/// which object it is about.
+/// \retval CO_ERR_NONE     no error since the last call
+/// \retval CO_ERR_BAD_ARG  \a node is null
 CO_ERR CONodeGetErr(CO_NODE* node);
+
+/// Returns the key of the object that the last error is about: the error that CONodeGetErr() returned last or, if there
+/// is a newer one, will return. It may be called before CONodeGetErr() or after it. CO_GET_IDX() and CO_GET_SUB()
+/// return index and sub-index; the flags are 0. The object is
+/// - CO_ERR_DICT_INIT: the entry that CODictGetFault() names;
+/// - CO_ERR_OBJ_INIT: the first entry whose Init function failed;
+/// - CO_ERR_RPDO_COM_OBJ, CO_ERR_TPDO_COM_OBJ: sub-index 1 (COB-ID) or 2 (transmission type) of 1400h… or 1800h…;
+/// - CO_ERR_RPDO_MAP_OBJ, CO_ERR_TPDO_MAP_OBJ: the entry of 1600h… or 1A00h… that is wrong, or the first one behind 64
+///   bits; sub-index 0: there are no entries, too many, or the PDO cannot be a multiplex PDO;
+/// - CO_ERR_PARA_… and an error of a group that is stored autonomously: the sub-index of 1010h;
+/// - CO_ERR_CFG_…, CO_ERR_OBJ_RANGE_LOW: the object that is missing or has a wrong value;
+/// - CO_ERR_SDO_READ, CO_ERR_SDO_WRITE: the object of the transfer;
+/// - an error of a type function that a PDO, 1001h or 1003h has called: the object;
+/// - COTPdoTrigObj(), OD_requestTPDO(): the object; COTPdoTrigPdo(): the TPDO, sub-index 0 of 1800h….
+/// \retval 0  the error is about no object, CONodeGetErr() returned CO_ERR_NONE, or \a node is null
+uint32_t CONodeGetErrKey(const CO_NODE* node);
 
 /// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver and
 /// paused block transfers continued, by up to CO_SDO_BLOCK_PACE segments in a call. COTmrProcess() continues both, too.

@@ -14,27 +14,41 @@
 extern "C" {
 #endif
 
-/// Faults of a dictionary. CO_OD_CHECK() (co/dictionary.hpp) refuses all of them at compile time. At run time a fault
-/// stops the node (CO_INVALID, CO_ERR_DICT_INIT) only if it breaks the search or memory safety; any other concerns its
-/// entry alone: the node runs, its error is CO_ERR_OBJ_INIT, and CODictGetFault() names the entry. Without
-/// USE_DICT_CHECK nothing is checked at run time.
+/// Faults of a dictionary: name, number, meaning. CO_OD_CHECK() (co/dictionary.hpp) refuses all of them at compile
+/// time. At run time a fault stops the node (CO_INVALID, CO_ERR_DICT_INIT) only if it breaks the search or memory
+/// safety; any other concerns its entry alone: the node runs, its error is CO_ERR_OBJ_INIT, and CODictGetFault() names
+/// the entry. Without USE_DICT_CHECK nothing is checked at run time. CO_DICT_DIRECT_ADDRESS, CO_DICT_DIRECT_CONST and
+/// CO_DICT_NOT_MAPPABLE are found at compile time only.
+///
+/// CO_DICT_NO_DATA: SDO transfers of the entry are aborted with 0800 0020h, functions of the API return an error, and a
+/// PDO that maps it does not exist. That holds without USE_DICT_CHECK, too. CO_DICT_RESERVED_INDEX of a static data
+/// type lets the node run.
+// clang-format off
+#define CO_DICT_FAULT_LIST(X)                                                                                          \
+  X(CO_DICT_NOT_ASCENDING, 1, "the key is not greater than the key before it: sort the table by index and sub-index")  \
+  X(CO_DICT_NO_TYPE, 2, "Type is null, or an OD_TYPE in front of an OD_TYPE (co_od.h)")                                \
+  X(CO_DICT_NO_DATA, 3, "Data is null, but the type needs the address of a variable; the node runs")                   \
+  X(CO_DICT_DIRECT_TYPE, 4, "flag D with a type that needs an address, or that does not fit into a pointer")           \
+  X(CO_DICT_NODEID_TYPE, 5, "flag N with a type that has no values relative to the node-ID; the node runs")            \
+  X(CO_DICT_WRONG_PLACE, 6, "the type is not allowed at this index or sub-index")                                      \
+  X(CO_DICT_NOT_CONFIGURED, 7, "the number of the service is beyond the configuration (CO_SSDO_N, CO_TPDO_N, ...)")    \
+  X(CO_DICT_DIRECT_ADDRESS, 8, "flag D with an address, or no flag D with a value")                                    \
+  X(CO_DICT_DIRECT_CONST, 9, "flags D and W in a table in read-only memory")                                           \
+  X(CO_DICT_RESERVED_INDEX, 10, "index 0000h; or a static data type (index 0001h to 001Fh) with data")                 \
+  X(CO_DICT_NOT_MAPPABLE, 11, "a PDO of the table maps this entry, which has no flag P")                               \
+  X(CO_DICT_PARA_OVERLAP, 12, "the parameter group overlaps one with a lower sub-index; the node runs without it")
+// clang-format on
+
+/// \cond internal
+#define CO_DICT_FAULT_ENUMERATOR(name, number, text) name = (number),
+#define CO_DICT_FAULT_NUMBERS(name, number, text) number,
+#define CO_DICT_FAULT_NAME_AND_NUL(name, number, text) #name "\0"
+#define CO_DICT_FAULT_TEXT_AND_NUL(name, number, text) text "\0"
+/// \endcond
+
 typedef enum CO_DICT_FAULT_T {
-  CO_DICT_OK = 0,
-  CO_DICT_NOT_ASCENDING,  ///< key not greater than the one before it
-  CO_DICT_NO_TYPE,        ///< Type is null, or an OD_TYPE in front of an OD_TYPE (co_od.h)
-  /// A basic type without flag D needs the address of its variable. The node runs: SDO transfers of the entry are
-  /// aborted with 0800 0020h, functions of the API return an error, and a PDO that maps it does not exist. That holds
-  /// without USE_DICT_CHECK, too.
-  CO_DICT_NO_DATA,
-  CO_DICT_DIRECT_TYPE,     ///< flag D with a type that needs an address, or that does not fit into a pointer
-  CO_DICT_NODEID_TYPE,     ///< flag N with a type that has no node-ID relative values; the node runs
-  CO_DICT_WRONG_PLACE,     ///< type not allowed at this index or sub-index
-  CO_DICT_NOT_CONFIGURED,  ///< number of the service beyond the configuration (CO_SSDO_N, …)
-  CO_DICT_DIRECT_ADDRESS,  ///< flag D with an address, or no flag D with a value (found at compile time only)
-  CO_DICT_DIRECT_CONST,    ///< flags D and W in a table in read-only memory (found at compile time only)
-  CO_DICT_RESERVED_INDEX,  ///< entry at an index below 0001h; or a static data type with data: the node runs then
-  CO_DICT_NOT_MAPPABLE,    ///< a PDO of the table maps this entry, which has no flag P (found at compile time only)
-  CO_DICT_PARA_OVERLAP,    ///< 1010h: parameter group that overlaps one before it; the node runs without the group
+  CO_DICT_OK = 0,  ///< no fault
+  CO_DICT_FAULT_LIST(CO_DICT_FAULT_ENUMERATOR)
 } CO_DICT_FAULT;
 
 typedef struct CO_DICT_T {
@@ -148,6 +162,14 @@ CO_ERR CODictObjInit(CO_DICT* cod, struct CO_NODE_T* node);
 /// node comes before all others. \a key (may be null) receives the key of the entry. Also legal after a CONodeInit()
 /// that ended with CO_ERR_DICT_INIT. Without USE_DICT_CHECK: CO_DICT_OK.
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key);
+
+/// Returns the name of a fault, for messages: "CO_DICT_NO_TYPE"; "unknown fault" for other numbers. Never null. The
+/// names are in the program only if it calls this function; likewise the texts of CODictFaultText().
+const char* CODictFaultName(CO_DICT_FAULT fault);
+
+/// Returns the meaning of a fault, as CO_DICT_FAULT_LIST has it: one line without a full stop; "unknown fault" for
+/// other numbers. Never null.
+const char* CODictFaultText(CO_DICT_FAULT fault);
 
 #ifdef __cplusplus
 }

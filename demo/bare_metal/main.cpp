@@ -61,6 +61,21 @@ void make_node() {
   CONodeInitEx(&node, &spec, &extension);
 }
 
+// Prints the last error of the node, if there is one: its name, index and sub-index of the object as one number, its
+// meaning.
+void print_error() {
+  const CO_ERR error = CONodeGetErr(&node);
+  if (error == CO_ERR_NONE) {
+    return;
+  }
+  board::print(COErrName(error));
+  board::print(", object ");
+  board::print_hex(CONodeGetErrKey(&node) >> 8);
+  board::print(": ");
+  board::print(COErrText(error));
+  board::print("\n");
+}
+
 // Without interrupts between the check and the sleep, which one that is pending ends at once.
 void sleep_until_due() {
   const std::uint32_t before = board::disable_interrupts();
@@ -109,6 +124,10 @@ int main() {
   COSlcanInit(&can, frames, frames_received, start_sending, &can);
   uart_begin();
   make_node();
+  print_error();
+  if (CONmtGetMode(&node.Nmt) == CO_INVALID) {
+    board::leave(1);
+  }
   COTmrCreate(&node.Tmr, ticks_per_second, ticks_per_second, clock_tick, &node);
   CONodeStart(&node);
   board::enable_interrupts();

@@ -25,6 +25,22 @@ void heat(void* node) {
       .set(static_cast<std::int16_t>(heater_ram.temperature + step));
 }
 
+// Prints the last error of the node: its name, index and sub-index of the object, its meaning. Returns false if there
+// is none.
+bool print_error(CO_NODE& node) {
+  const CO_ERR error = CONodeGetErr(&node);
+  if (error == CO_ERR_NONE) {
+    return false;
+  }
+  const std::uint32_t key = CONodeGetErrKey(&node);
+  std::fprintf(stderr, "heater: %s, object %04Xh:%02X: %s\n", COErrName(error), CO_GET_IDX(key), CO_GET_SUB(key),
+               COErrText(error));
+  if (const CO_DICT_FAULT fault = CODictGetFault(&node.Dict, nullptr); fault != CO_DICT_OK) {
+    std::fprintf(stderr, "heater: %s: %s\n", CODictFaultName(fault), CODictFaultText(fault));
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -57,8 +73,7 @@ int main(int count, char** arguments) {
   CONodeInitEx(&node, &spec, &drivers);
   CONodeStart(&node);
   COTmrCreate(&node.Tmr, 0, ticks_per_second / 10, heat, &node);
-  if (const CO_ERR error = CONodeGetErr(&node); error != CO_ERR_NONE) {
-    std::fprintf(stderr, "heater: it does not start, error %d\n", static_cast<int>(error));
+  if (print_error(node)) {
     return 1;
   }
   for (;;) {

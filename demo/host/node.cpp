@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "trace/text.hpp"
+
 namespace demo {
 namespace {
 
@@ -13,6 +15,10 @@ constexpr Micros patience = 10 * millisecond;
 
 // A bus that is never idle holds up neither the timers nor the program.
 constexpr unsigned frames_at_once = 32;
+
+std::string object_text(std::uint32_t key) {
+  return key != 0 ? text(", object %04Xh:%02X", unsigned{CO_GET_IDX(key)}, unsigned{CO_GET_SUB(key)}) : "";
+}
 
 std::uint32_t frames(const CO_NODE_COUNTERS& counters) { return counters.Received + counters.Sent; }
 
@@ -96,6 +102,19 @@ bool Node::process() {
   }
   at_work_ = nullptr;
   return frames(counters()) != before;
+}
+
+std::string Node::error_text() {
+  const CO_ERR err = error();
+  if (err == CO_ERR_NONE) {
+    return {};
+  }
+  std::uint32_t key = 0;
+  std::string words = std::string(COErrName(err)) + object_text(CONodeGetErrKey(&node_)) + ": " + COErrText(err);
+  if (const CO_DICT_FAULT fault = CODictGetFault(&node_.Dict, &key); fault != CO_DICT_OK) {
+    words += std::string("; ") + CODictFaultName(fault) + object_text(key) + ": " + CODictFaultText(fault);
+  }
+  return words;
 }
 
 #if USE_LSS && USE_PARA

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "co_core.h"
 #include "host/host.hpp"
@@ -59,6 +60,9 @@ class Node {
   const CO_NODE& stack() const { return node_; }
   /// The last error of the node, which is thereby cleared.
   CO_ERR error() { return CONodeGetErr(&node_); }
+  /// The last error in words: name, object and meaning, and the fault of the dictionary, if there is one. The error is
+  /// thereby cleared. Empty: none.
+  std::string error_text();
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node_); }
 
  private:

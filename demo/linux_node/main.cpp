@@ -161,7 +161,7 @@ class FaultReport {
 
 int serve(Host& host, Clock& clock, const HeartbeatWatch& heartbeats, View& view) {
   if (!clock.start()) {
-    view.line(text("The node does not start: error %04Xh", static_cast<unsigned>(clock.node().error())));
+    view.line("the node does not start: " + clock.node().error_text());
     return exit_failed;
   }
   FaultReport faults;

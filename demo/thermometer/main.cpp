@@ -57,6 +57,18 @@ int answer_arguments(int argc, char** argv) {
   return 2;
 }
 
+// Prints the last error of the node: its name, index and sub-index of the object, its meaning. Returns false if there
+// is none.
+bool print_error(CO_NODE& node) {
+  const CO_ERR error = CONodeGetErr(&node);
+  const std::uint32_t key = CONodeGetErrKey(&node);
+  if (error != CO_ERR_NONE) {
+    std::fprintf(stderr, "%s, object %04Xh:%02X: %s\n", COErrName(error), CO_GET_IDX(key), CO_GET_SUB(key),
+                 COErrText(error));
+  }
+  return error != CO_ERR_NONE;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -88,7 +100,7 @@ int main(int argc, char** argv) {
     }
     clock.advance(clock.ticks(100ms));
   }
-  const bool is_well = CONodeGetErr(&node) == CO_ERR_NONE;
+  const bool has_failed = print_error(node);
   CONodeStop(&node);
-  return is_well ? 0 : 1;
+  return has_failed ? 1 : 0;
 }

@@ -10,6 +10,7 @@
 
 #include "bus.h"
 #include "clock.h"
+#include "error.h"
 #include "memory.h"
 
 #define CYCLE_NANOSECONDS 1000000
@@ -174,7 +175,7 @@ static CO_ERR InitNode(void) {
   (void)CORingInit(&Ring, Frames, sizeof(Frames) / sizeof(Frames[0]));
   (void)OD_init(&Od, List, OD_LIST_N(OBJECTS), &Node, Objects, OBJECTS);
   CONodeInitEx(&Node, &spec, &Ext);
-  return CONodeGetErr(&Node);
+  return PrintError(&Node, "the device");
 }
 
 CO_ERR DeviceStart(void* controller) {

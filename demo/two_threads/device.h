@@ -19,6 +19,7 @@ typedef struct DEVICE_REPORT_T {
   uint32_t LongestCycle;  // µs that the real-time thread has worked, waiting for the other one included
 } DEVICE_REPORT;
 
+// Prints the error of the node, if there is one.
 CO_ERR DeviceStart(void* controller);
 DEVICE_REPORT DeviceStop(void);
 

@@ -6,6 +6,7 @@
 #include "bus.h"
 #include "clock.h"
 #include "device.h"
+#include "error.h"
 
 #define PARTNER_ID 1u
 #define TIME_OUT 10000u  // ms, for each answer
@@ -61,7 +62,7 @@ CO_ERR PartnerStart(void* controller) {
   Ext.CanCtx = controller;
   Ext.Timer = &ClockDriver;
   CONodeInitEx(&Node, &spec, &Ext);
-  const CO_ERR err = CONodeGetErr(&Node);
+  const CO_ERR err = PrintError(&Node, "the partner");
   CONodeStart(&Node);
   return err;
 }

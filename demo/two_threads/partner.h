@@ -17,6 +17,7 @@ typedef struct PARTNER_REPORT_T {
 
 extern PARTNER_REPORT Partner;
 
+// Prints the error of the node, if there is one.
 CO_ERR PartnerStart(void* controller);
 void PartnerStop(void);
 

@@ -2,6 +2,7 @@
 #include "core/access.hpp"
 
 #include "core/dict.hpp"
+#include "core/error.hpp"
 
 namespace co::access {
 namespace {
@@ -81,7 +82,8 @@ uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
 uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
   const uint32_t abort = abort_for(node, err);
   if (abort == CO_SDO_ERR_HW_ACCESS) {
-    node.Error = transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE;
+    const uint32_t key = node.Served != nullptr ? node.Served->Key : 0;
+    error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, key);
   }
   return abort;
 }

@@ -192,6 +192,18 @@ CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
 }
 #endif
 
+Initialised init_objects(CO_DICT& dict, CO_NODE& node) {
+  Initialised result = {CO_ERR_NONE, 0};
+  for (uint16_t n = 0; n < dict.Num; ++n) {
+    CO_OBJ& entry = dict.Root[n];
+    const CO_ERR err = COObjInit(&entry, &node);
+    if (err != CO_ERR_NONE) {
+      result = {err, result.key != 0 ? result.key : entry.Key};
+    }
+  }
+  return result;
+}
+
 CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value) {
   return access(&dict, key, &value, sizeof value, obj::read);
 }
@@ -253,12 +265,7 @@ CO_ERR CODictObjInit(CO_DICT* cod, CO_NODE_T* node) {
   if (cod == nullptr || node == nullptr) {
     return CO_ERR_BAD_ARG;
   }
-  CO_ERR result = CO_ERR_NONE;
-  for (uint16_t n = 0; n < cod->Num; ++n) {
-    const CO_ERR err = COObjInit(&cod->Root[n], node);
-    result = err != CO_ERR_NONE ? err : result;
-  }
-  return result;
+  return dict::init_objects(*cod, *node).err;
 }
 
 CO_DICT_FAULT CODictGetFault(const CO_DICT* cod, uint32_t* key) {

@@ -46,6 +46,13 @@ inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_T
 #endif
 }
 
+// Outcome of the Init functions of all entries.
+struct Initialised {
+  CO_ERR err;    // the last error
+  uint32_t key;  // of the first entry that failed; 0: none
+};
+[[nodiscard]] Initialised init_objects(CO_DICT& dict, CO_NODE_T& node);
+
 // Has a fault been found that keeps the node from running?
 [[nodiscard]] inline bool stops_node(const CO_DICT& dict) { return rules::stops_node(fault_of(dict)); }
 

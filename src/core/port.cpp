@@ -97,7 +97,7 @@ bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
     return true;
   }
   if (result < 0) {
-    node.Error = CO_ERR_IF_CAN_SEND;
+    error::report(node, CO_ERR_IF_CAN_SEND);
   }
   return false;
 }

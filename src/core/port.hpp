@@ -3,6 +3,7 @@
 #pragma once
 
 #include "co_core.h"
+#include "core/error.hpp"
 
 namespace co::port {
 
@@ -104,7 +105,7 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   const CO_NODE_EXT& ext = *node.Ext;
   const int16_t result = ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
   if (result < 0) {
-    node.Error = CO_ERR_IF_CAN_READ;
+    error::report(node, CO_ERR_IF_CAN_READ);
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "core/count.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/port.hpp"
 
@@ -441,7 +442,7 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
   ASSERT_PTR_FATAL_ERR(tmr, -1);
   ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
   if (func == nullptr) {
-    tmr->Node->Error = CO_ERR_BAD_ARG;
+    error::report(*tmr->Node, CO_ERR_BAD_ARG);
     return -1;
   }
   if (startTicks == 0 && cycleTicks == 0) {
@@ -451,7 +452,7 @@ int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TM
   CO_TMR_MEM* const timer = tmr::take_free(*tmr);
   if (timer == nullptr) {
     count(tmr->Node->Count.TimerExhausted);
-    tmr->Node->Error = CO_ERR_TMR_NO_ACT;
+    error::report(*tmr->Node, CO_ERR_TMR_NO_ACT);
     return -1;
   }
   tmr::arm(*tmr, *timer, startTicks, cycleTicks, func, para);

@@ -2,6 +2,7 @@
 #include "co_core.h"
 #include "core/count.hpp"
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/port.hpp"
 #include "core/routes.hpp"
@@ -22,11 +23,13 @@ void check_mandatory_objects(CO_NODE& node) {
   if (USE_DICT_CHECK == 0) {
     return;
   }
-  if (dict::find(node.Dict, CO_DEV(0x1001, 0)) == nullptr) {
-    node.Error = CO_ERR_CFG_1001_0;
+  constexpr uint32_t error_register = CO_DEV(0x1001, 0);
+  constexpr uint32_t vendor_id = CO_DEV(0x1018, 1);
+  if (dict::find(node.Dict, error_register) == nullptr) {
+    error::report(node, CO_ERR_CFG_1001_0, error_register);
   }
-  if (dict::find(node.Dict, CO_DEV(0x1018, 1)) == nullptr) {
-    node.Error = CO_ERR_CFG_1018;
+  if (dict::find(node.Dict, vendor_id) == nullptr) {
+    error::report(node, CO_ERR_CFG_1018, vendor_id);
   }
 }
 
@@ -40,8 +43,9 @@ void check_mandatory_objects(CO_NODE& node) {
   routes::clear(node);
   dict::set_power_on_values(node, type);
   services::load(node, type);
-  if (CODictObjInit(&node.Dict, &node) != CO_ERR_NONE) {
-    node.Error = CO_ERR_OBJ_INIT;
+  const dict::Initialised initialised = dict::init_objects(node.Dict, node);
+  if (initialised.err != CO_ERR_NONE) {
+    error::report(node, CO_ERR_OBJ_INIT, initialised.key);
   }
   services::init(node);
   routes::publish(node);
@@ -287,12 +291,14 @@ void drop_received(CO_NODE& node) {
     return;
   }
   const CO_ERR error = node.Error;
+  const uint32_t key = node.ErrorKey;
   CO_IF_FRM frame = wire::empty_frame(0, 0);
   if (port::can_read(node, frame) > 0) {
     count(node.Count.Received);
     count(node.Count.Unclaimed);
   }
   node.Error = error;
+  node.ErrorKey = key;
 }
 
 #if USE_REAL_TIME
@@ -363,7 +369,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   }
   services::begin_lss(*node);
   if (CODictInit(&node->Dict, node, spec->Dict, spec->DictLen) < 0) {
-    node->Error = CO_ERR_DICT_INIT;
+    error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
   }
   bool initialised = false;
@@ -375,7 +381,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
   event::settle(*node);
   if (dict::stops_node(node->Dict)) {
     event::change_mode(*node, CO_INVALID);
-    node->Error = CO_ERR_DICT_INIT;
+    error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
     return;
   }
   if (!initialised) {
@@ -400,13 +406,6 @@ void CONodeStop(CO_NODE* node) {
   }
   event::change_mode(*node, CO_INVALID);
   event::settle(*node);
-}
-
-CO_ERR CONodeGetErr(CO_NODE* node) {
-  ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
-  const CO_ERR err = node->Error;
-  node->Error = CO_ERR_NONE;
-  return err;
 }
 
 void CONodeProcess(CO_NODE* node) {

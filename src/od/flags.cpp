@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has passed by PDO, of one object.
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "od/list.hpp"
+#include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 
@@ -105,8 +107,6 @@ bool was_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) 
   return false;
 }
 
-void take_error(CO_NODE& node, CO_ERR err) { node.Error = err != CO_ERR_NONE ? err : node.Error; }
-
 void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [[maybe_unused]] unsigned tpdo) {
 #if CO_TPDO_N > 0
   const Note note = tpdo < CO_TPDO_N ? note_in(node, node.TPdo[tpdo], number) : Note{nullptr, 0};
@@ -117,7 +117,7 @@ void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [
   if (mpdo::is_sam(node.TPdo[tpdo].Map)) {
     mpdo::mark(node, number);
   }
-  take_error(node, pdo::request(node, static_cast<uint16_t>(tpdo)));
+  error::report(node, pdo::request(node, static_cast<uint16_t>(tpdo)), pdo::key_of_tpdo(tpdo));
 #endif
 }
 
@@ -145,7 +145,8 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
   CO_NODE& node = *od::owner_of(*entry).Node;
   od::mirror(*entry, subIndex, false);
   od::forget_sent(node, pdo::number_of(node, *obj));
-  od::take_error(node, pdo::change_object(node, *obj));
+  const uint32_t key = obj->Key;
+  error::report(node, pdo::change_object(node, *obj), key);
   event::settle(node);
 }
 

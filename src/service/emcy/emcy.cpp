@@ -5,6 +5,7 @@
 
 #include "core/count.hpp"
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/obj.hpp"
 #include "core/timer.hpp"
 #include "core/transmit.hpp"
@@ -56,11 +57,11 @@ unsigned table_length(const CO_EMCY& emcy) {
 // Lets an error come or go. False: it has before, or there is none, which the node tells.
 bool change(CO_EMCY& emcy, unsigned err, bool come) {
   if (emcy.Root == nullptr) {
-    emcy.Node->Error = CO_ERR_EMCY_BAD_ROOT;
+    error::report(*emcy.Node, CO_ERR_EMCY_BAD_ROOT);
     return false;
   }
   if (err >= table_length(emcy)) {
-    emcy.Node->Error = CO_ERR_BAD_ARG;
+    error::report(*emcy.Node, CO_ERR_BAD_ARG);
     return false;
   }
   uint8_t& bits = emcy.Err[err / 8];
@@ -99,8 +100,7 @@ void show_register(CO_NODE& node, uint8_t bits) {
   if (obj == nullptr || CO_IS_DIRECT(obj->Key) != 0) {
     return;
   }
-  const CO_ERR err = obj::write(*obj, node, &bits, sizeof bits);
-  node.Error = err != CO_ERR_NONE ? err : node.Error;
+  error::report(node, obj::write(*obj, node, &bits, sizeof bits), key_register);
 }
 
 uint8_t update_register(CO_NODE& node) {
@@ -240,7 +240,7 @@ void init(CO_NODE& node) {
   (void)CODictRdByte(&node.Dict, key_register, &node.Emcy.Register);
   update_register(node);
   if (USE_DICT_CHECK != 0 && node.Emcy.Root != nullptr && dict::find(node.Dict, key_cob_id) == nullptr) {
-    node.Error = CO_ERR_CFG_1014_0;
+    error::report(node, CO_ERR_CFG_1014_0, key_cob_id);
   }
 }
 

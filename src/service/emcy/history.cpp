@@ -5,6 +5,7 @@
 #if USE_EMCY
 
 #include "core/dict.hpp"
+#include "core/error.hpp"
 
 namespace co::emcy {
 namespace {
@@ -92,12 +93,11 @@ void add_to_history(CO_NODE& node, uint32_t entry) {
   if (history.Num < history.Max) {
     ++history.Num;
   }
-  CO_OBJ* const place = dict::find(node.Dict, CO_DEV(index, history.Off));
+  const uint32_t key = CO_DEV(index, history.Off);
+  CO_OBJ* const place = dict::find(node.Dict, key);
   const CO_ERR err =
       place == nullptr ? CO_ERR_OBJ_NOT_FOUND : CO_TUNSIGNED32->Write(place, &node, &entry, sizeof entry);
-  if (err != CO_ERR_NONE) {
-    node.Error = err;
-  }
+  error::report(node, err, key);
 }
 
 void clear_history(CO_NODE& node) { node.Emcy.Hist.Num = 0; }

@@ -5,6 +5,7 @@
 
 #include "core/budget.hpp"
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/gate.hpp"
 #include "core/machine.hpp"
@@ -248,7 +249,7 @@ uint32_t code_of(CO_ERR err) {
 uint32_t store_pending(CO_NODE& node) {
   const budget::Command counted(node);
   const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
-  node.Error = err == CO_ERR_NONE ? node.Error : CO_ERR_LSS_STORE;
+  error::report(node, err == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_LSS_STORE);
   return code_of(err);
 }
 
@@ -376,7 +377,7 @@ void load(CO_NODE& node) {
   uint32_t baud = lss.OwnBaudrate;
   uint8_t id = lss.OwnNodeId;
   const bool loaded = COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id);
-  node.Error = loaded ? node.Error : CO_ERR_LSS_LOAD;
+  error::report(node, loaded ? CO_ERR_NONE : CO_ERR_LSS_LOAD);
   lss.CfgBaudrate = loaded ? baud : lss.OwnBaudrate;
   lss.CfgNodeId = loaded ? id : lss.OwnNodeId;
 }

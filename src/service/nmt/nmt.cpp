@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/nmt/nmt.hpp"
 
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/gate.hpp"
 #include "core/routes.hpp"
@@ -105,7 +106,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   const bool nameless = !wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
   if (stopped || initialising || nameless || mode < CO_PREOP || mode >= CO_MODE_NUM) {
-    node.Error = CO_ERR_NMT_MODE;
+    error::report(node, CO_ERR_NMT_MODE);
     return;
   }
   if (nmt->Mode == CO_INIT) {
@@ -127,9 +128,9 @@ void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId) {
   ASSERT_PTR_FATAL(nmt);
   ASSERT_PTR_FATAL(nmt->Node);
   if (nmt->Mode != CO_INIT) {
-    nmt->Node->Error = CO_ERR_NMT_MODE;
+    error::report(*nmt->Node, CO_ERR_NMT_MODE);
   } else if (nodeId < 1 || nodeId > 127) {
-    nmt->Node->Error = CO_ERR_BAD_ARG;
+    error::report(*nmt->Node, CO_ERR_BAD_ARG);
   } else {
     event::change_node_id(*nmt->Node, nodeId);
   }

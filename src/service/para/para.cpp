@@ -5,6 +5,7 @@
 
 #include "core/budget.hpp"
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/obj.hpp"
 #include "core/port.hpp"
 #include "core/store.hpp"
@@ -103,10 +104,10 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
 }
 
 // A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
-void save_change(CO_NODE& node, const CO_PARA& group) {
+void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
   if (is_followed(node, group)) {
     const CO_ERR err = save(node, group);
-    node.Error = err == CO_ERR_NONE || err == CO_ERR_OBJ_STATE ? node.Error : err;
+    error::report(node, err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err, key);
   }
 }
 
@@ -189,11 +190,11 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
     const CO_ERR err = is_loaded && !must_stay(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
     last = err == CO_ERR_NONE ? last : err;
+    error::report(node, err, groups.entry().Key);
     if (err == CO_ERR_PARA_OVERLAP) {
       (void)dict::refuse(groups.entry(), node, CO_DICT_PARA_OVERLAP);
     }
   }
-  node.Error = last == CO_ERR_NONE ? node.Error : last;
   return last;
 }
 
@@ -207,7 +208,7 @@ void save_changes(CO_NODE& node) {
   const budget::Command command(node);
   Groups groups(node, store_index);
   for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
-    save_change(node, *group);
+    save_change(node, *group, groups.entry().Key);
   }
 }
 

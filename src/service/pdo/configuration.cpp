@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/configuration.hpp"
 
+#include "core/error.hpp"
 #include "core/timer.hpp"
 #include "object/cob_id.hpp"
 #include "service/pdo/mpdo.hpp"
@@ -24,10 +25,10 @@ uint8_t start_value(CO_NODE& node, unsigned number) {
 uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit) { return tmr::ticks(node.Tmr, time, unit); }
 
 // Resolves the mapping without a check of flag P: a write by the network checked it, a static mapping needs none.
-CO_ERR resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {
+Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map) {
   const unsigned mapping = index + from_communication_to_mapping;
   const unsigned num = read_number(node, CO_DEV(mapping, 0), sizeof(uint8_t), 0);
-  return num == 0 ? CO_ERR_OBJ_MAP_LEN : resolve(node, mapping, num, map, MappedBy::designer);
+  return num == 0 ? Resolved{CO_ERR_OBJ_MAP_LEN, 0} : resolve(node, mapping, num, map, MappedBy::designer);
 }
 
 #if CO_RPDO_N > 0 || CO_TPDO_N > 0
@@ -68,19 +69,40 @@ void init_one(CO_NODE& node, unsigned index) {
 void remap_one(CO_NODE& node, unsigned index) {
   CO_PDO_MAP& map = pdo_at(node, index).Map;
   const bool was_multiplexed = mpdo::is_one(map);
-  if (exists(map) && (resolve(node, index, map) != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
+  if (exists(map) && (resolve(node, index, map).err != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
     configure(node, index);
   }
 }
 
-bool may_exist(Direction direction, uint32_t cob_id, uint8_t type) {
-  return cob_id::is_free(cob_id) && is_type(direction, type);
+// Returns the sub-index of the communication parameter that keeps the PDO from existing; 0: none.
+uint8_t wrong_parameter(Direction direction, uint32_t cob_id, uint8_t type) {
+  if (!cob_id::is_free(cob_id)) {
+    return 1;
+  }
+  return is_type(direction, type) ? 0 : 2;
+}
+
+// Returns whether the dictionary allows the PDO, and resolves its mapping. Otherwise the node's error says why not.
+bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
+  const Direction direction = direction_of(index);
+  const bool receives = direction == Direction::receive;
+  const uint8_t parameter = wrong_parameter(direction, cob_id, pdo.Type);
+  if (parameter != 0) {
+    error::report(node, receives ? CO_ERR_RPDO_COM_OBJ : CO_ERR_TPDO_COM_OBJ, CO_DEV(index, parameter));
+    return false;
+  }
+  const Resolved resolved = resolve(node, index, pdo.Map);
+  if (resolved.err == CO_ERR_NONE) {
+    return true;
+  }
+  error::report(node, receives ? CO_ERR_RPDO_MAP_OBJ : CO_ERR_TPDO_MAP_OBJ,
+                CO_DEV(index + from_communication_to_mapping, resolved.sub));
+  return false;
 }
 
 // Not inlined, as it needs a lot of the CPU's stack, and ending a PDO does, too.
 [[gnu::noinline]] void begin(CO_NODE& node, CO_PDO& pdo, unsigned index) {
-  const Direction direction = direction_of(index);
-  const bool receives = direction == Direction::receive;
+  const bool receives = direction_of(index) == Direction::receive;
   const uint32_t cob_id = read_number(node, CO_DEV(index, 1), sizeof cob_id, wire::cob_invalid);
   const uint32_t event = read_time(node, CO_DEV(index, 5), CO_TMR_UNIT_1MS);
   uint32_t identifier = wire::no_frame;
@@ -88,14 +110,8 @@ bool may_exist(Direction direction, uint32_t cob_id, uint8_t type) {
   pdo.Map.Length = 0;
   mpdo::set_mode(pdo.Map, 0);
   __builtin_memset(pdo.Map.Passed, 0, sizeof pdo.Map.Passed);
-  if ((cob_id & wire::cob_invalid) == 0) {
-    if (!may_exist(direction, cob_id, pdo.Type)) {
-      node.Error = receives ? CO_ERR_RPDO_COM_OBJ : CO_ERR_TPDO_COM_OBJ;
-    } else if (resolve(node, index, pdo.Map) != CO_ERR_NONE) {
-      node.Error = receives ? CO_ERR_RPDO_MAP_OBJ : CO_ERR_TPDO_MAP_OBJ;
-    } else {
-      identifier = wire::frame_id(cob_id);
-    }
+  if ((cob_id & wire::cob_invalid) == 0 && may_exist(node, pdo, index, cob_id)) {
+    identifier = wire::frame_id(cob_id);
   }
   if (receives) {
     begin_rpdo(pdo, number_of(index), identifier, event);

@@ -34,12 +34,18 @@ constexpr bool is_event_driven(uint8_t type) { return type >= type_event; }
 // PDOs are named by the index of their communication parameters.
 constexpr unsigned number_of(unsigned index) { return index & 0x01FFU; }
 
-// Takes parameters and mapping from the dictionary. A PDO that they do not allow does not exist; the node's error says
-// so.
+// The key of a TPDO for messages: its communication parameter; 0: no TPDO can have this number.
+constexpr uint32_t key_of_tpdo(unsigned number) {
+  constexpr unsigned most = 512;
+  return number < most ? CO_DEV(first_tpdo + number, 0) : 0;
+}
+
+// Reads parameters and mapping from the dictionary. A PDO that they do not allow does not exist; the node's error and
+// its key name the parameter or the mapping entry.
 void configure(CO_NODE& node, unsigned index);
 
-// Resolves the mapping of the PDO, of which there is to be one.
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);
+// Resolves the mapping of the PDO, which must have at least one entry.
+[[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);
 
 // What it is before it is configured ends, and it begins to be what it was configured to be. identifier:
 // wire::no_frame if it does not exist; event: ticks

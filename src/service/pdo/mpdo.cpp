@@ -4,6 +4,7 @@
 #if USE_MPDO
 
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
 #include "object/whole.hpp"
@@ -117,10 +118,8 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame) 
   if (!obj::is_stream(obj)) {
     wire::swap_host(value, bytes);
   }
-  const CO_ERR err = obj::pass_whole(obj, node, obj.Type->Write, value, bytes);
-  if (err != CO_ERR_NONE) {
-    node.Error = err;
-  }
+  const uint32_t key = obj.Key;
+  error::report(node, obj::pass_whole(obj, node, obj.Type->Write, value, bytes), key);
   if (pdo::has(map, pdo::served)) {
     pdo::pass(map);
   }

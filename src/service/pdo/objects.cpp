@@ -78,7 +78,7 @@ bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
 // Not inlined: nothing of it is on the CPU's stack while the PDO is configured.
 [[gnu::noinline]] bool can_exist(CO_NODE& node, const CO_OBJ& obj) {
   CO_PDO_MAP map;
-  return pdo::resolve(node, communication_of(obj), map) == CO_ERR_NONE;
+  return pdo::resolve(node, communication_of(obj), map).err == CO_ERR_NONE;
 }
 
 CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
@@ -187,7 +187,7 @@ CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   CO_PDO_MAP map;
   const auto value = value_in<uint8_t>(buffer);
   const MappedBy author = value == before ? MappedBy::designer : MappedBy::network;
-  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value, map, author);
+  const CO_ERR err = pdo::resolve(*node, CO_GET_IDX(obj->Key), value, map, author).err;
   uint8_t none = 0;
   const CO_ERR stored = COTInt8.Write(obj, node, err == CO_ERR_NONE ? buffer : &none, size);
   return err != CO_ERR_NONE ? err : stored;

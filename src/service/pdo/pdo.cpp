@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/pdo.hpp"
 
+#include "core/error.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 
@@ -55,20 +56,16 @@ extern "C" {
 void COTPdoTrigPdo(CO_TPDO* tpdo, uint16_t num) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
-  const CO_ERR err = COTPdoRequest(tpdo->Node, num);
-  if (err != CO_ERR_NONE) {
-    tpdo->Node->Error = err;
-  }
+  error::report(*tpdo->Node, COTPdoRequest(tpdo->Node, num), pdo::key_of_tpdo(num));
 }
 
 void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj) {
   ASSERT_PTR_FATAL(tpdo);
   ASSERT_PTR_FATAL(tpdo->Node);
   CO_NODE& node = *tpdo->Node;
-  const CO_ERR err = is_entry(node, obj) ? pdo::change_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER;
-  if (err != CO_ERR_NONE) {
-    node.Error = err;
-  }
+  const bool is_known = is_entry(node, obj);
+  const uint32_t key = is_known ? obj->Key : 0;
+  error::report(node, is_known ? pdo::change_object(node, *obj) : CO_ERR_TPDO_OBJ_TRIGGER, key);
 }
 
 CO_ERR COTPdoRequest(CO_NODE* node, uint16_t num) {

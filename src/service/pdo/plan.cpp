@@ -2,6 +2,7 @@
 #include "service/pdo/plan.hpp"
 
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/obj.hpp"
 #include "core/port.hpp"
@@ -235,16 +236,16 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
     const unsigned entry = map.Entry[place];
     const unsigned length = map.Step[place] % by_type;
     if (entry != no_entry) {
-      const CO_ERR err = copy_by_type(node, frame, {node.Dict.Root[entry], position, length}, direction);
+      CO_OBJ& obj = node.Dict.Root[entry];
+      const uint32_t key = obj.Key;
+      const CO_ERR err = copy_by_type(node, frame, {obj, position, length}, direction);
+      error::report(node, err, key);
       result = err != CO_ERR_NONE ? err : result;
     }
     if (is_over(node, map)) {
       return CO_ERR_TPDO_COM_OBJ;
     }
     position += length;
-  }
-  if (result != CO_ERR_NONE) {
-    node.Error = result;
   }
   return direction == Direction::receive ? CO_ERR_NONE : result;
 }
@@ -281,24 +282,26 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy auth
                                                                                          : CO_ERR_OBJ_MAP_TYPE;
 }
 
-CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
+Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
+  uint8_t fitting = 0;  // entries that lie in the frame completely
   bool plain = copies;
   map.Length = 0;
   mpdo::set_mode(map, 0);
   if (num > CO_PDO_MAP_N) {
-    return mpdo::resolve(node, index, num, map);
+    return {mpdo::resolve(node, index, num, map), 0};
   }
   map.Span = 0;
   __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
   for (unsigned place = 0; place < num; ++place) {
     const uint32_t mapping = read_number(node, CO_DEV(index, place + 1), sizeof mapping, 0);
+    const auto sub = static_cast<uint8_t>(place + 1);
     if (mapping == 0) {
-      return CO_ERR_OBJ_MAP_LEN;
+      return {CO_ERR_OBJ_MAP_LEN, sub};
     }
     if (check(node, direction, mapping, author) != CO_ERR_NONE) {
-      return CO_ERR_OBJ_MAP_TYPE;
+      return {CO_ERR_OBJ_MAP_TYPE, sub};
     }
     const CO_OBJ* const obj = is_static_type(mapping) ? nullptr : dict::find(node.Dict, mapping);
     const unsigned length = mapping & 0xFFU;
@@ -306,9 +309,10 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, Map
     add(node, map, place, obj);
     map.Step[place] = static_cast<uint8_t>(length / unit);
     bits += length;
+    fitting = bits <= all_bits ? sub : fitting;
   }
-  if (bits > all_bits) {
-    return CO_ERR_OBJ_MAP_LEN;
+  if (fitting != num) {
+    return {CO_ERR_OBJ_MAP_LEN, static_cast<uint8_t>(fitting + 1)};
   }
   if (plain) {
     join(node.Dict.Root, map, num);
@@ -316,7 +320,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, Map
     map.Step[0] |= by_type;
   }
   map.Length = static_cast<uint8_t>(bits / unit);
-  return CO_ERR_NONE;
+  return {CO_ERR_NONE, 0};
 }
 
 CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {

@@ -41,8 +41,14 @@ constexpr Direction direction_of(unsigned index) {
 // May the object that a mapping entry names be mapped so? [301:7.4.7, 7.5.2.36]
 [[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author);
 
+// Outcome of resolving a mapping.
+struct Resolved {
+  CO_ERR err;
+  uint8_t sub;  // sub-index of the entry with the error; 0: their number is wrong, or there is no error
+};
+
 // Resolves num entries of the mapping at index (1600h…, 1A00h…). Only a map that is resolved gets a length.
-[[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author);
+[[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author);
 
 // Holds CO_NODE_EXT.OdLock while it lives.
 class Lock {

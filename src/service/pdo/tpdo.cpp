@@ -2,6 +2,7 @@
 // TPDOs. [301:7.2.2.5.2-3]
 #include <stddef.h>
 
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
@@ -67,6 +68,7 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
 CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
   CO_NODE& node = *pdo.Node;
   const uint16_t entry = node.Mpdo.Scan[place];
+  const uint32_t key = entry < node.Dict.Num ? node.Dict.Root[entry].Key : 0;
   CO_IF_FRM frame = wire::empty_frame(pdo.Identifier, wire::mpdo_dlc);
   CO_ERR err = CO_ERR_NONE;
   {
@@ -79,7 +81,7 @@ CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
   if (err == CO_ERR_NONE) {
     err = send(pdo, frame);
   } else {
-    node.Error = err;
+    error::report(node, err, key);
   }
   if (err != CO_ERR_IF_CAN_SEND) {
     mpdo::settle(node, place, entry, err == CO_ERR_NONE);
@@ -127,7 +129,9 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
     if (!has(pdo.Map, served)) {
       return end_of(pdo);
     }
-    pdo.Node->Error = err;
+    if (err == CO_ERR_TPDO_COM_OBJ) {  // an object's error has been reported with the key of the object
+      error::report(*pdo.Node, err, key_of_tpdo(number_of(pdo)));
+    }
     return err;
   } else if (is_kept(pdo)) {
     copy_data(pdo.Own.Data, frame.Data);

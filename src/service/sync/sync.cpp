@@ -2,6 +2,7 @@
 #include "service/sync/sync.hpp"
 
 #include "core/dict.hpp"
+#include "core/error.hpp"
 #include "core/events.hpp"
 #include "core/routes.hpp"
 #include "core/timer.hpp"
@@ -183,7 +184,7 @@ void init(CO_NODE& node) {
   open_window(node);
   configure(node);
   if (sync.Produces != 0 && is_too_short(read(node, cycle_index))) {
-    node.Error = CO_ERR_OBJ_RANGE_LOW;
+    error::report(node, CO_ERR_OBJ_RANGE_LOW, CO_DEV(cycle_index, 0));
   }
 }
 
