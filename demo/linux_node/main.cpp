@@ -121,10 +121,12 @@ std::string about_node(Clock& clock, const Options& options, std::uint32_t seria
 }
 
 /// A first command for a master on the same bus.
-std::string about_master(Clock& clock, const Bus& bus) {
-  const std::string request =
-      clock.node_id() == no_node_id ? " lss set-id 5 --store" : text(" --node %u --index 1008 read", clock.node_id());
-  return "Master: demo/run master" + bus.master_options + request;
+std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
+  const std::string master = "Master: demo/run master" + bus.master_options;
+  if (clock.node_id() == no_node_id) {
+    return master + " lss set-id 5" + (options.storage.empty() ? "" : " --store");
+  }
+  return master + text(" --node %u --index 1008 read", clock.node_id());
 }
 
 int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
@@ -206,7 +208,7 @@ int run(const Options& options) {
   Clock clock(first_node_id(options), host.device_can(), timer, observer, storage.memory(), serial);
   view.line("Bus:  " + bus.about);
   if (options.serve) {
-    view.line(about_master(clock, bus));
+    view.line(about_master(clock, bus, options));
   }
   view.line(about_node(clock, options, serial));
   view.columns();

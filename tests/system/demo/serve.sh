@@ -50,6 +50,12 @@ await "$work/trace" '000 +82 00' && await "$work/trace" '705 +00 .*boot-up'
 verdict $? "the node has booted" "$(tail "$work/trace")"
 stop "the node ends with status 0"
 
+serve --node-id unconfigured
+grep -qx "Master: demo/run master --slcan $pty lss set-id 5" "$work/trace"
+verdict $? "without a file the node cannot store" "$(cat "$work/trace")"
+ends "LSS gives a node-ID that is not stored" 0 "0x00000000 0x0000C10C *" at_node lss set-id 5
+stop "the node that does not store ends with status 0"
+
 serve --node-id unconfigured --storage "$work/clock.nvm"
 grep -qx "Master: demo/run master --slcan $pty lss set-id 5 --store" "$work/trace"
 verdict $? "without node-ID, the output names the LSS command" "$(cat "$work/trace")"
