@@ -237,7 +237,6 @@ typedef struct CO_NODE_T {
   CO_DICT Dict;
   CO_TMR Tmr;
   uint32_t Baudrate;
-  uint32_t ErrorKey;  ///< key of the object that Error is about
   CO_SDO Sdo[CO_SSDO_N];
   uint8_t* SdoBuf;
   CO_TMR_MEM SdoTmr;
@@ -290,6 +289,7 @@ typedef struct CO_NODE_T {
   CO_MPDO Mpdo;
 #endif
   CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
+  uint32_t ErrorKey;  ///< key of the object that Error is about
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;

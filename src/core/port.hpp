@@ -100,10 +100,15 @@ void can_close(const CO_NODE& node);
 void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 [[nodiscard]] bool can_wants_filter(const CO_NODE& node);
 
-// As the driver: sizeof(CO_IF_FRM), 0, < 0. A negative result sets the node's error.
-[[nodiscard]] inline int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
+// Returns the driver's result: sizeof(CO_IF_FRM), 0, < 0.
+[[nodiscard]] inline int16_t can_read_unchecked(const CO_NODE& node, CO_IF_FRM& frame) {
   const CO_NODE_EXT& ext = *node.Ext;
-  const int16_t result = ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
+  return ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
+}
+
+// Like can_read_unchecked(); a negative result is reported as the node's error.
+[[nodiscard]] inline int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
+  const int16_t result = can_read_unchecked(node, frame);
   if (result < 0) {
     error::report(node, CO_ERR_IF_CAN_READ);
   }

@@ -290,15 +290,11 @@ void drop_received(CO_NODE& node) {
   if (node.Ext == nullptr || node.State != 0) {
     return;
   }
-  const CO_ERR error = node.Error;
-  const uint32_t key = node.ErrorKey;
   CO_IF_FRM frame = wire::empty_frame(0, 0);
-  if (port::can_read(node, frame) > 0) {
+  if (port::can_read_unchecked(node, frame) > 0) {
     count(node.Count.Received);
     count(node.Count.Unclaimed);
   }
-  node.Error = error;
-  node.ErrorKey = key;
 }
 
 #if USE_REAL_TIME

@@ -249,7 +249,9 @@ uint32_t code_of(CO_ERR err) {
 uint32_t store_pending(CO_NODE& node) {
   const budget::Command counted(node);
   const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
-  error::report(node, err == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_LSS_STORE);
+  if (err != CO_ERR_NONE) {
+    error::report(node, CO_ERR_LSS_STORE);
+  }
   return code_of(err);
 }
 
@@ -377,7 +379,9 @@ void load(CO_NODE& node) {
   uint32_t baud = lss.OwnBaudrate;
   uint8_t id = lss.OwnNodeId;
   const bool loaded = COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id);
-  error::report(node, loaded ? CO_ERR_NONE : CO_ERR_LSS_LOAD);
+  if (!loaded) {
+    error::report(node, CO_ERR_LSS_LOAD);
+  }
   lss.CfgBaudrate = loaded ? baud : lss.OwnBaudrate;
   lss.CfgNodeId = loaded ? id : lss.OwnNodeId;
 }

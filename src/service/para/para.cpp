@@ -189,7 +189,10 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
     const uint32_t size = group->*member;
     const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
     const CO_ERR err = is_loaded && !must_stay(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
-    last = err == CO_ERR_NONE ? last : err;
+    if (err == CO_ERR_NONE) {
+      continue;
+    }
+    last = err;
     error::report(node, err, groups.entry().Key);
     if (err == CO_ERR_PARA_OVERLAP) {
       (void)dict::refuse(groups.entry(), node, CO_DICT_PARA_OVERLAP);

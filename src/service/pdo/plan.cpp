@@ -239,8 +239,10 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
       CO_OBJ& obj = node.Dict.Root[entry];
       const uint32_t key = obj.Key;
       const CO_ERR err = copy_by_type(node, frame, {obj, position, length}, direction);
-      error::report(node, err, key);
-      result = err != CO_ERR_NONE ? err : result;
+      if (err != CO_ERR_NONE) {
+        error::report(node, err, key);
+        result = err;
+      }
     }
     if (is_over(node, map)) {
       return CO_ERR_TPDO_COM_OBJ;

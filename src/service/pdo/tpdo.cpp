@@ -130,7 +130,7 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
       return end_of(pdo);
     }
     if (err == CO_ERR_TPDO_COM_OBJ) {  // an object's error has been reported with the key of the object
-      error::report(*pdo.Node, err, key_of_tpdo(number_of(pdo)));
+      error::report(*pdo.Node, err);
     }
     return err;
   } else if (is_kept(pdo)) {
