@@ -20,7 +20,8 @@ constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 Finding find_unconfigured(Tour& tour) {
   LssMaster& lss = tour.master.lss();
   if (!tour.device.start()) {
-    return {false, "the node does not start"};
+    Node* const node = tour.device.node_in_loop();
+    return {false, "the node does not start" + (node != nullptr ? ": " + node->error_text() : "")};
   }
   if (!lss.run(COLssmSwitchGlobal, waiting) || !lss.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
     return {false, "fastscan: " + lss.fault()};
