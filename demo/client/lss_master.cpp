@@ -61,7 +61,7 @@ std::string LssMaster::fault() const {
   }
   if (error_ != CO_ERR_NONE) {
     return error_ == CO_ERR_IF_CAN_SEND ? "the bus takes no frames"
-                                        : text("error %04Xh", static_cast<unsigned>(error_));
+                                        : std::string(COErrName(error_)) + ": " + COErrText(error_);
   }
   switch (result_) {
     case CO_LSSM_REFUSED:

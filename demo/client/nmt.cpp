@@ -5,7 +5,6 @@
 #include "host/exit.hpp"
 #include "host/loop.hpp"
 #include "host/node.hpp"
-#include "trace/text.hpp"
 
 namespace demo {
 
@@ -20,7 +19,7 @@ std::string fault_of(CO_ERR error) {
   switch (error) {
     case CO_ERR_NONE: return {};
     case CO_ERR_IF_CAN_SEND: return "the bus takes no frames";
-    default: return text("error %04Xh", static_cast<unsigned>(error));
+    default: return std::string(COErrName(error)) + ": " + COErrText(error);
   }
 }
 

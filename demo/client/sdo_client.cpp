@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "trace/decode.hpp"
-#include "trace/text.hpp"
 
 namespace demo {
 namespace {
@@ -15,7 +14,7 @@ std::string reason(CO_ERR error) {
     case CO_ERR_SDO_OFF: return "the NMT state of the master allows no SDO";
     case CO_ERR_SDO_BUSY: return "a transfer is going on";
     case CO_ERR_IF_CAN_SEND: return "the bus takes no frames";
-    default: return text("error %04Xh", static_cast<unsigned>(error));
+    default: return std::string(COErrName(error)) + ": " + COErrText(error);
   }
 }
 

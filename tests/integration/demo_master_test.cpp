@@ -264,6 +264,12 @@ TEST_CASE("demo master: a bus that takes no NMT command is a failure") {
   CHECK(demo::carry_out(prepared.request, desk.host, desk.err) == 1);
   CHECK(desk.err.str() == "NMT: CAN interface 'can0' is down\n");
 }
+
+TEST_CASE("demo master: an error of the stack is reported by its name and meaning") {
+  Desk desk;
+  CHECK(demo::carry_out(demo::NmtRequest{demo::NmtCommand::start, 128, 127}, desk.host, desk.err) == 1);
+  CHECK(desk.err.str() == std::string("NMT: CO_ERR_BAD_ARG: ") + COErrText(CO_ERR_BAD_ARG) + "\n");
+}
 #endif
 
 TEST_CASE("demo master: an interruption cancels the transfer with an abort, with status 130 [301:7.2.4.3.17]") {
