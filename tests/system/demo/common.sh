@@ -31,6 +31,6 @@ ends() {  # CASE STATUS PATTERN COMMAND...
 # Waits until a file has a line that matches: await FILE REGEX
 await() {
   local tries=200
-  until grep -qE "$2" "$1" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.05; done
+  until grep -qsE "$2" "$1" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.05; done
   [ $tries -gt 0 ]
 }
