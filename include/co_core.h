@@ -32,17 +32,13 @@
 #include "co_hb_prod.h"
 #include "co_nmt_startup.h"
 #include "co_para.h"
-#if USE_MPDO
 #include "co_pdo_dispatch.h"
-#endif
 #include "co_pdo_event.h"
 #include "co_pdo_id.h"
 #include "co_pdo_inhibit.h"
 #include "co_pdo_map.h"
 #include "co_pdo_num.h"
-#if USE_MPDO
 #include "co_pdo_scan.h"
-#endif
 #include "co_pdo_start.h"
 #include "co_pdo_type.h"
 #include "co_sdo_id.h"
@@ -50,34 +46,25 @@
 #include "co_sync_cycle.h"
 #include "co_sync_id.h"
 
-#if USE_CSDO
-#include "co_csdo.h"
-#endif
 #include "co_callbacks.h"
 #include "co_configuration.h"
+#include "co_csdo.h"
 #include "co_dict.h"
 #include "co_emcy.h"
 #include "co_if.h"
-#if USE_LED
 #include "co_led.h"
-#endif
-#if USE_LSS
 #include "co_lss.h"
-#endif
-#if USE_LSS_MASTER
 #include "co_lss_master.h"
-#endif
+#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_pdo.h"
 #include "co_ring.h"
 #include "co_sdo.h"
 #include "co_ssdo.h"
 #include "co_sync.h"
-#if USE_TIME
 #include "co_time.h"
 #include "co_time_clock.h"
 #include "co_time_id.h"
-#endif
 #include "co_tmr.h"
 
 #if USE_OD
@@ -344,7 +331,6 @@ uint32_t CONodeGetErrKey(const CO_NODE* node);
 /// unclaimed, unless the node has no drivers.
 void CONodeProcess(CO_NODE* node);
 
-#if USE_REAL_TIME
 /// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
 /// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
 /// and the timers of SYNC and PDOs. The driver's Read must not block. All in one turn, for which it waits, at most, for
@@ -362,8 +348,7 @@ void CONodeProcess(CO_NODE* node);
 /// NMT state. PDOs that share their identifier with another service are the mainline's altogether. Read and Write
 /// functions of mapped types, COLedChange(), and what a callback leads to by itself (CONmtModeChange() by
 /// CONmtSetMode()) run in either. All other callbacks are the mainline's.
-void CONodeRealTime(CO_NODE* node);
-#endif
+void CONodeRealTime(CO_NODE* node) CO_NEEDS(USE_REAL_TIME);
 
 /// Ticks until COTmrService() and COTmrProcess() have something to do: timers, frames that the driver has refused
 /// (again after 1 ms), paused block transfers. 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait

@@ -27,6 +27,7 @@
 
 #include "co_cfg.h"
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_sdo.h"
 #include "co_tmr.h"
 #include "co_types.h"
@@ -79,7 +80,7 @@ typedef struct CO_CSDO_T {
 
 /// Client \a num, from 0. Null: \a node is null, no such client, or 1280h + \a num is missing or not valid. A busy
 /// client is returned, too: see State.
-CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num);
+CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num) CO_NEEDS(USE_CSDO);
 
 /// Reads the object \a key (CO_DEV()) of the server into \a buf, which must live until the callback and may be larger
 /// than the object: COCSdoGetNum() tells how much was read. \a timeout in ms for each answer of the server (in a
@@ -88,22 +89,22 @@ CO_CSDO* COCSdoFind(struct CO_NODE_T* node, uint8_t num);
 /// callback is null, or \a size is 0; CO_ERR_SDO_OFF: the client is not configured, or the NMT state does not allow
 /// SDO; CO_ERR_SDO_BUSY: a transfer is going on; CO_ERR_IF_CAN_SEND: the request found no place in the transmit queue.
 CO_ERR COCSdoRequestUpload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
-                           uint32_t timeout);
+                           uint32_t timeout) CO_NEEDS(USE_CSDO);
 
 /// Writes \a size bytes of \a buf to the object \a key of the server. The rest is as with COCSdoRequestUpload().
 CO_ERR COCSdoRequestDownload(CO_CSDO* csdo, uint32_t key, uint8_t* buf, uint32_t size, CO_CSDO_CALLBACK_T callback,
-                             uint32_t timeout);
+                             uint32_t timeout) CO_NEEDS(USE_CSDO);
 
 /// Ends the transfer: the server gets an abort 0800 0021h, the callback comes with that code before this returns; or,
 /// in a type function of an access to the own dictionary, behind that access.
 /// CO_ERR_BAD_ARG: \a csdo is null; CO_ERR_SDO_OFF: no transfer is going on.
-CO_ERR COCSdoCancel(CO_CSDO* csdo);
+CO_ERR COCSdoCancel(CO_CSDO* csdo) CO_NEEDS(USE_CSDO);
 
 /// Bytes that the transfer has carried so far; in the callback and after it, all of them. 0 if \a csdo is null.
-uint32_t COCSdoGetNum(const CO_CSDO* csdo);
+uint32_t COCSdoGetNum(const CO_CSDO* csdo) CO_NEEDS(USE_CSDO);
 
 /// Bytes that the transfer will carry; 0: the server has not said, or \a csdo is null.
-uint32_t COCSdoGetTotal(const CO_CSDO* csdo);
+uint32_t COCSdoGetTotal(const CO_CSDO* csdo) CO_NEEDS(USE_CSDO);
 
 #ifdef __cplusplus
 }

@@ -31,6 +31,7 @@
 #define CO_EMCY_H_
 
 #include "co_cfg.h"
+#include "co_needs.h"
 #include "co_tmr.h"
 #include "co_types.h"
 
@@ -153,22 +154,22 @@ typedef struct CO_EMCY_T {
 /// error is there, further calls do nothing.
 /// Node errors: CO_ERR_EMCY_BAD_ROOT: CO_NODE_SPEC.EmcyCode is null; CO_ERR_BAD_ARG: no such error; what 1001h or 1003h
 /// answered that could not be written.
-void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr);
+void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) CO_NEEDS(USE_EMCY);
 
 /// Error \a err is gone. One that was not there: nothing happens. Node error CO_ERR_BAD_ARG: no such error.
-void COEmcyClr(CO_EMCY* emcy, uint8_t err);
+void COEmcyClr(CO_EMCY* emcy, uint8_t err) CO_NEEDS(USE_EMCY);
 
 /// 1: the application has error \a err, 0: not, -1: no such error, or \a emcy is null or of no node.
-int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err);
+int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) CO_NEEDS(USE_EMCY);
 
 /// Errors that the application has; -1: \a emcy is null.
-int16_t COEmcyCnt(CO_EMCY* emcy);
+int16_t COEmcyCnt(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 
 /// All errors of the application are gone; each is sent as in COEmcyClr() if \a silent is 0. Those of the stack stay.
-void COEmcyReset(CO_EMCY* emcy, uint8_t silent);
+void COEmcyReset(CO_EMCY* emcy, uint8_t silent) CO_NEEDS(USE_EMCY);
 
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
-void COEmcyHistReset(CO_EMCY* emcy);
+void COEmcyHistReset(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 
 /// \name Callbacks of the application
 /// Ordinary functions to be defined by the application (see co_nmt.h); the defaults do nothing.

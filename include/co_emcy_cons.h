@@ -8,6 +8,7 @@
 #ifndef CO_EMCY_CONS_H_
 #define CO_EMCY_CONS_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -15,7 +16,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTEmcyCons;
+extern const CO_OBJ_TYPE COTEmcyCons CO_NEEDS(CO_EMCY_CONS_N);
 
 #define CO_TEMCY_CONS ((const CO_OBJ_TYPE*)&COTEmcyCons)
 

@@ -8,6 +8,7 @@
 #ifndef CO_EMCY_HIST_H_
 #define CO_EMCY_HIST_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -15,7 +16,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTEmcyHist;
+extern const CO_OBJ_TYPE COTEmcyHist CO_NEEDS(USE_EMCY);
 
 #define CO_TEMCY_HIST ((const CO_OBJ_TYPE*)&COTEmcyHist)
 

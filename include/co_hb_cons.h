@@ -19,6 +19,7 @@
 #define CO_HB_CONS_H_
 
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_obj.h"
 #include "co_types.h"
@@ -48,13 +49,13 @@ typedef struct CO_HB_WATCH_T {  ///< an entry of 1016h that monitors a node
 } CO_HB_WATCH;
 /// \endcond
 
-extern const CO_OBJ_TYPE COTNmtHbCons;
+extern const CO_OBJ_TYPE COTNmtHbCons CO_NEEDS(CO_HBCONS_N);
 
 #define CO_THB_CONS ((const CO_OBJ_TYPE*)&COTNmtHbCons)
 
 /// Lets \a hbc, an entry of 1016h of a node that is initialised, monitor \a nodeid with \a time in ms; the same as a
 /// write of the entry. Errors as above; CO_ERR_BAD_ARG: \a hbc is null, or is not in the dictionary.
-CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid);
+CO_ERR CONmtHbConsActivate(CO_HBCONS* hbc, uint16_t time, uint8_t nodeid) CO_NEEDS(CO_HBCONS_N);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 #ifndef CO_LED_H_
 #define CO_LED_H_
 
+#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_tmr.h"
 #include "co_types.h"
@@ -65,16 +66,16 @@ typedef struct CO_LED_T {
 ///   - RUN: LSS, download; then the NMT state: Stopped single flash, Pre-operational blinking, Operational on, else
 ///   off.
 ///   - ERR: bus-off, LSS, RPDO, SYNC, error control, warning limit, configuration; else off.
-uint8_t COLedPattern(const CO_LED_STATE* state, uint32_t ms);
+uint8_t COLedPattern(const CO_LED_STATE* state, uint32_t ms) CO_NEEDS(USE_LED);
 
 /// Lets the node run its LEDs from now on until CONodeStop(), which switches them off: COLedChange() is called at once
 /// and with every change. Needs a timer of the stack (every 50 ms) while an LED blinks or flashes, none while both are
 /// steady. In CO_INVALID nothing happens.
-void COLedStart(struct CO_NODE_T* node);
+void COLedStart(struct CO_NODE_T* node) CO_NEEDS(USE_LED);
 
 /// The application says that \a what (one or several of CO_LED_BUS_OFF … CO_LED_DOWNLOAD) is the case, or no more.
 /// It holds through NMT resets, and beside what the node finds out by itself.
-void COLedSet(struct CO_NODE_T* node, uint8_t what, bool on);
+void COLedSet(struct CO_NODE_T* node, uint8_t what, bool on) CO_NEEDS(USE_LED);
 
 /// \name Callback of the application (see co_nmt.h)
 /// \{

@@ -24,6 +24,7 @@
 #define CO_LSS_H_
 
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_tmr.h"
 #include "co_types.h"
 
@@ -96,7 +97,7 @@ CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 
 /// Leaves \a baud and \a nodeId unchanged where nothing was stored. CO_ERR_PARA_STORE: no place at \a offset;
 /// CO_ERR_IF_NVM_READ: what is stored is damaged, or cannot be read; CO_ERR_BAD_ARG: an argument is null.
-CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId);
+CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId) CO_NEEDS(LSS_STORAGE);
 
 /// Stores node-ID and bit rate, unless they are stored already. The memory is not checked for an overlap with parameter
 /// groups.
@@ -106,7 +107,7 @@ CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uin
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
 /// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only when called in COLssStore()
 /// \retval CO_ERR_BAD_ARG       \a node is null
-CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId);
+CO_ERR COLssNvmStore(struct CO_NODE_T* node, uint32_t offset, uint32_t baud, uint8_t nodeId) CO_NEEDS(LSS_STORAGE);
 /// \}
 
 #ifdef __cplusplus

@@ -37,6 +37,7 @@
 #define CO_LSS_MASTER_H_
 
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_tmr.h"
 #include "co_types.h"
 
@@ -114,22 +115,23 @@ typedef struct CO_LSSM_T {
 /// to 133 of them. It should cover the cycle of the slowest slave and the waiting time on a busy bus, where LSS has a
 /// low priority. 0: CO_LSSM_TIMEOUT_MS, CO_LSSM_LISTEN_MS. What the timer driver cannot count is taken as the longest
 /// time it can. CO_ERR_BAD_ARG: \a lssm is null.
-CO_ERR COLssmSetTimes(CO_LSSM* lssm, uint32_t timeout, uint32_t listen);
+CO_ERR COLssmSetTimes(CO_LSSM* lssm, uint32_t timeout, uint32_t listen) CO_NEEDS(USE_LSS_MASTER);
 
 /// Ends the service that is going on: the callback comes with CO_LSSM_CANCELLED before this returns. What was sent
 /// stays sent. CO_ERR_BAD_ARG: \a lssm is null; CO_ERR_NONE, too, if no service is going on.
-CO_ERR COLssmCancel(CO_LSSM* lssm);
+CO_ERR COLssmCancel(CO_LSSM* lssm) CO_NEEDS(USE_LSS_MASTER);
 
 /// \name State of slaves
 /// \{
 
 /// Switches all slaves to \a state, CO_LSSM_WAITING or CO_LSSM_CONFIGURATION. No slave answers: CO_LSSM_OK follows
 /// after 1 ms. Slaves without node-ID that were given one get to work in CO_LSSM_WAITING.
-CO_ERR COLssmSwitchGlobal(CO_LSSM* lssm, uint8_t state, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmSwitchGlobal(CO_LSSM* lssm, uint8_t state, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Switches the slave with this address, that is in the state waiting, to configuration. CO_LSSM_TIMEOUT: there is
 /// none. CO_ERR_BAD_ARG: \a address is null.
-CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS], CO_LSSM_CALLBACK callback);
+CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS], CO_LSSM_CALLBACK callback)
+    CO_NEEDS(USE_LSS_MASTER);
 /// \}
 
 /// \name Slaves in the state configuration
@@ -137,27 +139,28 @@ CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS
 
 /// Gives the slave a node-ID: 1…127, or 255: none. It takes it when it is switched to waiting, if it had none, else
 /// with its next NMT reset communication. CO_LSSM_REFUSED with 1: it does not take this one.
-CO_ERR COLssmConfigureNodeId(CO_LSSM* lssm, uint8_t nodeId, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmConfigureNodeId(CO_LSSM* lssm, uint8_t nodeId, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Gives the slave a bit rate in bit/s: 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000. CO_LSSM_REFUSED
 /// with 1: it does not know this one.
-CO_ERR COLssmConfigureBitTiming(CO_LSSM* lssm, uint32_t baudrate, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmConfigureBitTiming(CO_LSSM* lssm, uint32_t baudrate, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Lets all slaves in configuration take their bit rate. All nodes are silent for \a delay ms, switch, and are silent
 /// for \a delay ms again. This node does the same, its frames wait; each time is at least 1 ms here. \a baudrate: the
 /// one that this node takes itself, in bit/s; the CAN driver's Init and Enable are called. 0: it leaves its controller
 /// alone. CO_LSSM_OK follows when all is over, also if the node is reset meanwhile. Cancelled, it sends again at the
 /// bit rate that it then has. CO_ERR_IF_CAN_SEND: frames still wait for the controller.
-CO_ERR COLssmActivateBitTiming(CO_LSSM* lssm, uint16_t delay, uint32_t baudrate, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmActivateBitTiming(CO_LSSM* lssm, uint16_t delay, uint32_t baudrate, CO_LSSM_CALLBACK callback)
+    CO_NEEDS(USE_LSS_MASTER);
 
 /// Lets the slave store node-ID and bit rate. CO_LSSM_REFUSED with 1: it cannot store; 2: its memory has failed.
-CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Inquires one part of the address of the slave: CO_LSSM_VENDOR…CO_LSSM_SERIAL. The answer is CO_LSSM.Value.
-CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t part, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t part, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Inquires the node-ID of the slave: CO_LSSM.Value, 255 if it has none.
-CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 /// \}
 
 /// \name Slaves in any state
@@ -165,10 +168,10 @@ CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
 
 /// Is there a slave in this range? \a range: vendor-ID, product code, lowest and highest revision number, lowest and
 /// highest serial number. CO_LSSM_OK or CO_LSSM_NOT_FOUND. CO_ERR_BAD_ARG: \a range is null.
-CO_ERR COLssmIdentify(CO_LSSM* lssm, const uint32_t range[6], CO_LSSM_CALLBACK callback);
+CO_ERR COLssmIdentify(CO_LSSM* lssm, const uint32_t range[6], CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
 /// Is there a slave without node-ID? CO_LSSM_OK or CO_LSSM_NOT_FOUND.
-CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 /// \}
 
 /// Finds a slave without node-ID, in the state waiting, and switches it to configuration; its address is
@@ -179,7 +182,8 @@ CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback);
 /// again. A slave that answers every request is found as 0, 0, 0, 0, again and again: end a loop of fastscans at an
 /// address that was found before, and inquire the identity of what was found. CO_ERR_BAD_ARG: \a num is above 4, or \a
 /// known is null though there are any.
-CO_ERR COLssmFastscan(CO_LSSM* lssm, const uint32_t* known, uint8_t num, CO_LSSM_CALLBACK callback);
+CO_ERR COLssmFastscan(CO_LSSM* lssm, const uint32_t* known, uint8_t num, CO_LSSM_CALLBACK callback)
+    CO_NEEDS(USE_LSS_MASTER);
 
 #ifdef __cplusplus
 }

@@ -18,6 +18,7 @@
 #include "co_cfg.h"
 #include "co_err.h"
 #include "co_if.h"
+#include "co_needs.h"
 #include "co_types.h"
 
 #ifdef __cplusplus
@@ -90,17 +91,14 @@ CO_MODE CONmtModeDecode(uint8_t code);
 /// Mode as state byte of a heartbeat; 255 for CO_INVALID and out of range.
 uint8_t CONmtModeEncode(CO_MODE mode);
 
-#if CO_HBCONS_N > 0
 /// How many times a heartbeat of the node \a nodeId was missed since the last call: once each period, at most 255.
 /// -1: the node is not monitored (1016h, co_hb_cons.h), or \a nmt is null (after CONodeFatalError()).
-int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId);
+int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) CO_NEEDS(CO_HBCONS_N);
 
 /// The state that the last heartbeat of the node \a nodeId has told. CO_INVALID: a reserved one, none was heard, the
 /// node is not monitored, or \a nmt is null (after CONodeFatalError()).
-CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId);
-#endif
+CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId) CO_NEEDS(CO_HBCONS_N);
 
-#if USE_NMT_MASTER
 /// Command specifiers of the NMT master. [301:7.2.8.2.1]
 typedef enum CO_NMT_COMMAND_T {
   CO_NMT_COMMAND_START = 1,         ///< enter Operational
@@ -114,8 +112,7 @@ typedef enum CO_NMT_COMMAND_T {
 /// message or, with 0, after it, as by CONmtSetMode() and CONmtReset().
 /// CO_ERR_BAD_ARG: \a nmt is null, no such command, \a nodeId above 127; CO_ERR_NMT_MODE: in CO_INIT and CO_INVALID;
 /// CO_ERR_IF_CAN_SEND: the transmit queue is full, nothing was done.
-CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId);
-#endif
+CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId) CO_NEEDS(USE_NMT_MASTER);
 
 /// \name Callbacks of the application
 /// Ordinary functions to be defined by the application; the defaults do nothing. Define them in an object file or an

@@ -9,6 +9,7 @@
 #define CO_OBJ_H_
 
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_types.h"
 
 #if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
@@ -172,7 +173,7 @@ typedef struct CO_OBJ_TYPE_EX_T {
 } CO_OBJ_TYPE_EX;
 
 /// Marks a CO_OBJ_TYPE as the first member of a CO_OBJ_TYPE_EX, and calls that one's Reset function.
-CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para);
+CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para) CO_NEEDS(USE_OBJ_EX);
 /// \}
 
 #if !defined(__cplusplus) || defined(CO_DATA_INTEGER)

@@ -31,6 +31,7 @@
 #include "co_integer32.h"
 #include "co_integer64.h"
 #include "co_integer8.h"
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_para.h"
 #include "co_real.h"
@@ -124,7 +125,7 @@ typedef enum ODR_T {
 } ODR_t;
 
 /// The abort code of a result; 0 of ODR_OK, 0604 0047h of any number that is no result. [301:7.2.4.3.17]
-uint32_t OD_getSDOabCode(ODR_t returnCode);
+uint32_t OD_getSDOabCode(ODR_t returnCode) CO_NEEDS(USE_OD);
 
 /// What a read or write function knows of the access: which variable, and how far it is. Each access has its own: an
 /// SDO channel, a PDO, each OD_IO_t of the application.
@@ -244,10 +245,10 @@ typedef struct OD_T_ {
 /// OD_LIST_N(indexes in the table), od->size then tells how many these are, and nothing is found until it is called
 /// with a list that is long enough; ODR_DEV_INCOMPAT: an argument is null, or the table is not ascending.
 ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, struct CO_NODE_T* node, struct CO_OBJ_T* table,
-              uint16_t tableLen);
+              uint16_t tableLen) CO_NEEDS(USE_OD);
 
 /// The object with this index, by halving; null: there is none, or \a od is null or empty.
-OD_entry_t* OD_find(OD_t* od, uint16_t index);
+OD_entry_t* OD_find(OD_t* od, uint16_t index) CO_NEEDS(USE_OD);
 
 /// Fills \a io for a variable, with its beginning as position. \a odOrig: the original functions also where the object
 /// is extended. For what was not extended, or whose entry cannot be (see OD_TYPE), these are OD_readOriginal() and
@@ -257,16 +258,16 @@ OD_entry_t* OD_find(OD_t* od, uint16_t index);
 ///
 /// dataLength: of numbers their bytes; of strings that can be written their capacity; of CO_TSTRING the text's length;
 /// of domains their size; of types of the application what Size answers, 0 for CO_OBJ_SIZE_UNKNOWN.
-ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t odOrig);
+ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t odOrig) CO_NEEDS(USE_OD);
 
 /// 0 if \a entry is null.
-uint16_t OD_getIndex(const OD_entry_t* entry);
+uint16_t OD_getIndex(const OD_entry_t* entry) CO_NEEDS(USE_OD);
 
 /// May the variable be mapped into any kind of PDO? False if \a stream is null.
-bool_t OD_mappable(const OD_stream_t* stream);
+bool_t OD_mappable(const OD_stream_t* stream) CO_NEEDS(USE_OD);
 
 /// Lets the next call begin anew: needed only to break off an access that was PARTIAL. Null is allowed.
-void OD_rwRestart(OD_stream_t* stream);
+void OD_rwRestart(OD_stream_t* stream) CO_NEEDS(USE_OD);
 
 /// \name Original functions
 /// What an object does by its type, or a stream without entry by its memory. ODR_DEV_INCOMPAT: an argument is null, or
@@ -282,8 +283,8 @@ void OD_rwRestart(OD_stream_t* stream);
 /// ODR_UNSUPP_ACCESS for a second. Begin and End are not called. Write of a type gets copies of up to 32 bytes, one
 /// behind the other: if it refuses one, those before it are written.
 /// \{
-ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
-ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
+ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead) CO_NEEDS(USE_OD);
+ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) CO_NEEDS(USE_OD);
 /// \}
 
 /// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. What
@@ -294,17 +295,18 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
 /// called the original, by a change of its value only, else by each write that was accepted.
 /// ODR_IDX_NOT_EXIST: \a entry is null; ODR_UNSUPP_ACCESS: no entry of the object can be extended (see OD_TYPE): the
 /// network would not notice it. Extensions with nothing but the original functions are accepted for any object.
-ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension);
+ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) CO_NEEDS(USE_OD);
 
 /// \name Values of a known length
 /// OD_getSub(), then one read or write of \a len bytes, without regard to the network's rights. Errors: as these;
 /// ODR_DEV_INCOMPAT: \a val is null, or an extension has taken fewer bytes and is content; ODR_TYPE_MISMATCH: the
 /// variable has another length, nothing is read or written.
 /// \{
-ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);
-ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig);
+ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
+ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
 
 /// \cond internal
+#if USE_OD
 #define OD_GET_SET(name, type, pointer)                                                                      \
   static inline ODR_t OD_get_##name(const OD_entry_t* entry, uint8_t subIndex, pointer val, bool_t odOrig) { \
     return OD_get_value(entry, subIndex, val, (OD_size_t)sizeof(type), odOrig);                              \
@@ -312,6 +314,11 @@ ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
   static inline ODR_t OD_set_##name(const OD_entry_t* entry, uint8_t subIndex, type val, bool_t odOrig) {    \
     return OD_set_value(entry, subIndex, &val, (OD_size_t)sizeof(type), odOrig);                             \
   }
+#else
+#define OD_GET_SET(name, type, pointer)                                                                        \
+  ODR_t OD_get_##name(const OD_entry_t* entry, uint8_t subIndex, pointer val, bool_t odOrig) CO_NEEDS(USE_OD); \
+  ODR_t OD_set_##name(const OD_entry_t* entry, uint8_t subIndex, type val, bool_t odOrig) CO_NEEDS(USE_OD);
+#endif
 /// \endcond
 
 /// OD_get_i8(entry, subIndex, &value, odOrig), OD_set_i8(entry, subIndex, value, odOrig), and so on.
@@ -335,7 +342,7 @@ OD_GET_SET(r64, float64_t, float64_t*)
 /// ODR_TYPE_MISMATCH: another length.
 /// Values with flag N lie there without the node-ID; those with flag D in the table, which may be read-only memory;
 /// numbers of 3, 5, 6 and 7 bytes in the wider variable. A change is not noticed by flag A.
-void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err);
+void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err) CO_NEEDS(USE_OD);
 
 /// \name What passes by PDO
 /// No extension is needed for it. The flags are those of CORPdoObjWasReceived() and COTPdoObjWasSent() (co_pdo.h),
@@ -344,19 +351,19 @@ void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t*
 
 /// Every TPDO of type 0, 254 or 255 that maps the variable is sent: now, or as soon as its inhibit time has passed, or
 /// with the next SYNC (type 0). What keeps one from being sent is the node's error (COTPdoRequest()).
-void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex);
+void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
 /// Has a TPDO with the variable been sent since OD_requestTPDO()? False for what no TPDO maps.
-bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex);
+bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
 /// Bit 0: written by an RPDO, bit n: sent by TPDO n (from 1), each since the bit was cleared.
 typedef uint32_t OD_flagsPDO_t;
 
-OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex);
+OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
 /// Clears the bits that are set in \a flags; the TPDOs among them that map the variable are sent as by
 /// OD_requestTPDO().
-void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags);
+void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) CO_NEEDS(USE_OD);
 /// \}
 
 /// \name Groups that are stored, by name
@@ -379,25 +386,23 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
         (value), 0, 0                                                                                           \
   }
 
-#if USE_PARA
 /// The sub-index of 1010h of the group with this name, 1…127; 0: there is none. Looks at Ident of all groups of 1010h,
 /// so whoever calls it gives each of them a string that ends with a zero, or null; firmware that has put anything else
 /// there does not call it, nor OD_getStorageName().
-uint8_t OD_findStorageGroup(const OD_t* od, const char* name);
+uint8_t OD_findStorageGroup(const OD_t* od, const char* name) CO_NEEDS(OD_STORAGE);
 
 /// The sub-index of 1010h of the group that the variable's original memory lies in; 0: it is not stored.
-uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex);
+uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(OD_STORAGE);
 
 /// Its name; null: there is no such group, or it has none.
-const char* OD_getStorageName(const OD_t* od, uint8_t group);
+const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 
 /// Stores the group, or lets it get its default values at the reset of its type, as "save" and "load" of the network
 /// do: 1, where others follow it, is all. ODR_SUB_NOT_EXIST: no such group; ODR_HW: the memory does not hold it, the
 /// old values stay; ODR_DATA_TRANSF: it is not stored on command; ODR_OD_MISSING: the node does not use this
 /// dictionary.
-ODR_t OD_storeGroup(const OD_t* od, uint8_t group);
-ODR_t OD_restoreGroup(const OD_t* od, uint8_t group);
-#endif
+ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
+ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// \}
 
 /// \name Locks
@@ -425,8 +430,8 @@ ODR_t OD_restoreGroup(const OD_t* od, uint8_t group);
 #define CO_UNLOCK_EMCY(node) OD_unlock(node)
 #endif
 
-void OD_lock(struct CO_NODE_T* node);
-void OD_unlock(struct CO_NODE_T* node);  ///< under OdLock: sends what changes have asked for meanwhile
+void OD_lock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
+void OD_unlock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);  ///< under OdLock: sends what changes have asked for meanwhile
 /// \}
 
 /// \name Types of entries that can be extended
@@ -466,23 +471,26 @@ typedef struct OD_TYPE_T {
   }
 
 /// \cond internal
-uint32_t ODValueSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width);
-uint32_t ODStreamSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width);
-CO_ERR ODTypeInit(struct CO_OBJ_T* obj, struct CO_NODE_T* node);
-CO_ERR ODValueRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-CO_ERR ODValueWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-CO_ERR ODStreamRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-CO_ERR ODStreamWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-CO_ERR ODStreamReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t position);
-CO_ERR ODStreamBegin(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size);
-CO_ERR ODStreamEnd(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort);
+uint32_t ODValueSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width) CO_NEEDS(USE_OD);
+uint32_t ODStreamSize(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width) CO_NEEDS(USE_OD);
+CO_ERR ODTypeInit(struct CO_OBJ_T* obj, struct CO_NODE_T* node) CO_NEEDS(USE_OD);
+CO_ERR ODValueRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size) CO_NEEDS(USE_OD);
+CO_ERR ODValueWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size) CO_NEEDS(USE_OD);
+CO_ERR ODStreamRead(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size) CO_NEEDS(USE_OD);
+CO_ERR ODStreamWrite(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size) CO_NEEDS(USE_OD);
+CO_ERR ODStreamReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t position) CO_NEEDS(USE_OD);
+CO_ERR ODStreamBegin(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t size)
+    CO_NEEDS(USE_OD);
+CO_ERR ODStreamEnd(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort)
+    CO_NEEDS(USE_OD);
 /// \endcond
 
-extern const OD_TYPE ODTInt8, ODTInt16, ODTInt32, ODTInt64, ODTBoolean, ODTReal32, ODTReal64, ODTTimeOfDay;
-extern const OD_TYPE ODTUnsigned24, ODTUnsigned40, ODTUnsigned48, ODTUnsigned56;
-extern const OD_TYPE ODTSigned24, ODTSigned40, ODTSigned48, ODTSigned56;
-extern const OD_TYPE ODTString, ODTVisibleString, ODTOctetString, ODTUnicodeString, ODTDomain;
-extern const OD_TYPE ODTNumber, ODTStream;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTInt8, ODTInt16, ODTInt32, ODTInt64, ODTBoolean, ODTReal32, ODTReal64;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTTimeOfDay;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTUnsigned24, ODTUnsigned40, ODTUnsigned48, ODTUnsigned56;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTSigned24, ODTSigned40, ODTSigned48, ODTSigned56;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTString, ODTVisibleString, ODTOctetString, ODTUnicodeString, ODTDomain;
+CO_NEEDS(USE_OD) extern const OD_TYPE ODTNumber, ODTStream;
 
 #define OD_TUNSIGNED8 (&ODTInt8.Ex.Type)
 #define OD_TUNSIGNED16 (&ODTInt16.Ex.Type)
@@ -511,7 +519,7 @@ extern const OD_TYPE ODTNumber, ODTStream;
 #define OD_TUNICODE_STRING (&ODTUnicodeString.Ex.Type)
 #define OD_TDOMAIN (&ODTDomain.Ex.Type)
 /// \cond internal
-#ifdef __cplusplus
+#if defined(__cplusplus) && USE_OD
 inline void OD_TYPE_in_front_of_an_OD_TYPE(void) {}  // no constant expression
 
 constexpr const CO_OBJ_TYPE* OD_BEHIND(const CO_OBJ_TYPE* original) {

@@ -62,6 +62,7 @@ static inline OD_size_t OD_write2020(OD_stream2020_t* stream, uint8_t subIndex, 
   return result == ODR_OK || result == ODR_PARTIAL ? passed : 0;
 }
 
+#if USE_OD
 static inline ODR_t OD_getSub2020(const OD_entry_t* entry, uint8_t subIndex, OD_subEntry_t* subEntry,
                                   OD_stream2020_t* stream, bool_t odOrig) {
   const OD_subEntry_t none = {0, 0, 0, 0, 0, OD_read2020, OD_write2020};
@@ -111,6 +112,7 @@ OD_GET_PTR(r32, float32_t)
 OD_GET_PTR(r64, float64_t)
 #undef OD_GET_PTR
 /// \}
+#endif
 
 #ifdef __cplusplus
 }
@@ -118,7 +120,9 @@ OD_GET_PTR(r64, float64_t)
 
 #define OD_stream_t OD_stream2020_t
 #define OD_IO_t OD_IO2020_t
+#if USE_OD
 #define OD_find OD_find2020
 #define OD_getSub OD_getSub2020
+#endif
 
 #endif

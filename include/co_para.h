@@ -39,6 +39,7 @@
 #ifndef CO_PARA_H_
 #define CO_PARA_H_
 
+#include "co_needs.h"
 #include "co_nmt.h"
 #include "co_obj.h"
 #include "co_types.h"
@@ -60,7 +61,7 @@ extern "C" {
 
 /// \name CO_PARA.Value
 /// \{
-#define CO_PARA____ 0u  ///< not stored
+#define CO_PARA____ 0u  ///< not stored; with a driver that has a Shape function not loaded either
 #define CO_PARA___E 1u  ///< stored on command
 #define CO_PARA__A_ 2u  ///< stored autonomously; only with a driver that has a Shape function
 #define CO_PARA__AE 3u  ///< both
@@ -98,12 +99,12 @@ typedef struct CO_PARA_T {
 /// of CO_PARA.Value (stored on command, autonomously), reading 1011h bit 0. Aborts: 0800 0020h another word, or a group
 /// that is not stored on command; 0606 0000h the memory does not hold the values, the old ones stay, or the group
 /// overlaps another; 0800 0022h the budget of stores is used up (CO_PARA_BUDGET).
-extern const CO_OBJ_TYPE COTParaStore;
-extern const CO_OBJ_TYPE COTParaRestore;
+extern const CO_OBJ_TYPE COTParaStore CO_NEEDS(USE_PARA);
+extern const CO_OBJ_TYPE COTParaRestore CO_NEEDS(USE_PARA);
 
 /// Type of 1020h, sub-index 1 and 2 (date and time of the configuration): an UNSIGNED32 that becomes 0 when the network
 /// writes an object of a parameter group, or any string or domain. [301:7.5.2.23]
-extern const CO_OBJ_TYPE COTVerifyConfig;
+extern const CO_OBJ_TYPE COTVerifyConfig CO_NEEDS(USE_PARA);
 
 #define CO_TPARA_STORE ((const CO_OBJ_TYPE*)&COTParaStore)
 #define CO_TPARA_RESTORE ((const CO_OBJ_TYPE*)&COTParaRestore)
@@ -117,10 +118,10 @@ extern const CO_OBJ_TYPE COTVerifyConfig;
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
 /// \retval CO_ERR_OBJ_STATE     in COLssStore(), which the LSS master has caused: the budget of stores is used up
 /// \retval CO_ERR_BAD_ARG       an argument is null
-CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node);
+CO_ERR COParaStore(const CO_PARA* pg, struct CO_NODE_T* node) CO_NEEDS(USE_PARA);
 
 /// The group gets its default values at the reset of its Type. Errors as COParaStore().
-CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
+CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node) CO_NEEDS(USE_PARA);
 
 /// Loads all groups of 1010h of this \a type, then runs a reset that a callback has requested meanwhile. An autonomous
 /// group whose change the budget delays keeps its values.
@@ -131,7 +132,7 @@ CO_ERR COParaRestore(const CO_PARA* pg, struct CO_NODE_T* node);
 /// \retval CO_ERR_PARA_OVERLAP  a group overlaps one with a lower sub-index
 /// \retval CO_ERR_PARA_RESTORE  COParaDefault() has failed
 /// \retval CO_ERR_BAD_ARG       \a node is null
-CO_ERR CONodeParaLoad(struct CO_NODE_T* node, enum CO_NMT_RESET_T type);
+CO_ERR CONodeParaLoad(struct CO_NODE_T* node, enum CO_NMT_RESET_T type) CO_NEEDS(USE_PARA);
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{

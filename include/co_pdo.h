@@ -38,6 +38,7 @@
 #include "co_cfg.h"
 #include "co_err.h"
 #include "co_if.h"
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_tmr.h"
 #include "co_types.h"
@@ -157,7 +158,6 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 /// empty; CO_ERR_IF_CAN_SEND: the transmit queue is full. CO_ERR_BAD_ARG: \a node is null.
 CO_ERR COTPdoRequest(struct CO_NODE_T* node, uint16_t num);
 
-#if USE_MPDO
 /// Sends \a value to \a node_id (1…127; 0: to all) by TPDO \a num, which is a multiplex PDO with destination addressing
 /// (sub 0 of its mapping is FFh): it is to be written to the object \a key, CO_DEV(index, sub-index), of up to 4 bytes
 /// there. The first byte on the bus is that of bits 7…0. [301:7.2.3] Nothing is kept for later: CO_ERR_NONE if it was
@@ -165,8 +165,8 @@ CO_ERR COTPdoRequest(struct CO_NODE_T* node, uint16_t num);
 /// CO_ERR_TPDO_NUM_TRIGGER: no such number; CO_ERR_NMT_MODE: the node is not in Operational; CO_ERR_TPDO_COM_OBJ: the
 /// PDO does not exist; CO_ERR_TPDO_MAP_OBJ: it is of another kind; CO_ERR_TPDO_INHIBIT: its inhibit time has not
 /// passed; CO_ERR_IF_CAN_SEND: the transmit queue is full.
-CO_ERR COTPdoSendTo(struct CO_NODE_T* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value);
-#endif
+CO_ERR COTPdoSendTo(struct CO_NODE_T* node, uint16_t num, uint8_t node_id, uint32_t key, uint32_t value)
+    CO_NEEDS(USE_MPDO);
 
 /// \name What has passed
 /// True: it has, since the question was asked last (or since the PDO was switched on). A PDO and each of its objects

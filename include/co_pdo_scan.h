@@ -12,6 +12,7 @@
 #ifndef CO_PDO_SCAN_H_
 #define CO_PDO_SCAN_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -19,7 +20,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoScan;
+extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(USE_MPDO);
 
 #define CO_TPDO_SCAN ((const CO_OBJ_TYPE*)&COTPdoScan)
 

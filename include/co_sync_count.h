@@ -6,6 +6,7 @@
 #ifndef CO_SYNC_COUNT_H_
 #define CO_SYNC_COUNT_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -13,7 +14,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncCount;
+extern const CO_OBJ_TYPE COTSyncCount CO_NEEDS(USE_SYNC);
 
 #define CO_TSYNC_COUNT ((const CO_OBJ_TYPE*)&COTSyncCount)
 

@@ -9,6 +9,7 @@
 #ifndef CO_SYNC_CYCLE_H_
 #define CO_SYNC_CYCLE_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -16,7 +17,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncCycle;
+extern const CO_OBJ_TYPE COTSyncCycle CO_NEEDS(USE_SYNC);
 
 #define CO_TSYNC_CYCLE ((const CO_OBJ_TYPE*)&COTSyncCycle)
 #define CO_TSYNC_WINDOW ((const CO_OBJ_TYPE*)&COTSyncCycle)

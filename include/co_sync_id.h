@@ -5,6 +5,7 @@
 #ifndef CO_SYNC_ID_H_
 #define CO_SYNC_ID_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -12,7 +13,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncId;
+extern const CO_OBJ_TYPE COTSyncId CO_NEEDS(USE_SYNC);
 
 #define CO_TSYNC_ID ((const CO_OBJ_TYPE*)&COTSyncId)
 

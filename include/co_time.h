@@ -17,6 +17,7 @@
 #define CO_TIME_H_
 
 #include "co_err.h"
+#include "co_needs.h"
 #include "co_time_of_day.h"
 #include "co_tmr.h"
 #include "co_types.h"
@@ -53,22 +54,22 @@ typedef struct CO_TIME_T {
 
 /// Sets the clock, which starts it if it stood. Nothing is sent. CO_ERR_BAD_ARG: an argument is null, or Ms is a day or
 /// more; CO_ERR_NMT_MODE: the node is in CO_INVALID; CO_ERR_TMR_CREATE: the timer has no frequency.
-CO_ERR COTimeSet(struct CO_NODE_T* node, const CO_TIME_OF_DAY* time);
+CO_ERR COTimeSet(struct CO_NODE_T* node, const CO_TIME_OF_DAY* time) CO_NEEDS(USE_TIME);
 
 /// The clock, exact to the millisecond that has begun (or to a tick, if that is longer). CO_ERR_BAD_ARG: an argument is
 /// null; CO_ERR_OBJ_NO_DATA: it was not set yet, \a time is 0.
-CO_ERR COTimeGet(struct CO_NODE_T* node, CO_TIME_OF_DAY* time);
+CO_ERR COTimeGet(struct CO_NODE_T* node, CO_TIME_OF_DAY* time) CO_NEEDS(USE_TIME);
 
 /// Sends the clock once. A TIME message that still waits to be sent is replaced. CO_ERR_BAD_ARG: \a node is null;
 /// CO_ERR_OBJ_STATE: 1012h does not make the node a producer; CO_ERR_NMT_MODE: it is neither in Pre-operational nor in
 /// Operational; CO_ERR_OBJ_NO_DATA: the clock was not set yet; CO_ERR_IF_CAN_SEND: the transmit queue is full.
-CO_ERR COTimeSend(struct CO_NODE_T* node);
+CO_ERR COTimeSend(struct CO_NODE_T* node) CO_NEEDS(USE_TIME);
 
 /// Lets the clock be sent every \a ms milliseconds, rounded up to ticks; 0: no more. The first time one period from
 /// now, and from each moment on at which the node may send TIME again. It holds until CONodeInit(), through NMT resets;
 /// what keeps COTimeSend() from sending keeps it from sending. CO_ERR_BAD_ARG: \a node is null, or the timer cannot
 /// hold the period.
-CO_ERR COTimeProduce(struct CO_NODE_T* node, uint32_t ms);
+CO_ERR COTimeProduce(struct CO_NODE_T* node, uint32_t ms) CO_NEEDS(USE_TIME);
 
 /// \name Callback of the application (see co_nmt.h)
 /// \{

@@ -7,6 +7,7 @@
 #ifndef CO_TIME_ID_H_
 #define CO_TIME_ID_H_
 
+#include "co_needs.h"
 #include "co_obj.h"
 #include "co_types.h"
 
@@ -14,7 +15,7 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTTimeId;
+extern const CO_OBJ_TYPE COTTimeId CO_NEEDS(USE_TIME);
 
 #define CO_TTIME_ID ((const CO_OBJ_TYPE*)&COTTimeId)
 

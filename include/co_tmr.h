@@ -3,9 +3,10 @@
 /// Timers: actions that run once after a time, or cyclically without drift, in the context of COTmrProcess().
 ///
 /// Units: ticks of the timer driver's clock (CO_NODE_SPEC.TmrFreq per second).
-/// Contexts: COTmrService() in the timer interrupt, everything else in the loop. Between them stand COTmrLock() and
-/// COTmrUnlock(), to be supplied by the application: they keep the timer interrupt away (default: empty, right where
-/// COTmrService() is called from the loop, too).
+/// Contexts: COTmrService() in the timer interrupt, everything else in the loop. COTmrProcess() and CONodeProcess()
+/// belong to one context: both run services and callbacks and may send (two threads: CONodeRealTime()). COTmrLock() and
+/// COTmrUnlock(), to be supplied by the application, keep the timer interrupt away from changes of the timers (default:
+/// empty, right where COTmrService() is called from the loop, too).
 /// Timers that are due at the same tick run in the order in which they were started; a cyclic timer starts anew with
 /// each expiry. A late call of COTmrProcess() runs every expired timer once; a cyclic timer then skips the expiries
 /// that were missed and keeps its phase.

@@ -137,13 +137,19 @@ inline constexpr Type types[] = {
     {&COTOctetString, rules::variable, Value::bytes, 0},
     {&COTUnicodeString, rules::variable, Value::bytes, 0},
     {&COTDomain, rules::variable, Value::bytes, 0},
+#if USE_EMCY
     {&COTEmcyHist, rules::emcy_history_number, Value::unsigned_integer, 1},
     {&COTEmcyHist, rules::emcy_history, Value::unsigned_integer, 4},
     {&COTEmcyId, rules::emcy_cob_id, Value::unsigned_integer, 4},
+#endif
+#if CO_EMCY_CONS_N > 0
     {&COTEmcyCons, rules::emcy_consumer, Value::unsigned_integer, 4},
+#endif
     {&COTErrorBehaviour, rules::error_behaviour, Value::unsigned_integer, 1},
+#if CO_HBCONS_N > 0
     {&COTNmtHbCons, rules::heartbeat_consumers, Value::unsigned_integer, 1},
     {&COTNmtHbCons, rules::heartbeat_consumer, Value::unsigned_integer, 4},
+#endif
     {&COTNmtStartup, rules::nmt_startup, Value::unsigned_integer, 4},
     {&COTNmtHbProd, rules::heartbeat_producer, Value::unsigned_integer, 2},
     {&COTSdoId, rules::sdo_cob_id, Value::unsigned_integer, 4},
@@ -170,7 +176,9 @@ inline constexpr Type types[] = {
     {&COTSyncCycle, rules::sync_cycle, Value::unsigned_integer, 4},
     {&COTSyncCount, rules::sync_counter, Value::unsigned_integer, 1},
 #endif
+#if USE_TIME
     {&COTTimeId, rules::time_cob_id, Value::unsigned_integer, 4},
+#endif
 };
 
 /// Where the compiler must reckon with symbols at address 0 (-fno-delete-null-pointer-checks, sanitizers of gcc), it

@@ -27,6 +27,8 @@ struct Shape {
   OD_attr_t attribute;
 };
 
+#if USE_OD
+
 [[nodiscard]] inline bool is_extensible(const CO_OBJ_TYPE& type) { return type.Init == ODTypeInit; }
 
 // The type that lets the entry be extended; null: it cannot be.
@@ -54,5 +56,7 @@ struct Shape {
 
 // An access to it that begins.
 [[nodiscard]] OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node);
+
+#endif
 
 }  // namespace co::od

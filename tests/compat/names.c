@@ -3,8 +3,6 @@
 #include <string.h>
 
 #include "co_core.h"
-#include "co_csdo.h" /* co_core.h leaves it out where USE_CSDO is 0 */
-#include "co_time.h" /* co_core.h leaves it out where USE_TIME is 0 */
 #include "co_ver.h"
 #include "unity.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // expect: Dictionary<CO_DICT_WRONG_PLACE, co::Index<'1', '0', '2', '8'>, co::Sub<'0', '0'>
 // Sub-index 0 of 1028h is a number and no COB-ID.
+#define CO_EMCY_CONS_N 1
 #include "co/dictionary.hpp"
 
 constexpr CO_OBJ od[] = {

@@ -10,6 +10,7 @@
 #include "failing_nvm.hpp"
 #include "fixture.hpp"
 
+#if USE_PARA
 namespace test {
 
 struct GroupDevice {
@@ -52,3 +53,4 @@ struct GroupDevice {
 };
 
 }  // namespace test
+#endif
