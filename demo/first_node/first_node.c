@@ -36,5 +36,5 @@ int main(void) {
     COTmrService(&node.Tmr);
     COTmrProcess(&node.Tmr);
   }
-  return (int)CONodeGetErr(&node);
+  puts(COErrText(CONodeGetErr(&node)));
 }

@@ -53,5 +53,5 @@ int main() {
     COTmrProcess(&node.Tmr);
   }
   std::printf("hour: %u\n", shown_hour.get().value());
-  return static_cast<int>(CONodeGetErr(&node));
+  std::puts(COErrText(CONodeGetErr(&node)));
 }
