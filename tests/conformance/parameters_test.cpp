@@ -696,6 +696,17 @@ TEST_CASE("parameters: with a classic driver, what is stored already is not writ
   CHECK(refusing.writes == writes);
 }
 
+TEST_CASE("parameters: with a classic driver, a group that is not stored is loaded and refuses to be saved") {
+  ClassicDevice device;
+  device.hold(0x44);
+  device.application.Value = CO_PARA____;
+  Fixture node(device.setup());
+  CHECK(node.error() == CO_ERR_NONE);
+  node.ask("601#4000230200000000", "581#4300230244000000");
+  node.ask("601#2310100173617665", "581#8010100120000008");
+  CHECK(refusing.writes == 0);
+}
+
 TEST_CASE("parameters: with a classic driver, groups overlap where their bytes do") {
   for (const std::uint32_t distance : {7U, 8U}) {
     ClassicDevice device;
