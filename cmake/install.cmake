@@ -15,6 +15,10 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lexican-config.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/installed/lexican-config-version.cmake
   COMPATIBILITY SameMinorVersion)
 
+# The headers would be copied into the directory that they are read from.
+if(CMAKE_INSTALL_PREFIX STREQUAL PROJECT_SOURCE_DIR)
+  message(FATAL_ERROR "the installation prefix ${CMAKE_INSTALL_PREFIX} is the source directory; give another one with --install-prefix")
+endif()
 install(TARGETS lexican EXPORT lexican-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT lexican-targets NAMESPACE lexican:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lexican)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ ${PROJECT_SOURCE_DIR}/config/

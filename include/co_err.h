@@ -60,13 +60,15 @@ extern "C" {
   X(CO_ERR_NMT_MODE, 0x124, 292, "not possible in this NMT state")                                                     \
   X(CO_ERR_EMCY_BAD_ROOT, 0x125, 293, "CO_NODE_SPEC.EmcyCode is null: there are no errors of the application")         \
   X(CO_ERR_TPDO_COM_OBJ, 0x126, 294, "a TPDO is off, or its COB-ID or transmission type is not allowed")               \
-  X(CO_ERR_TPDO_MAP_OBJ, 0x127, 295, "a TPDO's mapping is empty, too long, or names an object that cannot be mapped")  \
+  X(CO_ERR_TPDO_MAP_OBJ, 0x127, 295,                                                                                   \
+    "a TPDO maps no object, more than 64 bits, or an object that is missing, of other length, or without flag R")      \
   X(CO_ERR_TPDO_OBJ_TRIGGER, 0x128, 296, "no TPDO maps the object")                                                    \
   X(CO_ERR_TPDO_NUM_TRIGGER, 0x129, 297, "no TPDO has this number")                                                    \
   X(CO_ERR_TPDO_INHIBIT, 0x12A, 298, "the inhibit time of the TPDO has not elapsed")                                   \
   X(CO_ERR_TPDO_EVENT, 0x12B, 299, "the TPDO is not event-driven")                                                     \
   X(CO_ERR_RPDO_COM_OBJ, 0x12C, 300, "the COB-ID or transmission type of an RPDO is not allowed")                      \
-  X(CO_ERR_RPDO_MAP_OBJ, 0x12D, 301, "an RPDO's mapping is empty, too long, or names an object that cannot be mapped") \
+  X(CO_ERR_RPDO_MAP_OBJ, 0x12D, 301,                                                                                   \
+    "an RPDO maps no object, more than 64 bits, or an object that is missing, of other length, or without flag W")     \
   X(CO_ERR_SDO_SILENT, 0x12E, 302, "the SDO server does not answer")                                                   \
   X(CO_ERR_SDO_OFF, 0x12F, 303, "the SDO client is off: its COB-IDs are not valid")                                    \
   X(CO_ERR_SDO_BUSY, 0x130, 304, "the SDO client is busy with another transfer")                                       \

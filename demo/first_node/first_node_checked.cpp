@@ -19,7 +19,7 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2100, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)(&hour)},
 };
-CO_OD_CHECK(od);  // order, types, flags and addresses: a mistake names the entry in the compiler's message
+CO_OD_CHECK(od);  // a mistake names the entry in the compiler's message
 
 static void print(void* clock, const CO_IF_FRM* frame, const char* sender) {
   std::printf("%4u ms, %s: %03X %02X\n", COVirtualClockNow(static_cast<CO_VIRTUAL_CLOCK*>(clock)), sender,
@@ -46,7 +46,9 @@ int main() {
   CONodeInitEx(&node, &spec, &drivers);
   CONodeStart(&node);
   const auto shown_hour = co::object<std::uint8_t>(node, 0x2100, 0);
-  (void)shown_hour.set(13);
+  if (const CO_ERR error = shown_hour.set(13); error != CO_ERR_NONE) {
+    std::puts(COErrText(error));
+  }
   for (int ms = 0; ms < 2000; ++ms, COVirtualClockAdvance(clock, 1)) {
     CONodeProcess(&node);
     COTmrService(&node.Tmr);

@@ -35,8 +35,10 @@ bool print_error(CO_NODE& node) {
   const std::uint32_t key = CONodeGetErrKey(&node);
   std::fprintf(stderr, "heater: %s, object %04Xh:%02X: %s\n", COErrName(error), CO_GET_IDX(key), CO_GET_SUB(key),
                COErrText(error));
-  if (const CO_DICT_FAULT fault = CODictGetFault(&node.Dict, nullptr); fault != CO_DICT_OK) {
-    std::fprintf(stderr, "heater: %s: %s\n", CODictFaultName(fault), CODictFaultText(fault));
+  std::uint32_t entry = 0;
+  if (const CO_DICT_FAULT fault = CODictGetFault(&node.Dict, &entry); fault != CO_DICT_OK) {
+    std::fprintf(stderr, "heater: %s, entry %04Xh:%02X: %s\n", CODictFaultName(fault), CO_GET_IDX(entry),
+                 CO_GET_SUB(entry), CODictFaultText(fault));
   }
   return true;
 }

@@ -152,8 +152,9 @@ TEST_CASE("socketcan: more identifiers than the kernel takes open the filter") {
 
 TEST_CASE("socketcan: what prevents opening is told in words, with the interface") {
   CHECK(contains(co::socketcan_error(SocketCanStep::name, EINVAL, ""), "1 to 15 characters"));
-  CHECK(co::socketcan_error(SocketCanStep::socket, EAFNOSUPPORT, "can0") ==
-        "CAN interface 'can0': this kernel has no CAN sockets (try: modprobe can-raw)");
+  CHECK(
+      co::socketcan_error(SocketCanStep::socket, EAFNOSUPPORT, "can0") ==
+      "CAN interface 'can0': this kernel has no CAN sockets (try: modprobe can-raw; a container has none: use slcan)");
   CHECK(contains(co::socketcan_error(SocketCanStep::socket, EPROTONOSUPPORT, "can0"), "no CAN sockets"));
   CHECK(contains(co::socketcan_error(SocketCanStep::socket, EPERM, "can0"), "no permission"));
   CHECK(contains(co::socketcan_error(SocketCanStep::bind, EACCES, "can0"), "no permission"));

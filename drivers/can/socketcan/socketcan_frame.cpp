@@ -46,7 +46,7 @@ std::string reason(SocketCanStep step, int error) {
     return "an interface name has 1 to 15 characters";
   }
   if (step == SocketCanStep::socket && no_protocol(error)) {
-    return "this kernel has no CAN sockets (try: modprobe can-raw)";
+    return "this kernel has no CAN sockets (try: modprobe can-raw; a container has none: use slcan)";
   }
   if (step == SocketCanStep::interface && error == ENODEV) {
     return "no such interface (a virtual one: ip link add dev NAME type vcan)";
