@@ -27,12 +27,6 @@ Ran run_shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, bytes_of(output / "out"), bytes_of(output / "err")};
 }
 
-Ran run_codict(const std::string& directory, const std::string& arguments) {
-  return run_shell("cd '" + directory + "' && '" LEXICAN_CODICT_PROGRAM "' " + arguments);
-}
-
-Ran run(const std::string& arguments) { return run_codict(fixture(""), arguments); }
-
 std::string copy_to(const Directory& directory, const char* fixture) {
   const std::string path = directory / std::filesystem::path(fixture).filename().c_str();
   std::filesystem::copy_file(test::fixture(fixture), path);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions${full:+, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
+about="the tool for device descriptions${full:+ and its program, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
 . "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}")
 [ -z "$full" ] || packages+=(chromium groff-base=groff)
@@ -12,21 +12,21 @@ lane() {
   fi
 }
 
-# What a contributor runs: without sanitizers, fuzz targets, installation and browser.
+# What a contributor runs: the library of the tool, without sanitizers and fuzz targets. The program takes longer to build.
 core_cases() {
-  local targets=(lexican_codict_tests lexican_codict_node_tests)
+  local targets=(lexican_codict_tests)
   build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON \
     -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict-core/tests/codict/lexican_codict_tests"
-  run_doctest "codict nodes" "$build/codict-core/tests/codict/lexican_codict_node_tests"
 }
 
 all_cases() {
-  local target targets=(lexican_codict_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
+  local target targets=(lexican_codict_tests lexican_codict_program_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
     -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
+  run_doctest "codict program" "$build/codict/tests/codict/lexican_codict_program_tests"
   run_doctest "codict nodes" "$build/codict/tests/codict/lexican_codict_node_tests"
   for target in "${tool_fuzz_targets[@]}"; do
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
