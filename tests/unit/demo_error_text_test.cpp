@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The error of a demo's node in words: name, object, meaning; and the fault of its dictionary.
+#include "co_cfg.h"
+
+#if USE_CSDO  // which the demo's master needs
 #include <doctest/doctest.h>
 
 #include <string>
@@ -51,3 +54,5 @@ TEST_CASE("demo errors: a refused dictionary with its fault") {
 #endif
 
 }  // namespace
+
+#endif
