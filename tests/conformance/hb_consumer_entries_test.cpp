@@ -42,14 +42,14 @@ TEST_CASE("1016h: the application reads and writes exactly four bytes of an entr
   CO_OBJ* const number = node.find(0x1016, 0);
   for (std::uint8_t size = 0; size <= 8; ++size) {
     CAPTURE(unsigned{size});
-    std::uint64_t read = 0;
+    std::uint32_t read[2] = {};
     std::uint64_t value = 0x000600C8;
     node.call([&] {
       const CO_ERR expected = size == 4 ? CO_ERR_NONE : CO_ERR_BAD_ARG;
-      CHECK(COObjRdValue(entry, &node.node, &read, size) == expected);
-      CHECK(read == (size == 4 ? 0x00050064 : 0));
+      CHECK(COObjRdValue(entry, &node.node, read, size) == expected);
+      CHECK(read[0] == (size == 4 ? 0x00050064U : 0U));
       if (size != 4) CHECK(COObjWrValue(entry, &node.node, &value, size) == CO_ERR_BAD_ARG);
-      CHECK((COObjRdValue(number, &node.node, &read, size) == CO_ERR_NONE) == (size == 1));
+      CHECK((COObjRdValue(number, &node.node, read, size) == CO_ERR_NONE) == (size == 1));
     });
     CHECK(unsigned{node.entry[0].NodeId} == 5);
     CHECK(node.entry[0].Time == 100);
