@@ -226,6 +226,16 @@ CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction
   return pass(node, part, frame.Data + first_byte(part), direction);
 }
 
+// The type function may change the table: the key is read first.
+CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
+  const uint32_t key = part.obj.Key;
+  const CO_ERR err = copy_by_type(node, frame, part, direction);
+  if (err != CO_ERR_NONE) {
+    error::report(node, err, key);
+  }
+  return err;
+}
+
 // What a type function may change ends it: the PDO, or the numbers of the entries.
 bool is_over(const CO_NODE& node, const CO_PDO_MAP& map) { return !has(map, served) || is_numbered_anew(node); }
 
@@ -236,13 +246,8 @@ CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Dir
     const unsigned entry = map.Entry[place];
     const unsigned length = map.Step[place] % by_type;
     if (entry != no_entry) {
-      CO_OBJ& obj = node.Dict.Root[entry];
-      const uint32_t key = obj.Key;
-      const CO_ERR err = copy_by_type(node, frame, {obj, position, length}, direction);
-      if (err != CO_ERR_NONE) {
-        error::report(node, err, key);
-        result = err;
-      }
+      const CO_ERR err = copy_or_report(node, frame, {node.Dict.Root[entry], position, length}, direction);
+      result = err != CO_ERR_NONE ? err : result;
     }
     if (is_over(node, map)) {
       return CO_ERR_TPDO_COM_OBJ;
