@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the demo node on four microcontrollers without an operating system, in QEMU; the host's master, over slcan"
+minutes=2
 exclusive=yes  # the emulated UARTs lose bytes on a busy host
 . "$root/demo/bare_metal/emulate.sh"
 packages=("${build_packages[@]}")

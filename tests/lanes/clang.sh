@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases and the C programs, clang with address and undefined behaviour sanitizers"
+minutes=9
 packages=("${build_packages[@]}" python3 "${clang_packages[@]}")
 
 # Lane gcc makes the whole sweeps; lane sweeps makes them with sanitizers.

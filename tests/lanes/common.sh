@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # What all lanes share. A lane file sets
 #   about      one line for --list
-#   minutes    how long the lane takes alone on two cores, for --list
+#   minutes    how long the lane takes alone on two cores, about, for --list
 #   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
 #   optional   not empty: the lane is skipped, with a reason, where its packages cannot be installed
 #   exclusive  not empty: no other lane runs at the same time

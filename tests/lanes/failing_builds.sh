@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="sources that must be refused, with the right message, by gcc, clang and arm-none-eabi-gcc"
+minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 
 lane() {

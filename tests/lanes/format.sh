@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What programs have made is as they make it.
 about="clang-format and the licence line of each source"
+minutes=1
 packages=(clang-format-14)
 
 lane() {

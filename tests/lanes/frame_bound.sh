@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the most instructions that any frame takes, of the fuzz targets' committed inputs and of sweeps, and that docs/speed.md tells them"
+minutes=1
 packages=(cmake ninja-build=ninja "${arm_packages[@]}" qemu-system-arm python3)
 
 lane() {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases, small demos and the recipes of docs/cookbook.md, gcc -O2"
+minutes=4
 packages=("${build_packages[@]}" python3)
 
 lane() {

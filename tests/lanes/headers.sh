@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="each header alone, as C11, as C++17 and inside extern \"C\" of C++17, gcc and clang"
+minutes=1
 packages=(g++ clang)
 
 strict=(-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wundef -Werror -fsyntax-only)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the rules of inclusion between the rooms, and that their violation is found"
+minutes=1
 packages=(python3)
 
 lane() {

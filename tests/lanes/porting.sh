@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="docs/porting.md: its code is that of files which compile, for this machine and for Cortex-M0; so do the templates"
+minutes=1
 packages=(python3 gcc clang "${arm_packages[@]}")
 
 strict=(-std=c11 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow -Wundef -Wstrict-prototypes -Werror)

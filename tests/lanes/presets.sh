@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the configurations of config/presets (full is that of all other lanes)"
+minutes=6
 packages=("${build_packages[@]}")
 
 # The smallest configuration is built for size, so that each preset of CMakePresets.json is used, too. Lane gcc makes the

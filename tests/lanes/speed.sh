@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="how fast SDO transfers are on a simulated bus, and that docs/speed.md tells it"
+minutes=4
 packages=("${build_packages[@]}")
 
 # The time is that of the simulation: every machine measures the same.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="how deep the stack gets in every function of the API, on a Cortex-M0+, and that docs/sizes.md tells it"
+minutes=1
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}")
 
 lane() {

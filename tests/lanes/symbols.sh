@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="what the library may not need or contain: heap, exceptions, C++ run time, static objects, software reals"
+minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 
 # All that the library may ask of its surroundings: what every C compiler takes for granted, and integer division, shifts

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="what has threads, under the thread sanitizer: the interrupt's and the loop's end of a ring, a node of two threads"
+minutes=2
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 # Without address randomisation: the sanitizer's shadow needs its fixed place, which newer kernels may give away.

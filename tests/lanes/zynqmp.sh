@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="a node and its master on the CAN controllers of a ZynqMP (emulated), without an operating system; the driver check"
+minutes=1
 packages=(cmake ninja-build=ninja gcc-aarch64-linux-gnu=aarch64-linux-gnu-gcc g++-aarch64-linux-gnu=aarch64-linux-gnu-g++
   qemu-system-arm=qemu-system-aarch64)
 
