@@ -84,10 +84,13 @@ count_suite() {  # WHAT STATUS LOG
   fi
 }
 
-# Every program of a lane runs as many cases as the first.
+# Every program of a lane runs as many cases as the first, a big-endian one without those of $little_endian_cases: stored
+# records of version 0.1.0, whose bytes are typed as a little-endian CPU wrote them.
+little_endian_cases=4
 compare_number() {  # WHAT CASES
-  cases_of_first=${cases_of_first:-$2}
-  [ "$2" -eq "$cases_of_first" ] || fail "$1 has run $2 cases, the first program $cases_of_first"
+  local expected=${cases_of_first:=$2}
+  case $1 in powerpc | s390x) expected=$((cases_of_first - little_endian_cases)) ;; esac
+  [ "$2" -eq "$expected" ] || fail "$1 has run $2 cases instead of $expected"
 }
 
 smoke_on() {  # CPU BOARD
