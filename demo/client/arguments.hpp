@@ -13,7 +13,7 @@
 
 namespace demo {
 
-/// As typed.
+/// The options of read and write as texts of the command line, not yet checked.
 struct Arguments {
   bool write = false;
   std::string node;
@@ -56,7 +56,7 @@ enum class NmtCommand : std::uint8_t { start = 1, stop = 2, preop = 128, reset_n
 /// The names of all commands, for --help.
 constexpr const char* nmt_command_names = "start, stop, preop, reset-node, reset-comm";
 
-/// As typed.
+/// The options of nmt as texts of the command line, not yet checked.
 struct NmtArguments {
   std::string command;  // one of nmt_command_names
   std::string node;     // or "all"
@@ -89,7 +89,7 @@ TourPrepared prepare_tour(const Arguments& arguments);
 
 enum class LssAction { scan, set_id, set_bit_rate, store, inquire };
 
-/// As typed.
+/// The options of lss; texts of the command line are not yet checked.
 struct LssArguments {
   LssAction action = LssAction::scan;
   std::vector<std::string> address;  // empty: a node without node-ID

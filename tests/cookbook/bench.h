@@ -13,7 +13,8 @@ extern "C" {
 
 /// The node that BenchStart() starts.
 extern CO_NODE Node;
-/// What BenchStart() passes to CONodeInitEx(). A recipe may change them before; setUp() restores them.
+/// Specification and drivers of the node. A recipe may change them before it calls BenchStart(), which initialises the
+/// node with them. setUp() restores them before each test.
 extern CO_NODE_SPEC Spec;
 extern CO_NODE_EXT Ext;
 
