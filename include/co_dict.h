@@ -30,7 +30,7 @@ extern "C" {
   X(CO_DICT_NO_DATA, 3, "Data is null, but the type needs the address of a variable; the node runs")                   \
   X(CO_DICT_DIRECT_TYPE, 4, "flag D with a type that needs an address, or that does not fit into a pointer")           \
   X(CO_DICT_NODEID_TYPE, 5, "flag N with a type that has no values relative to the node-ID; the node runs")            \
-  X(CO_DICT_WRONG_PLACE, 6, "the type is not allowed at this index or sub-index")                                      \
+  X(CO_DICT_WRONG_PLACE, 6, "this object has another type, see docs/cookbook.md")                                      \
   X(CO_DICT_NOT_CONFIGURED, 7, "the number of the service is beyond the configuration (CO_SSDO_N, CO_TPDO_N, ...)")    \
   X(CO_DICT_DIRECT_ADDRESS, 8, "flag D with an address, or no flag D with a value")                                    \
   X(CO_DICT_DIRECT_CONST, 9, "flags D and W in a table in read-only memory")                                           \

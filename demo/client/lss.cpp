@@ -25,6 +25,11 @@ std::string shown(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
 
+/// The numbers are as --address takes them.
+void print(std::ostream& out, const LssAddress& address) {
+  out << "vendor-ID, product code, revision, serial number: " << shown(address) << std::endl;
+}
+
 /// The node in the state configuration has this address. False: the fault is told by \a master.
 bool has_identity(LssMaster& master, const LssAddress& address) {
   for (std::uint8_t part = 0; part < CO_LSSM_PARTS; ++part) {
@@ -80,7 +85,7 @@ bool scan(LssMaster& master, std::ostream& out) {
     if (!verify(master, address)) {
       return false;
     }
-    out << shown(address) << std::endl;
+    print(out, address);
     if (!select_all(master, found)) {
       return false;
     }
@@ -100,7 +105,7 @@ bool select(LssMaster& master, const LssRequest& request, std::ostream& out) {
   if (!has_identity(master, address)) {
     return false;
   }
-  out << shown(address) << std::endl;
+  print(out, address);
   return true;
 }
 

@@ -67,7 +67,7 @@ std::string LssMaster::fault() const {
     case CO_LSSM_REFUSED:
       return lssm_.Error == manufacturers_error ? text("refused, manufacturer's error %u", lssm_.Specific)
                                                 : text("refused with error %u", lssm_.Error);
-    case CO_LSSM_TIMEOUT: return "no answer";
+    case CO_LSSM_TIMEOUT: return "no answer; is there such a node on this bus, with power, and at this bit rate?";
     case CO_LSSM_NOT_FOUND: return "no node without node-ID";
     case CO_LSSM_NOT_SENT: return "the bus takes no frames";
     case CO_LSSM_CANCELLED: return "cancelled";

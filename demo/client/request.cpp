@@ -59,6 +59,9 @@ std::string what_went_wrong(const Request& request, const Outcome& outcome) {
     return words + "cancelled";
   }
   words += outcome.transfer.outcome();
+  if (outcome.transfer.code == CO_SDO_ERR_TIMEOUT && outcome.bus_fault.empty()) {
+    words += text("; is node %u on this bus, with power, and at this bit rate?", request.node);
+  }
   if (!request.write && outcome.transfer.code == CO_SDO_ERR_MEM) {
     words += text("; the object has more than %u bytes", request.capacity);
   }

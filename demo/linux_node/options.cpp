@@ -28,6 +28,12 @@ constexpr const char* footer =
     "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
     "  130  ended by Ctrl-C or SIGTERM before the last step";
 
+/// Empty: the words are right.
+std::string node_id_fault(std::string& words) {
+  const bool fits = words == unconfigured || CLI::Range(1, 127)(words).empty();
+  return fits ? "" : "'" + words + "' is neither a node-ID, 1...127, nor the word unconfigured";
+}
+
 }  // namespace
 
 CommandLine read_command_line(int argc, char** argv) {
@@ -40,7 +46,7 @@ CommandLine read_command_line(int argc, char** argv) {
   auto* const can = app.add_option("--can", options.interface, "SocketCAN interface to use")->type_name("IF");
   app.add_option("--node-id", node_id, "Node-ID of the clock until LSS stores another, 1...127, or unconfigured")
       ->type_name("N")
-      ->check((CLI::IsMember({unconfigured}) | CLI::Range(1, 127)).description(""))
+      ->check(CLI::Validator(node_id_fault, ""))
       ->capture_default_str();
   auto* const serve = app.add_flag("--serve", options.serve, "Run the node alone, and show what it receives and sends");
   app.add_option("--storage", options.storage, "File in which the clock keeps node-ID, name and time zone [RAM]")

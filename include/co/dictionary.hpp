@@ -80,7 +80,8 @@ struct Sub {};
 /// Exists only for dictionaries without fault.
 template <CO_DICT_FAULT Fault, class Index, class Sub>
 struct Dictionary {
-  static_assert(Fault == CO_DICT_OK, "Dictionary<fault, index, sub-index>: the entry that breaks a rule of co_dict.h");
+  static_assert(Fault == CO_DICT_OK,
+                "Dictionary<fault, index, sub-index>: this entry is wrong; CO_DICT_FAULT in co_dict.h says why");
   static constexpr bool proved = true;
 };
 

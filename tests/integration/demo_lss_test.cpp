@@ -163,7 +163,8 @@ class OddSlave {
 };
 
 const std::vector<std::string> address = {"0x319", "0xC10C", "0x10002", "0x80000001"};
-constexpr const char* shown = "0x00000319 0x0000C10C 0x00010002 0x80000001\n";
+#define LABELS "vendor-ID, product code, revision, serial number: "
+constexpr const char* shown = LABELS "0x00000319 0x0000C10C 0x00010002 0x80000001\n";
 
 }  // namespace
 
@@ -216,7 +217,7 @@ TEST_CASE("demo lss: a node is asked and configured by its address") {
 TEST_CASE("demo lss: what goes wrong is told, with status 1, and all are switched back to waiting") {
   Desk desk;
   CHECK(desk.run(LssAction::inquire, "", {"1", "2", "3", "4"}) == 1);
-  CHECK(desk.err.str() == "LSS: no answer\n");
+  CHECK(desk.err.str() == "LSS: no answer; is there such a node on this bus, with power, and at this bit rate?\n");
   CHECK(desk.out.str() == "");
   CHECK(desk.last_request() == "7E5#0400000000000000");
   test::callbacks().lss_store = [](std::uint32_t, std::uint8_t) { return CO_ERR_BAD_ARG; };
@@ -238,8 +239,8 @@ TEST_CASE("demo lss: scan finds several nodes, each once") {
   OddSlave second(desk, {0x319, 0xC10C, 0x10002, 0x80000002});
   OddSlave third(desk, {0x400, 1, 2, 3});
   CHECK(desk.run(LssAction::scan) == 0);
-  CHECK(desk.out.str() == std::string(shown) + "0x00000319 0x0000C10C 0x00010002 0x80000002\n" +
-                              "0x00000400 0x00000001 0x00000002 0x00000003\n");
+  CHECK(desk.out.str() == std::string(shown) + LABELS "0x00000319 0x0000C10C 0x00010002 0x80000002\n" +
+                              LABELS "0x00000400 0x00000001 0x00000002 0x00000003\n");
   CHECK(desk.err.str() == "");
 }
 
@@ -264,7 +265,7 @@ TEST_CASE("demo lss: scan ends at a node that it has found before") {
   OddSlave odd(desk, {1, 2, 3, 4});
   odd.scanned_always = true;
   CHECK(desk.run(LssAction::scan) == 1);
-  CHECK(desk.out.str() == "0x00000001 0x00000002 0x00000003 0x00000004\n");
+  CHECK(desk.out.str() == LABELS "0x00000001 0x00000002 0x00000003 0x00000004\n");
   CHECK(desk.err.str() ==
         "LSS: fastscan has found 0x00000001 0x00000002 0x00000003 0x00000004 again: this node answers although it is "
         "selected or has a node-ID; disconnect it, or name the node to configure by --address\n");

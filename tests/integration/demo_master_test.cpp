@@ -169,7 +169,7 @@ TEST_CASE("demo master: a node that is not there gives no answer, with status 1,
   CHECK(desk.run(arguments) == 1);
   CHECK(desk.host.now() - begin >= 250 * demo::millisecond);
   CHECK(desk.host.now() - begin < second);
-  CHECK(desk.err.str() == "node 6, 1000h:00: no answer\n");
+  CHECK(desk.err.str() == "node 6, 1000h:00: no answer; is node 6 on this bus, with power, and at this bit rate?\n");
   CHECK(desk.was_sent("606#8000100000000405"));
 }
 

@@ -53,13 +53,13 @@ stop "the node ends with status 0"
 serve --node-id unconfigured
 grep -qx "Master: demo/run master --slcan $pty lss set-id 5" "$work/trace"
 verdict $? "without a file the node cannot store" "$(cat "$work/trace")"
-ends "LSS gives a node-ID that is not stored" 0 "0x00000000 0x0000C10C *" at_node lss set-id 5
+ends "LSS gives a node-ID that is not stored" 0 "vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C *" at_node lss set-id 5
 stop "the node that does not store ends with status 0"
 
 serve --node-id unconfigured --storage "$work/clock.nvm"
 grep -qx "Master: demo/run master --slcan $pty lss set-id 5 --store" "$work/trace"
 verdict $? "without node-ID, the output names the LSS command" "$(cat "$work/trace")"
-ends "LSS gives the node-ID" 0 "0x00000000 0x0000C10C *" at_node lss set-id 5 --store
+ends "LSS gives the node-ID" 0 "vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C *" at_node lss set-id 5 --store
 ends "the node answers with it" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
 stop "the node without node-ID ends with status 0"
 

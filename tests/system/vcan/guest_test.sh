@@ -304,7 +304,7 @@ refuses "master: an object longer than told" 1 \
   "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 1000 bytes" \
   --node 5 --index 0x2200 --max 1000 read
 listen 609 2
-refuses "master: no such node" 1 "node 9, 1000h:00: no answer" --node 9 --timeout 200 --index 0x1000 --type u32 read
+refuses "master: no such node" 1 "node 9, 1000h:00: no answer; is node 9 on this bus, with power, and at this bit rate?" --node 9 --timeout 200 --index 0x1000 --type u32 read
 expect "master: the time-out is told" "609#4000100000000000 609#8000100000000405"
 refuses "master: a missing interface" 2 \
   "CAN interface 'vcan9': no such interface (a virtual one: ip link add dev NAME type vcan)" \
@@ -370,7 +370,7 @@ cat /tmp/end
 
 # --- Storage and LSS: what was stored is there after kill -9, which leaves the node no time for anything.
 
-address="0x00000000 0x0000C10C 0x???????? 0x00000001"
+address="vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C 0x???????? 0x00000001"
 
 serve() {  # ARGUMENT... of the node
   $node --can vcan0 --serve --serial 1 "$@" >/tmp/trace 2>&1 &
