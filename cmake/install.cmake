@@ -29,14 +29,4 @@ install(FILES ${PROJECT_SOURCE_DIR}/cmake/lexican_generate.cmake ${PROJECT_BINAR
   ${PROJECT_BINARY_DIR}/installed/lexican-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lexican)
 install(FILES ${PROJECT_BINARY_DIR}/installed/lexican.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-if(TARGET codict)
-  install(TARGETS codict RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT codict)
-  if(TARGET codict_words)
-    set(words ${PROJECT_BINARY_DIR}/tools/codict/codict)
-    install(FILES ${words}.man DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME codict.1
-      COMPONENT codict)
-    install(FILES ${words}.completion DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME codict
-      COMPONENT codict)
-  endif()
-endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -91,20 +91,19 @@ function(lexican_find_codict result)
       "or give the path of a codict: -DLEXICAN_CODICT=….")
   endif()
   set(directory ${CMAKE_BINARY_DIR}/lexican_host_codict)
-  set(program ${directory}/tools/codict/codict${CMAKE_HOST_EXECUTABLE_SUFFIX})
+  set(program ${directory}/codict${CMAKE_HOST_EXECUTABLE_SUFFIX})
   if(NOT TARGET lexican_host_codict)
     include(ExternalProject)
     # No toolchain and no flags of the target; the compiler of this machine is what CMake finds. Not optimised: it takes
     # minutes to build so, and milliseconds to run otherwise.
     ExternalProject_Add(lexican_host_codict
-      SOURCE_DIR ${root}
+      SOURCE_DIR ${root}/tools/codict
       BINARY_DIR ${directory}
       PREFIX ${directory}/step
       CONFIGURE_COMMAND ${CMAKE_COMMAND} -E env --unset=CC --unset=CXX --unset=CFLAGS --unset=CXXFLAGS --unset=LDFLAGS
         --unset=CMAKE_TOOLCHAIN_FILE
-        ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${root} -B ${directory} -DCMAKE_BUILD_TYPE=Release
-        -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DLEXICAN_TOOLS=ON -DLEXICAN_TESTS=OFF -DLEXICAN_DEMO=OFF -DLEXICAN_DRIVERS=OFF
-        -DLEXICAN_INSTALL=OFF
+        ${CMAKE_COMMAND} -G ${CMAKE_GENERATOR} -S ${root}/tools/codict -B ${directory} -DCMAKE_BUILD_TYPE=Release
+        -DCMAKE_CXX_FLAGS_RELEASE=-O0
       BUILD_COMMAND ${CMAKE_COMMAND} --build ${directory} --target codict
       BUILD_ALWAYS ON
       BUILD_BYPRODUCTS ${program}

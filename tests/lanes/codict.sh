@@ -16,10 +16,10 @@ lane() {
 
 # What a contributor runs: the library of the tool, without sanitizers and fuzz targets. The program takes longer to build.
 core_cases() {
-  local targets=(lexican_codict_tests)
-  build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TOOLS=ON \
+  local source=tools/codict targets=(lexican_codict_tests)
+  build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TESTS=ON \
     -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
-  run_doctest codict "$build/codict-core/tests/codict/lexican_codict_tests"
+  run_doctest codict "$build/codict-core/tests/lexican_codict_tests"
 }
 
 all_cases() {
@@ -27,14 +27,14 @@ all_cases() {
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
     -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
-  run_doctest codict "$build/codict/tests/codict/lexican_codict_tests"
-  run_doctest "codict program" "$build/codict/tests/codict/lexican_codict_program_tests"
-  run_doctest "codict nodes" "$build/codict/tests/codict/lexican_codict_node_tests"
+  run_doctest codict "$build/codict/tools/codict/tests/lexican_codict_tests"
+  run_doctest "codict program" "$build/codict/tools/codict/tests/lexican_codict_program_tests"
+  run_doctest "codict nodes" "$build/codict/tools/codict/tests/lexican_codict_node_tests"
   for target in "${tool_fuzz_targets[@]}"; do
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
   check "installation with the manual page and completion" install_codict
-  run_tap "$root/tests/codict/page_test.sh" "$build/codict/tools/codict/codict" "$root/tests/codict/fixtures"
+  run_tap "$root/tools/codict/tests/page_test.sh" "$build/codict/tools/codict/codict" "$root/tools/codict/tests/fixtures"
 }
 
 install_codict() {

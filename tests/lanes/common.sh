@@ -54,7 +54,8 @@ measure_lane() {
   [ $((passed + failed + skipped)) -gt 0 ] || fail "$lane_name ran nothing"
 }
 
-# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... All of it, or "${targets[@]}". In the largest configuration,
+# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... The project in $source, by default the stack. All of it, or
+# "${targets[@]}". In the largest configuration,
 # unless told otherwise: it has several SDO servers. Without the tools, which have a lane of their own. Lanes that share
 # a tree wait for each other.
 build_tree() {
@@ -64,7 +65,7 @@ build_tree() {
   now_in "$log"
   if ! {
     flock 9
-    cmake -S "$root" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"
+    cmake -S "$root/${source:-}" -B "$build/$name" -G Ninja -DLEXICAN_PRESET=full "$@" && cmake --build "$build/$name" --target "${targets[@]:-all}"
   } 9>"$build/$name.lock" >"$log" 2>&1; then
     fail "build of $name" "$log"
     return 1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The rules of inclusion: include < wire < core < object < service < od < node, drivers know only include.
-The rooms of tools/codict: text < model < eds, xdd < check, gen and so on < catalogue < cli; none knows one beside it.
+The rooms of tools/codict/src: text < model < eds, xdd < check, gen and so on < catalogue < cli; none knows one beside it.
 
 layers.py ROOT         checks a source tree, a case per room
 layers.py --self-test  plants a violation of each rule in a small tree and must find it
@@ -40,8 +40,8 @@ class Tree:
         for room in ROOMS:
             yield f"src/{room}", self.in_src
         yield "drivers", self.in_drivers
-        for room in sorted(p.name for p in (self.root / "tools/codict").iterdir() if p.is_dir()):
-            yield f"tools/codict/{room}", self.in_codict
+        for room in sorted(p.name for p in (self.root / "tools/codict/src").iterdir() if p.is_dir()):
+            yield f"tools/codict/src/{room}", self.in_codict
 
     def faults(self, directory, rule):
         """What is wrong below a directory; None if nothing is there to be checked."""
@@ -84,7 +84,7 @@ class Tree:
     def in_codict(self, file, name, system):
         if system:
             return None
-        here = file.relative_to(self.root / "tools/codict").parts[0]
+        here = file.relative_to(self.root / "tools/codict/src").parts[0]
         there = Path(name).parts[0]
         if here == there:
             return None
@@ -136,9 +136,9 @@ CLEAN = {
     "drivers/can/socket.cpp": '#include "co_b.h"\n#include "socket.h"\n#include <sys/socket.h>\n',
     "drivers/can/socket.h": "",
     "drivers/nvm/file.cpp": "#include <cstdio>\n",
-    "tools/codict/text/edit.hpp": "#include <string>\n",
-    "tools/codict/eds/read.cpp": '#include "eds/read.hpp"\n#include "text/edit.hpp"\n',
-    "tools/codict/xdd/read.hpp": "",
+    "tools/codict/src/text/edit.hpp": "#include <string>\n",
+    "tools/codict/src/eds/read.cpp": '#include "eds/read.hpp"\n#include "text/edit.hpp"\n',
+    "tools/codict/src/xdd/read.hpp": "",
 }
 
 PLANTED = {
@@ -153,9 +153,9 @@ PLANTED = {
     "a room includes by a relative path": ("src/core/dict.cpp", '#include "../wire/sdo.hpp"'),
     "a room defines a macro": ("src/core/dict.cpp", "#define FAST 1"),
     "a driver includes a room": ("drivers/can/socket.cpp", '#include "core/dict.hpp"'),
-    "a room of codict includes one above": ("tools/codict/text/edit.hpp", '#include "eds/read.hpp"'),
-    "a room of codict includes one beside": ("tools/codict/eds/read.cpp", '#include "xdd/read.hpp"'),
-    "a room of codict includes what is no room": ("tools/codict/eds/read.cpp", '#include "co_core.h"'),
+    "a room of codict includes one above": ("tools/codict/src/text/edit.hpp", '#include "eds/read.hpp"'),
+    "a room of codict includes one beside": ("tools/codict/src/eds/read.cpp", '#include "xdd/read.hpp"'),
+    "a room of codict includes what is no room": ("tools/codict/src/eds/read.cpp", '#include "co_core.h"'),
     "a driver includes another kind of driver": ("drivers/nvm/file.cpp", '#include "../can/socket.h"'),
 }
 

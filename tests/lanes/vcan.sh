@@ -20,7 +20,7 @@ lane() {
 
 # As README says it; with the codict of lane package, if that has been built.
 heater() {
-  local codict=$build/release/tests/package/generate.cross/lexican_host_codict/tools/codict/codict known=()
+  local codict=$build/release/tests/package/generate.cross/lexican_host_codict/codict known=()
   [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")
   cmake -S "$root/demo/heater" -B "$build/heater" -G Ninja "${known[@]}" && cmake --build "$build/heater"
 }

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/services.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cli/letters.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+// What stands for itself in a workflow command; colons and commas do in messages only.
+std::string escaped(std::string_view text, std::string_view signs) {
+  std::string result;
+  for (const char c : text) {
+    result += signs.find(c) == std::string_view::npos
+                  ? std::string(1, c)
+                  : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return result;
+}
+
+std::string escaped_message(std::string_view text) { return escaped(text, "%\r\n"); }
+std::string escaped_property(std::string_view text) { return escaped(text, "%\r\n:,"); }
+
+std::string_view github_word(Severity severity) { return severity == Severity::note ? "notice" : name_of(severity); }
+
+// A relative reference: what is no plain letter is a % and two digits. [RFC 3986]
+std::string to_uri(std::string_view path) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  std::string uri;
+  for (const char c : path) {
+    uri += plain.find(c) != std::string_view::npos
+               ? std::string(1, c)
+               : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return path.substr(0, 1) == "/" ? "file://" + uri : uri;
+}
+
+std::string message_of(const Finding& finding) {
+  return finding.hint.empty() ? finding.text : finding.text + "\nfix: " + finding.hint;
+}
+
+// Columns are characters there, not bytes.
+std::size_t column_of(const Input& input, std::uint32_t offset) {
+  const Source& source = input.source();
+  const Position position = source.position(offset);
+  const std::string before = to_utf8(source.slice({offset - (position.column - 1), offset}), input.encoding());
+  return 1 + letters(before);
+}
+
+Json region_of(const Input& input, Span span) {
+  return {{"startLine", input.source().position(span.begin).line},
+          {"startColumn", column_of(input, span.begin)},
+          {"endLine", input.source().position(span.end).line},
+          {"endColumn", column_of(input, span.end)}};
+}
+
+}  // namespace
+
+std::string to_github(const Source& source, const std::vector<Folded>& findings) {
+  std::string text;
+  for (const Folded& folded : findings) {
+    const Finding& finding = *folded.first;
+    const Position position = source.position(finding.span.begin);
+    const std::string more = folded.more == 0 ? "" : fmt::format("\nand {} more", folded.more);
+    text += fmt::format("::{} file={},line={},col={},title={}::{}\n", github_word(finding.severity),
+                        escaped_property(source.name()), position.line, position.column,
+                        escaped_property(finding.rule->id), escaped_message(message_of(finding) + more));
+  }
+  return text;
+}
+
+std::size_t Sarif::number_of(const Rule& rule) {
+  const auto [place, is_new] = numbers_.try_emplace(&rule, numbers_.size());
+  if (is_new) {
+    rules_.push_back({{"id", rule.id},
+                      {"shortDescription", {{"text", rule.about}}},
+                      {"help", {{"text", "codict explain " + std::string(rule.id) + ", or " + page_of(rule)}}},
+                      {"defaultConfiguration", {{"level", name_of(rule.severity)}}}});
+  }
+  return place->second;
+}
+
+void Sarif::add(const Input& input, const std::vector<Finding>& findings) {
+  for (const Finding& finding : findings) {
+    const Json location{{"artifactLocation", {{"uri", to_uri(input.source().name())}}},
+                        {"region", region_of(input, finding.span)}};
+    results_.push_back({{"ruleId", finding.rule->id},
+                        {"ruleIndex", number_of(*finding.rule)},
+                        {"level", name_of(finding.severity)},
+                        {"message", {{"text", message_of(finding)}}},
+                        {"locations", Json::array({Json{{"physicalLocation", location}}})}});
+  }
+}
+
+Json Sarif::document(bool is_complete) const {
+  const Json driver{{"name", "codict"}, {"semanticVersion", LEXICAN_VERSION}, {"rules", rules_}};
+  const Json run{{"tool", {{"driver", driver}}},
+                 {"columnKind", "unicodeCodePoints"},
+                 {"invocations", Json::array({Json{{"executionSuccessful", is_complete}}})},
+                 {"results", results_}};
+  return {
+      {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({run})}};
+}
+
+std::string page_of(const Rule& rule) { return fmt::format("tools/codict/docs/codict-rules/{}.md", rule.id); }
+
+}  // namespace lexican::codict::cli

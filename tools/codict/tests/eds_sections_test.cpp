@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sections, lines and characters of an EDS: as CiA 306 has them, and as they are found.
+#include <doctest/doctest.h>
+
+#include "reading.hpp"
+
+using namespace lexican::codict;
+using test::meaning;
+using test::Reading;
+
+TEST_CASE("EDS: the name of an object's section has no letters of its own case, and zeros do not matter") {
+  const Reading eds("section_form.eds");
+  CHECK(eds.at(0x200A, 1).name.text == "First");
+  CHECK(meaning(eds.value(0x200A, 0)) == "1");
+  CHECK(eds.device.find(0x0002)->object_code.value == ObjectCode::deftype);
+  CHECK(eds.found() ==
+        "24:2 eds-section-form\n29:2 eds-section-form\n36:2 eds-section-zeros\n42:2 eds-section-zeros\n");
+}
+
+TEST_CASE("EDS: text behind a section's name is passed over") {
+  const Reading eds("section_tail.eds");
+  CHECK(eds.at(0x2000).name.text == "Speed");
+  CHECK(eds.found() == "24:8 eds-syntax-section-tail\n");
+}
+
+TEST_CASE("EDS: a section without its bracket is read, one without a name is kept") {
+  const Reading eds("section_open.eds");
+  CHECK(eds.at(0x2000).name.text == "Speed");
+  CHECK(eds.device.others.at(0).children.at(0).name == "Word");
+  CHECK(eds.found() == "24:1 eds-syntax-section\n30:1 eds-syntax-section\n30:2 eds-section-unknown\n");
+}
+
+TEST_CASE("EDS: an unknown section is kept") {
+  const Reading eds("section_unknown.eds");
+  CHECK(eds.device.others.at(0).name == "Tools");
+  CHECK(eds.device.others.at(0).children.size() == 2);
+  CHECK(eds.device.others.at(1).name == "Weather");
+  CHECK(eds.device.others.at(1).children.at(0).text.text == "blue");
+  CHECK(eds.found() == "24:2 eds-section-unknown\n");
+}
+
+TEST_CASE("EDS: of two keys of a name the first one is used, and the second one kept") {
+  const Reading eds("duplicate_key.eds");
+  CHECK(eds.at(0x2000).name.text == "First");
+  CHECK(eds.at(0x2000).others.at(0).text.text == "Second");
+  CHECK(eds.found() == "26:1 eds-duplicate-key\n");
+}
+
+TEST_CASE("EDS: of two sections of an object the first one is used, and the second one kept") {
+  const Reading eds("duplicate_section.eds");
+  CHECK(eds.at(0x2000).name.text == "First");
+  CHECK(eds.at(0x2001, 0).name.text == "First");
+  CHECK(eds.device.others.at(0).children.at(0).text.text == "Second");
+  CHECK(eds.device.others.at(1).children.at(0).text.text == "Second");
+  CHECK(eds.found() == "31:2 eds-duplicate-section\n49:2 eds-section-zeros\n49:2 eds-duplicate-section\n");
+}
+
+TEST_CASE("EDS: a sub-object without its object is read, a list without its object is kept") {
+  const Reading eds("orphan.eds");
+  CHECK(meaning(eds.value(0x2000, 1)) == "4");
+  CHECK(eds.device.find(0x2000)->object_code.value == ObjectCode::record);
+  CHECK(eds.device.others.at(0).name == "2001Value");
+  CHECK(eds.found() ==
+        "20:2 eds-section-orphan\n20:2 eds-list-unlisted\n20:2 od-sub-zero-missing\n27:2 eds-section-orphan\n");
+}
+
+TEST_CASE("EDS: a file may consist of one object") {
+  const Reading eds("no_headers.eds");
+  CHECK(meaning(eds.value(0x2000)) == "3");
+  CHECK(eds.found() ==
+        "1:1 eds-section-missing\n1:1 eds-section-missing\n1:1 eds-section-missing\n1:2 eds-list-unlisted\n");
+}
+
+TEST_CASE("EDS: lines with other signs of comments are comments") {
+  const Reading eds("comments.eds");
+  CHECK(eds.at(0x2000).name.text == "One");
+  CHECK(eds.found() == "24:1 eds-syntax-comment\n25:2 eds-syntax-comment\n26:1 eds-syntax-indent\n");
+}
+
+TEST_CASE("EDS: a line that is nothing is passed over") {
+  CHECK(Reading("line_without_key.eds").found() == "20:1 eds-syntax-line\n21:1 eds-syntax-line\n");
+}
+
+TEST_CASE("EDS: a key before all sections is kept") {
+  const Reading eds("key_outside.eds");
+  CHECK(eds.device.others.at(0).children.at(0).name == "Lost");
+  CHECK(eds.found() == "1:1 eds-syntax-outside\n");
+}
+
+TEST_CASE("EDS: a line of more than 255 characters is read") {
+  const Reading eds("long_line.eds");
+  CHECK(eds.value(0x2000).text.size() == 300);
+  CHECK(eds.found() == "29:256 eds-syntax-length\n");
+}
+
+TEST_CASE("EDS: lines end with LF or CR LF, and the last one as it likes") {
+  const Reading mixed("line_ends.eds");
+  CHECK(mixed.device.manufacturer.count.value == 1);
+  CHECK(mixed.at(0x2000).access.value == Access::rw);
+  CHECK(mixed.found() == "20:22 eds-syntax-line-end\n");
+  const Reading dos("dos_lines.eds");
+  CHECK(dos.at(0x2000).access.text == "rw");
+  CHECK(dos.found().empty());
+}
+
+TEST_CASE("EDS: letters beyond ASCII are those of UTF-8, or a guess") {
+  const Reading utf8("utf8.eds");
+  CHECK(utf8.at(0x2000).name.text == u8"Größe");
+  CHECK(utf8.found() == "25:17 eds-encoding-utf8\n");
+  const Reading marked("utf8_mark.eds");
+  CHECK(marked.at(0x2000).name.text == u8"Größe");
+  CHECK(marked.device.file.file_name.text == "utf8_mark.eds");
+  CHECK(marked.found() == "1:1 eds-encoding-mark\n25:17 eds-encoding-utf8\n");
+  const Reading dos("cp850.eds");
+  CHECK(dos.at(0x2000).name.text == u8"Größe für Öl");
+  CHECK(dos.found() == "25:17 eds-encoding-guess\n");
+  const Reading windows("cp1252.eds");
+  CHECK(windows.at(0x2000).name.text == u8"Größe für 20 °C");
+  CHECK(windows.found() == "25:17 eds-encoding-guess\n");
+}
+
+TEST_CASE("EDS: a control character is kept") {
+  const Reading eds("control_character.eds");
+  CHECK(eds.at(0x2000).name.text == "Be\x07ll");
+  CHECK(eds.found() == "25:17 eds-syntax-control\n");
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// What values mean in an EDS: as CiA 306 has them, and as they are found.
+#include <doctest/doctest.h>
+
+#include "reading.hpp"
+
+using lexican::codict::Access;
+using test::meaning;
+using test::Reading;
+
+TEST_CASE("EDS: a number with a leading zero is octal, and 8 is no octal digit [306: 4.2]") {
+  const Reading eds("octal.eds");
+  CHECK(meaning(eds.value(0x2000)) == "10");
+  CHECK(meaning(eds.value(0x2001)) == "malformed");
+  CHECK(eds.value(0x2001).text == "018");
+  CHECK(eds.found() == "30:14 od-value-octal\n37:16 od-value-octal-digit\n");
+}
+
+TEST_CASE("EDS: a suffix of C is left out, an h at the end means hexadecimal") {
+  const Reading eds("number_suffix.eds");
+  CHECK(meaning(eds.value(0x2000)) == "1311768467294899695");
+  CHECK(meaning(eds.value(0x2001)) == "128");
+  CHECK(eds.found() == "30:32 od-value-suffix\n37:18 od-value-suffix\n");
+}
+
+TEST_CASE("EDS: a comment behind a number or an access type is left out") {
+  const Reading eds("number_comment.eds");
+  CHECK(meaning(eds.value(0x2000)) == "1005");
+  CHECK(eds.value(0x2000).text == "0x3ED ; prevent homing");
+  CHECK(eds.at(0x2001).access.value == Access::rw);
+  CHECK(eds.found() == "30:19 od-value-comment\n36:14 od-value-comment\n");
+}
+
+TEST_CASE("EDS: an integer may have zeros behind a point, and nothing else there") {
+  const Reading eds("number_fraction.eds");
+  CHECK(meaning(eds.value(0x2000)) == "3");
+  CHECK(meaning(eds.value(0x2001)) == "malformed");
+  CHECK(eds.found() == "30:15 od-value-fraction\n37:15 od-value-fraction\n");
+}
+
+TEST_CASE("EDS: true and false are numbers, other words are not") {
+  const Reading eds("number_word.eds");
+  CHECK(meaning(eds.value(0x2000)) == "0");
+  CHECK(meaning(eds.value(0x2001)) == "1");
+  CHECK(meaning(eds.value(0x2002)) == "malformed");
+  CHECK(eds.found() == "31:14 od-value-word\n38:14 od-value-word\n45:14 od-value-number\n");
+}
+
+TEST_CASE("EDS: a number fits its data type") {
+  const Reading eds("number_range.eds");
+  CHECK(meaning(eds.value(0x2000)) == "malformed");
+  CHECK(meaning(eds.value(0x2001)) == "malformed");
+  CHECK(meaning(eds.value(0x2002)) == "malformed");
+  CHECK(eds.found() == "31:14 od-value-range\n38:14 od-value-range\n45:14 od-value-range\n");
+}
+
+TEST_CASE("EDS: a negative number may be written as its bit pattern, of the width of its type") {
+  const Reading eds("bit_pattern.eds");
+  CHECK(meaning(eds.value(0x2000)) == "-1");
+  CHECK(meaning(eds.value(0x2001)) == "-128");
+  CHECK(meaning(eds.value(0x2002)) == "-2");
+  CHECK(meaning(eds.value(0x2003)) == "-32768");
+  CHECK(eds.found() == "32:14 od-value-bit-pattern\n39:14 od-value-bit-pattern\n46:14 od-value-bit-pattern\n");
+}
+
+TEST_CASE("EDS: $NODEID is added to a number, in every form that is found [306: 4.6.5]") {
+  const Reading eds("node_id.eds");
+  CHECK(meaning(eds.value(0x2000)) == "$NODEID+384");
+  CHECK(meaning(eds.value(0x2001)) == "$NODEID+384");
+  CHECK(meaning(eds.value(0x2002)) == "$NODEID+384");
+  CHECK(meaning(eds.value(0x2003)) == "$NODEID+0");
+  CHECK(meaning(eds.value(0x2004)) == "$NODEID+2147484416");
+  CHECK(meaning(eds.value(0x2005)) == "$NODEID+384");
+  CHECK(meaning(eds.at(0x2005).low_limit) == "$NODEID+1");
+  CHECK(eds.value(0x2000).integer_for(5) == lexican::codict::Integer(0x185));
+  CHECK(eds.value(0x2001).text == "0x180+$NODEID");
+  CHECK(eds.found() ==
+        "41:14 od-value-nodeid-form\n48:14 od-value-nodeid-form\n62:14 od-value-nodeid-form\n"
+        "62:32 od-value-comment\n");
+}
+
+TEST_CASE("EDS: a REAL is a number with or without a point, or its bit pattern") {
+  const Reading eds("real.eds");
+  CHECK(meaning(eds.value(0x2000)) == "-1500");
+  CHECK(meaning(eds.value(0x2001)) == "7");
+  CHECK(meaning(eds.value(0x2002)) == "1.5");
+  CHECK(meaning(eds.value(0x2003)) == "0.25");
+  CHECK(meaning(eds.value(0x2004)) == "malformed");
+  CHECK(eds.found() ==
+        "40:14 od-value-real-integer\n47:14 od-value-real-bits\n54:14 od-value-decimal-comma\n"
+        "61:14 od-value-number\n");
+}
+
+TEST_CASE("EDS: octets are pairs of hexadecimal digits, with or without blanks") {
+  const Reading eds("octets.eds");
+  CHECK(meaning(eds.value(0x2000)) == "octets 01 02 FF");
+  CHECK(meaning(eds.value(0x2001)) == "octets 01 02 FF");
+  CHECK(meaning(eds.value(0x2002)) == "malformed");
+  CHECK(eds.found() == "45:14 od-value-octets\n");
+}
+
+TEST_CASE("EDS: quotes are a part of a string") {
+  const Reading eds("quotes.eds");
+  CHECK(meaning(eds.value(0x2000)) == "\"\"Hello\"\"");
+  CHECK(eds.found() == "29:14 od-value-quotes\n");
+}
+
+TEST_CASE("EDS: what follows a semicolon in a text is a part of it") {
+  const Reading eds("semicolon.eds");
+  CHECK(eds.at(0x2000).name.text == "A;B=C [D]");
+  CHECK(meaning(eds.value(0x2000)) == "\"one; two\"");
+  CHECK(eds.found().empty());
+}
+
+TEST_CASE("limits are compared as what they mean, and values with them") {
+  const Reading eds("limits.eds");
+  CHECK(meaning(eds.at(0x2000).high_limit) == "-2147483648");
+  CHECK(meaning(eds.at(0x2002).low_limit) == "-32768");
+  CHECK(eds.found() ==
+        "31:10 od-limit-order\n32:11 od-value-bit-pattern\n39:14 od-limit\n49:10 od-value-bit-pattern\n");
+}
+
+TEST_CASE("EDS: a type of the device's own is looked up in its object") {
+  const Reading eds("type_own.eds");
+  CHECK(eds.at(0x2000).data_type.value == 0x40);
+  CHECK(data_type_of(eds.device, 0x40).kind == lexican::codict::TypeKind::structure);
+  CHECK(data_type_of(eds.device, 0x41).kind == lexican::codict::TypeKind::unknown);
+  CHECK(eds.found() == "47:10 eds-type-own\n53:10 eds-type-unknown\n");
+}

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: Apache-2.0
+# Nodes whose dictionary codict makes while the tests are built, in both languages, tested from the bus. The minimal
+# configuration has not all that they need. They need the stack and its demo: codict alone is tested without them.
+if(TARGET lexican_demo_dictionary AND NOT LEXICAN_PRESET STREQUAL "minimal")
+  add_executable(lexican_codict_node_tests ${lexican_root}/tests/support/main.cpp gen_node.cpp gen_node_case.cpp od_conformance.cpp
+    od_conformance_case.cpp)
+  foreach(language IN ITEMS C CXX)
+    string(REPLACE CXX cpp name ${language})
+    string(TOLOWER ${name} name)
+    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/every_kind.eds NAME every_${name}
+      LANGUAGE ${language})
+    lexican_generate(TARGET lexican_codict_node_tests DESCRIPTION fixtures/gen/unmappable.eds NAME unmappable_${name}
+      LANGUAGE ${language})
+  endforeach()
+  target_include_directories(lexican_codict_node_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_compile_definitions(lexican_codict_node_tests PRIVATE
+    LEXICAN_CODICT_FIXTURES="${CMAKE_CURRENT_SOURCE_DIR}/fixtures" LEXICAN_SOURCE_DIR="${lexican_root}")
+  target_link_libraries(lexican_codict_node_tests PRIVATE
+    lexican_demo_dictionary lexican_codict fmt::fmt lexican::lexican lexican_doctest
+    lexican::lexican_can_virtual lexican::lexican_timer_software lexican::lexican_nvm_ram)
+  lexican_warnings(lexican_codict_node_tests)
+  target_compile_options(lexican_codict_node_tests PRIVATE ${LEXICAN_TEST_OPTIONS})
+  add_test(NAME lexican_codict_node_tests COMMAND lexican_codict_node_tests)
+endif()
+
+# What the compilers say to the dictionaries of the corpus.
+find_package(Threads REQUIRED)
+target_link_libraries(lexican_codict_tests PRIVATE Threads::Threads)
+target_compile_definitions(lexican_codict_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"
+  LEXICAN_CXX="${CMAKE_CXX_COMPILER}")

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// codict gen as its user sees it.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "directory.hpp"
+#include "program.hpp"
+#include "reading.hpp"
+
+namespace {
+
+using test::bytes_of;
+using test::Ran;
+
+Ran run(const test::Directory& directory, const std::string& arguments) {
+  return test::run_codict(directory / "", "gen " + arguments);
+}
+
+const std::string small = "'" + test::fixture("gen/small.eds") + "'";
+
+}  // namespace
+
+TEST_CASE("codict gen: files that would not change keep their time, and --check says whether they would") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --check").status == 1);
+  CHECK(run(directory, small + " -o new").status == 0);
+  const std::string header = directory / "new/small_od.h";
+  CHECK(bytes_of(header) == bytes_of(test::fixture("gen/small_od.h.txt")));
+  const auto long_ago = std::filesystem::last_write_time(header) - std::chrono::hours(1);
+  std::filesystem::last_write_time(header, long_ago);
+  CHECK(run(directory, small + " -o new").status == 0);
+  CHECK(std::filesystem::last_write_time(header) == long_ago);
+  CHECK(run(directory, small + " -o new --check").err.empty());
+  std::ofstream(header, std::ios::app) << "\n";
+  const Ran checked = run(directory, small + " -o new --check");
+  CHECK(checked.status == 1);
+  CHECK(checked.err == "codict: new/small_od.h is out of date\n");
+}
+
+TEST_CASE("codict gen: an error is shown with file, line, column and rule, and nothing is written") {
+  const test::Directory directory;
+  std::ofstream(directory / "bad.eds") << "[2000]\nParameterName=Bad\nDataType=5\nAccessType=rw\nDefaultValue=256\n";
+  const Ran ran = run(directory, "bad.eds -o new");
+  CHECK(ran.status == 1);
+  CHECK(ran.err.find("bad.eds:5:14: error: this is no value of its data type [gen-value]\n") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "new"));
+}
+
+TEST_CASE("codict gen: of a description with errors, nothing is made without --force") {
+  const test::Directory directory;
+  std::string eds = bytes_of(test::fixture("gen/small.eds"));
+  eds.replace(eds.find("DefaultValue=100"), 16, "DefaultValue=501");
+  test::write_bytes(directory / "bad.eds", eds);
+  const Ran ran = run(directory, "bad.eds -o new");
+  CHECK(ran.status == 1);
+  CHECK(ran.err.find("[od-limit]\n") != std::string::npos);
+  CHECK(ran.err.find("codict: nothing is written: --force") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "new"));
+  CHECK(run(directory, "bad.eds -o new --check").status == 1);
+  const Ran forced = run(directory, "bad.eds -o new --force");
+  CHECK(forced.status == 0);
+  CHECK(forced.err.find("[od-limit]\n") != std::string::npos);
+  CHECK(std::filesystem::exists(directory / "new/bad_od.h"));
+  // A comment of the description has the same effect as it has on check.
+  eds.insert(eds.find("DefaultValue=501"), "; codict: ignore od-limit\n");
+  test::write_bytes(directory / "bad.eds", eds);
+  CHECK(run(directory, "bad.eds -o known").status == 0);
+}
+
+TEST_CASE("codict: where XML can be read no further, every command says so, and gen makes nothing of the rest") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --xdd whole.xdd").status == 0);
+  std::string xdd = bytes_of(directory / "whole.xdd");
+  xdd.replace(xdd.find("</CANopenObject>"), 16, "</CANopenObjec>");
+  test::write_bytes(directory / "broken.xdd", xdd);
+  const Ran made = run(directory, "broken.xdd -o made");
+  CHECK(made.status == 1);
+  CHECK(made.err.find("[xdd-syntax]\n") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(directory / "made"));
+  for (const char* command : {"list broken.xdd", "info broken.xdd", "size broken.xdd", "get broken.xdd 1000",
+                              "convert broken.xdd -o broken.eds", "diff whole.xdd broken.xdd"}) {
+    CAPTURE(command);
+    const std::string said = test::run_codict(directory / "", command).err;
+    CHECK(said.find("[xdd-syntax]\n") != std::string::npos);
+    CHECK(said.find("[xdd-syntax]\n") == said.rfind("[xdd-syntax]\n"));
+  }
+}
+
+TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary makes, and --check checks them, too") {
+  const test::Directory directory;
+  const std::string descriptions = " -o new --eds device.eds --xdd device.xdd ";
+  CHECK(run(directory, small + descriptions + "--check").err.find("device.eds is missing") != std::string::npos);
+  const auto json = nlohmann::json::parse(run(directory, small + descriptions + "--json").out);
+  CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c", "device.eds", "device.xdd"});
+  CHECK(run(directory, small + descriptions + "--check").status == 0);
+  // They make the same dictionary.
+  CHECK(run(directory, "device.eds -o of_eds --name small").status == 0);
+  CHECK(run(directory, "device.xdd -o of_xdd --name small").status == 0);
+  const std::string source = bytes_of(directory / "new/small_od.c");
+  CHECK(source.size() > 1000);
+  for (const char* file : {"of_eds/small_od.c", "of_xdd/small_od.c"}) {
+    const std::string again = bytes_of(directory / file);
+    CHECK(again.substr(again.find('\n')) == source.substr(source.find('\n')));  // the first line names the description
+  }
+  CHECK(bytes_of(directory / "device.eds").find("FileName=device.eds\r\n") != std::string::npos);
+}
+
+TEST_CASE("codict gen: the report says what the parts cost, for people and for programs") {
+  const test::Directory directory;
+  const Ran text = run(directory, small + " -o new --report");
+  CHECK(text.out.find("\nDRIVE ") != std::string::npos);
+  CHECK(text.out.find("\nextern CO_OBJ_DOM small_2002_0;\n") != std::string::npos);
+  const auto json = nlohmann::json::parse(run(directory, small + " -o new --json").out);
+  CHECK(json["schema"] == "codict-gen-1");
+  CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c"});
+  CHECK(json["parts"][1]["part"] == "DRIVE");
+  CHECK(json["parts"][1]["entries"] == 2);
+}
+
+TEST_CASE("codict gen: wrong use ends with 2") {
+  const test::Directory directory;
+  CHECK(run(directory, small).status == 2);
+  CHECK(run(directory, small + " -o new --name Large").status == 2);
+  CHECK(run(directory, small + " -o new --language basic").status == 2);
+  CHECK(run(directory, small + " -o new --eds device.xdd").status == 2);
+  CHECK(run(directory, small + " -o new --xdd device.eds").status == 2);
+  CHECK(run(directory, "none.eds -o new").status == 2);
+  test::write_bytes(directory / "out", "a file");
+  CHECK(run(directory, small + " -o out/new").status == 2);  // "out" is a file
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// A description with overlays.
+#include "convert/merge.hpp"
+
+#include <doctest/doctest.h>
+
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+#include "reading.hpp"
+
+using namespace lexican::codict;
+using convert::Replaced;
+
+namespace {
+
+struct Merging {
+  Merging(const std::string& base, const std::string& overlay) {
+    Findings findings;
+    is_possible = convert::merge(eds::Document(Source("base.eds", base), findings),
+                                 eds::Document(Source("overlay.eds", overlay), findings), bytes, replaced);
+  }
+
+  std::string bytes;
+  std::vector<Replaced> replaced;
+  bool is_possible = false;
+};
+
+std::string merged(const std::string& base, const std::string& overlay) { return Merging(base, overlay).bytes; }
+
+}  // namespace
+
+TEST_CASE("merge: what an overlay says replaces what the base says, and all other bytes stay") {
+  const Merging merging("; Mine\r\n[1a00Sub1]\r\nDefaultValue =  5 \r\nParameterName=x\r\n\r\n",
+                        "[1A00sub1]\nDefaultValue=6\n");
+  CHECK(merging.bytes == "; Mine\r\n[1a00Sub1]\r\nDefaultValue =  6 \r\nParameterName=x\r\n\r\n");
+  REQUIRE(merging.replaced.size() == 1);
+  CHECK(merging.replaced[0].section == "1a00Sub1");
+  CHECK(merging.replaced[0].before == "5");
+  CHECK(merging.replaced[0].after == "6");
+  CHECK_FALSE(merging.replaced[0].is_definition());
+  CHECK(Merging("[2000]\nDataType=5\n", "[2000]\nDataType=6\n").replaced.at(0).is_definition());
+}
+
+TEST_CASE("merge: what means the same is left as it is written") {
+  const std::string base = "[2000]\nDataType=0x0005\nDefaultValue=0x180+$NODEID\n";
+  CHECK(merged(base, "[2000]\nDataType=5\nDefaultValue=$NODEID+0x180\n") == base);
+  CHECK(Merging(base, "[2000]\nDataType=5\n").replaced.empty());
+  CHECK(merged(base, "[2000]\nDefaultValue=0x180\n") == "[2000]\nDataType=0x0005\nDefaultValue=0x180\n");
+}
+
+TEST_CASE("merge: new keys are behind those that are there, even where the last one gets its first value") {
+  CHECK(merged("[2000]\nParameterName=\n[Mine]\n", "[2000]\nLowLimit=0\nHighLimit=9\nParameterName=x\n[Mine]\na=b\n") ==
+        "[2000]\nParameterName=x\nLowLimit=0\nHighLimit=9\n[Mine]\na=b\n");
+}
+
+TEST_CASE("merge: new objects stand in order, and are in their lists") {
+  CHECK(
+      merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2005\n\n[2000]\nParameterName=a\n\n"
+             "[2005]\nParameterName=b\n",
+             "; not mine\n[2003sub1]\nParameterName=d\n\n[2003]\nParameterName=c\nSubNumber=1\n; why\n\n"
+             "[2006]\nParameterName=e\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2003\n2=0x2006\n") ==
+      "[ManufacturerObjects]\nSupportedObjects=4\n1=0x2000\n2=0x2005\n3=0x2003\n4=0x2006\n\n[2000]\nParameterName=a\n\n"
+      "[2003]\nParameterName=c\nSubNumber=1\n; why\n\n[2003sub1]\nParameterName=d\n\n"
+      "[2005]\nParameterName=b\n\n[2006]\nParameterName=e\n");
+  CHECK(merged("[FileInfo]\nFileName=x\n", "[1008]\nParameterName=a\n") ==
+        "[FileInfo]\nFileName=x\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n\n[1008]\nParameterName=a\n");
+}
+
+TEST_CASE("merge: a new object stands behind the keys that tools hide in comments, and in front of other comments") {
+  CHECK(merged("[2000]\nParameterName=a\n;StorageLocation=RAM\n; Five\n[2005]\nParameterName=b\n",
+               "[2003]\nParameterName=c\n") ==
+        "[2000]\nParameterName=a\n;StorageLocation=RAM\n\n[2003]\nParameterName=c\n; Five\n[2005]\nParameterName=b\n"
+        "\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2003\n");
+}
+
+TEST_CASE("merge: new sub-objects are counted") {
+  CHECK(merged("[2000]\nSubNumber=1\n\n[2000sub0]\nDataType=5\n\n[2001]\nDataType=5\n",
+               "[2000]\nSubNumber=7\n[2000sub1]\nDataType=6\n[2000sub2]\nDataType=6\n") ==
+        "[2000]\nSubNumber=3\n\n[2000sub0]\nDataType=5\n\n[2000sub1]\nDataType=6\n\n[2000sub2]\nDataType=6\n\n"
+        "[2001]\nDataType=5\n");
+}
+
+TEST_CASE("merge: values of compact storage are counted") {
+  CHECK(merged("[2000Value]\nNrOfEntries=1\n1=5\n", "[2000Value]\nNrOfEntries=2\n1=6\n3=7\n") ==
+        "[2000Value]\nNrOfEntries=2\n1=6\n3=7\n");
+}
+
+TEST_CASE("merge: letters that the encoding of the base lacks are refused") {
+  const std::string base = test::bytes_of(test::fixture("cp850.eds"));
+  CHECK(Merging(base, "[FileInfo]\nDescription=\xC3\xB6\n").is_possible);
+  CHECK_FALSE(Merging(base, "[FileInfo]\nDescription=\xE2\x86\x92\n").is_possible);
+  CHECK_FALSE(Merging(base, "[2009]\nParameterName=\xE2\x86\x92\n").is_possible);
+}
+
+TEST_CASE("merge: texts that only look like one number are two texts") {
+  CHECK(merged("[2000]\nDataType=9\nDefaultValue=007\nParameterName=10\n",
+               "[2000]\nDefaultValue=7\nParameterName=0xA\n") ==
+        "[2000]\nDataType=9\nDefaultValue=7\nParameterName=0xA\n");
+  CHECK(merged("[2000]\nAccessType=RW\n", "[2000]\nAccessType=rw\n") == "[2000]\nAccessType=RW\n");
+}
+
+TEST_CASE("merge: what a section gets more stands in it, not in the new section behind it") {
+  CHECK(merged("[ManufacturerObjects]\nSupportedObjects=0\n", "[2000]\nParameterName=a\n") ==
+        "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\n[2000]\nParameterName=a\n");
+  CHECK(merged("[2000]\nCompactSubObj=5\n", "[2000sub3]\nParameterName=a\n") ==
+        "[2000]\nCompactSubObj=5\nSubNumber=1\n\n[2000sub3]\nParameterName=a\n");
+}
+
+TEST_CASE("merge: a list with gaps gets numbers behind its last one, and sub-index FFh is none of SubNumber") {
+  CHECK(merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n5=0x2001\n[2000]\n[2001]\n",
+               "[2002]\nParameterName=a\n") ==
+        "[ManufacturerObjects]\nSupportedObjects=3\n1=0x2000\n5=0x2001\n6=0x2002\n[2000]\n[2001]\n\n[2002]\n"
+        "ParameterName=a\n");
+  CHECK(merged("[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n", "[2000subFF]\nDefaultValue=7\n") ==
+        "[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n\n[2000subFF]\nDefaultValue=7\n");
+}
+
+TEST_CASE("merge: a storage group that is hidden in a comment is a value like others") {
+  CHECK(merged("[2000]\nParameterName=a\n\n[2001]\nParameterName=b\n;StorageLocation=RAM\n",
+               "[2000]\nLowLimit=0\n;StorageLocation=ROM\n[2001]\n; why\n;StorageLocation=PERSIST\n") ==
+        "[2000]\nParameterName=a\nLowLimit=0\n;StorageLocation=ROM\n\n[2001]\nParameterName=b\n"
+        ";StorageLocation=PERSIST\n");
+  const Merging merging("[2001]\nParameterName=b\n;StorageLocation=RAM\n", "[2001]\n;StorageLocation=ROM\n");
+  REQUIRE(merging.replaced.size() == 1);
+  CHECK(merging.replaced[0].key == "StorageLocation");
+  CHECK(merging.replaced[0].before == "RAM");
+}
+
+TEST_CASE("merge: both spellings of DeviceComissioning are one section") {
+  CHECK(merged("[DeviceCommissioning]\nNodeID=5\n", "[DeviceComissioning]\nNodeID=6\nBaudrate=125\n") ==
+        "[DeviceCommissioning]\nNodeID=6\nBaudrate=125\n");
+  CHECK(merged("[DeviceComissioning]\nNodeID=5\n", "[DeviceCommissioning]\nNodeID=6\n") ==
+        "[DeviceComissioning]\nNodeID=6\n");
+}
+
+TEST_CASE("merge: a section of very many keys does not take for ever") {
+  std::string base = "[Mine]\n";
+  std::string overlay = "[Mine]\n";
+  for (int n = 0; n < 100000; ++n) {
+    base += "k" + std::to_string(n) + "=1\n";
+    overlay += "k" + std::to_string(n + 50000) + "=2\n";
+  }
+  const std::clock_t begin = std::clock();
+  const Merging merging(base, overlay);
+  CHECK(merging.replaced.size() == 50000);
+  CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // with all checks of a build for tests; it was half an hour
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file od_conformance.hpp
+/// What a description says of a device, held against that device over the bus: the cases OD 01 to OD 09 of CiA's
+/// conformance test. Each check returns a line for each contradiction, "2101h:00 default: 00 00, not 3C 00".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gen_node.hpp"
+#include "model/device.hpp"
+
+namespace test {
+
+using Contradictions = std::vector<std::string>;
+
+/// The objects that a case is about.
+struct Area {
+  std::uint16_t first;
+  std::uint16_t last;
+};
+
+constexpr Area communication = {0x1000, 0x1FFF};
+constexpr Area beyond = {0x2000, 0xFFFF};  ///< the manufacturer's, and those of profiles
+
+class OdConformance {
+ public:
+  OdConformance(const lexican::codict::Device& described, GeneratedNode& node, Area area)
+      : described_(described), node_(node), area_(area) {}
+
+  Contradictions access();      ///< what can be read has the length of its type; what can be written takes a value
+  Contradictions defaults();    ///< and constants, and sub-index 0
+  Contradictions read_only();   ///< 0601 0002h
+  Contradictions write_only();  ///< 0601 0001h
+  Contradictions structure();   ///< sub-index FFh, where there is one, and sub-index 0
+  Contradictions limits();      ///< 0609 0031h, 0609 0032h; of integers
+  Contradictions absence();     ///< what is not described: 0602 0000h, 0609 0011h
+  Contradictions mapping();     ///< what can be mapped, where a PDO can be told so; access rights are its direction
+  Contradictions flags();       ///< the same for all objects, from the device's own dictionary
+  Contradictions identity();    ///< DeviceInfo is 1018h
+
+ private:
+  using Entry = lexican::codict::Entry;
+  template <typename Check>
+  Contradictions for_each(Check check);
+  bool is_in_area(std::uint16_t index) const { return index >= area_.first && index <= area_.last; }
+  std::string content_of(std::uint16_t index, std::uint8_t sub_index, const Entry& entry);
+  std::string default_of(const Entry& entry) const;
+  void map_to(std::uint16_t mapping, std::uint16_t index, std::uint8_t sub_index, const Entry& entry,
+              Contradictions& found);
+
+  const lexican::codict::Device& described_;
+  GeneratedNode& node_;
+  Area area_;
+};
+
+}  // namespace test
