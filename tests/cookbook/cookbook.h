@@ -31,6 +31,7 @@ void the_mapping_of_a_pdo_that_exists_is_refused(void);
 void a_multiplex_pdo_names_its_object(void);
 void what_was_saved_survives_a_loss_of_power(void);
 void a_write_resets_the_date_of_the_configuration(void);
+void a_damaged_record_is_reported(void);
 void resets_restore_power_on_values(void);
 void a_string_is_written_and_read(void);
 void a_domain_is_written_in_segments(void);

@@ -28,6 +28,7 @@ int main(void) {
   RUN_TEST(a_multiplex_pdo_names_its_object);
   RUN_TEST(what_was_saved_survives_a_loss_of_power);
   RUN_TEST(a_write_resets_the_date_of_the_configuration);
+  RUN_TEST(a_damaged_record_is_reported);
   RUN_TEST(resets_restore_power_on_values);
   RUN_TEST(a_string_is_written_and_read);
   RUN_TEST(a_domain_is_written_in_segments);
