@@ -70,6 +70,9 @@ TEST_CASE("codict check --error-format sarif: one run over all files, with the r
   for (const Json& rule : rules) {
     CHECK(rule.at("help").at("text").get<std::string>().find(rule.at("id").get<std::string>()) != std::string::npos);
     CHECK_FALSE(rule.at("shortDescription").at("text").get<std::string>().empty());
+    const std::string link = "tools/codict/docs/rules.md#" + rule.at("id").get<std::string>();
+    CHECK(rule.at("help").at("text").get<std::string>().find(link) != std::string::npos);
+    CHECK(rule.at("help").at("markdown").get<std::string>().find("\nRemedy: ") != std::string::npos);
   }
 }
 
@@ -341,10 +344,15 @@ TEST_CASE("codict explain: what a rule says, or all rules") {
   const auto explain = [](const std::string& arguments) {
     return test::run_codict(test::fixture(""), "explain " + arguments);
   };
-  CHECK(explain("od-limit").out ==
-        "od-limit (error)\nA value lies within its limits.\ntools/codict/docs/codict-rules/od-limit.md\n");
-  CHECK(explain("").out.find("\nod-limit                   error    A value lies within its limits.\n") !=
-        std::string::npos);
+  const std::string one = explain("od-limit").out;
+  CHECK(one.find("### od-limit\n\nerror: ") == 0);
+  CHECK(one.find("\nWrong:\n\n```eds\n[2000]\n") != std::string::npos);
+  const std::string link = "\ntools/codict/docs/rules.md#od-limit\n";
+  CHECK(one.substr(one.size() - link.size()) == link);
+  const std::string all = explain("--all").out;
+  CHECK(all == test::bytes_of(LEXICAN_SOURCE_DIR "/tools/codict/docs/rules.md"));
+  CHECK(all.find(one.substr(0, one.size() - link.size())) != std::string::npos);
+  CHECK(explain("").out.find("\nod-limit                   error    ") != std::string::npos);
   CHECK(explain("od-limt").err == "codict: there is no rule od-limt: od-limit?\n");
   CHECK(explain("od-limt").status == 2);
   const Json json = Json::parse(explain("--json gen-access").out);

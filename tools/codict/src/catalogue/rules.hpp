@@ -10,7 +10,7 @@
 
 namespace lexican::codict::catalogue {
 
-/// In the order of tools/codict/docs/codict.md.
+/// In the order of the reference, tools/codict/docs/rules.md.
 const std::vector<const Rule*>& all_rules();
 
 /// Null if there is none of this id.

@@ -15,9 +15,8 @@ namespace lexican::codict::catalogue {
 
 namespace rules {
 
-const Rule suppression_unknown{"suppression-unknown", Severity::warning,
-                               "A comment that suppresses a rule names one that there is."};
-const Rule suppression_unused{"suppression-unused", Severity::note, "A comment that suppresses a rule has an effect."};
+const Rule suppression_unknown{"suppression-unknown", Severity::warning, "comment that suppresses an unknown rule"};
+const Rule suppression_unused{"suppression-unused", Severity::note, "comment that suppresses nothing"};
 
 }  // namespace rules
 

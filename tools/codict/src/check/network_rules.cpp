@@ -5,44 +5,35 @@ namespace lexican::codict::check {
 
 namespace rules {
 
-const Rule pdo_pair{"pdo-pair", Severity::error, "A PDO has communication parameters and a mapping."};
-const Rule pdo_object{"pdo-object", Severity::error, "What a PDO maps is described."};
-const Rule pdo_access{"pdo-access", Severity::error, "What a PDO maps can be mapped in its direction."};
-const Rule pdo_bits{"pdo-bits", Severity::error, "A PDO maps no more bits of an object than it has."};
-const Rule pdo_part{"pdo-part", Severity::note, "A PDO maps all bits of an object."};
-const Rule pdo_length{"pdo-length", Severity::error, "A PDO has 64 bits at most."};
-const Rule pdo_gap{"pdo-gap", Severity::error, "A mapping has no gaps up to the number in its sub-index 0."};
-const Rule pdo_mapped_count{"pdo-mapped-count", Severity::error, "Sub-index 0 of a mapping is 0 to 64, FEh or FFh."};
+const Rule pdo_pair{"pdo-pair", Severity::error, "PDO without communication parameter or without mapping parameter"};
+const Rule pdo_object{"pdo-object", Severity::error, "PDO maps an object that does not exist"};
+const Rule pdo_access{"pdo-access", Severity::error, "PDO maps an object that its access or PDOMapping excludes"};
+const Rule pdo_bits{"pdo-bits", Severity::error, "mapping longer than the mapped object"};
+const Rule pdo_part{"pdo-part", Severity::note, "mapping shorter than the mapped object"};
+const Rule pdo_length{"pdo-length", Severity::error, "PDO longer than 64 bits"};
+const Rule pdo_gap{"pdo-gap", Severity::error, "mapping with unused sub-indexes"};
+const Rule pdo_mapped_count{"pdo-mapped-count", Severity::error, "invalid number of mapped objects"};
 const Rule pdo_dummy{"pdo-dummy", Severity::error,
-                     "Dummies stand in RPDOs only, and are of types that the device takes for them."};
+                     "dummy mapping in a TPDO, or of a type that the device does not support"};
 const Rule pdo_granularity{"pdo-granularity", Severity::warning,
-                           "Lengths in a mapping are multiples of the device's granularity."};
-const Rule pdo_type{"pdo-type", Severity::error,
-                    "A transmission type is 0 to 240, 254 or 255, and of TPDOs also 252 or 253."};
-const Rule pdo_time{"pdo-time", Severity::note,
-                    "Inhibit time and event time have an effect where PDOs are sent by events only."};
-const Rule pdo_sync{"pdo-sync-missing", Severity::warning, "A device that has PDOs with SYNC has object 1005h."};
-const Rule multiplexed{"pdo-multiplexed", Severity::warning,
-                       "A device that has multiplexed PDOs says so, with GroupMessaging."};
-const Rule multiplexed_list{
-    "pdo-multiplexed-list", Severity::warning,
-    "Source address mode has a list: 1FA0h to 1FCFh of a sender, 1FD0h to 1FFFh of a receiver."};
+                           "mapping length that is not a multiple of the granularity"};
+const Rule pdo_type{"pdo-type", Severity::error, "invalid transmission type"};
+const Rule pdo_time{"pdo-time", Severity::note, "inhibit time or event timer without effect"};
+const Rule pdo_sync{"pdo-sync-missing", Severity::warning, "synchronous PDO, but no object 1005h"};
+const Rule multiplexed{"pdo-multiplexed", Severity::warning, "multiplexed PDO, but GroupMessaging=0"};
+const Rule multiplexed_list{"pdo-multiplexed-list", Severity::warning,
+                            "multiplexed PDO in source address mode without its list"};
 const Rule multiplexed_type{"pdo-multiplexed-type", Severity::error,
-                            "A multiplexed PDO has transmission type 254 or 255."};
-const Rule cob_id_restricted{"cob-id-restricted", Severity::error,
-                             "No service has an identifier that CiA 301 keeps for another one."};
-const Rule cob_id_twice{"cob-id-twice", Severity::warning, "An identifier has one service."};
-const Rule cob_id_form{"cob-id-form", Severity::error,
-                       "An identifier has 11 bits, or 29 with the flag that says so; bits with no meaning are 0."};
-const Rule mandatory{"od-mandatory", Severity::error, "Objects 1000h, 1001h and 1018h are there."};
-const Rule error_control{"od-error-control", Severity::warning,
-                         "A device has a heartbeat (1017h) or node guarding (100Ch and 100Dh)."};
-const Rule sdo_default{"sdo-default", Severity::warning,
-                       "The first SDO server has the identifiers 600h and 580h with the node-ID added."};
-const Rule consumer_entry{"heartbeat-consumer", Severity::error,
-                          "An entry of 1016h has a node-ID of 1 to 127 and 0 in its upper byte, or is 0."};
-const Rule consumer_twice{"heartbeat-consumer-twice", Severity::error, "A node's heartbeat has one consumer time."};
-const Rule sync_window{"sync-window", Severity::warning, "The window of SYNC (1007h) is not longer than its cycle."};
+                            "multiplexed PDO with a synchronous transmission type"};
+const Rule cob_id_restricted{"cob-id-restricted", Severity::error, "COB-ID restricted by CiA 301"};
+const Rule cob_id_twice{"cob-id-twice", Severity::warning, "COB-ID used by two services"};
+const Rule cob_id_form{"cob-id-form", Severity::error, "COB-ID with more than 11 bits, but without bit 29"};
+const Rule mandatory{"od-mandatory", Severity::error, "mandatory object is missing"};
+const Rule error_control{"od-error-control", Severity::warning, "device without heartbeat and node guarding"};
+const Rule sdo_default{"sdo-default", Severity::warning, "default SDO server with other COB-IDs"};
+const Rule consumer_entry{"heartbeat-consumer", Severity::error, "malformed heartbeat consumer entry"};
+const Rule consumer_twice{"heartbeat-consumer-twice", Severity::error, "two heartbeat consumer entries for one node"};
+const Rule sync_window{"sync-window", Severity::warning, "SYNC window longer than the SYNC cycle"};
 
 }  // namespace rules
 

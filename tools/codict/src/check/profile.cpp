@@ -10,13 +10,11 @@ namespace lexican::codict::check {
 namespace rules {
 
 const Rule profile_object_missing{"profile-object-missing", Severity::warning,
-                                  "A device has the objects without which its profile does not work."};
+                                  "mandatory object of the device profile is missing"};
 const Rule profile_kind{"profile-kind", Severity::warning,
-                        "An object of a device profile is a VAR or ARRAY as in the profile."};
-const Rule profile_type{"profile-type", Severity::warning,
-                        "An object of a device profile has the data type that the profile gives it."};
-const Rule profile_access{"profile-access", Severity::warning,
-                          "What a device profile lets a master write can be written, and what it shows cannot."};
+                        "profile object with another object type than in the profile"};
+const Rule profile_type{"profile-type", Severity::warning, "profile object with another data type than in the profile"};
+const Rule profile_access{"profile-access", Severity::warning, "profile object with an access that its use excludes"};
 
 }  // namespace rules
 

@@ -6,36 +6,31 @@ namespace lexican::codict::check {
 
 namespace rules {
 
-const Rule sub_number{"od-sub-number", Severity::warning,
-                      "SubNumber is the number of sub-objects, sub-index 0 with them: what is described decides."};
-const Rule sub_zero_missing{"od-sub-zero-missing", Severity::warning, "An ARRAY or RECORD has a sub-index 0."};
-const Rule sub_zero_value{"od-sub-zero-value", Severity::warning,
-                          "Sub-index 0 has a default: without one, the highest sub-index is taken."};
-const Rule sub_zero_small{"od-sub-zero-small", Severity::warning,
-                          "Sub-index 0 is not smaller than the highest sub-index that is there."};
-const Rule sub_zero_large{"od-sub-zero-large", Severity::warning,
-                          "Sub-index 0 that cannot be written is not above the highest sub-index that is there."};
-const Rule limit_order{"od-limit-order", Severity::warning, "The low limit is not above the high limit."};
-const Rule limit{"od-limit", Severity::error, "A value lies within its limits."};
-const Rule pdo_count{"od-pdo-count", Severity::warning, "The device has as many PDOs as it says."};
-const Rule identity{"od-identity", Severity::warning, "The device says the same of its identity as its object 1018h."};
-const Rule type_complex{"od-type-complex", Severity::warning, "A VAR or sub-object has the type of one value."};
-const Rule unmappable{"od-unmappable", Severity::warning, "What can be mapped has a length: a DOMAIN has none."};
-const Rule array_types{"od-array-types", Severity::warning, "The elements of an ARRAY have one type."};
-const Rule string_capacity{"od-string-capacity", Severity::warning, "A string has room for its default value."};
-const Rule link{"od-link", Severity::warning, "An object link names an object of the device."};
-const Rule module_list{"od-module-list", Severity::warning,
-                       "A device with modules has their list, which is object 1027h."};
-const Rule module_object{"od-module-object", Severity::warning,
-                         "An object that a module brings along is none of the coupler itself."};
-const Rule module_number{"od-module-number", Severity::warning, "A connected module is one that is described."};
-const Rule former{"od-former", Severity::note, "Objects 1004h, 100Bh, 100Eh and 100Fh are no longer used."};
-const Rule store_pair{"od-store-pair", Severity::note, "What 1010h stores is what 1011h restores."};
-const Rule granularity{"od-granularity", Severity::warning, "The granularity is 0 to 64 bits."};
+const Rule sub_number{"od-sub-number", Severity::warning, "SubNumber differs from the number of sub-objects"};
+const Rule sub_zero_missing{"od-sub-zero-missing", Severity::warning, "ARRAY or RECORD without sub-index 0"};
+const Rule sub_zero_value{"od-sub-zero-value", Severity::warning, "sub-index 0 without a default value"};
+const Rule sub_zero_small{"od-sub-zero-small", Severity::warning, "sub-index 0 smaller than the highest sub-index"};
+const Rule sub_zero_large{"od-sub-zero-large", Severity::warning, "sub-index 0 larger than the highest sub-index"};
+const Rule limit_order{"od-limit-order", Severity::warning, "LowLimit above HighLimit"};
+const Rule limit{"od-limit", Severity::error, "default or configured value outside LowLimit and HighLimit"};
+const Rule pdo_count{"od-pdo-count", Severity::warning,
+                     "NrOfRXPDO or NrOfTXPDO differs from the PDOs that are described"};
+const Rule identity{"od-identity", Severity::warning, "identity in DeviceInfo differs from object 1018h"};
+const Rule type_complex{"od-type-complex", Severity::warning, "data type of several values for a single value"};
+const Rule unmappable{"od-unmappable", Severity::warning, "DOMAIN with PDO mapping"};
+const Rule array_types{"od-array-types", Severity::warning, "ARRAY with elements of different data types"};
+const Rule string_capacity{"od-string-capacity", Severity::warning, "default value longer than CO_byteLength"};
+const Rule link{"od-link", Severity::warning, "object link to an object that does not exist"};
+const Rule module_list{"od-module-list", Severity::warning, "modules without object 1027h"};
+const Rule module_object{"od-module-object", Severity::warning, "object of a module that the bus coupler has, too"};
+const Rule module_number{"od-module-number", Severity::warning, "connected module that is not described"};
+const Rule former{"od-former", Severity::note, "object that CiA 301 no longer defines"};
+const Rule store_pair{"od-store-pair", Severity::note, "1010h and 1011h with different sub-indexes"};
+const Rule granularity{"od-granularity", Severity::warning, "granularity above 64 bits"};
 const Rule standard_kind{"od-standard-kind", Severity::note,
-                         "An object of the communication profile is a VAR, ARRAY or RECORD as in CiA 301."};
+                         "communication object with another object type than in CiA 301"};
 const Rule standard_type{"od-standard-type", Severity::warning,
-                         "An object of the communication profile has the data type that CiA 301 gives it."};
+                         "communication object with another data type than in CiA 301"};
 
 }  // namespace rules
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "catalogue/pages.hpp"
 #include "catalogue/rules.hpp"
 #include "cli/command.hpp"
 #include "cli/services.hpp"
@@ -14,10 +15,14 @@ namespace {
 struct Options {
   std::string rule;
   bool is_json = false;
+  bool has_all = false;
 };
 
 Json to_json(const Rule& rule) {
-  return {{"rule", rule.id}, {"severity", name_of(rule.severity)}, {"text", rule.about}, {"page", page_of(rule)}};
+  return {{"rule", rule.id},
+          {"severity", name_of(rule.severity)},
+          {"text", rule.about},
+          {"page", catalogue::link_to(rule)}};
 }
 
 int explain_one(const Options& options) {
@@ -29,12 +34,12 @@ int explain_one(const Options& options) {
   if (options.is_json) {
     print_json(Json{{"schema", "codict-explain-1"}, {"rules", Json::array({to_json(*rule)})}});
   } else {
-    print(fmt::format("{} ({})\n{}\n{}\n", rule->id, name_of(rule->severity), rule->about, page_of(*rule)));
+    print(fmt::format("{}\n{}\n", catalogue::section_of(*rule), catalogue::link_to(*rule)));
   }
   return clean;
 }
 
-int explain_all(const Options& options) {
+int list_all(const Options& options) {
   Json all = Json::array();
   for (const Rule* rule : catalogue::all_rules()) {
     if (options.is_json) {
@@ -49,6 +54,17 @@ int explain_all(const Options& options) {
   return clean;
 }
 
+int run(const Options& options) {
+  if (!options.rule.empty()) {
+    return explain_one(options);
+  }
+  if (options.has_all && !options.is_json) {
+    print(catalogue::reference());
+    return clean;
+  }
+  return list_all(options);
+}
+
 }  // namespace
 
 std::string unknown_rule(const std::string& id) {
@@ -57,10 +73,12 @@ std::string unknown_rule(const std::string& id) {
 
 Command add_explain(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("explain", "Say what a rule of check or gen is about");
-  command->add_option("rule", options->rule, "Its id; without one, all rules are named");
+  CLI::App* const command = app.add_subcommand("explain", "Explain a rule of check or gen");
+  CLI::Option* const rule =
+      command->add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
+  command->add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)")->excludes(rule);
   command->add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return options->rule.empty() ? explain_all(*options) : explain_one(*options); }};
+  return {command, [options] { return run(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "catalogue/pages.hpp"
 #include "cli/letters.hpp"
 
 namespace lexican::codict::cli {
@@ -78,7 +79,9 @@ std::size_t Sarif::number_of(const Rule& rule) {
   if (is_new) {
     rules_.push_back({{"id", rule.id},
                       {"shortDescription", {{"text", rule.about}}},
-                      {"help", {{"text", "codict explain " + std::string(rule.id) + ", or " + page_of(rule)}}},
+                      {"help",
+                       {{"text", fmt::format("codict explain {}, or {}", rule.id, catalogue::link_to(rule))},
+                        {"markdown", catalogue::section_of(rule)}}},
                       {"defaultConfiguration", {{"level", name_of(rule.severity)}}}});
   }
   return place->second;
@@ -105,7 +108,5 @@ Json Sarif::document(bool is_complete) const {
   return {
       {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({run})}};
 }
-
-std::string page_of(const Rule& rule) { return fmt::format("tools/codict/docs/codict-rules/{}.md", rule.id); }
 
 }  // namespace lexican::codict::cli

@@ -31,7 +31,4 @@ class Sarif {
   std::map<const Rule*, std::size_t> numbers_;
 };
 
-/// Where a rule is explained, in the source of the project.
-std::string page_of(const Rule& rule);
-
 }  // namespace lexican::codict::cli

@@ -5,76 +5,59 @@ namespace lexican::codict::eds {
 
 namespace rules {
 
-const Rule syntax_section{"eds-syntax-section", Severity::error, "A section is [name] on a line of its own."};
+const Rule syntax_section{"eds-syntax-section", Severity::error, "section header without closing bracket or name"};
 const Rule syntax_section_tail{"eds-syntax-section-tail", Severity::warning,
-                               "Nothing follows the bracket that closes a section's name."};
-const Rule syntax_indent{"eds-syntax-indent", Severity::note, "Sections, keys and comments begin in the first column."};
-const Rule syntax_comment{"eds-syntax-comment", Severity::warning,
-                          "A comment begins with a semicolon in the first column."};
+                               "text after the closing bracket of a section header"};
+const Rule syntax_indent{"eds-syntax-indent", Severity::note, "leading blanks in front of a section, key or comment"};
+const Rule syntax_comment{"eds-syntax-comment", Severity::warning, "comment that does not begin with a semicolon"};
 const Rule syntax_line{"eds-syntax-line", Severity::error,
-                       "A line is a section, a key with a value, a comment, or empty."};
-const Rule syntax_outside{"eds-syntax-outside", Severity::error, "Each key belongs to a section."};
-const Rule syntax_length{"eds-syntax-length", Severity::note, "A line has at most 255 characters."};
-const Rule syntax_line_end{"eds-syntax-line-end", Severity::note, "All lines end in the same way, with LF or CR LF."};
-const Rule syntax_control{"eds-syntax-control", Severity::warning, "There are no control characters in a text."};
-const Rule syntax_key{"eds-syntax-key", Severity::warning, "A key has letters and digits, and no blanks."};
-const Rule duplicate_section{"eds-duplicate-section", Severity::error,
-                             "A section is there once: the first one is used."};
-const Rule duplicate_key{"eds-duplicate-key", Severity::error,
-                         "A key is there once in its section: the first one is used."};
-const Rule encoding_utf8{"eds-encoding-utf8", Severity::note,
-                         "The characters are those of ASCII: others are read as UTF-8."};
-const Rule encoding_guess{"eds-encoding-guess", Severity::warning,
-                          "The characters are those of ASCII: what others mean is a guess."};
-const Rule encoding_mark{"eds-encoding-mark", Severity::note, "There is no byte order mark."};
-const Rule section_unknown{"eds-section-unknown", Severity::note,
-                           "A section that CiA 306 does not know is kept, and not used."};
-const Rule section_form{"eds-section-form", Severity::note,
-                        "Objects are [1A00] and [1A00sub1]: capital digits, and sub in small letters."};
-const Rule section_zeros{"eds-section-zeros", Severity::warning,
-                         "An index has four digits, a sub-index no leading zeros."};
+                       "line that is neither a section, a key with a value, a comment nor empty"};
+const Rule syntax_outside{"eds-syntax-outside", Severity::error, "key before the first section"};
+const Rule syntax_length{"eds-syntax-length", Severity::note, "line longer than 255 characters"};
+const Rule syntax_line_end{"eds-syntax-line-end", Severity::note, "mixed line ends (LF and CR LF)"};
+const Rule syntax_control{"eds-syntax-control", Severity::warning, "control character in the text"};
+const Rule syntax_key{"eds-syntax-key", Severity::warning, "blank in the name of a key"};
+const Rule duplicate_section{"eds-duplicate-section", Severity::error, "section defined more than once"};
+const Rule duplicate_key{"eds-duplicate-key", Severity::error, "key defined more than once in its section"};
+const Rule encoding_utf8{"eds-encoding-utf8", Severity::note, "characters outside ASCII, read as UTF-8"};
+const Rule encoding_guess{"eds-encoding-guess", Severity::warning, "characters in an unknown code page"};
+const Rule encoding_mark{"eds-encoding-mark", Severity::note, "byte order mark at the beginning of the file"};
+const Rule section_unknown{"eds-section-unknown", Severity::note, "section unknown to CiA 306"};
+const Rule section_form{"eds-section-form", Severity::note, "section name with unusual capitals"};
+const Rule section_zeros{"eds-section-zeros", Severity::warning, "section name with missing or extra leading zeros"};
 const Rule section_missing{"eds-section-missing", Severity::warning,
-                           "FileInfo, DeviceInfo and MandatoryObjects are in every file."};
+                           "mandatory section FileInfo, DeviceInfo or MandatoryObjects is missing"};
 const Rule section_orphan{"eds-section-orphan", Severity::error,
-                          "A section of a part is there with that of the whole: of a sub-object with its object."};
-const Rule key_unknown{"eds-key-unknown", Severity::note, "A key that CiA 306 does not know is kept, and not used."};
-const Rule key_missing{"eds-key-missing", Severity::error,
-                       "A key that the standard demands is there, and has a value."};
-const Rule key_misplaced{"eds-key-misplaced", Severity::warning,
-                         "A key stands only where it means something; elsewhere it is kept, and not used."};
-const Rule key_length{"eds-key-length", Severity::note, "Texts are not longer than CiA 306 allows."};
-const Rule dialect{"eds-dialect", Severity::note,
-                   "What a tool has added to the standard is read as that tool means it."};
-const Rule hidden_key{"eds-hidden-key", Severity::note, "A key hidden in a comment is read as its tool means it."};
+                          "sub-object or list without the section of its object"};
+const Rule key_unknown{"eds-key-unknown", Severity::note, "key unknown to CiA 306"};
+const Rule key_missing{"eds-key-missing", Severity::error, "mandatory key is missing or empty"};
+const Rule key_misplaced{"eds-key-misplaced", Severity::warning, "key in a section where it has no effect"};
+const Rule key_length{"eds-key-length", Severity::note, "text longer than CiA 306 allows"};
+const Rule dialect{"eds-dialect", Severity::note, "key of a tool that CiA 306 does not define"};
+const Rule hidden_key{"eds-hidden-key", Severity::note, "key of a tool inside a comment"};
 const Rule object_type{"eds-object-type", Severity::error,
-                       "ObjectType is one of DOMAIN 2, DEFTYPE 5, DEFSTRUCT 6, VAR 7, ARRAY 8, RECORD 9."};
-const Rule object_type_missing{"eds-object-type-missing", Severity::note,
-                               "Without ObjectType, an object is a VAR, or with sub-objects a RECORD."};
-const Rule access_unknown{"eds-access-unknown", Severity::error, "AccessType is one of ro, wo, rw, rwr, rww, const."};
-const Rule access_case{"eds-access-case", Severity::note, "AccessType is written in small letters."};
-const Rule type_own{"eds-type-own", Severity::note, "A data type of the device's own is looked up in its object."};
-const Rule type_unknown{"eds-type-unknown", Severity::warning,
-                        "A data type is one of CiA 301, or an object of the device."};
-const Rule file_name{"eds-file-name", Severity::note, "FileName is the name of the file."};
-const Rule file_date{"eds-file-date", Severity::note, "A date is month-day-year, 12-31-2020."};
-const Rule file_time{"eds-file-time", Severity::note, "A time is hours and minutes with AM or PM, 09:30AM."};
-const Rule file_version{"eds-file-version", Severity::note, "EDSVersion is a version of CiA 306: 4.0."};
+                       "unknown ObjectType, or one that contradicts the sub-objects"};
+const Rule object_type_missing{"eds-object-type-missing", Severity::note, "ObjectType is missing"};
+const Rule access_unknown{"eds-access-unknown", Severity::error, "unknown AccessType"};
+const Rule access_case{"eds-access-case", Severity::note, "AccessType in capital letters"};
+const Rule type_own{"eds-type-own", Severity::note, "data type defined by an object of the device"};
+const Rule type_unknown{"eds-type-unknown", Severity::warning, "unknown data type"};
+const Rule file_name{"eds-file-name", Severity::note, "FileName differs from the name of the file"};
+const Rule file_date{"eds-file-date", Severity::note, "malformed date"};
+const Rule file_time{"eds-file-time", Severity::note, "malformed time"};
+const Rule file_version{"eds-file-version", Severity::note, "unknown EDSVersion"};
 const Rule commissioning_spelling{"eds-commissioning-spelling", Severity::warning,
-                                  "The section is spelled DeviceComissioning, with one m."};
-const Rule list_count{"eds-list-count", Severity::warning,
-                      "The number of entries of a list is the number that it gives."};
-const Rule list_numbers{"eds-list-numbers", Severity::warning,
-                        "The entries of a list are numbered from 1 without gaps."};
-const Rule list_entry{"eds-list-entry", Severity::error, "An entry of an object list is the index of an object."};
-const Rule list_unlisted{"eds-list-unlisted", Severity::warning,
-                         "Each object is in a list: one that is not is read, too."};
-const Rule list_no_section{"eds-list-no-section", Severity::error, "Each object of a list has a section."};
-const Rule list_twice{"eds-list-twice", Severity::warning, "An object is in a list once."};
-const Rule list_wrong{"eds-list-wrong", Severity::warning,
-                      "1000h, 1001h and 1018h are mandatory, 2000h to 5FFFh the manufacturer's, all others optional."};
+                                  "section spelled DeviceCommissioning"};
+const Rule list_count{"eds-list-count", Severity::warning, "number of entries differs from the count of the list"};
+const Rule list_numbers{"eds-list-numbers", Severity::warning, "gap in the numbers of a list"};
+const Rule list_entry{"eds-list-entry", Severity::error, "list entry without a value"};
+const Rule list_unlisted{"eds-list-unlisted", Severity::warning, "object missing in the object lists"};
+const Rule list_no_section{"eds-list-no-section", Severity::error, "listed object without a section"};
+const Rule list_twice{"eds-list-twice", Severity::warning, "object listed more than once"};
+const Rule list_wrong{"eds-list-wrong", Severity::warning, "object in the wrong object list"};
 const Rule compact_entry{"eds-compact-entry", Severity::warning,
-                         "A name or value of compact storage belongs to a sub-object that is there."};
-const Rule compact_limit{"eds-compact-limit", Severity::error, "Compact storage stands for 50000 sub-objects at most."};
+                         "name or value for a sub-index without compact storage"};
+const Rule compact_limit{"eds-compact-limit", Severity::error, "more than 50000 sub-objects of compact storage"};
 
 }  // namespace rules
 

@@ -3,40 +3,33 @@
 
 namespace lexican::codict::gen::rules {
 
-const Rule type{"gen-type", Severity::warning,
-                "An entry has a data type whose length is known: else its type is the application's."};
-const Rule access{"gen-access", Severity::error, "It is said who may read and write an entry."};
-const Rule value{"gen-value", Severity::error, "A default value is one of its data type."};
-const Rule value_none{"gen-value-none", Severity::warning,
-                      "Where octets are asked for, a 0, or a text in a DOMAIN, stands for no value."};
-const Rule node_id{"gen-node-id", Severity::error, "Only integers depend on the node-ID."};
-const Rule no_subs{"gen-no-subs", Severity::warning, "An ARRAY or RECORD without sub-objects gets no entry."};
-const Rule place{"gen-place", Severity::warning,
-                 "An object of the communication profile has the type of CiA 301, whatever a description says."};
-const Rule name{"gen-name", Severity::error, "A name of the generated source names one thing (--unique-names)."};
-const Rule name_shared{"gen-name-shared", Severity::note,
-                       "Entries with one name get their index and sub-index behind it."};
-const Rule count{"gen-count", Severity::error, "A dictionary has entries, and at most 65535."};
-const Rule store{"gen-store", Severity::error, "1010h has a sub-index for each storage group."};
+const Rule type{"gen-type", Severity::warning, "entry without a known data type"};
+const Rule access{"gen-access", Severity::error, "entry without an access type"};
+const Rule value{"gen-value", Severity::error, "default value does not fit its data type"};
+const Rule value_none{"gen-value-none", Severity::warning, "default value that is not octets, ignored"};
+const Rule node_id{"gen-node-id", Severity::error, "$NODEID in an entry that cannot depend on the node-ID"};
+const Rule no_subs{"gen-no-subs", Severity::warning, "ARRAY or RECORD without sub-objects"};
+const Rule place{"gen-place", Severity::warning, "communication object with another data type than in CiA 301"};
+const Rule name{"gen-name", Severity::error, "two entries or storage groups with one name in C"};
+const Rule name_shared{"gen-name-shared", Severity::note, "entries with equal names"};
+const Rule count{"gen-count", Severity::error, "dictionary without entries, or with more than 65534"};
+const Rule store{"gen-store", Severity::error, "storage group without a sub-index of 1010h"};
 const Rule store_joined{"gen-store-joined", Severity::warning,
-                        "Where 1010h has one sub-index, all storage groups are one."};
-const Rule store_unused{"gen-store-unused", Severity::warning, "What 1010h can store has a storage group."};
-const Rule pdo_bits{"gen-pdo-bits", Severity::error, "A PDO has at most 64 bits."};
-const Rule pdo_object{
-    "gen-pdo-object", Severity::warning,
-    "A PDO maps objects that exist, may be read or written and have the mapped length; else it will not exist."};
-const Rule pdo_mappable{"gen-pdo-mappable", Severity::warning, "A PDO maps objects with PDOMapping=1."};
-const Rule pdo_direction{"gen-pdo-direction", Severity::warning,
-                         "rwr and TPDO go out, rww and RPDO come in: a mapping in the other direction is a mistake."};
-const Rule limits{"gen-limits", Severity::warning, "Limits that cannot be kept are left out."};
-const Rule limits_default{"gen-limits-default", Severity::warning, "A default value lies within its limits."};
-const Rule sub_zero{"gen-sub-0", Severity::warning, "An ARRAY or RECORD without sub-index 0 gets one."};
-const Rule cob_id{"gen-cob-id", Severity::warning, "COB-IDs with which a node cannot work are put right."};
-const Rule left_out{"gen-left-out", Severity::note, "Disabled objects and type definitions have no entry."};
-const Rule external{"gen-external", Severity::note,
-                    "What has no value has its memory, or its type, in the application."};
-const Rule capacity{"gen-capacity", Severity::note,
-                    "A string that can be written and says nothing of its length has --string-capacity bytes."};
+                        "storage groups joined, as 1010h has one sub-index only"};
+const Rule store_unused{"gen-store-unused", Severity::warning,
+                        "sub-index of 1010h without a storage group, or storage groups without 1010h"};
+const Rule pdo_bits{"gen-pdo-bits", Severity::error, "PDO longer than 64 bits"};
+const Rule pdo_object{"gen-pdo-object", Severity::warning,
+                      "PDO maps an object that does not exist, has the wrong access or another length"};
+const Rule pdo_mappable{"gen-pdo-mappable", Severity::warning, "PDO maps an object with PDOMapping=0"};
+const Rule pdo_direction{"gen-pdo-direction", Severity::warning, "PDO maps an object of the other direction"};
+const Rule limits{"gen-limits", Severity::warning, "limits that cannot be checked at run time"};
+const Rule limits_default{"gen-limits-default", Severity::warning, "default value outside LowLimit and HighLimit"};
+const Rule sub_zero{"gen-sub-0", Severity::warning, "ARRAY or RECORD without sub-index 0"};
+const Rule cob_id{"gen-cob-id", Severity::warning, "missing or wrong COB-ID, corrected"};
+const Rule left_out{"gen-left-out", Severity::note, "disabled object or type definition without an entry"};
+const Rule external{"gen-external", Severity::note, "entry with memory or type of the application"};
+const Rule capacity{"gen-capacity", Severity::note, "string without a maximum length"};
 
 }  // namespace lexican::codict::gen::rules
 

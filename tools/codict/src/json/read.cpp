@@ -21,13 +21,13 @@ namespace lexican::codict::json {
 
 namespace rules {
 
-const Rule type{"json-type", Severity::error, "A member has the type that the schema gives it: else it is left out."};
-const Rule range{"json-range", Severity::error, "A number fits what it stands for."};
-const Rule word{"json-word", Severity::error, "A word is one of those of the schema."};
-const Rule unknown{"json-unknown", Severity::warning, "A member that the schema does not have is not used."};
-const Rule duplicate{"json-duplicate", Severity::error, "A member, and an object, is there once: the first is used."};
-const Rule missing{"json-missing", Severity::error, "A part has the member that names it."};
-const Rule contradiction{"json-contradiction", Severity::error, "A value says what its text says: the text is used."};
+const Rule type{"json-type", Severity::error, "member of the wrong JSON type"};
+const Rule range{"json-range", Severity::error, "number out of range"};
+const Rule word{"json-word", Severity::error, "unknown word"};
+const Rule unknown{"json-unknown", Severity::warning, "member unknown to the schema"};
+const Rule duplicate{"json-duplicate", Severity::error, "member or object given more than once"};
+const Rule missing{"json-missing", Severity::error, "mandatory member is missing"};
+const Rule contradiction{"json-contradiction", Severity::error, "text contradicts value"};
 
 }  // namespace rules
 

@@ -10,33 +10,24 @@ namespace lexican::codict {
 
 namespace rules {
 
-const Rule value_number{"od-value-number", Severity::error, "A value of a number type is a number."};
-const Rule value_octal_digit{"od-value-octal-digit", Severity::error,
-                             "A number that begins with 0 is octal, and has no 8 and no 9."};
-const Rule value_suffix{"od-value-suffix", Severity::error,
-                        "Numbers have no suffix as they have in C: it is left out."};
-const Rule value_comment{"od-value-comment", Severity::error,
-                         "There are no comments behind values: the text behind the number is left out."};
-const Rule value_fraction{"od-value-fraction", Severity::error, "An integer has no decimal point."};
-const Rule value_word{"od-value-word", Severity::error, "true and false are written 1 and 0."};
-const Rule value_octal{"od-value-octal", Severity::warning,
-                       "A number that begins with 0 is octal: few people who write one know that."};
-const Rule value_range{"od-value-range", Severity::error, "A value fits its data type."};
-const Rule value_bit_pattern{"od-value-bit-pattern", Severity::note,
-                             "A negative number is written with its sign: its bit pattern is taken for it."};
-const Rule value_node_id_form{"od-value-nodeid-form", Severity::warning,
-                              "What depends on the node-ID is written $NODEID+number, without blanks."};
-const Rule value_node_id_type{"od-value-nodeid-type", Severity::warning, "Only an integer depends on the node-ID."};
-const Rule value_real_bits{"od-value-real-bits", Severity::warning,
-                           "A hexadecimal value of a REAL is taken for its bit pattern."};
+const Rule value_number{"od-value-number", Severity::error, "value is not a number"};
+const Rule value_octal_digit{"od-value-octal-digit", Severity::error, "octal number with digit 8 or 9"};
+const Rule value_suffix{"od-value-suffix", Severity::error, "number with a suffix of C"};
+const Rule value_comment{"od-value-comment", Severity::error, "text after a number"};
+const Rule value_fraction{"od-value-fraction", Severity::error, "decimal point in an integer"};
+const Rule value_word{"od-value-word", Severity::error, "true or false instead of 1 or 0"};
+const Rule value_octal{"od-value-octal", Severity::warning, "octal number"};
+const Rule value_range{"od-value-range", Severity::error, "value does not fit its data type"};
+const Rule value_bit_pattern{"od-value-bit-pattern", Severity::note, "bit pattern of a negative number"};
+const Rule value_node_id_form{"od-value-nodeid-form", Severity::warning, "unusual form of $NODEID+number"};
+const Rule value_node_id_type{"od-value-nodeid-type", Severity::warning, "$NODEID in a value that is not an integer"};
+const Rule value_real_bits{"od-value-real-bits", Severity::warning, "hexadecimal value of a REAL, read as bit pattern"};
 const Rule value_real_integer{"od-value-real-integer", Severity::note,
-                              "A value of a REAL without decimal point is taken for a number, not for a bit pattern."};
-const Rule value_decimal_comma{"od-value-decimal-comma", Severity::warning,
-                               "A decimal point is a point, whatever the language."};
-const Rule value_octets{"od-value-octets", Severity::error, "Octets are pairs of hexadecimal digits."};
-const Rule value_time{"od-value-time", Severity::warning,
-                      "A time is one number: milliseconds, and days from bit 32 on."};
-const Rule value_quotes{"od-value-quotes", Severity::note, "Quotes around a string are a part of it."};
+                              "REAL value without decimal point, read as number"};
+const Rule value_decimal_comma{"od-value-decimal-comma", Severity::warning, "decimal comma"};
+const Rule value_octets{"od-value-octets", Severity::error, "malformed octet string"};
+const Rule value_time{"od-value-time", Severity::warning, "time written as days and milliseconds"};
+const Rule value_quotes{"od-value-quotes", Severity::note, "quotes around a string"};
 
 }  // namespace rules
 

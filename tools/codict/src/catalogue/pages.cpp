@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catalogue/pages.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "catalogue/rules.hpp"
+
+namespace lexican::codict::catalogue {
+
+namespace {
+
+constexpr std::string_view introduction =
+    R"(# Rules of codict
+
+This page explains every finding of `codict check` and `codict gen` to those who write device descriptions:
+the fault, its consequences, the remedy, and an example.
+
+`codict explain RULE` prints the section of a rule. Rule ids never change. To disable a rule for a key, a section
+or a file, see [known findings](codict.md#findings-that-are-known).
+
+Examples show only the relevant part of a description. The tests add it to a device without faults; examples marked
+`whole` are complete files. The wrong example breaks its rule, the right one does not.
+
+This file is generated: `codict explain --all >tools/codict/docs/rules.md`. The sections are written in
+`tools/codict/src/catalogue/pages`, the faults next to the checks (`rules.cpp`).
+)";
+
+struct Chapter {
+  std::string_view prefix;  // of its rules; empty: all others
+  std::string_view title;
+};
+
+constexpr std::array<Chapter, 6> chapters = {{{"eds-", "Form of an EDS or DCF"},
+                                              {"", "Objects, values and services, in any format"},
+                                              {"xdd-", "Form of an XDD, XDC or XPD"},
+                                              {"json-", "Form of JSON"},
+                                              {"gen-", "Generated dictionaries"},
+                                              {"suppression-", "Comments that suppress rules"}}};
+
+bool begins_with(std::string_view text, std::string_view beginning) {
+  return text.substr(0, beginning.size()) == beginning;
+}
+
+const Chapter& chapter_of(const Rule& rule) {
+  const auto* const own = std::find_if(chapters.begin(), chapters.end(), [&rule](const Chapter& chapter) {
+    return !chapter.prefix.empty() && begins_with(rule.id, chapter.prefix);
+  });
+  return own != chapters.end() ? *own : chapters[1];
+}
+
+std::string_view page_of(const Rule& rule) {
+  const auto place =
+      std::find_if(all_pages().begin(), all_pages().end(), [&rule](const Page& page) { return page.id == rule.id; });
+  return place != all_pages().end() ? place->text : "";
+}
+
+std::string table_of(const Chapter& chapter) {
+  std::string text = "| Rule | Severity | Fault |\n|---|---|---|\n";
+  for (const Rule* rule : all_rules()) {
+    if (&chapter_of(*rule) == &chapter) {
+      text += fmt::format("| [{0}](#{0}) | {1} | {2} |\n", rule->id, name_of(rule->severity), rule->about);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string section_of(const Rule& rule) {
+  return fmt::format("### {}\n\n{}: {}\n\n{}", rule.id, name_of(rule.severity), rule.about, page_of(rule));
+}
+
+std::string reference() {
+  std::string text(introduction);
+  for (const Chapter& chapter : chapters) {
+    text += fmt::format("\n## {}\n\n{}", chapter.title, table_of(chapter));
+    for (const Rule* rule : all_rules()) {
+      if (&chapter_of(*rule) == &chapter) {
+        text += "\n" + section_of(*rule);
+      }
+    }
+  }
+  return text;
+}
+
+std::string link_to(const Rule& rule) { return fmt::format("tools/codict/docs/rules.md#{}", rule.id); }
+
+}  // namespace lexican::codict::catalogue

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file pages.hpp
+/// Reference text of each rule: what goes wrong, the remedy, a wrong and a right example.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "text/finding.hpp"
+
+namespace lexican::codict::catalogue {
+
+/// A file of catalogue/pages, built in.
+struct Page {
+  std::string_view id;    ///< of the rule
+  std::string_view text;  ///< Markdown without title and severity
+};
+
+const std::vector<Page>& all_pages();
+
+/// Returns the section of the reference about one rule: title, severity, fault, and its page.
+std::string section_of(const Rule& rule);
+
+/// Returns tools/codict/docs/rules.md, which `codict explain --all` prints.
+std::string reference();
+
+/// Returns the path of the reference in the repository, with the rule's anchor.
+std::string link_to(const Rule& rule);
+
+}  // namespace lexican::codict::catalogue
