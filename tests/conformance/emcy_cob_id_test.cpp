@@ -51,7 +51,7 @@ TEST_CASE("1014h: by way of bit 31 it gets another CAN-ID, which holds at once [
   node.tx("00012345#0000000000000000");
 }
 
-TEST_CASE("1014h: with bit 31 nothing is sent, 1001h and 1003h go on [N1] [D45]") {
+TEST_CASE("1014h: with bit 31 nothing is sent, 1001h and 1003h go on [D45]") {
   EmcyNode node;
   node.ask(write(0x80000081), done);
   node.set(current);
@@ -94,7 +94,7 @@ TEST_CASE("1014h: CAN-IDs that do not fit the frame format, and reserved bit 30,
   node.ask("601#4014100000000000", "581#4314100081000080");
 }
 
-TEST_CASE("1014h: stored relative to the node-ID, flags apart; another node-ID gives another CAN-ID [N9] [D56]") {
+TEST_CASE("1014h: stored relative to the node-ID, flags apart; another node-ID gives another CAN-ID [D56]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).node_id(0x10));
   node.ask("610#2314100090000080", "590#6014100000000000");
   CHECK(std::uintptr_t{node.find(0x1014, 0)->Data} == 0x80000080);
@@ -129,7 +129,7 @@ TEST_CASE("1014h: nor those that wait for the controller, under the old CAN-ID [
   CHECK(node.counters().Dropped == 1);
 }
 
-TEST_CASE("1014h: of a plain type, switched off while messages wait: they are not sent [N1]") {
+TEST_CASE("1014h: of a plain type, switched off while messages wait: they are not sent [D45]") {
   std::uint32_t cob_id = 0x81;
   Fixture node(Setup()
                    .emergencies(errors_of_device())

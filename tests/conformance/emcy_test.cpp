@@ -269,7 +269,7 @@ TEST_CASE("EMCY: without 1014h nothing is sent; a node with a table of errors sa
   CHECK(plain.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("EMCY: 1014h of a plain UNSIGNED32 is obeyed: its CAN-ID, its frame format, and bit 31 [E5] [N1] [D45]") {
+TEST_CASE("EMCY: 1014h of a plain UNSIGNED32 is obeyed: its CAN-ID, its frame format, and bit 31 [E5] [D45]") {
   const struct {
     std::uint32_t value;
     const char* sent;

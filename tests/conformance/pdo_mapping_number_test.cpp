@@ -207,7 +207,7 @@ TEST_CASE("PDO mapping: a dummy has its length and sub 0, and no other: 0604 004
   }
 }
 
-TEST_CASE("PDO mapping: dummies take no more places than they have [D5]") {
+TEST_CASE("PDO mapping: dummies take no more places than they have [M8]") {
   PdoNode node;
   node.start();
   REQUIRE(node.remap_rpdo(
@@ -253,7 +253,7 @@ TEST_CASE("PDO mapping: entries of static data types in the dictionary change no
 
 #if USE_PDO_BITS
 
-TEST_CASE("PDO mapping: BOOLEAN takes one bit, from bit 0 of byte 0 on [M10] [N3]") {
+TEST_CASE("PDO mapping: BOOLEAN takes one bit, from bit 0 of byte 0 on [M10]") {
   PdoNode node;
   node.start();
   REQUIRE(node.remap_tpdo(0, {0x22500101, 0x22500201, 0x22500301, 0x22010108}, 0x40000181) == 0);
@@ -280,7 +280,7 @@ TEST_CASE("PDO mapping: BOOLEAN takes one bit, from bit 0 of byte 0 on [M10] [N3
   CHECK(node.u16[0] == 0xFFFF);
 }
 
-TEST_CASE("PDO mapping: 64 single bits fill a PDO, 65 do not [M6] [M10] [N3]") {
+TEST_CASE("PDO mapping: 64 single bits fill a PDO, 65 do not [M6] [M10]") {
   std::vector<std::uint32_t> words(64, 0x00010001);
   words[0] = 0x22500101;
   words[63] = 0x22500201;
@@ -297,7 +297,7 @@ TEST_CASE("PDO mapping: 64 single bits fill a PDO, 65 do not [M6] [M10] [N3]") {
   CHECK(node.remap_rpdo(0, words, 0x201) == abort_too_long);
 }
 
-TEST_CASE("PDO mapping: the length of a frame is in bytes, rounded up [N3]") {
+TEST_CASE("PDO mapping: the length of a frame is in bytes, rounded up [M10]") {
   PdoNode node;
   node.start();
   node.boolean[0] = 1;

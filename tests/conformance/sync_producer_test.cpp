@@ -234,7 +234,7 @@ TEST_CASE("SYNC producer: a consumer may have any period in 1006h") {
   node.silent();
 }
 
-TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [N13]") {
+TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [Q8]") {
   SyncNode node(producer(10000), [](Setup& setup) { setup.clock(0xFFFFFF00U); });
   const std::uint64_t begin = node.now();
   for (unsigned second = 1; second <= 1000 / stride(50); ++second) {

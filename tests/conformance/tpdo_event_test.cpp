@@ -64,7 +64,7 @@ TEST_CASE("TPDO event: the PDO of the number, and no other") {
   }
 }
 
-TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [N15]") {
+TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [X15]") {
   PdoNode node(with(255));
   CHECK(node.request(0) == CO_ERR_NMT_MODE);
   node.rx("000#0201");
@@ -84,7 +84,7 @@ TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [N15]") {
   node.silent();
 }
 
-TEST_CASE("TPDO event: COTPdoRequest of a type that knows no events: nothing now and nothing later [N15] [D42]") {
+TEST_CASE("TPDO event: COTPdoRequest of a type that knows no events: nothing now and nothing later [X15] [D42]") {
   for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed || type == 0) {
@@ -102,7 +102,7 @@ TEST_CASE("TPDO event: COTPdoRequest of a type that knows no events: nothing now
   }
 }
 
-TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends nothing: its error [N15] [D37]") {
+TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends nothing: its error [X15] [D37]") {
   static CO_ERR answer;
   static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 2; }, nullptr,
                                    [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {
@@ -124,7 +124,7 @@ TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends 
   node.tx("181#115A00");
 }
 
-TEST_CASE("TPDO event: COTPdoRequest with a full transmit queue: CO_ERR_IF_CAN_SEND, nothing later [N15]") {
+TEST_CASE("TPDO event: COTPdoRequest with a full transmit queue: CO_ERR_IF_CAN_SEND, nothing later [X15]") {
   PdoNode node(with(255), [](Setup& setup) { setup.tx_queue(1); });
   node.start();
   node.can.refuse_all();
@@ -140,7 +140,7 @@ TEST_CASE("TPDO event: COTPdoRequest with a full transmit queue: CO_ERR_IF_CAN_S
   node.tx("181#111112");
 }
 
-TEST_CASE("TPDO event: COTPdoTrigPdo leaves its reason in the node's error [D36] [N15]") {
+TEST_CASE("TPDO event: COTPdoTrigPdo leaves its reason in the node's error [D36] [X15]") {
   PdoNode node(with(255));
   node.trigger(0);
   CHECK(node.error() == CO_ERR_NMT_MODE);
@@ -179,7 +179,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj sends all PDOs that map the object, each on
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("TPDO event: COTPdoTrigObj of an object that cannot be mapped, or is not, is CO_ERR_TPDO_OBJ_TRIGGER [N15]") {
+TEST_CASE("TPDO event: COTPdoTrigObj of an object that cannot be mapped, or is not, is CO_ERR_TPDO_OBJ_TRIGGER [X15]") {
   PdoNode node(with(255));
   node.start();
   trigger_object(node, nullptr);
@@ -191,7 +191,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj of an object that cannot be mapped, or is n
   node.silent();
 }
 
-TEST_CASE("TPDO event: COTPdoTrigObj of an entry of another dictionary is CO_ERR_TPDO_OBJ_TRIGGER [N15]") {
+TEST_CASE("TPDO event: COTPdoTrigObj of an entry of another dictionary is CO_ERR_TPDO_OBJ_TRIGGER [X15]") {
   PdoNode node(with(255));
   node.start();
   CO_OBJ* const mapped = node.find(0x2211, 1);

@@ -42,7 +42,7 @@ TEST_CASE("TPDO event timer: each transmission starts it anew [X7]") {
   node.tx_at(100ms, "181#11");
 }
 
-TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [N13] [T15]") {
+TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [Q8] [T15]") {
   PdoNode node(timed(10), [=](Setup& setup) { setup.rate(300).clock(0xFFFFFF00U); });
   node.start();
   const std::uint64_t begin = node.now();
@@ -54,7 +54,7 @@ TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [N13] [
   }
 }
 
-TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [N13] [Q8]") {
+TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [Q8]") {
   PdoNode node(timed(10));
   node.start();
   const std::uint64_t begin = node.now();
