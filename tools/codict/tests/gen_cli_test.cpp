@@ -113,12 +113,64 @@ TEST_CASE("codict gen: the report says what the parts cost, for people and for p
   const test::Directory directory;
   const Ran text = run(directory, small + " -o new --report");
   CHECK(text.out.find("\nDRIVE ") != std::string::npos);
-  CHECK(text.out.find("\nextern CO_OBJ_DOM small_2002_0;\n") != std::string::npos);
+  CHECK(text.out.find("\nextern CO_OBJ_DOM small_2002_0;  // 2002h sub 0: Firmware, DOMAIN wo\n") != std::string::npos);
   const auto json = nlohmann::json::parse(run(directory, small + " -o new --json").out);
   CHECK(json["schema"] == "codict-gen-1");
   CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c"});
   CHECK(json["parts"][1]["part"] == "DRIVE");
   CHECK(json["parts"][1]["entries"] == 2);
+}
+
+TEST_CASE("codict gen: the output names storage groups with their sub-indexes, and what the application defines") {
+  const test::Directory directory;
+  const Ran ran = run(directory, small + " -o new");
+  CHECK(ran.status == 0);
+  CHECK(
+      ran.out ==
+      "storage group DRIVE: 2 entries, 40 bytes; stored by 1010h sub 1 (Save all parameters), restored by no sub-index "
+      "of 1011h\n"
+      "to be defined by the application (--stubs FILE writes first versions):\n"
+      "extern CO_OBJ_DOM small_2002_0;  // 2002h sub 0: Firmware, DOMAIN wo\n");
+  CHECK(run(directory, small + " -o new --check").out.empty());
+  const auto json = nlohmann::json::parse(run(directory, small + " -o new --json").out);
+  CHECK(json["groups"][0]["name"] == "DRIVE");
+  CHECK(json["groups"][0]["store_sub"] == 1);
+  CHECK(json["external"] == nlohmann::json{"extern CO_OBJ_DOM small_2002_0;"});
+}
+
+TEST_CASE(
+    "codict gen: --stubs writes first versions once, and never overwrites what the application has made of them") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --stubs stubs.c").err.empty());
+  CHECK(test::has(bytes_of(directory / "stubs.c"), "CO_OBJ_DOM small_2002_0 = {"));
+  test::write_bytes(directory / "stubs.c", "CO_OBJ_DOM small_2002_0 = {0, 9, mine};\n");
+  CHECK(run(directory, small + " -o new --stubs stubs.c").err.empty());
+  CHECK(bytes_of(directory / "stubs.c") == "CO_OBJ_DOM small_2002_0 = {0, 9, mine};\n");
+  test::write_bytes(directory / "stubs.c", "\n");
+  const Ran missing = run(directory, small + " -o new --stubs stubs.c");
+  CHECK(missing.status == 0);
+  CHECK(missing.err ==
+        "codict: stubs.c: the file exists and is not changed; small_2002_0 is missing in it (2002h sub 0: Firmware, "
+        "DOMAIN wo)\n");
+  CHECK(bytes_of(directory / "stubs.c") == "\n");
+}
+
+TEST_CASE("codict gen: --store gives a storage group its sub-index of 1010h") {
+  const test::Directory directory;
+  CHECK(run(directory, small + " -o new --store DRIVE=1").status == 0);
+  const Ran none = run(directory, small + " -o new --store DRIVE=none");
+  CHECK(none.status == 0);
+  CHECK_FALSE(test::has(none.out, "storage group"));
+  const Ran wrong = run(directory, small + " -o new --store DRIVE=5");
+  CHECK(wrong.status == 1);
+  CHECK(test::has(wrong.err, "--store DRIVE=5: sub-index 5 of 1010h is missing or has another group"));
+  for (const char* store : {"DRIVE", "DRIVE=", "=1", "DRIVE=0", "DRIVE=80", "DRIVE=x", "DRIVE=1x"}) {
+    CAPTURE(store);
+    const Ran ran = run(directory, small + " -o new --store " + store);
+    CHECK(ran.status == 2);
+    CHECK(test::has(ran.err, "the form is GROUP=SUB"));
+  }
+  CHECK(test::run_codict(directory / "", "size " + small + " --store DRIVE=none").status == 0);
 }
 
 TEST_CASE("codict gen: wrong use ends with 2") {

@@ -3,71 +3,24 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
-#include "eds/document.hpp"
-#include "eds/read.hpp"
 #include "gen/gen.hpp"
 #include "gen/names.hpp"
+#include "generating.hpp"
 #include "reading.hpp"
-#include "text/file.hpp"
 
 using namespace lexican::codict;
 
+using test::fixture_text;
+using test::generate;
+using test::Generated;
+using test::record;
+using test::sub;
+using test::variable;
+
 namespace {
-
-struct Generated {
-  gen::Output output;
-  std::string found;  // "line:column rule" of each finding but notes, a line for each
-  std::string notes;
-
-  const std::string& header() const { return output.files.at(0).bytes; }
-  const std::string& source() const { return output.files.at(1).bytes; }
-  bool has(const std::string& text) const {
-    return header().find(text) != std::string::npos || source().find(text) != std::string::npos;
-  }
-};
-
-Generated generate(std::string bytes, gen::Options options = {}) {
-  Findings reading;
-  const eds::Document document(Source("device.eds", std::move(bytes)), reading);
-  const Description description = eds::read(document, reading);
-  options.name = options.name.empty() ? "small" : options.name;
-  options.source = "small.eds";
-  Findings findings;
-  Generated result;
-  result.output = gen::generate(description.devices.front(), options, findings);
-  findings.sort();
-  for (const Finding& finding : findings.all()) {
-    const Position position = document.source().position(finding.span.begin);
-    std::string& list = finding.rule->severity == Severity::note ? result.notes : result.found;
-    list += fmt::format("{}:{} {}\n", position.line, position.column, finding.rule->id);
-  }
-  return result;
-}
-
-std::string fixture_text(const std::string& name) {
-  std::ifstream file(test::fixture(name), std::ios::binary);
-  REQUIRE(file);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-// A variable, ended by what else it says.
-std::string variable(const char* index, int type, const char* access, const char* rest = "") {
-  return fmt::format("[{}]\nParameterName=Value {}\nObjectType=7\nDataType={}\nAccessType={}\n{}\n", index, index, type,
-                     access, rest);
-}
-
-std::string sub(const char* section, int type, const char* access, const char* value) {
-  return fmt::format(
-      "[{}]\nParameterName={}\nObjectType=7\nDataType={}\nAccessType={}\nPDOMapping=0\nDefaultValue={}\n", section,
-      section, type, access, value);
-}
-
-std::string record(const char* index) { return fmt::format("[{}]\nParameterName=Record\nObjectType=9\n", index); }
 
 const std::string type_object = variable("1000", 7, "ro", "DefaultValue=0");
 
@@ -166,13 +119,13 @@ TEST_CASE("gen: a time may be written as days and milliseconds") {
 
 TEST_CASE("gen: what 1010h stores with its one sub-index is one group, whatever the storage groups are called") {
   const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
-  const Generated generated = generate(store + variable("2000", 5, "rw", ";StorageLocation=ROM\n") +
+  const Generated generated = generate(store + variable("2000", 5, "rw", ";StorageLocation=DRIVE\n") +
                                        variable("2001", 5, "rw", ";StorageLocation=RAM\n") +
                                        variable("2002", 5, "rw", ";StorageLocation=EEPROM\n"));
   CHECK(generated.found == "32:2 gen-store-joined\n");
-  CHECK(generated.has("(CO_DATA)(&small_rom.od_2000_0)"));
+  CHECK(generated.has("(CO_DATA)(&small_drive.od_2000_0)"));
   CHECK(generated.has("(CO_DATA)(&small_ram.od_2001_0)"));
-  CHECK(generated.has("(CO_DATA)(&small_rom.od_2002_0)"));
+  CHECK(generated.has("(CO_DATA)(&small_drive.od_2002_0)"));
   CHECK_FALSE(generated.has("eeprom"));
 }
 

@@ -16,6 +16,7 @@
 #include "cli/costs.hpp"
 #include "cli/output.hpp"
 #include "cli/render.hpp"
+#include "cli/stores.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
@@ -30,6 +31,8 @@ struct Options {
   std::string directory;
   std::string eds;
   std::string xdd;
+  std::string stubs;
+  std::vector<std::string> stores;
   gen::Options gen;
   bool is_check = false;
   bool is_report = false;
@@ -56,12 +59,34 @@ Status compare(const std::string& path, const std::string& bytes) {
   return present->bytes() == bytes ? clean : found;
 }
 
-std::string report_text(const gen::Output& output) {
-  std::string text = costs_text(output.costs);
-  for (const std::string& external : output.externals) {
-    text += external + "\n";
+// "1010h sub 5 (Save PERSIST_APP)"
+std::string sub_text(const char* object, std::uint8_t sub_index, const std::string& name) {
+  return sub_index == 0 ? fmt::format("no sub-index of {}", object)
+                        : fmt::format("{} sub {:X} ({})", object, sub_index, name);
+}
+
+std::string groups_text(const gen::Output& output) {
+  std::string text;
+  for (const gen::StoredGroup& group : output.groups) {
+    text += fmt::format("storage group {}: {} {}, {} bytes; stored by {}, restored by {}\n", group.name, group.entries,
+                        group.entries == 1 ? "entry" : "entries", group.bytes,
+                        sub_text("1010h", group.store_sub, group.store_name),
+                        sub_text("1011h", group.restore_sub, group.restore_name));
   }
   return text;
+}
+
+std::string externals_text(const gen::Output& output) {
+  std::string text =
+      output.externals.empty() ? "" : "to be defined by the application (--stubs FILE writes first versions):\n";
+  for (const gen::External& external : output.externals) {
+    text += fmt::format("{}  // {}\n", external.declaration, external.about);
+  }
+  return text;
+}
+
+std::string output_text(const Options& options, const gen::Output& output) {
+  return (options.is_report ? costs_text(output.costs) : "") + groups_text(output) + externals_text(output);
 }
 
 Json report_json(const std::vector<gen::File>& files, const gen::Output& output) {
@@ -69,7 +94,18 @@ Json report_json(const std::vector<gen::File>& files, const gen::Output& output)
   for (const gen::File& file : files) {
     json["files"].push_back(file.name);
   }
-  json["external"] = output.externals;
+  json["groups"] = Json::array();
+  for (const gen::StoredGroup& group : output.groups) {
+    json["groups"].push_back({{"name", group.name},
+                              {"store_sub", group.store_sub},
+                              {"restore_sub", group.restore_sub},
+                              {"entries", group.entries},
+                              {"bytes", group.bytes}});
+  }
+  json["external"] = Json::array();
+  for (const gen::External& external : output.externals) {
+    json["external"].push_back(external.declaration);
+  }
   return json;
 }
 
@@ -113,6 +149,29 @@ bool have_places(const Options& options, const std::vector<gen::File>& files) {
   return true;
 }
 
+// A file of the application is never overwritten; what it does not name is listed.
+Status write_stubs(const Options& options, const gen::Output& output) {
+  if (options.stubs.empty() || options.is_check || output.externals.empty()) {
+    return clean;
+  }
+  if (options.stubs == "-" || !std::filesystem::exists(options.stubs)) {
+    return write_output(options.stubs, output.stubs);
+  }
+  std::string why;
+  const std::optional<Source> present = read_file(options.stubs, why);
+  if (!present) {
+    complain(why);
+    return unusable;
+  }
+  for (const gen::External& external : output.externals) {
+    if (present->bytes().find(external.name) == std::string::npos) {
+      complain(fmt::format("{}: the file exists and is not changed; {} is missing in it ({})", options.stubs,
+                           external.name, external.about));
+    }
+  }
+  return clean;
+}
+
 bool make_directory(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -144,6 +203,9 @@ int run(Options options) {
     complain("--name: small letters, digits and single underscores, and no word of C");
     return unusable;
   }
+  if (!parse_stores(options.stores, options.gen)) {
+    return unusable;
+  }
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   suppress(*input, catalogue::Origin::generator, findings);
@@ -166,10 +228,10 @@ int run(Options options) {
   }
   if (options.is_json) {
     print_json(report_json(files, output));
-  } else if (options.is_report) {
-    print(report_text(output));
+  } else if (options.is_report || !options.is_check) {
+    print(output_text(options, output));
   }
-  return status;
+  return std::max<int>(status, write_stubs(options, output));
 }
 
 }  // namespace
@@ -190,6 +252,10 @@ Command add_gen(CLI::App& app) {
   command->add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes")
       ->check(ends_with("eds"));
   command->add_option("--xdd", options->xdd, "Write an XDD of it")->check(ends_with("xdd"));
+  command->add_option(
+      "--stubs", options->stubs,
+      "Write first versions of what the application defines to this C or C++ file, if it does not exist");
+  add_stores(*command, options->stores);
   command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
   const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command->add_option("--language", options->gen.language, "Language of the source: c, c++; the header is of both")

@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/costs.hpp"
 #include "cli/render.hpp"
+#include "cli/stores.hpp"
 
 namespace lexican::codict::cli {
 
@@ -13,6 +14,7 @@ namespace {
 
 struct Options {
   std::string file;
+  std::vector<std::string> stores;
   gen::Options gen;
   bool is_json = false;
 };
@@ -23,6 +25,9 @@ int run(Options options) {
     return unusable;
   }
   options.gen.name = gen::default_name(options.file);
+  if (!parse_stores(options.stores, options.gen)) {
+    return unusable;
+  }
   Findings findings;
   const gen::Output output = gen::generate(input->device(), options.gen, findings);
   if (output.files.empty()) {
@@ -45,6 +50,7 @@ Command add_size(CLI::App& app) {
   CLI::App* const command = app.add_subcommand(
       "size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
   command->add_option("file", options->file, file_help)->required();
+  add_stores(*command, options->stores);
   command->add_flag("--json", options->is_json, "For programs");
   command
       ->add_option("--string-capacity", options->gen.string_capacity,

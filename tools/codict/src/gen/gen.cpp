@@ -22,7 +22,9 @@ Output generate(const Device& device, const Options& options, Findings& findings
   output.files.push_back({options.name + "_od.h", write_header(plan, options)});
   output.files.push_back({options.name + "_od" + ending, write_source(plan, options)});
   output.costs = costs_of(plan);
+  output.groups = stored_groups(plan);
   output.externals = externals_of(plan, options);
+  output.stubs = output.externals.empty() ? "" : write_stubs(plan, options);
   output.device = described(device, plan);
   return output;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gen/plan.hpp"
+#include "gen/stores.hpp"
 #include "gen/write.hpp"
 
 namespace lexican::codict::gen {
@@ -20,8 +21,10 @@ struct File {
 struct Output {
   std::vector<File> files;
   std::vector<Cost> costs;
-  std::vector<std::string> externals;  ///< declarations of what the application has to define
-  Device device;                       ///< as it is made: for an EDS or XDD that matches it
+  std::vector<StoredGroup> groups;  ///< the storage groups
+  std::vector<External> externals;  ///< what the application has to define
+  std::string stubs;                ///< source that defines the externals; empty if there are none
+  Device device;                    ///< as it is made: for an EDS or XDD that matches it
 };
 
 /// A C identifier from the name of a file: "Clock (2).eds" gives "clock_2"; "device" if nothing is left.

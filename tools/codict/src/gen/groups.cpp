@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variables lie together, in which order, and which sub-index of 1010h stores them.
+// Which variables lie together, and in which order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "gen/names.hpp"
 #include "gen/parts.hpp"
 #include "gen/rules.hpp"
+#include "gen/stores.hpp"
 #include "model/access.hpp"
 
 namespace lexican::codict::gen {
@@ -168,100 +169,6 @@ void lay_out_stored(const Plan& plan, Group& group) {
   group.layout = hash(plan, group);
 }
 
-bool has_word(const std::string& id, const char* word) { return id.find(word) != std::string::npos; }
-
-bool is_for_communication(const Group& group) { return has_word(group.id, "comm") || group.is_communication; }
-
-// 2: communication, 3: application, 4…: the manufacturer's. [301:7.5.2.13]
-class StoreSubs {
- public:
-  explicit StoreSubs(const Plan& plan) {
-    for (const Item& item : plan.items) {
-      if (item.index == 0x1010 && item.sub_index != 0 && item.place != nullptr) {
-        subs_.insert(item.sub_index);
-      }
-    }
-    has_all_ = subs_.size() > 1;
-  }
-
-  bool has_all() const { return has_all_; }  ///< sub 1 is none of a group
-  bool has_any() const { return !subs_.empty(); }
-
-  std::uint8_t take(const Group& group) {
-    if (!has_all()) {
-      return take_from(1);
-    }
-    const std::uint8_t wanted = is_for_communication(group) ? 2 : (has_word(group.id, "app") ? 3 : 4);
-    const std::uint8_t taken = take_from(wanted);
-    return taken != 0 || wanted == 4 ? taken : take_from(4);
-  }
-
- private:
-  // Only the manufacturer's may be any of several.
-  std::uint8_t take_from(std::uint8_t first) {
-    const auto place = first < 4 ? subs_.find(first) : subs_.lower_bound(first);
-    if (place == subs_.end()) {
-      return 0;
-    }
-    const std::uint8_t sub_index = *place;
-    subs_.erase(place);
-    return sub_index;
-  }
-
-  bool has_all_ = false;
-  std::set<std::uint8_t> subs_;
-};
-
-void assign_subs(Plan& plan, Findings& findings) {
-  StoreSubs subs(plan);
-  plan.stores_all = subs.has_all();
-  if (!subs.has_any()) {
-    return;
-  }
-  for (std::size_t n = 1; n < plan.groups.size(); ++n) {
-    Group& group = plan.groups[n];
-    group.sub_index = subs.take(group);
-    if (group.sub_index == 0) {
-      findings.add(rules::store, plan.items[group.members.front().item].span,
-                   fmt::format("1010h has no sub-index left for the storage group {}", group.name));
-    }
-  }
-}
-
-// "save" with the one sub-index that there is must save all.
-void join_groups(Plan& plan, Findings& findings) {
-  const StoreSubs subs(plan);
-  if (!subs.has_any() || subs.has_all()) {
-    return;
-  }
-  std::size_t joined = 1;
-  for (Item& item : plan.items) {
-    if (item.group > joined) {
-      joined = item.group;
-      findings.add(rules::store_joined, item.span,
-                   fmt::format("1010h has one sub-index: the storage group {} is a part of {}",
-                               plan.groups[item.group].name, plan.groups[1].name));
-    }
-    item.group = std::min<std::size_t>(item.group, 1);
-  }
-  plan.groups.resize(std::min<std::size_t>(plan.groups.size(), 2));
-}
-
-void tell_of_unused_subs(const Plan& plan, Findings& findings) {
-  for (const Item& item : plan.items) {
-    const bool is_store = item.index == 0x1010 && item.storage == Storage::group;
-    const bool is_used = (item.sub_index == 1 && plan.stores_all) ||
-                         std::any_of(plan.groups.begin(), plan.groups.end(),
-                                     [&](const Group& group) { return group.sub_index == item.sub_index; });
-    if (is_store && !is_used) {
-      findings.add(rules::store_unused, item.span, "there is no storage group for it: \"save\" is refused");
-    }
-  }
-  if (plan.groups.size() > 1 && plan.find(0x1010, 1) == nullptr) {
-    findings.add(rules::store_unused, {}, "there are storage groups and no 1010h: nothing loads or stores them");
-  }
-}
-
 }  // namespace
 
 // The stack writes 1003h: it empties it at reset node.
@@ -285,7 +192,7 @@ bool has_defaults(const Plan& plan) {
   return has_unloaded_group || first_reset(plan, Reset::node) != nullptr;
 }
 
-void plan_groups(Plan& plan, Findings& findings) {
+void plan_groups(const Options& options, Plan& plan, Findings& findings) {
   join_groups(plan, findings);
   std::set<std::string> ids = {"od", "objects"};
   for (std::size_t n = 0; n < plan.items.size(); ++n) {
@@ -301,8 +208,7 @@ void plan_groups(Plan& plan, Findings& findings) {
       findings.add(rules::name, {}, fmt::format("the storage group {} has the name of another one", group.name));
     }
   }
-  assign_subs(plan, findings);
-  tell_of_unused_subs(plan, findings);
+  plan_stores(plan, options, findings);
 }
 
 }  // namespace lexican::codict::gen

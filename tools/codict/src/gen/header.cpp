@@ -147,7 +147,7 @@ void write_groups(const Plan& plan, const Options& options, Lines& out) {
     }
     const std::string macro = upper(struct_of(group, options));
     out.add("/// Storage group {}{}. CONodeInit() fills it.", comment_text(group.name),
-            group.sub_index == 0 ? "" : fmt::format(", 1010h sub {}", group.sub_index));
+            group.sub_index == 0 ? "" : fmt::format(", 1010h sub {:X}", group.sub_index));
     write_struct(plan, group, options, out);
     out.add("#define {}_LAYOUT 0x{:06X}u  ///< hash of its entries, their types and sizes: CO_PARA_VERSION()", macro,
             group.layout);
@@ -228,22 +228,6 @@ bool needs_para(const Plan& plan) {
   return std::any_of(plan.groups.begin(), plan.groups.end(), [](const Group& group) { return group.sub_index != 0; });
 }
 
-std::vector<std::string> externals_of(const Plan& plan, const Options& options) {
-  std::vector<std::string> all;
-  for (const Item& item : plan.items) {
-    const std::string name = external_of(item, options);
-    if (item.has_own_type) {
-      all.push_back(fmt::format("extern const CO_OBJ_TYPE {}_type;", name));
-    } else if (item.storage == Storage::external) {
-      const std::string_view memory = item.form->code == type_code::domain ? "CO_OBJ_DOM"
-                                      : item.type == "CO_TSTRING"          ? "CO_OBJ_STR"
-                                                                           : "CO_OBJ_STR_RW";
-      all.push_back(fmt::format("extern {} {};", item.form->bytes == 0 ? memory : item.form->variable, name));
-    }
-  }
-  return all;
-}
-
 std::string write_header(const Plan& plan, const Options& options) {
   const std::string prefix = upper(options.name);
   Lines out;
@@ -267,11 +251,11 @@ std::string write_header(const Plan& plan, const Options& options) {
         "/// CONodeInit(). The compiler initialises all others, and no reset changes them.\n");
   }
   out.add("void {}_set_defaults(void);", options.name);
-  const std::vector<std::string> externals = externals_of(plan, options);
+  const std::vector<External> externals = externals_of(plan, options);
   if (!externals.empty()) {
     out.raw("\n/// \\name To be defined by the application\n/// \\{\n");
-    for (const std::string& external : externals) {
-      out.add("{}", external);
+    for (const External& external : externals) {
+      out.add("{}", external.declaration);
     }
     out.raw("/// \\}\n");
   }

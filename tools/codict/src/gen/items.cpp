@@ -22,6 +22,8 @@ constexpr std::uint32_t flag_direct = 0x80;
 
 constexpr std::uint32_t cob_id_off = 0x80000000;
 
+constexpr std::uint16_t error_register = 0x1001;
+
 constexpr bool is_between(std::uint16_t index, std::uint16_t first, std::uint16_t last) {
   return index >= first && index <= last;
 }
@@ -37,6 +39,12 @@ bool is_fixed(const Item& item, bool has_subs) {
   }
   return item.index == 0x1000 || is_between(item.index, 0x1005, 0x1007) || is_between(item.index, 0x1012, 0x1019) ||
          is_between(item.index, 0x1200, 0x1BFF);
+}
+
+// RAM and constants are not stored.
+bool is_storage_group(std::string_view name) {
+  const std::string id = identifier(name);
+  return !name.empty() && id != "ram" && id != "rom" && id != "const_" && id != "constant" && id != "constants";
 }
 
 class Items {
@@ -94,6 +102,7 @@ class Items {
     item.index = object.index;
     item.sub_index = sub_index;
     item.name = has_subs ? name_of(object, entry) : entry.name.text;
+    item.own_name = entry.name.text;
     item.span = entry.span;
     item.access = entry.access.value;
     item.pdo = entry.pdo_mapping.value;
@@ -257,6 +266,8 @@ class Items {
     if (item.place != nullptr && item.place->service != Service::value) {
       constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
+    } else if (item.place != nullptr || item.index == error_register) {
+      set_variable(item, has_subs);  // the stack reads and writes it
     } else if (item.has_own_type || entry.node.extension_io.value) {
       set_own_type(item);
     } else if (is_external(item, entry)) {
@@ -432,7 +443,12 @@ class Items {
                            item.storage == Storage::domain || item.storage == Storage::consumer;
     const Field<std::string>& named =
         entry.node.storage_group.is_given ? entry.node.storage_group : object.node.storage_group;
-    if (!is_memory || named.value.empty() || named.value == "RAM" || item.access == Access::constant) {
+    if (!is_memory || !is_storage_group(named.value) || item.access == Access::constant) {
+      return;
+    }
+    const auto option = options_.store.find(named.value);
+    if (option != options_.store.end() && option->second == 0) {
+      plan_.unstored.insert(named.value);
       return;
     }
     for (std::size_t n = 1; n < plan_.groups.size(); ++n) {

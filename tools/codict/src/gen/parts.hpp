@@ -9,7 +9,7 @@ namespace lexican::codict::gen {
 
 void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings);
 void plan_names(const Options& options, Plan& plan, Findings& findings);
-void plan_groups(Plan& plan, Findings& findings);
+void plan_groups(const Options& options, Plan& plan, Findings& findings);
 void plan_limited_types(Plan& plan);
 void plan_pdos(Plan& plan, Findings& findings);
 

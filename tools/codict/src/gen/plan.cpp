@@ -92,7 +92,7 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
     findings.add(rules::count, {}, fmt::format("{} entries", plan.items.size()));
   }
   plan_names(options, plan, findings);
-  plan_groups(plan, findings);
+  plan_groups(options, plan, findings);
   plan_limited_types(plan);
   plan_pdos(plan, findings);
   return plan;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,10 @@ struct Options {
   std::string name;    ///< of everything that is written: a C identifier
   std::string source;  ///< file name of the description, for the comment at the top
   Language language = Language::c;
-  std::uint32_t string_capacity = 32;  ///< bytes of a string that can be written and whose length nobody says
-  bool unique_names = false;           ///< two entries with one name are an error
-  bool trigger_tpdos = false;          ///< flag A for all that a TPDO may map
+  std::uint32_t string_capacity = 32;         ///< bytes of a string that can be written and whose length nobody says
+  bool unique_names = false;                  ///< two entries with one name are an error
+  bool trigger_tpdos = false;                 ///< flag A for all that a TPDO may map
+  std::map<std::string, std::uint8_t> store;  ///< sub-indexes of 1010h by storage group; 0: the group is not stored
 };
 
 /// Where the value of an entry is.
@@ -51,7 +53,8 @@ struct Limits {
 struct Item {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  std::string name;  ///< of the description, for comments
+  std::string name;      ///< of the description, for comments
+  std::string own_name;  ///< the same without the name of the object around it
   Span span;
   Access access = Access::ro;
   PdoMapping pdo = PdoMapping::no;
@@ -105,6 +108,7 @@ struct Group {
   std::string name;               ///< of the description: "PERSIST_COMM"
   std::string id;                 ///< "persist_comm"
   std::uint8_t sub_index = 0;     ///< of 1010h; 0: none
+  std::uint8_t restore_sub = 0;   ///< of 1011h; 0: none
   bool is_communication = false;  ///< all of it is loaded by "reset communication"
   std::uint32_t com_size = 0;     ///< otherwise: bytes at the beginning that are
   std::vector<Member> members;    ///< in the order of their memory
@@ -123,7 +127,9 @@ struct Plan {
   std::vector<Group> groups;
   std::vector<PdoSum> pdos;
   std::map<std::string, unsigned> labels;  ///< CO_countLabel, and how many objects have it
+  std::set<std::string> unstored;          ///< storage groups that the options leave in the RAM
   bool stores_all = false;                 ///< sub 1 of 1010h stands for the others
+  bool restores_all = false;               ///< sub 1 of 1011h stands for the others
 
   const Item* find(std::uint16_t index, std::uint8_t sub_index) const;
 };

@@ -13,7 +13,8 @@ const Rule place{"gen-place", Severity::warning, "communication object with anot
 const Rule name{"gen-name", Severity::error, "two entries or storage groups with one name in C"};
 const Rule name_shared{"gen-name-shared", Severity::note, "entries with equal names"};
 const Rule count{"gen-count", Severity::error, "dictionary without entries, or with more than 65534"};
-const Rule store{"gen-store", Severity::error, "storage group without a sub-index of 1010h"};
+const Rule store{"gen-store", Severity::error, "storage group without a sub-index of 1010h, or with several that fit"};
+const Rule restore{"gen-restore", Severity::warning, "storage group that no sub-index of 1011h restores"};
 const Rule store_joined{"gen-store-joined", Severity::warning,
                         "storage groups joined, as 1010h has one sub-index only"};
 const Rule store_unused{"gen-store-unused", Severity::warning,
@@ -37,11 +38,11 @@ namespace lexican::codict::gen {
 
 const std::vector<const Rule*>& all_rules() {
   static const std::vector<const Rule*> all = {
-      &rules::type,         &rules::access,        &rules::value,        &rules::value_none,     &rules::node_id,
-      &rules::no_subs,      &rules::place,         &rules::name,         &rules::name_shared,    &rules::count,
-      &rules::store,        &rules::store_joined,  &rules::store_unused, &rules::pdo_bits,       &rules::pdo_object,
-      &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,       &rules::limits_default, &rules::sub_zero,
-      &rules::cob_id,       &rules::left_out,      &rules::external,     &rules::capacity};
+      &rules::type,       &rules::access,       &rules::value,         &rules::value_none,   &rules::node_id,
+      &rules::no_subs,    &rules::place,        &rules::name,          &rules::name_shared,  &rules::count,
+      &rules::store,      &rules::restore,      &rules::store_joined,  &rules::store_unused, &rules::pdo_bits,
+      &rules::pdo_object, &rules::pdo_mappable, &rules::pdo_direction, &rules::limits,       &rules::limits_default,
+      &rules::sub_zero,   &rules::cob_id,       &rules::left_out,      &rules::external,     &rules::capacity};
   return all;
 }
 

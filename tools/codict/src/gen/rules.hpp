@@ -21,6 +21,7 @@ extern const Rule name_shared;
 extern const Rule count;
 extern const Rule store;
 extern const Rule store_joined;
+extern const Rule restore;
 extern const Rule store_unused;
 extern const Rule pdo_bits;
 extern const Rule pdo_object;

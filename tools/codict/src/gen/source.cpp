@@ -452,12 +452,14 @@ class SourceText {
   }
 
   std::string para_of(const Item& item) const {
+    const bool stores = item.index == 0x1010;
     for (const Group& group : plan_.groups) {
-      if (group.sub_index != 0 && group.sub_index == item.sub_index) {
+      if (group.sub_index != 0 && (stores ? group.sub_index : group.restore_sub) == item.sub_index) {
         return struct_of(group, options_) + "_para";
       }
     }
-    return item.sub_index == 1 && plan_.stores_all ? "all_groups" : "no_group";
+    const bool is_all = stores ? plan_.stores_all : plan_.restores_all;
+    return item.sub_index == 1 && is_all ? "all_groups" : "no_group";
   }
 
   // Power-on values

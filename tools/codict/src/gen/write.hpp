@@ -24,8 +24,17 @@ struct Cost {
 
 std::vector<Cost> costs_of(const Plan& plan);
 
-/// Symbols that the application has to define, as declarations of C.
-std::vector<std::string> externals_of(const Plan& plan, const Options& options);
+/// A symbol that the application has to define.
+struct External {
+  std::string name;         ///< "clock_2002_0"
+  std::string declaration;  ///< "extern CO_OBJ_DOM clock_2002_0;"
+  std::string about;        ///< "2002h sub 0: Firmware, DOMAIN wo"
+};
+
+std::vector<External> externals_of(const Plan& plan, const Options& options);
+
+/// The source of a file, C and C++ alike, which defines these symbols.
+std::string write_stubs(const Plan& plan, const Options& options);
 
 /// \name Names that header and source share
 /// \{

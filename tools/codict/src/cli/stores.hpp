@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file stores.hpp
+/// --store GROUP=SUB, the sub-index of 1010h for a storage group.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "gen/plan.hpp"
+
+namespace lexican::codict::cli {
+
+void add_stores(CLI::App& command, std::vector<std::string>& stores);
+
+/// Returns false after a message if one of them is malformed.
+bool parse_stores(const std::vector<std::string>& stores, gen::Options& options);
+
+}  // namespace lexican::codict::cli

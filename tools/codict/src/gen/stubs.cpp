@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// First versions of the symbols that the application has to define: they compile, and the node starts with them.
+#include <algorithm>
+
+#include "gen/names.hpp"
+#include "gen/text.hpp"
+#include "gen/write.hpp"
+
+namespace lexican::codict::gen {
+
+namespace {
+
+constexpr std::uint32_t memory_size = 32;
+
+std::string about(const Item& item) {
+  return fmt::format("{}: {}, {} {}", place_name(item), comment_text(item.name), data_type(item.form->code).name,
+                     name_of(item.access));
+}
+
+std::string_view memory_type(const Item& item) {
+  if (item.form->bytes != 0) {
+    return item.form->variable;
+  }
+  return item.form->code == type_code::domain ? "CO_OBJ_DOM"
+         : item.type == "CO_TSTRING"          ? "CO_OBJ_STR"
+                                              : "CO_OBJ_STR_RW";
+}
+
+void write_memory(const Item& item, const std::string& symbol, Lines& out) {
+  const std::string_view type = memory_type(item);
+  if (item.form->bytes != 0) {
+    out.add("{} {};", type, symbol);
+  } else if (type == "CO_OBJ_STR") {
+    out.add("static const uint8_t {}_text[] = \"\";", symbol);
+    out.add("CO_OBJ_STR {0} = {{0, {0}_text}};", symbol);
+  } else {
+    const bool is_wide = item.form->alignment == 2;
+    out.add("static {} {}_memory[{}];", is_wide ? "uint16_t" : "uint8_t", symbol,
+            is_wide ? memory_size / 2 : memory_size);
+    out.add("{0} {1} = {{0, {2}sizeof {1}_memory, (uint8_t *){1}_memory}};", type, symbol,
+            type == "CO_OBJ_DOM" ? "" : "0, ");
+  }
+}
+
+// The variable has the value: the type does what the type of the stack does.
+constexpr const char* forwarding_functions = R"(static uint32_t {0}_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {{
+  return {1}->Size(obj, node, width);
+}}
+static CO_ERR {0}_init(CO_OBJ *obj, CO_NODE *node) {{ return {1}->Init == NULL ? CO_ERR_NONE : {1}->Init(obj, node); }}
+static CO_ERR {0}_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {{
+  return {1}->Read(obj, node, buffer, size);
+}}
+static CO_ERR {0}_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {{
+  return {1}->Write(obj, node, buffer, size);
+}}
+)";
+
+// There is no variable: the stub has one.
+constexpr const char* own_functions = R"(static uint8_t {0}_value[{1}];
+static uint32_t {0}_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {{
+  (void)obj;
+  (void)node;
+  (void)width;
+  return sizeof {0}_value;
+}}
+static CO_ERR {0}_init(CO_OBJ *obj, CO_NODE *node) {{
+  (void)obj;
+  (void)node;
+  return CO_ERR_NONE;
+}}
+static CO_ERR {0}_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {{
+  (void)obj;
+  (void)node;
+  if (size != sizeof {0}_value) {{
+    return CO_ERR_OBJ_SIZE;
+  }}
+  memcpy(buffer, {0}_value, size);
+  return CO_ERR_NONE;
+}}
+static CO_ERR {0}_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {{
+  (void)obj;
+  (void)node;
+  if (size != sizeof {0}_value) {{
+    return CO_ERR_OBJ_SIZE;
+  }}
+  memcpy({0}_value, buffer, size);
+  return CO_ERR_NONE;
+}}
+)";
+
+void write_type(const Item& item, const std::string& symbol, Lines& out) {
+  if (item.storage == Storage::variable) {
+    out.add(forwarding_functions, symbol, item.type);
+  } else {
+    out.add(own_functions, symbol, item.form->bytes != 0 ? item.form->bytes : memory_size);
+  }
+  out.add("const CO_OBJ_TYPE {0}_type = {{{0}_size, {0}_init, {0}_read, {0}_write, NULL}};", symbol);
+}
+
+bool is_external(const Item& item) { return item.has_own_type || item.storage == Storage::external; }
+
+}  // namespace
+
+std::vector<External> externals_of(const Plan& plan, const Options& options) {
+  std::vector<External> all;
+  for (const Item& item : plan.items) {
+    const std::string name = external_of(item, options);
+    if (item.has_own_type) {
+      all.push_back({name + "_type", fmt::format("extern const CO_OBJ_TYPE {}_type;", name), about(item)});
+    } else if (item.storage == Storage::external) {
+      all.push_back({name, fmt::format("extern {} {};", memory_type(item), name), about(item)});
+    }
+  }
+  return all;
+}
+
+std::string write_stubs(const Plan& plan, const Options& options) {
+  Lines out;
+  out.add("// First versions of what the application defines for {}_od.h, written by codict gen from {}.", options.name,
+          comment_text(options.source));
+  out.add("// Replace them. codict does not change this file again.");
+  out.add("#include \"{}_od.h\"\n\n#include <stddef.h>\n#include <string.h>", options.name);
+  for (const Item& item : plan.items) {
+    if (!is_external(item)) {
+      continue;
+    }
+    out.add("\n// {}", about(item));
+    if (item.has_own_type) {
+      write_type(item, external_of(item, options), out);
+    } else {
+      write_memory(item, external_of(item, options), out);
+    }
+  }
+  return out.take();
+}
+
+}  // namespace lexican::codict::gen

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which sub-index of 1010h stores a storage group, and which one of 1011h restores it.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generating.hpp"
+
+using namespace lexican::codict;
+
+using test::generate;
+using test::Generated;
+using test::record;
+using test::sub;
+using test::variable;
+
+namespace {
+
+using Names = std::vector<std::pair<int, std::string>>;  // sub-index and name
+
+// 1010h or 1011h; sub-index 1 is in all of them.
+std::string stores(const char* index, const Names& names) {
+  std::string eds = record(index) + sub(fmt::format("{}sub0", index).c_str(), 5, "ro", "127") +
+                    sub(fmt::format("{}sub1", index).c_str(), 7, "rw", "1");
+  for (const auto& [number, name] : names) {
+    eds +=
+        fmt::format("[{}sub{:X}]\nParameterName={}\nDataType=7\nAccessType=rw\nDefaultValue=1\n", index, number, name);
+  }
+  return eds;
+}
+
+std::string stored(const char* index, const std::string& group) {
+  return variable(index, 5, "rw", fmt::format(";StorageLocation={}\n", group).c_str());
+}
+
+// Whether an entry of 1010h or 1011h names the CO_PARA of a group.
+bool is_stored_by(const Generated& generated, const char* entry, const char* type, const char* group) {
+  return generated.has(fmt::format("{{SMALL_{} | CO_OBJ_____RW, {}, (CO_DATA)(&small_{}_para)}},", entry, type, group));
+}
+
+bool saves(const Generated& generated, const char* entry, const char* group) {
+  return is_stored_by(generated, entry, "CO_TPARA_STORE", group);
+}
+
+bool restores(const Generated& generated, const char* entry, const char* group) {
+  return is_stored_by(generated, entry, "CO_TPARA_RESTORE", group);
+}
+
+const Names standard_names = {{2, "Save communication parameters"},
+                              {3, "Save application parameters"},
+                              {4, "Save manufacturer defined parameters"}};
+
+Names with(Names names, int number, const char* name) {
+  names.emplace_back(number, name);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("gen: a storage group that a sub-index of 1010h names is stored by that sub-index") {
+  const std::string store = stores("1010", with(standard_names, 5, "Save PERSIST_APP"));
+  const Generated generated = generate(store + stored("1017", "PERSIST_COMM") + stored("2000", "PERSIST_APP"));
+  CHECK(saves(generated, "1010_2", "persist_comm"));
+  CHECK(saves(generated, "1010_5", "persist_app"));
+  CHECK_FALSE(saves(generated, "1010_3", "persist_app"));
+}
+
+TEST_CASE("gen: names of storage groups are compared as whole words, in any case") {
+  const Names names = {{2, "Save communication parameters"},
+                       {3, "Save application parameters"},
+                       {5, "save persist_app_auto, stored by itself"},
+                       {6, "Save Persist Drive"},
+                       {7, "SAVE PERSIST_MOTOR2"},
+                       {8, "Save PERSIST_MOTOR"}};
+  const Generated generated =
+      generate(stores("1010", names) + stored("2000", "PERSIST_APP") + stored("2001", "PERSIST_APP_AUTO") +
+               stored("2002", "PERSIST_DRIVE") + stored("2003", "Persist_Motor") + stored("2004", "persist_motor2"));
+  CHECK(saves(generated, "1010_3", "persist_app"));
+  CHECK(saves(generated, "1010_5", "persist_app_auto"));
+  CHECK(saves(generated, "1010_6", "persist_drive"));
+  CHECK(saves(generated, "1010_7", "persist_motor2"));
+  CHECK(saves(generated, "1010_8", "persist_motor"));
+}
+
+TEST_CASE("gen: without such names, 2 is communication, 3 is application and 4 is the manufacturer's") {
+  const Names names = {{2, "Sub 2"}, {3, "Store parameters 3"}, {4, "Sub 4"}};
+  const Generated generated = generate(stores("1010", names) + stored("1017", "PERSIST_COMM") +
+                                       stored("2000", "PERSIST_APP") + stored("2001", "PERSIST_MFR"));
+  CHECK(saves(generated, "1010_2", "persist_comm"));
+  CHECK(saves(generated, "1010_3", "persist_app"));
+  CHECK(saves(generated, "1010_4", "persist_mfr"));
+  // A group with nothing but objects of the communication profile is for communication, whatever it is called.
+  CHECK(saves(generate(stores("1010", names) + stored("1017", "EEPROM")), "1010_2", "eeprom"));
+  // A group of another name is the manufacturer's if there is one place for it.
+  CHECK(saves(generate(stores("1010", names) + stored("2000", "DRIVE")), "1010_4", "drive"));
+}
+
+TEST_CASE("gen: a storage group that could be stored by several sub-indexes, or by none, is an error") {
+  const auto found = [](const Names& names, const std::string& objects) {
+    const Generated generated = generate(stores("1010", names) + objects);
+    CHECK(generated.output.files.empty());
+    return generated.found.find("gen-store\n") != std::string::npos;
+  };
+  // Sub-index 3 is described as something else.
+  CHECK(found({{2, "Save communication parameters"}, {3, "Save calibration"}}, stored("2000", "PERSIST_APP")));
+  // Two groups, and nothing tells which is which.
+  CHECK(found({{2, "Sub 2"}, {4, "Sub 4"}, {5, "Sub 5"}}, stored("2000", "DRIVE") + stored("2001", "BRAKE")));
+  // Two sub-indexes of one name.
+  CHECK(found({{4, "Save DRIVE"}, {5, "Save drive"}}, stored("2000", "DRIVE")));
+}
+
+TEST_CASE("gen: 1011h restores a group by the sub-index that names it, else by that of 1010h") {
+  const std::string store = stores("1010", with(standard_names, 5, "Save PERSIST_APP"));
+  const std::string objects = stored("1017", "PERSIST_COMM") + stored("2000", "PERSIST_APP");
+  const Names same = with({{2, "Load 2"}, {3, "Load 3"}, {4, "Load 4"}}, 5, "Load 5");
+  const Generated by_number = generate(store + stores("1011", same) + objects);
+  CHECK(restores(by_number, "1011_2", "persist_comm"));
+  CHECK(restores(by_number, "1011_5", "persist_app"));
+  const Names others = with({{2, "Restore communication parameters"}, {3, "Load 3"}}, 4, "Restore PERSIST_APP");
+  const Generated by_name = generate(store + stores("1011", others) + objects);
+  CHECK(restores(by_name, "1011_2", "persist_comm"));
+  CHECK(restores(by_name, "1011_4", "persist_app"));
+  CHECK(saves(by_name, "1010_5", "persist_app"));
+  const Generated missing = generate(store + stores("1011", {{2, "Restore communication parameters"}}) + objects);
+  CHECK(missing.found.find("gen-restore\n") != std::string::npos);
+}
+
+TEST_CASE("gen: RAM, ROM and constants are no storage groups") {
+  for (const char* group : {"RAM", "ROM", "rom", "const", "CONSTANT"}) {
+    CAPTURE(group);
+    const Generated generated =
+        generate(stores("1010", standard_names) + stored("2000", group) + stored("2001", "PERSIST_APP"));
+    CHECK(generated.has("(CO_DATA)(&small_ram.od_2000_0)"));
+    CHECK(saves(generated, "1010_3", "persist_app"));
+  }
+  const Generated alone = generate(record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1") +
+                                   stored("2000", "ROM") + stored("2001", "EEPROM"));
+  CHECK(alone.found == "");
+  CHECK(saves(alone, "1010_1", "eeprom"));
+}
+
+TEST_CASE("gen: --store gives a storage group its sub-index, or leaves it in RAM") {
+  const std::string store = stores("1010", {{2, "Sub 2"}, {4, "Sub 4"}, {5, "Sub 5"}});
+  const std::string objects = stored("2000", "DRIVE") + stored("2001", "BRAKE");
+  gen::Options options;
+  options.store = {{"DRIVE", 5}, {"BRAKE", 4}};
+  const Generated both = generate(store + objects, options);
+  CHECK(saves(both, "1010_5", "drive"));
+  CHECK(saves(both, "1010_4", "brake"));
+  options.store = {{"DRIVE", 5}, {"BRAKE", 0}};
+  const Generated one = generate(store + objects, options);
+  CHECK(saves(one, "1010_5", "drive"));
+  CHECK(one.has("(CO_DATA)(&small_ram.od_2001_0)"));
+  options.store = {{"DRIVE", 6}, {"BRAKE", 4}};
+  CHECK(generate(store + objects, options).says("--store DRIVE=6: sub-index 6 of 1010h is missing"));
+  options.store = {{"DRIVE", 4}, {"BRAKE", 4}};
+  CHECK(generate(store + objects, options).output.files.empty());
+  for (const std::uint8_t sub_index : {std::uint8_t{0}, std::uint8_t{4}}) {
+    options.store = {{"DRVE", sub_index}, {"DRIVE", 5}, {"BRAKE", 4}};
+    CHECK(generate(store + objects, options).says("--store DRVE: no storage group DRVE; storage groups: DRIVE, BRAKE"));
+  }
+}
+
+TEST_CASE("gen: the error of a storage group without sub-index says which there are, and what to do") {
+  const Names names = {{2, "Save communication parameters"}, {3, "Save calibration"}};
+  const Generated generated = generate(stores("1010", names) + stored("2000", "PERSIST_APP"));
+  CHECK(
+      generated.says("storage group PERSIST_APP: no sub-index of 1010h is named for it; 1010h has 2 \"Save "
+                     "communication parameters\", 3 \"Save calibration\""));
+  CHECK(generated.says("--store PERSIST_APP=SUB"));
+}
+
+TEST_CASE("gen: names of sub-indexes and storage groups may be anything") {
+  const std::string junk(500, '_');
+  for (const std::string& name :
+       {std::string(), junk, std::string("\xFF\xFE="), std::string("PERSIST_"), std::string("=")}) {
+    const Generated generated =
+        generate(stores("1010", {{2, name}, {3, name}}) + stored("2000", name + "X") + stored("1017", "COM" + name));
+    CHECK(!generated.found.empty());
+  }
+}
