@@ -85,6 +85,21 @@ TEST_CASE("gen: names of storage groups are compared as whole words, in any case
   CHECK(saves(generated, "1010_8", "persist_motor"));
 }
 
+TEST_CASE("gen: the storage groups of CANopenNode's example device are stored as its sub-objects are named") {
+  const Names names = {{2, "Save communication parameters"},
+                       {3, "Save application parameters"},
+                       {4, "Save LSS parameters"},
+                       {5, "Save testing parameters"},
+                       {6, "Save testing auto-store parameters"}};
+  const Generated generated =
+      generate(stores("1010", names) + stored("1017", "PERSIST_COMM") + stored("2000", "PERSIST_TEST") +
+               stored("2001", "PERSIST_TEST_AUTO") + stored("2002", "PERSIST_LSS"));
+  CHECK(saves(generated, "1010_2", "persist_comm"));
+  CHECK(saves(generated, "1010_4", "persist_lss"));
+  CHECK(saves(generated, "1010_5", "persist_test"));
+  CHECK(saves(generated, "1010_6", "persist_test_auto"));
+}
+
 TEST_CASE("gen: without such names, 2 is communication, 3 is application and 4 is the manufacturer's") {
   const Names names = {{2, "Sub 2"}, {3, "Store parameters 3"}, {4, "Sub 4"}};
   const Generated generated = generate(stores("1010", names) + stored("1017", "PERSIST_COMM") +

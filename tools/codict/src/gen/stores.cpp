@@ -33,11 +33,17 @@ constexpr const char* communication = "communication";
 constexpr const char* application = "application";
 constexpr const char* manufacturer = "manufacturer";
 
-const std::map<std::string_view, const char*> abbreviations = {
-    {"com", communication},  {"comm", communication},       {"communications", communication},
-    {"app", application},    {"appl", application},         {"applications", application},
-    {"mfr", manufacturer},   {"manufacture", manufacturer}, {"manufacturers", manufacturer},
-    {"vendor", manufacturer}};
+const std::map<std::string_view, const char*> abbreviations = {{"com", communication},
+                                                               {"comm", communication},
+                                                               {"communications", communication},
+                                                               {"app", application},
+                                                               {"appl", application},
+                                                               {"applications", application},
+                                                               {"testing", "test"},
+                                                               {"mfr", manufacturer},
+                                                               {"manufacture", manufacturer},
+                                                               {"manufacturers", manufacturer},
+                                                               {"vendor", manufacturer}};
 
 bool is_upper(char character) { return character >= 'A' && character <= 'Z'; }
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
