@@ -39,6 +39,13 @@ TEST_CASE("codict: without a command, or with a wrong one, it says how it is use
   CHECK(has(run("check --nonsense octal.eds").err, "--nonsense"));
 }
 
+TEST_CASE("codict: an unknown word for an option is refused with the words that it accepts") {
+  const Ran wrong = run("check octal.eds --level loud");
+  CHECK(wrong.status == 2);
+  CHECK(has(wrong.err, "--level: loud not in {note,warning,error}\n"));
+  CHECK(run("check octal.eds --level 2").status == 2);
+}
+
 TEST_CASE("codict: no help has control characters, and all formats are named") {
   CHECK(has(run("--help").out, "XPD"));
   for (const char* command : {"check", "completion", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",

@@ -190,38 +190,36 @@ int run(Options options) {
 
 }  // namespace
 
-Command add_check(CLI::App& app) {
+Command add_check(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("check", "Say what is wrong or odd in descriptions");
-  command->add_option("file", options->files, file_help)->required();
-  const std::map<std::string, Severity> levels = {
+  Arguments command = line.add_command("check", "Say what is wrong or odd in descriptions");
+  command.add_option("file", options->files, file_help).required();
+  const Choices<Severity> levels = {
       {"note", Severity::note}, {"warning", Severity::warning}, {"error", Severity::error}};
-  command->add_option("--level", options->level, "Least severity that is shown and counts: note, warning, error")
-      ->transform(CLI::CheckedTransformer(levels).description(""))
-      ->default_str("warning");
-  command->add_option("--disable", options->disabled, "Rule that is left out; may be given several times")
-      ->allow_extra_args(false);
+  command.add_choice("--level", options->level, levels, "Least severity that is shown and counts: note, warning, error")
+      .default_text("warning");
+  command.add_option("--disable", options->disabled, "Rule that is left out; may be given several times")
+      .single_values();
   command
-      ->add_option("--profile", options->profile,
-                   "Check the objects of a device profile, too: 401, 402, or auto, which is what object 1000h says")
-      ->check(CLI::IsMember({"401", "402", "auto"}).description(""));
-  command->add_flag("--werror", options->is_strict, "Take warnings for errors");
-  CLI::Option* const known =
-      command->add_option("--baseline", options->baseline, "File of findings that are known: only others are told");
+      .add_option("--profile", options->profile,
+                  "Check the objects of a device profile, too: 401, 402, or auto, which is what object 1000h says")
+      .one_of({"401", "402", "auto"});
+  command.add_flag("--werror", options->is_strict, "Take warnings for errors");
+  const Option known =
+      command.add_option("--baseline", options->baseline, "File of findings that are known: only others are told");
   command
-      ->add_option("--write-baseline", options->new_baseline,
-                   "Write what is found into a file for --baseline, and tell nothing")
-      ->excludes(known);
-  command->add_flag("--all", options->shows_all, "Show equal findings each, not the first and how many follow");
-  const std::map<std::string, Form> forms = {
+      .add_option("--write-baseline", options->new_baseline,
+                  "Write what is found into a file for --baseline, and tell nothing")
+      .excludes(known);
+  command.add_flag("--all", options->shows_all, "Show equal findings each, not the first and how many follow");
+  const Choices<Form> forms = {
       {"gcc", Form::gcc}, {"json", Form::json}, {"sarif", Form::sarif}, {"github", Form::github}};
-  CLI::Option* const form =
+  const Option form =
       command
-          ->add_option("--error-format", options->form,
-                       "gcc: lines for people and editors; json, sarif (2.1.0): for programs; github: annotations")
-          ->transform(CLI::CheckedTransformer(forms).description(""))
-          ->default_str("gcc");
-  command->add_flag("--json", options->is_json, "The same as --error-format json")->excludes(form);
+          .add_choice("--error-format", options->form, forms,
+                      "gcc: lines for people and editors; json, sarif (2.1.0): for programs; github: annotations")
+          .default_text("gcc");
+  command.add_flag("--json", options->is_json, "The same as --error-format json").excludes(form);
   return {command, [options] { return run(*options); }};
 }
 

@@ -173,11 +173,11 @@ const Entry* find(const Device& device, const Reference& reference) {
   return reference.sub_index ? device.find(reference.index, *reference.sub_index) : device.find(reference.index);
 }
 
-void add_node_id(CLI::App& command, std::uint8_t& node_id) {
+void add_node_id(Arguments& command, std::uint8_t& node_id) {
   command
       .add_option("--node-id", node_id,
                   "Node-ID with which COB-IDs are shown; without it, that of the description, or 1")
-      ->check(CLI::Range(1, 127).description(""));
+      .in_hidden_range(1, 127);
 }
 
 std::uint8_t node_id_of(const Device& device, std::uint8_t asked) {

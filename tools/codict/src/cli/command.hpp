@@ -3,7 +3,6 @@
 /// What the commands share: a file each, and a row in main.cpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "catalogue/suppress.hpp"
+#include "cli/arguments.hpp"
 #include "eds/document.hpp"
 #include "json/document.hpp"
 #include "model/device.hpp"
@@ -32,26 +32,26 @@ enum Status : int {
 };
 
 struct Command {
-  CLI::App* app = nullptr;
+  Arguments arguments;
   std::function<int()> run;
 };
 
-Command add_check(CLI::App& app);
-Command add_completion(CLI::App& app);
-Command add_convert(CLI::App& app);
-Command add_diff(CLI::App& app);
-Command add_doc(CLI::App& app);
-Command add_explain(CLI::App& app);
-Command add_gen(CLI::App& app);
-Command add_get(CLI::App& app);
-Command add_info(CLI::App& app);
-Command add_list(CLI::App& app);
-Command add_man(CLI::App& app);
-Command add_merge(CLI::App& app);
-Command add_fmt(CLI::App& app);
-Command add_pdo(CLI::App& app);
-Command add_set(CLI::App& app);
-Command add_size(CLI::App& app);
+Command add_check(CommandLine& line);
+Command add_completion(CommandLine& line);
+Command add_convert(CommandLine& line);
+Command add_diff(CommandLine& line);
+Command add_doc(CommandLine& line);
+Command add_explain(CommandLine& line);
+Command add_gen(CommandLine& line);
+Command add_get(CommandLine& line);
+Command add_info(CommandLine& line);
+Command add_list(CommandLine& line);
+Command add_man(CommandLine& line);
+Command add_merge(CommandLine& line);
+Command add_fmt(CommandLine& line);
+Command add_pdo(CommandLine& line);
+Command add_set(CommandLine& line);
+Command add_size(CommandLine& line);
 
 using Json = nlohmann::ordered_json;
 
@@ -112,7 +112,7 @@ const Entry* find(const Device& device, const Reference& reference);
 constexpr const char* file_help = "EDS, DCF, XDD, XDC, XPD or JSON, - for the standard input";
 
 /// --node-id: 0 until the user says one.
-void add_node_id(CLI::App& command, std::uint8_t& node_id);
+void add_node_id(Arguments& command, std::uint8_t& node_id);
 /// What the user says, else what the device is configured to, else 1.
 std::uint8_t node_id_of(const Device& device, std::uint8_t asked);
 

@@ -164,26 +164,25 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_convert(CLI::App& app) {
+Command add_convert(CommandLine& line) {
   std::vector<std::string> names;
   names.reserve(products.size());
   for (const Product& product : products) {
     names.emplace_back(product.name);
   }
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("convert", "Write a description in another format");
-  command->add_option("file", options->file, file_help)->required();
+  Arguments command = line.add_command("convert", "Write a description in another format");
+  command.add_option("file", options->file, file_help).required();
   command
-      ->add_option("-o,--output", options->output,
-                   "File that ends with .eds, .dcf, .xdd, .xdc or .json, - for the standard output")
-      ->required();
+      .add_option("-o,--output", options->output,
+                  "File that ends with .eds, .dcf, .xdd, .xdc or .json, - for the standard output")
+      .required();
   command
-      ->add_option("--to", options->format,
-                   "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
-      ->check(CLI::IsMember(std::move(names)).description(""));
-  command->add_flag("--all", options->is_all,
-                    "Name each place of what the format has no words for, not the first ones");
-  command->add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
+      .add_option("--to", options->format,
+                  "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
+      .one_of(std::move(names));
+  command.add_flag("--all", options->is_all, "Name each place of what the format has no words for, not the first ones");
+  command.add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};
 }
 

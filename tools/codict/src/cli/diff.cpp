@@ -130,25 +130,22 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_diff(CLI::App& app) {
+Command add_diff(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("diff", "Compare two descriptions by what they mean");
-  command->add_option("before", options->before, file_help)->required();
-  command->add_option("after", options->after, file_help)->required();
-  std::map<std::string, Kind> names;
+  Arguments command = line.add_command("diff", "Compare two descriptions by what they mean");
+  command.add_option("before", options->before, file_help).required();
+  command.add_option("after", options->after, file_help).required();
+  Choices<Kind> names;
   for (const Kind kind : kinds) {
-    names.emplace(name_of(kind), kind);
+    names.emplace_back(name_of(kind), kind);
   }
-  command
-      ->add_option(
-          "--only", options->only,
-          "Kind that is shown and counts: breaking, compatible, configuration, text, file; may be given several "
-          "times")
-      ->transform(CLI::CheckedTransformer(names).description(""))
-      ->allow_extra_args(false);
-  command->add_flag("--release", options->is_release,
-                    "Status 1 only if something breaks networks and the major revision number has not been raised");
-  command->add_flag("--json", options->is_json, "For programs");
+  command.add_choices(
+      "--only", options->only, names,
+      "Kind that is shown and counts: breaking, compatible, configuration, text, file; may be given several "
+      "times");
+  command.add_flag("--release", options->is_release,
+                   "Status 1 only if something breaks networks and the major revision number has not been raised");
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -34,15 +34,16 @@ int run(Options options) {
 
 }  // namespace
 
-Command add_doc(CLI::App& app) {
+Command add_doc(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("doc", "Document a device, as Markdown or as one HTML page");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
-      ->required();
-  command->add_option("--to", options->format, "md or html")->check(CLI::IsMember({"md", "html"}).description(""));
-  add_node_id(*command, options->doc.node_id);
-  command->add_option("--language", options->doc.language, "Of labels and descriptions")->capture_default_str();
+  Arguments command = line.add_command("doc", "Document a device, as Markdown or as one HTML page");
+  command.add_option("file", options->file, file_help).required();
+  command.add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
+      .required();
+  command.add_option("--to", options->format, "md or html").one_of({"md", "html"});
+  add_node_id(command, options->doc.node_id);
+  command.add_option("--language", options->doc.language, "Of labels and descriptions")
+      .default_text(options->doc.language);
   return {command, [options] { return run(*options); }};
 }
 

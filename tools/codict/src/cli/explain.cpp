@@ -71,13 +71,12 @@ std::string unknown_rule(const std::string& id) {
   return not_there("rule", id, catalogue::all_ids(), "codict explain");
 }
 
-Command add_explain(CLI::App& app) {
+Command add_explain(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("explain", "Explain a rule of check or gen");
-  CLI::Option* const rule =
-      command->add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
-  command->add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)")->excludes(rule);
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command = line.add_command("explain", "Explain a rule of check or gen");
+  const Option rule = command.add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
+  command.add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)").excludes(rule);
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -44,13 +44,13 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_fmt(CLI::App& app) {
+Command add_fmt(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("fmt", "Write an EDS or DCF in its normal form: the same device");
-  command->add_option("file", options->file, "EDS or DCF, - for the standard input")->required();
-  command->add_option("-o,--output", options->output, "Another file, - for the standard output");
-  command->add_flag("--check", options->is_check, "Write nothing: status 1 if the file would change");
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command = line.add_command("fmt", "Write an EDS or DCF in its normal form: the same device");
+  command.add_option("file", options->file, "EDS or DCF, - for the standard input").required();
+  command.add_option("-o,--output", options->output, "Another file, - for the standard output");
+  command.add_flag("--check", options->is_check, "Write nothing: status 1 if the file would change");
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

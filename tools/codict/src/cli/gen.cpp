@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -244,36 +243,37 @@ std::function<std::string(const std::string&)> ends_with(const char* ending) {
   };
 }
 
-Command add_gen(CLI::App& app) {
+Command add_gen(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("gen", "Make the dictionary of a device: C or C++ source");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp")->required();
-  command->add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes")
-      ->check(ends_with("eds"));
-  command->add_option("--xdd", options->xdd, "Write an XDD of it")->check(ends_with("xdd"));
-  command->add_option(
+  Arguments command = line.add_command("gen", "Make the dictionary of a device: C or C++ source");
+  command.add_option("file", options->file, file_help).required();
+  command.add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp").required();
+  command.add_option("--eds", options->eds, "Write an EDS of the device that the dictionary makes")
+      .check(ends_with("eds"));
+  command.add_option("--xdd", options->xdd, "Write an XDD of it").check(ends_with("xdd"));
+  command.add_option(
       "--stubs", options->stubs,
       "Write first versions of what the application defines to this C or C++ file, if it does not exist");
-  add_stores(*command, options->stores);
-  command->add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
-  const std::map<std::string, gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
-  command->add_option("--language", options->gen.language, "Language of the source: c, c++; the header is of both")
-      ->transform(CLI::CheckedTransformer(languages).description(""))
-      ->default_str("c");
-  command->add_flag("--check", options->is_check, "Write nothing: status 1 if a file would change");
-  command->add_flag("--report", options->is_report, "Bytes of RAM and flash where addresses have 32 bits");
-  command->add_flag("--json", options->is_json, "The same for programs");
-  command->add_flag("--notes", options->shows_notes, "Show notes, too");
-  command->add_flag("--force", options->is_forced, "Make a dictionary although the description has errors");
-  command->add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
-  command->add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
-                    "A change of an object that a TPDO may map triggers it (flag A)");
+  add_stores(command, options->stores);
+  command.add_option("--name", options->gen.name, "Beginning of all names; without it, the name of the file");
+  const Choices<gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command
-      ->add_option("--string-capacity", options->gen.string_capacity,
-                   "Bytes of a string of which nothing says how long it may be")
-      ->check(CLI::Range(1U, 65535U))
-      ->capture_default_str();
+      .add_choice("--language", options->gen.language, languages,
+                  "Language of the source: c, c++; the header is of both")
+      .default_text("c");
+  command.add_flag("--check", options->is_check, "Write nothing: status 1 if a file would change");
+  command.add_flag("--report", options->is_report, "Bytes of RAM and flash where addresses have 32 bits");
+  command.add_flag("--json", options->is_json, "The same for programs");
+  command.add_flag("--notes", options->shows_notes, "Show notes, too");
+  command.add_flag("--force", options->is_forced, "Make a dictionary although the description has errors");
+  command.add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
+  command.add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
+                   "A change of an object that a TPDO may map triggers it (flag A)");
+  command
+      .add_option("--string-capacity", options->gen.string_capacity,
+                  "Bytes of a string of which nothing says how long it may be")
+      .in_range(1, 65535)
+      .default_text(std::to_string(options->gen.string_capacity));
   return {command, [options] { return run(*options); }};
 }
 

@@ -115,15 +115,15 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_get(CLI::App& app) {
+Command add_get(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("get", "Show one value, or all of an object or section");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
-  command->add_option(
+  Arguments command = line.add_command("get", "Show one value, or all of an object or section");
+  command.add_option("file", options->file, file_help).required();
+  command.add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)").required();
+  command.add_option(
       "field", options->field,
       "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key of an EDS");
-  command->add_flag("--json", options->is_json, "For programs");
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -130,11 +130,11 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_info(CLI::App& app) {
+Command add_info(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("info", "Show what device a description is of");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command = line.add_command("info", "Show what device a description is of");
+  command.add_option("file", options->file, file_help).required();
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

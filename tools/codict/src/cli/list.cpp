@@ -89,12 +89,12 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_list(CLI::App& app) {
+Command add_list(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("list", "List the objects of a device");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_flag("--objects", options->has_objects_only, "Without sub-objects");
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command = line.add_command("list", "List the objects of a device");
+  command.add_option("file", options->file, file_help).required();
+  command.add_flag("--objects", options->has_objects_only, "Without sub-objects");
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -14,51 +14,36 @@ namespace {
 
 using namespace lexican::codict::cli;
 
-// What was typed where a command is; empty if there was one.
-std::string unknown_command(const CLI::App& app) {
-  const std::vector<std::string> words = app.remaining();
-  const bool has_none = app.get_subcommands().empty() && !words.empty();
-  return has_none && words.front().substr(0, 1) != "-" ? words.front() : "";
-}
-
 std::string words_for_unknown(const std::string& word, const std::vector<Command>& commands) {
   std::vector<std::string_view> names;
   names.reserve(commands.size());
   for (const Command& command : commands) {
-    names.emplace_back(command.app->get_name());
+    names.emplace_back(command.arguments.name());
   }
   return not_there("command", word, names, "codict --help");
 }
 
 int run(int number, char** arguments) {
-  CLI::App app(
+  CommandLine line(
+      "codict",
       "Reads, checks, edits, compares, converts and documents descriptions of CANopen devices (EDS, DCF, XDD, XDC, "
       "XPD, JSON).",
-      "codict");
-  app.set_version_flag("--version", "codict " LEXICAN_VERSION);
-  app.require_subcommand(1);
-  app.footer(
+      "codict " LEXICAN_VERSION,
       "Exit status: 0 all is well, 1 findings or differences, 2 wrong use or unreadable input, 3 internal error.");
-  const std::vector<Command> commands = {add_info(app),  add_list(app),    add_get(app),        add_set(app),
-                                         add_check(app), add_diff(app),    add_convert(app),    add_merge(app),
-                                         add_fmt(app),   add_doc(app),     add_pdo(app),        add_gen(app),
-                                         add_size(app),  add_explain(app), add_completion(app), add_man(app)};
-  try {
-    app.parse(number, arguments);
-  } catch (const CLI::ParseError& error) {
-    const std::string word = unknown_command(app);
-    if (!word.empty()) {
-      complain(words_for_unknown(word, commands));
-      return unusable;
-    }
-    return app.exit(error) == 0 ? clean : unusable;
+  const std::vector<Command> commands = {add_info(line),  add_list(line),    add_get(line),        add_set(line),
+                                         add_check(line), add_diff(line),    add_convert(line),    add_merge(line),
+                                         add_fmt(line),   add_doc(line),     add_pdo(line),        add_gen(line),
+                                         add_size(line),  add_explain(line), add_completion(line), add_man(line)};
+  const CommandLine::Parsed parsed = line.parse(number, arguments);
+  if (!parsed.unknown_command.empty()) {
+    complain(words_for_unknown(parsed.unknown_command, commands));
   }
   for (const Command& command : commands) {
-    if (command.app->parsed()) {
+    if (command.arguments.name() == parsed.command) {
       return command.run();
     }
   }
-  return unexpected;
+  return parsed.is_refused ? unusable : clean;
 }
 
 }  // namespace

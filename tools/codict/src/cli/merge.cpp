@@ -224,21 +224,21 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_merge(CLI::App& app) {
+Command add_merge(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command =
-      app.add_subcommand("merge", "Put overlays and values over a description, whose other bytes stay as they are");
-  command->add_option("base", options->base, "EDS or DCF")->required();
-  command->add_option("overlay", options->overlays,
-                      "Descriptions, or parts of them, in any format: what they say replaces, or is added");
+  Arguments command =
+      line.add_command("merge", "Put overlays and values over a description, whose other bytes stay as they are");
+  command.add_option("base", options->base, "EDS or DCF").required();
+  command.add_option("overlay", options->overlays,
+                     "Descriptions, or parts of them, in any format: what they say replaces, or is added");
   command
-      ->add_option("--set", options->values,
-                   "vendor, product, revision, serial or version =VALUE, or TARGET.FIELD=VALUE as of set; may be given "
-                   "several times")
-      ->allow_extra_args(false);
-  command->add_option("-o,--output", options->output, "File that is written, - for the standard output")->required();
-  command->add_flag("--force", options->is_forced, "Write it even where it has new errors");
-  command->add_flag("--json", options->is_json, "Replaced values, for programs");
+      .add_option("--set", options->values,
+                  "vendor, product, revision, serial or version =VALUE, or TARGET.FIELD=VALUE as of set; may be given "
+                  "several times")
+      .single_values();
+  command.add_option("-o,--output", options->output, "File that is written, - for the standard output").required();
+  command.add_flag("--force", options->is_forced, "Write it even where it has new errors");
+  command.add_flag("--json", options->is_json, "Replaced values, for programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -160,13 +160,13 @@ int run(Options options) {
 
 }  // namespace
 
-Command add_pdo(CLI::App& app) {
+Command add_pdo(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand("pdo", "Show the PDOs of a device: COB-IDs, times, and what is in them");
-  command->add_option("file", options->file, file_help)->required();
-  add_node_id(*command, options->doc.node_id);
-  command->add_option("--language", options->doc.language, "Of labels")->capture_default_str();
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command = line.add_command("pdo", "Show the PDOs of a device: COB-IDs, times, and what is in them");
+  command.add_option("file", options->file, file_help).required();
+  add_node_id(command, options->doc.node_id);
+  command.add_option("--language", options->doc.language, "Of labels").default_text(options->doc.language);
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -197,19 +197,19 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command add_set(CLI::App& app) {
+Command add_set(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command =
-      app.add_subcommand("set", "Change values of an object or section; all other bytes stay as they are");
-  command->add_option("file", options->file, file_help)->required();
-  command->add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)")->required();
+  Arguments command =
+      line.add_command("set", "Change values of an object or section; all other bytes stay as they are");
+  command.add_option("file", options->file, file_help).required();
+  command.add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)").required();
   command
-      ->add_option("assignment", options->assignments,
-                   "field=value, the fields as those of get; what a description does not have is added")
-      ->required();
-  command->add_option("-o,--output", options->output, "Another file, - for the standard output");
-  command->add_flag("--force", options->is_forced, "Write values even where they are errors");
-  command->add_flag("--json", options->is_json, "For programs");
+      .add_option("assignment", options->assignments,
+                  "field=value, the fields as those of get; what a description does not have is added")
+      .required();
+  command.add_option("-o,--output", options->output, "Another file, - for the standard output");
+  command.add_flag("--force", options->is_forced, "Write values even where they are errors");
+  command.add_flag("--json", options->is_json, "For programs");
   return {command, [options] { return run(*options); }};
 }
 

@@ -12,19 +12,11 @@ namespace lexican::codict::cli {
 
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-std::vector<const CLI::Option*> options_of(const CLI::App& app) {
-  return app.get_options([](const CLI::Option* option) { return !option->get_positional(); });
-}
-
 // "--level --disable …"
-std::string long_names(const CLI::App& app) {
+std::string long_names(const CommandText& command) {
   std::string names;
-  for (const CLI::Option* option : options_of(app)) {
-    for (const std::string& name : option->get_lnames()) {
+  for (const OptionText& option : command.options) {
+    for (const std::string& name : option.long_names) {
       names += (names.empty() ? "--" : " --") + name;
     }
   }
@@ -44,12 +36,12 @@ _codict() {
     case ${COMP_WORDS[1]} in
 )";
 
-std::string completion(const CLI::App& app) {
+std::string completion(const CommandLine& line) {
   std::string script(completion_head);
   std::string names;
-  for (const CLI::App* command : commands_of(app)) {
-    script += fmt::format("      {}) words='{}' ;;\n", command->get_name(), long_names(*command));
-    names += command->get_name() + " ";
+  for (const CommandText& command : line.describe_commands()) {
+    script += fmt::format("      {}) words='{}' ;;\n", command.name, long_names(command));
+    names += command.name + " ";
   }
   return script + fmt::format(R"(    esac
   else
@@ -59,7 +51,7 @@ std::string completion(const CLI::App& app) {
 }}
 complete -o bashdefault -o default -F _codict codict
 )",
-                              names, long_names(app));
+                              names, long_names(line.describe()));
 }
 
 // What roff would take for a hyphen, an escape or a request.
@@ -72,61 +64,61 @@ std::string roff(std::string_view text) {
 }
 
 // "-o, --output TEXT"
-std::string roff_of(const CLI::Option& option) {
+std::string roff_of(const OptionText& option) {
+  if (!option.name.empty()) {
+    return "\\fI" + roff(option.name) + "\\fR";
+  }
   std::string text;
-  for (const std::string& name : option.get_snames()) {
+  for (const std::string& name : option.short_names) {
     text += "\\fB\\-" + roff(name) + "\\fR, ";
   }
-  for (const std::string& name : option.get_lnames()) {
+  for (const std::string& name : option.long_names) {
     text += "\\fB\\-\\-" + roff(name) + "\\fR";
   }
-  const bool is_flag = option.get_items_expected_max() == 0;
-  const std::string type = option.get_type_name();
-  return is_flag ? text : text + " \\fI" + roff(type.substr(0, type.find(':'))) + "\\fR";
+  return option.type.empty() ? text : text + " \\fI" + roff(option.type) + "\\fR";
 }
 
-std::string roff_of(const CLI::App& command) {
-  std::string text = fmt::format(".SS \"codict {}", roff(command.get_name()));
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) {
-      text += fmt::format(option->get_required() ? " {}" : " [{}]", roff(option->get_name(true)));
+std::string roff_of(const CommandText& command) {
+  std::string text = fmt::format(".SS \"codict {}", roff(command.name));
+  for (const OptionText& option : command.options) {
+    if (!option.name.empty()) {
+      text += fmt::format(option.is_required ? " {}" : " [{}]", roff(option.name));
     }
   }
-  text += fmt::format("\"\n{}.\n", roff(command.get_description()));
-  for (const CLI::Option* option : command.get_options()) {
-    text += fmt::format(".TP\n{}\n{}.\n",
-                        option->get_positional() ? "\\fI" + roff(option->get_name(true)) + "\\fR" : roff_of(*option),
-                        roff(option->get_description()));
+  text += fmt::format("\"\n{}.\n", roff(command.help));
+  for (const OptionText& option : command.options) {
+    text += fmt::format(".TP\n{}\n{}.\n", roff_of(option), roff(option.help));
   }
   return text;
 }
 
-std::string manual(const CLI::App& app) {
+std::string manual(const CommandLine& line) {
+  const CommandText program = line.describe();
   std::string text = fmt::format(
       ".TH CODICT 1 \"\" \"codict {}\" Lexican\n.SH NAME\ncodict \\- descriptions of CANopen devices\n"
       ".SH SYNOPSIS\n.B codict\n.I command\n[\\fIoption\\fR ...] [\\fIfile\\fR ...]\n.SH DESCRIPTION\n{}\n.SH "
       "COMMANDS\n",
-      roff(LEXICAN_VERSION), roff(app.get_description()));
-  for (const CLI::App* command : commands_of(app)) {
-    text += roff_of(*command);
+      roff(LEXICAN_VERSION), roff(program.help));
+  for (const CommandText& command : line.describe_commands()) {
+    text += roff_of(command);
   }
-  return text + fmt::format(".SH EXIT STATUS\n{}\n", roff(app.get_footer()));
+  return text + fmt::format(".SH EXIT STATUS\n{}\n", roff(program.footer));
 }
 
 }  // namespace
 
-Command add_completion(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("completion", "Print what bash needs to complete commands and options");
-  return {command, [&app] {
-            print(completion(app));
+Command add_completion(CommandLine& line) {
+  Arguments command = line.add_command("completion", "Print what bash needs to complete commands and options");
+  return {command, [&line] {
+            print(completion(line));
             return clean;
           }};
 }
 
-Command add_man(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("man", "Print the manual page, for man -l or man1");
-  return {command, [&app] {
-            print(manual(app));
+Command add_man(CommandLine& line) {
+  Arguments command = line.add_command("man", "Print the manual page, for man -l or man1");
+  return {command, [&line] {
+            print(manual(line));
             return clean;
           }};
 }

@@ -45,18 +45,18 @@ int run(Options options) {
 
 }  // namespace
 
-Command add_size(CLI::App& app) {
+Command add_size(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  CLI::App* const command = app.add_subcommand(
-      "size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
-  command->add_option("file", options->file, file_help)->required();
-  add_stores(*command, options->stores);
-  command->add_flag("--json", options->is_json, "For programs");
+  Arguments command =
+      line.add_command("size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
+  command.add_option("file", options->file, file_help).required();
+  add_stores(command, options->stores);
+  command.add_flag("--json", options->is_json, "For programs");
   command
-      ->add_option("--string-capacity", options->gen.string_capacity,
-                   "Bytes of a string of which nothing says how long it may be")
-      ->check(CLI::Range(1U, 65535U))
-      ->capture_default_str();
+      .add_option("--string-capacity", options->gen.string_capacity,
+                  "Bytes of a string of which nothing says how long it may be")
+      .in_range(1, 65535)
+      .default_text(std::to_string(options->gen.string_capacity));
   return {command, [options] { return run(*options); }};
 }
 

@@ -25,12 +25,12 @@ bool parse_sub(std::string_view text, std::uint8_t& sub_index) {
 
 }  // namespace
 
-void add_stores(CLI::App& command, std::vector<std::string>& stores) {
+void add_stores(Arguments& command, std::vector<std::string>& stores) {
   command
       .add_option("--store", stores,
                   "GROUP=SUB: the sub-index of 1010h (and 1011h) that stores a storage group, hexadecimal; "
                   "GROUP=none leaves it in RAM")
-      ->allow_extra_args(false);
+      .single_values();
 }
 
 bool parse_stores(const std::vector<std::string>& stores, gen::Options& options) {

@@ -11,7 +11,7 @@
 
 namespace lexican::codict::cli {
 
-void add_stores(CLI::App& command, std::vector<std::string>& stores);
+void add_stores(Arguments& command, std::vector<std::string>& stores);
 
 /// Returns false after a message if one of them is malformed.
 bool parse_stores(const std::vector<std::string>& stores, gen::Options& options);
