@@ -71,10 +71,10 @@ std::string with_single_blanks(std::string_view text) {
   return single;
 }
 
-// What stands for an entry of the file; empty if it is of another form.
-std::string text_in(const Json& entry, const char* name) {
-  return entry.is_object() && entry.contains(name) && entry.at(name).is_string() ? entry.at(name).get<std::string>()
-                                                                                 : "";
+// Returns the text of a member; empty if there is none or it is no string.
+std::string text_in(const json::Node& entry, std::string_view name) {
+  const json::Node* const member = entry.find(name);
+  return member != nullptr && member->kind == json::Kind::string ? member->text : "";
 }
 
 }  // namespace
@@ -117,32 +117,35 @@ Json Baseline::to_json() const {
   return {{"schema", schema}, {"files", std::move(files)}};
 }
 
-bool Baseline::read_file_entries(const std::string& file, const Json& entries) {
-  return entries.is_array() && std::all_of(entries.begin(), entries.end(), [&](const Json& entry) {
+bool Baseline::read_file_entries(const std::string& file, const json::Node& entries) {
+  return entries.kind == json::Kind::array &&
+         std::all_of(entries.children.begin(), entries.children.end(), [&](const json::Node& entry) {
            const Key key{file, text_in(entry, "rule"), text_in(entry, "place"), text_in(entry, "text")};
-           const bool has_count =
-               entry.is_object() && entry.contains("count") && entry.at("count").is_number_unsigned();
-           if (std::get<1>(key).empty() || !has_count) {
+           const json::Node* const count = entry.find("count");
+           if (std::get<1>(key).empty() || count == nullptr || count->kind != json::Kind::integer ||
+               count->integer.is_negative) {
              return false;
            }
-           counts_[key] += entry.at("count").get<std::size_t>();
+           counts_[key] += count->integer.magnitude;
            return true;
          });
 }
 
 std::optional<Baseline> Baseline::read(const std::string& path, std::string& why) {
-  const std::optional<Source> source = read_file(path, why);
+  std::optional<Source> source = read_file(path, why);
   if (!source) {
     return std::nullopt;
   }
-  const Json json = Json::parse(source->bytes(), nullptr, false);
+  const json::Document document(std::move(*source));
+  const json::Node* const files = document.root().find("files");
   why = path + ": no baseline of codict check";
-  if (text_in(json, "schema") != schema || !json.contains("files") || !json.at("files").is_object()) {
+  if (!document.fault().empty() || text_in(document.root(), "schema") != schema || files == nullptr ||
+      files->kind != json::Kind::object) {
     return std::nullopt;
   }
   Baseline baseline;
-  for (const auto& [file, entries] : json.at("files").items()) {
-    if (!baseline.read_file_entries(file, entries)) {
+  for (const json::Node& file : files->children) {
+    if (!baseline.read_file_entries(file.name, file)) {
       return std::nullopt;
     }
   }

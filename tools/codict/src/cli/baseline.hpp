@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "cli/command.hpp"
+#include "json/document.hpp"
 #include "text/finding.hpp"
 
 namespace lexican::codict::cli {
@@ -32,7 +33,7 @@ class Baseline {
  private:
   using Key = std::tuple<std::string, std::string, std::string, std::string>;  // file, rule, place, text
   static Key key_of(const Input& input, const Finding& finding);
-  bool read_file_entries(const std::string& file, const Json& entries);
+  bool read_file_entries(const std::string& file, const json::Node& entries);
 
   std::map<Key, std::size_t> counts_;
 };

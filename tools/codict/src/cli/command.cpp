@@ -134,7 +134,7 @@ bool is_terminal() { return ::isatty(STDOUT_FILENO) == 1; }
 
 void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
 
 void print_json(const Json& json) { print(to_text(json)); }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +13,7 @@
 
 #include "catalogue/suppress.hpp"
 #include "cli/arguments.hpp"
+#include "cli/json.hpp"
 #include "eds/document.hpp"
 #include "json/document.hpp"
 #include "model/device.hpp"
@@ -52,8 +52,6 @@ Command add_fmt(CommandLine& line);
 Command add_pdo(CommandLine& line);
 Command add_set(CommandLine& line);
 Command add_size(CommandLine& line);
-
-using Json = nlohmann::ordered_json;
 
 /// A description that has been read, with what its reader found.
 struct Input {

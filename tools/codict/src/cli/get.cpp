@@ -93,7 +93,7 @@ int get_from_elements(const Input& input, const Options& options) {
       lines += wants_all ? fmt::format("{}={}\n", field, value(text.text)) : value(text.text) + "\n";
     }
   });
-  if (keys.empty()) {
+  if (keys.elements().empty()) {
     complain(fmt::format("{}: {} has no {}", input.source().name(), options.target, options.field));
     return unusable;
   }

@@ -98,13 +98,13 @@ std::string title(const std::string& name) {
 
 std::string plain(const Json& value) {
   if (value.is_string()) {
-    return value.get<std::string>();
+    return value.text();
   }
   if (!value.is_array()) {
     return value.dump();
   }
   std::string text;
-  for (const Json& element : value) {
+  for (const Json& element : value.elements()) {
     text += (text.empty() ? "" : " ") + element.dump();
   }
   return text.empty() ? "-" : text;
@@ -120,7 +120,7 @@ int run(const Options& options) {
     print_json(json);
     return clean;
   }
-  for (const auto& [name, value] : json.items()) {
+  for (const auto& [name, value] : json.members()) {
     if (name != "schema") {
       print(fmt::format("{:<16} {}\n", title(name), visible(plain(value))));
     }
