@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a type function or the storage answers to what the bus is told, for servers and clients alike.
+// Maps the error codes (CO_ERR) of type functions and of the storage to SDO abort codes, for SDO servers and clients.
 #pragma once
 
 #include "co_err.h"
@@ -7,14 +7,14 @@
 
 namespace co {
 
-// What functions that answer with an abort code return if there is none.
+// Return value of functions that return an abort code: no error.
 inline constexpr uint32_t no_abort = 0;
 
 namespace abort_codes {
-// Abort codes consist of error class, error code and additional code; half of their digits are always 0.
-// [301:7.2.4.3.17]
+// Abort codes consist of error class, error code and additional code; half of their hexadecimal digits are always 0, so
+// that two bytes hold one. [301:7.2.4.3.17]
 struct Row {
-  uint8_t err;      // less CO_ERR_BASE
+  uint8_t err;      // CO_ERR minus CO_ERR_BASE
   uint8_t upper;    // error class and error code
   uint8_t details;  // additional code
 
@@ -49,6 +49,7 @@ inline constexpr Row rows[] = {
 };
 }  // namespace abort_codes
 
+// Returns the SDO abort code of an error; CO_SDO_ERR_GENERAL for errors that the table does not contain.
 [[nodiscard]] constexpr uint32_t abort_code(CO_ERR err) {
   for (const auto& row : abort_codes::rows) {
     if (row.err + CO_ERR_BASE == err) {

@@ -7,7 +7,7 @@
 namespace co::access {
 namespace {
 
-// Why the network may not: the abort code.
+// Returns the abort code for an access that the rights or the type of the object do not permit.
 uint32_t refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
   if ((obj.Key & CO_OBJ_____RW) == 0) {
     return CO_SDO_ERR_UNSUP;
@@ -15,6 +15,7 @@ uint32_t refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
   return transfer == CO_OBJ_UPLOAD ? CO_SDO_ERR_RD : CO_SDO_ERR_WR;
 }
 
+// Returns whether the entry of the channel's transfer is still at the same place in the dictionary.
 bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
   const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
   return place < dict.Num * sizeof(CO_OBJ) && CO_GET_DEV(channel.Obj->Key) == channel.Key;
@@ -65,7 +66,7 @@ uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj) {
 }
 #endif
 
-// A stream may always be emptied.
+// Accepts length 0 for every stream: such a download empties it.
 uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
   if (length == 0 && obj::is_stream(obj)) {
     return no_abort;

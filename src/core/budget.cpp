@@ -18,7 +18,7 @@ void refill(void* node_pointer) {
   }
 }
 
-// A timer whose range is less than a minute refills at the end of its range.
+// Starts the timer that refills the budget: each minute, or at the end of the timer's range if that is shorter.
 void start(CO_NODE& node) {
   const uint32_t ticks = tmr::ticks(node.Tmr, refill_time, CO_TMR_UNIT_1MS);
   tmr::start(node.Tmr, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits how often the bus makes the node write its non-volatile memory: CO_PARA_BUDGET stores in a row, one more each
-// minute. Stores of the application are not limited.
+// Budget of stores: limits how often the bus makes the node write its non-volatile memory, to CO_PARA_BUDGET stores in
+// a row and one more each minute. Stores of the application are not limited.
 #pragma once
 
 #include "co_core.h"
@@ -9,14 +9,15 @@ namespace co::budget {
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
+// Values of CO_NODE.StorePayer: who causes the writes in progress.
 enum Payer : uint8_t {
-  application,  // CO_NODE.StorePayer: the write in progress is free
-  bus,          // the first write takes a store from the budget
-  bus_paid,     // a write has taken it
+  application,  // the application: its writes are not limited
+  bus,          // the bus, nothing was written yet: the first write takes one store from the budget
+  bus_paid,     // the bus, the first write has taken a store from the budget: the others are free
 };
 
-// A command of the bus, or a round of autonomous stores. Its first write takes one store from the budget, however many
-// records it writes: no record is written more often than the budget allows.
+// Scope of one command of the bus, or of one round of autonomous stores. Its first write takes one store from the
+// budget, however many records it writes: no record is written more often than the budget allows.
 class Command {
  public:
   explicit Command(CO_NODE& node) : node_(node) { node.StorePayer = bus; }
@@ -30,10 +31,11 @@ class Command {
 
 [[nodiscard]] inline bool is_empty(const CO_NODE& node) { return node.StoresUsed >= CO_PARA_BUDGET; }
 
-// Returns whether a record may be written now.
+// Takes a store from the budget if the bus causes the write and its command has not taken one yet. Returns whether the
+// record may be written: false if the budget is used up.
 [[nodiscard]] bool take(CO_NODE& node);
 
-// Stops the timer that refills the budget, when the node is stopped.
+// Stops the timer that refills the budget: the budget is full, or the node is stopped.
 void stop(CO_NODE& node);
 
 #else

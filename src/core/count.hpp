@@ -6,6 +6,7 @@
 
 namespace co {
 
+// Increments a counter, which stays at its highest value.
 constexpr void count(uint32_t& counter) {
   const uint32_t next = counter + 1;
   if (next != 0) {

@@ -33,7 +33,8 @@ uint16_t count_entries(const CO_OBJ* root, uint16_t max) {
 
 namespace {
 
-// Returns the end mark if it has a type for power-on values, else null. With the key 0 its members may hold anything.
+// Returns the end mark if it has a type for power-on values, else null. The other members of an end mark with key 0 may
+// hold any values.
 CO_OBJ* typed_end(CO_OBJ* root, uint16_t num, uint16_t max) {
   const bool is_typed = num < max && root[num].Key == CO_DEFAULTS_KEY && root[num].Type != nullptr;
   return is_typed && root[num].Type->Reset != nullptr ? &root[num] : nullptr;
@@ -79,9 +80,10 @@ CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
 
 namespace {
 
-// Highest key that an entry of this index and sub-index can have: flags do not count.
+// Returns the highest key that an entry with this index and sub-index can have: the lowest 8 bits are flags.
 constexpr uint32_t bound_of(uint32_t key) { return key | 0xFFU; }
 
+// Returns whether an entry has the index and sub-index to which bound belongs.
 constexpr bool is_within(uint32_t entry_key, uint32_t bound) { return bound - entry_key <= 0xFFU; }
 
 template <unsigned entries>
@@ -89,7 +91,8 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
   return from[entries].Key <= bound ? from + entries : from;
 }
 
-// Halves 2^steps entries until one is left: without a branch for the result of a comparison, and with constant offsets.
+// Searches 2^steps entries (binary search, unrolled): no branch depends on the result of a comparison, and all offsets
+// are constants. Returns the last entry whose key is not above bound, or the first entry.
 [[gnu::always_inline]] inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
   switch (steps) {
     case 15: from = step<1U << 14>(from, bound); [[fallthrough]];
@@ -108,17 +111,18 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
     case 2: from = step<1U << 1>(from, bound); [[fallthrough]];
     case 1: from = step<1U << 0>(from, bound); [[fallthrough]];
     case 0: break;
-    default: __builtin_unreachable();  // 16-bit numbers of entries
+    default: __builtin_unreachable();  // more than 15 steps: a table has at most 65535 entries
   }
   return from;
 }
 
-// The last entry that is not behind the searched one, or the first of the table. The table must not be empty.
+// Returns the last entry whose key is not above bound, or the first entry of the table. The table must not be empty.
 [[gnu::always_inline]] inline CO_OBJ* last_not_behind(const CO_DICT& dict, uint32_t bound) {
   return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
 }
 
-// The table is searched as two halves that overlap, each of the largest power of two that fits.
+// Prepares the binary search: divides the table into two parts that overlap, each as long as the largest power of two
+// that fits.
 void prepare_search(CO_DICT& dict) {
   uint32_t half = 1;
   while (half * 2 <= dict.Num) {
@@ -171,7 +175,7 @@ void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
   }
 }
 
-// Only asked when a look-up has failed: the plain search is small.
+// Uses the small search: called only after a lookup has failed.
 bool has_index(const CO_DICT& dict, uint32_t key) {
   const uint32_t place = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
   return place < dict.Num && CO_GET_IDX(dict.Root[place].Key) == CO_GET_IDX(key);

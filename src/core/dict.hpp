@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Look-up in the sorted table.
+// Object dictionary: lookup in the sorted table of entries, its checks, and access to single values.
 #pragma once
 
 #include "co/rules.hpp"
@@ -7,21 +7,23 @@
 
 namespace co::dict {
 
+// Returns the entry with the index and sub-index of key (flags are ignored); null: there is none.
 [[nodiscard]] CO_OBJ* find(CO_DICT& dict, uint32_t key);
 
-// Of a table: its entries, up to the end mark; the number of the first that has this key or a higher one.
+// Returns the number of entries before the end mark of a table, at most max.
 [[nodiscard]] uint16_t count_entries(const CO_OBJ* root, uint16_t max);
+// Returns the position of the first of num entries whose Key is not lower than key; num if there is none.
 [[nodiscard]] uint32_t first_from(const CO_OBJ* root, uint32_t num, uint32_t key);
 
-// Gives the variables that the end mark of the table names their default values.
+// Sets the variables that the table's end mark lists (CO_DEFAULTS) to their default values.
 void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 
-// Is there an entry with this index, at whatever sub-index?
+// Returns whether an entry has the index of key, with any sub-index.
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 
-// For the Init functions of types: returns CO_ERR_TYPE_INIT if the entry breaks the type's rule. CODictGetFault() names
-// the first one that does; one that stops the node is named before one that does not. refuse: for what the rules do not
-// know.
+// Functions for the Init functions of types. refuse() returns CO_ERR_TYPE_INIT; check_type() returns it if the entry
+// breaks its type's rule, and refuse() is for faults that no rule describes. Both record the fault for
+// CODictGetFault(): the first one, except that a fault that stops the node replaces one that does not.
 #if USE_DICT_CHECK
 CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
@@ -30,7 +32,7 @@ inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_T
 [[nodiscard]] inline CO_ERR check_type(const CO_OBJ&, CO_NODE_T&, const rules::Rule&) { return CO_ERR_NONE; }
 #endif
 
-// What was found so, and where.
+// Returns the fault that CODictInit() or the functions above have recorded.
 [[nodiscard]] inline CO_DICT_FAULT fault_of([[maybe_unused]] const CO_DICT& dict) {
 #if USE_DICT_CHECK
   return static_cast<CO_DICT_FAULT>(dict.Fault);
@@ -38,6 +40,7 @@ inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_T
   return CO_DICT_OK;
 #endif
 }
+// Returns the key of the entry that has this fault.
 [[nodiscard]] inline uint32_t fault_key_of([[maybe_unused]] const CO_DICT& dict) {
 #if USE_DICT_CHECK
   return dict.FaultKey;
@@ -49,11 +52,11 @@ inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_T
 // Outcome of the Init functions of all entries.
 struct Initialised {
   CO_ERR err;    // the last error
-  uint32_t key;  // of the first entry that failed; 0: none
+  uint32_t key;  // key of the first entry that failed; 0: none
 };
 [[nodiscard]] Initialised init_objects(CO_DICT& dict, CO_NODE_T& node);
 
-// Has a fault been found that keeps the node from running?
+// Returns whether a fault was found that keeps the node from running.
 [[nodiscard]] inline bool stops_node(const CO_DICT& dict) { return rules::stops_node(fault_of(dict)); }
 
 template <const rules::Rule& rule>
@@ -61,18 +64,19 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
   return check_type(*obj, *node, rule);
 }
 
-// The Init function of a type whose entries have a rule and nothing else to be initialised.
+// Init function of a type that only checks entries against a rule; null where checks are switched off (USE_DICT_CHECK).
 template <const rules::Rule& rule>
 inline constexpr CO_OBJ_INIT_FUNC checked_by = USE_DICT_CHECK != 0 ? init<rule> : nullptr;
 
-// For types that reach memory by the number that an entry's place gives, from 0: where nobody checks the dictionary it
-// may be any.
+// Returns whether number is lower than count. For types that derive an array index, from 0, from the index or sub-index
+// of an entry: where USE_DICT_CHECK is 0, entries were not checked before and the number may be too high.
 [[nodiscard]] constexpr bool is_number(unsigned number, unsigned count) {
   return USE_DICT_CHECK != 0 || number < count;
 }
 
 [[nodiscard]] CO_ERR read_u32(CO_DICT& dict, uint32_t key, uint32_t& value);
-// The COB-ID of an object, or what it is without an entry; wire::cob_invalid if it cannot be used.
+// Returns the COB-ID of an object, or otherwise if the object cannot be read; wire::cob_invalid if that COB-ID cannot
+// be used (wire::is_usable()).
 [[nodiscard]] uint32_t read_cob_id(CO_DICT& dict, uint32_t key, uint32_t otherwise);
 [[nodiscard]] CO_ERR read_u16(CO_DICT& dict, uint32_t key, uint16_t& value);
 CO_ERR write_u32(CO_DICT& dict, uint32_t key, uint32_t value);

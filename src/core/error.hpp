@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last error of a node, and the object that it is about.
+// Last error of a node, and the object that it concerns.
 #pragma once
 
 #include "co_core.h"
 
 namespace co::error {
 
-// Sets the error and the key of its object; flags of the key do not count, 0: no object. CO_ERR_NONE changes nothing.
+// Sets the node's error and the key of the object that it concerns (flags are ignored, 0: no object). CO_ERR_NONE
+// changes nothing.
 void report(CO_NODE& node, CO_ERR err, uint32_t key = 0);
 
 }  // namespace co::error

@@ -8,8 +8,9 @@
 
 namespace co::gate {
 
-// Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if it permits the access or does not exist. It may have called
-// any function of the API: the node may be stopped or in another NMT state, and the dictionary may have changed.
+// Calls a function of CO_NODE_EXT.Callbacks. Returns 0 if the function permits the access or does not exist. The
+// function may have called any API function: the node may be stopped or in another NMT state, and the dictionary may
+// have changed.
 template <class Result, class Access>
 [[nodiscard]] inline Result ask(CO_NODE& node, Result (*CO_CALLBACKS::*hook)(CO_NODE*, void*, Access*),
                                 Access& access) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protocol machines: a row for every event, with the states that know it. Any other pair is the protocol error.
+// Protocol state machines: one transition for each event, with the states in which the event is valid. Any other pair
+// of state and event is a protocol error.
 #pragma once
 
 #include <stddef.h>
@@ -9,12 +10,13 @@
 
 namespace co {
 
-// Some states, for the rows.
+// Returns a set of states, a bit for each.
 template <class... State>
 constexpr uint32_t in(State... states) {
   return ((uint32_t{1} << static_cast<unsigned>(states)) | ...);
 }
 
+// Transition: an event, the states in which it is valid, and the function that serves it.
 template <class Event, class Service>
 struct Row {
   uint32_t states;
@@ -22,15 +24,16 @@ struct Row {
   Service run;
 };
 
-void two_rows_have_the_same_event();  // defined nowhere: such a machine does not compile
+void two_rows_have_the_same_event();  // not constexpr: two transitions with the same event do not compile
 
-// The rows by the numbers of their events, so that a step costs one look-up.
+// State machine with its transitions in an array indexed by event, so that a step costs one lookup.
 template <class State, const auto& rows>
 class Machine {
   using Event = std::remove_const_t<decltype(rows[0].on)>;
   using Service = std::remove_const_t<decltype(rows[0].run)>;
 
  public:
+  // otherwise: service of a protocol error
   constexpr explicit Machine(Service otherwise) : of_{}, otherwise_(otherwise) {
     for (const auto& row : rows) {
       Entry& entry = of_[static_cast<size_t>(row.on)];
@@ -41,6 +44,7 @@ class Machine {
     }
   }
 
+  // Returns the service of an event in a state.
   constexpr Service operator()(State in, Event on) const {
     const auto event = static_cast<size_t>(on);
     const bool is_known = event < events && (of_[event].states >> static_cast<unsigned>(in) & 1U) != 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access to one entry through its type.
+// Access to one dictionary entry through its type.
 #pragma once
 
 #include "co_cfg.h"
@@ -7,7 +7,7 @@
 
 namespace co::obj {
 
-// A stream of bytes has a position that Reset() sets; anything else is a value.
+// Returns whether the object is a stream of bytes, which has a position that Reset() sets; any other object is a value.
 [[nodiscard]] inline bool is_stream(const CO_OBJ& obj) { return obj.Type->Reset != nullptr; }
 
 [[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE_T& node, uint32_t width) {
@@ -19,13 +19,14 @@ namespace co::obj {
 [[nodiscard]] inline CO_ERR write(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
   return obj.Type->Write == nullptr ? CO_ERR_OBJ_ACC : obj.Type->Write(&obj, &node, buffer, size);
 }
-// The same for a function of the API.
+// Like write(), then runs deferred work: for API functions.
 [[nodiscard]] CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
 [[nodiscard]] inline CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
   return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
 }
 
-// For types that take part in the whole transfer; others see nothing.
+// Returns the extended type of an object, whose functions are called at the begin and end of a transfer; null if the
+// type is not a CO_OBJ_TYPE_EX.
 [[nodiscard]] inline const CO_OBJ_TYPE_EX* extended([[maybe_unused]] const CO_OBJ& obj) {
 #if USE_OBJ_EX
   if (obj.Type->Reset == COObjTypeExReset) {
@@ -34,13 +35,13 @@ namespace co::obj {
 #endif
   return nullptr;
 }
-// Does the object not know its length yet?
+// Returns whether size means that the length of the object is not known yet.
 [[nodiscard]] constexpr bool is_unknown(uint32_t size) { return USE_OBJ_EX != 0 && size == CO_OBJ_SIZE_UNKNOWN; }
-// Is this no length of an upload? An empty stream has one.
+// Returns whether size is no valid length of an upload. An empty stream has a valid length, 0.
 [[nodiscard]] inline bool is_no_size(const CO_OBJ& obj, uint32_t size) {
   return (size == 0 && !is_stream(obj)) || (USE_OBJ_EX == 0 && size == CO_OBJ_SIZE_UNKNOWN);
 }
-// Can the position be set?
+// Returns whether the position of the object can be set.
 [[nodiscard]] inline bool can_seek(const CO_OBJ& obj) {
   const CO_OBJ_TYPE_EX* const type = extended(obj);
   return type == nullptr ? is_stream(obj) : type->Reset != nullptr;

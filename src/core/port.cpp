@@ -31,7 +31,7 @@ void call(const CO_NODE& node, void (*CO_IF_CAN_DRV_EX::*with_context)(void*), v
   ext.Can != nullptr ? (ext.Can->*with_context)(ext.CanCtx) : (node.If.Drv->Can->*plain)();
 }
 
-// What waits for CONodeProcess() is part of the driver's queue.
+// Clears the frames that are queued for CONodeProcess(): they are part of the driver's receive queue.
 void forget_received([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
   CORingClear(node.Ext->Mainline);
@@ -89,7 +89,7 @@ bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
   if (node.Ext->Can != nullptr) {
     result = node.Ext->Can->Send(node.Ext->CanCtx, &frame);
   } else {
-    CO_IF_FRM copy = frame;  // drivers without context may change the frame
+    CO_IF_FRM copy = frame;  // classic drivers may change the frame
     result = node.If.Drv->Can->Send(&copy);
   }
   if (result > 0) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only caller of drivers and lock hooks. Every driver comes in two forms: with a context (CO_NODE_EXT) or without.
+// Calls of drivers and lock hooks: no other module calls them. Each driver is a classic driver (CO_IF_DRV, as in
+// CANopen-Stack) or a driver with context argument (CO_NODE_EXT).
 #pragma once
 
 #include "co_core.h"
@@ -7,14 +8,14 @@
 
 namespace co::port {
 
-// The extension of a node that has none.
+// Extension of a node that was initialised without one.
 extern const CO_NODE_EXT no_extension;
 
-// The drivers of a node whose CO_NODE_SPEC names none.
+// Drivers of a node whose CO_NODE_SPEC contains none.
 extern const CO_IF_DRV no_plain_drivers;
 
-// The extension of a node that could not be initialised: drivers that do nothing, so that calls of the application that
-// come all the same are harmless.
+// Extension of a node that could not be initialised: its drivers do nothing, so that API calls of the application have
+// no effect.
 extern const CO_NODE_EXT no_drivers;
 
 void init(CO_NODE& node);
@@ -22,7 +23,7 @@ void init(CO_NODE& node);
 inline void lock(CO_NODE& node) { node.Ext->Lock != nullptr ? node.Ext->Lock(node.Ext->User) : COTmrLock(); }
 inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlock(node.Ext->User) : COTmrUnlock(); }
 
-// Has the node a real-time thread?
+// Returns whether the node has a real-time thread.
 [[nodiscard]] inline bool has_mainline([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
   return node.Ext != nullptr && node.Ext->Mainline != nullptr;
@@ -31,7 +32,7 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 #endif
 }
 
-// A turn of the node (CO_NODE_EXT.Enter) for as long as it lives. Turns do not nest.
+// Node lock (CO_NODE_EXT.Enter and Leave). Turn holds it for a scope. Scopes must not nest.
 #if USE_REAL_TIME
 inline void enter(CO_NODE& node) {
   if (node.Ext != nullptr && node.Ext->Enter != nullptr) {
@@ -67,12 +68,14 @@ class Turn {
 };
 #endif
 
-// Timer drivers with a context have a clock; the others count down and tell what is left.
+// Returns whether the timer driver has a clock. Drivers with context argument have one; classic drivers count down and
+// return the ticks that are left.
 [[nodiscard]] inline bool has_clock(const CO_NODE& node) { return node.Ext->Timer != nullptr; }
 [[nodiscard]] inline uint32_t now(const CO_NODE& node) { return node.Ext->Timer->Now(node.Ext->TimerCtx); }
 [[nodiscard]] inline uint32_t ticks_left(const CO_NODE& node) { return node.If.Drv->Timer->Delay(); }
 [[nodiscard]] inline bool has_elapsed(const CO_NODE& node) { return node.If.Drv->Timer->Update() != 0; }
-// Lets COTmrService() be called some ticks after now, where the loop does not look itself; 0: never.
+// Requests a call of COTmrService() some ticks after now (0: no call). Without an Alarm function the driver is polled
+// by the loop.
 inline void set_alarm(const CO_NODE& node, uint32_t ticks) {
   const CO_NODE_EXT& ext = *node.Ext;
   if (ext.Timer->Alarm != nullptr) {
@@ -80,7 +83,7 @@ inline void set_alarm(const CO_NODE& node, uint32_t ticks) {
   }
 }
 
-// The same for a driver without a clock. stopped: it waits for nothing so far.
+// Like set_alarm(), for a classic driver. stopped: the driver is not counting.
 inline void count_down(const CO_NODE& node, uint32_t ticks, bool stopped) {
   const CO_IF_TIMER_DRV& driver = *node.If.Drv->Timer;
   if (ticks == 0) {
@@ -106,7 +109,7 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   return ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
 }
 
-// Like can_read_unchecked(); a negative result is reported as the node's error.
+// Reads like can_read_unchecked(); a negative result is reported as the node's error.
 [[nodiscard]] inline int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
   const int16_t result = can_read_unchecked(node, frame);
   if (result < 0) {
@@ -114,7 +117,8 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   }
   return result;
 }
-// Counts what is sent.
+// Offers a frame to the driver. Returns whether the driver has accepted it; accepted frames are counted, a negative
+// result of the driver is reported as the node's error.
 [[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
 
 [[nodiscard]] bool nvm_exists(const CO_NODE& node);
@@ -126,7 +130,7 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 [[nodiscard]] uint32_t nvm_read(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 [[nodiscard]] uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_t size);
 
-// May a basic type store a value there?
+// Returns whether a basic type may store a value of size bytes at address (CO_NODE_EXT.Writable).
 [[nodiscard]] inline bool is_writable(const CO_NODE& node, const void* address, uint32_t size) {
   return node.Ext->Writable == nullptr || node.Ext->Writable(node.Ext->User, address, size);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Head and Tail count modulo twice the size, so that full and empty differ without a spare place.
+// Ring of frames. Head and Tail count modulo twice the size, so that a full ring differs from an empty one without an
+// unused element.
 #include "co_ring.h"
 
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who gets the frames of an identifier: a table sorted by identifier, with the first route of each function code beside
-// it, so that a foreign frame is known after one or two comparisons.
+// Routes: the services that receive the frames of an identifier. The table is sorted by identifier; the first route of
+// each function code is stored beside it, so that an unrelated frame is found to have no consumer after one or two
+// comparisons.
 #pragma once
 
 #include "co_core.h"
 
 namespace co::routes {
 
-// Whose a route is: the rows of the table of node/services.cpp that get frames, in its order.
+// Service that owns a route: the services that receive frames, in the order of the table of node/services.cpp.
 enum class Service : uint8_t {
   nmt,
   sdo_server,
@@ -44,20 +45,21 @@ enum class Service : uint8_t {
 
 void clear(CO_NODE& node);
 
-// Adds a route; identifier as in a frame (CO_IF_FRM_EXT included). Routes of equal identifiers lie side by side, by
-// owner.
+// Adds a route. identifier: as in a frame (CO_IF_FRM_EXT included). Routes of the same identifier are adjacent, in the
+// order of their owners.
 void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
-// Removes the route of a service's instance, if there is one.
+// Removes the route of an instance (number) of a service, if there is one.
 void remove(CO_NODE& node, Service service, uint16_t number);
 
-// Lets the instance have this route alone; wire::no_frame: none.
+// Replaces the route of an instance of a service. identifier: wire::no_frame to remove it only.
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number);
 
-// Gives the identifiers to a driver that filters.
+// Passes the identifiers of all routes to the CAN driver, if it has a Filter function.
 void publish(const CO_NODE& node);
 
-// Function code of an identifier; all 29-bit identifiers have one of their own. 0 where one search is enough.
+// Returns the function code of an identifier; all 29-bit identifiers have the class 16. Returns 0 where the routes are
+// not divided by function code (CO_ROUTE_CLASS_N 1).
 [[nodiscard]] constexpr uint8_t class_of(uint32_t identifier) {
   constexpr uint8_t extended_class = 16;
   if (CO_ROUTE_CLASS_N == 1) {
@@ -66,17 +68,18 @@ void publish(const CO_NODE& node);
   return (identifier & CO_IF_FRM_EXT) != 0 ? extended_class : static_cast<uint8_t>((identifier >> 7) & 0x0FU);
 }
 
+// Position of a route that does not exist.
 inline constexpr unsigned nowhere = ~0U;
 
-// Stands behind the last route.
+// Identifier of the end mark behind the last route.
 inline constexpr uint32_t no_identifier = ~0U;
 
-// Is the route at this place one of the identifier?
+// Returns whether the route at this position has the identifier.
 [[nodiscard]] inline bool is_at(const CO_NODE& node, unsigned place, uint32_t identifier) {
   return node.Routes.Id[place] == identifier;
 }
 
-// The first place of the routes of an identifier, or nowhere.
+// Returns the position of the first route of an identifier, or nowhere.
 [[nodiscard]] inline unsigned find(const CO_NODE& node, uint32_t identifier) {
   constexpr unsigned short_search = 4;
   const CO_ROUTES& routes = node.Routes;
@@ -97,7 +100,8 @@ inline constexpr uint32_t no_identifier = ~0U;
   return routes.Id[first] == identifier ? first : nowhere;
 }
 
-// The place behind the owner at this place, who may have changed the routes while it was served; or nowhere.
+// Returns the position of the next route of the identifier behind the route of owner, or nowhere. place: position of
+// that route before its service has processed the frame, which may have changed the routes.
 [[nodiscard]] unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner);
 
 [[nodiscard]] constexpr uint8_t service_of(uint16_t owner) { return static_cast<uint8_t>(owner >> 12); }

@@ -16,8 +16,8 @@ using store::Loaded;
 using store::Record;
 
 constexpr uint32_t magic = 0x324E584C;      // "LXN2"
-constexpr uint32_t old_magic = 0x314E584C;  // "LXN1": version 0.1.0, whose CRC is without the identity
-constexpr uint32_t defaults = UINT32_MAX;   // in place of the size
+constexpr uint32_t old_magic = 0x314E584C;  // "LXN1": version 0.1.0, whose CRC does not cover the identity
+constexpr uint32_t defaults = UINT32_MAX;   // Header.size: the defaults are to be used, there are no data
 constexpr uint8_t erased = 0xFF;
 
 struct Header {
@@ -44,7 +44,8 @@ uint32_t program_size(const CO_NODE& node) {
   return size == 0 ? 1 : size;
 }
 
-// Slots begin and end where the memory can be erased and programmed.
+// Returns the bytes of which the address and size of a slot are multiples: the unit in which the memory can be erased
+// and programmed.
 uint32_t unit(const CO_NODE& node) {
   const uint32_t program = program_size(node);
   const uint32_t erase = port::nvm_shape(node).EraseSize;
@@ -57,6 +58,7 @@ uint32_t slot_size(const CO_NODE& node, uint32_t size) {
   return round_up(header_size(node) + round_up(size, program_size(node)), unit(node));
 }
 
+// Returns the CRC of the header and the identity of the record; the data are to be added.
 wire::Crc32 crc_of(const Header& header, const Record& record) {
   wire::Crc32 crc;
   crc.add(reinterpret_cast<const uint8_t*>(&header), offsetof(Header, crc));
@@ -66,8 +68,8 @@ wire::Crc32 crc_of(const Header& header, const Record& record) {
   return crc;
 }
 
-// Memory is slow: the node gives up its turn while the driver works, if it has one. What others ask for meanwhile
-// waits. Nothing but memory that nobody else knows may be given to the driver then.
+// Scope of a driver call. The memory is slow, so the node lock is released meanwhile if this thread holds it; requests
+// of other threads are deferred. The driver may then get only memory that no other thread uses.
 #if USE_REAL_TIME
 class Outside {
  public:
@@ -95,7 +97,7 @@ class Outside {
 };
 #endif
 
-// Work memory, in whole units of programming.
+// Work memory whose size is a multiple of the program size.
 class Buffer {
  public:
   explicit Buffer(const CO_NODE& node) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % program_size(node)) {}
@@ -112,7 +114,7 @@ bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
   return port::nvm_read(node, start, static_cast<uint8_t*>(to), size) == size;
 }
 
-// Adds what is stored to the CRC, piece by piece. False: it cannot be read.
+// Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read.
 bool add(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
   Buffer buffer(node);
   while (size != 0) {
@@ -127,14 +129,14 @@ bool add(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
   return true;
 }
 
-// As it was made, or erased.
+// Returns whether the header is that of an unused memory: FFh or 00h throughout.
 bool is_blank(const Header& header) {
   const bool uniform = header.version == header.magic && header.size == header.magic &&
                        header.generation == header.magic && header.crc == header.magic;
   return uniform && (header.magic == UINT32_MAX || header.magic == 0);
 }
 
-// What a slot holds, as its header says, unless the CRC disagrees.
+// Reads the header of a slot. Returns what the slot holds; Found::lost if its header or its CRC is invalid.
 Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Header& header) {
   if (!read(node, start, &header, sizeof header)) {
     return Found::lost;
@@ -156,14 +158,14 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
 
 bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
 
-// Version 0.1.0 has written it.
+// Returns whether the slot was written by version 0.1.0.
 bool is_old(const Slot& slot) { return is_whole(slot) && slot.header.magic == old_magic; }
 
 bool is_newer(const Slot& slot, const Slot& other) {
   return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
 }
 
-// Both slots, the newest that is whole first.
+// Both slots of a record, the newest valid one first.
 struct Slots {
   Slots(const CO_NODE& node, const Record& record) : newest{record.start, {}, {}}, other{} {
     other.start = record.start + slot_size(node, record.size);
@@ -180,13 +182,14 @@ struct Slots {
   Slot other;
 };
 
-// Returns whether the other slot is damaged and was written last. A store that the power has interrupted leaves an
-// erased header there, or that of the record before.
+// Returns whether the other slot is damaged and was written last. After a power failure during a store, that slot has
+// an erased header or the header of the record before, which do not count as damage.
 bool is_newest_damaged(const Slots& slots) {
   return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
 }
 
-// Copies the first size bytes to the memory of the application, with the node lock held.
+// Copies the first size bytes to the memory of the application, with the node lock held, and checks the CRC of all
+// data. Returns false if they cannot be read or are invalid.
 bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
   const uint32_t start = slot.start + header_size(node);
   wire::Crc32 crc = crc_of(slot.header, record);
@@ -232,7 +235,8 @@ bool program(const CO_NODE& node, uint32_t start, uint8_t* bytes, uint32_t size)
   return port::nvm_write(node, start, bytes, size) == size;
 }
 
-// Writes bytes, the last unit filled up. They may change meanwhile: the CRC is of what is written.
+// Writes bytes and fills the last program unit up. The application may change the bytes during the call, so the CRC is
+// calculated from the bytes that are written.
 bool write(const CO_NODE& node, uint32_t start, const uint8_t* bytes, uint32_t size, wire::Crc32& crc) {
   Buffer buffer(node);
   while (size != 0) {
@@ -256,7 +260,7 @@ bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
   return port::nvm_shape(node).EraseSize == 0 || port::nvm_erase(node, start, size);
 }
 
-// The header comes last: until it is there the slot is not whole.
+// Writes a slot, its header last: the slot is invalid until the header is written.
 bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uint8_t* data) {
   wire::Crc32 crc = crc_of(slot.header, record);
   wire::Crc32 unused;
@@ -270,8 +274,8 @@ bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uin
   return write(node, slot.start, reinterpret_cast<const uint8_t*>(&slot.header), sizeof slot.header, unused);
 }
 
-// Writes the slot that does not count. data: null for the defaults. The generation follows the one of the slot that
-// stays, also where that holds something else: load() takes the newer of both for the newest.
+// Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
+// than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both.
 CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
   const bool has_record = is_whole(slots.newest);
   const Slot& target = has_record ? slots.other : slots.newest;
@@ -283,8 +287,9 @@ CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const 
   return whole && stored.crc == slot.header.crc && stored.generation == generation ? CO_ERR_NONE : CO_ERR_IF_NVM_WRITE;
 }
 
-// Rewrites a record of version 0.1.0 in both slots: such a record may be that of any group. Power may fail meanwhile, a
-// slot with the values is always there; the next load goes on.
+// Rewrites a record of version 0.1.0 in both slots: its CRC does not cover the identity, so that it could be mistaken
+// for the record of another group. Power may fail meanwhile: one slot with the values always exists, and the next load
+// continues.
 void renew(const CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
   constexpr unsigned both = 2;
   for (unsigned n = 0; n < both && (is_old(slots.newest) || is_old(slots.other)); ++n) {
@@ -305,7 +310,7 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
 
 uint32_t space(const CO_NODE& node, uint32_t size) { return 2 * slot_size(node, size); }
 
-// Whole units of programming can be erased, and nothing here exceeds 32 bits.
+// Requires that the erase size is a multiple of the program size. The first limits keep all sums below within 32 bits.
 bool fits(const CO_NODE& node, const Record& record) {
   const CO_NVM_SHAPE shape = port::nvm_shape(node);
   const uint32_t half = shape.Capacity / 2;

@@ -12,7 +12,8 @@ namespace {
 
 constexpr uint8_t erased = 0xFF;
 
-// Calls function(offset, bytes) for pieces of a record, until it returns false.
+// Calls function(offset, bytes) for each piece of a record, until it returns false. Returns whether no call has
+// returned false.
 template <class Function>
 bool for_pieces(uint32_t size, Function function) {
   for (uint32_t done = 0; done < size;) {
@@ -34,7 +35,7 @@ bool is_erased(const uint8_t* bytes, uint32_t num) {
   return n == num;
 }
 
-// FFh everywhere is a memory in which nothing was stored.
+// Returns what the memory holds for a record without header. FFh throughout means that nothing was stored.
 Found look_at_bytes(const CO_NODE& node, const Record& record) {
   uint8_t buffer[CO_STORE_BUFFER];
   Found found = Found::blank;
@@ -46,7 +47,7 @@ Found look_at_bytes(const CO_NODE& node, const Record& record) {
   return found;
 }
 
-// Writes FFh, unless they are there already.
+// Fills a record with FFh, unless it contains FFh throughout already.
 CO_ERR erase_bytes(CO_NODE& node, const Record& record) {
   if (look_at_bytes(node, record) == Found::blank) {
     return CO_ERR_NONE;

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records in non-volatile memory. With a driver that has a Shape function a store is atomic (slots.hpp); with any other
-// driver the bytes of a record are stored unchanged at its address.
+// Records in non-volatile memory. With a driver that has a Shape function (geometry of the memory) a store is atomic
+// (slots.hpp); with any other driver the bytes of a record are stored unchanged at its address.
 #pragma once
 
 #include "co_core.h"
 
 namespace co::store {
 
-// Identity of a record: all of it enters the checksum.
+// Identity of a record. The CRC of an atomic record covers all members.
 struct Record {
   uint32_t start;    // address
   uint32_t size;     // bytes of data
-  uint32_t version;  // of their layout
+  uint32_t version;  // version of the layout of the data
   uint32_t group;    // sub-index of 1010h; 0: not a group of 1010h
 };
 
+// Contents of the memory at a record.
 enum class Found : uint8_t {
-  data,      // they were stored
-  defaults,  // these were asked for
+  data,      // stored data
+  defaults,  // the request to use the default values
   blank,     // nothing has ever been stored, or there is no memory
   lost,      // the record is damaged, belongs to something else, or cannot be read
   no_place,  // the record does not fit the memory
@@ -34,18 +35,19 @@ struct Loaded {
 // Returns the bytes of memory that a record of size bytes occupies; 0: there is no memory.
 [[nodiscard]] uint32_t space(const CO_NODE& node, uint32_t size);
 
-// Returns what is stored.
+// Returns what the memory holds for a record, without copying data.
 [[nodiscard]] Found look(const CO_NODE& node, const Record& record);
 
-// Copies the first size bytes of the data if there are any. All data are checked before, if they can be: nothing else
-// is copied, unless the memory cannot be read twice. Records in the form of version 0.1.0 are rewritten.
+// Copies the first size bytes of the stored data, if there are any, to the memory of the application. The CRC of an
+// atomic record is checked before; invalid data are copied only if the memory returns other bytes when it is read
+// again. Records in the format of version 0.1.0 are rewritten.
 [[nodiscard]] Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size);
 
-// Stores data, unless they are stored already. CO_ERR_PARA_STORE: no place, CO_ERR_IF_NVM_WRITE: the memory does not
-// hold them, CO_ERR_OBJ_STATE: the budget is used up.
+// Stores data, unless they are stored already. Returns CO_ERR_PARA_STORE if the record does not fit into the memory,
+// CO_ERR_IF_NVM_WRITE if the memory does not hold the data, CO_ERR_OBJ_STATE if the budget is used up.
 [[nodiscard]] CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data);
 
-// Stores that the defaults are to be used.
+// Stores the request to use the default values.
 [[nodiscard]] CO_ERR save_defaults(CO_NODE& node, const Record& record);
 
 }  // namespace co::store

@@ -11,7 +11,7 @@
 namespace co::tmr {
 namespace {
 
-// Keeps the timer interrupt away while it lives.
+// Scope in which the timer interrupt is locked out.
 class Lock {
  public:
   explicit Lock(const CO_TMR& timers) : timers_(timers) { port::lock(*timers.Node); }
@@ -23,21 +23,22 @@ class Lock {
   const CO_TMR& timers_;
 };
 
-// The timer that a link belongs to.
+// Returns the timer that contains the link.
 CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
 static_assert(offsetof(CO_TMR_MEM, Next) == 0);
 
-// COTmrProcess() asks without the lock.
+// Returns the link to the first armed timer. Atomic: COTmrProcess() reads it without the lock.
 CO_TMR_MEM** first_armed(const CO_TMR& t) { return __atomic_load_n(&t.Armed, __ATOMIC_RELAXED); }
 bool has_due(const CO_TMR& t) { return first_armed(t) != &t.First; }
 
-// Do frames or segments wait that COTmrProcess() continues to send? Called in the timer interrupt, without the lock.
+// Returns whether frames or segments are queued that COTmrProcess() can send. Called in the timer interrupt, without
+// the lock.
 bool has_to_send(const CO_NODE& node) {
   return __atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) != 0 ||
          __atomic_load_n(&node.Paused, __ATOMIC_RELAXED) != 0;
 }
 
-// Lets the time go on; what has elapsed becomes due.
+// Sets the clock to now; timers that have elapsed by then become due.
 void advance(CO_TMR& t, uint32_t now) {
   const uint32_t passed = now - t.Clock;
   t.Clock = now;
@@ -55,10 +56,12 @@ bool has_cyclic(const CO_TMR_MEM* list) {
   return list != nullptr;
 }
 
-// Ticks for which a driver without a clock counts while no timer is armed; 0: it stops. It counts as long as it can
-// while elapsed cyclic timers wait for the loop: these keep their phase, and cause no further interrupt.
+// Returns the ticks for which a classic driver counts while no timer is armed; 0 stops it. While elapsed cyclic timers
+// have not been processed by the loop, it counts as long as it can: so they keep their phase without further
+// interrupts.
 uint32_t wait_for_loop(const CO_TMR& t) { return has_cyclic(t.First) ? UINT32_MAX : 0; }
 
+// Programs the driver for the first armed timer.
 void program(CO_TMR& t, uint32_t now) {
   const CO_TMR_MEM* const first = *t.Armed;
   const uint32_t next = first != nullptr ? first->At - now : 0;
@@ -72,7 +75,7 @@ void program(CO_TMR& t, uint32_t now) {
   t.Programmed = wait;
 }
 
-// Has a driver without a clock elapsed, and COTmrService() not come yet, which will program it?
+// Returns whether a classic driver has elapsed and COTmrService(), which programs it again, has not been called yet.
 bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now == t.Clock; }
 
 void reprogram(CO_TMR& t, uint32_t now) {
@@ -81,7 +84,7 @@ void reprogram(CO_TMR& t, uint32_t now) {
   }
 }
 
-// Now. What has elapsed by a clock becomes due.
+// Returns the present clock. With a driver that has a clock, timers that have elapsed become due.
 uint32_t synchronise(CO_TMR& t) {
   if (port::has_clock(*t.Node)) {
     advance(t, port::now(*t.Node));
@@ -94,8 +97,8 @@ uint32_t synchronise(CO_TMR& t) {
   return t.Clock - (left < t.Programmed ? left : t.Programmed);
 }
 
-// Behind all timers that elapse before or with it; mostly that is the end. A driver that waits for the right time
-// already is left alone.
+// Inserts a timer behind all timers that elapse before it or at the same tick: usually at the end, which is compared
+// first. The driver is programmed only if its next expiry changes.
 void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
   CO_TMR_MEM** link = t.Armed;
   if (*link != nullptr && owner_of(t.End).At - now <= ticks) {
@@ -139,15 +142,15 @@ void remove(CO_TMR& t, CO_TMR_MEM& timer) {
   }
 }
 
-// Back to the pool; its id is used up.
+// Returns a timer to the pool and advances its id to the next generation, so that the old id is invalid.
 void release(CO_TMR& t, CO_TMR_MEM& timer) {
   timer.Id = (timer.Id + t.IdStep) & INT16_MAX;
   timer.Next = t.Free;
   t.Free = &timer;
 }
 
-// Quotient in the low word, rest in the high one, bit by bit: the library's division would bring 270 bytes. The
-// quotient must fit.
+// Divides bit by bit: returns the quotient in the low word and the remainder in the high word. The quotient must fit
+// into 32 bits. The library's 64-bit division would add 270 bytes.
 uint64_t divide(uint64_t dividend, uint32_t divisor) {
   auto rest = static_cast<uint32_t>(dividend >> 32);
   auto low = static_cast<uint32_t>(dividend);
@@ -167,7 +170,7 @@ uint32_t modulo(uint32_t ticks, uint32_t cycle) {
   return ticks < cycle ? ticks : static_cast<uint32_t>(divide(ticks, cycle) >> 32);
 }
 
-// A timer that has elapsed is armed for its next expiry after now; those that were missed are skipped.
+// Arms an elapsed timer for its next expiry after now; expiries that were missed are skipped.
 void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
   const uint32_t now = synchronise(t);
   insert(t, timer, now, cycle - modulo(now - timer.At, cycle));
@@ -180,7 +183,8 @@ void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FU
   insert(t, timer, synchronise(t), start == 0 ? cycle : start);
 }
 
-// The elapsed timer at a link is armed again or released, its action still to be run.
+// Removes the elapsed timer at a link from the list; arms it again if it is cyclic, or releases it if it belongs to the
+// pool. The caller then runs its action.
 const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
   CO_TMR_MEM& timer = *link;
   link = timer.Next;
@@ -198,13 +202,13 @@ const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
   return timer;
 }
 
-// The one that has elapsed first.
+// Calls take() for the timer that has elapsed first.
 const CO_TMR_MEM& take_due(CO_TMR& t) {
   const Lock lock(t);
   return take(t, t.First);
 }
 
-// Timers that elapse while actions run are left to the next call.
+// Runs the actions of all elapsed timers. Timers that elapse while actions run are left to the next call.
 [[gnu::noinline]] void run_due(CO_TMR& t) {
   const uint32_t first = t.First->At;
   const uint32_t span = owner_of(first_armed(t)).At - first;
@@ -217,7 +221,7 @@ const CO_TMR_MEM& take_due(CO_TMR& t) {
 
 #if USE_REAL_TIME
 
-// Whose the timers are: with a real-time thread some are that one's, the others the mainline's.
+// Timers to be run: with a real-time thread, some belong to that thread, the others to the mainline.
 enum class Share : uint8_t { all, mainline, real_time };
 
 bool is_of(const CO_TMR_MEM& timer, Share share) {
@@ -227,7 +231,7 @@ bool is_of(const CO_TMR_MEM& timer, Share share) {
 
 Share share_of_mainline(const CO_TMR& t) { return t.Node->Ext->Mainline != nullptr ? Share::mainline : Share::all; }
 
-// The link to the first elapsed timer of a share, or to the first that is armed.
+// Returns the link to the first elapsed timer of a share, or to the first armed timer if there is none.
 CO_TMR_MEM** first_due(CO_TMR& t, Share share) {
   CO_TMR_MEM** link = &t.First;
   while (link != t.Armed && !is_of(**link, share)) {
@@ -236,14 +240,14 @@ CO_TMR_MEM** first_due(CO_TMR& t, Share share) {
   return link;
 }
 
-// The expiries that a call runs: from the first that has elapsed of a share to the last of all. What elapses meanwhile
-// comes behind them, and waits for the next call.
+// Expiries that a call runs: from the first elapsed timer of its share to the last elapsed timer of all. Timers that
+// elapse meanwhile are behind them in the list and are left to the next call.
 struct Span {
   uint32_t first;
   uint32_t ticks;
 };
 
-// False: none has elapsed.
+// Sets the span of the elapsed timers of a share. Returns false if none has elapsed.
 bool find_span(CO_TMR& t, Share share, Span& span) {
   const Lock lock(t);
   CO_TMR_MEM** const link = first_due(t, share);
@@ -255,7 +259,7 @@ bool find_span(CO_TMR& t, Share share, Span& span) {
   return true;
 }
 
-// Runs the first of a span. False: there is none any more.
+// Runs the first timer of a span. Returns false if none is left.
 bool run_one(CO_TMR& t, Share share, const Span& span) {
   const CO_TMR_MEM* timer = nullptr;
   {
@@ -271,12 +275,13 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
   return true;
 }
 
+// Returns whether the node has a lock or a real-time thread.
 bool has_turns(const CO_TMR& t) {
   const CO_NODE_EXT* const ext = t.Node == nullptr ? nullptr : t.Node->Ext;
   return ext != nullptr && (ext->Enter != nullptr || ext->Mainline != nullptr);
 }
 
-// Each action in a turn of its own.
+// Runs each action with the node lock taken anew, so that other threads wait for one action at most.
 void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
   const Share share = share_of_mainline(t);
   Span span = {};
@@ -292,7 +297,7 @@ void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
   }
 }
 
-// What COTmrProcess() has to run.
+// Returns whether COTmrProcess() has actions to run.
 bool has_work(CO_TMR& t) { return has_turns(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
 
 #else
@@ -328,7 +333,7 @@ uint16_t power_of_two(unsigned num) {
 
 }  // namespace
 
-// Bit by bit, too: a product of 64 bits is a function of the library on the smallest CPUs.
+// Multiplies bit by bit: on the smallest CPUs a 64-bit product would need a library function.
 uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
   uint64_t product = unit - 1U;
   for (uint64_t part = timers.Freq; time != 0; time >>= 1, part *= 2) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timers. Armed ones wait in a list ordered by the clock of their expiry, elapsed ones in another in the order in which
-// they have elapsed. A cyclic timer is armed again from its expiry: its phase does not depend on when it is run.
+// Timers. All that run are in one list: elapsed timers in the order in which they have elapsed, then armed timers in
+// the order of the clock of their expiry. A cyclic timer is armed again from its expiry: its phase does not depend on
+// when its action runs.
 #pragma once
 
 #include "co_cfg.h"
@@ -8,28 +9,31 @@
 
 namespace co::tmr {
 
-// ms as ticks, rounded up; 0 if 0 or beyond 32 bits.
+// Converts a time in units of 1/unit seconds (CO_TMR_UNIT_…) to ticks, rounded up. Returns 0 if time, unit or the timer
+// frequency is 0, or the result exceeds 32 bits.
 [[nodiscard]] uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit);
 
-// Starts a timer that is part of its owner; one that runs is started anew. start and cycle as in COTmrCreate(), not
-// both 0.
+// Starts a timer that is part of its owner; a running timer is restarted. start and cycle: ticks, as in COTmrCreate(),
+// not both 0.
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
 
-// For the action of a timer that runs once: once more, some ticks after it has elapsed; where that is over, at the next
-// multiple of them.
+// Restarts a timer that runs once from its own action: it elapses the given ticks after its last expiry or, if that
+// time is over, at the next multiple of them.
 void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 
-// Stops a timer that is part of its owner; a stopped one stays stopped.
+// Stops a timer that is part of its owner; no effect on a stopped timer.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
 
-// Calls a function, then runs the actions of all timers that have elapsed: where there is a real-time thread, of those
-// of the mainline. Where threads take turns, the function and the search for timers share one.
+// Calls before(), then runs the actions of all timers that have elapsed; where there is a real-time thread, only the
+// actions of the mainline. Where the node has a lock, before() and the search for timers hold it together, and each
+// action holds it anew.
 void run(CO_TMR& timers, void (*before)(CO_NODE_T& node));
 
-// A timer of SYNC or of a PDO: run_real_time() runs it where there is a real-time thread. For a timer that is part of
-// its owner, once.
+// Marks a timer of SYNC or of a PDO: where there is a real-time thread, run_real_time() runs its action. To be called
+// once for a timer that is part of its owner.
 #if USE_REAL_TIME
 inline void give_to_real_time(CO_TMR_MEM& timer) { timer.Id = 1; }
+// Runs the actions of all elapsed timers that are marked.
 void run_real_time(CO_TMR& timers);
 #else
 inline void give_to_real_time(CO_TMR_MEM&) {}
@@ -37,10 +41,11 @@ inline void give_to_real_time(CO_TMR_MEM&) {}
 
 [[nodiscard]] inline bool is_running(const CO_TMR_MEM& timer) { return timer.Running != 0; }
 
-// A clock of ticks, starting anywhere, wrapping at 2^32. With a driver that has none, it goes while a timer runs.
+// Returns the clock: ticks since any moment, modulo 2^32. With a classic driver the clock runs only while a timer is
+// armed.
 [[nodiscard]] uint32_t now(CO_TMR& timers);
 
-// Ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: none.
+// Returns the ticks until COTmrService() or COTmrProcess() has work; UINT32_MAX: no timer is armed.
 [[nodiscard]] uint32_t next_deadline(CO_TMR& timers);
 
 }  // namespace co::tmr

@@ -7,15 +7,17 @@
 namespace co::transmit {
 namespace {
 
-// Arbitration: compares identifiers as they appear on the bus, 11-bit before 29-bit identifiers of the same base.
+// Returns the rank of a frame in the arbitration on the bus, lowest first: an 11-bit identifier precedes the 29-bit
+// identifiers with the same base.
 uint32_t rank(const CO_IF_FRM& frame) {
   const uint32_t id = frame.Identifier & CO_IF_FRM_ID;
   const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;
   return extended ? (id << 1) | 1U : id << 19;
 }
 
-// In Initialisation only what a reset has left to be sent: the boot-up message comes before anything else. Nothing is
-// sent in CO_INVALID: while CONodeStop() stops one service, a callback may run the timer of another one.
+// Returns whether the next frame may be sent. In Initialisation only fixed frames are sent: frames from before a reset,
+// then the boot-up message. In CO_INVALID nothing is sent: while CONodeStop() stops one service, a callback may run the
+// timer of another one.
 bool may_send_next(const CO_NODE& node) {
   return node.Held == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
@@ -60,8 +62,8 @@ bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
   return !is_waiting(node) && may_send_next(node) && port::can_send(node, frame);
 }
 
-// The rest is kept for the node's own frames: one of each SDO server and client, an EMCY message and a heartbeat, but
-// at most half the queue.
+// Returns the elements of the queue that frames of the application may use. The others are reserved for the node's own
+// frames: one of each SDO server and client, an EMCY message and a heartbeat, but at most half the queue.
 uint16_t places_for_application(const CO_TX_QUEUE& queue) {
   constexpr uint16_t own = 2 + CO_SSDO_N + (USE_CSDO != 0 ? CO_CSDO_N : 0);
   const auto half = static_cast<uint16_t>(queue.Len / 2);
@@ -172,7 +174,7 @@ void clear(CO_NODE& node) {
 }
 
 void fix(CO_NODE& node) {
-  if (node.Nmt.Mode != CO_INIT) {  // there they wait for the boot-up message
+  if (node.Nmt.Mode != CO_INIT) {  // queued frames of Initialisation follow the boot-up message
     node.TxQueue.Fixed = node.TxQueue.Num;
   }
 }
