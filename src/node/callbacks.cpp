@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Defaults of the callbacks: weak, so that the application's own definitions win.
+// Default callbacks: weak symbols, which definitions of the application replace.
 #include "co_core.h"
 
 extern "C" {

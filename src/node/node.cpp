@@ -18,7 +18,7 @@
 namespace co::node {
 namespace {
 
-// Objects that every device has. [301:7.5.1] Without them the node runs, and says so.
+// Reports mandatory objects that the dictionary lacks as the node's error; the node runs without them. [301:7.5.1]
 void check_mandatory_objects(CO_NODE& node) {
   if (USE_DICT_CHECK == 0) {
     return;
@@ -33,8 +33,8 @@ void check_mandatory_objects(CO_NODE& node) {
   }
 }
 
-// The part of the initialisation that every NMT reset runs, too. The node is serving: what type functions and callbacks
-// ask for waits. False: they have stopped the node.
+// Runs the part of the initialisation that every NMT reset repeats. The caller keeps the node serving, so that requests
+// of type functions and callbacks are deferred. Returns false if one of them has stopped the node.
 [[nodiscard]] bool initialise(CO_NODE& node, CO_NMT_RESET type) {
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
@@ -52,14 +52,15 @@ void check_mandatory_objects(CO_NODE& node) {
   return node.Nmt.Mode == CO_INIT;
 }
 
-// A node without node-ID stays in Initialisation. [305]
+// Sends the boot-up message and enters Pre-operational; a node without node-ID stays in Initialisation. [305]
 void start(CO_NODE& node) {
   if (!services::awaits_node_id(node)) {
     nmt::boot(node);
   }
 }
 
-// A reset that the application asked for lets the frames go out that wait, an answer among them.
+// Resets the node. commanded: a reset by the NMT master drops the queued frames; a reset by the application still sends
+// them, because an SDO response may be among them.
 void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   if (node.Nmt.Mode == CO_INVALID) {  // COLssLoad() has stopped the node
     return;
@@ -78,6 +79,7 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
   }
 }
 
+// Runs a deferred reset. pending: bits of event::Pending
 void settle_reset(CO_NODE& node, uint8_t pending) {
   const bool commanded = (pending & event::commanded) != 0;
   const CO_NMT_RESET type = (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM;
@@ -98,6 +100,8 @@ void settle_reset(CO_NODE& node, uint8_t pending) {
   }
 }
 
+// Reads the COB-IDs of SDO servers and clients from the dictionary again; entries_have_moved: also finds the mapped
+// objects again.
 void reconfigure(CO_NODE& node, bool entries_have_moved) {
   {
     const event::Serving serving(node);
@@ -109,6 +113,7 @@ void reconfigure(CO_NODE& node, bool entries_have_moved) {
   routes::publish(node);
 }
 
+// Runs the deferred work whose bits are set in what.
 void settle(CO_NODE& node, uint8_t what) {
   while ((node.Pending & what) != 0 && (node.State & (event::serving | event::changing)) == 0) {
     const auto pending = static_cast<uint8_t>(node.Pending & what);
@@ -121,7 +126,7 @@ void settle(CO_NODE& node, uint8_t what) {
   }
 }
 
-// Returns the reason why no driver may be called.
+// Returns the error because of which no driver may be called, or CO_ERR_NONE.
 CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
   if (node.Ext->Size < sizeof(CO_NODE_EXT)) {
     return CO_ERR_NODE_EXT;
@@ -135,7 +140,7 @@ CO_ERR check_drivers(const CO_NODE& node, const CO_NODE_SPEC& spec) {
   return spec.TmrFreq == 0 ? CO_ERR_NODE_TMR_FREQ : CO_ERR_NONE;
 }
 
-// Returns the reason why the node cannot run with the drivers that it has.
+// Returns the error because of which the node cannot run with drivers that may be called, or CO_ERR_NONE.
 CO_ERR check_spec(const CO_NODE_SPEC& spec) {
   const bool is_unconfigured = USE_LSS != 0 && spec.NodeId == wire::no_node_id;
   if (!wire::is_node_id(spec.NodeId) && !is_unconfigured) {
@@ -144,7 +149,8 @@ CO_ERR check_spec(const CO_NODE_SPEC& spec) {
   return spec.Dict == nullptr || spec.DictLen == 0 ? CO_ERR_NODE_DICT : CO_ERR_NONE;
 }
 
-// Starts the drivers and what needs nothing else. A node without drivers gets drivers that do nothing.
+// Initialises the drivers, the timers and the transmit queue. Where no driver may be called, the node gets drivers that
+// do nothing.
 CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
   const CO_ERR err = check_drivers(node, spec);
   if (err == CO_ERR_NONE) {
@@ -158,6 +164,7 @@ CO_ERR begin(CO_NODE& node, const CO_NODE_SPEC& spec) {
   return err != CO_ERR_NONE ? err : check_spec(spec);
 }
 
+// Clears the node and copies its specification.
 void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) {
   node = {};
   node.Ext = &ext;
@@ -194,7 +201,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
   CONodeCanChange(&node, event);
 }
 
-// For CONodeProcess(): what others have left to it, too.
+// Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
 #if USE_REAL_TIME
 void settle_all(CO_NODE& node) {
   const uint8_t pending = node.Pending;
@@ -210,7 +217,7 @@ void settle_all(CO_NODE& node) { event::settle(node); }
 
 bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || node.Paused != 0; }
 
-// Offers the frames that the driver has refused again, then continues block transfers and multiplex PDOs.
+// Offers frames that the driver has refused to the driver again, then continues block transfers and multiplex PDOs.
 void resume_sending(CO_NODE& node) {
   transmit::flush(node);
   if ((USE_SDO_BLOCK != 0 || USE_MPDO != 0) && node.Paused != 0) {
@@ -219,8 +226,8 @@ void resume_sending(CO_NODE& node) {
   }
 }
 
-// For COTmrProcess(), so that a firmware may call CONodeProcess() for received frames only. Resets are left to
-// CONodeProcess() where there is a real-time thread.
+// Calls resume_sending() for COTmrProcess(), so that a firmware may call CONodeProcess() for received frames only.
+// Where there is a real-time thread, resets are left to CONodeProcess().
 void resume_sending_between_frames(CO_NODE& node) {
   if (node.State != event::running) {
     return;
@@ -232,6 +239,7 @@ void resume_sending_between_frames(CO_NODE& node) {
   }
 }
 
+// Reports all events of an error frame.
 void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
   for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
     if (wire::reports(frame, static_cast<CO_CAN_EVENT>(event))) {
@@ -270,7 +278,8 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   }
 }
 
-// The frame that CONodeProcess() serves. False: there is none.
+// Reads the next frame for CONodeProcess(): from the driver or, where there is a real-time thread, from the ring that
+// it fills. Returns false if there is none.
 bool receive(CO_NODE& node, CO_IF_FRM& frame) {
 #if USE_REAL_TIME
   if (port::has_mainline(node)) {
@@ -284,8 +293,9 @@ bool receive(CO_NODE& node, CO_IF_FRM& frame) {
   return true;
 }
 
-// Reads the frame that waits in CO_INVALID, and drops it: a loop that processes frames until there is none has to end.
-// The error that has stopped the node stays. A node that was never initialised has no drivers.
+// Reads and drops a received frame in CO_INVALID, so that a loop that processes frames until there is none ends. The
+// error that has stopped the node is kept: errors of the driver are not reported. A node that was never initialised has
+// no drivers.
 void drop_received(CO_NODE& node) {
   if (node.Ext == nullptr || node.State != 0) {
     return;
@@ -298,23 +308,27 @@ void drop_received(CO_NODE& node) {
 }
 
 #if USE_REAL_TIME
-// What the NMT state forbids now is lost: kept for CONodeProcess() it would come behind newer ones.
+// Processes a frame in the real-time thread. A frame that the NMT state forbids now is dropped: left to
+// CONodeProcess(), it would be processed after newer frames.
 void serve_at_once(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   if (place == routes::nowhere || !services::dispatch(node, frame, place)) {
     count(node.Count.Unclaimed);
   }
 }
 
+// Leaves a frame to CONodeProcess(); a frame for which the ring has no space is lost and reported as overrun.
 void leave(CO_NODE& node, const CO_IF_FRM& frame) {
   if (!CORingPut(node.Ext->Mainline, &frame)) {
     event::defer(node, event::overrun);
   }
 }
 
+// Returns whether a frame is left to CONodeProcess(). place: position of its first route
 bool is_for_mainline(const CO_NODE& node, unsigned place) {
   return place == routes::nowhere ? node.Ext->Foreign : !services::is_real_time(node, place);
 }
 
+// Processes a received frame, or leaves it to CONodeProcess().
 void share_out(CO_NODE& node, CO_IF_FRM frame) {
   if (!check_length(node, frame)) {
     return;
@@ -329,7 +343,7 @@ void share_out(CO_NODE& node, CO_IF_FRM frame) {
 }
 #endif
 
-// Has CONodeProcess() something to do that others have left to it?
+// Returns whether the real-time thread has left work to CONodeProcess().
 bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
   return port::has_mainline(node) && (node.Pending != 0 || CORingCount(node.Ext->Mainline) != 0);
@@ -439,7 +453,7 @@ void COTmrProcess(CO_TMR* tmr) {
 }
 
 #if USE_REAL_TIME
-// The node is serving all the time: what waits is the mainline's.
+// Keeps the node serving throughout, so that deferred work is left to the mainline.
 void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
   const port::Turn turn(*node);
@@ -491,7 +505,7 @@ CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node) { return node == nullptr
 
 void* CONodeGetUser(const CO_NODE* node) { return node == nullptr || node->Ext == nullptr ? nullptr : node->Ext->User; }
 
-// The symbols of both functions name this library's configuration (co_configuration.h); programs that declare them
+// The symbols of both functions contain this library's configuration (co_configuration.h); programs that declare them
 // without co_core.h link these aliases.
 #ifdef CO_CONFIGURED_SYMBOL
 void node_init_plain(CO_NODE*, const CO_NODE_SPEC*) __asm__("CONodeInit")

@@ -27,11 +27,11 @@ namespace {
 bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 
 #if CO_TPDO_N > 0
-// All PDOs are initialised together.
+// RPDOs and TPDOs are initialised together, by the RPDOs if there are any.
 constexpr auto init_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::init;
 #endif
 
-// Those that get frames come first, in the order of routes::Service.
+// Services that receive frames come first, in the order of routes::Service.
 constexpr Service table[] = {
     {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
     {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_frames, sdo_server::on_mode,
@@ -82,6 +82,7 @@ constexpr Service table[] = {
 
 static_assert(sizeof table / sizeof *table > static_cast<size_t>(routes::Service::count));
 
+// Calls a function of all services that have it.
 void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
   for (const Service& service : table) {
     if (service.*column != nullptr) {
@@ -90,6 +91,7 @@ void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {
   }
 }
 
+// Returns the number of senders of all services (Service.streams).
 constexpr uint16_t count_streams() {
   uint16_t all = 0;
   for (const Service& service : table) {
@@ -100,6 +102,7 @@ constexpr uint16_t count_streams() {
 constexpr uint16_t streams = count_streams();
 static_assert(streams <= UINT8_MAX, "CO_NODE.Turn");
 
+// Calls on_free of the service that owns the sender with this number. Returns whether it has sent frames.
 bool go_on(CO_NODE& node, uint16_t stream) {
   for (const Service& service : table) {
     if (stream < service.streams) {
@@ -144,7 +147,8 @@ void configure(CO_NODE& node) { run(node, &Service::configure); }
 
 void remap(CO_NODE& node) { pdo::remap(node); }
 
-// In turns, each as many frames as the controller takes. Whom it refuses the first is the first the next time.
+// Continues the senders in round-robin order (index: CO_NODE.Turn), each with as many frames as the controller accepts.
+// The sender that is refused first continues first the next time.
 void on_free(CO_NODE& node) {
   unsigned idle = 0;
   node.Paused = 0;
@@ -168,7 +172,7 @@ bool is_real_time(const CO_NODE& node, unsigned place) {
 }
 #endif
 
-// Whom a frame reaches may change the routes.
+// Calls the services in the order of the routes, which each service may change.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
   bool claimed = false;
   bool served = false;
@@ -223,7 +227,7 @@ void event::lose_communication(CO_NODE& node) { nmt::lose_communication(node); }
 
 CO_MODE event::mode_for_switch(CO_NODE& node) { return nmt::mode_for_switch(node); }
 
-// A bus-off is over when messages can be sent again.
+// Withdraws synchronous PDOs and the TIME message at bus-off: they would be sent too late, after the recovery.
 void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
   if (what == CO_CAN_BUS_OFF) {
     pdo::flush(node);
@@ -240,7 +244,8 @@ void event::report_can(CO_NODE& node, CO_CAN_EVENT what) {
 #endif
 }
 
-// TPDOs hold the values from before the RPDOs of the same SYNC. [301:7.2.2.3]
+// Samples the TPDOs before it applies the RPDOs: TPDOs hold the values from before the RPDOs of the same SYNC.
+// [301:7.2.2.3]
 void event::sync(CO_NODE& node, uint8_t counter) {
   pdo::sample(node, counter);
   pdo::apply(node);
@@ -270,6 +275,7 @@ void event::change_object(CO_NODE& node, const CO_OBJ& obj) { pdo::change_object
 
 namespace {
 
+// Enters an NMT state: sets the permissions, then calls on_mode of every service.
 void enter(CO_NODE& node, CO_MODE mode) {
   node.Nmt.Mode = mode;
   node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
@@ -284,8 +290,8 @@ void enter(CO_NODE& node, CO_MODE mode) {
 
 }  // namespace
 
-// The callback may ask for another mode, which comes back here: the outermost call enters what was asked for last.
-// Nothing takes back a CONodeStop(), and only CONodeInit() ends CO_INVALID.
+// Calls CONmtModeChange(), which may request another state and so call this function again: the outermost call enters
+// the state that was requested last. A CONodeStop() cannot be revoked, and only CONodeInit() ends CO_INVALID.
 void event::change_mode(CO_NODE& node, CO_MODE mode) {
   CO_NMT& nmt = node.Nmt;
   if (nmt.Mode == CO_INVALID && mode > CO_INIT) {

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The services of the node, a row each.
+// Table of the services of the node, and the functions that use it.
 #pragma once
 
 #include "co_core.h"
 
 namespace co {
 
+// Service: its permission and its functions; null: it has none.
 struct Service {
-  uint8_t allowed;   // CO_…_ALLOWED bit that its frames need
-  uint16_t streams;  // for on_free: who may send so, numbers from 0
+  uint8_t allowed;   // CO_…_ALLOWED bit that the NMT state must permit for its frames
+  uint16_t streams;  // senders that on_free continues, numbered from 0
   void (*init)(CO_NODE& node);
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);   // false: malformed
-  bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // a remote frame, likewise
-  void (*on_mode)(CO_NODE& node);
-  bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may now succeed. True: it has
+  bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // remote frame; false: malformed
+  void (*on_mode)(CO_NODE& node);                                             // the NMT state has changed
+  bool (*on_free)(CO_NODE& node, uint16_t number);  // transmit::offer() may succeed now; true: frames were sent
   void (*configure)(CO_NODE& node);                 // COB-IDs have changed
 };
 
@@ -21,8 +22,10 @@ namespace services {
 
 void init(CO_NODE& node);
 
-// LSS: node-ID and bit rate as they were stored, for the node that is being initialised, and for the next reset. Does
-// the node that is started have to wait for a node-ID? Was it started so?
+// Functions of the LSS slave. begin_lss() sets node-ID and bit rate of the node that is being initialised to the stored
+// ones, load_node_id() reads the stored ones for the next reset, take_node_id() sets the node-ID at a reset.
+// awaits_node_id() returns whether the node, which is being started, has to wait for a node-ID; is_started() whether it
+// is waiting.
 #if USE_LSS
 void begin_lss(CO_NODE& node);
 void load_node_id(CO_NODE& node);
@@ -37,7 +40,8 @@ inline void take_node_id(CO_NODE&) {}
 [[nodiscard]] inline bool is_started(const CO_NODE&) { return false; }
 #endif
 
-// Loads the parameters of a reset. What is stored autonomously is safe.
+// Functions of the parameter groups. load() loads the groups of a reset, save_changes() stores changes of the groups
+// that are stored autonomously.
 #if USE_PARA
 void load(CO_NODE& node, CO_NMT_RESET type);
 void save_changes(CO_NODE& node);
@@ -46,26 +50,27 @@ inline void load(CO_NODE&, CO_NMT_RESET) {}
 inline void save_changes(CO_NODE&) {}
 #endif
 
-// The application starts anew: what it has told the services is no more.
+// Clears the EMCY errors that the application has set: the application starts anew.
 #if USE_EMCY
 void forget_application(CO_NODE& node);
 #else
 inline void forget_application(CO_NODE&) {}
 #endif
 
-// Are the routes that begin at this place those of SYNC and PDOs alone?
+// Returns whether all routes of the identifier at this position belong to SYNC and PDOs.
 [[nodiscard]] bool is_real_time(const CO_NODE& node, unsigned place);
 
-// Gives a frame to the services whose routes begin at this place. False: none may have it.
+// Passes a frame to the services whose routes begin at this position. Returns false if the NMT state permits none of
+// them.
 [[nodiscard]] bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place);
 
-// Takes COB-IDs from the dictionary again.
+// Reads the COB-IDs of SDO servers and clients from the dictionary again.
 void configure(CO_NODE& node);
 
-// Finds mapped objects again.
+// Finds the mapped objects of all PDOs in the dictionary again.
 void remap(CO_NODE& node);
 
-// Lets those go on that have found the controller full.
+// Continues the senders whose frames the controller has refused.
 void on_free(CO_NODE& node);
 
 }  // namespace services
