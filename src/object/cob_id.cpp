@@ -7,7 +7,7 @@
 namespace co::cob_id {
 namespace {
 
-// The stored value holds the CAN-ID relative to the node-ID where the entry says so; flags stay as they are.
+// Adds by to the CAN-ID of a COB-ID; its flags stay unchanged.
 uint32_t shift_id(uint32_t cob_id, uint32_t by) {
   const uint32_t ids = (cob_id & wire::cob_frame) != 0 ? wire::extended_ids : wire::base_ids;
   return (cob_id & ~ids) | ((cob_id + by) & ids);
@@ -19,8 +19,9 @@ bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
 }  // namespace
 
-// UNSIGNED32 keeps the value. It takes the node-ID into account for the 32 bits as a whole, which could reach the flags
-// above the CAN-ID; so what it adds or takes off is undone, and done for the CAN-ID alone.
+// CO_TUNSIGNED32 stores the value. With flag N that type adds the node-ID to the 32 bits as a whole when it reads, and
+// subtracts it when it writes, which could change the flags above the CAN-ID. The functions below undo that, and add or
+// subtract the node-ID in the CAN-ID alone.
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED32->Size(obj, node, width); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that hold a COB-ID: UNSIGNED32, of which flag N makes the CAN-ID relative to the node-ID.
+// Objects that hold a COB-ID: UNSIGNED32; with flag N the CAN-ID is stored relative to the node-ID.
 #pragma once
 
 #include "co_core.h"
@@ -8,20 +8,21 @@ namespace co::cob_id {
 
 [[nodiscard]] uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width);
 
-// The COB-ID as the network sees it; as Read of a type.
+// Reads the COB-ID that the network sees. Parameters of a type's Read function.
 [[nodiscard]] CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size);
 
-// May the value take the place of the one before?
+// Function that returns whether value may replace before.
 using Permission = bool (*)(const CO_OBJ& obj, uint32_t before, uint32_t value);
 
-// Stores what the permission allows, else CO_ERR_OBJ_RANGE; buffer and size as Write of a type.
+// Writes a COB-ID if the permission allows it, else returns CO_ERR_OBJ_RANGE. buffer and size: those of a type's Write
+// function.
 [[nodiscard]] CO_ERR write(CO_OBJ& obj, CO_NODE& node, const void* buffer, uint32_t size, Permission may);
 
-// Is this a CAN-ID that a configurable object may have, in the format that bit 29 names? [301:7.3.5]
+// Returns whether a configurable object may have this CAN-ID, in the frame format that bit 29 selects. [301:7.3.5]
 [[nodiscard]] bool is_free(uint32_t cob_id);
 
-// The rule of most objects: while bit 31 of neither is set, nothing changes; while it is, anything that is free may
-// come.
+// Permission of most objects: a value with bit 31 set (not valid) may always be written; a valid COB-ID only if it is
+// unchanged, or if the COB-ID before is not valid and is_free() permits the CAN-ID.
 [[nodiscard]] bool may_replace(uint32_t before, uint32_t value);
 
 }  // namespace co::cob_id

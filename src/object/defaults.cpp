@@ -13,7 +13,7 @@ void set_default(const CO_DEFAULTS& block) {
   }
 }
 
-// Reset node sets the values of reset communication, too.
+// Sets the default values of a reset; reset node includes the values of reset communication.
 CO_ERR reset(CO_OBJ* end, CO_NODE_T*, uint32_t type) {
   const auto* block = co::data_of<const CO_DEFAULTS>(*end);
   for (; block != nullptr && block->Size != 0; ++block) {

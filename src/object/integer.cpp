@@ -13,7 +13,7 @@
 namespace co::integer {
 namespace {
 
-// A number of 1, 2 or 4 bytes in a variable as wide as it is. The node-ID is added to what is shown.
+// Reads a number of 1, 2 or 4 bytes from a variable of the same size; with flag N the node-ID is added.
 inline CO_ERR read_word(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
   const void* const place = place_of(obj, bytes);
   if (place == nullptr) {
@@ -23,6 +23,7 @@ inline CO_ERR read_word(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned
   return CO_ERR_NONE;
 }
 
+// Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
 inline CO_ERR write_word(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
   const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
   return keep<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
@@ -68,7 +69,7 @@ extern "C" {
 const CO_OBJ_TYPE COTInt8 = Byte::table;
 const CO_OBJ_TYPE COTInt16 = Word<2>::table;
 const CO_OBJ_TYPE COTInt32 = Word<4>::table;
-// Flag N means nothing for these, and is refused.
+// Flag N has no meaning for these types, and is refused.
 const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
 const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};
 

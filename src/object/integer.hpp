@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers in the byte order of the CPU, at places of any alignment: what type functions are given.
+// Access to the numbers that type functions get: in the byte order of the CPU, at any alignment.
 #pragma once
 
 #include <stdint.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What numbers of every width share: how they lie in their variables.
+// Access to the variables of numbers of every width.
 #pragma once
 
 #include "co_core.h"
@@ -10,11 +10,13 @@
 
 namespace co::integer {
 
+// T with which a variable of any type may be accessed.
 template <class T>
 struct Aliasing {
   typedef T type __attribute__((may_alias));
 };
 
+// Returns whether a number of this many bytes can be accessed as one T, which requires alignment.
 template <class T>
 bool is_one_access(const void* address, unsigned bytes) {
   return bytes == sizeof(T) && (reinterpret_cast<uintptr_t>(address) & (sizeof(T) - 1)) == 0;
@@ -29,10 +31,11 @@ const volatile typename Aliasing<T>::type& as(const void* address) {
   return *static_cast<const volatile typename Aliasing<T>::type*>(address);
 }
 
-// A byte of a number in the byte order of the CPU and of any alignment: byte n from the lowest.
+// Returns the offset of byte n, counted from the lowest, in a number in the byte order of the CPU.
 constexpr unsigned place_of_byte(unsigned n, unsigned bytes) { return wire::host_is_little_endian ? n : bytes - 1 - n; }
 
-// One access where alignment allows it, so that an interrupt sees the old or the new value.
+// Reads a number, at any alignment: in one access where its alignment allows it, so that an interrupt sees the old or
+// the new value.
 template <class T>
 inline T load(const void* from, unsigned bytes) {
   if (sizeof(T) == 8 && is_one_access<uint64_t>(from, bytes)) {
@@ -51,6 +54,7 @@ inline T load(const void* from, unsigned bytes) {
   return value;
 }
 
+// Writes a number like load() reads it.
 template <class T>
 inline void store(void* to, T value, unsigned bytes) {
   if (sizeof(T) == 8 && is_one_access<uint64_t>(to, bytes)) {
@@ -66,7 +70,7 @@ inline void store(void* to, T value, unsigned bytes) {
   }
 }
 
-// The value of an entry with flag D lies in the lowest bytes of its word.
+// Returns the address of an entry's value; with flag D the value is stored in the lowest bytes of Data.
 inline void* place_of(CO_OBJ& obj, unsigned storage) {
   const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
   return CO_IS_DIRECT(obj.Key) != 0 ? reinterpret_cast<uint8_t*>(&obj.Data) + above : data_of<void>(obj);
@@ -76,8 +80,8 @@ inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
   return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U;
 }
 
-// Gives the variable its new value, and tells of a change where somebody watches it (flag A). All of the word of an
-// entry takes the value.
+// Stores a value in the variable of an entry, and reports a change if its TPDOs are event-driven (flag A). With flag D
+// all bytes of Data are written.
 template <class T>
 inline CO_ERR keep(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
   void* const place = place_of(obj, storage);

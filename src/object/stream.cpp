@@ -8,7 +8,7 @@
 #if USE_OD
 #include "co_od.h"
 
-// Comparing with it does not link it.
+// Weak: a comparison with its address does not link the function.
 #pragma weak ODTypeInit
 #endif
 
@@ -21,6 +21,7 @@ CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) { return seek(*obj, pos
 
 namespace {
 
+// Returns whether the object is a stream of this library whose Data is null.
 bool is_missing(const CO_OBJ& obj) {
   const CO_OBJ_TYPE* const type = original_type(obj);
   return type != nullptr && type->Reset == reset && uintptr_t{obj.Data} == 0;

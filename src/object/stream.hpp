@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What domains and strings share: memory with a position.
+// Memory with a position: the common part of domains and strings.
 #pragma once
 
 #include "co_obj.h"
@@ -7,16 +7,16 @@
 
 namespace co::stream {
 
-// The bytes of an access of n at position that lie within size.
+// Returns how many of n bytes at position are within size.
 constexpr uint32_t clip(uint32_t n, uint32_t position, uint32_t size) {
   const uint32_t left = position < size ? size - position : 0;
   return n < left ? n : left;
 }
 
-// Init function: position 0.
+// Init function of the stream types: checks the entry and sets the position to 0.
 CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
 
-// Sets the position. Every structure of a stream begins with it.
+// Sets the position, which is the first member of the structure of every stream.
 [[nodiscard]] inline CO_ERR seek(const CO_OBJ& obj, uint32_t position) {
   auto* const offset = data_of<uint32_t>(obj);
   if (offset == nullptr) {
@@ -29,13 +29,14 @@ CO_ERR init(CO_OBJ* obj, CO_NODE_T* node);
 // Reset function of the stream types: calls seek().
 CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 
-// The type that an entry has without its extension (co_od.h); null: none.
+// Returns the type of an entry or, if the entry can be extended (co_od.h), its original type; null: it has none.
 [[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
 
-// Like access::open(), and refuses one of our own streams whose Data is null.
+// Opens an object like access::open(); also refuses a stream of this library whose Data is null.
 [[nodiscard]] uint32_t open(CO_NODE_T& node, uint32_t key, CO_OBJ_TRANSFER transfer);
 
-// Somebody passes a piece: whoever goes on with COObj…Cont() finds the position where it was.
+// Scope of an access that changes the position of a stream; its end restores the position, so that the application can
+// continue its access with COObjRdBufCont() or COObjWrBufCont().
 class KeptPosition {
  public:
   explicit KeptPosition(const CO_OBJ& obj)

@@ -23,7 +23,7 @@ uint32_t text_size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   return n;
 }
 
-// The text may have become shorter since the access began.
+// Reads the next bytes of the text, which may have become shorter since the access began.
 CO_ERR text_read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   auto* const text = co::data_of<CO_OBJ_STR>(*obj);
   if (text == nullptr || text->Start == nullptr) {
@@ -42,11 +42,12 @@ CO_OBJ_STR_RW* usable(const CO_OBJ& obj) {
   return string == nullptr || string->Start == nullptr ? nullptr : string;
 }
 
-// Present length, whatever the application has left in Size.
+// Returns the present length in bytes. The application may have set Size to more than Capacity.
 uint32_t octets_in(const CO_OBJ_STR_RW& string) {
   return string.Size < string.Capacity ? string.Size : string.Capacity;
 }
 
+// Returns the present length in bytes of a text, which ends at its first zero.
 uint32_t text_in(const CO_OBJ_STR_RW& string) {
   uint32_t n = 0;
   while (n < octets_in(string) && string.Start[n] != 0) {
@@ -55,7 +56,8 @@ uint32_t text_in(const CO_OBJ_STR_RW& string) {
   return n;
 }
 
-// width: the length of a download, 0: that of an upload. A download may have any length up to the capacity.
+// Returns the length of an upload if width is 0, else the length nearest to width that a download may have: any length
+// up to the capacity.
 uint32_t size_for(const CO_OBJ& obj, uint32_t width, uint32_t (*length)(const CO_OBJ_STR_RW&)) {
   const CO_OBJ_STR_RW* const string = usable(obj);
   if (string == nullptr) {
@@ -73,7 +75,8 @@ uint32_t octet_size(CO_OBJ* obj, CO_NODE*, uint32_t width) { return size_for(*ob
 
 uint32_t unicode_size(CO_OBJ* obj, CO_NODE*, uint32_t width) { return size_for(*obj, width, octets_in) & ~1U; }
 
-// Characters of a UNICODE_STRING lie in the byte order of the CPU. [301:7.1.6.4]
+// Mask for the offsets of bytes in a UNICODE_STRING, whose characters are stored in the byte order of the CPU.
+// [301:7.1.6.4]
 constexpr uint32_t unicode_flip = co::wire::host_is_little_endian ? 0 : 1;
 
 template <uint32_t flip>

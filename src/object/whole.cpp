@@ -13,7 +13,8 @@ namespace {
 
 #if USE_OD
 
-// Extended streams have one place for the application, until one of them gets another extension.
+// Scope of an access to an extended stream; its end restores the application's own access. All extended streams share
+// one OD_TRANSFER for the application; it is not restored if an object has got another extension meanwhile.
 class KeptAccess {
  public:
   explicit KeptAccess(const CO_NODE& node) : od_(node.Ext->Od) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// An object passes as a whole, in a PDO.
+// Access to an object as a whole, by a PDO.
 #pragma once
 
 #include "co_obj.h"
 
 namespace co::obj {
 
-// Runs a Read or Write function of the object's type, of a stream at its beginning. Whoever is in the middle of that,
-// or of another extended one, with COObj…Cont() finds the position where it was.
+// Calls a Read or Write function of the object's type; a stream is accessed from its beginning. An access of the
+// application with COObjRdBufCont() or COObjWrBufCont(), to this stream or to another extended stream, keeps its
+// position.
 [[nodiscard]] CO_ERR pass_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 
 }  // namespace co::obj

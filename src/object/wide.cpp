@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of all other widths: values in a variable of 4 or 8 bytes, or in the entry.
+// Numbers of 24, 40, 48, 56 and 64 bits, and REAL64: values in a variable of 4 or 8 bytes, or in the entry.
 #include "co_integer32.h"
 #include "co_integer64.h"
 #include "co_real.h"
@@ -9,16 +9,16 @@
 namespace co::integer {
 namespace {
 
-// Of a number whose variable is wider than it is, or wider than a word.
+// Format of a number whose variable is wider than the number, or wider than 32 bits.
 struct Format {
   uint8_t bytes;    // on the bus
   uint8_t storage;  // bytes of the variable
-  bool is_signed;   // the variable takes its sign
+  bool is_signed;   // sign bit is extended to the variable
 };
 
 constexpr uint64_t modulo(uint64_t value, unsigned bytes) { return value & (UINT64_MAX >> (64U - 8U * bytes)); }
 
-// The value modulo its width, with its sign in the bits of the variable above.
+// Returns the value modulo its width, with its sign extended to the width of the variable.
 constexpr uint64_t extend(uint64_t value, const Format& format) {
   const uint64_t sign = format.is_signed ? uint64_t{1} << (8U * format.bytes - 1U) : 0;
   return modulo((modulo(value, format.bytes) ^ sign) - sign, format.storage);
@@ -72,7 +72,7 @@ const CO_OBJ_TYPE COTSigned24 = Wide<3, 4, true>::table;
 const CO_OBJ_TYPE COTSigned40 = Wide<5, 8, true>::table;
 const CO_OBJ_TYPE COTSigned48 = Wide<6, 8, true>::table;
 const CO_OBJ_TYPE COTSigned56 = Wide<7, 8, true>::table;
-// Flag N means nothing for it, and is refused.
+// Flag N has no meaning for this type, and is refused.
 const CO_OBJ_TYPE COTReal64 = {Real64::size, dict::checked_by<rules::variable>, Real64::read, Real64::write, nullptr};
 
 }  // extern "C"
