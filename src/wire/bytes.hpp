@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of the bus (little endian [301:7.1.3]) and numbers of the CPU.
+// Conversion between bytes of the bus (little-endian [301:7.1.3]) and numbers of the CPU.
 #pragma once
 
 #include <stdint.h>
@@ -22,13 +22,14 @@ constexpr void put_u32(uint8_t* p, uint32_t value) {
   p[3] = static_cast<uint8_t>(value >> 24);
 }
 
-// A word whose place is aligned.
+// Reads a word of the bus at an aligned address.
 inline uint32_t get_aligned(const uint8_t* p) {
   uint32_t value = 0;
   __builtin_memcpy(&value, __builtin_assume_aligned(p, sizeof value), sizeof value);
   return host_is_little_endian ? value : __builtin_bswap32(value);
 }
 
+// Writes a word of the bus to an aligned address.
 inline void put_aligned(uint8_t* p, uint32_t value) {
   value = host_is_little_endian ? value : __builtin_bswap32(value);
   __builtin_memcpy(__builtin_assume_aligned(p, sizeof value), &value, sizeof value);
@@ -41,8 +42,9 @@ constexpr void put_u16(uint8_t* p, uint16_t value) {
   p[1] = static_cast<uint8_t>(value >> 8);
 }
 
-// The data of a segment of an SDO transfer. Any alignment; the places do not overlap.
+// Data bytes of a segment of an SDO transfer.
 inline constexpr uint32_t segment_bytes = 7;
+// Copies the data of a segment, at any alignment; source and destination must not overlap.
 inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from) {
   to[0] = from[0];
   to[1] = from[1];
@@ -53,8 +55,8 @@ inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from)
   to[6] = from[6];
 }
 
-// Any number of bytes, most often those of a segment: cheaper than a call of memcpy for few bytes, and for many that
-// are not aligned.
+// Copies any number of bytes, usually those of a segment: cheaper than a call of memcpy for few bytes, and for many
+// that are not aligned.
 [[gnu::noinline]] inline void copy(uint8_t* to, const uint8_t* from, uint32_t n) {
   for (; USE_FAST_PATHS != 0 && n >= segment_bytes; n -= segment_bytes) {
     copy_segment(to, from);
@@ -66,7 +68,7 @@ inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from)
   }
 }
 
-// A number of n bytes from the order of the bus to that of the CPU, or back.
+// Converts a number of n bytes from the byte order of the bus to that of the CPU, or back.
 constexpr void swap_host([[maybe_unused]] uint8_t* p, [[maybe_unused]] uint32_t n) {
   if constexpr (!host_is_little_endian) {
     for (uint32_t low = 0, high = n; low + 1 < high; ++low) {

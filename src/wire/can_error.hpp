@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error frames, coded as SocketCAN does: the class in the identifier, details in the data.
+// Error frames in the format of SocketCAN: the error class in the identifier, details in the data.
 #pragma once
 
 #include "co_core.h"
@@ -10,12 +10,12 @@ inline constexpr uint32_t error_controller = 0x004;
 inline constexpr uint32_t error_bus_off = 0x040;
 inline constexpr uint32_t error_restarted = 0x100;
 
-// Data[1] of an error of the class controller.
-inline constexpr uint8_t controller_overflow = 0x01;        // of received frames
+// Bits of Data[1] in an error frame of the class error_controller.
+inline constexpr uint8_t controller_overflow = 0x01;        // a received frame was lost
 inline constexpr uint8_t controller_passive = 0x10 | 0x20;  // receiving, transmitting
 inline constexpr uint8_t controller_active = 0x40;
 
-// What reports an event: a class, or a status of the controller.
+// Bits that report an event: an error class, or a status of the controller.
 struct ErrorBits {
   uint16_t error_class;
   uint8_t status;
@@ -23,7 +23,7 @@ struct ErrorBits {
 inline constexpr ErrorBits error_bits[CO_CAN_EVENT_NUM] = {
     {0, controller_overflow}, {0, controller_passive}, {error_bus_off, 0}, {error_restarted, controller_active}};
 
-// Does an error frame report this event? It may report several.
+// Returns whether an error frame reports this event; it may report several.
 constexpr bool reports(const CO_IF_FRM& frame, CO_CAN_EVENT event) {
   const ErrorBits& bits = error_bits[event];
   const unsigned status = (frame.Identifier & error_controller) != 0 ? frame.Data[1] : 0U;

@@ -37,27 +37,29 @@ constexpr bool is_restricted(uint32_t id) {
   return false;
 }
 
-// The CAN-IDs of the SDO server that every node has: from it, and to it.
+// Returns whether a default SDO server transmits (tx) or receives (rx) with this CAN-ID.
 constexpr bool is_default_sdo_tx(uint32_t id) { return id >= 0x581 && id <= 0x5FF; }
 constexpr bool is_default_sdo_rx(uint32_t id) { return id >= 0x601 && id <= 0x67F; }
 
-// The CAN-ID fits the frame format that bit 29 names.
+// Returns whether the CAN-ID fits the frame format that bit 29 selects.
 constexpr bool fits_format(uint32_t cob_id) { return (cob_id & cob_frame) != 0 || (cob_id & extended_ids) <= base_ids; }
 
-// Can an object have frames under this COB-ID? The identifier 000h belongs to NMT, whatever a table says.
+// Returns whether an object can have frames with this COB-ID: it is valid, its CAN-ID fits its frame format and is not
+// 000h, which always belongs to NMT.
 constexpr bool is_usable(uint32_t cob_id) {
   return (cob_id & cob_invalid) == 0 && fits_format(cob_id) && (cob_id & extended_ids) != 0;
 }
 
-// No identifier of a frame at all.
+// Value that is no identifier of a frame: the object has no frames.
 inline constexpr uint32_t no_frame = UINT32_MAX;
 
-// The identifier of frames of this COB-ID, as drivers see it.
+// Returns the identifier of frames with this COB-ID, in the format of drivers.
 constexpr uint32_t frame_id(uint32_t cob_id) {
   return (cob_id & extended_ids) | ((cob_id & cob_frame) != 0 ? CO_IF_FRM_EXT : 0);
 }
 
-// An identifier as a driver gave it. Drivers that know no flags still tell a 29-bit identifier by its value.
+// Returns the identifier of a driver's frame with CO_IF_FRM_EXT set if its value needs 29 bits: not all drivers set the
+// flag.
 constexpr uint32_t normalised(uint32_t identifier) {
   return (identifier & extended_ids) > base_ids ? identifier | CO_IF_FRM_EXT : identifier;
 }

@@ -6,10 +6,11 @@
 
 namespace co::wire {
 
-// The sum after data whose bits, the sum before them in front, are those of the polynomial x: x * x^16 modulo
-// x^16 + x^12 + x^5 + 1, so x * (x^12 + x^5 + 1), of which g(x) = x >> 4 ^ x >> 11 ^ x >> 16 lies beyond 16 bits and is
-// reduced likewise. All that is to be reduced is x + g(x) + g(g(x)) + ..., until nothing is left: (1 + g)(1 + g^2)(1 +
-// g^4), where g^2 is >> 8 ^ >> 22 and g^4 is >> 16.
+// Returns the CRC after data bits. x: the data bits, with the CRC before them XORed to the first ones. As a polynomial
+// p of these bits, the CRC is p * x^16 modulo x^16 + x^12 + x^5 + 1. This is p * (x^12 + x^5 + 1), whose part above 16
+// bits, g(p) = p >> 4 ^ p >> 11 ^ p >> 16, is reduced in the same way. So the CRC is the lowest 16 bits of (x^12 + x^5
+// + 1) times p + g(p) + g(g(p)) + ..., where g^8 and all later terms are 0: that sum is (1 + g)(1 + g^2)(1 + g^4)
+// applied to p, where g^2 is >> 8 ^ >> 22 and g^4 is >> 16.
 [[gnu::always_inline]] constexpr uint32_t crc16_of(uint32_t x) {
   x ^= x >> 16;
   x ^= (x >> 8) ^ (x >> 22);
@@ -17,7 +18,7 @@ namespace co::wire {
   return x ^ (x << 5) ^ (x << 12);  // in bits 15...0
 }
 
-// The CRC of more data. Four bytes at a time, without a table.
+// Returns the CRC after n more bytes of data. Processes four bytes at a time, without a table.
 [[gnu::noinline]] constexpr uint16_t crc16(uint16_t crc, const uint8_t* data, uint32_t n) {
   uint32_t sum = crc;
   const uint8_t* const words_end = data + (n & ~3U);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CRC-32 of what is stored: polynomial 04C11DB7h, reflected. Small rather than fast: the memory is slower.
+// CRC-32 of records in non-volatile memory: polynomial 04C11DB7h, reflected. Small code rather than fast code: the
+// memory is slower.
 #pragma once
 
 #include <stddef.h>

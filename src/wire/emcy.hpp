@@ -9,15 +9,15 @@ namespace co::wire {
 
 inline constexpr uint8_t emcy_dlc = 8;
 
-// Error code and five bytes of the manufacturer.
+// Returns a message with an error code and the five bytes of the manufacturer-specific error field.
 constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
   return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
-// The same with the third of the five bytes alone.
+// Returns a message with an error code and the third of these five bytes; the others are 0.
 constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
 
-// The same with the error register, which stands between them.
+// Returns the message with the error register, which follows the error code.
 constexpr CO_EMCY_MSG with_register(const CO_EMCY_MSG& msg, uint8_t reg) {
   return {msg.Low | (uint32_t{reg} << 16), msg.High};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames, their bytes as two words, which lie aligned.
+// Frames: access to their data as two aligned words.
 #pragma once
 
 #include <stddef.h>
@@ -15,7 +15,7 @@ inline uint32_t get_high(const CO_IF_FRM& frame) { return get_aligned(frame.Data
 inline void put_low(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data, value); }
 inline void put_high(CO_IF_FRM& frame, uint32_t value) { put_aligned(frame.Data + 4, value); }
 
-// All bytes are 0.
+// Returns a frame whose data bytes are 0.
 inline CO_IF_FRM empty_frame(uint32_t identifier, uint8_t dlc) {
   CO_IF_FRM frame;
   frame.Identifier = identifier;

@@ -11,7 +11,7 @@ inline constexpr uint32_t lss_request = 0x7E5;
 inline constexpr uint32_t lss_answer = 0x7E4;
 inline constexpr uint8_t lss_dlc = 8;
 
-// Command specifiers. Those of an address follow one another: vendor-ID, product code, revision and serial number.
+// Command specifiers. Those of an LSS address are consecutive: vendor-ID, product code, revision and serial number.
 enum class Lss : uint8_t {
   switch_global = 0x04,
   configure_node_id = 0x11,
@@ -34,14 +34,15 @@ inline constexpr uint8_t lss_identify_parts = 6;
 
 constexpr bool may_be_configured(uint8_t id) { return is_node_id(id) || id == no_node_id; }
 
-// Of table 0, in bit/s; 0: none. [305 table 1]
+// Returns the bit rate of an index of table 0, in bit/s; 0: there is none. [305 table 1]
 constexpr uint32_t bit_rate(uint8_t index) {
   constexpr uint32_t rates[] = {1000000, 800000, 500000, 250000, 125000, 0, 50000, 20000, 10000};
   return index < sizeof rates / sizeof *rates ? rates[index] : 0;
 }
 
-// Of table 0; one that it lacks: lss_bit_rates.
+// Number of indexes of table 0.
 inline constexpr uint8_t lss_bit_rates = 9;
+// Returns the index of a bit rate in table 0; lss_bit_rates if the table does not contain it.
 constexpr uint8_t index_of_bit_rate(uint32_t rate) {
   uint8_t index = 0;
   while (index < lss_bit_rates && (rate == 0 || bit_rate(index) != rate)) {
@@ -50,16 +51,17 @@ constexpr uint8_t index_of_bit_rate(uint32_t rate) {
   return index;
 }
 
-// Command byte, then data; the rest is reserved.
+// Returns a frame with a command byte; all other bytes are 0.
 inline CO_IF_FRM lss_frame(uint32_t identifier, uint8_t command) {
   CO_IF_FRM frame = empty_frame(identifier, lss_dlc);
   frame.Data[0] = command;
   return frame;
 }
 
+// Parameters of LSS fastscan. part and next: indexes of parts of the LSS address.
 struct Fastscan {
   uint32_t number;
-  uint8_t bit;  // the lowest that is compared; 80h: all slaves begin
+  uint8_t bit;  // lowest bit that is compared; 80h: all slaves begin fastscan
   uint8_t part;
   uint8_t next;
 };
@@ -80,7 +82,7 @@ constexpr bool is_possible(const Fastscan& scan) {
   return scan.bit < 32 && scan.part < lss_address_parts && scan.next < lss_address_parts;
 }
 
-// Is a number equal in the bits that are compared?
+// Returns whether a number is equal in the bits that are compared.
 constexpr bool is_match(const Fastscan& scan, uint32_t number) { return ((scan.number ^ number) >> scan.bit) == 0; }
 
 static_assert(bit_rate(0) == 1000000 && bit_rate(5) == 0 && bit_rate(8) == 10000 && bit_rate(9) == 0);

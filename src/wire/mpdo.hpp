@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplex PDOs: their frames [301:7.2.3], and the lists that name objects of several of them [301:7.5.2.39-40].
+// Multiplex PDOs: their frames [301:7.2.3], and the entries of the object scanner list and the object dispatching list
+// [301:7.5.2.39-40].
 #pragma once
 
 #include "co_obj.h"
@@ -9,11 +10,11 @@ namespace co::wire {
 
 inline constexpr uint8_t mpdo_dlc = 8;
 inline constexpr uint32_t mpdo_data = 4;            // bytes
-inline constexpr uint8_t mpdo_to_consumer = 0x80;   // bit 7 of the address: it is the consumer's, else the producer's
+inline constexpr uint8_t mpdo_to_consumer = 0x80;   // bit 7 of the address, which is the consumer's; 0: the producer's
 inline constexpr uint8_t mpdo_node_id = 0x7F;       // bits 6…0; 0: all consumers
-inline constexpr uint32_t mpdo_next_sub = 1U << 8;  // of a key
+inline constexpr uint32_t mpdo_next_sub = 1U << 8;  // added to a key
 
-// Address, index, sub-index. key: CO_DEV()
+// Returns the first word of a frame: address, index, sub-index. key: CO_DEV()
 constexpr uint32_t mpdo_low(uint8_t address, uint32_t key) {
   return address | ((key & 0xFFFF0000U) >> 8) | ((key & 0xFF00U) << 16);
 }
@@ -30,16 +31,17 @@ inline CO_IF_FRM mpdo(uint32_t identifier, uint8_t address, uint32_t key, uint32
 static_assert(mpdo_low(0x85, CO_DEV(0x6200, 0x01)) == 0x01620085);
 static_assert(mpdo_key(0x01620085) == CO_DEV(0x6200, 0x01) && mpdo_address(0x01620085) == 0x85);
 
-// A single object may be given as a block of 0.
+// Returns the block size of an entry of a list, whose high word is given; a single object may have the block size 0.
 constexpr uint8_t mpdo_block(uint32_t high) { return static_cast<uint8_t>((high >> 24) != 0 ? high >> 24 : 1U); }
 
-// Object scanner list: block size, index, sub-index.
+// Returns the key in an entry of the object scanner list: block size, index, sub-index.
 constexpr uint32_t scan_key(uint32_t entry) { return entry << 8; }
 
 static_assert(mpdo_block(0x03600001) == 3 && scan_key(0x03600001) == CO_DEV(0x6000, 0x01));
 static_assert(mpdo_block(0x00600001) == 1);
 
-// Object dispatching list: block size, own index and sub-index; index, sub-index and node-ID of the producer.
+// Returns a part of an entry of the object dispatching list: block size, own index and sub-index; index, sub-index and
+// node-ID of the producer.
 constexpr uint32_t dispatch_own(uint64_t entry) { return static_cast<uint32_t>(entry >> 32); }
 constexpr uint32_t dispatch_key(uint64_t entry) { return dispatch_own(entry) << 8; }
 constexpr uint32_t dispatch_producer(uint64_t entry) { return static_cast<uint32_t>(entry); }

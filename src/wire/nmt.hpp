@@ -8,7 +8,7 @@
 
 namespace co::wire {
 
-inline constexpr uint8_t no_node_id = 255;  // of a node that waits for one [305]
+inline constexpr uint8_t no_node_id = 255;  // of an unconfigured node [305]
 constexpr bool is_node_id(uint8_t id) { return id >= 1 && id <= 127; }
 
 inline constexpr uint8_t nmt_dlc = 2;
@@ -24,7 +24,7 @@ enum class NmtCommand : uint8_t {
 
 constexpr bool addresses(const CO_IF_FRM& nmt, uint8_t node_id) { return nmt.Data[1] == 0 || nmt.Data[1] == node_id; }
 
-// Heartbeat state byte of a mode. [301:7.2.8.3.2.2]
+// State byte of heartbeats, by CO_MODE. [301:7.2.8.3.2.2]
 inline constexpr uint8_t heartbeat_states[CO_MODE_NUM] = {255, 0, 127, 5, 4};
 constexpr uint8_t heartbeat_state(CO_MODE mode) {
   return mode < CO_MODE_NUM ? heartbeat_states[mode] : heartbeat_states[CO_INVALID];
@@ -32,17 +32,17 @@ constexpr uint8_t heartbeat_state(CO_MODE mode) {
 
 inline constexpr uint8_t error_control_dlc = 1;
 
-// Bit 7 of an answer to node guarding. [301:7.2.8.2.2.1]
+// Toggle bit, bit 7 of a response to node guarding. [301:7.2.8.2.2.1]
 inline constexpr uint8_t toggle = 0x80;
 
-// A heartbeat, or an answer to node guarding with its toggle bit.
+// Returns a heartbeat, or a response to node guarding with its toggle bit.
 inline CO_IF_FRM error_control(uint8_t node_id, CO_MODE mode, uint8_t toggle_bit = 0) {
   CO_IF_FRM frame = empty_frame(CobId::error_control + node_id, error_control_dlc);
   frame.Data[0] = static_cast<uint8_t>(heartbeat_state(mode) | toggle_bit);
   return frame;
 }
 
-// The state that an error control frame tells, whatever its toggle bit.
+// Returns the NMT state in an error control frame, without the toggle bit.
 constexpr uint8_t state_of(const CO_IF_FRM& error_control) {
   return static_cast<uint8_t>(error_control.Data[0] & (toggle - 1U));
 }
@@ -51,7 +51,7 @@ constexpr CO_IF_FRM nmt_command(uint8_t command, uint8_t node_id) {
   return {static_cast<uint32_t>(CobId::nmt), {command, node_id}, nmt_dlc};
 }
 
-// The boot-up message is a heartbeat of the state Initialisation. [301:7.2.8.3.3]
+// Returns the boot-up message: a heartbeat with the state Initialisation. [301:7.2.8.3.3]
 inline CO_IF_FRM boot_up(uint8_t node_id) { return error_control(node_id, CO_INIT); }
 
 static_assert(heartbeat_state(CO_INIT) == 0x00 && heartbeat_state(CO_STOP) == 0x04);

@@ -12,7 +12,7 @@ namespace co::wire {
 inline constexpr uint8_t sdo_dlc = 8;
 inline constexpr uint32_t expedited_bytes = 4;
 
-// What a frame of a client asks for, and what a frame of a server answers: in the order of the command specifiers, bits
+// Services of the frames of a client (Request) and of a server (Response), in the order of the command specifiers, bits
 // 7…5; those of block transfers (101b and 110b) are divided by the lowest bits.
 enum class Request : uint8_t {
   download_segment,
@@ -27,7 +27,7 @@ enum class Request : uint8_t {
   initiate_block_download,
   end_block_download,
   unknown,
-  block_segment,  // told from the others by the state alone
+  block_segment,  // distinguished from the others only by the state of the transfer
 };
 enum class Response : uint8_t {
   upload_segment,
@@ -42,15 +42,17 @@ enum class Response : uint8_t {
   initiate_block_upload,
   end_block_upload,
   unknown,
-  block_segment,  // told from the others by the state alone
+  block_segment,  // distinguished from the others only by the state of the transfer
 };
 inline constexpr uint8_t command_count = 13;
 
-// Bits of each that are 0, else the command is unknown. A server takes any abort for one: it never answers to it.
+// Bits of each command that must be 0, else the command is unknown. A server accepts an abort with any of these bits
+// set: it never responds to an abort.
 using ReservedBits = uint8_t[11];
 inline constexpr ReservedBits request_reserved = {0x00, 0x10, 0x1F, 0x0F, 0x00, 0x18, 0x1C, 0x1C, 0x1C, 0x18, 0x02};
 inline constexpr ReservedBits response_reserved = {0x00, 0x0F, 0x10, 0x1F, 0x1F, 0x18, 0x1C, 0x1C, 0xFF, 0x18, 0x02};
 
+// Returns the number of a command byte in Request or Response.
 constexpr uint8_t number_of_command(uint8_t command, const ReservedBits& reserved) {
   constexpr unsigned unknown = 11;
   unsigned number = command >> 5;
@@ -72,29 +74,31 @@ constexpr Response response_of(uint8_t command) {
 inline constexpr uint8_t toggle_bit = 0x10;
 constexpr uint8_t toggle(const CO_IF_FRM& frame) { return frame.Data[0] & toggle_bit; }
 
-// An SDO frame whose unused bytes are 0. [301:7.2.4.3]
+// Returns an SDO frame whose unused bytes are 0. [301:7.2.4.3]
 inline CO_IF_FRM empty_frame(uint32_t identifier) { return empty_frame(identifier, sdo_dlc); }
 
-// Multiplexer: index in bytes 1 and 2, sub-index in byte 3; as a key without flags.
+// Returns the multiplexer (index in bytes 1 and 2, sub-index in byte 3) as a key without flags. low: bytes 0…3
 constexpr uint32_t multiplexer_of(uint32_t low) { return ((low << 8) & 0xFFFF0000U) | ((low >> 16) & 0xFF00U); }
 inline uint32_t multiplexer(const CO_IF_FRM& frame) { return multiplexer_of(get_low(frame)); }
 
+// Returns the bytes 0…3 of a frame: command byte and multiplexer.
 constexpr uint32_t head(uint8_t command, uint32_t key) {
   return command | ((key >> 8) & 0x00FFFF00U) | ((key & 0xFF00U) << 16);
 }
 inline void put_head(CO_IF_FRM& frame, uint8_t command, uint32_t key) { put_low(frame, head(command, key)); }
 
-// The answer to an initiate names the same object.
+// Sets the bytes 0…3 of a response to an initiate request, whose multiplexer it repeats.
 inline void put_reply(CO_IF_FRM& answer, uint8_t command, const CO_IF_FRM& request) {
   put_low(answer, (get_low(request) & 0xFFFFFF00U) | command);
 }
 
-// Initiate: 0ssx nnes. e: expedited, s: size indicated, n: bytes of the four that hold no data.
+// Command byte of an initiate frame: 0ssx nnes. e: expedited, s: size indicated, n: bytes of the four that contain no
+// data.
 constexpr bool is_expedited(uint8_t command) { return (command & 0x02) != 0; }
 constexpr bool is_size_indicated(uint8_t command) { return (command & 0x01) != 0; }
 constexpr uint32_t expedited_length(uint8_t command) { return expedited_bytes - ((command >> 2) & 0x03U); }
 
-// Segment: 000t nnnc. n: bytes of the seven that hold no data, c: no more segments.
+// Command byte of a segment: 000t nnnc. n: bytes of the seven that contain no data, c: no more segments.
 constexpr uint32_t segment_length(uint8_t command) { return segment_bytes - ((command >> 1) & 0x07U); }
 constexpr bool is_last_segment(uint8_t command) { return (command & 0x01) != 0; }
 
@@ -106,13 +110,13 @@ inline CO_IF_FRM abort_frame(uint32_t identifier, uint32_t key, uint32_t code) {
   return frame;
 }
 
-// The code of an abort; one without a code is no success.
+// Returns the abort code in an abort frame; CO_SDO_ERR_GENERAL for the code 0, which would mean success.
 inline uint32_t abort_code_in(const CO_IF_FRM& frame) {
   const uint32_t code = get_high(frame);
   return code != 0 ? code : CO_SDO_ERR_GENERAL;
 }
 
-// Answers of a server.
+// Command bytes of the responses of a server.
 inline constexpr uint8_t initiate_download_response = 0x60;
 constexpr uint8_t initiate_upload_response(bool sized) { return sized ? 0x41 : 0x40; }
 constexpr uint8_t expedited_upload_response(uint32_t length) {
@@ -120,7 +124,7 @@ constexpr uint8_t expedited_upload_response(uint32_t length) {
 }
 constexpr uint8_t download_segment_response(uint8_t toggle) { return static_cast<uint8_t>(0x20U | toggle); }
 
-// Requests of a client.
+// Command bytes of the requests of a client.
 inline constexpr uint8_t initiate_upload_request = 0x40;
 inline constexpr uint8_t initiate_download_request_sized = 0x21;
 constexpr uint8_t expedited_download_request(uint32_t length) {
@@ -128,44 +132,47 @@ constexpr uint8_t expedited_download_request(uint32_t length) {
 }
 constexpr uint8_t upload_segment_request(uint8_t toggle) { return static_cast<uint8_t>(0x60U | toggle); }
 
-// Bytes of data in a segment of a transfer whose size is announced, of which left bytes are still to come: n = 0 in the
-// last segment indicates no size, so that it holds the rest. [301:7.2.4.3.4, 7.2.4.3.6]
+// Returns the bytes of data in a segment of a transfer whose size was indicated, with left bytes still to be
+// transferred. n = 0 in the last segment indicates no size: it contains the remaining bytes. [301:7.2.4.3.4, 7.2.4.3.6]
 constexpr uint32_t segment_length(uint8_t command, uint32_t left) {
   const bool is_open = (command & 0x0F) == 0x01;
   return is_open && left - 1 < segment_bytes ? left : segment_length(command);
 }
 
-// The same from either side.
+// Returns the command byte of a segment of a client or a server.
 constexpr uint8_t segment(uint8_t toggle, uint32_t length, bool last) {
   return static_cast<uint8_t>(toggle | ((segment_bytes - length) << 1) | (last ? 1U : 0U));
 }
 
-// Block transfer. The frames of a block download and those of a block upload mirror each other. [301:7.2.4.3.9-16]
+// Block transfer. The frames of a block download and of a block upload have the same format, in opposite directions.
+// [301:7.2.4.3.9-16]
 inline constexpr uint8_t max_blksize = 127;
 constexpr bool is_blksize(uint8_t blksize) { return blksize >= 1 && blksize <= max_blksize; }
 
-// From who sends the data: 110x xcss, c: CRC supported, s: size indicated; end: 110n nnx1.
+// Command bytes of the side that sends the data. Initiate: 110x xcss, c: CRC supported, s: size indicated; end: 110n
+// nnx1, n: bytes of the last segment that contain no data.
 constexpr uint8_t initiate_block(bool sized) { return sized ? 0xC6 : 0xC4; }
 constexpr uint8_t end_block(uint32_t unused) { return static_cast<uint8_t>(0xC1U | (unused << 2)); }
 constexpr uint32_t unused_in_block(uint8_t command) { return (command >> 2) & 0x07U; }
 constexpr bool is_block_sized(uint8_t command) { return (command & 0x02) != 0; }
 
-// From who receives them: 101x xcss.
+// Command bytes of the side that receives the data: 101x xcss.
 inline constexpr uint8_t accept_block = 0xA4;
 inline constexpr uint8_t confirm_block = 0xA1;
 inline constexpr uint8_t acknowledge_block = 0xA2;
 inline constexpr uint8_t start_block = 0xA3;
 
-// c: both sides support the CRC.
+// Returns bit c of an initiate command: the side that sends it supports the CRC.
 constexpr bool has_crc(uint8_t command) { return (command & 0x04) != 0; }
 
-// A segment of a block: cnnn nnnn, c: no more segments, n: its number from 1.
+// Command byte of a segment of a block: cnnn nnnn, c: no more segments, n: sequence number, from 1.
 constexpr uint8_t seqno(uint8_t command) { return command & 0x7FU; }
 constexpr bool is_last_in_block(uint8_t command) { return (command & 0x80) != 0; }
 constexpr uint8_t block_segment(uint8_t number, bool last) {
   return static_cast<uint8_t>(number | (last ? 0x80U : 0U));
 }
 
+// Returns whether n bytes are equal.
 inline bool is_equal(const uint8_t* a, const uint8_t* b, uint32_t n) {
   while (n != 0 && *a == *b) {
     ++a;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIME_OF_DAY in 6 bytes, which are also the TIME message. [301:7.1.6.5, 7.2.6]
+// TIME_OF_DAY as 6 bytes, which are also the data of the TIME message. [301:7.1.6.5, 7.2.6]
 #pragma once
 
 #include "co_time_of_day.h"
@@ -18,7 +18,7 @@ constexpr void put_time(uint8_t* p, const CO_TIME_OF_DAY& time) {
 
 constexpr CO_TIME_OF_DAY get_time(const uint8_t* p) { return {get_u32(p) & ms_bits, get_u16(p + 4)}; }
 
-// A difference of times may be longer than a day, a time of the day may not.
+// Returns whether a time is less than a day: a time of day must be, a time difference need not.
 constexpr bool is_time_of_day(const CO_TIME_OF_DAY& time) { return time.Ms < ms_per_day; }
 
 // 12:34:56.789 on 2026-11-21
