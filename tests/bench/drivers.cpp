@@ -38,7 +38,7 @@ std::int16_t send(CO_IF_FRM* from) {
 void reload(std::uint32_t ticks) { left = ticks; }
 std::uint32_t delay() { return left; }
 void stop() { left = 0; }
-std::uint8_t update() { return 1; }
+std::uint8_t update() { return left == 0 ? 1 : 0; }
 
 const CO_IF_CAN_DRV can = {nothing, set_rate, read, send, nothing, nothing};
 const CO_IF_TIMER_DRV timer = {set_rate, reload, delay, stop, nothing, update};

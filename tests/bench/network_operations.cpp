@@ -28,6 +28,7 @@ class NothingToDo : public Operation {
   void set_up() { set_up_usual_node(1000); }
   void run() {
     CONodeProcess(&node);
+    COTmrService(&node.Tmr);
     COTmrProcess(&node.Tmr);
   }
   bool is_done(unsigned) { return sent() == 0 && CONodeGetCounters(&node).Received == 0; }

@@ -11,7 +11,7 @@ lane() {
   host="$(g++ -dumpmachine)-g++ $(g++ -dumpfullversion)"
   run_tap python3 "$root/tests/lanes/numbers.py" ${update_numbers:+--update} \
     --committed "$root/tests/bench/instructions.txt" --page "$root/docs/speed.md" --table instructions --title operation \
-    --percent 5 \
+    --percent 5 --stacks "$root/tests/bench/stacks.txt" \
     --column "Cortex-M3 -O2" "$arm" "$of-m3-lexican" "$of-m3-lexican_many_pdos" "$of-m3-lexican_od" \
     --column "Cortex-M0+ -Os" "$arm" "$of-m0plus-lexican" "$of-m0plus-lexican_many_pdos" "$of-m0plus-lexican_od" \
     --column "host -O2" "$host" "$of-host-lexican" "$of-host-lexican_many_pdos" "$of-host-lexican_od"

@@ -3,7 +3,9 @@
 """Compares measured numbers with the committed ones, and the table of a page with these.
 
 A measured number is a line "name<TAB>number", or "name<TAB>number<TAB>remark". The committed numbers are lines
-"name | number of each column | aim of each column | remark". Aims are written by hand; --update writes the rest.
+"name | number of each column | budget of each column | remark". Budgets are written by hand; --update writes the rest.
+Numbers of other stacks, written by hand, are lines "name | column | number of each stack" of a file whose line
+"# stacks | name of each" names them.
 Prints "1..N" and N lines "ok …" or "not ok …"; what another compiler has made is "ok … # SKIP".
 """
 import argparse
@@ -12,9 +14,9 @@ import sys
 from pathlib import Path
 
 HEAD = """\
-# {title} of {page}. tests/run --update-numbers writes the numbers; aims are written by hand.
+# {title} of {page}. tests/run --update-numbers writes the numbers; budgets are written by hand.
 # compilers | {compilers}
-# {title} | {columns} | aim of each, where there is one | remark
+# {title} | {columns} | budget of each, where there is one | remark
 """
 
 
@@ -35,18 +37,34 @@ class Column:
 class Row:
     """A line of the committed numbers. Numbers are texts; "" is none."""
 
-    def __init__(self, name, numbers, aims, remark):
+    def __init__(self, name, numbers, budgets, remark):
         self.name = name
         self.numbers = numbers
-        self.aims = aims
+        self.budgets = budgets
         self.remark = remark
 
     def line(self):
-        return " | ".join([self.name, *self.numbers, *self.aims, self.remark]).rstrip(" |") + "\n"
+        return " | ".join([self.name, *self.numbers, *self.budgets, self.remark]).rstrip(" |") + "\n"
 
 
-def ratio(number, aim):
-    return f"{float(number) / float(aim):.2f}" if aim and number and float(aim) else ""
+class Stacks:
+    """Other stacks: their names, and their numbers of a row and a column."""
+
+    def __init__(self, path):
+        text = path.read_text(encoding="utf-8") if path else ""
+        found = re.search(r"^# stacks \| (.*)$", text, re.MULTILINE)
+        self.names = [name.strip() for name in found[1].split("|")] if found else []
+        self.numbers = {}
+        for line in text.splitlines():
+            if line and not line.startswith("#"):
+                name, column, *numbers = [field.strip() for field in line.split("|")]
+                self.numbers[name, column] = numbers + [""] * (len(self.names) - len(numbers))
+
+    def know(self, column):
+        return any(of == column for _, of in self.numbers)
+
+    def of(self, name, column):
+        return self.numbers.get((name, column), [""] * len(self.names))
 
 
 class Committed:
@@ -74,16 +92,18 @@ class Report:
         self.arguments = arguments
         self.columns = [Column(*column) for column in arguments.column]
         self.committed = Committed(arguments.committed, len(self.columns))
+        self.stacks = Stacks(arguments.stacks)
 
     # The table of the page ----------------------------------------------------------------------------------------
 
     def table(self):
         rows = list(self.committed.rows.values())
-        with_aims = [any(row.aims[number] for row in rows) for number in range(len(self.columns))]
+        with_budgets = [any(row.budgets[number] for row in rows) for number in range(len(self.columns))]
+        with_stacks = [self.stacks.know(column.title) for column in self.columns]
         with_remarks = any(row.remark for row in rows)
         heads = [self.arguments.title]
-        for column, has_aims in zip(self.columns, with_aims):
-            heads += [column.title, "aim", "ratio"] if has_aims else [column.title]
+        for column, has_budgets, has_stacks in zip(self.columns, with_budgets, with_stacks):
+            heads += [column.title] + ["budget"] * has_budgets + self.stacks.names * has_stacks
         marks = ["---"] + ["---:"] * (len(heads) - 1)
         if with_remarks:
             heads.append(self.arguments.remark)
@@ -91,8 +111,9 @@ class Report:
         lines = ["| " + " | ".join(heads) + " |", "|" + "|".join(marks) + "|"]
         for row in rows:
             cells = [row.name]
-            for number, aim, has_aims in zip(row.numbers, row.aims, with_aims):
-                cells += [number, aim, ratio(number, aim)] if has_aims else [number]
+            for number, column in enumerate(self.columns):
+                cells += [row.numbers[number]] + [row.budgets[number]] * with_budgets[number]
+                cells += self.stacks.of(row.name, column.title) * with_stacks[number]
             cells += [row.remark] if with_remarks else []
             lines.append("|" + "".join(f" {cell} |" if cell else " |" for cell in cells))
         return "\n".join(lines) + "\n"
@@ -108,14 +129,14 @@ class Report:
     # Update -------------------------------------------------------------------------------------------------------
 
     def update(self):
-        """The measured names in their order, with the aims that are committed."""
+        """The measured names in their order, with the budgets that are committed."""
         before, self.committed.rows = self.committed.rows, {}
         self.committed.compilers = [column.compiler for column in self.columns]
         for name in self.names_of_columns():
-            aims = before[name].aims if name in before else [""] * len(self.columns)
+            budgets = before[name].budgets if name in before else [""] * len(self.columns)
             numbers = [column.numbers.get(name, "") for column in self.columns]
             remarks = [column.remarks[name] for column in self.columns if column.remarks.get(name)]
-            self.committed.rows[name] = Row(name, numbers, aims, remarks[0] if remarks else "")
+            self.committed.rows[name] = Row(name, numbers, budgets, remarks[0] if remarks else "")
         head = HEAD.format(
             title=self.arguments.title,
             page=f"{self.arguments.page.parent.name}/{self.arguments.page.name}",
@@ -149,7 +170,14 @@ class Report:
                 else:
                     yield True, f"{what} # SKIP what is committed is not of {column.compiler}"
         page = self.arguments.page.read_text(encoding="utf-8")
+        yield from self.names_of_stacks()
         yield self.page_with_table(page) == page, f"{self.arguments.page.name} has these numbers"
+
+    def names_of_stacks(self):
+        """Rows of other stacks that no measured row has would be shown nowhere."""
+        columns = [column.title for column in self.columns]
+        for name, column in self.stacks.numbers:
+            yield name in self.committed.rows and column in columns, f"{name}, {column}: measured here as in other stacks"
 
     def verdict(self, what, before, now):
         if not now:
@@ -170,6 +198,7 @@ def print_verdicts(cases):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--committed", type=Path, required=True, help="the committed numbers")
+    parser.add_argument("--stacks", type=Path, help="the numbers of other stacks")
     parser.add_argument("--page", type=Path, required=True, help="Markdown with the table")
     parser.add_argument("--table", required=True, help="name of the table in its marks")
     parser.add_argument("--title", required=True, help="of the column of the names")

@@ -192,10 +192,10 @@ arm="arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion 2>/dev/null)"
 riscv="riscv64-unknown-elf-g++ $(riscv64-unknown-elf-g++ -dumpfullversion 2>/dev/null)"
 
 report_nodes() {
-  report nodes "program" --percent 1 --slack 16 \
-    --column "Cortex-M0+" "$arm" "$of-m0plus" --column "with LTO" "$arm" "$of-m0plus-lto" \
-    --column "Cortex-M4" "$arm" "$of-m4" --column "with LTO" "$arm" "$of-m4-lto" \
-    --column "rv32imac" "$riscv" "$of-rv32" --column "with LTO" "$riscv" "$of-rv32-lto"
+  report nodes "program" --percent 1 --slack 16 --stacks "$root/tests/sizes/stacks.txt" \
+    --column "Cortex-M0+" "$arm" "$of-m0plus" --column "Cortex-M0+ with LTO" "$arm" "$of-m0plus-lto" \
+    --column "Cortex-M4" "$arm" "$of-m4" --column "Cortex-M4 with LTO" "$arm" "$of-m4-lto" \
+    --column "rv32imac" "$riscv" "$of-rv32" --column "rv32imac with LTO" "$riscv" "$of-rv32-lto"
 }
 
 report_rooms() {

@@ -1,45 +1,108 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A node with what its configuration has and nothing else: what the linker keeps of it is what firmware pays. */
+/* A node with what its configuration has, and with no other functions: what the linker keeps is what firmware pays.
+   minimal: entries of plain types, which the network reads. Otherwise: all entries of 4 PDOs in each direction, with 8
+   objects each, which the network configures. */
 #include "co_core.h"
 
 static CO_NODE Node;
 static uint8_t ErrorRegister;
 static uint16_t Heartbeat;
 static uint32_t EmcyId = 0x80;
-static uint8_t Values[8];
+static uint8_t Values[32];
 #if !NODE_IS_SMALLEST
-static uint32_t History[2];
+static uint32_t History[8];
 static uint8_t HistoryNum;
-static uint32_t Consumer = 0x000203E8;
+static uint32_t SyncId = 0x80;
+static uint32_t SyncCycle;
+static uint16_t EmcyInhibit;
+static CO_HBCONS Consumers[3];
 static const CO_PARA Group = {0, sizeof(Values), Values, 0, CO_RESET_NODE, 0, CO_PARA___E, 0, 0};
 static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 static uint8_t Answer[4];
+
+typedef struct PDO {
+  uint32_t Id;
+  uint8_t Type;
+  uint16_t Inhibit;
+  uint16_t Event;
+  uint8_t Num;
+  uint32_t Map[8];
+} PDO;
+static PDO Rpdo[4];
+static PDO Tpdo[4];
+
+/* The entries of one PDO. */
+#define MAPPING(index, pdo)                                                       \
+  {CO_KEY(index, 0, CO_OBJ_____RW), CO_TPDO_NUM, (CO_DATA) & (pdo).Num},          \
+      {CO_KEY(index, 1, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[0]},   \
+      {CO_KEY(index, 2, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[1]},   \
+      {CO_KEY(index, 3, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[2]},   \
+      {CO_KEY(index, 4, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[3]},   \
+      {CO_KEY(index, 5, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[4]},   \
+      {CO_KEY(index, 6, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[5]},   \
+      {CO_KEY(index, 7, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[6]}, { \
+    CO_KEY(index, 8, CO_OBJ_____RW), CO_TPDO_MAP, (CO_DATA) & (pdo).Map[7]        \
+  }
+#define RPDO(n)                                                                         \
+  {CO_KEY(0x1400 + (n), 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)5},                  \
+      {CO_KEY(0x1400 + (n), 1, CO_OBJ__N__RW), CO_TPDO_ID, (CO_DATA)&Rpdo[n].Id},       \
+      {CO_KEY(0x1400 + (n), 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)&Rpdo[n].Type}, { \
+    CO_KEY(0x1400 + (n), 5, CO_OBJ_____RW), CO_TPDO_EVENT, (CO_DATA)&Rpdo[n].Event      \
+  }
+#define TPDO(n)                                                                               \
+  {CO_KEY(0x1800 + (n), 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)5},                        \
+      {CO_KEY(0x1800 + (n), 1, CO_OBJ__N__RW), CO_TPDO_ID, (CO_DATA)&Tpdo[n].Id},             \
+      {CO_KEY(0x1800 + (n), 2, CO_OBJ_____RW), CO_TPDO_TYPE, (CO_DATA)&Tpdo[n].Type},         \
+      {CO_KEY(0x1800 + (n), 3, CO_OBJ_____RW), CO_TPDO_INHIBIT, (CO_DATA)&Tpdo[n].Inhibit}, { \
+    CO_KEY(0x1800 + (n), 5, CO_OBJ_____RW), CO_TPDO_EVENT, (CO_DATA)&Tpdo[n].Event            \
+  }
+#define EIGHT_VALUES(index, first)                                                       \
+  {CO_KEY(index, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)8},                          \
+      {CO_KEY(index, 1, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[first]},         \
+      {CO_KEY(index, 2, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 1]},   \
+      {CO_KEY(index, 3, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 2]},   \
+      {CO_KEY(index, 4, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 3]},   \
+      {CO_KEY(index, 5, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 4]},   \
+      {CO_KEY(index, 6, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 5]},   \
+      {CO_KEY(index, 7, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 6]}, { \
+    CO_KEY(index, 8, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[(first) + 7]        \
+  }
 #endif
 
 static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0},
-                                    {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)&ErrorRegister},
+                                    {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)&ErrorRegister},
 #if !NODE_IS_SMALLEST
                                     {CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, (CO_DATA)&HistoryNum},
                                     {CO_KEY(0x1003, 1, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[0]},
                                     {CO_KEY(0x1003, 2, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[1]},
-                                    {CO_KEY(0x1005, 0, CO_OBJ_D___R_), CO_TSYNC_ID, (CO_DATA)0x80},
+                                    {CO_KEY(0x1003, 3, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[2]},
+                                    {CO_KEY(0x1003, 4, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[3]},
+                                    {CO_KEY(0x1003, 5, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[4]},
+                                    {CO_KEY(0x1003, 6, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[5]},
+                                    {CO_KEY(0x1003, 7, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[6]},
+                                    {CO_KEY(0x1003, 8, CO_OBJ_____R_), CO_TEMCY_HIST, (CO_DATA)&History[7]},
+                                    {CO_KEY(0x1005, 0, CO_OBJ_____RW), CO_TSYNC_ID, (CO_DATA)&SyncId},
+                                    {CO_KEY(0x1006, 0, CO_OBJ_____RW), CO_TSYNC_CYCLE, (CO_DATA)&SyncCycle},
+                                    {CO_KEY(0x1010, 0, CO_OBJ_D___R_), CO_TPARA_STORE, (CO_DATA)1},
                                     {CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)&Group},
+                                    {CO_KEY(0x1011, 0, CO_OBJ_D___R_), CO_TPARA_RESTORE, (CO_DATA)1},
                                     {CO_KEY(0x1011, 1, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)&Group},
 #endif
                                     {CO_KEY(0x1014, 0, CO_OBJ__N__R_), CO_TEMCY_ID, (CO_DATA)&EmcyId},
 #if !NODE_IS_SMALLEST
-                                    {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)&Consumer},
+                                    {CO_KEY(0x1015, 0, CO_OBJ_____RW), CO_TUNSIGNED16, (CO_DATA)&EmcyInhibit},
+                                    {CO_KEY(0x1016, 0, CO_OBJ_D___R_), CO_THB_CONS, (CO_DATA)3},
+                                    {CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)&Consumers[0]},
+                                    {CO_KEY(0x1016, 2, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)&Consumers[1]},
+                                    {CO_KEY(0x1016, 3, CO_OBJ_____RW), CO_THB_CONS, (CO_DATA)&Consumers[2]},
 #endif
                                     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)&Heartbeat},
+                                    {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)4},
                                     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)1},
                                     {CO_KEY(0x1018, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)2},
                                     {CO_KEY(0x1018, 3, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)3},
                                     {CO_KEY(0x1018, 4, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)4},
-#if !NODE_IS_SMALLEST
-                                    {CO_KEY(0x1280, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x602},
-                                    {CO_KEY(0x1280, 2, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0x582},
-                                    {CO_KEY(0x1280, 3, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
-#endif
+#if NODE_IS_SMALLEST
                                     {CO_KEY(0x1400, 1, CO_OBJ_DN__R_), CO_TUNSIGNED32, (CO_DATA)0x200},
                                     {CO_KEY(0x1400, 2, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)255},
                                     {CO_KEY(0x1600, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)1},
@@ -50,6 +113,32 @@ static const CO_OBJ Dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIG
                                     {CO_KEY(0x1A00, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)CO_LINK(0x2001, 0, 8)},
                                     {CO_KEY(0x2000, 0, CO_OBJ____PRW), CO_TUNSIGNED8, (CO_DATA)&Values[0]},
                                     {CO_KEY(0x2001, 0, CO_OBJ___APRW), CO_TUNSIGNED8, (CO_DATA)&Values[1]},
+#else
+                                     {CO_KEY(0x1280, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)3},
+                                     {CO_KEY(0x1280, 1, CO_OBJ_D___R_), CO_TSDO_ID, (CO_DATA)0x602},
+                                     {CO_KEY(0x1280, 2, CO_OBJ_D___R_), CO_TSDO_ID, (CO_DATA)0x582},
+                                     {CO_KEY(0x1280, 3, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)2},
+                                     RPDO(0),
+                                     RPDO(1),
+                                     RPDO(2),
+                                     RPDO(3),
+                                     MAPPING(0x1600, Rpdo[0]),
+                                     MAPPING(0x1601, Rpdo[1]),
+                                     MAPPING(0x1602, Rpdo[2]),
+                                     MAPPING(0x1603, Rpdo[3]),
+                                     TPDO(0),
+                                     TPDO(1),
+                                     TPDO(2),
+                                     TPDO(3),
+                                     MAPPING(0x1A00, Tpdo[0]),
+                                     MAPPING(0x1A01, Tpdo[1]),
+                                     MAPPING(0x1A02, Tpdo[2]),
+                                     MAPPING(0x1A03, Tpdo[3]),
+                                     EIGHT_VALUES(0x2000, 0),
+                                     EIGHT_VALUES(0x2001, 8),
+                                     EIGHT_VALUES(0x2002, 16),
+                                     EIGHT_VALUES(0x2003, 24),
+#endif
                                     CO_OBJ_DICT_ENDMARK};
 
 static void Nothing(void) {}
