@@ -9,7 +9,7 @@ namespace co::budget {
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
-// Values of CO_NODE.StorePayer: who causes the writes in progress.
+// Values of CO_NODE.StorePayer: cause of the writes in progress.
 enum Payer : uint8_t {
   application,  // the application: its writes are not limited
   bus,          // the bus, nothing was written yet: the first write takes one store from the budget

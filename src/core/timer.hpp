@@ -17,8 +17,8 @@ namespace co::tmr {
 // not both 0.
 void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para);
 
-// Restarts a timer that runs once from its own action: it elapses the given ticks after its last expiry or, if that
-// time is over, at the next multiple of them.
+// Restarts a one-shot timer, from its own action: it elapses the given ticks after its last expiry or, if that time is
+// over, at the next multiple of them.
 void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 
 // Stops a timer that is part of its owner; no effect on a stopped timer.
