@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has passed by PDO, of one object.
+// PDO flags of an object: which PDOs have been transmitted or received with it.
 #include "core/error.hpp"
 #include "core/events.hpp"
 #include "od/list.hpp"
@@ -16,7 +16,7 @@ namespace {
 constexpr OD_flagsPDO_t received = 1;
 constexpr OD_flagsPDO_t sent = ~received;
 
-// An entry of the table that the node uses now, or null.
+// Returns the entry of a sub-index, if the node uses its table now; else null.
 CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
   if (entry == nullptr || !is_of_table(*entry)) {
     return nullptr;
@@ -25,9 +25,9 @@ CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
   return od.Node->Dict.Root == od.Table ? find_in_table(*entry, sub) : nullptr;
 }
 
-// Where a PDO notes that it has passed with an object.
+// Bit in which a PDO records that it was transmitted or received with an object.
 struct Note {
-  uint8_t* byte;  // null: it does not have the object
+  uint8_t* byte;  // null: the PDO does not contain the object
   uint8_t bit;
 
   [[nodiscard]] bool is_set() const { return byte != nullptr && (*byte & bit) != 0; }
@@ -95,7 +95,7 @@ void forget_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t numbe
 #endif
 }
 
-// All TPDOs, those beyond the flags included.
+// Returns whether any TPDO has been transmitted with the object; also checks TPDOs that have no flag.
 bool was_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 #if CO_TPDO_N > 0
   for (CO_TPDO& pdo : node.TPdo) {
@@ -107,6 +107,7 @@ bool was_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) 
   return false;
 }
 
+// Clears the flag of a TPDO that contains the object, and requests its transmission.
 void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [[maybe_unused]] unsigned tpdo) {
 #if CO_TPDO_N > 0
   const Note note = tpdo < CO_TPDO_N ? note_in(node, node.TPdo[tpdo], number) : Note{nullptr, 0};
@@ -121,7 +122,7 @@ void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [
 #endif
 }
 
-// The bit in the extension is for those who look at it there.
+// Copies a flag to the bit of its sub-index in OD_extension_t.flagsPDO, for applications that read the flag there.
 void mirror([[maybe_unused]] const OD_entry_t& entry, [[maybe_unused]] uint8_t sub, [[maybe_unused]] bool is_sent) {
 #if OD_FLAGS_PDO_SIZE > 0
   if (entry.extension != nullptr) {
@@ -172,7 +173,7 @@ OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) {
   return od::flags_of(node, pdo::number_of(node, *obj));
 }
 
-// A request may run functions of the application, which may change anything.
+// Does not use entry after the first request, which may call functions of the application: they may change the index.
 void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) {
   const CO_OBJ* const obj = od::mapped(entry, subIndex);
   if (obj == nullptr) {

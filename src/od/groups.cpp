@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter groups by name.
+// Parameter groups: lookup by name or by variable, store and restore (co_od.h).
 #include "service/para/groups.hpp"
 
 #include "core/events.hpp"
@@ -17,6 +17,7 @@ constexpr uint8_t last_group = 127;
 constexpr uint32_t save_signature = 0x65766173;
 constexpr uint32_t load_signature = 0x64616F6C;
 
+// Returns the parameter group at a sub-index of 1010h, or null.
 const CO_PARA* group_at(const OD_t& od, uint8_t sub) {
   const CO_OBJ* const obj = sub == 0 ? nullptr : find_in_table(od, CO_DEV(para::store_index, sub));
   const bool is_group = obj != nullptr && obj->Type == CO_TPARA_STORE && CO_IS_DIRECT(obj->Key) == 0;
@@ -42,7 +43,7 @@ bool holds(const CO_PARA& group, const void* memory) {
   return reinterpret_cast<uintptr_t>(memory) - start < group.Size;
 }
 
-// As the network does it.
+// Writes a signature to a sub-index of 1010h or 1011h, as an SDO client does.
 ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
   CO_OBJ* const obj = od == nullptr || group_at(*od, sub) == nullptr ? nullptr : find_in_table(*od, CO_DEV(index, sub));
   if (obj == nullptr) {
@@ -77,7 +78,7 @@ uint8_t OD_findStorageGroup(const OD_t* od, const char* name) {
   return 0;
 }
 
-// Sub-index 1 is a group only where it is alone.
+// Returns sub-index 1 only if 1010h has no other group; otherwise sub-index 1 stands for all groups.
 uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) {
   const void* const memory = OD_getPtr(entry, subIndex, 0, nullptr);
   if (memory == nullptr || !od::is_of_table(*entry)) {

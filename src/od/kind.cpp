@@ -8,7 +8,7 @@
 #include "object/stream.hpp"
 #include "wire/bytes.hpp"
 
-// Comparing with a type does not link it.
+// Weak: a comparison with the address of a type does not link the type.
 #pragma weak COTInt8
 #pragma weak COTInt16
 #pragma weak COTInt32
@@ -41,7 +41,7 @@ bool is_wide(const CO_OBJ_TYPE* type) {
          type == &COTUnsigned56 || type == &COTSigned40 || type == &COTSigned48 || type == &COTSigned56;
 }
 
-// Bytes of the variable of a number; 0: the type is none of ours.
+// Returns the bytes of the variable of a number; 0: the type is not a number type of this library.
 unsigned storage_of(const CO_OBJ_TYPE* type) {
   if (type == &COTInt8 || type == &COTBoolean) {
     return 1;
@@ -55,7 +55,7 @@ unsigned storage_of(const CO_OBJ_TYPE* type) {
   return is_wide(type) ? longest_number : 0;
 }
 
-// Flag D: the lowest bytes of the word.
+// Returns the address of the value of a number; with flag D the value is stored in the lowest bytes of Data.
 void* place_of(CO_OBJ& obj, unsigned storage) {
   if (storage == 0) {
     return nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an entry is by its original type.
+// Kind and memory of a dictionary entry, by its original type.
 #pragma once
 
 #include "co_core.h"
@@ -7,22 +7,23 @@
 
 namespace co::od {
 
+// Kind of an entry.
 enum class Kind : uint8_t {
   number,         // a value of up to 8 bytes
-  long_value,     // a longer one, which passes in one call
+  long_value,     // a longer value, read or written in one call
   text,           // a CO_OBJ_STR_RW that ends at its first zero
   octets,         // a CO_OBJ_STR_RW
   constant_text,  // a CO_OBJ_STR
   domain,         // a CO_OBJ_DOM
   foreign,        // a stream of the application
-  none            // only an extension has it
+  none            // no original type: only an extension can access it
 };
 
-// An entry, seen through.
+// Properties of an entry.
 struct Shape {
   Kind kind;
-  const CO_OBJ_TYPE* type;  // original; null: none
-  void* memory;             // null: none, or only the type knows
+  const CO_OBJ_TYPE* type;  // original type; null: none
+  void* memory;             // null: none, or only the type has its address
   OD_size_t length;         // as OD_stream_t.dataLength
   OD_attr_t attribute;
 };
@@ -31,30 +32,31 @@ struct Shape {
 
 [[nodiscard]] inline bool is_extensible(const CO_OBJ_TYPE& type) { return type.Init == ODTypeInit; }
 
-// The type that lets the entry be extended; null: it cannot be.
+// Returns the OD_TYPE of an entry; null: the entry cannot be extended.
 [[nodiscard]] inline const OD_TYPE* extensible(const CO_OBJ& obj) {
   return is_extensible(*obj.Type) ? reinterpret_cast<const OD_TYPE*>(obj.Type) : nullptr;
 }
 
+// Returns the original type of an entry; null: it has none.
 [[nodiscard]] inline const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
   const OD_TYPE* const type = extensible(obj);
   return type == nullptr ? obj.Type : type->Original;
 }
 
-// Original types are called with the entry as it is. One that takes part in transfers has its own Reset function behind
-// COObjTypeExReset(), which would look at the type of the entry.
+// Returns an original type as extended type (CO_OBJ_TYPE_EX), or null. can_seek() and seek() call its Reset function
+// directly: COObjTypeExReset() would look up the entry's type, which is the OD_TYPE.
 [[nodiscard]] inline const CO_OBJ_TYPE_EX* transfer_type(const CO_OBJ_TYPE* type) {
   return type != nullptr && type->Reset == COObjTypeExReset ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(type) : nullptr;
 }
 [[nodiscard]] bool can_seek(const CO_OBJ_TYPE& type);
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position);
 
-// Of a string; null: only an extension has it.
+// Returns the bytes of a character of a string, by its original type; 1 for all other types.
 [[nodiscard]] unsigned bytes_of_character(const CO_OBJ_TYPE* original);
 
 [[nodiscard]] Shape shape_of(CO_OBJ& obj, CO_NODE& node);
 
-// An access to it that begins.
+// Returns a stream for an access to the entry, at its beginning.
 [[nodiscard]] OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node);
 
 #endif

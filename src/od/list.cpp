@@ -28,7 +28,7 @@ uint16_t count_objects(const CO_OBJ* table, uint16_t num) {
   return objects;
 }
 
-// num entries of one object.
+// Returns the kind (ODT_…) of an object that has num entries.
 uint8_t kind_of(const CO_OBJ* first, unsigned num) {
   if (num == 1 && CO_GET_SUB(first->Key) == 0) {
     return ODT_VAR;
@@ -54,8 +54,8 @@ OD_entry_t* find(const OD_t& od, uint16_t index) {
   return from < od.size && od.list[from].index == index ? &od.list[from] : nullptr;
 }
 
-// Moves the entries of the list before to the front of the new one, which may be the same, that have an extension and
-// are still in the table. Returns their number.
+// Moves the entries that have an extension, and whose object is still in the table, from the previous list to the front
+// of the new list, which may be the same one. Returns their number.
 uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
   uint16_t kept = 0;
   for (const OD_entry_t* entry = od.Filled; entry != nullptr && entry->odObject != nullptr; ++entry) {
@@ -68,7 +68,8 @@ uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
   return kept;
 }
 
-// From the last object to the first: what was kept at the front is not overwritten before it is found again.
+// Fills the list from the last object to the first, so that an entry that was moved to the front is not overwritten
+// before its extension is copied.
 void fill(OD_t& od, uint16_t objects, uint16_t kept) {
   unsigned end = od.TableLen;
   for (unsigned place = objects; place != 0; --place) {
@@ -117,7 +118,7 @@ ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, CO_NODE_T* node, CO_OBJ_
     return ODR_DEV_INCOMPAT;
   }
   const uint16_t objects = od::count_objects(table, entries);
-  if (od->Node != node) {  // transfers of the same go on
+  if (od->Node != node) {  // transfers of the same node continue
     *od = {};
   }
   od->Node = node;

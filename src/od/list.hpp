@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The index of a dictionary: an OD_entry_t for each object of the table.
+// Index of a dictionary: an OD_entry_t for each object of the table.
 #pragma once
 
 #include "co_core.h"
@@ -7,21 +7,22 @@
 
 namespace co::od {
 
-// Of an entry that OD_init() has made: whose it is. Others are nothing but memory.
+// Returns whether OD_init() has generated the entry from a table; other entries describe memory only.
 [[nodiscard]] inline bool is_of_table(const OD_entry_t& entry) {
   return (entry.odObjectType & ODT_TABLE) != 0 && entry.odObject != nullptr;
 }
+// Returns the OD_t of an entry that OD_init() has generated.
 [[nodiscard]] inline OD_t& owner_of(const OD_entry_t& entry) {
   return *static_cast<OD_t*>(const_cast<void*>(entry.odObject));
 }
 
-// The entry of the table, or null.
+// Returns the entry of the table, or null.
 [[nodiscard]] CO_OBJ* find_in_table(const OD_t& od, uint32_t key);
 [[nodiscard]] inline CO_OBJ* find_in_table(const OD_entry_t& entry, uint8_t sub) {
   return is_of_table(entry) ? find_in_table(owner_of(entry), CO_DEV(entry.index, sub)) : nullptr;
 }
 
-// What extends an object of the node, or null.
+// Returns the extension of an object of the node, or null.
 [[nodiscard]] OD_extension_t* extension_of(const CO_NODE& node, const CO_OBJ& obj);
 
 }  // namespace co::od

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lock of the application's side: the turn of a node that has several threads, else that of mapped objects.
+// OD_lock() and OD_unlock(): the node lock where several threads use the node, else the lock of mapped objects
+// (CO_NODE_EXT.OdLock).
 #include "core/events.hpp"
 #include "core/port.hpp"
 #include "service/pdo/pdo.hpp"

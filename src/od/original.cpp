@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What objects do by their types, in pieces of any length.
+// OD_readOriginal() and OD_writeOriginal(): access to objects through their original types, in pieces of any length.
 #include "core/access.hpp"
 #include "core/events.hpp"
 #include "object/place.hpp"
@@ -19,7 +19,7 @@ constexpr uint32_t longest_number = 8;
 
 uint8_t* bytes_at(void* memory, OD_size_t position) { return static_cast<uint8_t*>(memory) + position; }
 
-// A piece of what has a known end.
+// Piece of an access to a value whose end is known; all members in bytes.
 struct Piece {
   OD_size_t position;
   OD_size_t bytes;
@@ -28,12 +28,13 @@ struct Piece {
 
 bool is_last(const Piece& piece) { return piece.position + piece.bytes == piece.end; }
 
-// Only what is empty may be read at its end.
+// Returns whether an access can continue at dataOffset: before the end or, if the value is empty, at its end.
 bool is_inside(const OD_stream_t& stream, OD_size_t end) {
   return stream.dataOffset < end || (end == 0 && stream.dataOffset == 0);
 }
 
-// The piece has passed.
+// Advances an access behind a piece that was read or written. Returns ODR_OK after the last piece: the next access
+// starts at the beginning.
 ODR_t go_on(OD_stream_t& stream, const Piece& piece, OD_size_t& passed) {
   passed = piece.bytes;
   stream.dataOffset = is_last(piece) ? 0 : piece.position + piece.bytes;
@@ -44,8 +45,8 @@ CO_ERR call(CO_OBJ_READ_FUNC function, const OD_stream_t& stream, void* data, ui
   return function == nullptr ? CO_ERR_OBJ_ACC : function(stream.Entry, stream.Owner, data, n);
 }
 
-// Type functions may change what they are given, but not the buffer of the caller. Nothing is written, too: it empties
-// what varies.
+// Writes a copy of the data: a type function may change the buffer that it gets, but the caller's buffer must stay
+// unchanged. Also calls the function for 0 bytes, which empty an object of variable length.
 CO_ERR write_copy(const CO_OBJ_TYPE& type, const OD_stream_t& stream, const uint8_t* from, uint32_t n) {
   uint8_t copy[32];
   CO_ERR err = CO_ERR_NONE;
@@ -63,13 +64,15 @@ uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
   return type.Size == nullptr ? 0 : type.Size(stream.Entry, stream.Owner, 0);
 }
 
-// A stream of the application belongs to one at a time: to SDO, which may be what calls.
+// Returns whether an SDO transfer has the stream of the application open, which allows one access at a time. The
+// transfer that is being served does not count: it may be the caller.
 bool is_foreign_and_taken(const OD_stream_t& stream) {
   const CO_NODE& node = *stream.Owner;
   return node.Served != stream.Entry && access::is_taken(node, *stream.Entry, nullptr);
 }
 
-// Sets the position of a stream of the application. Its first access opens it.
+// Sets the position of a stream of the application. At position 0 the stream is opened: the function is called with 0
+// bytes.
 ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC function) {
   if (is_foreign_and_taken(stream)) {
     return ODR_DATA_DEV_STATE;
@@ -85,7 +88,7 @@ ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC 
   return result_of(*stream.Owner, *stream.Entry, err);
 }
 
-// Only an extension has it, or nobody.
+// Returns whether the original type cannot access the object: there is no original type, or no memory.
 bool is_missing(const Shape& shape) {
   const bool is_memory = shape.kind >= Kind::text && shape.kind <= Kind::domain;
   return shape.kind == Kind::none || (is_memory && shape.memory == nullptr);
@@ -102,7 +105,7 @@ CO_ERR read_number(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Pie
   return err;
 }
 
-// Behind the end of the text there are zeros.
+// Reads a piece of a text; bytes behind the end of the text are 0.
 CO_ERR read_text(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
   const co::stream::KeptPosition kept(*stream.Entry);
   const uint32_t length = size_of(stream, type);
@@ -163,7 +166,7 @@ ODR_t read_piece(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind, 
   }
 }
 
-// Bytes that there are to be read.
+// Returns the bytes that can be read.
 OD_size_t end_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind) {
   return kind == Kind::text ? stream.dataLength : size_of(stream, type);
 }
@@ -205,7 +208,7 @@ ODR_t read_memory(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& 
 
 // Writing -------------------------------------------------------------------------------------------------------------
 
-// The other bytes keep their values.
+// Writes a piece of a number; its other bytes keep their values.
 CO_ERR write_number(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
   uint8_t value[longest_number] = {};
   const bool whole = piece.position == 0 && is_last(piece);
@@ -225,7 +228,7 @@ CO_ERR write_stream(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Pi
 
 bool is_zero(const uint8_t* character, unsigned bytes) { return character[0] == 0 && character[bytes - 1] == 0; }
 
-// Zeros that a caller has put behind a text do not belong to it.
+// Writes a piece of a text. After the last piece, zeros at the end are removed from the length of the text.
 CO_ERR write_text(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, const uint8_t* from) {
   const CO_ERR err = write_stream(stream, type, piece, from);
   if (err != CO_ERR_NONE || !is_last(piece)) {
@@ -270,8 +273,9 @@ bool is_in_memory(const Shape& shape) {
   return shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
 }
 
-// Bytes that the value will have: what the caller says, where that may be less than the object can hold.
-// A stream of the application of unknown length is emptied by nothing.
+// Returns the bytes that the value will have: dataLength if the caller has reduced it and the object can be shorter
+// than its capacity, else the length of the object. For a stream of the application returns dataLength, or UINT32_MAX
+// if the length is not known, except for a write of 0 bytes at the beginning, which empties the stream.
 OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape, OD_size_t count) {
   const bool is_unknown = stream.dataLength == 0 && (count != 0 || stream.dataOffset != 0);
   if (shape.kind == Kind::foreign) {
@@ -280,14 +284,15 @@ OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape, OD_size_t 
   return is_in_memory(shape) && stream.dataLength < shape.length ? stream.dataLength : shape.length;
 }
 
-// The write function of the object's extension, if that is what calls.
+// Returns the running call of an extension's write function, if it is for this object; else null.
 OD_WRITING_T* extension_of(const OD_stream_t& stream) {
   const OD_t* const od = stream.Owner->Ext->Od;
   OD_WRITING_T* const writing = od == nullptr ? nullptr : od->Writing;
   return writing != nullptr && &writing->obj == stream.Entry ? writing : nullptr;
 }
 
-// What is told of a change waits while objects are locked.
+// Writes on behalf of the write function of an extension. TPDOs that are triggered by a change are deferred while
+// mapped objects are locked.
 ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Shape& shape, const Piece& piece,
                           const uint8_t* from) {
   const pdo::Lock lock(*stream.Owner);
@@ -352,7 +357,7 @@ ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t
                                   : read_object(*stream, to, count, *countRead);
 }
 
-// In an extension, whoever has called that settles.
+// Runs deferred work, unless an extension's write function is the caller: the caller of that function does it.
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) {
   if (stream == nullptr || buf == nullptr || countWritten == nullptr) {
     return ODR_DEV_INCOMPAT;

@@ -8,7 +8,7 @@
 namespace co::od {
 namespace {
 
-// Half of the digits of an abort code are always 0. [301:7.2.4.3.17]
+// Returns an abort code as 16 bits: half of its hexadecimal digits are always 0. [301:7.2.4.3.17]
 constexpr uint16_t short_of(uint32_t code) {
   return static_cast<uint16_t>(((code >> 12) & 0xF000U) | ((code >> 8) & 0x0F00U) | (code & 0xFFU));
 }
@@ -16,7 +16,7 @@ constexpr uint32_t code_of(uint32_t code) {
   return ((code & 0xF000U) << 12) | ((code & 0x0F00U) << 8) | (code & 0xFFU);
 }
 
-// By ODR_t.
+// Abort codes of results, indexed by ODR_t.
 constexpr uint16_t codes[] = {
     0,
     short_of(CO_SDO_ERR_MEM),

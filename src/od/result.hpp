@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results, and the abort codes that they stand for.
+// Conversion of abort codes and error codes to results.
 #pragma once
 
 #include "co_core.h"
@@ -7,10 +7,11 @@
 
 namespace co::od {
 
-// The result with this abort code; ODR_GENERAL if there is none.
+// Returns the result with this abort code; ODR_GENERAL if there is none.
 [[nodiscard]] ODR_t result_of(uint32_t abort);
 
-// The same for what a type function of the object has answered, with the code that it may have named.
+// Returns the result for the error code of a type function of the object, or for the abort code that the function has
+// set.
 [[nodiscard]] ODR_t result_of(const CO_NODE& node, const CO_OBJ& obj, CO_ERR err);
 
 }  // namespace co::od

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of entries that can be extended: streams.
+// Types of extensible entries: streams.
 #include "object/stream.hpp"
 #include "core/access.hpp"
 #include "core/obj.hpp"
@@ -12,7 +12,8 @@
 namespace co::od {
 namespace {
 
-// A piece of an access passes. Functions of the application may begin another at the same place: state is this one's.
+// One piece of an access. state is a copy of place, because functions of the application may begin another access
+// there.
 struct Access {
   CO_OBJ& obj;
   CO_NODE& node;
@@ -22,6 +23,7 @@ struct Access {
   OD_stream_t stream;
 };
 
+// Begins a piece.
 Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place) {
   Access access = {obj, node, extension, place, place, stream_of(obj, node)};
   access.stream.object = extension.object;
@@ -31,6 +33,7 @@ Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRA
   return access;
 }
 
+// Ends a piece: writes its state back, unless the access was ended meanwhile.
 void leave(Access& access) {
   access.state.Offset = access.stream.dataOffset;
   access.state.Length = access.stream.dataLength;
@@ -42,7 +45,7 @@ void leave(Access& access) {
   }
 }
 
-// A function may take itself away.
+// Returns whether the object still has the extension: its function may have removed it.
 bool is_valid(const Access& access) { return extension_of(access.node, access.obj) == &access.extension; }
 
 bool is_good(ODR_t result) { return result == ODR_OK || result == ODR_PARTIAL; }
@@ -53,7 +56,8 @@ unsigned bytes_of_character(const Access& access) { return od::bytes_of_characte
 
 // Lengths -------------------------------------------------------------------------------------------------------------
 
-// Of a download: what varies may have any length up to what there is room for.
+// Returns the length in bytes nearest to width that a download may have (objects of variable length: up to their
+// capacity); width 0: the length of an upload.
 uint32_t size_of_original(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
   const CO_OBJ_TYPE* const type = original_type(obj);
   if (type != nullptr) {
@@ -63,7 +67,7 @@ uint32_t size_of_original(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
   return length == 0 ? width : length;
 }
 
-// Of an upload, as far as it is known beforehand: strings may be shorter than they can be.
+// Returns the length in bytes of an upload, or CO_OBJ_SIZE_UNKNOWN: strings can be shorter than their capacity.
 uint32_t length_of(CO_OBJ& obj, CO_NODE& node) {
   const Shape shape = shape_of(obj, node);
   const bool varies = (shape.attribute & ODA_STR) != 0 || shape.kind == Kind::octets || shape.length == 0;
@@ -75,14 +79,15 @@ uint32_t size_to_read(CO_OBJ& obj, CO_NODE& node) {
   return transfer != nullptr && is_ended(*transfer) ? transfer->Passed : length_of(obj, node);
 }
 
-// What was announced to the client, or what the object has.
+// Returns the length of an upload: the size that was indicated to the client or, for the application, the length of the
+// object.
 uint32_t bytes_to_read(const Access& access) {
   return is_of_application(*access.node.Ext->Od, access.place) ? length_of(access.obj, access.node)
                                                                : access.state.Total;
 }
 
-// Bytes that the download has, as far as that is known: with the last piece it is. The application writes in one piece
-// what may have that length.
+// Returns the length of a download, which is known once the last piece arrives. behind: bytes with this piece. The
+// application writes a value in one piece, whose length only has to be possible for the object.
 uint32_t bytes_to_write(const Access& access, uint32_t behind) {
   if (is_of_application(*access.node.Ext->Od, access.place)) {
     return size_of_original(access.obj, access.node, behind);
@@ -92,7 +97,8 @@ uint32_t bytes_to_write(const Access& access, uint32_t behind) {
 
 // Reading -------------------------------------------------------------------------------------------------------------
 
-// Fills the buffer as far as the function gives. One that gives nothing, or too much, is wrong.
+// Calls the read function until the buffer is full or all data are read. Returns ODR_DEV_INCOMPAT if the function
+// returns too many bytes, or ODR_PARTIAL without any.
 ODR_t call_read(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) {
   const OD_read_t function = access.extension.read;
   ODR_t result = ODR_PARTIAL;
@@ -111,7 +117,8 @@ ODR_t call_read(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) 
   return result;
 }
 
-// Of a character of two bytes the second is read, too: the text ends where both are zero.
+// Reads a piece. If it ends within a character of two bytes, the second byte is read ahead and kept in Held: a text
+// ends where both bytes are 0.
 ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) {
   OD_TRANSFER& state = access.state;
   OD_size_t held = 0;
@@ -142,7 +149,7 @@ bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t a
   return at + 1 < n ? data[at + 1] == 0 : has(access.state, holds) && access.state.Held == 0;
 }
 
-// A text ends at its first zero, but has at least one character. Returns its bytes among these.
+// Returns how many of n bytes belong to the text, which ends at its first zero but has at least one character.
 OD_size_t cut(Access& access, const uint8_t* data, OD_size_t n) {
   const unsigned character = bytes_of_character(access);
   OD_size_t at = access.state.Passed % character;
@@ -163,7 +170,7 @@ OD_size_t cut(Access& access, const uint8_t* data, OD_size_t n) {
   return at;
 }
 
-// Is this the length that was announced? Texts are as long as they are.
+// Checks the length of an upload against the size that was indicated. A text may have any length.
 ODR_t check_read(const Access& access, ODR_t result) {
   const uint32_t announced = is_text(access.stream) ? CO_OBJ_SIZE_UNKNOWN : bytes_to_read(access);
   if (announced == CO_OBJ_SIZE_UNKNOWN || !is_good(result)) {
@@ -191,7 +198,7 @@ ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
   }
   if (is_good(result)) {
     passed = is_text(access.stream) ? cut(access, to, passed) : passed;
-    __builtin_memset(to + passed, 0, size - passed);  // what the function may have left there
+    __builtin_memset(to + passed, 0, size - passed);  // clears bytes that the function may have written there
     access.state.Passed += passed;
   }
   leave(access);
@@ -202,7 +209,8 @@ ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
 
 constexpr uint32_t short_text = 8;
 
-// Tells the function where the end is. A text has a zero behind it where there is room. Returns the bytes of that.
+// Sets dataLength to the end of the download, which the function needs for the last piece. A text gets a zero behind it
+// if its capacity allows that. Returns the bytes of this zero.
 unsigned announce(Access& access, uint32_t total) {
   const OD_size_t capacity = is_text(access.stream) ? shape_of(access.obj, access.node).length : 0;
   const unsigned character = bytes_of_character(access);
@@ -211,13 +219,14 @@ unsigned announce(Access& access, uint32_t total) {
   return zeros;
 }
 
-// The function takes all or nothing.
+// Calls the write function once. It must accept all bytes or none.
 ODR_t call_once(Access& access, const uint8_t* from, uint32_t size) {
   OD_size_t passed = 0;
   const ODR_t result = access.extension.write(&access.stream, from, size, &passed);
   return is_good(result) && passed != size ? ODR_DEV_INCOMPAT : result;
 }
 
+// Writes a piece and the zero behind a text: a short text with its zero in one call.
 ODR_t call_write(Access& access, const uint8_t* from, uint32_t size, unsigned zeros) {
   uint8_t copy[short_text + 2] = {};
   if (zeros == 0) {
@@ -241,7 +250,8 @@ ODR_t check_write(ODR_t result, bool is_last) {
   return result == ODR_OK && !is_last ? ODR_DATA_LONG : result;
 }
 
-// Before the function knows that it is all: a length that the object cannot have never reaches it.
+// Checks the length of a download before its last piece is written: a function never gets the end of a value whose
+// length the object cannot have.
 ODR_t check_total(const Access& access, uint32_t total) {
   const uint32_t possible = total == 0 ? 0 : size_of_original(access.obj, access.node, total);
   if (total == possible) {
@@ -250,7 +260,8 @@ ODR_t check_total(const Access& access, uint32_t total) {
   return total > possible ? ODR_DATA_LONG : ODR_DATA_SHORT;
 }
 
-// A change is told while functions of the application count as running: a TPDO may read the object.
+// Writes a piece. A change is reported while place has the flag inside: a TPDO that reads the object then does not use
+// the SDO transfer.
 ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t total) {
   const uint32_t behind = access.state.Passed + size;
   const bool is_last = behind == total;
@@ -290,7 +301,7 @@ ODR_t write(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRAN
   return result;
 }
 
-// All has come, and the function does not know it: the last piece was empty.
+// Ends a download whose last piece was empty, so that the function does not have its end yet: calls it with 0 bytes.
 CO_ERR finish(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr || extension->write == nullptr || has(place, exhausted)) {
@@ -305,9 +316,11 @@ CO_ERR finish(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
 
 // Position ------------------------------------------------------------------------------------------------------------
 
-// Bytes that are read again at a time: as many as a block transfer reads ahead. The application wants all.
+// Highest number of bytes that are read again in one call: as many as a block transfer reads ahead. An access of the
+// application reads all in one call.
 constexpr uint32_t most_again = CO_SDO_BUF_BYTE;
 
+// Reads and discards the bytes up to a position.
 ODR_t skip(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
   while (place.Passed < position) {
     uint8_t unwanted[32];
@@ -325,7 +338,8 @@ ODR_t skip(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
   return ODR_OK;
 }
 
-// A function knows no way back but to the beginning: what is not wanted is read once more. ODR_PARTIAL: not all yet.
+// Moves a read access to a position. A function can only restart at the beginning, so the bytes up to the position are
+// read again and discarded. Returns ODR_PARTIAL if another call is needed.
 ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
   if (!has(place, returns) || position < place.Passed) {
     restart(place, stream_of(obj, node).dataLength);
@@ -360,14 +374,15 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   return result == ODR_PARTIAL ? CO_ERR_TYPE_AGAIN : answer(obj, node, result, CO_OBJ_UPLOAD);
 }
 
-// The original --------------------------------------------------------------------------------------------------------
+// Original types ------------------------------------------------------------------------------------------------------
 
 OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
   OD_t* const od = node.Ext->Od;
   return od != nullptr && is_served(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;
 }
 
-// Our own streams get their position before each piece of a transfer: the application may have used them in between.
+// Reads or writes a piece of a stream of this library at a position. The position is set for each piece, because the
+// application may have used the stream in between.
 CO_ERR pass_at(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, uint32_t position, void* buffer, uint32_t size) {
   const stream::KeptPosition kept(obj);
   const CO_ERR err = stream::seek(obj, position);
@@ -411,7 +426,7 @@ CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32
   return type == nullptr || type->End == nullptr ? CO_ERR_NONE : type->End(&obj, &node, transfer, abort);
 }
 
-// Both ways ---------------------------------------------------------------------------------------------------------
+// Upload and download -----------------------------------------------------------------------------------------------
 
 CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   const OD_extension_t* const extension = extension_of(node, obj);
@@ -436,7 +451,8 @@ CO_ERR pass_down(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   return answer(obj, node, result, CO_OBJ_DOWNLOAD);
 }
 
-// A transfer is refused once its object has got another extension, which may have come from within.
+// Calls a function for a transfer, unless its object has got another extension: then, and if that happens during the
+// call, the transfer is refused.
 template <class Function>
 CO_ERR unless_lost(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, Function function) {
   const CO_ERR err = is_lost(node, obj) ? CO_ERR_NONE : function();
@@ -451,7 +467,7 @@ using namespace co::od;
 
 extern "C" {
 
-// A width is that of a download.
+// Returns the size of an extensible stream. width: bytes of a download, 0 for an upload.
 uint32_t ODStreamSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
   const OD_extension_t* const extension = extension_of(*node, *obj);
   const bool is_original = extension == nullptr || extension->read == OD_readOriginal;
@@ -489,7 +505,7 @@ CO_ERR ODStreamBegin(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, u
   return err;
 }
 
-// Nothing ends for the original that has not ended for the extension.
+// Ends a transfer for the extension, then for its original type, which gets the abort code of a failed end.
 CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
   OD_t* const od = node->Ext->Od;
   OD_TRANSFER* const place = od == nullptr ? nullptr : first_transfer(*od, *obj);

@@ -13,8 +13,9 @@ namespace {
 
 constexpr unsigned application = OD_TRANSFER_N - 1;
 
-// Of the places for SDO. A transfer that was never told its end (its entry has moved, its node was initialised, its
-// extension is another) leaves one behind: whatever is begun after it finds a place before that.
+// Returns the position of the first SDO transfer of an object; application if there is none. A transfer whose end was
+// never reported (its entry was moved, its node was initialised again, or its extension was replaced) stays in the
+// array; a later transfer of the object replaces it or gets a position before it.
 unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
   unsigned n = 0;
   while (n < application && od.Transfer[n].Entry != &obj) {
@@ -23,13 +24,15 @@ unsigned first_of(const OD_t& od, const CO_OBJ& obj) {
   return n;
 }
 
-// Is it an entry of the object, and one that an extension serves? Nothing is looked at that is none of the table.
+// Returns whether obj is an extensible entry of the object with this index. obj is accessed only if it points into the
+// table.
 bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
   const auto place = reinterpret_cast<uintptr_t>(obj) - reinterpret_cast<uintptr_t>(od.Table);
   return place < od.TableLen * sizeof(CO_OBJ) && CO_GET_IDX(obj->Key) == index && extensible(*obj) != nullptr;
 }
 
-// The type is told now, the client at its next frame.
+// Ends the transfer of an SDO server channel: calls the End function of the type now. The server aborts the transfer at
+// the next frame of the client.
 void end_transfer(CO_NODE& node, CO_SDO& channel) {
   CO_OBJ& obj = *channel.Obj;
   const bool is_download = sdo_server::has(channel, sdo_server::download);
@@ -39,6 +42,7 @@ void end_transfer(CO_NODE& node, CO_SDO& channel) {
   }
 }
 
+// Returns whether an OD_TRANSFER can be used for another SDO transfer.
 bool is_free(const CO_NODE& node, const OD_TRANSFER& place) {
   return place.Entry == nullptr || (!has(place, inside) && !access::is_taken(node, *place.Entry, nullptr));
 }

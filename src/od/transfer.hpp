@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the accesses to streams that can be extended stand. Each has its place (OD_TRANSFER): an SDO transfer from
-// Begin to End, the application's own access from Reset(0) to the next.
+// Accesses to extensible streams. The state of each is an OD_TRANSFER: for an SDO transfer from Begin to End, for the
+// application's own access from Reset(0) to the next Reset(0).
 #pragma once
 
 #include "co_core.h"
@@ -8,54 +8,58 @@
 
 namespace co::od {
 
-// OD_TRANSFER.State
+// Bits of OD_TRANSFER.State.
 enum Flag : uint8_t {
-  exhausted = 0x01,  // the function has passed all
-  inside = 0x02,     // a function of the application runs: what that accesses is none of the transfer
-  by_server = 0x04,  // it ends as soon as no channel has the object open
-  holds = 0x08,      // Held is the next byte
-  lost = 0x10,       // the object has got another extension: whatever comes next is refused
-  returns = 0x20,    // it reads again what has passed, to come to a position
+  exhausted = 0x01,  // the function has read or written all bytes
+  inside = 0x02,     // a function of the application is running: its accesses are not part of the transfer
+  by_server = 0x04,  // belongs to an SDO server channel: it ends once no channel has the object open
+  holds = 0x08,      // Held contains the next byte
+  lost = 0x10,       // the object has got another extension: further accesses are refused
+  returns = 0x20,    // bytes are read again from the beginning, up to a position
 };
 
 [[nodiscard]] inline bool has(const OD_TRANSFER& transfer, Flag flag) { return (transfer.State & flag) != 0; }
 inline void set(OD_TRANSFER& transfer, Flag flag) { transfer.State = static_cast<uint8_t>(transfer.State | flag); }
 inline void clear(OD_TRANSFER& transfer, Flag flag) { transfer.State = static_cast<uint8_t>(transfer.State & ~flag); }
 
-// Has everything been given to whoever reads?
+// Returns whether all bytes were returned to the reader.
 [[nodiscard]] inline bool is_ended(const OD_TRANSFER& transfer) {
   return has(transfer, exhausted) && !has(transfer, holds);
 }
 
-// At the beginning, of a stream with this length.
+// Sets an access to the beginning of a stream of this length in bytes.
 void restart(OD_TRANSFER& transfer, OD_size_t length);
 
-// Does the SDO transfer that is being served access its object, and not a function of the application within?
+// Returns whether the caller is the SDO transfer that is being served, and not a function of the application that the
+// transfer has called.
 [[nodiscard]] bool is_served(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
-// The SDO transfer of the object from its begin to its end; null: none is open, or it was lost.
+// Returns the open SDO transfer of the object; null: none is open, or its channel no longer has the object open.
 [[nodiscard]] OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
-// The access that goes on with the object: of whoever calls. Null: nobody has begun one.
+// Returns the caller's access to the object: the SDO transfer that is being served, or the access of the application.
+// Null: it has not begun one.
 [[nodiscard]] OD_TRANSFER* find_access(OD_t& od, const CO_NODE& node, const CO_OBJ& obj);
 
-// The same, if its channel has closed it already.
+// Returns the SDO transfer of the object like find_transfer(), even if its channel no longer has the object open.
 [[nodiscard]] OD_TRANSFER* first_transfer(OD_t& od, const CO_OBJ& obj);
 
-// The SDO transfer passes data: it lasts as long as its channel, if it has one. A client to the own node has none.
+// Marks an SDO transfer that accesses data as belonging to an SDO server channel, if a channel has the object open. An
+// SDO client that accesses its own node has no channel.
 void bind(OD_TRANSFER& transfer, const CO_NODE& node);
 
-// Places for an SDO transfer (null: there is none left) and for the application, whose access before that is over.
+// Begins an SDO transfer of total bytes (CO_OBJ_SIZE_UNKNOWN: not indicated). Null: no OD_TRANSFER is free.
 [[nodiscard]] OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, uint32_t total);
 void end_transfer(OD_TRANSFER& transfer);
+// Begins an access of the application, and ends its access before.
 [[nodiscard]] OD_TRANSFER& begin_access(OD_t& od, const CO_OBJ& obj);
 
-// The object has got another extension: all that goes on with it ends. SDO transfers are aborted (0800 0022h), at their
-// next frame, or as soon as the function of the application is over that runs for one. The node need not be
+// Ends all accesses to an object that has got another extension. SDO transfers are aborted (0800 0022h) at their next
+// frame, or as soon as the function of the application that runs for one of them returns. The node need not be
 // initialised.
 void end_accesses(OD_t& od, uint16_t index);
 
-// Has that happened to the SDO transfer that is being served?
+// Returns whether the object of the SDO transfer that is being served has got another extension.
 [[nodiscard]] bool is_lost(const CO_NODE& node, const CO_OBJ& obj);
 
 [[nodiscard]] inline bool is_of_application(const OD_t& od, const OD_TRANSFER& transfer) {

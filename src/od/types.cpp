@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types of entries that can be extended: what all have, and values.
+// Types of extensible entries: common functions, and values.
 #include "od/types.hpp"
 
 #if USE_OD
@@ -27,7 +27,8 @@ CO_ERR error_of(ODR_t result, CO_OBJ_TRANSFER transfer) {
   }
 }
 
-// A number passes in one call, or it is no number.
+// Returns the result of a call that must read or write a number as a whole: partial instead of ODR_PARTIAL,
+// ODR_DEV_INCOMPAT if the length is wrong.
 ODR_t whole(ODR_t result, OD_size_t passed, OD_size_t size, ODR_t partial) {
   if (result == ODR_PARTIAL) {
     return partial;
@@ -59,7 +60,7 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 
 }  // namespace
 
-// What an original function inside has named more exactly stays.
+// Keeps the abort code that an original function has set during the call, if it belongs to the same result.
 CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer) {
   if (result == ODR_OK || result == ODR_PARTIAL) {
     COObjTypeUserSDOAbort(&obj, &node, no_abort);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What types of extensible entries share.
+// Common functions of the types of extensible entries.
 #pragma once
 
 #include "od/kind.hpp"
@@ -8,8 +8,9 @@
 
 #if USE_OD
 
-// The write function of an extension runs, for this object. Who tells of a change (flag A)? The original, if the
-// function has called it: it knows whether there is one. Streams in memory do not look.
+// Running call of an extension's write function. A change of the object (flag A) is reported by its original type, if
+// the function calls it (by_original): that type compares the values. Streams in memory do not compare: their changes
+// are reported after the call.
 struct OD_WRITING_T {
   const CO_OBJ& obj;
   bool by_original;
@@ -17,17 +18,19 @@ struct OD_WRITING_T {
 
 namespace co::od {
 
-// The result of a function of the application becomes the answer of the type, and the abort code of the transfer that
-// is being served.
+// Returns the error code of a type function for the result of a function of the application, and sets the abort code of
+// the transfer that is being served.
 [[nodiscard]] CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer);
 
-// The original type, which serves an entry that is not extended; null: the access is refused.
+// Returns the original type, which serves an entry that is not extended; null: the access is refused.
 [[nodiscard]] inline const CO_OBJ_TYPE* type_without(const OD_TYPE& type) {
   return type.Without == OD_DISABLED ? nullptr : type.Original;
 }
+// Refuses an access: an upload as write-only, a download as read-only.
 [[nodiscard]] CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer);
 
-// What is told while the function runs waits until it is over: a TPDO reads the object by the extension.
+// Scope of a call of an extension's write function. OD_writeOriginal() does not run deferred work meanwhile: a TPDO
+// would read the object through the extension.
 class Writing {
  public:
   Writing(CO_NODE& node, const CO_OBJ& obj) : od_(*node.Ext->Od), before_(od_.Writing), now_{obj, false} {
@@ -45,7 +48,8 @@ class Writing {
   OD_WRITING_T now_;
 };
 
-// It is over; complete: the object has its new value.
+// Reports a change after a call of an extension's write function, and sends the TPDOs that were deferred meanwhile.
+// complete: the object has its new value.
 void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od

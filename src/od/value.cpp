@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Variables: found, and read or written as a whole.
+// Access to variables: lookup, extensions, and reading and writing of whole values (co_od.h).
 #include "core/dict.hpp"
 #include "od/kind.hpp"
 #include "od/list.hpp"
@@ -47,7 +47,7 @@ ODR_t describe_record(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream)
   return ODR_OK;
 }
 
-// An object that is nothing but memory.
+// Describes a variable of an object that is not in a table: its memory.
 ODR_t describe_memory(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream) {
   switch (entry.odObjectType & ODT_TYPE_MASK) {
     case ODT_VAR: {
@@ -76,7 +76,8 @@ ODR_t describe(const OD_entry_t& entry, uint8_t sub, OD_stream_t& stream) {
   return ODR_OK;
 }
 
-// What the network would not notice does not act here, either.
+// Returns whether an extension serves the variable. If the type of its entry is not extensible, the extension is
+// ignored, as it is for SDO and PDO.
 bool is_extended(const OD_entry_t& entry, const OD_stream_t& stream) {
   return entry.extension != nullptr && (stream.Entry == nullptr || extensible(*stream.Entry) != nullptr);
 }
@@ -104,7 +105,7 @@ bool changes_nothing(const OD_extension_t& extension) {
   return extension.read == OD_readOriginal && extension.write == OD_writeOriginal;
 }
 
-// What comes of a value that passes in one call.
+// Returns the result of a call that must read or write a whole value: otherwise if the length is wrong.
 ODR_t whole(ODR_t result, OD_size_t passed, OD_size_t length, ODR_t otherwise) {
   if (result == ODR_OK && passed != length) {
     return otherwise;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains that can be extended.
+// Extensible domains.
 #include "co_od.h"
 
 #if USE_OD

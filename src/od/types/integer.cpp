@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of 8, 16 and 32 bits that can be extended.
+// Extensible numbers of 8, 16 and 32 bits, REAL32 and BOOLEAN.
 #include "co_od.h"
 
 #if USE_OD

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of an extension alone: types that can be extended.
+// Extensible numbers without memory: only an extension can access them.
 #include "co_od.h"
 
 #if USE_OD

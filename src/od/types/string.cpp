@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strings that can be extended.
+// Extensible strings.
 #include "co_od.h"
 
 #if USE_OD

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIME_OF_DAY and TIME_DIFFERENCE that can be extended.
+// Extensible TIME_OF_DAY and TIME_DIFFERENCE.
 #include "co_od.h"
 
 #if USE_OD

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of all other widths that can be extended.
+// Extensible numbers of 24, 40, 48, 56 and 64 bits, and REAL64.
 #include "co_od.h"
 
 #if USE_OD
