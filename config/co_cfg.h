@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cfg.h
-/// Configuration. Each value can be given as a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of
-/// config/presets), or by a co_cfg.h of your own that is found first. A definition has priority over the preset.
-/// Library and application need the same values: the linker refuses others (co_configuration.h).
+/// Configuration. Each value can be defined as a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of
+/// config/presets), or by a co_cfg.h of the application that is found first. A definition has priority over the preset.
+/// Library and application need the same values: the linker refuses different ones (co_configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 
@@ -19,31 +19,31 @@
 #error "CO_SSDO_N: 1...128 SDO servers"
 #endif
 
-/// Check of the dictionary while the node runs, by CODictInit() and the Init functions of types: 0 or 1. C++ tables can
-/// be proven by the compiler instead (CO_OD_CHECK()), C tables by a build with 1. With 0 a wrong table is taken as it
-/// is: what is in the wrong place may not be found, or do nothing, and numbers of services that are not configured
-/// reach no memory; but each Type must be there, and Data must be null or what the type requires. 0 saves 670 bytes of
-/// flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// Check of the dictionary at run time, by CODictInit() and the Init functions of types: 0 or 1. Instead, C++ tables
+/// can be checked by the compiler (CO_OD_CHECK()), C tables by a test build with 1. With 0 a wrong table is used
+/// unchecked: an entry in a wrong position may not be found or have no effect, and numbers of services beyond the
+/// configuration access no memory; but each Type must be set, and Data must be null or as the type requires. 0 saves
+/// 670 bytes of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
 #ifndef USE_DICT_CHECK
 #define USE_DICT_CHECK 1
 #endif
 
-/// Code that is there for speed alone: 0 or 1. With 0 the dictionary and the routes of frames are searched by a loop,
-/// and every object of a PDO passes through the Read or Write function of its type. 0 saves 950 bytes of flash
-/// (Cortex-M0+, -Os) and 28 bytes of RAM.
+/// Optimisations for speed: 0 or 1. With 0 the dictionary and the routes of frames are searched linearly, and every
+/// object of a PDO is read and written by the functions of its type. 0 saves 950 bytes of flash (Cortex-M0+, -Os) and
+/// 28 bytes of RAM.
 #ifndef USE_FAST_PATHS
 #define USE_FAST_PATHS 1
 #endif
 
-/// Types that take part in the whole SDO transfer (CO_OBJ_TYPE_EX), and uploads of objects whose length is not known
-/// beforehand (CO_OBJ_SIZE_UNKNOWN): 0 or 1. Without them there is no COObjTypeExReset(), and an upload of unknown
-/// length is refused (0800 0020h). 0 saves 400 bytes of flash (Cortex-M0+, -Os).
+/// Types with functions for the begin and the end of an SDO transfer (CO_OBJ_TYPE_EX), and uploads of objects whose
+/// length is not known beforehand (CO_OBJ_SIZE_UNKNOWN): 0 or 1. With 0, COObjTypeExReset() does not exist, and an
+/// upload of unknown length is refused (0800 0020h). 0 saves 400 bytes of flash (Cortex-M0+, -Os).
 #ifndef USE_OBJ_EX
 #define USE_OBJ_EX 1
 #endif
 
-/// The second way into the dictionary (co_od.h): 0 or 1. Objects that do not use it cost nothing; each object in the
-/// index of OD_init() costs 12 bytes of RAM (32-bit CPU).
+/// OD access interface in the style of CANopenNode (co_od.h): 0 or 1. Objects that do not use it cost nothing; each
+/// object in the index of OD_init() costs 12 bytes of RAM (32-bit CPU).
 #ifndef USE_OD
 #define USE_OD 0
 #endif
@@ -67,8 +67,8 @@
 #define USE_SDO_BLOCK 1
 #endif
 
-/// Bytes from which on a client asks for a block transfer: 5…256. Shorter objects need fewer frames in segments. No
-/// cost.
+/// Minimum number of bytes for which a client requests a block transfer: 5…256. Shorter objects need fewer frames in
+/// segments. No cost.
 #ifndef CO_CSDO_BLOCK
 #define CO_CSDO_BLOCK 29
 #endif
@@ -76,9 +76,9 @@
 #error "CO_CSDO_BLOCK: 5...256 bytes"
 #endif
 
-/// Time in ms after which the server ends a transfer whose client has fallen silent: 0 (never)…60000. It is not ended
-/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. With 0 a block
-/// download is not asked for what is missing when its client falls silent, either, and 140 bytes of flash are saved
+/// Time in ms after which the server ends a transfer whose client no longer responds: 0 (never)…60000. It is not ended
+/// before 7/8 of that time. The eighths are rounded up to ticks of the timer driver. With 0, the server also does not
+/// request missing segments of a block download when its client stops sending, and 140 bytes of flash are saved
 /// (Cortex-M0+, -Os).
 #ifndef CO_SDO_TIMEOUT
 #define CO_SDO_TIMEOUT 2000
@@ -110,14 +110,14 @@
 #endif
 
 /// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…): 0 or
-/// 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each PDO, and what
-/// follows.
+/// 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each PDO, and the memory
+/// of the two settings below.
 #ifndef USE_MPDO
 #define USE_MPDO 0
 #endif
 
-/// Objects that the object scanner list (1FA0h…) can name, blocks counted by their objects: 1…1024. Each costs 2.25
-/// bytes of RAM with USE_MPDO.
+/// Maximum number of objects in the object scanner list (1FA0h…), including all objects of blocks: 1…1024. Each costs
+/// 2.25 bytes of RAM with USE_MPDO.
 #ifndef CO_MPDO_SCAN_N
 #define CO_MPDO_SCAN_N 16
 #endif
@@ -125,7 +125,7 @@
 #error "CO_MPDO_SCAN_N: 1...1024 objects"
 #endif
 
-/// Entries that the object dispatching list (1FD0h…) can have: 1…1024. Each costs 8 bytes of RAM with USE_MPDO.
+/// Maximum number of entries in the object dispatching list (1FD0h…): 1…1024. Each costs 8 bytes of RAM with USE_MPDO.
 #ifndef CO_MPDO_DISPATCH_N
 #define CO_MPDO_DISPATCH_N 16
 #endif
@@ -133,27 +133,27 @@
 #error "CO_MPDO_DISPATCH_N: 1...1024 entries"
 #endif
 
-/// Event-driven TPDOs (types 254 and 255) are sent when the node enters Operational: 0 or 1. No cost.
+/// Transmission of event-driven TPDOs (types 254 and 255) when the node enters Operational: 0 or 1. No cost.
 #ifndef CO_TPDO_ON_START
 #define CO_TPDO_ON_START 0
 #endif
 
-/// CAN-IDs that CiA 301 reserves (7.3.5) for other services may be given to PDO, SYNC, TIME, EMCY and SDO: 0 or 1. 1 is
-/// for a device whose network is planned without the standard. No cost.
+/// Use of CAN-IDs that CiA 301 reserves (7.3.5) for other services in PDO, SYNC, TIME, EMCY and SDO: 0 or 1. 1 is for
+/// devices in networks that do not follow the standard's identifier allocation. No cost.
 #ifndef CO_RESTRICTED_IDS
 #define CO_RESTRICTED_IDS 0
 #endif
 
-/// SYNC, consumer and producer (1005h, 1006h, 1007h, 1019h): 0 or 1. Without it there are no synchronous PDOs.
+/// SYNC consumer and producer (1005h, 1006h, 1007h, 1019h): 0 or 1. With 0 there are no synchronous PDOs.
 #ifndef USE_SYNC
 #define USE_SYNC 1
 #endif
 
-/// Shortest period of SYNC in µs that 1006h may hold, besides 0 (none is produced): 1…1000000. A write below it is
-/// refused (0609 0032h); what a table or a store holds below it is not produced, and sets the node's error
-/// (CO_ERR_OBJ_RANGE_LOW). Without a bound one SDO write could occupy the CPU with timer interrupts, and the bus with
-/// SYNC. 500 µs is half the shortest cycle that drives commonly use, and ten times the length of a SYNC frame at 1
-/// Mbit/s. The check costs 80 bytes of flash (Cortex-M0+, -Os).
+/// Shortest period of SYNC in µs in 1006h, besides 0 (no SYNC is produced): 1…1000000. A write of a shorter period is
+/// refused (0609 0032h). If a table or a stored group contains a shorter period, no SYNC is produced and the node's
+/// error is CO_ERR_OBJ_RANGE_LOW. Without this limit one SDO write could occupy the CPU with timer interrupts, and the
+/// bus with SYNC. 500 µs is half the shortest cycle that drives commonly use, and ten times the length of a SYNC frame
+/// at 1 Mbit/s. The check costs 80 bytes of flash (Cortex-M0+, -Os).
 #ifndef CO_SYNC_PERIOD_MIN
 #define CO_SYNC_PERIOD_MIN 500
 #endif
@@ -161,7 +161,7 @@
 #error "CO_SYNC_PERIOD_MIN: 1...1000000 us"
 #endif
 
-/// TIME, consumer and producer (1012h), and a running clock: 0 or 1. 1 costs 68 bytes of RAM (32-bit CPU) and 1.3 KB of
+/// TIME consumer and producer (1012h), and a running clock: 0 or 1. 1 costs 68 bytes of RAM (32-bit CPU) and 1.3 KB of
 /// flash (Cortex-M0+, -Os).
 #ifndef USE_TIME
 #define USE_TIME 0
@@ -172,7 +172,7 @@
 #define USE_EMCY 1
 #endif
 
-/// Errors that the application can have at a time (COEmcySet()): 1…256. Eight cost a byte of RAM.
+/// Maximum number of errors in the application's error table (COEmcySet()): 1…256. Eight errors cost a byte of RAM.
 #ifndef CO_EMCY_N
 #define CO_EMCY_N 32
 #endif
@@ -180,8 +180,8 @@
 #error "CO_EMCY_N: 1...256 errors"
 #endif
 
-/// EMCY messages that can wait for the inhibit time (1015h), or for the transmit queue: 1…255. Each costs 8 bytes of
-/// RAM.
+/// Length of the queue of EMCY messages that wait for the inhibit time (1015h) or for the transmit queue: 1…255. Each
+/// message costs 8 bytes of RAM.
 #ifndef CO_EMCY_QUEUE_N
 #define CO_EMCY_QUEUE_N 4
 #endif
@@ -189,7 +189,7 @@
 #error "CO_EMCY_QUEUE_N: 1...255 messages"
 #endif
 
-/// EMCY consumer: the highest sub-index, which is a node-ID, that 1028h may have, 0…127. Each costs 6 bytes of RAM.
+/// EMCY consumer: the highest sub-index (node-ID) of 1028h, 0…127. Each costs 6 bytes of RAM.
 #ifndef CO_EMCY_CONS_N
 #define CO_EMCY_CONS_N 0
 #endif
@@ -197,8 +197,7 @@
 #error "CO_EMCY_CONS_N: 0...127 nodes"
 #endif
 
-/// Heartbeat consumers: the highest sub-index that 1016h may have, 0…127. Each costs 18 bytes of RAM, besides
-/// its entry.
+/// Heartbeat consumers: the highest sub-index of 1016h, 0…127. Each costs 18 bytes of RAM, besides its entry.
 #ifndef CO_HBCONS_N
 #define CO_HBCONS_N 8
 #endif
@@ -231,9 +230,9 @@
 #define USE_LSS_MASTER 0
 #endif
 
-/// The LSS slave serves the LSS master in Operational: 0 or 1. CiA 305 makes LSS independent of the NMT state (1). With
-/// 0 all LSS frames are ignored in Operational; a node in Pre-operational or Stopped, or without node-ID, is still
-/// configured. 0 costs 4 bytes of flash.
+/// Services of the LSS slave in Operational: 0 or 1. According to CiA 305, LSS is independent of the NMT state (1).
+/// With 0 all LSS frames are ignored in Operational; a node in Pre-operational or Stopped, or without node-ID, can
+/// still be configured. 0 costs 4 bytes of flash.
 #ifndef CO_LSS_IN_OPERATIONAL
 #define CO_LSS_IN_OPERATIONAL 1
 #endif
@@ -250,8 +249,8 @@
 #define USE_PARA 1
 #endif
 
-/// Milliseconds between two looks at the groups that are stored autonomously (CO_PARA__A_), at most 65 535: what has
-/// changed is stored then. Rules how fast a flash memory wears.
+/// Period in ms of the check for changed groups that are stored autonomously (CO_PARA__A_), 1…65535: changed groups are
+/// stored at each check. Determines the wear of a flash memory.
 #ifndef CO_PARA_PERIOD
 #define CO_PARA_PERIOD 10000
 #endif
@@ -259,11 +258,11 @@
 #error "CO_PARA_PERIOD: 1...65535 ms"
 #endif
 
-/// Stores that the bus can cause in a row, one more each minute: 0…255; 0: no limit. A "save" (1010h), a "load" (1011h)
-/// or an LSS store that writes the memory is one, so is a round of autonomous stores. Beyond it "save" and "load" are
-/// aborted with 0800 0022h, LSS store answers 255, and autonomous groups are stored later. Bounds the wear of a flash
-/// memory (docs/storage.md). Anything but 0 costs 28 bytes of RAM (32-bit CPU) and 310 bytes of flash (Cortex-M0+,
-/// -Os).
+/// Budget of stores that the bus can cause in a row, refilled by one each minute: 0…255; 0: no limit. A "save" (1010h),
+/// a "load" (1011h) or an LSS store that writes the memory uses one, and so does a round of autonomous stores. When the
+/// budget is used up, "save" and "load" are aborted with 0800 0022h, the response to LSS store is error 255, and
+/// autonomous groups are stored later. Limits the wear of a flash memory (docs/storage.md). Values other than 0 cost 28
+/// bytes of RAM (32-bit CPU) and 310 bytes of flash (Cortex-M0+, -Os).
 #ifndef CO_PARA_BUDGET
 #define CO_PARA_BUDGET 32
 #endif
@@ -271,9 +270,10 @@
 #error "CO_PARA_BUDGET: 0...255 stores"
 #endif
 
-/// Bytes of stack for a piece of what is stored: 8…1024, at least the ProgramSize of the memory. With USE_REAL_TIME a
-/// multiple of 8, and of ProgramSize: between two pieces another thread has its turn and may change what is stored, so
-/// no number may lie in both. That holds for numbers at a multiple of their size behind the begin of their group.
+/// Size of the buffer on the stack for loading and storing, in bytes: 8…1024, at least the ProgramSize of the memory.
+/// With USE_REAL_TIME a multiple of 8 and of ProgramSize: between two pieces another thread may hold the node lock and
+/// change the group, so no number may be divided between two pieces. This holds for numbers at a multiple of their size
+/// from the begin of their group.
 #ifndef CO_STORE_BUFFER
 #define CO_STORE_BUFFER 32
 #endif
@@ -281,8 +281,8 @@
 #error "CO_STORE_BUFFER: 8...1024 bytes"
 #endif
 
-/// Several threads use a node in turns, one of them for SYNC and PDOs alone (CO_NODE_EXT.Enter, CONodeRealTime()): 0
-/// or 1. 1 costs 1.4 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
+/// Use of a node by several threads under the node lock, one of them for SYNC and PDOs only (CO_NODE_EXT.Enter,
+/// CONodeRealTime()): 0 or 1. 1 costs 1.4 KB of flash (Cortex-M0+, -Os) and 4 bytes of RAM.
 #ifndef USE_REAL_TIME
 #define USE_REAL_TIME 0
 #endif
@@ -290,8 +290,8 @@
 #error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be torn"
 #endif
 
-/// Frames that can wait for the CAN controller inside the node: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT can
-/// bring more memory.
+/// Length of the transmit queue inside the node, in frames: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT.TxQueue can
+/// provide a longer one.
 #ifndef CO_TX_QUEUE_N
 #define CO_TX_QUEUE_N 8
 #endif
@@ -307,8 +307,8 @@
 #error "CO_SDO_BUF_SEG: 1...127 segments"
 #endif
 
-/// Segments of block transfers that CONodeProcess(), or COTmrProcess(), sends at most in one call, by servers and
-/// clients together: 1…127. 32 are 4 ms at 1 Mbit/s. No cost.
+/// Maximum number of segments of block transfers that one call of CONodeProcess() or COTmrProcess() sends, by servers
+/// and clients together: 1…127. 32 segments take 4 ms at 1 Mbit/s. No cost.
 #ifndef CO_SDO_BLOCK_PACE
 #define CO_SDO_BLOCK_PACE 32
 #endif

@@ -21,12 +21,13 @@ struct CO_NODE_T;
 struct CO_PARA_T;
 
 /// \name Access hook (USE_ACCESS_HOOK)
-/// Decides about each access of the network before it has an effect: configuration locks, roles, rate limits
-/// (docs/access.md). Only the network is checked: neither API functions (CODict…, COObj…, OD_…, CONmtCommand()) nor an
-/// SDO client that accesses its own node are. PDOs write mapped objects without a check.
+/// Permits or refuses each access of the network before it has an effect, for configuration locks, roles or rate limits
+/// (docs/access.md). Not checked are API functions (CODict…, COObj…, OD_…, CONmtCommand()), an SDO client that accesses
+/// its own node, and PDOs, which write mapped objects.
 ///
-/// The functions may call the API. A reset is carried out when the request has been answered; a node that
-/// CONodeStop() stops does not answer. The structures are valid during the call; later versions may append members.
+/// The functions may call the API. A reset is carried out after the response to the request was sent; a node that was
+/// stopped by CONodeStop() sends no response. The structures are valid during the call; later versions may append
+/// members.
 /// \{
 
 /// An SDO transfer that a client initiates. It passed the checks of index, sub-index and access right; its length was
@@ -40,14 +41,14 @@ typedef struct CO_ACCESS_SDO_T {
   const uint8_t* Data;  ///< expedited download: Size bytes, or 4 if that is 0, in the order of the bus; else null
 } CO_ACCESS_SDO;
 
-/// A command of the NMT master that addresses this node. [301:7.2.8.2.1]
+/// A command of the NMT master that addresses this node. [CiA 301, 7.2.8.2.1]
 typedef struct CO_ACCESS_NMT_T {
   uint8_t Command;  ///< 1 start, 2 stop, 128 enter Pre-operational, 129 reset node, 130 reset communication
   uint8_t NodeId;   ///< as commanded: the node-ID of this node, or 0 for all nodes
 } CO_ACCESS_NMT;
 
 /// An LSS service with valid parameters that changes something in this node. Services that only identify slaves or
-/// inquire values are not checked. [305]
+/// inquire values are not checked. [CiA 305]
 typedef struct CO_ACCESS_LSS_T {
   uint8_t Service;    ///< command specifier, CO_LSS_SERVICE_… (co_lss.h)
   uint8_t State;      ///< the LSS state to be entered (services 04h, 43h, 51h): CO_LSS_WAIT, CO_LSS_CONF; else 0
@@ -62,7 +63,8 @@ typedef struct CO_ACCESS_LSS_T {
 } CO_ACCESS_LSS;
 /// \}
 
-/// Initialise it with zero, set the functions that the application needs. It must live as long as the node.
+/// Callbacks of a node. Initialise it with zero, then set the functions that the application needs. It must live as
+/// long as the node.
 typedef struct CO_CALLBACKS_T {
   /// Called when the newest stored record of a parameter group is damaged and an older one was loaded in its place, by
   /// CONodeInit() and by NMT resets: in CO_INIT, before anything uses the values. No EMCY can be sent then;
@@ -71,7 +73,7 @@ typedef struct CO_CALLBACKS_T {
 #if USE_ACCESS_HOOK
   /// Called when a client initiates an SDO transfer: expedited, segmented or block, in either direction. 1010h and
   /// 1011h are objects like any other.
-  /// \retval 0      the transfer goes on
+  /// \retval 0      the transfer is permitted
   /// \retval other  the transfer is refused with this abort code, e.g. CO_SDO_ERR_TOS_LOCAL
   uint32_t (*AccessSdo)(struct CO_NODE_T* node, void* user, const CO_ACCESS_SDO* access);
 
@@ -82,9 +84,9 @@ typedef struct CO_CALLBACKS_T {
 
   /// Called before an LSS service has an effect.
   /// \retval 0      the service is carried out
-  /// \retval other  the service is refused: 11h, 13h and 17h are answered with this error code (1: out of range or not
-  ///                supported; 2, 17h only: storage failed; 255: CO_ACCESS_LSS.Specific tells more), other services
-  ///                are not answered and have no effect
+  /// \retval other  the service is refused. The response to 11h, 13h and 17h contains this error code (1: out of range
+  ///                or not supported; 2, 17h only: storage failed; 255: manufacturer-specific, see
+  ///                CO_ACCESS_LSS.Specific); other services have no response and no effect
   uint8_t (*AccessLss)(struct CO_NODE_T* node, void* user, CO_ACCESS_LSS* access);
 #endif
 } CO_CALLBACKS;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_core.h
-/// A CANopen node: everything an application includes, except co_ver.h.
+/// A CANopen node. This is the only header that an application has to include, except for co_ver.h.
 ///
-/// Contexts: all functions of the stack belong to one context, the loop (or one task), with two exceptions:
+/// Contexts: all functions of the stack are called from one context, the loop (or one task), with two exceptions:
 /// COTmrService() (timer interrupt) and CORingPut() (producer end of a driver's queue). With USE_REAL_TIME several
-/// threads may use a node, in turns: see CO_NODE_EXT.Enter.
+/// threads may use a node under the node lock: see CO_NODE_EXT.Enter.
 ///
-/// Null pointers: a function that returns CO_ERR answers CO_ERR_BAD_ARG; others call CONodeFatalError() and return,
-/// unless they say otherwise.
+/// Null pointers: a function that returns CO_ERR returns CO_ERR_BAD_ARG; other functions call CONodeFatalError() and
+/// return, unless their description says otherwise.
 #ifndef CO_CORE_H_
 #define CO_CORE_H_
 
@@ -78,21 +78,21 @@
 extern "C" {
 #endif
 
-/// What a node is made of. Filled by position or member by member; used only during CONodeInit().
+/// Initialisation data of a node, filled by position or member by member. Read during CONodeInit() only.
 typedef struct CO_NODE_SPEC_T {
   uint8_t NodeId;                  ///< 1…127, or CO_LSS_NO_NODE_ID (co_lss.h)
   uint32_t Baudrate;               ///< bit/s
   struct CO_OBJ_T* Dict;           ///< the dictionary; may be const (cast it), must live as long as the node
   uint16_t DictLen;                ///< length of that array
   struct CO_EMCY_TBL_T* EmcyCode;  ///< errors of the application (co_emcy.h), may be null
-  struct CO_TMR_MEM_T* TmrMem;     ///< timers for the application; the stack needs none of them
+  struct CO_TMR_MEM_T* TmrMem;     ///< timers of the application, may be null; the stack uses none of them
   uint16_t TmrNum;                 ///< length of that array, may be 0
   uint32_t TmrFreq;                ///< ticks of the timer driver per second, not 0
-  CO_IF_DRV* Drv;                  ///< drivers without context; may be null if CO_NODE_EXT names all drivers
+  CO_IF_DRV* Drv;                  ///< classic drivers (without context); may be null if CO_NODE_EXT names all drivers
   uint8_t* SdoBuf;                 ///< CO_SSDO_N * CO_SDO_BUF_BYTE bytes, or null
 } CO_NODE_SPEC;
 
-/// What a CAN controller reports.
+/// Events that a CAN controller reports.
 typedef enum CO_CAN_EVENT_T {
   CO_CAN_OVERRUN = 0,  ///< a received frame was lost
   CO_CAN_PASSIVE,      ///< error passive
@@ -101,22 +101,24 @@ typedef enum CO_CAN_EVENT_T {
   CO_CAN_EVENT_NUM
 } CO_CAN_EVENT;
 
-/// What the node has counted since CONodeInit(). All counters saturate.
+/// Counters of a node since CONodeInit(). All counters saturate.
 typedef struct CO_NODE_COUNTERS_T {
-  uint32_t Received;   ///< frames read from the driver
-  uint32_t Unclaimed;  ///< of these: for nobody here, or for a service that the NMT state forbids
-  /// Of these: for us, but of a wrong length or kind, or with a DLC above 15; ignored. Frames with such a DLC that the
-  /// application wants to send are counted, too.
+  uint32_t Received;  ///< frames read from the driver
+  /// Received frames without a consumer in this node, or of a service that the NMT state does not allow.
+  uint32_t Unclaimed;
+  /// Received frames that a service of this node consumes, but with a wrong length or format, or with a DLC above 15;
+  /// they are ignored. Frames with a DLC above 15 that the application sends are counted here, too.
   uint32_t Malformed;
-  uint32_t Sent;                         ///< frames that the driver took
-  uint32_t Dropped;                      ///< frames that found a queue full, or that a reset or NMT state threw away
+  uint32_t Sent;  ///< frames that the driver accepted
+  /// Frames that were discarded because a queue was full, or by a reset or a change of the NMT state.
+  uint32_t Dropped;
   uint32_t SdoAborts;                    ///< SDO transfers that the server aborted
-  uint32_t TimerExhausted;               ///< COTmrCreate() without a free timer
-  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< what CONodeCanEvent() was told, or CONodeProcess() has found
+  uint32_t TimerExhausted;               ///< calls of COTmrCreate() without a free timer
+  uint32_t CanEvents[CO_CAN_EVENT_NUM];  ///< events reported by CONodeCanEvent() or detected by CONodeProcess()
 } CO_NODE_COUNTERS;
 
-/// Everything that CO_NODE_SPEC has no place for. Initialise it with zero, set Size, then what you need; it is only
-/// read and must live as long as the node.
+/// Settings that are not in CO_NODE_SPEC. Initialise the structure with zero, set Size, then the members that the
+/// application needs. The node only reads it; it must live as long as the node.
 typedef struct CO_NODE_EXT_T {
   uint32_t Size;                ///< sizeof(CO_NODE_EXT)
   const CO_IF_CAN_DRV_EX* Can;  ///< CAN driver with context, or null: CO_NODE_SPEC.Drv
@@ -125,45 +127,46 @@ typedef struct CO_NODE_EXT_T {
   void* TimerCtx;
   const CO_IF_NVM_DRV_EX* Nvm;  ///< memory driver with context, or null: CO_NODE_SPEC.Drv
   void* NvmCtx;
-  CO_IF_FRM* TxQueue;        ///< memory for frames that wait for the controller, or null: CO_TX_QUEUE_N in the node
+  CO_IF_FRM* TxQueue;        ///< memory for the transmit queue, or null: CO_TX_QUEUE_N frames in the node
   uint16_t TxQueueLen;       ///< frames at TxQueue
-  void (*Lock)(void* user);  ///< instead of COTmrLock()/COTmrUnlock(); both or none
+  void (*Lock)(void* user);  ///< replaces COTmrLock() and COTmrUnlock(); both or none
   void (*Unlock)(void* user);
-  /// May \a size bytes at \a address be written? Null: yes. Asked before a basic type stores a value; for tables and
-  /// variables that the linker has put into read-only memory. false: refused with CO_ERR_OBJ_ACC.
+  /// Returns whether \a size bytes at \a address may be written; null: all addresses may. Called before a basic type
+  /// stores a value. It protects tables and variables that the linker has placed in read-only memory: on false the
+  /// write is refused with CO_ERR_OBJ_ACC.
   bool (*Writable)(void* user, const void* address, uint32_t size);
   void* User;  ///< for the functions above and below, and for CONodeGetUser()
-  /// Held while mapped objects are copied (co_pdo.h); both or none. Calls do not nest.
+  /// Lock that the stack holds while it copies mapped objects (co_pdo.h); both functions or none. Calls do not nest.
   void (*OdLock)(void* user);
   void (*OdUnlock)(void* user);
-  uint16_t EmcyNum;  ///< errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
+  uint16_t EmcyNum;  ///< number of errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
 #if USE_REAL_TIME
-  /// The lock of the node, both or none; a mutex, or what keeps an interrupt away. Who holds it has the turn: the node
-  /// works in turns only, so any threads may use it. It is taken by
+  /// The node lock, both functions or none: a mutex, or a function that disables an interrupt. The node works only
+  /// while the lock is held, so any thread may use it. It is locked by
   ///   - the stack, in CONodeProcess(), CONodeRealTime(), COTmrProcess() (for each action) and CONodeNextDeadline();
-  ///   - the application, around every other call and every access to what the node may use: CO_LOCK_OD(),
+  ///   - the application, around every other call and every access to memory that the node may use: CO_LOCK_OD(),
   ///     CO_LOCK_CAN_SEND() and CO_LOCK_EMCY() of co_od.h are three names of it.
-  /// Callbacks, timer actions, the functions of types and of drivers run in a turn and must not take another, nor call
-  /// one of those four functions: calls do not nest. Nobody need take it before there is a second thread, nor may a
-  /// driver block: others wait for the turn. But while a memory driver that tells its shape reads, writes or erases,
-  /// the turn is given up. So what stores, loads or resets belongs to one thread.
+  /// Callbacks, timer actions, type functions and driver functions run with the lock held. They must neither lock it
+  /// again nor call one of those four functions: calls do not nest. A program with a single thread does not need the
+  /// lock. A driver must not block, because other threads wait for the lock. While a memory driver that has a Shape
+  /// function reads, writes or erases, the stack releases the lock; therefore only one thread may store, load or reset.
   void (*Enter)(void* user);
   void (*Leave)(void* user);
-  /// Where CONodeRealTime() leaves the frames that it does not serve, and CONodeProcess() finds them. Prepared by
-  /// CORingInit(), touched by nobody else. Null: no real-time thread.
+  /// Ring of the frames that CONodeRealTime() does not process itself and hands over to CONodeProcess(). Prepared by
+  /// CORingInit(); the application must not access it afterwards. Null: no real-time thread.
   CO_RING* Mainline;
-  /// Are frames that no service of the node wants left there, too? For applications with COIfCanReceive(). false: they
-  /// take no place in the ring; they are counted (Unclaimed) and gone.
+  /// Whether CONodeRealTime() also puts unrelated frames (no consumer in this node) into Mainline, for applications
+  /// that define COIfCanReceive(). False: such frames are counted (CO_NODE_COUNTERS.Unclaimed) and discarded.
   bool Foreign;
 #endif
 #if USE_OD
-  struct OD_T_* Od;  ///< the index of the dictionary (co_od.h), or null: no object is extended
+  struct OD_T_* Od;  ///< index of the dictionary (co_od.h), or null: no object can be extended
 #endif
   const CO_CALLBACKS* Callbacks;  ///< functions that receive the node and User (co_callbacks.h), or null
 } CO_NODE_EXT;
 
 /// \cond internal
-// NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs
+// Routes: NMT, error control, LSS, SDO, heartbeat and EMCY consumers, SYNC and TIME, PDOs.
 #define CO_ROUTE_N                                                                                           \
   (2 + (USE_LSS ? 1 : 0) + (USE_LSS_MASTER ? 1 : 0) + CO_SSDO_N + (USE_CSDO ? CO_CSDO_N : 0) + CO_HBCONS_N + \
    CO_EMCY_CONS_N + (USE_SYNC ? 1 : 0) + (USE_TIME ? 1 : 0) + CO_RPDO_N + (USE_PDO_RTR ? CO_TPDO_N : 0))
@@ -175,49 +178,53 @@ typedef uint8_t CO_ROUTE_NUM;
 
 #define CO_ROUTE_CLASS_N (USE_FAST_PATHS ? 17 : 1)
 
-typedef struct CO_ROUTES_T {  ///< who gets the frames of an identifier
-  /// First route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, or of all, and the end.
+typedef struct CO_ROUTES_T {  ///< routing table: the service instances that consume each identifier
+  /// Index of the first route of each function code (CAN-ID >> 7) and of the 29-bit identifiers, then the end. With
+  /// USE_FAST_PATHS 0 one class holds all routes.
   CO_ROUTE_NUM Start[CO_ROUTE_CLASS_N + 1];
-  uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, and an end that is none
+  uint32_t Id[CO_ROUTE_N + 1];  ///< identifiers with flags, ascending, then an end mark that is no identifier
   uint16_t Owner[CO_ROUTE_N];   ///< service in bits 15…12, number of its instance in bits 11…0
 } CO_ROUTES;
 
-typedef struct CO_TX_QUEUE_T {  ///< frames that wait for the controller, by priority
+typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
   CO_IF_FRM* Frame;
   uint16_t Len;
   uint16_t Num;
-  uint16_t Fixed;  ///< frames at the head that nothing may overtake: up to and including the boot-up
+  uint16_t Fixed;  ///< number of frames at the head that no frame may overtake: up to and including the boot-up message
 } CO_TX_QUEUE;
 /// \endcond
 
 /// A node. The application uses members as handles (&node.Dict, &node.Emcy, &node.Nmt, &node.Tmr, …), reads NodeId and
-/// Baudrate, and touches nothing else. What is used most lies in front, where small CPUs reach it in one instruction.
+/// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
+/// one instruction.
 typedef struct CO_NODE_T {
   uint8_t NodeId;
-  uint8_t State;       ///< runs, serves a frame, changes its NMT state: bits
-  uint8_t Pending;     ///< what is to be done when it has been answered
-  uint8_t Paused;      ///< a block transfer waits for the controller, or for the next call that continues it
-  uint8_t Burst;       ///< segments of block transfers in this call
-  uint8_t Turn;        ///< whose turn it is when a block transfer may go on
+  uint8_t State;    ///< bits: initialised and running, processing a frame, changing the NMT state
+  uint8_t Pending;  ///< bits: deferred work, to be done when the API function or the frame in progress is complete
+  /// Block transfers are paused: they wait for the controller, or for the next call of CONodeProcess() or
+  /// COTmrProcess().
+  uint8_t Paused;
+  uint8_t Burst;       ///< segments of block transfers sent in this call
+  uint8_t Turn;        ///< round-robin index: the block transfer that sends its next segment first
   uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
-  uint8_t Touched;     ///< change of an object while it is: TPDOs are to be sent
-  uint8_t Held;        ///< nothing may be sent: the bit rate is being switched
-  uint8_t WindowOver;  ///< the synchronous window is over
+  uint8_t Touched;     ///< an object was changed while OdLock was held: its TPDOs are sent when the lock is released
+  uint8_t Held;        ///< transmission is disabled while the bit rate is switched
+  uint8_t WindowOver;  ///< the synchronous window has elapsed
 #if USE_PARA
   uint8_t Verified;  ///< 1020h is not 0
 #endif
 #if USE_REAL_TIME
-  uint8_t InTurn;  ///< CO_NODE_EXT.Enter has been called
+  uint8_t InTurn;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
   CO_NMT Nmt;
-  uint16_t RPdoFirst;  ///< of the RPDOs that wait for the SYNC, by CO_RPDO.Next
+  uint16_t RPdoFirst;  ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
   uint16_t RPdoLast;
-  uint16_t TPdoFirst;  ///< of the synchronous TPDOs, by CO_TPDO.Next
+  uint16_t TPdoFirst;  ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
   const CO_NODE_EXT* Ext;
   CO_TX_QUEUE TxQueue;
   CO_IF If;
-  CO_OBJ* Served;      ///< object of the SDO transfer being served; null: none
-  uint32_t UserAbort;  ///< set by COObjTypeUserSDOAbort() for it
+  CO_OBJ* Served;      ///< object of the SDO request that is being processed; null: none
+  uint32_t UserAbort;  ///< abort code for that request, set by COObjTypeUserSDOAbort()
   enum CO_ERR_T Error;
   CO_NODE_COUNTERS Count;
   CO_ROUTES Routes;
@@ -256,21 +263,21 @@ typedef struct CO_NODE_T {
   CO_LSSM Lssm;
 #endif
 #if USE_PARA
-  CO_TMR_MEM ParaTmr;  ///< groups that are stored autonomously
+  CO_TMR_MEM ParaTmr;  ///< checks the groups that are stored autonomously
 #if CO_PARA_BUDGET > 0
-  uint8_t StoresUsed;    ///< of CO_PARA_BUDGET
-  uint8_t StorePayer;    ///< whether the write in progress is counted
+  uint8_t StoresUsed;    ///< stores used of CO_PARA_BUDGET
+  uint8_t StorePayer;    ///< source of the write in progress: whether the budget counts it
   CO_TMR_MEM BudgetTmr;  ///< refills CO_PARA_BUDGET
 #endif
 #endif
 #if USE_GUARDING
-  uint8_t GuardToggle;  ///< bit 7 of the next answer
-  uint8_t GuardLost;    ///< the NMT master is missing
+  uint8_t GuardToggle;  ///< bit 7 of the next node guarding response
+  uint8_t GuardLost;    ///< life guarding: the NMT master is missing
   CO_TMR_MEM GuardTmr;
 #endif
 #if CO_HBCONS_N > 0
-  CO_TMR_MEM HbConsTmr;             ///< of all consumers
-  CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< by sub-index
+  CO_TMR_MEM HbConsTmr;             ///< one timer for all heartbeat consumers
+  CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< indexed by sub-index of 1016h
 #endif
 #if USE_MPDO
   CO_MPDO Mpdo;
@@ -279,32 +286,33 @@ typedef struct CO_NODE_T {
   uint32_t ErrorKey;  ///< key of the object that Error is about
 } CO_NODE;
 
-/// Initialises a node and its drivers and puts the controller on the bus; nothing is sent. The node is then in CO_INIT;
-/// CONodeGetErr() returns what went wrong. These errors leave the node in CO_INVALID, no other one stops it:
-/// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: no driver has been called, and none
-/// will;
+/// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in
+/// CO_INIT, and CONodeGetErr() returns the last error. Only these errors leave the node in CO_INVALID:
+/// - CO_ERR_NODE_EXT, CO_ERR_NODE_CAN, CO_ERR_NODE_TIMER, CO_ERR_NODE_TMR_FREQ: the node calls no driver, now or later;
 /// - CO_ERR_NODE_ID, CO_ERR_NODE_DICT: the drivers are initialised, the controller stays off the bus;
-/// - CO_ERR_DICT_INIT, likewise: the dictionary is refused, CODictGetFault() names the entry.
+/// - CO_ERR_DICT_INIT: the drivers are initialised, the controller stays off the bus; CODictGetFault() returns the
+///   faulty entry.
 ///
-/// \a node and what \a spec points to stay the caller's and must live as long as the node; \a spec itself need not.
-/// Null arguments end in CONodeFatalError().
+/// The caller owns \a node and all memory that \a spec refers to; they must live as long as the node. \a spec itself
+/// may be destroyed after the call. A null argument calls CONodeFatalError().
 ///
-/// "undefined reference to CONodeInit_of_a_library_with_the_same_co_cfg_values_…" is the linker's refusal of a library
-/// that was compiled with another configuration than the program (co_configuration.h): give both the same definitions,
-/// preset and co_cfg.h.
+/// The linker error "undefined reference to CONodeInit_of_a_library_with_the_same_co_cfg_values_…" means that the
+/// library was compiled with another configuration than the program (co_configuration.h): compile both with the same
+/// definitions, preset and co_cfg.h.
 void CONodeInit(CO_NODE* node, const CO_NODE_SPEC* spec) CO_CONFIGURED("CONodeInit");
 
-/// The same with everything that CO_NODE_SPEC has no place for. CONodeInit() is this with a null \a ext.
+/// Like CONodeInit(), with the settings of \a ext. CONodeInit() is CONodeInitEx() with a null \a ext.
 void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ext) CO_CONFIGURED("CONodeInitEx");
 
-/// From CO_INIT: sends the boot-up message and enters Pre-operational. [301:7.3.2.2.1] Else nothing.
+/// Sends the boot-up message and enters Pre-operational, if the node is in CO_INIT; otherwise has no effect.
+/// [CiA 301, 7.3.2.2.1]
 void CONodeStart(CO_NODE* node);
 
-/// Stops the timers of the stack, goes off the bus; the node is in CO_INVALID until CONodeInit().
+/// Stops the timers of the stack and takes the controller off the bus; the node is in CO_INVALID until CONodeInit().
 void CONodeStop(CO_NODE* node);
 
-/// Returns the last error and clears it. COErrName() and COErrText() (co_err.h) say what it means, CONodeGetErrKey()
-/// which object it is about.
+/// Returns the last error and clears it. COErrName() and COErrText() (co_err.h) return its name and its meaning,
+/// CONodeGetErrKey() the object that it is about.
 /// \retval CO_ERR_NONE     no error since the last call
 /// \retval CO_ERR_BAD_ARG  \a node is null
 CO_ERR CONodeGetErr(CO_NODE* node);
@@ -325,55 +333,58 @@ CO_ERR CONodeGetErr(CO_NODE* node);
 /// \retval 0  the error is about no object, CONodeGetErr() returned CO_ERR_NONE, or \a node is null
 uint32_t CONodeGetErrKey(const CO_NODE* node);
 
-/// Reads and processes at most one frame, after the frames that still wait to be sent were offered to the driver and
-/// paused block transfers continued, by up to CO_SDO_BLOCK_PACE segments in a call. COTmrProcess() continues both, too.
-/// Blocks only if the driver's Read does. In CO_INVALID it reads one frame and drops it, counted as received and
+/// Reads and processes at most one frame. Before that, it offers the frames in the transmit queue to the driver and
+/// continues paused block transfers by up to CO_SDO_BLOCK_PACE segments; COTmrProcess() does both, too. Blocks only if
+/// the driver's Read function does. In CO_INVALID it reads one frame and discards it, counted as received and
 /// unclaimed, unless the node has no drivers.
 void CONodeProcess(CO_NODE* node);
 
-/// The part of a real-time thread, to be called at a fixed rate where CO_NODE_EXT.Mainline is given: COTmrService(),
-/// all frames that the driver has, of which those of SYNC and PDOs are served and the others left to CONodeProcess(),
-/// and the timers of SYNC and PDOs. The driver's Read must not block. All in one turn, for which it waits, at most, for
-/// a frame or a timer action of another thread, or for what the application does in a turn. After CONodeStop() the
-/// timers of the application go on, and each call drops a frame, as CONodeProcess() does.
+/// Runs the real-time part of the node; to be called at a fixed rate by a real-time thread where CO_NODE_EXT.Mainline
+/// is given. It calls COTmrService(), reads all frames that the driver has, processes those of SYNC and PDOs, puts the
+/// others into the ring Mainline for CONodeProcess(), and runs the timers of SYNC and PDOs. The driver's Read function
+/// must not block. The function holds the node lock throughout. It waits for the lock at most while another thread
+/// processes a frame, runs a timer action, or holds the lock in the application. After CONodeStop() the timers of the
+/// application still run, and each call discards one frame, as in CONodeProcess().
 ///
-/// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which runs all other timers. Order is kept
-/// among the frames of either. Resets (CONmtReset()) are the mainline's, too: whoever asks for one, and wherever, it
-/// waits for CONodeProcess(). So does the report of frames that found the ring full, once for all that are lost since
-/// the last (CORingLost() counts them): CO_CAN_OVERRUN, with EMCY 8110h and CONodeCanChange().
+/// The other thread, the mainline, calls CONodeProcess() and COTmrProcess(), which run all other timers. The order of
+/// frames is kept among the frames of either thread. Resets (CONmtReset()) are executed by the mainline: a reset
+/// requested in any thread is deferred to the next CONodeProcess(). The report of frames that were lost because the
+/// ring was full is deferred likewise: one CO_CAN_OVERRUN, with EMCY 8110h and CONodeCanChange(), for all frames lost
+/// since the last report (CORingLost() counts them).
 ///
-/// Callbacks run where what they tell of happens: in this function COPdoReceive(), COPdoUpdate(), COPdoSyncUpdate(),
-/// and COPdoTransmit() of PDOs that a SYNC, a timer or a remote request sends. COPdoTransmit() also runs in the
-/// mainline, or wherever the application asks for a PDO: by COTPdoRequest() and its like, an object with flag A, the
-/// NMT state. PDOs that share their identifier with another service are the mainline's altogether. Read and Write
-/// functions of mapped types, COLedChange(), and what a callback leads to by itself (CONmtModeChange() by
-/// CONmtSetMode()) run in either. All other callbacks are the mainline's.
+/// Callbacks run in the thread in which their event occurs. This function calls COPdoReceive(), COPdoUpdate(),
+/// COPdoSyncUpdate(), and COPdoTransmit() of PDOs that a SYNC, a timer or a remote request triggers. COPdoTransmit()
+/// also runs in the mainline, or in the thread in which the application triggers a PDO: by COTPdoRequest() and similar
+/// functions, by an object with flag A, or by a change of the NMT state. PDOs that share their identifier with another
+/// service are processed by the mainline only. Read and Write functions of mapped types, COLedChange(), and callbacks
+/// that are caused by another callback (for example CONmtModeChange() by CONmtSetMode()) run in either thread. All
+/// other callbacks run in the mainline.
 void CONodeRealTime(CO_NODE* node) CO_NEEDS(USE_REAL_TIME);
 
-/// Ticks until COTmrService() and COTmrProcess() have something to do: timers, frames that the driver has refused
-/// (again after 1 ms), paused block transfers. 0 = now, UINT32_MAX = nothing is planned. Received frames end the wait
-/// sooner.
+/// Returns the time in ticks until COTmrService() and COTmrProcess() have work to do: timers, frames that the driver
+/// has refused (offered again after 1 ms), paused block transfers. 0: now; UINT32_MAX: nothing is planned. A received
+/// frame has to be processed earlier.
 uint32_t CONodeNextDeadline(CO_NODE* node);
 
-/// To be called by a CAN driver or the loop: the controller has changed its state. Counts it and calls
-/// CONodeCanChange(). SocketCAN error frames read by the driver are turned into it by the node itself, in
-/// CONodeProcess(). Context: the loop; of several threads the mainline.
+/// Reports a change of the CAN controller's state: counts it and calls CONodeCanChange(). To be called by a CAN driver
+/// or the loop. For SocketCAN error frames that the driver reads, CONodeProcess() calls it itself. Context: the loop;
+/// with several threads the mainline.
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event);
 
-/// A copy of the counters; all 0 if \a node is null.
+/// Returns a copy of the counters; all are 0 if \a node is null.
 CO_NODE_COUNTERS CONodeGetCounters(const CO_NODE* node);
 
-/// The user pointer of CO_NODE_EXT; null if there is none.
+/// Returns CO_NODE_EXT.User; null if there is none, or \a node is null.
 void* CONodeGetUser(const CO_NODE* node);
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{
 
-/// A frame that no service of the node has claimed; not called in CO_INIT and CO_INVALID. Where there is a real-time
-/// thread: see CO_NODE_EXT.Foreign.
+/// Called for a received frame that no service of the node consumes; not called in CO_INIT and CO_INVALID. With a
+/// real-time thread: see CO_NODE_EXT.Foreign.
 void COIfCanReceive(CO_IF_FRM* frm);
 
-/// The CAN controller has changed its state.
+/// Called when the CAN controller has changed its state.
 void CONodeCanChange(CO_NODE* node, CO_CAN_EVENT event);
 /// \}
 

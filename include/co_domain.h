@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_domain.h
-/// DOMAIN: any bytes. [301:7.1.6.8] Data: a CO_OBJ_DOM. A download may be shorter than the memory.
+/// DOMAIN: any bytes. [CiA 301, 7.1.6.8] Data: a CO_OBJ_DOM. A download may be shorter than the memory.
 #ifndef CO_DOMAIN_H_
 #define CO_DOMAIN_H_
 

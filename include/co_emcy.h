@@ -1,32 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_emcy.h
-/// Emergencies: EMCY producer with error register (1001h) and history (1003h), and EMCY consumer (1028h). [301:7.2.7]
+/// Emergencies: EMCY producer with error register (1001h) and history (1003h), and EMCY consumer (1028h). [CiA
+/// 301, 7.2.7]
 ///
-/// Errors are those of the application (COEmcySet()) and those that the stack finds itself: lost frames (8110h), error
-/// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use (8150h),
-/// PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC of another length (8240h), PDO
-/// missing (8250h).
+/// Errors are those of the application (COEmcySet()) and those that the stack detects: lost frames (8110h), error
+/// passive (8120h), a missing node or NMT master (8130h), recovered from bus-off (8140h), own CAN-ID in use by another
+/// node (8150h), PDO too short (8210h) or too long (8220h), no object for an MPDO (8230h), SYNC with wrong length
+/// (8240h), PDO missing (8250h).
 ///
-/// Each error that comes is entered in 1003h, sets its bit and the generic one in 1001h, and is sent: code, 1001h as of
-/// that moment, five bytes. Each that goes is sent as code 0000h with what is left in 1001h. Errors that come while the
-/// NMT state does not allow EMCY, or while 1014h is missing or not valid, are not sent, then or later.
+/// An error that occurs is entered in 1003h, sets its bit and the generic bit in 1001h, and is sent: error code, 1001h
+/// at that moment, five bytes. An error that is resolved is sent as code 0000h with the remaining bits of 1001h. Errors
+/// that occur while the NMT state does not allow EMCY, or while 1014h is missing or not valid, are not sent, then or
+/// later.
 ///
-/// Errors of the stack have 0 in the first two of the five bytes, and a node-ID or the number of a PDO, or 0, in the
-/// third. 8110h and 8150h stay until they have not come again for one second, and are sent once in that time. At
-/// bus-off nothing can be sent: when the node is back, it sends 8140h, and 0000h at once.
+/// Errors of the stack have 0 in the first two of the five bytes, and a node-ID, the number of a PDO, or 0 in the
+/// third. 8110h and 8150h are resolved when they have not occurred again for one second, and are sent once in that
+/// time. At bus-off nothing can be sent: after recovery the node sends 8140h, and 0000h at once.
 ///
-/// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so that a new value holds from the
-/// next message on. Messages that wait for it, or for the transmit queue, lie in a queue of CO_EMCY_QUEUE_N. In a full
-/// one the newest takes the place of the one before it, which is counted as dropped: what came first is kept, and the
-/// last message always tells the present state.
+/// Inhibit time: 1015h (a plain CO_TUNSIGNED16, x 100 µs) is read at each message, so a new value applies from the next
+/// message on. Messages that wait for the inhibit time, or for the transmit queue, are stored in a queue of
+/// CO_EMCY_QUEUE_N messages. If it is full, a new message replaces the newest one in it, which is counted as dropped:
+/// the first messages are kept, and the last message always reports the present state.
 ///
-/// 1001h is written when it changes, by the Write function of its entry: its variable must be in RAM. With the value in
-/// the entry itself (flag D) it is left alone, as such a table may be in read-only memory.
+/// 1001h is written when it changes, by the Write function of its entry: its variable must be in RAM. An entry that
+/// holds the value itself (flag D) is not written, because its table may be in read-only memory.
 ///
-/// Resets: "reset node" takes back all errors and empties 1003h. "Reset communication" takes back those of the stack;
-/// those of the application stay, as the application goes on, and so does 1003h. Nothing is sent for that.
+/// Resets: "reset node" resolves all errors and empties 1003h. "Reset communication" resolves the errors of the stack;
+/// 1003h and the errors of the application remain, because the application continues to run. No EMCY is sent for
+/// resolved errors in either case.
 ///
-/// Context: the loop. Null pointers: CONodeFatalError(), unless said otherwise.
+/// Context: the loop. Null pointers: CONodeFatalError(), unless a description says otherwise.
 #ifndef CO_EMCY_H_
 #define CO_EMCY_H_
 
@@ -50,7 +53,7 @@ extern "C" {
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
 /// \}
 
-/// \name Bits of the error register (1001h), for CO_EMCY_TBL.Reg. [301:7.5.2.2]
+/// \name Bits of the error register (1001h), for CO_EMCY_TBL.Reg. [CiA 301, 7.5.2.2]
 /// \{
 #define CO_EMCY_REG_GENERAL 0       ///< generic error: set with each of the others
 #define CO_EMCY_REG_CURRENT 1       ///< current
@@ -62,7 +65,7 @@ extern "C" {
 #define CO_EMCY_REG_NUM 8
 /// \}
 
-/// \name Error codes. [301:7.2.7.1 table 26]
+/// \name Error codes. [CiA 301, 7.2.7.1 table 26]
 /// \{
 #define CO_EMCY_CODE_NO_ERR 0x0000u
 #define CO_EMCY_CODE_GEN_ERR 0x1000u
@@ -103,69 +106,75 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// An error that the application can have; a table of them is CO_NODE_SPEC.EmcyCode, and its identifier is its place
-/// there. The table has CO_EMCY_N of them, or as many as CO_NODE_EXT.EmcyNum says.
+/// An error of the application. CO_NODE_SPEC.EmcyCode is a table of them, and the index in it is the error's
+/// identifier. The table has CO_EMCY_N entries, or CO_NODE_EXT.EmcyNum.
 typedef struct CO_EMCY_TBL_T {
-  uint8_t Reg;    ///< CO_EMCY_REG_…; with another number the error sets the generic bit only
+  uint8_t Reg;    ///< CO_EMCY_REG_…; with any other number the error sets only the generic bit
   uint16_t Code;  ///< CO_EMCY_CODE_…, or of a device profile
 } CO_EMCY_TBL;
 
-/// What the manufacturer adds to an error.
+/// Manufacturer-specific data of an error.
 typedef struct CO_EMCY_USR_T {
-  uint16_t Hist;    ///< bits 31…16 in 1003h. CiA's conformance test wants the first two bytes of Emcy there
+  uint16_t Hist;    ///< bits 31…16 in 1003h. CiA's conformance test requires the first two bytes of Emcy here
   uint8_t Emcy[5];  ///< the five bytes of the message
 } CO_EMCY_USR;
 
-/// Bytes that hold a bit for each error of the application.
+/// Size of a bit array with a bit for each error of the application, in bytes.
 #define CO_EMCY_STORAGE (1 + (CO_EMCY_N - 1) / 8)
 
 /// \cond internal
-#define CO_EMCY_FAULT_N (USE_MPDO ? 11 : 10)  // kinds of errors that the stack finds
-#define CO_EMCY_HOLD_N 2                      // of these may come with every frame
+#define CO_EMCY_FAULT_N (USE_MPDO ? 11 : 10)  // kinds of errors that the stack detects
+#define CO_EMCY_HOLD_N 2                      // kinds of these that may occur with every frame (8110h, 8150h)
 
-typedef struct CO_EMCY_HIST_T {  // 1003h is a ring
-  uint8_t Found;                 // entries that it has, while their types are initialised
-  uint8_t Max;                   // entries that it has
-  uint8_t Num;                   // of these in use
-  uint8_t Off;                   // sub-index of the newest
+typedef struct CO_EMCY_HIST_T {  // ring of entries of 1003h
+  uint8_t Found;                 // entries counted while their types are initialised
+  uint8_t Max;                   // number of entries
+  uint8_t Num;                   // number of entries in use
+  uint8_t Off;                   // sub-index of the newest entry
 } CO_EMCY_HIST;
 
-typedef struct CO_EMCY_MSG_T {  // the bytes of a message, first one lowest
+typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
   uint32_t Low;
   uint32_t High;
 } CO_EMCY_MSG;
 /// \endcond
 
-/// Emergencies of a node: &node.Emcy. The application touches nothing of it.
+/// Emergencies of a node: &node.Emcy. The application must not access the members.
 typedef struct CO_EMCY_T {
   struct CO_NODE_T* Node;
   const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
   uint8_t Waiting;                  ///< messages in the queue, oldest first
   CO_EMCY_HIST Hist;                ///< 1003h
-  uint8_t Register;                 ///< what 1001h shows
+  uint8_t Register;                 ///< value of 1001h
   uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
-  uint16_t Fault[CO_EMCY_FAULT_N];  ///< how many there are of each error of the stack
-  CO_TMR_MEM Tmr;                   ///< until the next message may be sent
-  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< until 8110h and 8150h are over
+  uint16_t Fault[CO_EMCY_FAULT_N];  ///< number of unresolved occurrences of each error of the stack
+  CO_TMR_MEM Tmr;                   ///< inhibit time
+  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< times until 8110h and 8150h are resolved
   CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
 } CO_EMCY;
 
-/// The application has found error \a err (its place in CO_NODE_SPEC.EmcyCode); \a usr may be null: all 0. While the
-/// error is there, further calls do nothing.
-/// Node errors: CO_ERR_EMCY_BAD_ROOT: CO_NODE_SPEC.EmcyCode is null; CO_ERR_BAD_ARG: no such error; what 1001h or 1003h
-/// answered that could not be written.
+/// Sets error \a err (index in CO_NODE_SPEC.EmcyCode) of the application. \a usr: manufacturer-specific data, or null:
+/// all 0. Has no effect while the error is set. Errors are reported by CONodeGetErr():
+/// - CO_ERR_EMCY_BAD_ROOT: CO_NODE_SPEC.EmcyCode is null;
+/// - CO_ERR_BAD_ARG: there is no such error;
+/// - the result of the type of 1001h or 1003h if the object could not be written.
 void COEmcySet(CO_EMCY* emcy, uint8_t err, const CO_EMCY_USR* usr) CO_NEEDS(USE_EMCY);
 
-/// Error \a err is gone. One that was not there: nothing happens. Node error CO_ERR_BAD_ARG: no such error.
+/// Clears error \a err of the application. Has no effect if it is not set. Node error CO_ERR_BAD_ARG: there is no such
+/// error.
 void COEmcyClr(CO_EMCY* emcy, uint8_t err) CO_NEEDS(USE_EMCY);
 
-/// 1: the application has error \a err, 0: not, -1: no such error, or \a emcy is null or of no node.
+/// Returns whether error \a err of the application is set.
+/// \retval 1   the error is set
+/// \retval 0   the error is not set
+/// \retval -1  there is no such error, or \a emcy is null or belongs to no node
 int16_t COEmcyGet(CO_EMCY* emcy, uint8_t err) CO_NEEDS(USE_EMCY);
 
-/// Errors that the application has; -1: \a emcy is null.
+/// Returns the number of errors of the application that are set.
+/// \retval -1  \a emcy is null
 int16_t COEmcyCnt(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 
-/// All errors of the application are gone; each is sent as in COEmcyClr() if \a silent is 0. Those of the stack stay.
+/// Clears all errors of the application, with messages as in COEmcyClr() if \a silent is 0. Errors of the stack remain.
 void COEmcyReset(CO_EMCY* emcy, uint8_t silent) CO_NEEDS(USE_EMCY);
 
 /// Empties 1003h, as writing 0 to its sub-index 0 does.
@@ -175,8 +184,9 @@ void COEmcyHistReset(CO_EMCY* emcy) CO_NEEDS(USE_EMCY);
 /// Ordinary functions to be defined by the application (see co_nmt.h); the defaults do nothing.
 /// \{
 
-/// An EMCY message of node \a nodeId, which 1028h names: error code (0: an error is gone), its error register, and the
-/// manufacturer's five bytes. Only in NMT states that allow EMCY.
+/// Called when an EMCY message of node \a nodeId, which has an entry in 1028h, was received in an NMT state that allows
+/// EMCY. \a code: error code (0: an error is resolved), \a reg: error register of that node, \a msef:
+/// manufacturer-specific bytes.
 void COEmcyReceived(struct CO_NODE_T* node, uint8_t nodeId, uint16_t code, uint8_t reg, const uint8_t msef[5]);
 /// \}
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_emcy_id.h
-/// 1014h, COB-ID EMCY. [301:7.5.2.17] Data: a uint32_t, or the value itself (flag D); with flag N the CAN-ID is
+/// 1014h, COB-ID EMCY. [CiA 301, 7.5.2.17] Data: a uint32_t, or the value itself (flag D); with flag N the CAN-ID is
 /// relative to the node-ID, the flags of the COB-ID are not. Bit 31 set: no EMCY is sent. Bit 29 set: 29-bit CAN-ID.
-/// While bit 31 is 0 the other bits stay as they are, unless the same write sets it. Restricted CAN-IDs are refused
-/// whatever bit 31 says, and so are bit 30 and a CAN-ID that does not fit the frame format (0609 0030h). A write takes
-/// effect at once; messages that wait when bit 31 is set are not sent any more, and counted as dropped.
+/// While bit 31 is 0 the other bits cannot be changed, unless the same write sets bit 31. Always refused are restricted
+/// CAN-IDs, bit 30, and a CAN-ID that does not fit the frame format (0609 0030h). A write takes effect at once; queued
+/// messages are discarded when bit 31 is set, and counted as dropped.
 #ifndef CO_EMCY_ID_H_
 #define CO_EMCY_ID_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_err.h
-/// Error codes. Functions return them; the node also keeps the last one (CONodeGetErr()).
+/// Error codes. Functions return them; the node also stores the last one (CONodeGetErr()).
 #ifndef CO_ERR_H_
 #define CO_ERR_H_
 
@@ -18,7 +18,7 @@ extern "C" {
 /// All error codes but CO_ERR_NONE: name, number in hexadecimal and decimal (with the default CO_ERR_BASE), meaning.
 ///
 /// The numbers are part of the interface: a new code gets the next number at the end. Some codes are never returned by
-/// the stack: they are kept for firmware that names them.
+/// the stack; they exist for firmware that refers to them.
 // clang-format off
 #define CO_ERR_LIST(X)                                                                                                 \
   X(CO_ERR_BAD_ARG, 0x100, 256, "an argument is null, out of range or of the wrong length")                            \
@@ -131,10 +131,11 @@ typedef enum CO_ERR_T {
 } CO_ERR;
 
 /// Returns the name of an error code, for messages: "CO_ERR_TPDO_MAP_OBJ"; "unknown error" for other numbers. Never
-/// null. The names are in the program only if it calls this function (about 2 KB); likewise the texts of COErrText().
+/// null. The names (about 2 KB) are linked only into a program that calls this function; likewise the texts of
+/// COErrText().
 const char* COErrName(CO_ERR err);
 
-/// Returns the meaning of an error code, as CO_ERR_LIST has it: one line without a full stop; "unknown error" for other
+/// Returns the meaning of an error code as in CO_ERR_LIST: one line without a full stop; "unknown error" for other
 /// numbers. Never null. About 5 KB, see COErrName().
 const char* COErrText(CO_ERR err);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_error_behaviour.h
-/// 1029h, error behaviour. [301:7.5.2.32] Data: a uint8_t, or the value itself (flag D).
+/// 1029h, error behaviour. [CiA 301, 7.5.2.32] Data: a uint8_t, or the value itself (flag D).
 ///
-/// Sub 1 says what the node does when it loses the network: bus-off, a missing heartbeat of a node that it monitors, or
-/// a missing NMT master (life guarding). 0: it leaves Operational for Pre-operational; 1: nothing; 2: it enters
-/// Stopped. Without the object it is 0. It happens once for each loss.
-/// Other sub-indices are the application's, who acts upon them. All other values are refused (0609 0030h).
+/// Sub 1 is the reaction of a node in Operational to the loss of the network: bus-off, a missing heartbeat of a
+/// monitored node, or a missing NMT master (life guarding). 0, or without the object: enter Pre-operational; 1: none;
+/// 2: enter Stopped. The reaction occurs once for each loss. Other sub-indices are evaluated by the application only.
+/// All other values are refused (0609 0030h).
 #ifndef CO_ERROR_BEHAVIOUR_H_
 #define CO_ERROR_BEHAVIOUR_H_
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_hb_prod.h
-/// 1017h, producer heartbeat time. [301:7.5.2.20] Data: a uint16_t in ms, or the value itself (flag D); 0: off.
-/// A write takes effect at once; with a plain CO_TUNSIGNED16 in its place, at the next reset. A time that the timer
-/// cannot hold is refused with CO_ERR_OBJ_RANGE.
+/// 1017h, producer heartbeat time. [CiA 301, 7.5.2.20] Data: a uint16_t in ms, or the value itself (flag D); 0: off.
+/// A write takes effect at once; with a plain CO_TUNSIGNED16 instead, at the next reset. A time beyond the range of the
+/// timer is refused with CO_ERR_OBJ_RANGE.
 #ifndef CO_HB_PROD_H_
 #define CO_HB_PROD_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_if.h
-/// The drivers of a node, and the functions through which the stack (and the application) reaches them.
+/// The drivers of a node, and the functions through which the stack (and the application) calls them.
 ///
 /// Context: the loop.
 #ifndef CO_IF_H_
@@ -17,7 +17,7 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// The drivers without context of a node. Nvm may be null: then nothing can be stored.
+/// The classic drivers (without context) of a node. Nvm may be null: then nothing can be stored.
 typedef struct CO_IF_DRV_T {
   const CO_IF_CAN_DRV* Can;
   const CO_IF_TIMER_DRV* Timer;
@@ -29,30 +29,36 @@ typedef struct CO_IF_T {
   CO_IF_DRV* Drv;
 } CO_IF;
 
-/// Connects the interface with a node and initialises all drivers; CONodeInit() does it. \a freq: timer ticks/s.
+/// Connects the interface with a node and initialises all drivers; called by CONodeInit(). \a freq: timer ticks per
+/// second.
 void COIfInit(CO_IF* cif, struct CO_NODE_T* node, uint32_t freq);
 
 /// Initialises the CAN driver; the controller stays off the bus.
 void COIfCanInit(CO_IF* cif, struct CO_NODE_T* node);
-/// Goes on the bus with \a baud bit/s; 0 keeps the node's rate.
+/// Goes on the bus with \a baud bit/s; 0: the node's present bit rate.
 void COIfCanEnable(CO_IF* cif, uint32_t baud);
-/// Reads a frame. Frames with a DLC above 15 are counted (CO_NODE_COUNTERS.Malformed) and skipped. Returns
-/// sizeof(CO_IF_FRM), 0 (none), or < 0 (error; the node's error is then CO_ERR_IF_CAN_READ).
+/// Reads a frame. Frames with a DLC above 15 are counted (CO_NODE_COUNTERS.Malformed) and skipped.
+/// \retval sizeof(CO_IF_FRM)  a frame was read
+/// \retval 0                  no frame is available
+/// \retval <0                 the driver reported an error; the node's error is CO_ERR_IF_CAN_READ
 int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm);
-/// Sends a frame of the application, in any NMT state; in CO_INIT it waits for the boot-up message. Takes its place by
-/// priority among frames that wait. Returns sizeof(CO_IF_FRM) when sent or queued, 0 when the queue is full (counted as
-/// dropped), -1: an argument is null, the node is in CO_INVALID, or the DLC is above 15 (counted as malformed). Up to
-/// half of the queue (one frame for each SDO server and client and one more, at most) is kept for the node's own
-/// frames. A driver error leaves the frame in the queue and sets CO_ERR_IF_CAN_SEND.
+/// Sends a frame of the application, in any NMT state; in CO_INIT the frame is queued until the boot-up message is
+/// sent. The transmit queue is ordered by priority. Up to half of it (at most one frame for each SDO server and client,
+/// and one more) is reserved for the node's own frames. After a driver error the frame stays in the queue and the
+/// node's error is CO_ERR_IF_CAN_SEND.
+/// \retval sizeof(CO_IF_FRM)  the frame is sent or queued
+/// \retval 0                  the queue is full; the frame is counted as dropped
+/// \retval -1                 an argument is null, the node is in CO_INVALID, or the DLC is above 15 (counted as
+///                            malformed)
 int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm);
 /// Clears errors and queues of the controller.
 void COIfCanReset(CO_IF* cif);
 /// Goes off the bus.
 void COIfCanClose(CO_IF* cif);
 
-/// Reads \a size bytes at \a start. Returns the bytes read; 0 without a driver.
+/// Reads \a size bytes at address \a start. Returns the number of bytes read; 0 without a driver.
 uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size);
-/// Writes \a size bytes at \a start. Returns the bytes written; 0 without a driver.
+/// Writes \a size bytes at address \a start. Returns the number of bytes written; 0 without a driver.
 uint32_t COIfNvmWrite(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_if_can.h
-/// CAN frames and what a CAN driver has to supply.
+/// CAN frames, and the functions that a CAN driver has to provide.
 #ifndef CO_IF_CAN_H_
 #define CO_IF_CAN_H_
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/// \name Identifier of a frame: CAN-ID in bits 0…28 and these flags. Drivers that know none leave them 0.
+/// \name Identifier of a frame: CAN-ID in bits 0…28 and these flags. Drivers that do not support a flag leave it 0.
 /// \{
 #define CO_IF_FRM_EXT 0x80000000u    ///< 29-bit identifier
 #define CO_IF_FRM_RTR 0x40000000u    ///< remote frame
@@ -22,8 +22,8 @@ extern "C" {
 typedef struct CO_IF_FRM_T {
   uint32_t Identifier;  ///< CAN-ID and flags
   uint8_t Data[8];
-  /// Bytes of Data in use, 0…8. 9…15 mean 8 bytes [ISO 11898-1]; a frame with a larger value is malformed: the node
-  /// counts it (CO_NODE_COUNTERS.Malformed) and drops it.
+  /// Number of valid bytes in Data, 0…8. 9…15 mean 8 bytes [ISO 11898-1]; a frame with a larger value is malformed: the
+  /// node counts it (CO_NODE_COUNTERS.Malformed) and discards it.
   uint8_t DLC;
 } CO_IF_FRM;
 
@@ -53,18 +53,19 @@ static inline void COFrmSetLong(CO_IF_FRM* frm, uint32_t value, uint32_t pos) {
 /// \endcond
 /// \}
 
-/// A CAN driver without context: one table, one controller. All functions run in the loop context and must not block,
-/// except Read in a task of an RTOS.
+/// A classic CAN driver (without context): one table, one controller. All functions are called in the loop context and
+/// must not block, except Read in a task of an RTOS.
 typedef struct CO_IF_CAN_DRV_T {
-  void (*Init)(void);             ///< prepare the controller, off the bus
-  void (*Enable)(uint32_t baud);  ///< set the bit timing (bit/s) and go on the bus
-  int16_t (*Read)(CO_IF_FRM*);    ///< sizeof(CO_IF_FRM): a frame; 0: none; -1: error
-  int16_t (*Send)(CO_IF_FRM*);    ///< sizeof(CO_IF_FRM): taken; 0: not now (asked again later); -1: error (the same)
-  void (*Reset)(void);            ///< clear errors and queues, back on the bus
-  void (*Close)(void);            ///< off the bus
+  void (*Init)(void);             ///< prepares the controller, which stays off the bus
+  void (*Enable)(uint32_t baud);  ///< sets the bit timing (bit/s) and goes on the bus
+  int16_t (*Read)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) for a frame, 0 for none, -1 on error
+  int16_t (*Send)(CO_IF_FRM*);    ///< returns sizeof(CO_IF_FRM) if accepted; 0 (busy) and -1 (error): retried later
+  void (*Reset)(void);            ///< clears errors and queues, goes back on the bus
+  void (*Close)(void);            ///< goes off the bus
 } CO_IF_CAN_DRV;
 
-/// The same with a context, for several controllers in one program (CO_NODE_EXT).
+/// A CAN driver with context argument, for several controllers in one program (CO_NODE_EXT). The functions are those of
+/// CO_IF_CAN_DRV.
 typedef struct CO_IF_CAN_DRV_EX_T {
   void (*Init)(void* ctx);
   void (*Enable)(void* ctx, uint32_t baud);
@@ -72,9 +73,9 @@ typedef struct CO_IF_CAN_DRV_EX_T {
   int16_t (*Send)(void* ctx, const CO_IF_FRM* frm);
   void (*Reset)(void* ctx);
   void (*Close)(void* ctx);
-  /// May be null. The identifiers (with CO_IF_FRM_EXT) that the node wants to receive, in data and in remote frames,
-  /// ascending, one as often as the node has a use for it, the caller's for the time of the call; called before Enable
-  /// and after every change. A driver may let more through.
+  /// Sets the acceptance filter; may be null. \a ids: the identifiers (with CO_IF_FRM_EXT) that the node receives, in
+  /// data and in remote frames, ascending; an identifier occurs once for each service that uses it. The array is valid
+  /// during the call only. Called before Enable and after every change. A driver may pass further frames.
   void (*Filter)(void* ctx, const uint32_t* ids, uint16_t num);
 } CO_IF_CAN_DRV_EX;
 

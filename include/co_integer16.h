@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_integer16.h
-/// INTEGER16 and UNSIGNED16. [301:7.1.4] Data: a variable of two bytes, or the value itself (flag D).
+/// INTEGER16 and UNSIGNED16. [CiA 301, 7.1.4] Data: a variable of two bytes, or the value itself (flag D).
 #ifndef CO_INTEGER16_H_
 #define CO_INTEGER16_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_integer32.h
-/// INTEGER24, UNSIGNED24, INTEGER32 and UNSIGNED32. [301:7.1.4]
+/// INTEGER24, UNSIGNED24, INTEGER32 and UNSIGNED32. [CiA 301, 7.1.4]
 /// Data: a variable of four bytes, or the value itself (flag D).
 #ifndef CO_INTEGER32_H_
 #define CO_INTEGER32_H_

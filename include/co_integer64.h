@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_integer64.h
-/// INTEGER40…64 and UNSIGNED40…64. [301:7.1.4]
+/// INTEGER40…64 and UNSIGNED40…64. [CiA 301, 7.1.4]
 /// Data: a variable of eight bytes, or the value itself (flag D, on CPUs with 64-bit addresses).
 #ifndef CO_INTEGER64_H_
 #define CO_INTEGER64_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_integer8.h
-/// BOOLEAN, INTEGER8 and UNSIGNED8. [301:7.1.4] Data: a variable of one byte, or the value itself (flag D).
+/// BOOLEAN, INTEGER8 and UNSIGNED8. [CiA 301, 7.1.4] Data: a variable of one byte, or the value itself (flag D).
 #ifndef CO_INTEGER8_H_
 #define CO_INTEGER8_H_
 

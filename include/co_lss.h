@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_lss.h
-/// LSS slave: node-ID and bit rate by the network. [305]
+/// LSS slave: configuration of node-ID and bit rate by the network. [CiA 305]
 ///
-/// A node is addressed by its identity, the four numbers of 1018h; a dictionary that lacks one of them has no LSS. All
-/// services are served in every NMT state (with CO_LSS_IN_OPERATIONAL 0 not in Operational): switch state global and
-/// selective, configure node-ID and bit timing, activate bit timing, store, inquire, identify remote and non-configured
-/// slave, fastscan.
+/// An LSS master addresses a node by its identity, the four numbers of 1018h; without all four of them in the
+/// dictionary LSS is disabled. All services work in every NMT state (with CO_LSS_IN_OPERATIONAL 0 not in Operational):
+/// switch state global and selective, configure node-ID and bit timing, activate bit timing, store, inquire, identify
+/// remote and non-configured slave, fastscan.
 ///
-/// A node without node-ID (CO_NODE_SPEC.NodeId or COLssLoad(): CO_LSS_NO_NODE_ID) waits after CONodeStart() in CO_INIT,
-/// silent but for LSS. It gets to work, with its boot-up message, when it is switched back to the state waiting with
-/// a node-ID. A node that has one takes a new one with the next NMT reset.
+/// An unconfigured node (CO_NODE_SPEC.NodeId or COLssLoad(): CO_LSS_NO_NODE_ID) stays in CO_INIT after CONodeStart()
+/// and sends only LSS. It sends its boot-up message and starts when an LSS master has configured a node-ID and switches
+/// it to the state waiting. A node that already has a node-ID uses a new one after the next NMT reset.
 ///
 /// A node in Operational that has to activate a bit rate leaves Operational first: it enters Stopped if 1029h:1 is 2,
-/// otherwise Pre-operational. The NMT master starts it again. CO_CALLBACKS.AccessLss may choose another state, and may
-/// refuse each service that changes the node (co_callbacks.h).
+/// otherwise Pre-operational. The NMT master has to start it again. CO_CALLBACKS.AccessLss may choose another state,
+/// and may refuse each service that changes the node (co_callbacks.h).
 ///
-/// While the bit rate is switched no RPDO is applied and nothing is sent: a delay before, which the LSS master
-/// commands, and the same after it. Frames wait meanwhile. The CAN driver's Init and Enable are called for the new
-/// rate.
+/// Activating a bit rate takes twice the switch delay that the LSS master commands: once before and once after the
+/// switch. In that time no RPDO is processed and nothing is sent; frames are queued. The CAN driver's Init and Enable
+/// are called for the new bit rate.
 ///
 /// Context: the loop.
 #ifndef CO_LSS_H_
@@ -48,62 +48,69 @@ struct CO_NODE_T;
 #define CO_LSS_SERVICE_BIT_TIMING 0x13u
 #define CO_LSS_SERVICE_ACTIVATE 0x15u
 #define CO_LSS_SERVICE_STORE 0x17u
-#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< the last of 40h…43h: the whole address has matched
-#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< the whole address has matched
+#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< whole address has matched (last of 40h…43h)
+#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< whole address has matched
 /// \}
 
-/// The LSS slave of a node. The application touches nothing of it.
+/// The LSS slave of a node. The application must not access its members.
 typedef struct CO_LSS_T {
   struct CO_NODE_T* Node;
-  CO_TMR_MEM Tmr;        ///< of the switch delay
-  uint32_t Delay;        ///< ticks
-  uint32_t OwnBaudrate;  ///< bit/s, of the application: what holds where nothing is stored
-  uint32_t CfgBaudrate;  ///< bit/s, to be activated
-  uint8_t OwnNodeId;     ///< of the application
-  uint8_t CfgNodeId;     ///< of the next reset
-  uint8_t Mode;          ///< CO_LSS_WAIT, CO_LSS_CONF
-  uint8_t Selected;      ///< parts of the address that have matched: switch state selective
-  uint8_t Identified;    ///< the same: identify remote slave
-  uint8_t Scanned;       ///< part that fastscan looks for
-  uint8_t Started;       ///< CONodeStart() waits for a node-ID
+  CO_TMR_MEM Tmr;        ///< switch delay
+  uint32_t Delay;        ///< switch delay in ticks
+  uint32_t OwnBaudrate;  ///< bit/s, from the application: used if nothing is stored
+  uint32_t CfgBaudrate;  ///< bit/s, configured, to be activated
+  uint8_t OwnNodeId;     ///< from the application: used if nothing is stored
+  uint8_t CfgNodeId;     ///< configured, used after the next reset
+  uint8_t Mode;          ///< LSS state: CO_LSS_WAIT, CO_LSS_CONF
+  uint8_t Selected;      ///< switch state selective: number of address parts that have matched
+  uint8_t Identified;    ///< identify remote slave: number of address parts that have matched
+  uint8_t Scanned;       ///< fastscan: current part of the address
+  uint8_t Started;       ///< CONodeStart() is pending until the node has a node-ID
 } CO_LSS;
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)
 /// \{
 
-/// What was stored: in CONodeInit(), after the drivers' Init, and at NMT reset node (the bit rate is then left alone).
-/// \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID) hold what the application has given in CO_NODE_SPEC or by
-/// CONmtSetNodeId(): leave unchanged what was not stored. What an LSS master has configured and not stored ends with
-/// reset node. [305] An error, or another node-ID, is CO_ERR_LSS_LOAD, and nothing is taken. Default: unchanged.
+/// Loads the stored node-ID and bit rate. Called in CONodeInit(), after the Init functions of the drivers, and at NMT
+/// reset node (the bit rate is then ignored). \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID) hold the values
+/// of CO_NODE_SPEC or CONmtSetNodeId(): leave unchanged what was not stored. Values that an LSS master has configured
+/// but not stored are lost at reset node. [CiA 305] On an error, or with another node-ID, the node's error is
+/// CO_ERR_LSS_LOAD, and nothing is loaded. The default leaves both unchanged.
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 
-/// The LSS master commands to store: \a baud as COLssLoad(), \a nodeId the same. CO_ERR_LSS_NO_STORE is
-/// answered by error 1 (not supported), CO_ERR_OBJ_STATE by error 255 with the specific error 22h (the budget of stores
-/// is used up, see CO_PARA_BUDGET; 22h as in SDO abort 0800 0022h), any other error by error 2 (access to the medium).
-/// Default: CO_ERR_LSS_NO_STORE.
+/// Stores \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID). Called for the LSS service store. The default
+/// returns CO_ERR_LSS_NO_STORE.
+/// \retval CO_ERR_NONE          the values are stored
+/// \retval CO_ERR_LSS_NO_STORE  storing is not supported: the response is error 1
+/// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET): the response is error 255 with the
+///                              specific error 22h, as in SDO abort 0800 0022h
+/// \retval other                the memory could not be accessed: the response is error 2
 CO_ERR COLssStore(uint32_t baud, uint8_t nodeId);
 /// \}
 
-/// \name Ready-made
-/// What the callbacks need, over the memory driver of the node (needs USE_PARA):
+/// \name Storage of node-ID and bit rate
+/// Implementations of the callbacks with the memory driver of the node (needs USE_PARA):
 ///
 ///     CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId) { return COLssNvmLoad(&Node, 0, baud, nodeId); }
 ///     CO_ERR COLssStore(uint32_t baud, uint8_t nodeId) { return COLssNvmStore(&Node, 0, baud, nodeId); }
 ///
-/// The callbacks do not name a node: a program with several has to know which one it is initialising or processing.
-/// Never torn with a driver that tells the shape of the memory; they take CO_PARA_SPACE(8, …) bytes there from
-/// \a offset on, else 8 bytes.
+/// The callbacks have no node argument: a program with several nodes has to determine which one is being initialised or
+/// processed. With a driver that has a Shape function, stores are atomic (power-fail safe) and occupy CO_PARA_SPACE(8,
+/// …) bytes from \a offset on; with any other driver 8 bytes.
 /// \{
 
-/// Leaves \a baud and \a nodeId unchanged where nothing was stored. CO_ERR_PARA_STORE: no place at \a offset;
-/// CO_ERR_IF_NVM_READ: what is stored is damaged, or cannot be read; CO_ERR_BAD_ARG: an argument is null.
+/// Loads node-ID and bit rate. Leaves \a baud and \a nodeId unchanged if nothing was stored.
+/// \retval CO_ERR_NONE         the values are loaded, or nothing was stored
+/// \retval CO_ERR_PARA_STORE   the memory has no space at \a offset
+/// \retval CO_ERR_IF_NVM_READ  the stored record is damaged or cannot be read
+/// \retval CO_ERR_BAD_ARG      an argument is null
 CO_ERR COLssNvmLoad(struct CO_NODE_T* node, uint32_t offset, uint32_t* baud, uint8_t* nodeId) CO_NEEDS(LSS_STORAGE);
 
 /// Stores node-ID and bit rate, unless they are stored already. The memory is not checked for an overlap with parameter
 /// groups.
 /// \retval CO_ERR_NONE          the values are stored
 /// \retval CO_ERR_LSS_NO_STORE  the node has no memory
-/// \retval CO_ERR_PARA_STORE    no place at \a offset
+/// \retval CO_ERR_PARA_STORE    the memory has no space at \a offset
 /// \retval CO_ERR_IF_NVM_WRITE  the memory does not hold the values; the old ones stay
 /// \retval CO_ERR_OBJ_STATE     the budget of stores is used up (CO_PARA_BUDGET); only when called in COLssStore()
 /// \retval CO_ERR_BAD_ARG       \a node is null

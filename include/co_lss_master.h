@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_lss_master.h
-/// LSS master: gives node-IDs and bit rates to other nodes, and finds those that have none. [305]
+/// LSS master: configures node-IDs and bit rates of other nodes, and finds unconfigured nodes. [CiA 305]
 ///
 /// A slave is addressed by four numbers, those of its 1018h: vendor-ID, product code, revision number and serial
-/// number. It is configured in its state configuration: COLssmSwitchSelective() leads one slave there, a fastscan the
-/// one that it has found, COLssmSwitchGlobal() all of them. The services to configure, store and inquire are answered
-/// by every slave in that state, and the first answer is used: only one slave should be in configuration
-/// (CO_LSSM.Heard counts the answers). Bit rates may be given to all slaves at once; it is then unknown which refuse.
+/// number. It is configured in the LSS state configuration: COLssmSwitchSelective() switches one slave to this state,
+/// COLssmFastscan() the slave that it finds, COLssmSwitchGlobal() all slaves. Every slave in this state responds to the
+/// services configure, store and inquire, and the first response is used: only one slave should be in this state
+/// (CO_LSSM.Heard counts the responses). Bit rates may be configured in all slaves at once; it is then unknown which
+/// slaves refuse.
 ///
-///     COLssmFastscan(&node.Lssm, NULL, 0, found);                                      // whoever has no node-ID
+///     COLssmFastscan(&node.Lssm, NULL, 0, found);                                      // a node without node-ID
 ///     void found(CO_LSSM* lssm, CO_LSSM_RESULT result) {
 ///       if (result == CO_LSSM_OK) COLssmConfigureNodeId(lssm, 5, configured);         // lssm->Address is its address
 ///     }
@@ -16,22 +17,28 @@
 ///       if (result == CO_LSSM_OK) COLssmSwitchGlobal(lssm, CO_LSSM_WAITING, waiting); // it boots with node-ID 5
 ///     }
 ///
-/// A service is started by a function that returns at once: CO_ERR_NONE: the callback will come, once. Else it will
-/// not, and nothing has changed: CO_ERR_BAD_ARG: \a lssm or \a callback is null, \a lssm belongs to no initialised
-/// node, or an argument is out of the range that is named; CO_ERR_LSS_BUSY: a service is going on; CO_ERR_NMT_MODE: in
-/// CO_INIT and CO_INVALID; CO_ERR_IF_CAN_SEND: the request has found no place in the transmit queue. Arrays are copied.
+/// Each function that starts a service returns at once, and the callback reports the result. Arrays are copied. All
+/// these functions return:
+/// \retval CO_ERR_NONE         the service has started; the callback will be called once. On an error it is not called,
+///                             and nothing has changed
+/// \retval CO_ERR_BAD_ARG      \a lssm or \a callback is null, \a lssm belongs to no initialised node, or an argument
+///                             is out of its range
+/// \retval CO_ERR_LSS_BUSY     a service is in progress
+/// \retval CO_ERR_NMT_MODE     the node is in CO_INIT or CO_INVALID
+/// \retval CO_ERR_IF_CAN_SEND  the transmit queue is full
 ///
-/// Several slaves may answer when a slave is looked for (identify, fastscan). These services listen for their whole
-/// time, so that none of the answers is left for what follows. The times begin when a request is given to the
-/// controller or the transmit queue. A request of several frames leaves 1 ms between them.
+/// Several slaves may respond to the services that search for slaves (identify, fastscan). These services receive
+/// responses for their whole time, so that no late response is taken for one to the next service. Times begin when a
+/// request is given to the controller or the transmit queue. A request of several frames leaves 1 ms between them.
 ///
-/// What is not awaited is ignored: other commands, other lengths, answers to nobody's request. An answer that comes
-/// after its time is taken if the same service has been started again.
+/// Unexpected frames are ignored: other commands, other lengths, responses without a request. A response that arrives
+/// after its time-out is used if the same service was started again.
 ///
-/// A node can be slave and master; it does not hear its own requests. Answers (7E4h) are received from the first
+/// A node can be slave and master; it does not receive its own requests. Responses (7E4h) are received from the first
 /// service on, until the node is reset.
 ///
 /// Context: the loop. Callbacks run in CONodeProcess(), COTmrProcess(), COLssmCancel() and in the functions that stop
+/// or reset the node. They may call any function and start the next service.
 /// or reset the node. They may call everything, and start the next service.
 #ifndef CO_LSS_MASTER_H_
 #define CO_LSS_MASTER_H_
@@ -48,8 +55,9 @@ extern "C" {
 struct CO_NODE_T;
 struct CO_LSSM_T;
 
-#define CO_LSSM_TIMEOUT_MS 1000u  ///< for the answer of a slave, unless COLssmSetTimes() says otherwise
-#define CO_LSSM_LISTEN_MS 50u     ///< for each request that looks for slaves, unless COLssmSetTimes() says otherwise
+#define CO_LSSM_TIMEOUT_MS 1000u  ///< default time-out for the response of a slave, see COLssmSetTimes()
+/// Default time for responses to a request that searches for slaves, see COLssmSetTimes().
+#define CO_LSSM_LISTEN_MS 50u
 
 /// \name Parts of an LSS address, in the order of 1018h
 /// \{
@@ -66,70 +74,75 @@ struct CO_LSSM_T;
 #define CO_LSSM_CONFIGURATION 1u
 /// \}
 
-/// How a service has ended.
+/// Result of a service.
 typedef enum CO_LSSM_RESULT_T {
-  CO_LSSM_OK = 0,     ///< done; slaves have answered, if they have to
-  CO_LSSM_REFUSED,    ///< the slave refuses: CO_LSSM.Error, CO_LSSM.Specific
-  CO_LSSM_TIMEOUT,    ///< no answer
-  CO_LSSM_NOT_FOUND,  ///< there is no slave of this kind
-  CO_LSSM_NOT_SENT,   ///< a further frame of the service has found no place in the transmit queue
-  CO_LSSM_CANCELLED,  ///< COLssmCancel()
+  CO_LSSM_OK = 0,     ///< success; slaves have responded, if the service has a response
+  CO_LSSM_REFUSED,    ///< the slave has refused: CO_LSSM.Error, CO_LSSM.Specific
+  CO_LSSM_TIMEOUT,    ///< no response
+  CO_LSSM_NOT_FOUND,  ///< there is no such slave
+  CO_LSSM_NOT_SENT,   ///< a further frame of the service was not sent: the transmit queue is full
+  CO_LSSM_CANCELLED,  ///< COLssmCancel() was called
   CO_LSSM_STOPPED     ///< the node was stopped or reset
 } CO_LSSM_RESULT;
 
-/// A service has ended. The next one may be started here.
+/// Called when a service has ended. The callback may start the next service.
 typedef void (*CO_LSSM_CALLBACK)(struct CO_LSSM_T* lssm, CO_LSSM_RESULT result);
 
-/// The LSS master of a node. The application reads what is marked so, from the callback until it starts the next
-/// service, and touches nothing else.
+/// The LSS master of a node. The application may read members marked "read", from the callback on until the next
+/// service starts, and must not access other members.
 typedef struct CO_LSSM_T {
   struct CO_NODE_T* Node;           ///< read
-  uint32_t Value;                   ///< read: the number inquired
-  uint32_t Address[CO_LSSM_PARTS];  ///< read: what a fastscan has found
-  uint8_t Error;                    ///< read: error code of a slave that refuses, 1…255
+  uint32_t Value;                   ///< read: result of an inquiry
+  uint32_t Address[CO_LSSM_PARTS];  ///< read: address found by a fastscan
+  uint8_t Error;                    ///< read: error code of a slave that has refused, 1…255
   uint8_t Specific;                 ///< read: the manufacturer's error code, if Error is 255
-  uint8_t State;                    ///< of the protocol; 0: no service is going on
-  /// Read: answers to the last request, also after the service has ended, until the next request; at most 255. More
-  /// than 1 for a service of one slave, some time after its end, or at the end of a fastscan: several slaves have the
-  /// same address or are in configuration. Equal answers that slaves transmit in the same moment are one frame.
+  uint8_t State;                    ///< state of the protocol; 0: no service is in progress
+  /// Read: number of responses to the last request, at most 255; counted until the next request, also after the end of
+  /// the service. More than 1 response to a service for one slave (some time after its end), or at the end of a
+  /// fastscan, means that several slaves have the same address or are in configuration. Equal responses that slaves
+  /// transmit at the same moment appear as one frame.
   uint8_t Heard;
-  uint8_t Request;     ///< command of the first frame
-  uint8_t Frames;      ///< of the request
-  uint8_t Sent;        ///< of these
-  uint8_t Answer;      ///< command that is awaited
-  uint8_t Then;        ///< State behind the last frame
-  uint8_t Known;       ///< fastscan: parts that need no scan
-  uint8_t Part;        ///< fastscan: of the address
-  uint8_t Bit;         ///< fastscan: the lowest that is compared
-  uint8_t Routed;      ///< answers are received
-  uint32_t Number[6];  ///< of the frames of the request
-  uint32_t Baudrate;   ///< activate bit timing: the own new one, 0: none
-  uint32_t Timeout;    ///< ms; 0: CO_LSSM_TIMEOUT_MS
-  uint32_t Listen;     ///< ms; 0: CO_LSSM_LISTEN_MS
+  uint8_t Request;     ///< command specifier of the first frame
+  uint8_t Frames;      ///< number of frames of the request
+  uint8_t Sent;        ///< number of frames sent
+  uint8_t Answer;      ///< command specifier of the expected response
+  uint8_t Then;        ///< value of State after the last frame
+  uint8_t Known;       ///< fastscan: number of parts that need no scan
+  uint8_t Part;        ///< fastscan: current part of the address
+  uint8_t Bit;         ///< fastscan: lowest bit that is compared
+  uint8_t Routed;      ///< a route for responses exists
+  uint32_t Number[6];  ///< parameters of the frames of the request
+  uint32_t Baudrate;   ///< activate bit timing: new bit rate of this node, 0: unchanged
+  uint32_t Timeout;    ///< time-out for responses in ms; 0: CO_LSSM_TIMEOUT_MS
+  uint32_t Listen;     ///< time for responses of a search in ms; 0: CO_LSSM_LISTEN_MS
   CO_LSSM_CALLBACK Call;
   CO_TMR_MEM Tmr;
 } CO_LSSM;
 
-/// Sets times in ms from the next request on; CONodeInit() forgets them. \a timeout: for the answer of one slave; a
-/// slave that stores may need long. \a listen: how long each request listens that looks for slaves; a fastscan makes up
-/// to 133 of them. It should cover the cycle of the slowest slave and the waiting time on a busy bus, where LSS has a
-/// low priority. 0: CO_LSSM_TIMEOUT_MS, CO_LSSM_LISTEN_MS. What the timer driver cannot count is taken as the longest
-/// time it can. CO_ERR_BAD_ARG: \a lssm is null.
+/// Sets times in ms, from the next request on until CONodeInit(). \a timeout: for the response of one slave; a slave
+/// may need long to store. \a listen: time for responses to each request that searches for slaves; a fastscan sends up
+/// to 133 of them. It should cover the cycle of the slowest slave and the delay on a busy bus, where LSS has a low
+/// priority. 0: CO_LSSM_TIMEOUT_MS, CO_LSSM_LISTEN_MS. Times beyond the timer's range are limited to the longest
+/// possible time.
+/// \retval CO_ERR_NONE     the times are set
+/// \retval CO_ERR_BAD_ARG  \a lssm is null
 CO_ERR COLssmSetTimes(CO_LSSM* lssm, uint32_t timeout, uint32_t listen) CO_NEEDS(USE_LSS_MASTER);
 
-/// Ends the service that is going on: the callback comes with CO_LSSM_CANCELLED before this returns. What was sent
-/// stays sent. CO_ERR_BAD_ARG: \a lssm is null; CO_ERR_NONE, too, if no service is going on.
+/// Cancels the service in progress: calls its callback with CO_LSSM_CANCELLED before it returns. Frames already sent or
+/// queued are not withdrawn.
+/// \retval CO_ERR_NONE     the service is cancelled, or no service is in progress
+/// \retval CO_ERR_BAD_ARG  \a lssm is null
 CO_ERR COLssmCancel(CO_LSSM* lssm) CO_NEEDS(USE_LSS_MASTER);
 
 /// \name State of slaves
 /// \{
 
-/// Switches all slaves to \a state, CO_LSSM_WAITING or CO_LSSM_CONFIGURATION. No slave answers: CO_LSSM_OK follows
-/// after 1 ms. Slaves without node-ID that were given one get to work in CO_LSSM_WAITING.
+/// Switches all slaves to \a state, CO_LSSM_WAITING or CO_LSSM_CONFIGURATION. There is no response: the result is
+/// CO_LSSM_OK after 1 ms. CO_LSSM_WAITING starts unconfigured slaves that have received a node-ID.
 CO_ERR COLssmSwitchGlobal(CO_LSSM* lssm, uint8_t state, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Switches the slave with this address, that is in the state waiting, to configuration. CO_LSSM_TIMEOUT: there is
-/// none. CO_ERR_BAD_ARG: \a address is null.
+/// Switches the slave with this address from the state waiting to configuration. \a address must not be null. Result
+/// CO_LSSM_TIMEOUT: there is no such slave.
 CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS], CO_LSSM_CALLBACK callback)
     CO_NEEDS(USE_LSS_MASTER);
 /// \}
@@ -137,51 +150,56 @@ CO_ERR COLssmSwitchSelective(CO_LSSM* lssm, const uint32_t address[CO_LSSM_PARTS
 /// \name Slaves in the state configuration
 /// \{
 
-/// Gives the slave a node-ID: 1…127, or 255: none. It takes it when it is switched to waiting, if it had none, else
-/// with its next NMT reset communication. CO_LSSM_REFUSED with 1: it does not take this one.
+/// Configures the node-ID of the slave: 1…127, or 255: none. A slave without node-ID uses it when it is switched to
+/// waiting, any other with its next NMT reset communication. Result CO_LSSM_REFUSED with Error 1: the slave does not
+/// accept this node-ID.
 CO_ERR COLssmConfigureNodeId(CO_LSSM* lssm, uint8_t nodeId, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Gives the slave a bit rate in bit/s: 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000. CO_LSSM_REFUSED
-/// with 1: it does not know this one.
+/// Configures the bit rate of the slave in bit/s: 1000000, 800000, 500000, 250000, 125000, 50000, 20000, 10000. Result
+/// CO_LSSM_REFUSED with Error 1: the slave does not support this bit rate.
 CO_ERR COLssmConfigureBitTiming(CO_LSSM* lssm, uint32_t baudrate, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Lets all slaves in configuration take their bit rate. All nodes are silent for \a delay ms, switch, and are silent
-/// for \a delay ms again. This node does the same, its frames wait; each time is at least 1 ms here. \a baudrate: the
-/// one that this node takes itself, in bit/s; the CAN driver's Init and Enable are called. 0: it leaves its controller
-/// alone. CO_LSSM_OK follows when all is over, also if the node is reset meanwhile. Cancelled, it sends again at the
-/// bit rate that it then has. CO_ERR_IF_CAN_SEND: frames still wait for the controller.
+/// Activates the configured bit rate in all slaves in configuration. All nodes stop sending for \a delay ms, switch,
+/// and stop sending for \a delay ms again. This node does the same and queues its frames; each time is at least 1 ms in
+/// this node. \a baudrate: new bit rate of this node in bit/s, set by the CAN driver's Init and Enable; 0: the
+/// controller is not changed. Result CO_LSSM_OK at the end of both times, also if the node is reset meanwhile. After
+/// COLssmCancel() the node sends again at its present bit rate. Returns CO_ERR_IF_CAN_SEND also if frames are in the
+/// transmit queue.
 CO_ERR COLssmActivateBitTiming(CO_LSSM* lssm, uint16_t delay, uint32_t baudrate, CO_LSSM_CALLBACK callback)
     CO_NEEDS(USE_LSS_MASTER);
 
-/// Lets the slave store node-ID and bit rate. CO_LSSM_REFUSED with 1: it cannot store; 2: its memory has failed.
+/// Requests the slave to store node-ID and bit rate. Result CO_LSSM_REFUSED with Error 1: storing is not supported; 2:
+/// the slave's memory failed.
 CO_ERR COLssmStore(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Inquires one part of the address of the slave: CO_LSSM_VENDOR…CO_LSSM_SERIAL. The answer is CO_LSSM.Value.
+/// Inquires one part of the address of the slave, CO_LSSM_VENDOR…CO_LSSM_SERIAL. The result is in CO_LSSM.Value.
 CO_ERR COLssmInquire(CO_LSSM* lssm, uint8_t part, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Inquires the node-ID of the slave: CO_LSSM.Value, 255 if it has none.
+/// Inquires the node-ID of the slave. The result is in CO_LSSM.Value, 255 if it has none.
 CO_ERR COLssmInquireNodeId(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 /// \}
 
 /// \name Slaves in any state
 /// \{
 
-/// Is there a slave in this range? \a range: vendor-ID, product code, lowest and highest revision number, lowest and
-/// highest serial number. CO_LSSM_OK or CO_LSSM_NOT_FOUND. CO_ERR_BAD_ARG: \a range is null.
+/// Checks whether there is a slave in an address range: CO_LSSM_OK or CO_LSSM_NOT_FOUND. \a range: vendor-ID, product
+/// code, lowest and highest revision number, lowest and highest serial number; not null.
 CO_ERR COLssmIdentify(CO_LSSM* lssm, const uint32_t range[6], CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 
-/// Is there a slave without node-ID? CO_LSSM_OK or CO_LSSM_NOT_FOUND.
+/// Checks whether there is a slave without node-ID: CO_LSSM_OK or CO_LSSM_NOT_FOUND.
 CO_ERR COLssmIdentifyUnconfigured(CO_LSSM* lssm, CO_LSSM_CALLBACK callback) CO_NEEDS(USE_LSS_MASTER);
 /// \}
 
-/// Finds a slave without node-ID, in the state waiting, and switches it to configuration; its address is
-/// CO_LSSM.Address. Of several, it is the one with the lowest address. \a known: the first \a num parts of the address,
-/// 0…4, are known and need no scan; may be null if \a num is 0.
-/// CO_LSSM_NOT_FOUND: there is none (with these parts). CO_LSSM_TIMEOUT: the slave has not answered when its number was
-/// complete: frames were lost, or it is gone. Perhaps it is in configuration: switch all to waiting before scanning
-/// again. A slave that answers every request is found as 0, 0, 0, 0, again and again: end a loop of fastscans at an
-/// address that was found before, and inquire the identity of what was found. CO_ERR_BAD_ARG: \a num is above 4, or \a
-/// known is null though there are any.
+/// Finds a slave without node-ID in the state waiting and switches it to configuration. Its address is in
+/// CO_LSSM.Address; if there are several slaves, it is the one with the lowest address. \a known: the first \a num
+/// parts of the address (0…4), which are not scanned; may be null if \a num is 0. Results:
+/// - CO_LSSM_NOT_FOUND: there is no such slave;
+/// - CO_LSSM_TIMEOUT: the slave did not respond when its address was complete, because frames were lost or it was
+///   removed. It may be in configuration: switch all slaves to waiting before the next scan.
+///
+/// A slave that responds to every request is found as 0, 0, 0, 0 repeatedly: end a loop of fastscans at an address that
+/// was found before, and inquire the identity of the slave. Returns CO_ERR_BAD_ARG also if \a num is above 4, or \a
+/// known is null and \a num is not 0.
 CO_ERR COLssmFastscan(CO_LSSM* lssm, const uint32_t* known, uint8_t num, CO_LSSM_CALLBACK callback)
     CO_NEEDS(USE_LSS_MASTER);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_needs.h
-/// Names the setting of co_cfg.h that a function or an object type needs. Functions that the configuration leaves out
-/// are declared, but calling one, or taking its address, is an error of the compiler:
+/// Names the setting of co_cfg.h that a function or an object type needs. Functions that the configuration excludes are
+/// declared, but calling one, or taking its address, is a compile error:
 ///
 ///     error: 'CONmtCommand' is unavailable: needs USE_NMT_MASTER 1 in co_cfg.h
 ///
-/// gcc from 12 on, clang. Older versions of gcc give a warning with the same text, and the linker refuses the call.
-/// Other compilers leave it to the linker.
+/// With gcc from 12 on, and clang. Older versions of gcc give a warning with the same text, and the linker rejects the
+/// call. With other compilers only the linker rejects it.
 #ifndef CO_NEEDS_H_
 #define CO_NEEDS_H_
 

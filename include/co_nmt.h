@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nmt.h
-/// Network management: the NMT slave, error control (heartbeat, guarding, nodes that are monitored), commands of an NMT
-/// master. [301:7.3.2, 7.2.8]
+/// Network management: NMT slave, error control (heartbeat producer and consumer, node and life guarding), commands of
+/// an NMT master. [CiA 301, 7.3.2, 7.2.8]
 ///
-/// Node guarding (USE_GUARDING): a remote frame with 700h + node-ID is answered while no heartbeat is produced (1017h
-/// is 0 or missing). With the first one life guarding starts, unless 100Ch (guard time in ms) or 100Dh (life time
-/// factor) is 0 or missing, or their product is more than the timer can hold: without a further one for that long the
-/// NMT master is missing. Both are plain objects (CO_TUNSIGNED16, CO_TUNSIGNED8), read at each remote frame.
-/// A data frame with 700h + node-ID, which only this node may send, is reported with EMCY 8150h, and counted as
-/// malformed.
+/// Node guarding (USE_GUARDING): the node responds to a remote frame with 700h + node-ID while it produces no heartbeat
+/// (1017h is 0 or missing). Life guarding starts with the first remote frame, unless 100Ch (guard time in ms) or 100Dh
+/// (life time factor) is 0 or missing, or their product is beyond the range of the timer. Without a further remote
+/// frame within that time, the NMT master is considered missing. Both objects are plain objects (CO_TUNSIGNED16,
+/// CO_TUNSIGNED8), read at each remote frame. A data frame with 700h + node-ID, which no other node may send, is
+/// reported with EMCY 8150h and counted as malformed.
 ///
-/// Context: the loop. Called from a type function or callback while a received frame is processed, a reset takes
-/// effect when the answer to that frame has been sent.
+/// Context: the loop. A reset requested by a type function or callback while a received frame is processed is executed
+/// after the response to that frame was sent.
 #ifndef CO_NMT_H_
 #define CO_NMT_H_
 
@@ -27,7 +27,7 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// \name What may be communicated, in CO_NMT.Allowed. [301:7.3.2.2.4]
+/// \name Services that an NMT state allows, bits of CO_NMT.Allowed. [CiA 301, 7.3.2.2.4]
 /// \{
 #define CO_NMT_ALLOWED 0x01u   ///< NMT commands and error control
 #define CO_BOOT_ALLOWED 0x02u  ///< boot-up
@@ -58,48 +58,51 @@ typedef enum CO_NMT_RESET_T {
 typedef struct CO_NMT_T {
   struct CO_NODE_T* Node;
   CO_MODE Mode;
-  CO_MODE Next;     ///< mode to be entered; Mode unless that is being changed
+  CO_MODE Next;     ///< mode to be entered; equal to Mode unless a change is in progress
   uint8_t Allowed;  ///< CO_…_ALLOWED bits of the present mode
-  uint8_t Booting;  ///< the node has not been in Pre-operational since it was initialised
+  uint8_t Booting;  ///< the node has not been in Pre-operational since its initialisation
 } CO_NMT;
 
-/// Resets the node as the NMT command of that name does: transfers end, timers of the stack stop, everything is
-/// initialised by the same code as in CONodeInit(). Ends with boot-up and Pre-operational (or Operational, see
-/// co_nmt_startup.h), except in CO_INIT, where the node waits for CONodeStart(). Timers of the application go on. \a
-/// type other than CO_RESET_NODE and CO_RESET_COM, and a node in CO_INVALID, are ignored. Where there is a real-time
-/// thread (CO_NODE_EXT.Mainline), all that waits for the next CONodeProcess().
+/// Resets the node like the NMT command: ends transfers, stops the timers of the stack, and initialises everything as
+/// CONodeInit() does. Then sends the boot-up message and enters Pre-operational (or Operational, see co_nmt_startup.h),
+/// except in CO_INIT, where the node waits for CONodeStart(). Timers of the application continue. Has no effect if \a
+/// type is neither CO_RESET_NODE nor CO_RESET_COM, or if the node is in CO_INVALID. With a real-time thread
+/// (CO_NODE_EXT.Mainline) the reset is deferred to the next CONodeProcess().
 void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
 
-/// Changes the NMT state, as a command of the NMT master would. A node in CO_INVALID, and modes other than CO_PREOP,
-/// CO_OPERATIONAL and CO_STOP, are refused with CO_ERR_NMT_MODE (node error). In CO_INIT use CONodeStart() first;
-/// firmware that changes the mode from CO_INIT directly gets the boot-up of CONodeStart() before the new mode.
+/// Changes the NMT state like a command of the NMT master. In CO_INVALID, and for modes other than CO_PREOP,
+/// CO_OPERATIONAL and CO_STOP, the change is refused with the node error CO_ERR_NMT_MODE. In CO_INIT, call
+/// CONodeStart() first; if the firmware changes the mode from CO_INIT directly, CONodeStart() is executed before the
+/// change.
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode);
 
-/// The NMT state. CO_INVALID if \a nmt is null (after CONodeFatalError()).
+/// Returns the NMT state; CO_INVALID if \a nmt is null (after CONodeFatalError()).
 CO_MODE CONmtGetMode(CO_NMT* nmt);
 
-/// Sets the node-ID (1…127), in CO_INIT only (else node error CO_ERR_NMT_MODE; an ID out of range: CO_ERR_BAD_ARG, and
-/// nothing changes). Call CONmtReset(nmt, CO_RESET_NODE) afterwards, so that node-ID relative identifiers follow. A
-/// node-ID that COLssLoad() then gives comes before this one.
+/// Sets the node-ID, 1…127, in CO_INIT. Call CONmtReset(nmt, CO_RESET_NODE) afterwards, which updates the identifiers
+/// that are relative to the node-ID. A node-ID that COLssLoad() returns then has priority. On an error nothing changes:
+/// node error CO_ERR_NMT_MODE (not in CO_INIT) or CO_ERR_BAD_ARG (out of range).
 void CONmtSetNodeId(CO_NMT* nmt, uint8_t nodeId);
 
-/// The node-ID; 0 if \a nmt is null (after CONodeFatalError()).
+/// Returns the node-ID; 0 if \a nmt is null (after CONodeFatalError()).
 uint8_t CONmtGetNodeId(CO_NMT* nmt);
 
-/// State byte of a heartbeat (0, 4, 5, 127) as mode; CO_INVALID for any other value. [301:7.2.8.2.2.1]
+/// Converts the state byte of a heartbeat (0, 4, 5, 127) to a mode; CO_INVALID for any other value. [CiA
+/// 301, 7.2.8.2.2.1]
 CO_MODE CONmtModeDecode(uint8_t code);
-/// Mode as state byte of a heartbeat; 255 for CO_INVALID and out of range.
+/// Converts a mode to the state byte of a heartbeat; 255 for CO_INVALID and values out of range.
 uint8_t CONmtModeEncode(CO_MODE mode);
 
-/// How many times a heartbeat of the node \a nodeId was missed since the last call: once each period, at most 255.
-/// -1: the node is not monitored (1016h, co_hb_cons.h), or \a nmt is null (after CONodeFatalError()).
+/// Returns the number of missed heartbeats of node \a nodeId since the last call: one for each period, at most 255.
+/// \retval -1  the node is not monitored (1016h, co_hb_cons.h), or \a nmt is null (after CONodeFatalError())
 int16_t CONmtGetHbEvents(CO_NMT* nmt, uint8_t nodeId) CO_NEEDS(CO_HBCONS_N);
 
-/// The state that the last heartbeat of the node \a nodeId has told. CO_INVALID: a reserved one, none was heard, the
-/// node is not monitored, or \a nmt is null (after CONodeFatalError()).
+/// Returns the NMT state of node \a nodeId in its last heartbeat.
+/// \retval CO_INVALID  the state byte was a reserved one, no heartbeat was received, the node is not monitored, or \a
+///                     nmt is null (after CONodeFatalError())
 CO_MODE CONmtLastHbState(CO_NMT* nmt, uint8_t nodeId) CO_NEEDS(CO_HBCONS_N);
 
-/// Command specifiers of the NMT master. [301:7.2.8.2.1]
+/// Command specifiers of the NMT master. [CiA 301, 7.2.8.2.1]
 typedef enum CO_NMT_COMMAND_T {
   CO_NMT_COMMAND_START = 1,         ///< enter Operational
   CO_NMT_COMMAND_STOP = 2,          ///< enter Stopped
@@ -108,33 +111,36 @@ typedef enum CO_NMT_COMMAND_T {
   CO_NMT_COMMAND_RESET_COM = 130    ///< reset communication
 } CO_NMT_COMMAND;
 
-/// Commands the node \a nodeId (1…127), or all nodes with 0. This node does what it commands itself, in place of a
-/// message or, with 0, after it, as by CONmtSetMode() and CONmtReset().
-/// CO_ERR_BAD_ARG: \a nmt is null, no such command, \a nodeId above 127; CO_ERR_NMT_MODE: in CO_INIT and CO_INVALID;
-/// CO_ERR_IF_CAN_SEND: the transmit queue is full, nothing was done.
+/// Sends an NMT command to node \a nodeId (1…127), or to all nodes with 0. A command that addresses this node is
+/// executed like CONmtSetMode() or CONmtReset(): instead of a message, or with 0 after it.
+/// \retval CO_ERR_NONE         the command is sent, or executed
+/// \retval CO_ERR_BAD_ARG      \a nmt is null, there is no such command, or \a nodeId is above 127
+/// \retval CO_ERR_NMT_MODE     the node is in CO_INIT or CO_INVALID
+/// \retval CO_ERR_IF_CAN_SEND  the transmit queue is full; nothing is sent or executed
 CO_ERR CONmtCommand(CO_NMT* nmt, CO_NMT_COMMAND command, uint8_t nodeId) CO_NEEDS(USE_NMT_MASTER);
 
 /// \name Callbacks of the application
-/// Ordinary functions to be defined by the application; the defaults do nothing. Define them in an object file or an
-/// object library of the program: linkers ignore a definition in a static library that nothing else needs.
+/// Ordinary functions that the application may define; the defaults do nothing. Define them in an object file or an
+/// object library of the program: linkers ignore a definition in a static library from which nothing else is needed.
 /// \{
 
-/// Before the mode changes to \a mode; CO_NMT.Mode is still the old one. If it asks for another mode, or for
-/// CONodeStop(), that is entered in place of \a mode, after it was called for that one, too.
+/// Called before the mode changes to \a mode; CO_NMT.Mode is still the old one. If the callback requests another mode,
+/// or calls CONodeStop(), that mode is entered instead of \a mode, after a further call of the callback for it.
 void CONmtModeChange(CO_NMT* nmt, CO_MODE mode);
 
-/// After a reset that the NMT master commanded: the stack is reset and in Pre-operational (or Operational, see
-/// co_nmt_startup.h).
+/// Called after a reset by a command of the NMT master, when the node is in Pre-operational (or Operational, see
+/// co_nmt_startup.h) again.
 void CONmtResetRequest(CO_NMT* nmt, CO_NMT_RESET reset);
 
-/// The monitored node \a nodeId has sent no heartbeat for its time (1016h), again after each further period.
+/// Called when the monitored node \a nodeId has sent no heartbeat within its time (1016h), and again after each further
+/// period.
 void CONmtHbConsEvent(CO_NMT* nmt, uint8_t nodeId);
 
-/// The monitored node \a nodeId tells another state than before (CONmtLastHbState() still gives that), is back after it
-/// was missing, or has sent a boot-up message (CO_INIT). CO_INVALID: a reserved state.
+/// Called when the monitored node \a nodeId reports a new state (CONmtLastHbState() still returns the previous one), is
+/// back after it was missing, or has sent a boot-up message (CO_INIT). \a mode is CO_INVALID for a reserved state.
 void CONmtHbConsChange(CO_NMT* nmt, uint8_t nodeId, CO_MODE mode);
 
-/// Life guarding: the NMT master is missing (\a occurred), or is back.
+/// Called by life guarding when the NMT master is missing (\a occurred true), or is back (false).
 void CONmtLifeGuardEvent(CO_NMT* nmt, bool occurred);
 /// \}
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nmt_startup.h
-/// 1F80h, NMT startup. [302-2] Data: a uint32_t, or the value itself (flag D).
+/// 1F80h, NMT startup. [CiA 302-2] Data: a uint32_t, or the value itself (flag D).
 ///
-/// Bit 2 = 0: after CONodeStart() and after every reset the node enters Operational by itself, once, as soon as it is
-/// in Pre-operational. Bit 2 = 1, or no such object: it stays there. A mode that CONmtModeChange() asks for instead
-/// wins.
-/// The other bits rule how an NMT master boots a network (bit 0: this node is the master; bits 1 and 3…6: how it starts
-/// the others and what it does about missing ones). This is the application's task, with CONmtCommand(): the node
-/// ignores these bits, and refuses to change them (CO_ERR_OBJ_RANGE, 0609 0030h).
+/// Bit 2 = 0: self-start: after CONodeStart() and after every reset the node enters Operational, once, as soon as it is
+/// in Pre-operational. Bit 2 = 1, or no such object: it stays in Pre-operational. A mode that CONmtModeChange()
+/// requests has priority. The other bits configure how an NMT master boots a network (bit 0: this node is the master;
+/// bits 1 and 3…6: how it starts the other nodes and reacts to missing ones). This is implemented by the application,
+/// with CONmtCommand(): the node ignores these bits and refuses to change them (CO_ERR_OBJ_RANGE, 0609 0030h).
 #ifndef CO_NMT_STARTUP_H_
 #define CO_NMT_STARTUP_H_
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_obj.h
-/// An entry of the object dictionary, the table of functions that gives it its behaviour, and the functions that
-/// reach one entry. [301:7.4]
+/// An entry of the object dictionary, its type (the table of functions that implements it), and the functions that
+/// access one entry. [CiA 301, 7.4]
 ///
-/// Context: every function of this file belongs to the one context that also calls CONodeProcess() and
-/// COTmrProcess() (the loop, or one task). None may be called from an interrupt.
+/// Context: every function of this file is called from the context that also calls CONodeProcess() and COTmrProcess()
+/// (the loop, or one task). None may be called from an interrupt.
 #ifndef CO_OBJ_H_
 #define CO_OBJ_H_
 
@@ -31,9 +31,9 @@ struct CO_OBJ_T;
 #define CO_KEY(idx, sub, flags)                                                            \
   ((uint32_t)(((((uint32_t)(idx)) & 0xFFFFu) << 16) | ((((uint32_t)(sub)) & 0xFFu) << 8) | \
               (((uint32_t)(flags)) & 0xFFu)))
-/// Key to look an entry up: index and sub-index, no flags.
+/// Key for the lookup of an entry: index and sub-index, no flags.
 #define CO_DEV(idx, sub) CO_KEY(idx, sub, 0)
-/// PDO mapping value: index, sub-index and length in bits. [301:7.5.2.36]
+/// PDO mapping value: index, sub-index and length in bits. [CiA 301, 7.5.2.36]
 #define CO_LINK(idx, sub, bits) CO_KEY(idx, sub, bits)
 
 #define CO_GET_DEV(key) ((uint32_t)((key)&0xFFFFFF00u))                ///< a key without its flags
@@ -42,16 +42,16 @@ struct CO_OBJ_T;
 /// \}
 
 /// \name Flags of an entry
-/// The positions of the names read D N A P R W, an underscore is "off". Read and write rights concern the network
-/// only; the application is never limited by them.
+/// The letters of the names are D N A P R W in this order; an underscore means that the flag is not set. Read and write
+/// rights apply to the network only, not to the application.
 /// \{
-#define CO_OBJ_______ 0x00u  ///< no right at all for the network
+#define CO_OBJ_______ 0x00u  ///< no access right for the network
 #define CO_OBJ______W 0x01u  ///< W: the network may write, and the object may be mapped into an RPDO
 #define CO_OBJ_____R_ 0x02u  ///< R: the network may read, and the object may be mapped into a TPDO
-#define CO_OBJ____P__ 0x04u  ///< P: may be mapped into a PDO
+#define CO_OBJ____P__ 0x04u  ///< P: the object may be mapped into a PDO
 #define CO_OBJ___A___ 0x08u  ///< A: a change of the value triggers the TPDOs that map it
-#define CO_OBJ__N____ 0x40u  ///< N: relative to the node-ID (basic integers): added on read, taken off on write
-#define CO_OBJ_D_____ 0x80u  ///< D: the value itself lies in Data; the table must be in RAM if it is written
+#define CO_OBJ__N____ 0x40u  ///< N: relative to the node-ID (basic integers): added on read, subtracted on write
+#define CO_OBJ_D_____ 0x80u  ///< D: Data holds the value itself; a table with writable values must be in RAM
 
 #define CO_OBJ_T0 0x08u  ///< free for user types (shares the bit of A)
 #define CO_OBJ_T1 0x10u  ///< free for user types
@@ -78,7 +78,7 @@ struct CO_OBJ_T;
 #define CO_OBJ_DN___W (CO_OBJ_D_____ | CO_OBJ__N___W)
 #define CO_OBJ_DN__RW (CO_OBJ_D_____ | CO_OBJ__N__RW)
 
-/// Flag tests: not zero if set (not 0 or 1).
+/// Tests of flags: the result is not 0 if the flag is set (it need not be 1).
 #define CO_IS_WRITE(key) ((uint32_t)((key)&CO_OBJ______W))
 #define CO_IS_READ(key) ((uint32_t)((key)&CO_OBJ_____R_))
 #define CO_IS_PDOMAP(key) ((uint32_t)((key)&CO_OBJ____P__))
@@ -87,36 +87,38 @@ struct CO_OBJ_T;
 #define CO_IS_DIRECT(key) ((uint32_t)((key)&CO_OBJ_D_____))
 /// \}
 
-/// Ends a dictionary table. Tables that are as long as DictLen says need none. CO_OBJ_DICT_DEFAULTS() (co_dict.h) ends
-/// a table whose variables get their default values at power-on and by NMT resets.
+/// End mark of a dictionary table. Not needed if the table has exactly DictLen entries. CO_OBJ_DICT_DEFAULTS()
+/// (co_dict.h) is an end mark that also resets variables to their default values at power-on and by NMT resets.
 #define CO_OBJ_DICT_ENDMARK \
   { 0, (CO_OBJ_TYPE*)0, 0 }
 
 /// \name Functions of an object type
-/// A null Init or Reset means "nothing to do, success"; a null Read or Write means that the access is refused; a null
+/// A null Init or Reset means success without any action; a null Read or Write means that the access is refused; a null
 /// Size means that every SDO transfer of the object is refused.
 ///
-/// A type *with* a Reset function is a stream of bytes: Reset(0) starts an access, reads and writes go on from there,
-/// in pieces of at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in a block transfer; a Read or Write of length
-/// 0 follows Reset and opens the access. A type *without* one is a value: up to 8 bytes are always read and written as
-/// a whole; a longer one is read and written in pieces like a stream, and knows the start of an access by the call with
-/// length 0. A value of up to 8 bytes is written when all of it has arrived. A stream is written as it arrives: a
-/// transfer that is aborted leaves what it has written. Values of 2 to 8 bytes are numbers in the byte order of the
-/// CPU; streams are bytes in the order of the bus. A block upload may have to go back, which only a Reset function can:
-/// a value of more than CO_SDO_BUF_BYTE bytes is refused (0504 0001h), and clients read it in segments.
+/// A type *with* a Reset function is a stream of bytes: Reset(0) starts an access, and reads and writes continue from
+/// there in pieces of at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in a block transfer. A Read or Write of
+/// length 0 follows Reset and opens the access. A stream is written as the data arrive: an aborted transfer leaves the
+/// bytes that were already written. Streams are bytes in the order of the bus.
+///
+/// A type *without* a Reset function is a value. Up to 8 bytes are read and written as a whole, and written when all
+/// bytes have arrived; values of 2 to 8 bytes are numbers in the byte order of the CPU. A longer value is read and
+/// written in pieces like a stream; the call with length 0 marks the start of an access. A block upload may have to
+/// repeat segments, which requires a Reset function: a value of more than CO_SDO_BUF_BYTE bytes is refused (0504
+/// 0001h), and clients read it by a segmented upload.
 /// \{
 
-/// Length of the object in bytes. \a width is the length that the access has in mind, 0 if unknown: a type whose
-/// length varies answers \a width if that length is possible, else the nearest that is. 0 means error, or an empty
-/// stream.
+/// Returns the length of the object in bytes; 0: error, or an empty stream. \a width: the length of the access, 0 if
+/// unknown. A type with variable length returns \a width if that length is possible, otherwise the nearest possible
+/// length.
 typedef uint32_t (*CO_OBJ_SIZE_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t width);
-/// Called once for each entry in CONodeInit() and in every NMT reset.
+/// Initialises the object. Called once for each entry in CONodeInit() and in every NMT reset.
 typedef CO_ERR (*CO_OBJ_INIT_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node);
-/// Fills \a buffer (any alignment) with \a size bytes.
+/// Reads \a size bytes into \a buffer (any alignment).
 typedef CO_ERR (*CO_OBJ_READ_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-/// Takes \a size bytes from \a buffer (any alignment).
+/// Writes \a size bytes from \a buffer (any alignment).
 typedef CO_ERR (*CO_OBJ_WRITE_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, void* buffer, uint32_t size);
-/// Sets the position in the stream to \a para.
+/// Sets the position in the stream to byte \a para.
 typedef CO_ERR (*CO_OBJ_RESET_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para);
 
 typedef struct CO_OBJ_TYPE_T {
@@ -128,26 +130,26 @@ typedef struct CO_OBJ_TYPE_T {
 } CO_OBJ_TYPE;
 /// \}
 
-/// \name Types that take part in the whole transfer (USE_OBJ_EX, co_cfg.h)
-/// A stream type that needs to know when a transfer begins and how it ends (a file, a firmware image, a queue of
-/// records): a CO_OBJ_TYPE_EX, whose first member is the table that entries name and whose Type.Reset is
-/// COObjTypeExReset().
+/// \name Types with transfer functions (USE_OBJ_EX, co_cfg.h)
+/// A CO_OBJ_TYPE_EX is a stream type with functions that are called at the begin and at the end of each transfer, for
+/// example for a file, a firmware image or a queue of records. Dictionary entries refer to its first member, whose
+/// Reset function is COObjTypeExReset().
 ///
 ///     const CO_OBJ_TYPE_EX Image = {{size, 0, read, write, COObjTypeExReset}, seek, begin, end};
 ///     ... {CO_KEY(0x1F50, 1, CO_OBJ______W), &Image.Type, (CO_DATA)(&image)} ...
 ///
-/// An SDO transfer then calls Begin, Reset(0) and Read or Write of length 0, Read or Write for each piece, and End:
-/// exactly once for each Begin that succeeded. A piece has at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in
-/// a block transfer; a block download of up to CO_SDO_BUF_BYTE bytes is written after its CRC and length were found
-/// right, in one piece. A longer one streams: what was written may still be taken back by End. After a lost frame of a
-/// block upload Reset may go back to any position that was already read; while it needs more time for it than a call of
-/// CONodeProcess() may take, it answers CO_ERR_TYPE_AGAIN and is called again in the next one. CODict… and COObj…
-/// functions of the application call neither Begin nor End, and an entry that CODictInit() has moved is told no End.
+/// An SDO transfer calls Begin, Reset(0), Read or Write of length 0, Read or Write for each piece, and End: exactly
+/// once for each Begin that succeeded. A piece has at most 7 bytes in a segmented and CO_SDO_BUF_BYTE bytes in a block
+/// transfer. A block download of up to CO_SDO_BUF_BYTE bytes is written in one piece, after its CRC and length were
+/// checked. A longer one is written in pieces before that check, so End may have to undo it. After a lost frame of a
+/// block upload, Reset may be called with any position that was already read. If setting the position takes longer than
+/// one call of CONodeProcess() may last, Reset returns CO_ERR_TYPE_AGAIN and is called again in the next one. CODict…
+/// and COObj… functions of the application call neither Begin nor End; neither is End called for an entry that
+/// CODictInit() has moved.
 /// \{
 
-/// What Size answers to width 0 while the length of an upload is not known. As soon as a Read has reached the end, and
-/// has therefore filled less than its buffer or nothing, Size must answer the length of the object; it may do so
-/// earlier.
+/// Result of Size for width 0 while the length of an upload is not known. Once a Read has reached the end (it has
+/// filled less than its buffer), Size must return the length of the object; it may do so earlier.
 #define CO_OBJ_SIZE_UNKNOWN 0xFFFFFFFFu
 
 typedef enum CO_OBJ_TRANSFER_T {
@@ -155,78 +157,85 @@ typedef enum CO_OBJ_TRANSFER_T {
   CO_OBJ_DOWNLOAD     ///< the object is written
 } CO_OBJ_TRANSFER;
 
-/// \a size: bytes that the transfer will have, or CO_OBJ_SIZE_UNKNOWN. An error refuses the transfer;
-/// COObjTypeUserSDOAbort() names the abort code.
+/// Called at the begin of a transfer. \a size: bytes of the transfer, or CO_OBJ_SIZE_UNKNOWN. An error refuses the
+/// transfer; COObjTypeUserSDOAbort() sets the abort code.
 typedef CO_ERR (*CO_OBJ_BEGIN_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer,
                                     uint32_t size);
-/// \a abort 0: all bytes have been transferred; an error returned for a download becomes the abort code of its last
-/// answer. Else the transfer was ended by this abort code, of whichever side (CO_SDO_ERR_TOS_STATE: by the NMT state or
-/// by a new request of the client), and the result does not matter.
+/// Called at the end of a transfer. \a abort 0: all bytes were transferred; an error returned for a download is
+/// converted to the abort code of its last response. Otherwise \a abort is the abort code of the client or the server
+/// (CO_SDO_ERR_TOS_STATE: ended by the NMT state or by a new request of the client), and the result is ignored.
 typedef CO_ERR (*CO_OBJ_END_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer,
                                   uint32_t abort);
 
 typedef struct CO_OBJ_TYPE_EX_T {
   CO_OBJ_TYPE Type;         ///< Type.Reset: COObjTypeExReset
-  CO_OBJ_RESET_FUNC Reset;  ///< sets the position; null: long objects are not given to block uploads
+  CO_OBJ_RESET_FUNC Reset;  ///< sets the position; null: block uploads of long objects are refused
   CO_OBJ_BEGIN_FUNC Begin;  ///< may be null
   CO_OBJ_END_FUNC End;      ///< may be null
 } CO_OBJ_TYPE_EX;
 
-/// Marks a CO_OBJ_TYPE as the first member of a CO_OBJ_TYPE_EX, and calls that one's Reset function.
+/// Calls the Reset function of the CO_OBJ_TYPE_EX whose first member is \a obj->Type. The stack recognises a
+/// CO_OBJ_TYPE_EX by this function.
 CO_ERR COObjTypeExReset(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para) CO_NEEDS(USE_OBJ_EX);
 /// \}
 
 #if !defined(__cplusplus) || defined(CO_DATA_INTEGER)
 /// Address of the object's data, or the value itself (flag D). In C++ it is a class of the same size and layout
-/// (co/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile time;
-/// define CO_DATA_INTEGER to get the plain integer there, too (and lose that check).
+/// (co/data.hpp) that converts to and from addresses and integers, so that tables can be checked at compile time. With
+/// CO_DATA_INTEGER defined it is the plain integer in C++, too, without that check.
 typedef uintptr_t CO_DATA;
 #endif
 
 /// An entry of the object dictionary. Tables are sorted by ascending index and sub-index.
 typedef struct CO_OBJ_T {
   uint32_t Key;                      ///< CO_KEY(index, sub-index, flags)
-  const struct CO_OBJ_TYPE_T* Type;  ///< behaviour, one of the CO_T… macros or the application's own
+  const struct CO_OBJ_TYPE_T* Type;  ///< type: one of the CO_T… macros or a type of the application
   CO_DATA Data;                      ///< (CO_DATA)(&variable), or (CO_DATA)(value) with flag D
 } CO_OBJ;
 
-/// Length of the object in bytes (see CO_OBJ_SIZE_FUNC). \a width: expected length, 0 if unknown.
-/// Returns 0 if an argument is null or the type has no Size function.
+/// Returns the length of the object in bytes (see CO_OBJ_SIZE_FUNC). \a width: expected length, 0 if unknown.
+/// \retval 0  an argument is null, or the type has no Size function
 uint32_t COObjGetSize(CO_OBJ* obj, struct CO_NODE_T* node, uint32_t width);
 
-/// Runs the type's Init function. CO_ERR_BAD_ARG: an argument is null; CO_ERR_NONE: done, or the type has none.
+/// Calls the type's Init function and returns its result.
+/// \retval CO_ERR_NONE     success, or the type has no Init function
+/// \retval CO_ERR_BAD_ARG  an argument is null
 CO_ERR COObjInit(CO_OBJ* obj, struct CO_NODE_T* node);
 
-/// Runs the type's Reset function with \a para. CO_ERR_BAD_ARG: an argument is null; CO_ERR_NONE: done, or the type
-/// has none.
+/// Calls the type's Reset function with \a para and returns its result.
+/// \retval CO_ERR_NONE     success, or the type has no Reset function
+/// \retval CO_ERR_BAD_ARG  an argument is null
 CO_ERR COObjReset(CO_OBJ* obj, struct CO_NODE_T* node, uint32_t para);
 
-/// Reads a value of \a width bytes into \a value, without the network's access rights.
-/// CO_ERR_BAD_ARG: an argument is null, or the width is not the object's; CO_ERR_OBJ_ACC: the type cannot be read;
-/// else what the type's Read function returns.
+/// Reads a value of \a width bytes into \a value. Access rights of the network are not checked. Returns the result of
+/// the type's Read function, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or the object has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Read function
 CO_ERR COObjRdValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
-/// Writes a value of \a width bytes from \a value, without the network's access rights.
-/// Errors as COObjRdValue(); CO_ERR_OBJ_ACC: the type cannot be written.
+/// Writes a value of \a width bytes from \a value. Access rights of the network are not checked. Returns the result of
+/// the type's Write function, or:
+/// \retval CO_ERR_BAD_ARG  an argument is null, or the object has another length
+/// \retval CO_ERR_OBJ_ACC  the type has no Write function
 CO_ERR COObjWrValue(CO_OBJ* obj, struct CO_NODE_T* node, void* value, uint8_t width);
 
-/// Starts to read a stream from its beginning: Reset(0), then \a size bytes into \a buffer. Errors as COObjRdValue(),
-/// and what the type's Reset function returns.
+/// Reads a stream from its beginning: calls Reset(0), then reads \a size bytes into \a buffer. Returns the errors of
+/// COObjRdValue() and of the type's Reset function.
 CO_ERR COObjRdBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Reads the next \a size bytes of a stream. Errors as COObjRdValue().
+/// Reads the next \a size bytes of a stream. Returns the errors of COObjRdValue().
 CO_ERR COObjRdBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Starts to write a stream from its beginning: Reset(0), then \a size bytes from \a buffer. Errors as COObjWrValue(),
-/// and what the type's Reset function returns.
+/// Writes a stream from its beginning: calls Reset(0), then writes \a size bytes from \a buffer. Returns the errors of
+/// COObjWrValue() and of the type's Reset function.
 CO_ERR COObjWrBufStart(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// Writes the next \a size bytes of a stream. Errors as COObjWrValue().
+/// Writes the next \a size bytes of a stream. Returns the errors of COObjWrValue().
 CO_ERR COObjWrBufCont(CO_OBJ* obj, struct CO_NODE_T* node, uint8_t* buffer, uint32_t size);
 
-/// For type functions: answers the SDO transfer that is just being served with the abort code \a abort, if the type
-/// function then returns an error. Works in every kind of transfer; without a transfer of \a obj it has no effect.
-/// \a abort 0 takes it back. [301:7.2.4.3.17]
+/// Sets the abort code \a abort for the SDO transfer of \a obj that is being processed; 0 clears it. To be called by a
+/// type function, which then has to return an error. Applies to every kind of transfer; without a transfer of \a obj it
+/// has no effect. [CiA 301, 7.2.4.3.17]
 void COObjTypeUserSDOAbort(CO_OBJ* obj, struct CO_NODE_T* node, uint32_t abort);
 
 #ifdef __cplusplus

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_od.h
-/// The second way into the object dictionary (USE_OD, co_cfg.h): variables of any length in pieces, functions of the
-/// application that take the place of an object's own, and what has passed by PDO. docs/od-access.md tells what it is
-/// for, with examples; names, signatures and results are those of the interface that applications of CANopenNode know.
+/// OD access interface in the style of CANopenNode (USE_OD, co_cfg.h): reads and writes variables of any length in
+/// pieces, replaces the functions of an object by functions of the application (extensions), and reports which objects
+/// were received or sent by PDO. docs/od-access.md explains its use with examples. Names, signatures and results are
+/// those of the interface of CANopenNode.
 ///
-/// The dictionary stays the sorted table of CO_OBJ. What OD_find() searches is an array of OD_entry_t in the memory of
-/// the application, one for each index, which OD_init() fills from that table:
+/// The dictionary remains the sorted table of CO_OBJ. OD_find() searches an array of OD_entry_t in the memory of the
+/// application, with one entry for each index; OD_init() fills it from the table:
 ///
 ///     static OD_entry_t List[OD_LIST_N(40)];
 ///     static OD_t Od;
@@ -13,15 +14,16 @@
 ///     static const CO_NODE_EXT Ext = { .Size = sizeof(Ext), .Od = &Od };
 ///     CONodeInitEx(&Node, &Spec, &Ext);
 ///
-/// An object can be extended if its entries in the table say so, by their types:
+/// An object can be extended if its entries in the table have extensible types:
 ///
 ///     { CO_KEY(0x2100, 1, CO_OBJ____PRW), OD_TUNSIGNED32, (CO_DATA)(&Speed) },
 ///
-/// or all of a table, by `#define OD_ALL` before this file is included there. Entries that do not say so cost nothing.
+/// To make all entries of a table extensible, `#define OD_ALL` before this file is included there. Entries that are not
+/// extensible cost nothing.
 ///
-/// Context: the loop, as all of the stack (co_core.h). Where several threads use the node (CO_NODE_EXT.Enter), any of
-/// them, between CO_LOCK_OD() and CO_UNLOCK_OD(). The functions that read and write values need a node that is
-/// initialised, unless the stream is plain memory; the others do not.
+/// Context: the loop, like all of the stack (co_core.h). Where several threads use the node (CO_NODE_EXT.Enter): any of
+/// them, between CO_LOCK_OD() and CO_UNLOCK_OD(). The functions that read and write values need an initialised node,
+/// unless the stream is plain memory; the others do not.
 #ifndef CO_OD_H_
 #define CO_OD_H_
 
@@ -46,7 +48,7 @@ extern "C" {
 struct CO_NODE_T;
 
 /// \name Numbers
-/// An application that has these types already defines CO_OD_OWN_TYPES, and then gives all of them.
+/// An application that already has these types defines CO_OD_OWN_TYPES, and then provides all of them.
 /// \{
 #ifndef CO_OD_OWN_TYPES
 typedef uint32_t OD_size_t;  ///< bytes: a length, or a position in a variable
@@ -57,7 +59,7 @@ typedef double float64_t;
 #endif
 /// \}
 
-/// Bytes of flags in an extension: the sub-indexes 0…8n-1 have one. 0…32.
+/// Bytes of flags in an extension, 0…32. n bytes hold the flags of sub-indexes 0…8n-1.
 #ifndef OD_FLAGS_PDO_SIZE
 #define OD_FLAGS_PDO_SIZE 4
 #endif
@@ -65,14 +67,15 @@ typedef double float64_t;
 #error "OD_FLAGS_PDO_SIZE: 0...32 bytes"
 #endif
 
-/// What definitions of constant objects are marked with.
+/// Qualifier for definitions of constant objects.
 #ifndef CO_PROGMEM
 #define CO_PROGMEM const
 #endif
 
 /// \name Attributes of a variable
-/// From the flags of the entry and its type. They bind the network only: no function of this file asks them, except
-/// OD_mappable(). The rights of safety-relevant PDOs are never set: the stack has none.
+/// Derived from the flags of the entry and from its type. They apply to the network only: no function of this file
+/// checks them, except OD_mappable(). The attributes of safety-relevant PDOs (SRDO) are never set, because the stack
+/// has none.
 /// \{
 typedef enum OD_attributes_T {
   ODA_SDO_R = 0x01,  ///< flag R
@@ -89,9 +92,9 @@ typedef enum OD_attributes_T {
 } OD_attributes_t;
 /// \}
 
-/// Results. Each from ODR_OUT_OF_MEM on has an SDO abort code (OD_getSDOabCode()).
+/// Results. Each result from ODR_OUT_OF_MEM on corresponds to an SDO abort code (OD_getSDOabCode()).
 typedef enum ODR_T {
-  ODR_PARTIAL = -1,  ///< there is more: call again
+  ODR_PARTIAL = -1,  ///< there is more data: call again
   ODR_OK = 0,
   ODR_OUT_OF_MEM = 1,       ///< 0504 0005h
   ODR_UNSUPP_ACCESS = 2,    ///< 0601 0000h: the extension has no such function, or the object cannot be extended
@@ -120,21 +123,22 @@ typedef enum ODR_T {
   ODR_NO_DATA = 25,         ///< 0800 0024h
   ODR_COUNT = 26,           ///< number of results from ODR_OK on
   /// \cond internal
-  ODR_ANY_NUMBER = 0x7FFFFFFF  // functions of the application may answer any
+  ODR_ANY_NUMBER = 0x7FFFFFFF  // makes the enumeration wide enough for any result of a function of the application
   /// \endcond
 } ODR_t;
 
-/// The abort code of a result; 0 of ODR_OK, 0604 0047h of any number that is no result. [301:7.2.4.3.17]
+/// Returns the SDO abort code of a result: 0 for ODR_OK, 0604 0047h for any number that is no result. [CiA
+/// 301, 7.2.4.3.17]
 uint32_t OD_getSDOabCode(ODR_t returnCode) CO_NEEDS(USE_OD);
 
-/// What a read or write function knows of the access: which variable, and how far it is. Each access has its own: an
-/// SDO channel, a PDO, each OD_IO_t of the application.
+/// State of an access: the variable and the position in it. Every SDO channel, every PDO and every OD_IO_t of the
+/// application has its own stream.
 typedef struct OD_stream_T {
-  void* dataOrig;        ///< the variable's memory; null: it has none, or only its type knows where
-  void* object;          ///< OD_extension_t.object; null for original functions
-  OD_size_t dataLength;  ///< bytes of the variable, 0: not known beforehand. In a write: once the last piece comes, the
-                         ///< bytes of all
-  OD_size_t dataOffset;  ///< bytes that have passed; 0: an access begins. Kept by the read or write function
+  void* dataOrig;  ///< memory of the variable; null: it has none, or only its type knows the address
+  void* object;    ///< OD_extension_t.object; null for original functions
+  /// Bytes of the variable; 0: not known yet. In a write: set to the total when the last piece arrives.
+  OD_size_t dataLength;
+  OD_size_t dataOffset;  ///< bytes transferred so far; 0: start of an access. Maintained by the read or write function
   OD_attr_t attribute;   ///< ODA_…
   uint16_t index;
   uint8_t subIndex;
@@ -145,21 +149,24 @@ typedef struct OD_stream_T {
 } OD_stream_t;
 
 /// \name Functions that read and write
-/// \a buf: any alignment; a number lies there in the byte order of the CPU. Both may be called by SDO, PDO and the
-/// application, always within CO_LOCK_OD(), which they must not take themselves.
+/// \a buf has any alignment; numbers in it are in the byte order of the CPU. Both functions may be called for SDO, PDO
+/// and the application. CO_LOCK_OD() is held during the call; they must not lock it themselves.
 ///
-/// Read: fills \a buf with up to \a count bytes, says in \a countRead how many, and ODR_OK if these were the last, so
-/// that the next call begins anew (dataOffset 0); ODR_PARTIAL, only with all of \a buf filled, if there is more.
+/// Read fills \a buf with up to \a count bytes and sets \a countRead to their number. It returns ODR_OK if these were
+/// the last bytes, so that the next call starts a new access (dataOffset 0); or ODR_PARTIAL, only if \a buf is full, if
+/// there are more.
 ///
-/// Write: takes all \a count bytes of \a buf, says so in \a countWritten, and ODR_OK if the variable is complete
-/// (dataOffset 0) or ODR_PARTIAL if it wants more; or takes none and says why. It has to check before it changes
-/// anything: what earlier calls have written stays written. Writing ends when dataOffset + \a count is dataLength.
+/// Write consumes all \a count bytes of \a buf and sets \a countWritten to \a count. It returns ODR_OK if the variable
+/// is complete (dataOffset 0), or ODR_PARTIAL if more bytes are needed. Otherwise it consumes nothing and returns the
+/// error. It has to check the data before it changes anything, because bytes of earlier calls stay written. The access
+/// ends when dataOffset + \a count is dataLength.
 /// \{
 typedef ODR_t (*OD_read_t)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
 typedef ODR_t (*OD_write_t)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 /// \}
 
-/// A variable with its functions, to be kept for repeated access: OD_getSub() searches, a read does not.
+/// A variable with its access functions. Keep it for repeated access: OD_getSub() searches the dictionary, a read does
+/// not.
 ///
 ///     if (OD_getSub(OD_find(&Od, 0x1008), 0, &io, false) == ODR_OK) {
 ///       r = io.read(&io.stream, name, sizeof name, &n);
@@ -170,9 +177,9 @@ typedef struct OD_IO_T {
   ODR_t (*write)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 } OD_IO_t;
 
-/// What the application puts in the place of an object's own functions. It is the application's and must live as long
-/// as it is in use; the stack writes flagsPDO only. OD_readOriginal and OD_writeOriginal may be given here, too; a null
-/// function refuses the access with ODR_UNSUPP_ACCESS.
+/// Functions that replace those of an object. The application owns the extension; it must live as long as it is in use.
+/// The stack writes only flagsPDO. OD_readOriginal and OD_writeOriginal may be used here; a null function refuses the
+/// access with ODR_UNSUPP_ACCESS.
 typedef struct OD_extension_T {
   void* object;  ///< for the application: becomes OD_stream_t.object
   ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
@@ -186,51 +193,52 @@ typedef struct OD_extension_T {
 /// \name Kinds of objects (OD_entry_t.odObjectType)
 /// \{
 typedef enum OD_objectTypes_T {
-  ODT_VAR = 0x01,  ///< sub-index 0 alone
-  ODT_ARR = 0x02,  ///< sub-indexes 0…n without gaps, all from 1 on of one type
+  ODT_VAR = 0x01,  ///< sub-index 0 only
+  ODT_ARR = 0x02,  ///< sub-indexes 0…n without gaps, those from 1 on of one type
   ODT_REC = 0x03,  ///< anything else
   ODT_TYPE_MASK = 0x0F,
-  ODT_TABLE = 0x80  ///< odObject is the OD_t: the object lies in its table of CO_OBJ. Set by OD_init()
+  ODT_TABLE = 0x80  ///< odObject is the OD_t: the object is in its table of CO_OBJ. Set by OD_init()
 } OD_objectTypes_t;
 /// \}
 
 /// An object: 12 bytes on a 32-bit CPU.
 typedef struct OD_entry_T {
   uint16_t index;
-  uint8_t subEntriesCount;    ///< sub-indexes that it has, 0 included; 255 for 256
+  uint8_t subEntriesCount;    ///< number of sub-indexes, including 0; 255 for 256
   uint8_t odObjectType;       ///< ODT_…
-  const void* odObject;       ///< by odObjectType
+  const void* odObject;       ///< depends on odObjectType
   OD_extension_t* extension;  ///< null: none
 } OD_entry_t;
 
-/// An SDO transfer of an extended object, or the application's access to one by CODict… and COObj… functions.
+/// State of an SDO transfer of an extended object, or of an access of the application to one by CODict… and COObj…
+/// functions.
 /// \cond internal
 typedef struct OD_TRANSFER_T {
   const struct CO_OBJ_T* Entry;  // null: free
   OD_size_t Offset;              // dataOffset between two calls
   OD_size_t Length;              // dataLength between two calls
-  OD_size_t Passed;              // bytes
-  OD_size_t Total;               // bytes that were announced, or CO_OBJ_SIZE_UNKNOWN
+  OD_size_t Passed;              // bytes transferred
+  OD_size_t Total;               // bytes announced, or CO_OBJ_SIZE_UNKNOWN
   uint8_t State;
-  uint8_t Held;  // second half of a character
+  uint8_t Held;  // one byte kept between two calls, for example half of a character
 } OD_TRANSFER;
 /// \endcond
 
-/// Accesses that extended streams have at a time: each SDO server's, one of a client to the own node, one of the
-/// application through co_dict.h and co_obj.h.
+/// Number of simultaneous accesses to extended streams: one for each SDO server, one for an SDO client that accesses
+/// its own node, one for the application through co_dict.h and co_obj.h.
 #define OD_TRANSFER_N (CO_SSDO_N + 2)
 
-/// A dictionary. Zero before OD_init(). The application may read size and list.
+/// A dictionary. Must be all zero before OD_init(). The application may read size and list.
 typedef struct OD_T_ {
   uint16_t size;     ///< objects in list
-  OD_entry_t* list;  ///< by ascending index, with an entry of zeros behind the last
+  OD_entry_t* list;  ///< ascending by index, with an all-zero entry behind the last
   /// \cond internal
   struct CO_NODE_T* Node;
   struct CO_OBJ_T* Table;
-  OD_entry_t* Filled;            // the list that has the extensions
-  struct OD_WRITING_T* Writing;  // an extension's write function that runs now
+  OD_entry_t* Filled;            // the list that holds the extensions
+  struct OD_WRITING_T* Writing;  // the write function of an extension that is being executed
   uint16_t TableLen;
-  uint16_t Changes;  // how often an object has got another extension
+  uint16_t Changes;  // number of times that an extension was set or removed
   OD_TRANSFER Transfer[OD_TRANSFER_N];
   /// \endcond
 } OD_t;
@@ -238,69 +246,84 @@ typedef struct OD_T_ {
 /// Length of the array that OD_init() needs for \a n indexes.
 #define OD_LIST_N(n) ((n) + 1)
 
-/// Fills \a list, of \a num entries, with the objects of \a table (\a tableLen entries, sorted as CODictInit() wants
-/// it) and takes it into use; \a node need not be initialised yet. Objects that \a od already had keep their
-/// extensions, also in another list: call it again when the table of a running node has changed, after CODictInit(). An
-/// OD_IO_t is of the table that it was filled from: after that get it anew. ODR_OUT_OF_MEM: \a num is less than
-/// OD_LIST_N(indexes in the table), od->size then tells how many these are, and nothing is found until it is called
-/// with a list that is long enough; ODR_DEV_INCOMPAT: an argument is null, or the table is not ascending.
+/// Fills \a list (\a num entries) with the objects of \a table (\a tableLen entries, sorted as CODictInit() requires)
+/// and makes it the list of \a od. \a node need not be initialised yet. Objects that \a od already had keep their
+/// extensions, also in another list. Call it again, after CODictInit(), when the table of a running node has changed;
+/// an OD_IO_t that was filled before is then invalid.
+/// \retval ODR_OK            the list is in use
+/// \retval ODR_OUT_OF_MEM    \a num is less than OD_LIST_N(indexes in the table); od->size is the required number of
+///                           indexes. No object is found until OD_init() is called with a list that is long enough
+/// \retval ODR_DEV_INCOMPAT  an argument is null, or the table is not ascending
 ODR_t OD_init(OD_t* od, OD_entry_t* list, uint16_t num, struct CO_NODE_T* node, struct CO_OBJ_T* table,
               uint16_t tableLen) CO_NEEDS(USE_OD);
 
-/// The object with this index, by halving; null: there is none, or \a od is null or empty.
+/// Finds the object with this index by binary search.
+/// \retval null  there is no such object, or \a od is null or empty
 OD_entry_t* OD_find(OD_t* od, uint16_t index) CO_NEEDS(USE_OD);
 
-/// Fills \a io for a variable, with its beginning as position. \a odOrig: the original functions also where the object
-/// is extended. For what was not extended, or whose entry cannot be (see OD_TYPE), these are OD_readOriginal() and
-/// OD_writeOriginal(), and object is null.
-/// ODR_IDX_NOT_EXIST: \a entry is null, or names no object; ODR_SUB_NOT_EXIST: no such sub-index; ODR_DEV_INCOMPAT:
-/// \a io is null, or the object is of no known kind.
+/// Fills \a io for access to a variable from its beginning. \a odOrig true: uses the original functions even if the
+/// object is extended. For an object that is not extended, or whose entry is not extensible (see OD_TYPE), the
+/// functions are OD_readOriginal() and OD_writeOriginal(), and stream.object is null.
 ///
-/// dataLength: of numbers their bytes; of strings that can be written their capacity; of CO_TSTRING the text's length;
-/// of domains their size; of types of the application what Size answers, 0 for CO_OBJ_SIZE_UNKNOWN.
+/// stream.dataLength is the length of a number; the capacity of a writable string; the length of the text for
+/// CO_TSTRING; the size of a domain; for types of the application the result of Size, 0 for CO_OBJ_SIZE_UNKNOWN.
+/// \retval ODR_IDX_NOT_EXIST  \a entry is null or empty
+/// \retval ODR_SUB_NOT_EXIST  there is no such sub-index
+/// \retval ODR_DEV_INCOMPAT   \a io is null, or odObjectType is unknown
 ODR_t OD_getSub(const OD_entry_t* entry, uint8_t subIndex, OD_IO_t* io, bool_t odOrig) CO_NEEDS(USE_OD);
 
-/// 0 if \a entry is null.
+/// Returns the index of an object; 0 if \a entry is null.
 uint16_t OD_getIndex(const OD_entry_t* entry) CO_NEEDS(USE_OD);
 
-/// May the variable be mapped into any kind of PDO? False if \a stream is null.
+/// Returns whether the variable may be mapped into a TPDO or an RPDO; false if \a stream is null.
 bool_t OD_mappable(const OD_stream_t* stream) CO_NEEDS(USE_OD);
 
-/// Lets the next call begin anew: needed only to break off an access that was PARTIAL. Null is allowed.
+/// Restarts the access: the next call begins at offset 0. Needed only to abandon an access that returned ODR_PARTIAL. A
+/// null \a stream is allowed.
 void OD_rwRestart(OD_stream_t* stream) CO_NEEDS(USE_OD);
 
 /// \name Original functions
-/// What an object does by its type, or a stream without entry by its memory. ODR_DEV_INCOMPAT: an argument is null, or
-/// dataOffset lies behind the end; ODR_SUB_NOT_EXIST: the variable has no memory.
+/// Access by the original type of the object, or to the plain memory of a stream without entry.
 ///
-/// A number is written as soon as any bytes of it come: the others keep their values, and its type is asked each time.
-/// A shorter string is written by lowering dataLength beforehand. Of a text, bytes behind its end are read as 0; an
-/// OCTET_STRING ends with ODR_OK and fewer bytes. More than the variable takes: ODR_DATA_LONG, nothing of this call is
-/// written. What a type answers becomes the result with the same abort code; ODR_GENERAL if there is none.
+/// A number is written with each piece that arrives: the other bytes keep their values, and the type checks the value
+/// each time. To write a shorter string, reduce dataLength beforehand. Bytes behind the end of a text are read as 0; a
+/// read of an OCTET_STRING ends with ODR_OK and fewer bytes. A result of the type is converted to the ODR_t with the
+/// same abort code; ODR_GENERAL if there is none.
 ///
-/// A type of the application that is a stream belongs to one at a time: ODR_DATA_DEV_STATE while SDO has it open. One
-/// that cannot go back (CO_OBJ_TYPE_EX without Reset), and a value of more than 8 bytes, pass in one call only:
-/// ODR_UNSUPP_ACCESS for a second. Begin and End are not called. Write of a type gets copies of up to 32 bytes, one
-/// behind the other: if it refuses one, those before it are written.
+/// A stream type of the application can be accessed by one user at a time. A stream that cannot be repositioned
+/// (CO_OBJ_TYPE_EX without Reset) and a value of more than 8 bytes can be transferred in a single call only. Begin and
+/// End are not called. The Write function of a type receives copies of up to 32 bytes, one after the other: if it
+/// refuses one, the previous ones stay written.
+/// \retval ODR_DEV_INCOMPAT    an argument is null, or dataOffset is behind the end
+/// \retval ODR_SUB_NOT_EXIST   the variable has no memory
+/// \retval ODR_DATA_LONG       there are more bytes than the variable can hold; nothing of this call is written
+/// \retval ODR_DATA_DEV_STATE  the stream is open in an SDO transfer
+/// \retval ODR_UNSUPP_ACCESS   second call for an object that can be transferred in a single call only
 /// \{
 ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead) CO_NEEDS(USE_OD);
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) CO_NEEDS(USE_OD);
 /// \}
 
-/// Gives the object an extension, for SDO, PDO and application alike, from the next access on; null takes it away. What
-/// is open ends: an SDO transfer of the object is aborted (0800 0022h) at its next frame, or at once if one of its own
-/// functions calls this, and a CO_OBJ_TYPE_EX behind the extension is told that end, once. COObj…Cont() of an access
-/// that has begun before answers CO_ERR_OBJ_STATE. An OD_IO_t keeps the functions that it was filled with: get it anew.
-/// With flag A the TPDOs that map the object are sent when a write is over, once: if the write function of a number has
-/// called the original, by a change of its value only, else by each write that was accepted.
-/// ODR_IDX_NOT_EXIST: \a entry is null; ODR_UNSUPP_ACCESS: no entry of the object can be extended (see OD_TYPE): the
-/// network would not notice it. Extensions with nothing but the original functions are accepted for any object.
+/// Sets the extension of an object for SDO, PDO and application, from the next access on; null removes it. Open
+/// accesses end: an SDO transfer of the object is aborted (0800 0022h) at its next frame, or at once if a function of
+/// the object's extension or type calls OD_extension_init(); the End function of a CO_OBJ_TYPE_EX behind the extension
+/// is called once. COObj…Cont() of an access that was started before returns CO_ERR_OBJ_STATE. An OD_IO_t keeps the
+/// functions that it was filled with: call OD_getSub() again.
+///
+/// With flag A, a write sends the TPDOs that map the object, once, when the write is complete: for a number whose write
+/// function has called the original function, only if the value has changed; otherwise after each accepted write.
+///
+/// Extensions that consist of the original functions are accepted for any object.
+/// \retval ODR_IDX_NOT_EXIST  \a entry is null
+/// \retval ODR_UNSUPP_ACCESS  no entry of the object is extensible (see OD_TYPE), so the extension would have no effect
+///                            on the network
 ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) CO_NEEDS(USE_OD);
 
 /// \name Values of a known length
-/// OD_getSub(), then one read or write of \a len bytes, without regard to the network's rights. Errors: as these;
-/// ODR_DEV_INCOMPAT: \a val is null, or an extension has taken fewer bytes and is content; ODR_TYPE_MISMATCH: the
-/// variable has another length, nothing is read or written.
+/// Call OD_getSub(), then one read or write of \a len bytes. Access rights of the network are not checked. They return
+/// the errors of these functions, or:
+/// \retval ODR_DEV_INCOMPAT   \a val is null, or an extension has accepted fewer bytes and returned ODR_OK
+/// \retval ODR_TYPE_MISMATCH  the variable has another length; nothing is read or written
 /// \{
 ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
 ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
@@ -332,50 +355,55 @@ OD_GET_SET(u32, uint32_t, uint32_t*)
 OD_GET_SET(u64, uint64_t, uint64_t*)
 OD_GET_SET(f32, float32_t, float32_t*)
 OD_GET_SET(f64, float64_t, float64_t*)
-OD_GET_SET(r32, float32_t, float32_t*)  ///< the name of the first draft
+OD_GET_SET(r32, float32_t, float32_t*)  ///< name in the draft of 2020
 OD_GET_SET(r64, float64_t, float64_t*)
 #undef OD_GET_SET
 /// \}
 
-/// Address of a variable's original memory, whatever extends it. \a len: its bytes, 0: do not check. Null on error,
-/// which \a err (may be null) tells: as OD_getSub(); ODR_DEV_INCOMPAT: no memory, or of unknown length;
-/// ODR_TYPE_MISMATCH: another length.
-/// Values with flag N lie there without the node-ID; those with flag D in the table, which may be read-only memory;
-/// numbers of 3, 5, 6 and 7 bytes in the wider variable. A change is not noticed by flag A.
+/// Returns the address of a variable's original memory, also if the object is extended. \a len: expected length in
+/// bytes, 0: not checked. Returns null on error and stores the reason in \a err (may be null): the errors of
+/// OD_getSub(), or those below.
+///
+/// Values with flag N are stored without the node-ID; values with flag D are in the table, which may be read-only
+/// memory; numbers of 3, 5, 6 and 7 bytes are in a wider variable. A change through the address does not trigger TPDOs
+/// (flag A).
+/// \retval ODR_DEV_INCOMPAT   the variable has no memory, or its length is unknown
+/// \retval ODR_TYPE_MISMATCH  the variable has another length
 void* OD_getPtr(const OD_entry_t* entry, uint8_t subIndex, OD_size_t len, ODR_t* err) CO_NEEDS(USE_OD);
 
-/// \name What passes by PDO
-/// No extension is needed for it. The flags are those of CORPdoObjWasReceived() and COTPdoObjWasSent() (co_pdo.h),
-/// which these functions look at without clearing them: ask an object's flags one way or the other.
+/// \name PDO flags
+/// They need no extension. The flags are those of CORPdoObjWasReceived() and COTPdoObjWasSent() (co_pdo.h); these
+/// functions read them without clearing them. Use only one of the two interfaces for an object.
 /// \{
 
-/// Every TPDO of type 0, 254 or 255 that maps the variable is sent: now, or as soon as its inhibit time has passed, or
-/// with the next SYNC (type 0). What keeps one from being sent is the node's error (COTPdoRequest()).
+/// Requests the transmission of every TPDO of type 0, 254 or 255 that maps the variable: at once, when its inhibit time
+/// has elapsed, or with the next SYNC (type 0). The reason why a TPDO is not sent is the node's error
+/// (COTPdoRequest()).
 void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
-/// Has a TPDO with the variable been sent since OD_requestTPDO()? False for what no TPDO maps.
+/// Returns whether a TPDO with the variable was sent since OD_requestTPDO(); false if no TPDO maps the variable.
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
-/// Bit 0: written by an RPDO, bit n: sent by TPDO n (from 1), each since the bit was cleared.
+/// PDO flags of a variable. Bit 0: written by an RPDO; bit n: sent by TPDO n (from 1), since the bit was cleared.
 typedef uint32_t OD_flagsPDO_t;
 
 OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
-/// Clears the bits that are set in \a flags; the TPDOs among them that map the variable are sent as by
-/// OD_requestTPDO().
+/// Clears the bits that are set in \a flags. Requests the transmission of the TPDOs among them that map the variable,
+/// like OD_requestTPDO().
 void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) CO_NEEDS(USE_OD);
 /// \}
 
-/// \name Groups that are stored, by name
-/// A group is a CO_PARA (co_para.h) whose Ident names it; its place among the others is its sub-index of 1010h and
-/// 1011h. What co_para.h promises holds: with a driver that tells the shape of its memory, a group is never torn.
+/// \name Parameter groups by name
+/// A group is a CO_PARA (co_para.h) whose Ident points to its name; its number is its sub-index of 1010h and 1011h. As
+/// described in co_para.h, stores are atomic (power-fail safe) with a driver that has a Shape function.
 ///
 ///     static const CO_PARA Comm = OD_GROUP("PERSIST_COMM", OD_PERSIST_COMM, OD_PERSIST_COMM_default, 0, CO_RESET_COM,
 ///                                          CO_PARA___E);
 ///     { CO_KEY(0x1010, 2, CO_OBJ_____RW), CO_TPARA_STORE, (CO_DATA)(&Comm) },
 ///     { CO_KEY(0x1011, 2, CO_OBJ_____RW), CO_TPARA_RESTORE, (CO_DATA)(&Comm) },
 ///
-/// Memory is stored as it is: no extension is asked.
+/// The memory itself is stored: extensions are not called.
 /// \{
 
 /// Initialises a CO_PARA. \a name: a string; \a variable: the group's memory; \a defaults: a variable of the same type;
@@ -386,36 +414,40 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
         (value), 0, 0                                                                                           \
   }
 
-/// The sub-index of 1010h of the group with this name, 1…127; 0: there is none. Looks at Ident of all groups of 1010h,
-/// so whoever calls it gives each of them a string that ends with a zero, or null; firmware that has put anything else
-/// there does not call it, nor OD_getStorageName().
+/// Returns the sub-index of 1010h of the group with this name, 1…127; 0: there is none. Reads Ident of all groups of
+/// 1010h as a string: an application that calls OD_findStorageGroup() or OD_getStorageName() must set the Ident of each
+/// group to a NUL-terminated string or null.
 uint8_t OD_findStorageGroup(const OD_t* od, const char* name) CO_NEEDS(OD_STORAGE);
 
-/// The sub-index of 1010h of the group that the variable's original memory lies in; 0: it is not stored.
+/// Returns the sub-index of 1010h of the group that contains the variable's original memory; 0: the variable is not
+/// stored.
 uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(OD_STORAGE);
 
-/// Its name; null: there is no such group, or it has none.
+/// Returns the name of a group; null: there is no such group, or it has no name.
 const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 
-/// Stores the group, or lets it get its default values at the reset of its type, as "save" and "load" of the network
-/// do: 1, where others follow it, is all. ODR_SUB_NOT_EXIST: no such group; ODR_HW: the memory does not hold it, the
-/// old values stay; ODR_DATA_TRANSF: it is not stored on command; ODR_OD_MISSING: the node does not use this
-/// dictionary.
+/// Store the group, or restore its default values at the reset of its type, like "save" and "load" of the network. If
+/// 1010h has more than one sub-index, group 1 stands for all groups.
+/// \retval ODR_OK              the group is stored, or marked to be restored
+/// \retval ODR_SUB_NOT_EXIST   there is no such group
+/// \retval ODR_HW              the memory does not hold the values; the old ones stay
+/// \retval ODR_DATA_TRANSF     the group is not stored on command
+/// \retval ODR_OD_MISSING      the node does not use this dictionary
 ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// \}
 
 /// \name Locks
-/// All three are one lock, so that their order cannot be wrong: the turn of the node, CO_NODE_EXT.Enter and Leave, of
-/// which co_core.h says who takes it. Each thread takes it around every call of the stack that does not take it by
-/// itself, and around accesses to objects; never within another, nor in a function that the stack calls (read and write
-/// functions, callbacks, types, timer actions, drivers), which has the turn already.
+/// All three names are one lock, the node lock (CO_NODE_EXT.Enter and Leave, see co_core.h), so they cannot be taken in
+/// a wrong order. Each thread holds it around every call of the stack that does not lock it itself, and around accesses
+/// to objects. Calls do not nest. Functions that the stack calls (read and write functions, callbacks, types, timer
+/// actions, drivers) run with the lock held and must not lock it.
 ///
 /// Without Enter and Leave there is one context, and the lock is CO_NODE_EXT.OdLock and OdUnlock: for accesses of the
-/// loop that interrupts and threads which only touch variables must see together. May be taken again inside.
+/// loop that must be consistent for interrupts and for threads that access only variables. In this case calls may nest.
 ///
-/// Not before CONodeInit(); not needed until there is a second thread, nor for variables that nobody else touches.
-/// \a node: CO_NODE*, what the snippets of the documents call CANmodule.
+/// Call it after CONodeInit() only. It is not needed while there is one thread, nor for variables that only one context
+/// accesses. \a node: a CO_NODE*; examples for CANopenNode use CANmodule.
 /// \{
 #ifndef CO_LOCK_OD
 #define CO_LOCK_OD(node) OD_lock(node)
@@ -431,31 +463,33 @@ ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 #endif
 
 void OD_lock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
-void OD_unlock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);  ///< under OdLock: sends what changes have asked for meanwhile
+/// With OdLock: then sends the TPDOs that were triggered while it was held.
+void OD_unlock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
 /// \}
 
 /// \name Types of entries that can be extended
-/// An OD_TYPE stands in front of the type that an entry would have otherwise, whose Data it keeps: OD_TUNSIGNED32 in
-/// front of CO_TUNSIGNED32. Without an extension it is that type, but for the time it takes to look. With one, the
-/// application's functions serve SDO, PDO, CODict… and COObj…: a number in one call, a stream in the pieces in which it
-/// comes; what they answer becomes the abort code. Its numbers do not pass PDOs as plain copies, and BOOLEAN maps as a
-/// byte.
+/// An OD_TYPE replaces the type of an entry and refers to it as the original type; the entry keeps its Data.
+/// OD_TUNSIGNED32 replaces CO_TUNSIGNED32. Without an extension it behaves like the original type, apart from the time
+/// of the check. With an extension, the application's functions serve SDO, PDO, CODict… and COObj…: a number in one
+/// call, a stream in the pieces that arrive; their results are converted to abort codes. Numbers of such types are not
+/// copied directly in PDOs, and BOOLEAN is mapped as a byte.
 /// \{
 typedef enum OD_WITHOUT_T {
-  OD_ORIGINAL = 0,  ///< without an extension the entry is what its original type makes of it
-  OD_DISABLED = 1   ///< without one it can be neither read nor written: 0601 0001h, 0601 0002h
+  OD_ORIGINAL = 0,  ///< the entry behaves like its original type
+  OD_DISABLED = 1   ///< the entry can be neither read nor written: 0601 0001h, 0601 0002h
 } OD_WITHOUT;
 
 typedef struct OD_TYPE_T {
-  CO_OBJ_TYPE_EX Ex;            ///< Ex.Type.Init: ODTypeInit, by which it is known
+  CO_OBJ_TYPE_EX Ex;            ///< Ex.Type.Init is ODTypeInit, which identifies an OD_TYPE
   const CO_OBJ_TYPE* Original;  ///< null: no memory
-  OD_WITHOUT Without;
+  OD_WITHOUT Without;           ///< behaviour without an extension
 } OD_TYPE;
 
-/// Initialise an OD_TYPE in front of a type of the application (not of CO_TPARA_…, whose entries are known by their
-/// type; never of an OD_TYPE, which every CO_T… of a file with OD_ALL is: &COTInt32 is not. In C++ that does not
-/// compile, else the node does not start: CO_DICT_NO_TYPE). Value: a type without Reset function, of up to 8 bytes,
-/// stream: one with. \a original: its address; it is called with the entry, whose Type is the OD_TYPE.
+/// Initialise an OD_TYPE for an original type of the application. OD_VALUE is for a type without Reset function, of up
+/// to 8 bytes; OD_STREAM for a type with Reset function. \a original: address of the type, whose functions are called
+/// with the entry (whose Type is the OD_TYPE). Not allowed are CO_TPARA_…, because the stack recognises their entries
+/// by their type, and an OD_TYPE. In a file with OD_ALL every CO_T… is an OD_TYPE; use &COTInt32 and so on there. An
+/// OD_TYPE as \a original does not compile in C++; in C the node does not start (CO_DICT_NO_TYPE).
 ///
 ///     static const OD_TYPE FileType = OD_STREAM(&File.Type, OD_DISABLED);
 ///     { CO_KEY(0x2200, 0, CO_OBJ_____RW), &FileType.Ex.Type, (CO_DATA)(&file) },
@@ -520,7 +554,7 @@ CO_NEEDS(USE_OD) extern const OD_TYPE ODTNumber, ODTStream;
 #define OD_TDOMAIN (&ODTDomain.Ex.Type)
 /// \cond internal
 #if defined(__cplusplus) && USE_OD
-inline void OD_TYPE_in_front_of_an_OD_TYPE(void) {}  // no constant expression
+inline void OD_TYPE_in_front_of_an_OD_TYPE(void) {}  // not constexpr, so that a call of it is a compile error
 
 constexpr const CO_OBJ_TYPE* OD_BEHIND(const CO_OBJ_TYPE* original) {
   if (!__builtin_is_constant_evaluated()) {
@@ -543,20 +577,22 @@ constexpr const CO_OBJ_TYPE* OD_BEHIND(const CO_OBJ_TYPE* original) {
 #endif
 /// \endcond
 
-/// A number that only the extension has; Data: its bytes, 1…8. Disabled until there is one.
+/// A number that only the extension provides; Data: its length in bytes, 1…8. Not accessible without an extension.
 #define OD_TNUMBER (&ODTNumber.Ex.Type)
-/// Bytes that only the extension has; Data: their number, 0: not known beforehand. Disabled until there is one.
+/// Bytes that only the extension provides; Data: their number, 0: not known in advance. Not accessible without an
+/// extension.
 #define OD_TSTREAM (&ODTStream.Ex.Type)
 /// \}
 
-/// \name Objects that are nothing but memory
-/// For dictionaries defined in the way of the document, as an array of OD_entry_t that names these: find, read and
-/// write them by the functions above. The network does not see them: it sees the table of CO_OBJ.
+/// \name Objects in plain memory
+/// For dictionaries that are defined, like those of CANopenNode, as an array of OD_entry_t that refers to these
+/// structures. The functions above find, read and write them. They are not accessible from the network, which uses the
+/// table of CO_OBJ.
 /// \{
 typedef struct OD_obj_var_T {
   union {
     void* dataOrig;  ///< null: no memory
-    void* data;      ///< the same
+    void* data;      ///< alias of dataOrig
   };
   OD_attr_t attribute;
   OD_size_t dataLength;
@@ -568,13 +604,13 @@ typedef struct OD_obj_array_T {
   OD_attr_t attribute0;
   OD_attr_t attribute;
   OD_size_t dataElementLength;  ///< bytes of each element
-  OD_size_t dataElementSizeof;  ///< bytes from each to the next
+  OD_size_t dataElementSizeof;  ///< distance of two elements in bytes
 } OD_obj_array_t;
 
 typedef struct OD_obj_record_T {
   union {
     void* dataOrig;  ///< null: no memory
-    void* data;      ///< the same
+    void* data;      ///< alias of dataOrig
   };
   uint8_t subIndex;  ///< ascending, gaps are allowed
   OD_attr_t attribute;
@@ -582,7 +618,7 @@ typedef struct OD_obj_record_T {
 } OD_obj_record_t;
 /// \}
 
-/// Indexes of the communication profile. [301:7.5.2]
+/// Indexes of the communication profile. [CiA 301, 7.5.2]
 typedef enum OD_ObjDicId_30x_T {
   OD_H1000_DEV_TYPE = 0x1000,
   OD_H1001_ERR_REG = 0x1001,
@@ -635,7 +671,7 @@ typedef enum OD_ObjDicId_30x_T {
 
 #endif
 
-// Each time it is included: all entries of the table that is compiled now can be extended.
+// Evaluated at each inclusion: with OD_ALL, all entries of the table that follows are extensible.
 #ifdef OD_ALL
 #undef CO_TUNSIGNED8
 #undef CO_TUNSIGNED16

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_od_2020.h
-/// The names of the first draft (2020) of the interface of co_od.h, for files that were written for it. Inline
-/// functions over co_od.h, without code of their own; a file includes one or the other. Differences that remain: the
-/// dictionary is an OD_t of co_od.h; flags are asked by OD_getFlagsPDO() and OD_clearFlagsPDO().
+/// The names of the draft of 2020 of the interface of co_od.h, for files that were written for it: inline functions
+/// that call co_od.h. A file includes either this header or co_od.h. Remaining differences: the dictionary is an OD_t
+/// of co_od.h; flags are read by OD_getFlagsPDO() and cleared by OD_clearFlagsPDO().
 #ifndef CO_OD_2020_H_
 #define CO_OD_2020_H_
 
@@ -14,12 +14,12 @@ extern "C" {
 
 struct OD_IO2020_T;
 
-/// A position in a variable, with what reads and writes it.
+/// A position in a variable, with its read and write functions.
 typedef struct OD_stream2020_T {
   OD_IO_t Now;
 } OD_stream2020_t;
 
-/// Bytes that have passed; the result in \a returnCode.
+/// Function that reads or writes: returns the number of bytes transferred, and the result in \a returnCode.
 typedef OD_size_t (*OD_read2020_t)(OD_stream2020_t* stream, uint8_t subIndex, void* buf, OD_size_t count,
                                    ODR_t* returnCode);
 typedef OD_size_t (*OD_write2020_t)(OD_stream2020_t* stream, uint8_t subIndex, const void* buf, OD_size_t count,
@@ -31,7 +31,7 @@ typedef struct OD_IO2020_T {
   OD_write2020_t write;
 } OD_IO2020_t;
 
-/// What OD_getSub() tells of a variable.
+/// Properties of a variable that OD_getSub() returns.
 typedef struct OD_subEntry_T {
   uint16_t index;
   uint8_t subIndex;
@@ -87,10 +87,10 @@ static inline ODR_t OD_getSub2020(const OD_entry_t* entry, uint8_t subIndex, OD_
   return result;
 }
 
-/// The dictionary was constant.
+/// Finds an object. In the draft the dictionary was constant.
 static inline const OD_entry_t* OD_find2020(const OD_t* od, uint16_t index) { return OD_find((OD_t*)od, index); }
 
-/// \name Typed addresses: null, and why
+/// \name Typed addresses: on error null, with the reason as result
 /// \{
 #define OD_GET_PTR(name, type)                                                                  \
   static inline ODR_t OD_getPtr_##name(const OD_entry_t* entry, uint8_t subIndex, type** val) { \

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_pdo_event.h
-/// 1400h…, 1800h…, sub 5: event timer. [301:7.5.2.35, 37] Data: a uint16_t in ms, or the value itself (flag D); 0: off.
-/// TPDO: an event-driven one is sent when so much time has passed since it was sent. RPDO: time in which the next one
-/// has to come, from the first one on; if it does not, the node reports 8250h. A write takes effect at once.
+/// 1400h…, 1800h…, sub 5: event timer. [CiA 301, 7.5.2.35, 37] Data: a uint16_t in ms, or the value itself (flag D); 0:
+/// off. TPDO: an event-driven TPDO is sent when this time has elapsed since its last transmission. RPDO: maximum time
+/// between two receptions, from the first one on; if it elapses, the node reports 8250h. A write takes effect at once.
 #ifndef CO_PDO_EVENT_H_
 #define CO_PDO_EVENT_H_
 

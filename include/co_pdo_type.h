@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_pdo_type.h
-/// 1400h…, 1800h…, sub 2: transmission type. [301:7.5.2.35, 37] Data: a uint8_t, or the value itself (flag D).
+/// 1400h…, 1800h…, sub 2: transmission type. [CiA 301, 7.5.2.35, 37] Data: a uint8_t, or the value itself (flag D).
 /// RPDO: 0…240 synchronous, 254 and 255 event-driven. TPDO: 0 with the SYNC after an event, 1…240 with every n-th SYNC,
-/// 252 sampled with the SYNC and 253 at once, both sent on request (USE_PDO_RTR), 254 and 255 event-driven. Others are
-/// refused (0609 0030h), and all but 254 and 255 while a multiplex PDO exists (co_pdo.h). May be written at any time,
-/// and takes effect at once.
+/// 252 and 253 on remote request (USE_PDO_RTR), sampled at the SYNC or at the request, 254 and 255 event-driven. Other
+/// values are refused (0609 0030h); while a multiplex PDO exists (co_pdo.h), all but 254 and 255 are. May be written at
+/// any time and takes effect at once.
 #ifndef CO_PDO_TYPE_H_
 #define CO_PDO_TYPE_H_
 

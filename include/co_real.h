@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_real.h
-/// REAL32 and REAL64 (IEEE 754). [301:7.1.4] Data: a float, a double.
+/// REAL32 and REAL64 (IEEE 754). [CiA 301, 7.1.4] Data: a float, a double.
 #ifndef CO_REAL_H_
 #define CO_REAL_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_ring.h
-/// A queue of frames between one producer (a receive interrupt) and one consumer (the loop), without locks.
+/// A lock-free queue of frames between one producer (a receive interrupt) and one consumer (the loop).
 #ifndef CO_RING_H_
 #define CO_RING_H_
 
@@ -18,23 +18,27 @@ typedef struct CO_RING_T {
   uint16_t Lost;  ///< written by the producer only
 } CO_RING;
 
-/// Prepares a ring over \a size frames at \a mem (1…32767), which stay the caller's. Neither end may be in use.
-/// Returns false if an argument is null or out of range; the ring then holds nothing.
+/// Initialises a ring with memory for \a size frames at \a mem (1…32767). The caller owns the memory. Must not be
+/// called while a producer or consumer uses the ring.
+/// \retval false  an argument is null or out of range; the ring is then empty and rejects every frame
 bool CORingInit(CO_RING* ring, CO_IF_FRM* mem, uint16_t size);
 
-/// Producer end. Returns false if the ring is full: the frame is lost and counted (CORingLost()).
+/// Appends a frame. Called by the producer.
+/// \retval false  the ring is full: the frame is lost and counted (CORingLost())
 bool CORingPut(CO_RING* ring, const CO_IF_FRM* frm);
 
-/// Consumer end. Returns false if the ring is empty.
+/// Removes the oldest frame and copies it to \a frm. Called by the consumer.
+/// \retval false  the ring is empty
 bool CORingGet(CO_RING* ring, CO_IF_FRM* frm);
 
-/// Consumer end. Takes out all frames that the ring holds now; those that come meanwhile stay. Null: nothing happens.
+/// Removes all frames that are in the ring at the time of the call; frames that arrive during the call remain. Called
+/// by the consumer. Has no effect if \a ring is null.
 void CORingClear(CO_RING* ring);
 
-/// Frames in the ring. From either end: a snapshot.
+/// Returns the number of frames in the ring, a snapshot. Called by the producer or the consumer.
 uint16_t CORingCount(const CO_RING* ring);
 
-/// Frames lost since CORingInit(), saturating. From either end.
+/// Returns the number of frames lost since CORingInit(), saturating. Called by the producer or the consumer.
 uint16_t CORingLost(const CO_RING* ring);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_sdo.h
-/// What SDO servers and clients share: abort codes and COB-IDs. [301:7.2.4.3.17]
+/// Abort codes and COB-IDs of SDO servers and clients. [CiA 301, 7.2.4.3.17]
 #ifndef CO_SDO_H_
 #define CO_SDO_H_
 
@@ -49,7 +49,7 @@
 #define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)
 /// \}
 
-/// \name Values for the COB-ID entries 1200h…12FFh. [301:7.5.2.33]
+/// \name Values for the COB-ID entries 1200h…12FFh. [CiA 301, 7.5.2.33]
 /// \a valid: 1 = the SDO exists, \a dynamic: 1 = assigned dynamically, \a id: CAN-ID
 /// \{
 #define CO_SDO_ID_OFF 0x80000000u  ///< bit 31: the SDO does not exist

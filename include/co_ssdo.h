@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_ssdo.h
 /// The SDO server. It needs no calls from the application; see COObjTypeUserSDOAbort() (co_obj.h) for abort codes of
-/// its own. [301:7.2.4]
+/// its own. [CiA 301, 7.2.4]
 #ifndef CO_SSDO_H_
 #define CO_SSDO_H_
 
@@ -21,23 +21,23 @@ typedef struct CO_SDO_T {
   uint8_t Flags;
   uint8_t Idle;  ///< time slices since the last frame of the transfer
 #if USE_SDO_BLOCK
-  uint8_t Heard;    ///< block download: highest number of a segment of the present block that has arrived; 0: none
-  uint8_t BlkSize;  ///< segments of the present block
-  uint8_t Seq;      ///< last segment of the block that was sent, or received in order
-  uint8_t AckSeq;   ///< block download: last acknowledge
-  uint8_t AckSize;  ///< its block size; 0: none was sent yet
-  uint16_t Crc;     ///< block transfer: of the data so far
+  uint8_t Heard;    ///< block download: highest sequence number received in the current block; 0: none
+  uint8_t BlkSize;  ///< segments of the current block
+  uint8_t Seq;      ///< last segment of the block that was sent, or received in sequence
+  uint8_t AckSeq;   ///< block download: last ackseq sent
+  uint8_t AckSize;  ///< block download: blksize of the last acknowledge; 0: none was sent yet
+  uint16_t Crc;     ///< block transfer: CRC of the data so far
   uint16_t Fill;    ///< block transfer: bytes in the buffer
 #endif
-  uint8_t Value[8];  ///< a value of up to 8 bytes is collected here, in the byte order of the bus
+  uint8_t Value[8];  ///< collects a value of up to 8 bytes, in the byte order of the bus
   CO_OBJ* Obj;       ///< entry of the open transfer; null: none
   uint32_t RxId;     ///< identifier of the client's frames, as in CO_IF_FRM; FFFF FFFFh: the channel is off
   uint32_t TxId;     ///< identifier of the server's frames
-  uint32_t WasTxId;  ///< the one before, under which an answer may still wait for the controller
+  uint32_t WasTxId;  ///< previous TxId, under which a response may still be in the transmit queue
   uint32_t Key;      ///< CO_DEV() of the open transfer
-  uint32_t Size;     ///< bytes that the transfer will have, or may have at most
+  uint32_t Size;     ///< bytes that the transfer will have, or its maximum
   uint32_t Num;      ///< bytes transferred so far; block upload: bytes acknowledged
-  uint32_t Read;     ///< position behind what was read or written last
+  uint32_t Read;     ///< position behind the last bytes read or written
 #if USE_SDO_BLOCK
   uint32_t Summed;  ///< block upload: bytes that Crc covers
 #endif

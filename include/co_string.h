@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_string.h
-/// VISIBLE_STRING, OCTET_STRING and UNICODE_STRING. [301:7.1.6]
+/// VISIBLE_STRING, OCTET_STRING and UNICODE_STRING. [CiA 301, 7.1.6]
 #ifndef CO_STRING_H_
 #define CO_STRING_H_
 
@@ -11,16 +11,16 @@
 extern "C" {
 #endif
 
-/// A text that the network can only read, up to its NUL.
+/// A text that ends at its NUL; the network can only read it.
 typedef struct CO_OBJ_STR_T {
   uint32_t Offset;       ///< position of the next access
   const uint8_t* Start;  ///< the text, ended by NUL
 } CO_OBJ_STR;
 
-/// A string that can be written, up to its capacity. While it is being downloaded, Size grows piece by piece.
+/// A string that can be written, up to its capacity. During a download, Size grows with each piece.
 typedef struct CO_OBJ_STR_RW_T {
   uint32_t Offset;    ///< position of the next access
-  uint32_t Size;      ///< present length in bytes. CO_TVISIBLE_STRING: kept up to date, but the text also ends at a NUL
+  uint32_t Size;      ///< length in bytes. CO_TVISIBLE_STRING: maintained, but the text also ends at a NUL
   uint32_t Capacity;  ///< bytes at Start
   uint8_t* Start;     ///< CO_TUNICODE_STRING: an array of uint16_t
 } CO_OBJ_STR_RW;
@@ -32,7 +32,7 @@ extern const CO_OBJ_TYPE COTUnicodeString;
 
 /// Read-only text; Data: a CO_OBJ_STR.
 #define CO_TSTRING ((const CO_OBJ_TYPE*)&COTString)
-/// Text that can be written; Data: a CO_OBJ_STR_RW. A NUL is put behind the text where there is room.
+/// Writable text; Data: a CO_OBJ_STR_RW. A NUL is appended to the text if there is space.
 #define CO_TVISIBLE_STRING ((const CO_OBJ_TYPE*)&COTVisibleString)
 /// Bytes; Data: a CO_OBJ_STR_RW.
 #define CO_TOCTET_STRING ((const CO_OBJ_TYPE*)&COTOctetString)

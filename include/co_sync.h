@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_sync.h
-/// SYNC, consumer and producer. [301:7.2.5] Configured by 1005h, 1006h, 1007h and 1019h; there is nothing to call.
+/// SYNC consumer and producer. [CiA 301, 7.2.5] Configured by 1005h, 1006h, 1007h and 1019h; there are no functions to
+/// call.
 ///
-/// At a SYNC the synchronous TPDOs are sampled and sent, then the synchronous RPDOs that have come since the last one
-/// are written. A producer takes its own SYNC for itself, and ignores those of others (also while 1006h is 0 and it
-/// produces none), which it counts as malformed. A SYNC of another length than 1019h says is reported with 8240h;
-/// without a counter, where one is expected, it counts for the TPDOs without a SYNC start value only.
+/// At a SYNC the synchronous TPDOs are sampled and sent, then the data of the synchronous RPDOs received since the last
+/// SYNC are written. A producer processes its own SYNC. It ignores SYNC messages of other nodes (also while 1006h is 0
+/// and it produces none) and counts them as malformed. A SYNC whose length does not match 1019h is reported with 8240h;
+/// a SYNC without counter where one is expected triggers only the TPDOs without a SYNC start value.
 #ifndef CO_SYNC_H_
 #define CO_SYNC_H_
 
@@ -30,16 +31,16 @@ extern "C" {
 
 struct CO_NODE_T;
 
-/// The application touches nothing of it.
+/// SYNC of a node. The application must not access the members.
 typedef struct CO_SYNC_T {
-  CO_TMR_MEM Tmr;        ///< of the producer
-  CO_TMR_MEM WindowTmr;  ///< ends the synchronous window
-  uint32_t Identifier;   ///< of SYNC frames; UINT32_MAX: none
-  uint32_t Window;       ///< ticks; 0: always open
-  uint8_t Overflow;      ///< 1019h
-  uint8_t Counter;       ///< of the last SYNC produced
+  CO_TMR_MEM Tmr;        ///< producer
+  CO_TMR_MEM WindowTmr;  ///< synchronous window
+  uint32_t Identifier;   ///< identifier of SYNC frames; UINT32_MAX: none
+  uint32_t Window;       ///< synchronous window in ticks; 0: always open
+  uint8_t Overflow;      ///< value of 1019h
+  uint8_t Counter;       ///< counter of the last SYNC produced
   uint8_t Produces;      ///< 1005h bit 30
-  uint8_t Wrong;         ///< 8240h is reported
+  uint8_t Wrong;         ///< error 8240h is set
 } CO_SYNC;
 
 #ifdef __cplusplus

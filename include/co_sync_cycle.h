@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_sync_cycle.h
-/// 1006h, communication cycle period: the period of SYNC in µs, 0: no SYNC is produced. [301:7.5.2.6] And 1007h,
-/// synchronous window length: µs after a SYNC in which synchronous PDOs are sent and taken, 0: always. [301:7.5.2.7]
-/// Data: a uint32_t, or the value itself (flag D). A time that the timer cannot hold is refused (0609 0030h), and so is
-/// a period below CO_SYNC_PERIOD_MIN (0609 0032h). A producer whose table or store holds a shorter period sends no
-/// SYNC; the node's error is CO_ERR_OBJ_RANGE_LOW then. A write takes effect at once; with a plain CO_TUNSIGNED32 in
-/// its place, at the next reset.
+/// 1006h, communication cycle period: the period of SYNC in µs, 0: no SYNC is produced. [CiA 301, 7.5.2.6] 1007h,
+/// synchronous window length: time in µs after a SYNC in which synchronous PDOs are sent and processed, 0: no limit.
+/// [CiA 301, 7.5.2.7] Data: a uint32_t, or the value itself (flag D). A time beyond the range of the timer is refused
+/// (0609 0030h), and so is a period below CO_SYNC_PERIOD_MIN (0609 0032h). A producer with a shorter period in its
+/// table or in a stored group sends no SYNC; the node's error is then CO_ERR_OBJ_RANGE_LOW. A write takes effect at
+/// once; with a plain CO_TUNSIGNED32 instead, at the next reset.
 #ifndef CO_SYNC_CYCLE_H_
 #define CO_SYNC_CYCLE_H_
 

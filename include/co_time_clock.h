@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_time_clock.h
-/// The node's clock (co_time.h) as an object of data type TIME_OF_DAY: reading tells the time, 0 until it was set;
-/// writing sets it. A day or more is refused (0609 0030h). 6 bytes, which may be mapped into PDOs. Data: none, 0.
+/// The node's clock (co_time.h) as an object of data type TIME_OF_DAY: reading returns the time, 0 until it was set;
+/// writing sets it. A time of 24 h or more is refused (0609 0030h). 6 bytes, which may be mapped into PDOs. Data: 0,
+/// not used.
 ///
 ///     {CO_KEY(0x2101, 0, CO_OBJ____PRW), CO_TTIME_CLOCK, 0}
 #ifndef CO_TIME_CLOCK_H_

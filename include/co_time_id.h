@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_time_id.h
-/// 1012h, COB-ID TIME. [301:7.5.2.15] Data: a uint32_t, or the value itself (flag D); values: co_time.h. Bit 31: the
-/// node takes TIME, bit 30: it sends TIME, bit 29: 29-bit CAN-ID. While bit 31 or 30 is set, bits 0 to 29 cannot be
-/// changed; restricted CAN-IDs are refused (0609 0030h). A write takes effect at once; with a plain CO_TUNSIGNED32 in
-/// its place, at the next reset.
+/// 1012h, COB-ID TIME. [CiA 301, 7.5.2.15] Data: a uint32_t, or the value itself (flag D); values: co_time.h. Bit 31:
+/// the node consumes TIME, bit 30: it produces TIME, bit 29: 29-bit CAN-ID. While bit 31 or 30 is set, bits 0 to 29
+/// cannot be changed; restricted CAN-IDs are refused (0609 0030h). A write takes effect at once; with a plain
+/// CO_TUNSIGNED32 instead, at the next reset.
 #ifndef CO_TIME_ID_H_
 #define CO_TIME_ID_H_
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_time_of_day.h
-/// TIME_OF_DAY and TIME_DIFFERENCE: 6 bytes on the bus. [301:7.1.6.5, 7.1.6.6] Data: a CO_TIME_OF_DAY.
+/// TIME_OF_DAY and TIME_DIFFERENCE: 6 bytes on the bus. [CiA 301, 7.1.6.5, 7.1.6.6] Data: a CO_TIME_OF_DAY.
 #ifndef CO_TIME_OF_DAY_H_
 #define CO_TIME_OF_DAY_H_
 

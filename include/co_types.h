@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_types.h
-/// Basic C types and the small helper macros that object types and applications share.
-/// Compiles alone, as C11 and as C++17.
+/// Basic C types and the helper macros that object types and applications share. Compiles alone, as C11 and as C++17.
 #ifndef CO_TYPES_H_
 #define CO_TYPES_H_
 
@@ -13,21 +12,22 @@
 extern "C" {
 #endif
 
-/// Marks a definition that an application may replace by its own of the same name. Never put it on a declaration
-/// that the application includes: its own definition would become weak, too.
+/// Marks a definition that an application may replace by a definition of the same name. Never use it on a declaration
+/// that the application includes: the application's definition would become weak, too.
 #define WEAK __attribute__((weak))
 
-/// The same, for definitions that only tests replace.
+/// Like WEAK, for definitions that only tests replace.
 #define WEAK_TEST __attribute__((weak))
 
-/// Says that a parameter is not used on purpose.
+/// Marks a parameter that is intentionally unused.
 #define CO_UNUSED(var) (void)(var)
 
-/// Called on a null argument of a function that has no way to report it (ASSERT_PTR_FATAL). Supply your own to stop
-/// the device safely; the default is an endless loop. Must not return into the program's normal flow by longjmp.
+/// Called when an argument is null in a function that cannot report it (ASSERT_PTR_FATAL). The application may define
+/// it to stop the device safely; the default is an endless loop. It must not leave by longjmp into the normal flow of
+/// the program.
 void CONodeFatalError(void);
 
-/// \name Argument checks for functions in the style of object types: leave the function when the check fails.
+/// \name Argument checks for functions in the style of object types: return from the function when the check fails.
 /// \{
 #define ASSERT_PTR(p) \
   if ((p) == 0) {     \

@@ -14,12 +14,12 @@ extern "C" {
 #define CO_VER_MINOR 1
 #define CO_VER_BUILD 0
 
-/// From any context: the three numbers of the compiled library, and major * 10000 + minor * 100 + build.
+/// Return the three numbers of the compiled library, and major * 10000 + minor * 100 + build. Context: any.
 uint8_t COVerMajor(void);
 uint8_t COVerMinor(void);
 uint8_t COVerBuild(void);
 uint32_t COVersion(void);
-/// Does nothing; kept for firmware that calls it.
+/// Does nothing; exists for firmware that calls it.
 void CO_VerInit(void);
 
 #ifdef __cplusplus

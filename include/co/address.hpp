@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co/address.hpp
-/// The address of any object, to be used as bytes: what a `uint8_t *` member is in C++ where the documentation
-/// initialises it with `&structure`. Size and layout are those of the C type (uint8_t *).
+/// The address of any object, used as bytes: replaces a `uint8_t *` member in C++, so that it can be initialised with
+/// `&structure`. Size and layout are those of the C type (uint8_t *).
 #pragma once
 
 extern "C++" {  // co_core.h may be included inside extern "C" { }
@@ -12,9 +12,9 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 namespace co {
 
-/// `Address a = &anything;`, then `a[i]`, `a + i`, `memcpy(a, …)`, `uint8_t *p = a;`, `(struct Parameters *)a`,
-/// `(uintptr_t)a`, `if (a == nullptr)`, as with a `uint8_t *`. Constants keep being accepted, too: default values lie
-/// in read-only memory.
+/// Supports `Address a = &anything;`, then `a[i]`, `a + i`, `memcpy(a, …)`, `uint8_t *p = a;`, `(struct Parameters
+/// *)a`, `(uintptr_t)a`, `if (a == nullptr)`, like a `uint8_t *`. Addresses of constants are accepted, too, because
+/// default values are in read-only memory.
 union Address {
   Address() = default;
 
@@ -34,7 +34,7 @@ union Address {
 
  private:
   void* address_;
-  // Tells the link-time optimiser that C code may see the same memory as a pointer.
+  // Declares to the link-time optimiser that C code may access the same memory as a pointer.
   unsigned char bytes_[sizeof(void*)];
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co/data.hpp
-/// CO_DATA as C++ sees it: the address of an object's data, or the value itself, in one word.
-/// Size and layout are those of the C type (uintptr_t).
+/// CO_DATA in C++: the address of an object's data, or the value itself, in one word. Size and layout are those of the
+/// C type (uintptr_t).
 #pragma once
 
 extern "C++" {  // co_core.h may be included inside extern "C" { }
@@ -10,26 +10,26 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 #include <type_traits>
 
-/// Converts from and to whatever firmware puts into a dictionary: `(CO_DATA)(&variable)`, `(CO_DATA)(5)`,
-/// `(CO_DATA)(&function)`; `(uint32_t *)obj->Data`, `(uint8_t)obj->Data`, `obj->Data == 0`. Towards addresses and
-/// enumerations the conversion must be written, towards integers it is implicit, as with the C type.
+/// Converts from and to the values of dictionary entries: `(CO_DATA)(&variable)`, `(CO_DATA)(5)`,
+/// `(CO_DATA)(&function)`; `(uint32_t *)obj->Data`, `(uint8_t)obj->Data`, `obj->Data == 0`. The conversion to addresses
+/// and enumerations is explicit, to integers implicit, as with the C type.
 ///
-/// A table of entries is a constant expression: it lies in read-only memory without any code that runs at start-up.
-/// Only casts between numbers and pointers are none. So the address of a register is written as
-/// `(CO_DATA)(0x40005400)`, that of a variable without a detour over uintptr_t. In a constexpr table the compiler says
-/// so; a const one would be filled at start-up.
+/// A table of entries is a constant expression: it is placed in read-only memory and needs no code at start-up. Casts
+/// between numbers and pointers are not constant expressions. Therefore the address of a register is written as
+/// `(CO_DATA)(0x40005400)`, and that of a variable without a cast to uintptr_t. In a constexpr table such a cast is a
+/// compile error; a const table would be initialised at start-up.
 union CO_DATA {
   CO_DATA() = default;
 
-  /// A value (flag D).
+  /// Constructs from a value (flag D).
   template <class T, std::enable_if_t<std::is_integral_v<T> || std::is_enum_v<T>, int> = 0>
   constexpr CO_DATA(T value) noexcept : value_(static_cast<uintptr_t>(value)) {}
 
-  /// The address of a variable.
+  /// Constructs from the address of a variable.
   constexpr CO_DATA(const volatile void* address) noexcept : address_(address) {}
 
-  /// The address of a function, for types of the application. The conditional is what makes the cast a constant
-  /// expression: compilers fold both its branches when the condition is __builtin_constant_p.
+  /// Constructs from the address of a function, for types of the application. The conditional makes the cast a constant
+  /// expression: compilers fold both its branches if the condition is __builtin_constant_p.
   template <class F, std::enable_if_t<std::is_function_v<F>, int> = 0>
   constexpr CO_DATA(F* function) noexcept
       // NOLINTNEXTLINE(bugprone-branch-clone): see above
@@ -44,7 +44,7 @@ union CO_DATA {
     return static_cast<E>(value_);
   }
 
-  // Reads the member that a table was initialised with, so that the compiler can follow an address through it.
+  // Reads the member that a table was initialised with, so that the compiler can track an address through it.
   template <class T>
   explicit operator T*() const noexcept {
     if constexpr (std::is_function_v<T>) {
@@ -54,8 +54,8 @@ union CO_DATA {
     }
   }
 
-  /// \name What a constant expression can ask
-  /// One of the two is a constant expression, depending on what the initialiser was; neither for a function.
+  /// \name Content, for constant expressions
+  /// One of the two is a constant expression, depending on the initialiser; neither is for a function.
   /// \{
   constexpr uintptr_t value() const noexcept { return value_; }
   constexpr const volatile void* address() const noexcept { return address_; }
@@ -64,8 +64,8 @@ union CO_DATA {
  private:
   uintptr_t value_;
   const volatile void* address_;
-  uintptr_t function_;  // apart from value_, so that a constant expression can tell them apart
-  // Tells the link-time optimiser that C code may see the same memory as an integer.
+  uintptr_t function_;  // separate from value_, so that a constant expression can distinguish them
+  // Declares to the link-time optimiser that C code may access the same memory as an integer.
   unsigned char bytes_[sizeof(uintptr_t)];
 };
 

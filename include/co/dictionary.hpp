@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co/dictionary.hpp
-/// A dictionary that the compiler has proved right, and entries that it has looked up.
+/// Compile-time checks of a constexpr dictionary, and compile-time lookup of its entries.
 ///
 ///     constexpr CO_OBJ od[] = {
 ///         {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
@@ -8,12 +8,11 @@
 ///         CO_OBJ_DICT_ENDMARK};
 ///     CO_OD_CHECK(od);
 ///
-/// A fault stops the compiler, whose message then holds, for example,
-/// `Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1', '0', '0', '1'>, co::Sub<'0', '0'>>`: the CO_DICT_FAULT of
-/// co_dict.h, index and sub-index in hexadecimal digits.
+/// A fault is a compile error. The message contains, for example, `Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1',
+/// '0', '0', '1'>, co::Sub<'0', '0'>>`: the CO_DICT_FAULT of co_dict.h, index and sub-index in hexadecimal digits.
 ///
-/// Nothing of this file is left in the program. It is tried with gcc 11 and 12 and with clang 14 to 19. A table of more
-/// than some thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
+/// This file adds no code or data to the program. It is tested with gcc 11 and 12 and with clang 14 to 19. A table of
+/// more than some thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
 /// -fconstexpr-ops-limit).
 #pragma once
 
@@ -63,13 +62,13 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_time_id.h"
 #include "co_time_of_day.h"
 
-/// Proves that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults. For namespace
-/// and function scope. Types of the application are checked for what holds for all types.
+/// Checks at compile time that \a od, a constexpr array of CO_OBJ with static storage, is a dictionary without faults.
+/// For namespace and function scope. Entries with types of the application are checked only for the rules of all types.
 #define CO_OD_CHECK(od) static_assert(::co::dictionary::is_proved<od>(), "see Dictionary<...> above")
 
 namespace co {
 
-/// \name Numbers that compilers print the way the standard writes them
+/// \name Numbers that compilers print as hexadecimal digits
 /// \{
 template <char... HexDigits>
 struct Index {};
@@ -77,7 +76,7 @@ template <char... HexDigits>
 struct Sub {};
 /// \}
 
-/// Exists only for dictionaries without fault.
+/// Compiles only for dictionaries without fault; the template arguments name the fault.
 template <CO_DICT_FAULT Fault, class Index, class Sub>
 struct Dictionary {
   static_assert(Fault == CO_DICT_OK,
@@ -85,7 +84,7 @@ struct Dictionary {
   static constexpr bool proved = true;
 };
 
-/// Exists only for entries that their dictionary has.
+/// Compiles only for entries that exist in their dictionary; the template arguments name the entry.
 template <class Index, class Sub, bool Exists>
 struct Entry {
   static_assert(Exists, "Entry<index, sub-index, false>: the dictionary has no such entry");
@@ -106,7 +105,7 @@ using IndexOf = Index<hex(Number >> 12), hex(Number >> 8), hex(Number >> 4), hex
 template <std::uint8_t Number>
 using SubOf = Sub<hex(Number >> 4), hex(Number)>;
 
-/// What C++ takes the values of a type for.
+/// Kind of the C++ type for the values of an object type.
 enum class Value : std::uint8_t { integer, unsigned_integer, signed_integer, boolean, real, bytes, of_application };
 
 struct Type {
@@ -182,12 +181,13 @@ inline constexpr Type types[] = {
 #endif
 };
 
-/// Where the compiler must reckon with symbols at address 0 (-fno-delete-null-pointer-checks, sanitizers of gcc), it
-/// knows only that an address is equal to itself. That is enough: what it does not know to be equal is not.
+/// Returns whether two addresses are known to be equal. If the compiler has to consider symbols at address 0
+/// (-fno-delete-null-pointer-checks, sanitizers of gcc), it can only prove that an address is equal to itself. That is
+/// sufficient: addresses that are not provably equal are different.
 constexpr bool is_same(const CO_OBJ_TYPE* a, const CO_OBJ_TYPE* b) { return __builtin_constant_p(a == b) && a == b; }
 
 #if USE_OD
-/// Types of extensible entries (co_od.h), and those whose rules they follow.
+/// A type of extensible entries (co_od.h), and the type whose rules it follows.
 struct Extensible {
   const CO_OBJ_TYPE* type;
   const CO_OBJ_TYPE* original;
@@ -218,7 +218,7 @@ inline constexpr Extensible extensible[] = {
 };
 #endif
 
-/// The type that an entry would have if it could not be extended.
+/// Returns the original type of an extensible type, any other type unchanged.
 constexpr const CO_OBJ_TYPE* original(const CO_OBJ_TYPE* type) {
 #if USE_OD
   for (const Extensible& known : extensible) {
@@ -230,7 +230,7 @@ constexpr const CO_OBJ_TYPE* original(const CO_OBJ_TYPE* type) {
   return type;
 }
 
-/// The row of an entry's type: the one for its place, where a type has a row for each of several.
+/// Returns the description of an entry's type: for a type with one for each of several index ranges, the matching one.
 constexpr Type type_of(const CO_OBJ& entry) {
   const CO_OBJ_TYPE* const type = original(entry.Type);
   Type found{type, rules::variable, Value::of_application, 0};
@@ -246,8 +246,8 @@ constexpr Type type_of(const CO_OBJ& entry) {
   return found;
 }
 
-/// What Data was initialised with. Only an expression that names the table itself lets the compiler tell: reading a
-/// value out of the initialiser is a constant, reading an address as a number is none.
+/// Initialiser of Data. Only an expression that names the table itself lets the compiler distinguish them: reading a
+/// value from the initialiser is a constant expression, reading an address as a number is not.
 enum class Content : std::uint8_t { null, value, address };
 
 template <const auto& Od>
@@ -261,7 +261,7 @@ constexpr Content content(std::size_t position) {
   return Content::address;
 }
 
-/// The rules that only the compiler can check, because the running program sees one word.
+/// Checks the rules that need the kind of the initialiser, which is not available at run time.
 constexpr CO_DICT_FAULT check_content(std::uint32_t key, Content content) {
   const bool direct = rules::has(key, CO_OBJ_D_____);
   if (content == (direct ? Content::address : Content::value)) {
@@ -270,7 +270,8 @@ constexpr CO_DICT_FAULT check_content(std::uint32_t key, Content content) {
   return direct && rules::has(key, CO_OBJ______W) ? CO_DICT_DIRECT_CONST : CO_DICT_OK;
 }
 
-/// Types that the library does not know. Where only an extension has the object, Data is a length.
+/// Checks types that the library does not know. For OD_TNUMBER and OD_TSTREAM, whose objects only an extension
+/// provides, Data is a length.
 constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, [[maybe_unused]] Content content) {
 #if USE_OD
   const bool is_number = is_same(type, OD_TNUMBER);
@@ -298,7 +299,7 @@ constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   return of_type != CO_DICT_OK ? of_type : check_content(entry.Key, data);
 }
 
-/// Position of an entry, or the length of the table.
+/// Returns the position of an entry, or the length of the table.
 template <std::size_t Length>
 constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
   for (std::size_t i = 0; i < Length && !rules::is_end(od[i].Key); ++i) {
@@ -313,7 +314,7 @@ constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
   return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
 }
 
-/// The number of mapped objects in a mapping, if it is a constant of the table. Otherwise the highest that there is.
+/// Returns the number of mapped objects if it is a constant of the table, otherwise the maximum.
 template <const auto& Od>
 constexpr std::uintptr_t mapped_number(std::uint16_t index) {
   constexpr std::uintptr_t highest = 64;
@@ -324,9 +325,9 @@ constexpr std::uintptr_t mapped_number(std::uint16_t index) {
   return content<Od>(number) == Content::address ? highest : Od[number].Data.value();
 }
 
-/// The entry without flag P that the mapping entry at \a place maps, or the length of the table. A mapping in a
-/// variable is not known to the compiler. FEh and FFh are the numbers of multiplex PDOs, which do not use their
-/// entries.
+/// Returns the position of the entry without flag P that the mapping entry at \a place maps, or the length of the
+/// table. The value of a mapping in a variable is unknown to the compiler. FEh and FFh are multiplex PDOs, which do not
+/// use their mapping entries.
 template <const auto& Od>
 constexpr std::size_t find_unmappable(std::size_t place) {
   const std::uint32_t key = Od[place].Key;
@@ -348,7 +349,7 @@ struct Finding {
   std::uint32_t key;
 };
 
-/// The first object that a PDO maps and that has no flag P.
+/// Returns the first object that a PDO maps and that has no flag P.
 template <const auto& Od>
 constexpr Finding check_mappings() {
   for (std::size_t place = 0; place < length(Od); ++place) {
@@ -360,7 +361,7 @@ constexpr Finding check_mappings() {
   return {CO_DICT_OK, 0};
 }
 
-/// The first fault of the table.
+/// Returns the first fault of the table.
 template <const auto& Od>
 constexpr Finding check() {
   std::uint32_t previous = 0;
@@ -388,16 +389,16 @@ constexpr bool is_proved() {
 
 }  // namespace dictionary
 
-/// Finds an entry of a constexpr table by CO_DEV(index, sub), null if there is none. Meant for constant expressions: it
-/// looks at one entry after the other.
+/// Finds an entry of a constexpr table by CO_DEV(index, sub); null if there is none. A linear search, for constant
+/// expressions.
 template <std::size_t Length>
 constexpr const CO_OBJ* find(const CO_OBJ (&od)[Length], std::uint32_t key) {
   const std::size_t position = dictionary::position(od, key);
   return position < Length ? &od[position] : nullptr;
 }
 
-/// An entry of a constexpr dictionary, found by the compiler: the address is a constant. An entry that does not exist
-/// does not compile. The result goes to COObjRdValue() and its like; the entry itself is const.
+/// Returns an entry of a constexpr dictionary. The compiler finds it: the address is a constant, and an entry that does
+/// not exist is a compile error. Pass the result to COObjRdValue() and similar functions; the entry itself is const.
 ///
 ///     CO_OBJ *const speed = co::entry<od, 0x2100, 1>();
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>

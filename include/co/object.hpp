@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co/object.hpp
-/// Objects as values of C++ types.
+/// Access to objects as values of C++ types.
 ///
 ///     const auto speed = co::object<std::uint32_t>(node, 0x2100, 1);  // looked up once
 ///     if (const auto now = speed.get()) { use(now.value()); }
 ///     const CO_ERR error = speed.set(1500);
 ///
-/// The values are those of the application: access rights of the network do not limit it.
+/// Access rights of the network are not checked.
 ///
 /// Context: the loop (see co_obj.h).
 #pragma once
@@ -24,7 +24,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 namespace co {
 
-/// A value, or the reason why there is none.
+/// A value, or the error that explains why there is none.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -32,7 +32,7 @@ class [[nodiscard]] Result {
   constexpr Result(CO_ERR error) noexcept : error_(error) {}
 
   constexpr explicit operator bool() const noexcept { return error_ == CO_ERR_NONE; }
-  /// T() if there is no value.
+  /// Returns T() if there is no value.
   constexpr T value() const noexcept { return value_; }
   constexpr T value_or(T other) const noexcept { return error_ == CO_ERR_NONE ? value_ : other; }
   constexpr CO_ERR error() const noexcept { return error_; }
@@ -42,7 +42,7 @@ class [[nodiscard]] Result {
   CO_ERR error_ = CO_ERR_NONE;
 };
 
-/// std::is_signed, also for enumerations.
+/// Like std::is_signed, also for enumerations.
 template <class T>
 constexpr bool is_signed() {
   if constexpr (std::is_enum_v<T>) {
@@ -52,18 +52,18 @@ constexpr bool is_signed() {
   }
 }
 
-/// An entry of the dictionary of a node, as a T: bool, an integer, an enumeration, float or double.
-/// The integers of 3 and of 5, 6, 7 bytes are read and written as those of 4 and 8.
-/// Refers to the node and the entry: not to be used when entries were moved since.
+/// Access to an entry of a node's dictionary as a T: bool, an integer, an enumeration, float or double. Integers of 3,
+/// and of 5, 6 and 7 bytes are accessed as integers of 4 and 8. An Object refers to the node and the entry: it is
+/// invalid after entries were moved.
 template <class T>
 class Object {
   static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
 
-  // A byte that holds neither 0 nor 1 must not become a bool.
+  // Prevents that a byte other than 0 or 1 becomes a bool.
   using Stored = std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>;
 
  public:
-  /// CO_ERR_OBJ_NOT_FOUND: \a entry is null; CO_ERR_OBJ_SIZE: its length is not that of a T.
+  /// error() is CO_ERR_OBJ_NOT_FOUND if \a entry is null, and CO_ERR_OBJ_SIZE if its length is not that of a T.
   Object(CO_NODE& node, CO_OBJ* entry) noexcept : node_(&node), entry_(entry) {
     const std::uint32_t width = COObjGetSize(entry, &node, sizeof(T));
     if (entry == nullptr) {
@@ -74,11 +74,11 @@ class Object {
     }
   }
 
-  /// For an entry whose length is known.
+  /// For an entry whose length is known at compile time.
   constexpr Object(CO_NODE& node, CO_OBJ* entry, std::uint8_t width) noexcept
       : node_(&node), entry_(entry), error_(is_width(width) ? CO_ERR_NONE : CO_ERR_OBJ_SIZE), width_(width) {}
 
-  /// Can an object of \a width bytes be a T?
+  /// Returns whether an object of \a width bytes can be accessed as a T.
   static constexpr bool is_width(std::uint32_t width) {
     constexpr bool has_odd_widths = (std::is_integral_v<T> || std::is_enum_v<T>)&&sizeof(T) >= 4;
     return width == sizeof(T) || (has_odd_widths && width > sizeof(T) / 2 && width < sizeof(T));
@@ -88,7 +88,7 @@ class Object {
   constexpr CO_ERR error() const noexcept { return error_; }
   constexpr CO_OBJ* entry() const noexcept { return entry_; }
 
-  /// Errors: error(), and those of COObjRdValue().
+  /// Reads the value. Errors: error(), and those of COObjRdValue().
   Result<T> get() const noexcept {
     Stored stored{};
     CO_ERR error = error_;
@@ -105,7 +105,8 @@ class Object {
     }
   }
 
-  /// Errors: error(), CO_ERR_OBJ_RANGE if the object has too few bytes for the value, and those of COObjWrValue().
+  /// Writes the value. Errors: error(), CO_ERR_OBJ_RANGE if the object has too few bytes for the value, and those of
+  /// COObjWrValue().
   CO_ERR set(T value) const noexcept {
     auto stored = static_cast<Stored>(value);
     if (error_ != CO_ERR_NONE) {
@@ -118,13 +119,13 @@ class Object {
   }
 
  private:
-  // Where a number of width_ bytes lies in a larger one.
+  // Returns the address of the width_ bytes that hold the value in a larger number.
   std::uint8_t* bytes(Stored& stored) const noexcept {
     auto* const first = reinterpret_cast<std::uint8_t*>(&stored);
     return __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? first + (sizeof(T) - width_) : first;
   }
 
-  // The number that the low width_ bytes are.
+  // Returns the low width_ bytes of a number, sign-extended if T is signed.
   Stored extended(Stored stored) const noexcept {
     if constexpr (is_width(sizeof(T) - 1)) {
       const unsigned unused = 8 * static_cast<unsigned>(sizeof(T) - width_);
@@ -152,7 +153,7 @@ class Object {
   std::uint8_t width_ = 0;
 };
 
-/// Looks an object up. What went wrong is told by Object::error(), and by every access.
+/// Finds an object. Object::error() and every access return the error, if any.
 template <class T>
 Object<T> object(CO_NODE& node, std::uint16_t index, std::uint8_t sub) noexcept {
   const std::uint32_t key = std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
@@ -161,7 +162,7 @@ Object<T> object(CO_NODE& node, std::uint16_t index, std::uint8_t sub) noexcept 
 
 #ifndef CO_DATA_INTEGER
 
-/// Exists only where a T can hold the values of the entry.
+/// Compiles only if a T can hold the values of the entry.
 template <class T, class Index, class Sub, bool Fits>
 struct ValueType {
   static_assert(Fits, "ValueType<T, index, sub-index, false>: the entry has values of another type");
@@ -170,7 +171,7 @@ struct ValueType {
 
 namespace dictionary {
 
-/// The C++ type of the values of an object type: unsigned where a type serves both.
+/// Returns the C++ type for the values of an object type: unsigned for types that serve signed and unsigned integers.
 template <Value Kind, std::uint8_t Width>
 constexpr auto natural() {
   if constexpr (Kind == Value::boolean) {
@@ -178,7 +179,7 @@ constexpr auto natural() {
   } else if constexpr (Kind == Value::real) {
     return std::conditional_t<Width == 4, float, double>{};
   } else if constexpr (Kind == Value::bytes || Kind == Value::of_application) {
-    return;  // no such type: it must be named
+    return;  // no such type: the caller has to name one
   } else {
     constexpr bool is_signed = Kind == Value::signed_integer;
     using Narrow = std::conditional_t<Width == 1, std::uint8_t, std::uint16_t>;
@@ -203,7 +204,7 @@ constexpr bool is_kind(Value kind) {
   return false;
 }
 
-/// Types of the application are taken at the caller's word; Object asks them for their length.
+/// Accepts any T for types of the application; Object checks their length at run time.
 template <class T>
 constexpr bool can_hold(const Type& type) {
   if constexpr (std::is_void_v<T>) {
@@ -221,7 +222,7 @@ using Natural = decltype(natural<type_at<Od, Index, Sub>.value, type_at<Od, Inde
 
 }  // namespace dictionary
 
-/// An object that the compiler has looked up in the constexpr dictionary of the node, and whose type it has checked. T
+/// Returns access to an object of the node's constexpr dictionary. The compiler finds the entry and checks its type. T
 /// is needed only for signed values (one type object serves both), enumerations and types of the application.
 ///
 ///     const auto speed = co::object<od, 0x2100, 1>(node);

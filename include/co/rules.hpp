@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co/rules.hpp
-/// What a dictionary must look like, written once for the compiler and for the node. [301:7.4]
+/// The rules for a dictionary, used by the compiler and by the node. [CiA 301, 7.4]
 ///
-/// Who applies which rule:
-/// - check_entry(): needs no more than the table. CO_OD_CHECK() and CODictInit(), which leaves the data of static data
+/// - check_entry() needs the table only. Called by CO_OD_CHECK() and CODictInit(), which leaves the data of static data
 ///   types to check_type().
-/// - check_type(): needs the rule of the entry's type. CO_OD_CHECK() finds it by the address of the type object, which
-///   only the compiler may do: in the running program a list of all types would link them all into a firmware that
-///   uses three. There a type that belongs to one place applies its rule in its Init function.
-/// - Values against addresses, and what must not lie in read-only memory: CO_OD_CHECK() only (co/dictionary.hpp).
+/// - check_type() needs the rule of the entry's type. CO_OD_CHECK() finds the rule by the address of the type object,
+///   which only the compiler may do: at run time, a list of all types would link all of them into a firmware that uses
+///   three. At run time a type that is restricted to certain indices checks its rule in its Init function.
+/// - Checks of values against addresses, and of writable data in read-only memory, are done by CO_OD_CHECK() only
+///   (co/dictionary.hpp).
 #pragma once
 
 extern "C++" {  // co_core.h may be included inside extern "C" { }
@@ -24,30 +24,31 @@ namespace co::rules {
 constexpr std::uint16_t index_of(std::uint32_t key) { return static_cast<std::uint16_t>(key >> 16); }
 constexpr std::uint8_t sub_of(std::uint32_t key) { return static_cast<std::uint8_t>((key >> 8) & 0xFFu); }
 
-/// Are the flags all set in the key?
+/// Returns whether all \a flags are set in the key.
 constexpr bool has(std::uint32_t key, std::uint32_t flags) { return (key & flags) == flags; }
 
-/// 0001h…001Fh stand for the static data types. They are mapped to skip bytes of a PDO, and hold nothing. [301:7.4.1]
+/// Returns whether the key is a static data type, 0001h…001Fh. They are mapped to skip bytes of a PDO and have no data.
+/// [CiA 301, 7.4.1]
 constexpr bool is_static_type(std::uint32_t key) { return index_of(key) >= 0x0001 && index_of(key) <= 0x001F; }
 
-/// Objects that exist once for each instance of a service.
+/// Index range of a parameter object that exists once for each instance of a service.
 struct Instances {
   std::uint16_t first;    // index
   std::uint16_t last;     // index
-  std::uint8_t last_sub;  // entries above are the application's, wherever they stand
+  std::uint8_t last_sub;  // sub-indices above belong to the application and are not checked
   std::uint16_t configured;
 };
 
 inline constexpr Instances instances[] = {
-    {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [301:7.5.2.33]
-    {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [301:7.5.2.34]
-    {0x1400, 0x15FF, 6, CO_RPDO_N},                      // RPDOs [301:7.5.2.35]
-    {0x1600, 0x17FF, 64, CO_RPDO_N},                     // their mapping [301:7.5.2.36]
-    {0x1800, 0x19FF, 6, CO_TPDO_N},                      // TPDOs [301:7.5.2.37]
-    {0x1A00, 0x1BFF, 64, CO_TPDO_N},                     // their mapping [301:7.5.2.38]
+    {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [CiA 301, 7.5.2.33]
+    {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [CiA 301, 7.5.2.34]
+    {0x1400, 0x15FF, 6, CO_RPDO_N},                      // RPDOs [CiA 301, 7.5.2.35]
+    {0x1600, 0x17FF, 64, CO_RPDO_N},                     // their mapping [CiA 301, 7.5.2.36]
+    {0x1800, 0x19FF, 6, CO_TPDO_N},                      // TPDOs [CiA 301, 7.5.2.37]
+    {0x1A00, 0x1BFF, 64, CO_TPDO_N},                     // their mapping [CiA 301, 7.5.2.38]
 };
 
-/// Arrays whose last sub-index is configured.
+/// Returns false for a key beyond the configured last sub-index of an array (1016h, 1028h).
 constexpr bool is_in_array(std::uint32_t key) {
   constexpr struct {
     std::uint16_t index;
@@ -71,7 +72,7 @@ constexpr bool is_configured(std::uint32_t key) {
   return is_in_array(key);
 }
 
-/// The rules that hold whatever the type is. \a previous: the key of the entry before it, 0 for the first.
+/// Checks the rules that apply to entries of every type. \a previous: key of the previous entry, 0 for the first.
 constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, bool has_type, bool has_data) {
   if (index_of(key) == 0 || (is_static_type(key) && has_data)) {
     return CO_DICT_RESERVED_INDEX;
@@ -85,22 +86,23 @@ constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, b
   return is_configured(key) ? CO_DICT_OK : CO_DICT_NOT_CONFIGURED;
 }
 
-/// What a type asks of its entries. 10 bytes of flash where it is used at run time.
+/// Requirements of a type on its entries. Costs 10 bytes of flash if it is used at run time.
 struct Rule {
   std::uint16_t first_index;
   std::uint16_t last_index;
   std::uint8_t first_sub;
   std::uint8_t last_sub;
-  std::uint8_t direct_width;  // bytes that a value takes in Data; 0: flag D is not allowed
+  std::uint8_t direct_width;  // bytes of a value in Data; 0: flag D is not allowed
   bool node_id_relative;      // flag N is allowed
-  bool of_pdo;                // the indices of RPDOs are named, those of TPDOs lie 400h above
+  bool of_pdo;                // the indices are those of RPDOs; those of TPDOs are 400h higher
 };
 
 constexpr Rule anywhere(std::uint8_t direct_width, bool node_id_relative) {
   return {0x0001, 0xFFFF, 0x00, 0xFF, direct_width, node_id_relative, false};
 }
 
-/// \a width: bytes of the variable, not of the value on the bus (UNSIGNED24 lies in four).
+/// Returns the rule of an integer type. \a width: bytes of the variable, not of the value on the bus (UNSIGNED24 is
+/// stored in four).
 constexpr Rule integer(std::uint8_t width) { return anywhere(width, true); }
 
 inline constexpr Rule boolean = anywhere(1, false);
@@ -146,7 +148,7 @@ constexpr bool may_be_direct(const Rule& rule) {
   return rule.direct_width != 0 && rule.direct_width <= sizeof(std::uintptr_t);
 }
 
-/// The rules of a type, for an entry that has passed check_entry().
+/// Checks the rules of a type, for an entry that has passed check_entry().
 constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has_data) {
   if (is_static_type(key)) {
     return has_data ? CO_DICT_RESERVED_INDEX : CO_DICT_OK;
@@ -163,11 +165,12 @@ constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has
   return (has_data || has(key, CO_OBJ_D_____)) ? CO_DICT_OK : CO_DICT_NO_DATA;
 }
 
-/// Does this key end the table? CO_OBJ_DICT_ENDMARK, or CO_OBJ_DICT_DEFAULTS(): CO_DEFAULTS_KEY.
+/// Returns whether the key ends the table: CO_OBJ_DICT_ENDMARK, or CO_DEFAULTS_KEY of CO_OBJ_DICT_DEFAULTS().
 constexpr bool is_end(std::uint32_t key) { return key == 0 || key == 0xFF; }
 
-/// Does a fault that check_type() has found stop the node? Only what breaks memory safety does: types compute the
-/// number of a service from the place of their entry, and take Data for an address. Everything else concerns one entry.
+/// Returns whether a fault that check_type() has found stops the node. Only faults that break memory safety do: types
+/// compute the number of a service from the index of their entry, and use Data as an address. Other faults affect one
+/// entry.
 constexpr bool stops_node(CO_DICT_FAULT fault) {
   return fault != CO_DICT_OK && fault != CO_DICT_NO_DATA && fault != CO_DICT_NODEID_TYPE &&
          fault != CO_DICT_RESERVED_INDEX && fault != CO_DICT_PARA_OVERLAP;
