@@ -21,6 +21,7 @@ namespace co::obj {
 }
 // Like write(), then runs deferred work: for API functions.
 [[nodiscard]] CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size);
+// Sets the position of a stream; no effect on a value.
 [[nodiscard]] inline CO_ERR seek(CO_OBJ& obj, CO_NODE_T& node, uint32_t position) {
   return obj.Type->Reset == nullptr ? CO_ERR_NONE : obj.Type->Reset(&obj, &node, position);
 }

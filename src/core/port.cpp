@@ -9,6 +9,7 @@
 namespace co::port {
 namespace {
 
+// Functions of drivers that do nothing (no_drivers).
 void nothing(void*) {}
 void no_rate(void*, uint32_t) {}
 int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
@@ -26,6 +27,7 @@ constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIME
   return ext;
 }
 
+// Calls a function of the CAN driver, in the form that the node has.
 void call(const CO_NODE& node, void (*CO_IF_CAN_DRV_EX::*with_context)(void*), void (*CO_IF_CAN_DRV::*plain)()) {
   const CO_NODE_EXT& ext = *node.Ext;
   ext.Can != nullptr ? (ext.Can->*with_context)(ext.CanCtx) : (node.If.Drv->Can->*plain)();

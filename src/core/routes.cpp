@@ -13,12 +13,14 @@ constexpr uint16_t owner(Service service, uint16_t number) {
   return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);
 }
 
+// Adds by to the positions of the first routes of all function codes behind that of the identifier.
 void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
   for (unsigned n = class_of(identifier) + 1U; n <= end; ++n) {
     routes.Start[n] = static_cast<CO_ROUTE_NUM>(routes.Start[n] + by);
   }
 }
 
+// Returns whether the route at this position follows the route of identifier and owner.
 bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uint16_t owner) {
   return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
 }

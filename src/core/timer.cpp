@@ -78,6 +78,7 @@ void program(CO_TMR& t, uint32_t now) {
 // Returns whether a classic driver has elapsed and COTmrService(), which programs it again, has not been called yet.
 bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now == t.Clock; }
 
+// Programs the driver, unless COTmrService() will do it.
 void reprogram(CO_TMR& t, uint32_t now) {
   if (!is_pending(t, now)) {
     program(t, now);

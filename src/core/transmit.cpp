@@ -55,6 +55,7 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
   return true;
 }
 
+// Offers the queued frames to the driver, then this frame if none is left. Returns whether the driver has accepted it.
 bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
   if (is_waiting(node)) {
     flush(node);
@@ -70,6 +71,7 @@ uint16_t places_for_application(const CO_TX_QUEUE& queue) {
   return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
 }
 
+// Replaces the queued frame of the same identifier. Returns false if there is none.
 bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
   if (!is_waiting(node)) {
     return false;

@@ -12,6 +12,7 @@ static_assert(sizeof(void*) != 4 || sizeof(OD_entry_t) == 12);
 
 uint16_t index_at(const CO_OBJ* table, unsigned place) { return CO_GET_IDX(table[place].Key); }
 
+// Returns whether the entries are sorted by index and sub-index, without duplicates.
 bool is_ascending(const CO_OBJ* table, uint16_t num) {
   uint16_t place = 1;
   while (place < num && table[place - 1].Key >> 8 < table[place].Key >> 8) {

@@ -129,6 +129,7 @@ ODR_t read_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece&
   return result_of(*stream.Owner, *stream.Entry, err != CO_ERR_NONE ? err : call(type.Read, stream, to, piece.bytes));
 }
 
+// Reads the next piece of a stream of the application.
 ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD_size_t count, OD_size_t& passed) {
   const ODR_t opened = open(stream, type, type.Read);
   if (opened != ODR_OK) {

@@ -354,6 +354,7 @@ ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRAN
   return result;
 }
 
+// Sets the position of an access through an extension; the application begins an access at position 0.
 CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, uint32_t position) {
   OD_t& od = *node.Ext->Od;
   const bool by_application = !is_served(od, node, obj);
@@ -376,6 +377,7 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
 
 // Original types ------------------------------------------------------------------------------------------------------
 
+// Returns the SDO transfer that is being served if the caller belongs to it, else null.
 OD_TRANSFER* transfer_of_original(const CO_OBJ& obj, const CO_NODE& node) {
   OD_t* const od = node.Ext->Od;
   return od != nullptr && is_served(*od, node, obj) ? find_transfer(*od, node, obj) : nullptr;
@@ -389,6 +391,7 @@ CO_ERR pass_at(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, uint32_t p
   return err != CO_ERR_NONE ? err : function(&obj, &node, buffer, size);
 }
 
+// Reads or writes a piece through the original type of an entry that is not extended.
 CO_ERR pass_original(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size, CO_OBJ_TRANSFER direction) {
   const CO_OBJ_TYPE* const type = type_without(*extensible(obj));
   const CO_OBJ_READ_FUNC function = type == nullptr ? nullptr : (direction == CO_OBJ_UPLOAD ? type->Read : type->Write);
@@ -428,6 +431,7 @@ CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32
 
 // Upload and download -----------------------------------------------------------------------------------------------
 
+// Reads a piece, through the extension of the object or its original type.
 CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr) {
@@ -439,6 +443,7 @@ CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   return answer(obj, node, result, CO_OBJ_UPLOAD);
 }
 
+// Writes a piece, through the extension of the object or its original type.
 CO_ERR pass_down(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr) {
