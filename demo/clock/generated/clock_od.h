@@ -16,13 +16,13 @@
 #error "clock: the dictionary needs USE_SYNC (co_cfg.h)"
 #endif
 #if CO_RPDO_N < 1
-#error "clock: CO_RPDO_N must be at least 1 (co_cfg.h)"
+#error "clock: the description has RPDO 1, CO_RPDO_N is less: set CO_RPDO_N to 1 (co_cfg.h, -DCO_RPDO_N=1)"
 #endif
 #if CO_SSDO_N < 1
-#error "clock: CO_SSDO_N must be at least 1 (co_cfg.h)"
+#error "clock: the description has SDO server 1, CO_SSDO_N is less: set CO_SSDO_N to 1 (co_cfg.h, -DCO_SSDO_N=1)"
 #endif
 #if CO_TPDO_N < 1
-#error "clock: CO_TPDO_N must be at least 1 (co_cfg.h)"
+#error "clock: the description has TPDO 1, CO_TPDO_N is less: set CO_TPDO_N to 1 (co_cfg.h, -DCO_TPDO_N=1)"
 #endif
 #define CLOCK_OD_RPDO_N 1  ///< of co_cfg.h, at least
 #define CLOCK_OD_SSDO_N 1  ///< of co_cfg.h, at least

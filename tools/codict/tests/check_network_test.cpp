@@ -69,7 +69,20 @@ TEST_CASE("check: a PDO that maps what can be mapped is right") {
   CHECK(of_tpdo({"1", "0x20000010"}) == "");
   CHECK(of_rpdo({"1", "0x20000010"}) == "");
   CHECK(of_tpdo({"4", "0x20000010", "0x20000010", "0x20000010", "0x20000010"}) == "");
-  CHECK(of_tpdo({"0"}) == "");
+}
+
+TEST_CASE("check: pdo-empty: a PDO with a valid COB-ID maps an object") {
+  const auto with = [](const char* cob_id, std::initializer_list<std::string> mapping) {
+    return found(check::check_pdo_parameters, record("1800", {"2", cob_id, "255"}) + record("1A00", mapping) + number);
+  };
+  const std::string empty = "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n";
+  CHECK(with("$NODEID+0x180", {"0"}) == empty);
+  CHECK(with("$NODEID+0x180", {"0", "0x20000010"}) == empty);
+  CHECK(with("0x80000180", {"0"}) == "");
+  CHECK(with("$NODEID+0xC0000180", {"0"}) == "");
+  CHECK(with("0x180", {"0xFE"}) == "");  // a multiplex PDO
+  CHECK(with("text", {"0"}) == "");
+  CHECK(of_rpdo({"0"}) == "pdo-empty: RPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
 TEST_CASE("check: pdo-pair: communication parameters and mapping come together, but not where PDOs are compact") {
@@ -121,7 +134,7 @@ TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the de
   CHECK(found(check::check_pdo_parameters,
               record("1800", {"2", "0x80000180", "255"}) + record("1A00", {"1", "0x20000010"}) + unsaid) == no_tpdo);
   // Beyond the number of mapped objects nothing is mapped.
-  CHECK(of_tpdo({"0", "0x20000010"}, unsaid) == "");
+  CHECK(of_tpdo({"0", "0x20000010"}, unsaid) == "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
 TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may be a byte") {
@@ -197,7 +210,7 @@ TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
   const auto with = [](const char* communication, const char* mapping, const char* cob_id, const char* type,
                        const std::string& others = "") {
     return found(check::check_pdo_parameters,
-                 record(communication, {"2", cob_id, type}) + record(mapping, {"0"}) + others);
+                 record(communication, {"2", cob_id, type}) + record(mapping, {"1", "0x20000010"}) + number + others);
   };
   const std::string rpdo = "pdo-sync-missing: RPDO 1 waits for SYNC, and there is no object 1005h\n";
   const std::string tpdo = "pdo-sync-missing: TPDO 1 waits for SYNC, and there is no object 1005h\n";
@@ -210,7 +223,8 @@ TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
   CHECK(with("1800", "1A00", "0x181", "255") == "");
   CHECK(with("1800", "1A00", "0x80000181", "1") == "");
   CHECK(with("1800", "1A00", "0x181", "1", variable("1005", "7", "rw", "0x80")) == "");
-  CHECK(with("1800", "1A00", "0x181", "1", record("1801", {"2", "0x281", "1"}) + record("1A01", {"0"})) == tpdo);
+  CHECK(with("1800", "1A00", "0x181", "1", record("1801", {"2", "0x281", "1"}) + record("1A01", {"1", "0x20000010"})) ==
+        tpdo);
 }
 
 TEST_CASE("check: a DCF's values are checked, where it has them") {

@@ -168,7 +168,9 @@ TEST_CASE("gen: a configured value goes before the default value") {
 
 TEST_CASE("gen: a configuration that is too small stops the compiler") {
   const Generated generated = generate(record("1402") + sub("1402sub0", 5, "ro", "2") + variable("1012", 7, "rw"));
-  CHECK(generated.has("#if CO_RPDO_N < 3\n#error"));
+  CHECK(generated.has(
+      "#if CO_RPDO_N < 3\n#error \"small: the description has RPDO 3, CO_RPDO_N is less: set CO_RPDO_N to 3 (co_cfg.h, "
+      "-DCO_RPDO_N=3)\"\n#endif"));
   CHECK(generated.has("#if !USE_TIME\n#error"));
 }
 

@@ -30,6 +30,7 @@ extern const Rule pdo_bits;
 extern const Rule pdo_part;
 extern const Rule pdo_length;
 extern const Rule pdo_gap;
+extern const Rule pdo_empty;
 extern const Rule pdo_mapped_count;
 extern const Rule pdo_dummy;
 extern const Rule pdo_granularity;

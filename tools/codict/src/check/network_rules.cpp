@@ -12,6 +12,7 @@ const Rule pdo_bits{"pdo-bits", Severity::error, "mapping longer than the mapped
 const Rule pdo_part{"pdo-part", Severity::note, "mapping shorter than the mapped object"};
 const Rule pdo_length{"pdo-length", Severity::error, "PDO longer than 64 bits"};
 const Rule pdo_gap{"pdo-gap", Severity::error, "mapping with unused sub-indexes"};
+const Rule pdo_empty{"pdo-empty", Severity::warning, "valid COB-ID of a PDO that maps no object"};
 const Rule pdo_mapped_count{"pdo-mapped-count", Severity::error, "invalid number of mapped objects"};
 const Rule pdo_dummy{"pdo-dummy", Severity::error,
                      "dummy mapping in a TPDO, or of a type that the device does not support"};
@@ -40,11 +41,10 @@ const Rule sync_window{"sync-window", Severity::warning, "SYNC window longer tha
 const std::vector<const Rule*>& network_rules() {
   using namespace rules;
   static const std::vector<const Rule*> all = {
-      &pdo_pair,         &pdo_object,        &pdo_access,       &pdo_bits,       &pdo_part,
-      &pdo_length,       &pdo_gap,           &pdo_mapped_count, &pdo_dummy,      &pdo_granularity,
-      &pdo_type,         &pdo_time,          &pdo_sync,         &multiplexed,    &multiplexed_list,
-      &multiplexed_type, &cob_id_restricted, &cob_id_twice,     &cob_id_form,    &mandatory,
-      &error_control,    &sdo_default,       &consumer_entry,   &consumer_twice, &sync_window};
+      &pdo_pair,      &pdo_object,       &pdo_access,       &pdo_bits,          &pdo_part,     &pdo_length,  &pdo_gap,
+      &pdo_empty,     &pdo_mapped_count, &pdo_dummy,        &pdo_granularity,   &pdo_type,     &pdo_time,    &pdo_sync,
+      &multiplexed,   &multiplexed_list, &multiplexed_type, &cob_id_restricted, &cob_id_twice, &cob_id_form, &mandatory,
+      &error_control, &sdo_default,      &consumer_entry,   &consumer_twice,    &sync_window};
   return all;
 }
 

@@ -43,6 +43,22 @@ void check_number(const Pdo& pdo, Findings& findings) {
   }
 }
 
+// A PDO that exists without content: some devices send empty frames, others refuse the configuration.
+void check_empty(const Pdo& pdo, Findings& findings) {
+  constexpr std::uint64_t off = 0x80000000U;
+  const Entry* const cob_id = pdo.parameter(1);
+  const Sub* const zero = pdo.mapping->find(0);
+  const bool is_on =
+      cob_id != nullptr && value_in_force(*cob_id).is_integer() && (value_in_force(*cob_id).integer.bits() & off) == 0;
+  const bool has_number = zero != nullptr && value_in_force(*zero).is_integer();
+  const bool has_gap = has_number && value_in_force(*zero).integer.bits() != 0;
+  if (is_on && pdo.mapped.empty() && !pdo.is_multiplexed && !has_gap) {
+    findings.add(rules::pdo_empty, value_in_force(*cob_id).span,
+                 title_of(pdo) + " has a valid COB-ID, but maps no object",
+                 "map an object, or set bit 31 of the COB-ID");
+  }
+}
+
 bool takes_dummy(const Device& device, std::uint16_t type) {
   return std::any_of(device.dummies.begin(), device.dummies.end(),
                      [type](const Dummy& dummy) { return dummy.type == type && dummy.supported.value; });
@@ -93,6 +109,7 @@ void check_mapped(const Device& device, const Pdo& pdo, const MappedObject& mapp
 
 void check_mapping(const Device& device, const Pdo& pdo, Findings& findings) {
   check_number(pdo, findings);
+  check_empty(pdo, findings);
   for (const MappedObject& mapped : pdo.mapped) {
     check_mapped(device, pdo, mapped, findings);
   }

@@ -23,6 +23,14 @@ constexpr Instances instances[] = {
     {0x1600, 0x17FF, "CO_RPDO_N", ""}, {0x1800, 0x19FF, "CO_TPDO_N", ""},         {0x1A00, 0x1BFF, "CO_TPDO_N", ""},
 };
 
+// What a setting counts: "the description has TPDO 12".
+const char* service_of(const std::string& macro) {
+  static const std::map<std::string, const char*> services = {
+      {"CO_SSDO_N", "SDO server"}, {"CO_CSDO_N", "SDO client"},           {"CO_RPDO_N", "RPDO"},
+      {"CO_TPDO_N", "TPDO"},       {"CO_HBCONS_N", "heartbeat consumer"}, {"CO_EMCY_CONS_N", "EMCY consumer"}};
+  return services.at(macro);
+}
+
 // The smallest configuration in which all entries work.
 class Configuration {
  public:
@@ -42,8 +50,10 @@ class Configuration {
       out.add("#if !{}\n#error \"{}: the dictionary needs {} (co_cfg.h)\"\n#endif", macro, options.name, macro);
     }
     for (const auto& [macro, number] : numbers_) {
-      out.add("#if {} < {}\n#error \"{}: {} must be at least {} (co_cfg.h)\"\n#endif", macro, number, options.name,
-              macro, number);
+      out.add(
+          "#if {0} < {1}\n#error \"{2}: the description has {3} {1}, {0} is less: set {0} to {1} (co_cfg.h, "
+          "-D{0}={1})\"\n#endif",
+          macro, number, options.name, service_of(macro));
     }
     for (const auto& [macro, number] : numbers_) {
       out.add("#define {}_OD_{} {}  ///< of co_cfg.h, at least", upper(options.name), macro.substr(3), number);

@@ -14,52 +14,92 @@ constexpr std::uint32_t flag_pdo = 0x04;
 constexpr std::uint32_t flag_direct = 0x80;
 constexpr std::uint64_t multiplexed = 0xFE;  // and FFh: no number of objects [301:7.5.2.36]
 
-constexpr bool is_receive(std::uint16_t index) { return index < 0x1800; }
+constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID
+constexpr std::uint32_t identifier_bits = 0x1FFFFFFF;
+constexpr std::uint16_t from_mapping = 0x200;  // to the communication parameter
 
-// 0001h…0007h, sub 0: bits that an RPDO skips. [301:7.4.1]
-bool is_skipped(std::uint16_t index, std::uint8_t sub_index, unsigned bits) {
-  return sub_index == 0 && index >= 1 && index <= 7 && data_type(index).bits == bits;
+constexpr bool is_receive(std::uint16_t index) { return (index & 0x1800U) == 0x1000; }
+
+// "TPDO 3" of 1802h and 1A02h.
+std::string title_of(std::uint16_t index) {
+  return fmt::format("{} {}", is_receive(index) ? "RPDO" : "TPDO", (index & 0x1FFU) + 1);
 }
 
+// 0001h…0007h, sub 0: bits that an RPDO skips. [301:7.4.1]
+bool is_skipped(const Item& mapping, std::uint16_t index, std::uint8_t sub_index, unsigned bits) {
+  return is_receive(mapping.index) && sub_index == 0 && index >= 1 && index <= 7 && data_type(index).bits == bits;
+}
+
+// 0: the length is not known here.
 unsigned bits_of(const Item& item) {
   const bool is_bit = item.form->code == type_code::boolean;
   return is_bit ? 1U : 8U * (item.form->bytes != 0 ? item.form->bytes : item.capacity);
 }
 
-void check_object(const Plan& plan, const Item& mapping, Findings& findings) {
-  const std::uint64_t link = mapping.value.integer.magnitude;
-  const auto index = static_cast<std::uint16_t>(link >> 16);
-  const auto sub_index = static_cast<std::uint8_t>(link >> 8);
-  const auto bits = static_cast<unsigned>(link & 0xFFU);
-  const bool receives = is_receive(mapping.index);
-  const Span span = mapping.value.is_given ? mapping.value.span : mapping.span;
-  if (is_skipped(index, sub_index, bits)) {
-    return;
+// A value of a mapping entry.
+struct Link {
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  unsigned bits = 0;
+
+  explicit Link(const Item& mapping) {
+    const std::uint64_t link = mapping.value.integer.magnitude;
+    index = static_cast<std::uint16_t>(link >> 16);
+    sub_index = static_cast<std::uint8_t>(link >> 8);
+    bits = static_cast<unsigned>(link & 0xFFU);
   }
-  const Item* const object = plan.find(index, sub_index);
+};
+
+std::string name_of_object(const Item& object) { return fmt::format("{} ({})", place_name(object), object.name); }
+
+// Why the stack refuses what an entry maps; empty: it does not.
+std::string fault_of(const Plan& plan, const Item& mapping) {
+  const Link link(mapping);
+  if (is_skipped(mapping, link.index, link.sub_index, link.bits)) {
+    return {};
+  }
+  const std::string maps = fmt::format("{} maps ", place_name(mapping));
+  if (link.index == 0) {
+    return maps + "no object";
+  }
+  const Item* const object = plan.find(link.index, link.sub_index);
   if (object == nullptr) {
-    findings.add(rules::pdo_object, span, "it maps an object that has no entry");
-    return;
+    return maps + fmt::format("{:04X}h sub {:X}, which has no entry", link.index, link.sub_index);
   }
+  const bool receives = is_receive(mapping.index);
   if (receives ? !is_writable(object->access) : !is_readable(object->access)) {
-    findings.add(rules::pdo_object, span, "it maps an object that may not be mapped");
+    return maps + fmt::format("{}, which cannot be {} ({})", name_of_object(*object), receives ? "written" : "read",
+                              codict::name_of(object->access));
+  }
+  const unsigned bits = bits_of(*object);
+  const bool is_byte = link.bits == 8 && bits == 1;
+  if (bits != 0 && link.bits != bits && !is_byte) {
+    return maps + fmt::format("{} bits of {}, which has {}", link.bits, name_of_object(*object), bits);
+  }
+  return {};
+}
+
+// What works, and may be a mistake.
+void check_object(const Plan& plan, const Item& mapping, Span span, Findings& findings) {
+  const Link link(mapping);
+  const Item* const object = plan.find(link.index, link.sub_index);
+  if (object == nullptr) {
     return;
   }
   if (object->pdo == PdoMapping::no) {
     findings.add(rules::pdo_mappable, span, "PDOMapping of the object is 0; the PDO maps it nevertheless");
   }
-  if (bits != bits_of(*object) && !(bits == 8 && bits_of(*object) == 1)) {
-    findings.add(rules::pdo_object, span, "the length is not that of the object");
-  }
   const bool goes_out = object->access == Access::rwr || object->pdo == PdoMapping::tpdo;
   const bool comes_in = object->access == Access::rww || object->pdo == PdoMapping::rpdo;
-  if (receives ? goes_out : comes_in) {
+  if (is_receive(mapping.index) ? goes_out : comes_in) {
     findings.add(rules::pdo_direction, span, "the object is meant for PDOs of the other direction");
   }
 }
 
+bool is_multiplexed(const Item& number) { return number.value.integer.magnitude >= multiplexed; }
+
 void check_pdo(Plan& plan, const Item& number, Findings& findings) {
-  if (number.value.integer.magnitude >= multiplexed) {
+  if (is_multiplexed(number)) {
     return;
   }
   PdoSum sum;
@@ -70,7 +110,13 @@ void check_pdo(Plan& plan, const Item& number, Findings& findings) {
     if (mapping == nullptr || !mapping->value.is_integer()) {
       continue;
     }
-    check_object(plan, *mapping, findings);
+    const Span span = mapping->value.is_given ? mapping->value.span : mapping->span;
+    const std::string fault = fault_of(plan, *mapping);
+    if (fault.empty()) {
+      check_object(plan, *mapping, span, findings);
+    } else {
+      findings.add(rules::pdo_object, span, fmt::format("{}: {}", title_of(number.index), fault));
+    }
     sum.bits.push_back(static_cast<unsigned>(mapping->value.integer.magnitude & 0xFFU));
     bits += sum.bits.back();
   }
@@ -78,6 +124,54 @@ void check_pdo(Plan& plan, const Item& number, Findings& findings) {
     findings.add(rules::pdo_bits, number.span, fmt::format("the mapped objects have {} bits", bits));
   }
   plan.pdos.push_back(std::move(sum));
+}
+
+// Why the stack does not create a PDO with this mapping parameter; empty: it does.
+std::string fault_of_mapping(const Plan& plan, std::uint16_t index) {
+  const Item* const number = plan.find(index, 0);
+  if (number == nullptr) {
+    return fmt::format("{:04X}h (its mapping) is missing", index);
+  }
+  if (is_multiplexed(*number)) {
+    return {};
+  }
+  if (number->value.integer.magnitude == 0) {
+    return fmt::format("{} is 0: it maps no object", place_name(*number));
+  }
+  for (unsigned sub = 1; sub <= number->value.integer.magnitude; ++sub) {
+    const Item* const mapping = plan.find(index, static_cast<std::uint8_t>(sub));
+    if (mapping == nullptr) {
+      return fmt::format("{:04X}h sub {:X} is missing", index, sub);
+    }
+    std::string fault = fault_of(plan, *mapping);
+    if (!fault.empty()) {
+      return fault;
+    }
+  }
+  return {};
+}
+
+// Switches off the PDOs that the stack does not create: nothing else would tell a master that they do not exist.
+void switch_off(Plan& plan, Findings& findings) {
+  for (Item& item : plan.items) {
+    Value& value = item.value;
+    const bool is_on = item.type == "CO_TPDO_ID" && (value.integer.magnitude & off) == 0;
+    if (!is_on) {
+      continue;
+    }
+    const bool has_identifier = value.adds_node_id || (value.integer.magnitude & identifier_bits) != 0;
+    const std::string fault = has_identifier
+                                  ? fault_of_mapping(plan, static_cast<std::uint16_t>(item.index + from_mapping))
+                                  : place_name(item) + " has no CAN-ID";
+    if (fault.empty()) {
+      continue;
+    }
+    findings.add(rules::pdo_off, value.is_given ? value.span : item.span,
+                 fmt::format("{} is switched off (bit 31 of {}): {}", title_of(item.index), place_name(item), fault),
+                 "correct the mapping, or set bit 31 of the COB-ID");
+    value.integer.magnitude |= off;
+    item.limits.holds_default = false;
+  }
 }
 
 // Whether a mapping is a constant of the table and can be in use: CO_OD_CHECK() knows it.
@@ -111,6 +205,7 @@ void plan_pdos(Plan& plan, Findings& findings) {
       check_pdo(plan, item, findings);
     }
   }
+  switch_off(plan, findings);
   make_mappable(plan);
 }
 

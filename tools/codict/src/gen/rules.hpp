@@ -25,6 +25,7 @@ extern const Rule restore;
 extern const Rule store_unused;
 extern const Rule pdo_bits;
 extern const Rule pdo_object;
+extern const Rule pdo_off;
 extern const Rule pdo_mappable;
 extern const Rule pdo_direction;
 extern const Rule limits;
