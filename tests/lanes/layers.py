@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The rules of inclusion: include < wire < core < object < service < od < node, drivers know only include.
-The rooms of tools/codict/src: text < model < eds, xdd < check, gen and so on < catalogue < cli; none knows one beside it.
+The rooms of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none knows one beside it.
 
 layers.py ROOT         checks a source tree, a case per room
 layers.py --self-test  plants a violation of each rule in a small tree and must find it
@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ROOMS = ["wire", "core", "object", "service", "od", "node"]
-CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json"}, {"catalogue"}, {"cli"}]
+CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json"}, {"network"}, {"catalogue"}, {"cli"}]
 # What a compiler offers without an operating system and without allocation.
 FREESTANDING = {
     "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",

@@ -48,6 +48,7 @@ Command add_info(CommandLine& line);
 Command add_list(CommandLine& line);
 Command add_man(CommandLine& line);
 Command add_merge(CommandLine& line);
+Command add_network(CommandLine& line);
 Command add_fmt(CommandLine& line);
 Command add_pdo(CommandLine& line);
 Command add_set(CommandLine& line);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "catalogue/pages.hpp"
 #include "catalogue/rules.hpp"
 #include "cli/command.hpp"
 #include "cli/services.hpp"
+#include "network/rules.hpp"
 
 namespace lexican::codict::cli {
 
@@ -25,8 +28,20 @@ Json to_json(const Rule& rule) {
           {"page", catalogue::link_to(rule)}};
 }
 
+// Rules of networks have no page: no single description breaks them.
+const Rule* find_network_rule(const std::string& id) {
+  const std::vector<const Rule*>& rules = network::all_rules();
+  const auto place = std::find_if(rules.begin(), rules.end(), [&id](const Rule* rule) { return rule->id == id; });
+  return place != rules.end() ? *place : nullptr;
+}
+
 int explain_one(const Options& options) {
   const Rule* const rule = catalogue::find_rule(options.rule);
+  if (const Rule* const of_network = find_network_rule(options.rule); of_network != nullptr && !options.is_json) {
+    print(fmt::format("{} ({}): {}\nSee tools/codict/docs/network.md, section \"Checks\".\n", of_network->id,
+                      name_of(of_network->severity), of_network->about));
+    return clean;
+  }
   if (rule == nullptr) {
     complain(unknown_rule(options.rule));
     return unusable;

@@ -171,15 +171,6 @@ Status write_stubs(const Options& options, const gen::Output& output) {
   return clean;
 }
 
-bool make_directory(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) {
-    complain(path + ": " + error.message());
-  }
-  return !error;
-}
-
 // What the generator has found, and the errors of the description. True if there are none of these.
 bool show(Input& input, const Findings& findings, bool shows_notes) {
   check_all(input);

@@ -18,6 +18,15 @@ Status write_output(const std::string& path, std::string_view bytes) {
   return clean;
 }
 
+bool make_directory(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) {
+    complain(path + ": " + error.message());
+  }
+  return !error;
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return a != "-" && b != "-" && (a == b || std::filesystem::equivalent(a, b, ignored));

@@ -13,6 +13,9 @@ namespace lexican::codict::cli {
 /// Whole or not at all, and not touched if it has these bytes already; "-" is the standard output.
 Status write_output(const std::string& path, std::string_view bytes);
 
+/// Creates a directory and those above it. False, with a message, if that fails.
+bool make_directory(const std::string& path);
+
 /// Whether two paths lead to one file, "-" to none.
 bool is_same_file(const std::string& a, const std::string& b);
 

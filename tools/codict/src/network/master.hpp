@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file master.hpp
+/// The device of the NMT master that a plan describes. [CiA 302-2, CiA 302-3]
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "network/network.hpp"
+#include "network/plan.hpp"
+
+namespace lexican::codict::network {
+
+/// Returns the master of a network whose other nodes are configured. consumer_times: of the heartbeats of these nodes,
+/// in ms; 0 where there is none.
+Node generated_master(const Plan& plan, const Network& network, const std::vector<std::uint64_t>& consumer_times,
+                      Findings& findings);
+
+}  // namespace lexican::codict::network

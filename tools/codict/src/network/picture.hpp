@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file picture.hpp
+/// Pictures of a network, as SVG of the class "network".
+#pragma once
+
+#include <string>
+
+#include "network/links.hpp"
+#include "network/network.hpp"
+
+namespace lexican::codict::network {
+
+/// Nodes on their bus, with node-ID, name and number of PDOs; a master has a thicker frame.
+std::string bus_picture(const Network& network, const Links& links);
+
+/// TPDOs on the left, RPDOs on the right, and a line for each link. Empty without PDOs.
+std::string link_picture(const Network& network, const Links& links);
+
+}  // namespace lexican::codict::network

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file plan.hpp
+/// A plan of a network: nodes, their descriptions and what is configured. docs/network.md lists its keys.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "text/finding.hpp"
+#include "text/source.hpp"
+
+namespace lexican::codict::network {
+
+/// A value of the plan, with its place.
+template <typename T>
+struct Planned {
+  T value{};
+  Span span;
+  bool is_given = false;
+};
+
+struct PlannedMapping {
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  Span span;
+};
+
+struct PlannedPdo {
+  std::uint16_t number = 1;  ///< 1…512
+  Span span;
+  Planned<bool> is_enabled{true, {}, false};
+  Planned<std::uint32_t> cob_id;
+  Planned<std::uint8_t> transmission;
+  Planned<std::uint16_t> inhibit_time;    ///< in 100 us
+  Planned<std::uint16_t> event_timer;     ///< in ms
+  Planned<std::uint16_t> event_deadline;  ///< in ms
+  Planned<std::uint8_t> sync_start;
+  Planned<std::vector<PlannedMapping>> mapping;
+};
+
+/// An entry that is configured: its text is interpreted by its data type.
+struct PlannedValue {
+  std::uint16_t index = 0;
+  std::uint8_t sub_index = 0;
+  std::string text;
+  Span span;
+};
+
+using ErrorBehavior = std::vector<std::pair<std::uint8_t, std::uint8_t>>;  // sub-index of 1029h, value
+
+/// What master and nodes have in common.
+struct PlannedNode {
+  std::string name;
+  Span span;  ///< of the name
+  Planned<std::uint8_t> node_id;
+  Planned<std::uint32_t> vendor_id;
+  Planned<std::uint32_t> product_code;
+  Planned<std::uint32_t> revision_number;
+  Planned<std::uint32_t> serial_number;
+  Planned<double> heartbeat_multiplier;
+  Planned<bool> heartbeat_consumer;
+  Planned<std::uint16_t> heartbeat_producer;  ///< in ms
+  Planned<ErrorBehavior> error_behavior;
+};
+
+struct PlannedSlave : PlannedNode {
+  Planned<std::string> description;  ///< path of the description, relative to the plan
+  Planned<std::string> dcf_path;
+  Planned<bool> is_booted{true, {}, false};
+  Planned<bool> is_mandatory;
+  Planned<bool> may_reset{true, {}, false};  ///< reset_communication
+  Planned<std::string> software_file;
+  Planned<std::uint32_t> software_version;
+  Planned<std::string> configuration_file;
+  Planned<std::uint8_t> restore_configuration;  ///< sub-index of 1011h
+  Planned<std::uint16_t> guard_time;            ///< in ms
+  Planned<std::uint8_t> life_time_factor;
+  std::vector<PlannedPdo> rpdos;
+  std::vector<PlannedPdo> tpdos;
+  std::vector<PlannedValue> values;
+};
+
+/// Which PDOs the master gets beside those of the nodes.
+enum class Connect : unsigned char {
+  all,      ///< receives each TPDO that no node receives, transmits each RPDO that no node transmits
+  planned,  ///< of them, those that the plan names
+  none,
+};
+
+struct PlannedMaster : PlannedNode {
+  Planned<std::uint32_t> bit_rate{1000, {}, false};  ///< in kbit/s
+  Planned<std::uint16_t> emcy_inhibit_time;          ///< in 100 us
+  Planned<std::uint32_t> sync_period;                ///< in us
+  Planned<std::uint32_t> sync_window;                ///< in us
+  Planned<std::uint8_t> sync_overflow;
+  Planned<std::uint16_t> nmt_inhibit_time;  ///< in 100 us
+  Planned<bool> start{true, {}, false};
+  Planned<bool> start_nodes{true, {}, false};
+  Planned<bool> start_all_nodes;
+  Planned<bool> reset_all_nodes;
+  Planned<bool> stop_all_nodes;
+  Planned<std::uint32_t> boot_time;  ///< in ms
+  Planned<Connect> connect;
+};
+
+struct Plan {
+  Planned<std::string> dcf_path;
+  Planned<double> heartbeat_multiplier{3.0, {}, false};
+  Planned<double> load_limit{70.0, {}, false};  ///< in percent
+  Planned<std::uint32_t> event_interval;        ///< in ms: shortest time between events that nothing else bounds
+  Planned<std::string> network_name;
+  PlannedMaster master;
+  std::vector<PlannedSlave> slaves;
+};
+
+/// Reads a plan. What it cannot read is a finding, each with its place; the plan has the rest.
+Plan read_plan(const Source& source, Findings& findings);
+
+}  // namespace lexican::codict::network

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "network/plan.hpp"
+#include "network/rules.hpp"
+#include "network/yaml.hpp"
+#include "text/number.hpp"
+#include "text/similar.hpp"
+
+namespace lexican::codict::network {
+
+namespace {
+
+using yaml::Node;
+
+struct Key {
+  std::string_view name;
+  std::function<void(const Node&)> read;
+};
+using Keys = std::vector<Key>;
+
+constexpr std::size_t longest_shown = 40;
+constexpr std::size_t most_slaves = 126;
+
+// Text of a value for a message.
+std::string shown(const Node& node) {
+  if (node.kind != Node::Kind::scalar) {
+    return std::string(yaml::name_of(node.kind));
+  }
+  return node.text.size() <= longest_shown ? '"' + node.text + '"' : '"' + node.text.substr(0, longest_shown) + "…\"";
+}
+
+class Reader {
+ public:
+  explicit Reader(Findings& findings) : findings_(findings) {}
+
+  Plan read(const Node& root);
+
+ private:
+  void refuse(const Node& node, std::string_view wanted) {
+    findings_.add(rules::value, node.span, fmt::format("{} is {}, not {}", path_, shown(node), wanted));
+  }
+
+  bool is_map(const Node& node) {
+    if (node.kind != Node::Kind::map) {
+      refuse(node, "a map");
+    }
+    return node.kind == Node::Kind::map;
+  }
+
+  // Calls the reader of each key; `path_` names it for messages meanwhile.
+  void map(const Node& node, std::string_view path, const Keys& keys) {
+    path_ = path;
+    if (!is_map(node)) {
+      return;
+    }
+    for (std::size_t n = 0; n < node.members(); ++n) {
+      const Node& name = node.name(n);
+      const auto key =
+          std::find_if(keys.begin(), keys.end(), [&name](const Key& each) { return each.name == name.text; });
+      if (key == keys.end()) {
+        unknown(name, path, keys);
+        continue;
+      }
+      path_ = fmt::format("{}.{}", path, name.text);
+      key->read(node.value(n));
+    }
+  }
+
+  void unknown(const Node& name, std::string_view path, const Keys& keys) {
+    std::vector<std::string_view> names;
+    for (const Key& key : keys) {
+      names.push_back(key.name);
+    }
+    const std::vector<std::string_view> near = similar(name.text, names);
+    findings_.add(rules::key, name.span, fmt::format("unknown key {} in {}", shown(name), path),
+                  near.empty() ? fmt::format("the keys are {}", fmt::join(names, ", "))
+                               : fmt::format("{}?", fmt::join(near, ", ")));
+  }
+
+  // Returns false, with a finding, if the value is no integer of this range.
+  bool integer(const Node& node, std::uint64_t low, std::uint64_t high, std::uint64_t& value) {
+    const ParsedInteger number =
+        node.kind == Node::Kind::scalar && !node.is_quoted ? parse_integer(node.text) : ParsedInteger{};
+    const bool is_number = node.kind == Node::Kind::scalar && !node.is_quoted && number.is_number();
+    if (!is_number || number.value.is_negative || number.value.magnitude < low || number.value.magnitude > high) {
+      refuse(node,
+             fmt::format(high > 0xFFFF ? "an integer from {:#x} to {:#x}" : "an integer from {} to {}", low, high));
+      return false;
+    }
+    value = number.value.magnitude;
+    return true;
+  }
+
+  template <typename T>
+  void number(const Node& node, Planned<T>& planned, std::uint64_t low, std::uint64_t high) {
+    std::uint64_t value = 0;
+    if (integer(node, low, high, value)) {
+      planned = {static_cast<T>(value), node.span, true};
+    }
+  }
+
+  void real(const Node& node, Planned<double>& planned, double low, double high) {
+    double value = 0;
+    const char* const end = node.text.data() + node.text.size();
+    const auto [stop, error] = std::from_chars(node.text.data(), end, value);
+    const bool is_number = node.kind == Node::Kind::scalar && error == std::errc() && stop == end;
+    if (!is_number || !(value >= low && value <= high)) {
+      refuse(node, fmt::format("a number from {} to {}", low, high));
+      return;
+    }
+    planned = {value, node.span, true};
+  }
+
+  void flag(const Node& node, Planned<bool>& planned) {
+    for (const auto& [word, value] : {std::pair("true", true), std::pair("false", false), std::pair("yes", true),
+                                      std::pair("no", false), std::pair("on", true), std::pair("off", false)}) {
+      if (node.kind == Node::Kind::scalar && equal_ignoring_case(node.text, word)) {
+        planned = {value, node.span, true};
+        return;
+      }
+    }
+    refuse(node, "true or false");
+  }
+
+  void text(const Node& node, Planned<std::string>& planned) {
+    const bool is_text = node.kind == Node::Kind::scalar;
+    const bool is_line = node.text.find_first_of("\r\n") == std::string::npos;
+    if (!is_text || !is_line) {
+      refuse(node, "one line of text");
+      return;
+    }
+    planned = {node.text, node.span, true};
+  }
+
+  void connect(const Node& node, Planned<Connect>& planned) {
+    for (const auto& [word, value] :
+         {std::pair("all", Connect::all), std::pair("planned", Connect::planned), std::pair("none", Connect::none)}) {
+      if (node.kind == Node::Kind::scalar && node.text == word) {
+        planned = {value, node.span, true};
+        return;
+      }
+    }
+    refuse(node, "all, planned or none");
+  }
+
+  void error_behavior(const Node& node, Planned<ErrorBehavior>& planned) {
+    const std::string path = path_;
+    if (!is_map(node)) {
+      return;
+    }
+    planned = {{}, node.span, true};
+    for (std::size_t n = 0; n < node.members(); ++n) {
+      std::uint64_t sub_index = 0;
+      std::uint64_t value = 0;
+      path_ = path + ": the sub-index of 1029h";
+      if (integer(node.name(n), 1, 254, sub_index)) {
+        path_ = fmt::format("{}.{}", path, sub_index);
+        if (integer(node.value(n), 0, 255, value)) {
+          planned.value.emplace_back(static_cast<std::uint8_t>(sub_index), static_cast<std::uint8_t>(value));
+        }
+      }
+    }
+  }
+
+  Keys common_keys(PlannedNode& node) {
+    return {{"node_id", [this, &node](const Node& n) { number(n, node.node_id, 1, 127); }},
+            {"revision_number", [this, &node](const Node& n) { number(n, node.revision_number, 0, 0xFFFFFFFF); }},
+            {"serial_number", [this, &node](const Node& n) { number(n, node.serial_number, 0, 0xFFFFFFFF); }},
+            {"heartbeat_multiplier", [this, &node](const Node& n) { real(n, node.heartbeat_multiplier, 1, 1000); }},
+            {"heartbeat_consumer", [this, &node](const Node& n) { flag(n, node.heartbeat_consumer); }},
+            {"heartbeat_producer", [this, &node](const Node& n) { number(n, node.heartbeat_producer, 0, 65535); }},
+            {"error_behavior", [this, &node](const Node& n) { error_behavior(n, node.error_behavior); }}};
+  }
+
+  void read_options(const Node& node, Plan& plan);
+  void read_master(const Node& name, const Node& node, PlannedMaster& master);
+  void read_slave(const Node& name, const Node& node, PlannedSlave& slave);
+  void read_pdos(const Node& node, std::vector<PlannedPdo>& pdos);
+  void read_pdo(const Node& node, PlannedPdo& pdo);
+  void read_cob_id(const Node& node, PlannedPdo& pdo);
+  void read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>& mapping);
+  void read_values(const Node& node, std::vector<PlannedValue>& values);
+  bool has_name(const Node& name);
+  void require(bool is_given, const Node& name, std::string_view key);
+
+  Findings& findings_;
+  std::string path_;
+};
+
+void Reader::read_options(const Node& node, Plan& plan) {
+  map(node, "options",
+      {{"dcf_path", [&](const Node& n) { text(n, plan.dcf_path); }},
+       {"heartbeat_multiplier", [&](const Node& n) { real(n, plan.heartbeat_multiplier, 1, 1000); }},
+       {"network_name", [&](const Node& n) { text(n, plan.network_name); }},
+       {"load_limit", [&](const Node& n) { real(n, plan.load_limit, 1, 100); }},
+       {"event_interval", [&](const Node& n) { number(n, plan.event_interval, 1, 3600000); }}});
+}
+
+void Reader::read_master(const Node& name, const Node& node, PlannedMaster& master) {
+  master.name = name.text;
+  master.span = name.span;
+  Keys keys = common_keys(master);
+  const Keys own = {{"baudrate", [&](const Node& n) { number(n, master.bit_rate, 10, 1000); }},
+                    {"vendor_id", [&](const Node& n) { number(n, master.vendor_id, 0, 0xFFFFFFFF); }},
+                    {"product_code", [&](const Node& n) { number(n, master.product_code, 0, 0xFFFFFFFF); }},
+                    {"emcy_inhibit_time", [&](const Node& n) { number(n, master.emcy_inhibit_time, 0, 65535); }},
+                    {"sync_period", [&](const Node& n) { number(n, master.sync_period, 0, 0xFFFFFFFF); }},
+                    {"sync_window", [&](const Node& n) { number(n, master.sync_window, 0, 0xFFFFFFFF); }},
+                    {"sync_overflow", [&](const Node& n) { number(n, master.sync_overflow, 0, 240); }},
+                    {"nmt_inhibit_time", [&](const Node& n) { number(n, master.nmt_inhibit_time, 0, 65535); }},
+                    {"start", [&](const Node& n) { flag(n, master.start); }},
+                    {"start_nodes", [&](const Node& n) { flag(n, master.start_nodes); }},
+                    {"start_all_nodes", [&](const Node& n) { flag(n, master.start_all_nodes); }},
+                    {"reset_all_nodes", [&](const Node& n) { flag(n, master.reset_all_nodes); }},
+                    {"stop_all_nodes", [&](const Node& n) { flag(n, master.stop_all_nodes); }},
+                    {"boot_time", [&](const Node& n) { number(n, master.boot_time, 0, 0xFFFFFFFF); }},
+                    {"pdo", [&](const Node& n) { connect(n, master.connect); }}};
+  keys.insert(keys.end(), own.begin(), own.end());
+  map(node, name.text, keys);
+  require(master.node_id.is_given || node.kind != Node::Kind::map, name, "node_id");
+}
+
+void Reader::read_slave(const Node& name, const Node& node, PlannedSlave& slave) {
+  slave.name = name.text;
+  slave.span = name.span;
+  Keys keys = common_keys(slave);
+  const Keys own = {{"dcf", [&](const Node& n) { text(n, slave.description); }},
+                    {"dcf_path", [&](const Node& n) { text(n, slave.dcf_path); }},
+                    {"boot", [&](const Node& n) { flag(n, slave.is_booted); }},
+                    {"mandatory", [&](const Node& n) { flag(n, slave.is_mandatory); }},
+                    {"reset_communication", [&](const Node& n) { flag(n, slave.may_reset); }},
+                    {"software_file", [&](const Node& n) { text(n, slave.software_file); }},
+                    {"software_version", [&](const Node& n) { number(n, slave.software_version, 0, 0xFFFFFFFF); }},
+                    {"configuration_file", [&](const Node& n) { text(n, slave.configuration_file); }},
+                    {"restore_configuration", [&](const Node& n) { number(n, slave.restore_configuration, 0, 127); }},
+                    {"guard_time", [&](const Node& n) { number(n, slave.guard_time, 0, 65535); }},
+                    {"life_time_factor", [&](const Node& n) { number(n, slave.life_time_factor, 0, 255); }},
+                    {"rpdo", [&](const Node& n) { read_pdos(n, slave.rpdos); }},
+                    {"tpdo", [&](const Node& n) { read_pdos(n, slave.tpdos); }},
+                    {"sdo", [&](const Node& n) { read_values(n, slave.values); }}};
+  keys.insert(keys.end(), own.begin(), own.end());
+  map(node, name.text, keys);
+  require(slave.description.is_given || node.kind != Node::Kind::map, name, "dcf");
+}
+
+void Reader::require(bool is_given, const Node& name, std::string_view key) {
+  if (!is_given) {
+    findings_.add(rules::missing, name.span, fmt::format("{} has no {}", name.text, key));
+  }
+}
+
+void Reader::read_pdos(const Node& node, std::vector<PlannedPdo>& pdos) {
+  const std::string path = path_;
+  if (!is_map(node)) {
+    return;
+  }
+  for (std::size_t n = 0; n < node.members(); ++n) {
+    std::uint64_t number = 0;
+    path_ = path + ": the number of a PDO";
+    if (integer(node.name(n), 1, 512, number)) {
+      PlannedPdo pdo;
+      pdo.number = static_cast<std::uint16_t>(number);
+      pdo.span = node.name(n).span;
+      path_ = fmt::format("{}.{}", path, number);
+      if (node.value(n).kind != Node::Kind::null) {
+        read_pdo(node.value(n), pdo);
+      }
+      pdos.push_back(std::move(pdo));
+    }
+  }
+}
+
+void Reader::read_pdo(const Node& node, PlannedPdo& pdo) {
+  const std::string path = path_;
+  map(node, path,
+      {{"enabled", [&](const Node& n) { flag(n, pdo.is_enabled); }},
+       {"cob_id", [&](const Node& n) { read_cob_id(n, pdo); }},
+       {"transmission", [&](const Node& n) { number(n, pdo.transmission, 0, 255); }},
+       {"inhibit_time", [&](const Node& n) { number(n, pdo.inhibit_time, 0, 65535); }},
+       {"event_timer", [&](const Node& n) { number(n, pdo.event_timer, 0, 65535); }},
+       {"event_deadline", [&](const Node& n) { number(n, pdo.event_deadline, 0, 65535); }},
+       {"sync_start", [&](const Node& n) { number(n, pdo.sync_start, 0, 240); }},
+       {"mapping", [&](const Node& n) { read_mapping(n, pdo.mapping); }}});
+}
+
+void Reader::read_cob_id(const Node& node, PlannedPdo& pdo) {
+  if (node.kind != Node::Kind::scalar || node.text != "auto") {  // auto: that of the description
+    number(node, pdo.cob_id, 1, 0x1FFFFFFF);
+  }
+}
+
+void Reader::read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>& mapping) {
+  const std::string path = path_;
+  if (node.kind != Node::Kind::sequence || node.items.size() > 64) {
+    refuse(node, "a list of at most 64 objects: - {index: 0x2000, sub_index: 0}");
+    return;
+  }
+  mapping = {{}, node.span, true};
+  for (const Node& item : node.items) {
+    Planned<std::uint16_t> index;
+    Planned<std::uint8_t> sub_index;
+    map(item, path, {{"index", [&](const Node& n) { number(n, index, 1, 0xFFFF); }}, {"sub_index", [&](const Node& n) {
+                                                                                        number(n, sub_index, 0, 255);
+                                                                                      }}});
+    if (index.is_given) {
+      mapping.value.push_back({index.value, sub_index.value, item.span});
+    } else if (item.kind == Node::Kind::map) {
+      findings_.add(rules::missing, item.span, path + ": an object without index");
+    }
+  }
+}
+
+void Reader::read_values(const Node& node, std::vector<PlannedValue>& values) {
+  const std::string path = path_;
+  if (node.kind != Node::Kind::sequence) {
+    refuse(node, "a list of values: - {index: 0x2000, sub_index: 0, value: 1}");
+    return;
+  }
+  for (const Node& item : node.items) {
+    Planned<std::uint16_t> index;
+    Planned<std::uint8_t> sub_index;
+    Planned<std::string> value;
+    map(item, path,
+        {{"index", [&](const Node& n) { number(n, index, 1, 0xFFFF); }},
+         {"sub_index", [&](const Node& n) { number(n, sub_index, 0, 255); }},
+         {"value", [&](const Node& n) { text(n, value); }}});
+    if (index.is_given && value.is_given) {
+      values.push_back({index.value, sub_index.value, value.value, value.span});
+    } else if (item.kind == Node::Kind::map) {
+      findings_.add(rules::missing, item.span,
+                    fmt::format("{}: a value without {}", path, index.is_given ? "value" : "index"));
+    }
+  }
+}
+
+// Files are named after it.
+bool Reader::has_name(const Node& name) {
+  constexpr std::size_t longest = 64;
+  const bool is_name =
+      !name.text.empty() && name.text.size() <= longest && std::all_of(name.text.begin(), name.text.end(), [](char c) {
+        const char small = to_lower(c);
+        return (small >= 'a' && small <= 'z') || is_digit(c) || c == '_' || c == '-';
+      });
+  if (!is_name) {
+    findings_.add(rules::value, name.span, fmt::format("the name of a node is {}", shown(name)),
+                  "letters, digits, - and _, at most 64: files are named after the node");
+  }
+  return is_name;
+}
+
+Plan Reader::read(const Node& root) {
+  Plan plan;
+  path_ = "the plan";
+  if (!is_map(root)) {
+    return plan;
+  }
+  bool has_master = false;
+  for (std::size_t n = 0; n < root.members(); ++n) {
+    const Node& name = root.name(n);
+    if (name.text == "options") {
+      read_options(root.value(n), plan);
+    } else if (name.text == "master") {
+      has_master = true;
+      read_master(name, root.value(n), plan.master);
+    } else if (name.text.substr(0, 1) != "." && has_name(name)) {  // .name: a section that is left out
+      read_slave(name, root.value(n), plan.slaves.emplace_back());
+    }
+  }
+  if (plan.slaves.size() > most_slaves) {
+    findings_.add(rules::node_id, plan.slaves[most_slaves].span,
+                  fmt::format("{} nodes and a master: a network has 127 node-IDs", plan.slaves.size()));
+    plan.slaves.clear();
+  }
+  if (!has_master) {
+    findings_.add(rules::missing, root.span, "the plan has no section master", "master: {node_id: 127, baudrate: 250}");
+  }
+  return plan;
+}
+
+}  // namespace
+
+Plan read_plan(const Source& source, Findings& findings) {
+  Node root;
+  return yaml::read(source, root, findings) ? Reader(findings).read(root) : Plan();
+}
+
+}  // namespace lexican::codict::network

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "network/response.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lexican::codict::network {
+
+namespace {
+
+// Busy periods beyond this are treated as endless: 10 minutes.
+constexpr Nanoseconds longest_busy_period = Nanoseconds{600} * 1000 * 1000 * 1000;
+// Steps of all iterations of all streams: bounds the time for hostile input.
+constexpr std::size_t most_steps = 200000000;
+
+Nanoseconds ceiling(Nanoseconds dividend, Nanoseconds divisor) { return (dividend + divisor - 1) / divisor; }
+
+class Analysis {
+ public:
+  Analysis(const std::vector<Stream>& streams, std::size_t at, Nanoseconds bit_time, Nanoseconds blocking,
+           std::size_t& steps)
+      : streams_(streams), at_(at), bit_time_(bit_time), blocking_(blocking), steps_(steps) {}
+
+  std::optional<Nanoseconds> response() {
+    const Stream& own = streams_[at_];
+    const std::optional<Nanoseconds> busy = own.period != 0 ? busy_period() : std::nullopt;
+    if (!busy) {
+      return std::nullopt;
+    }
+    const Nanoseconds instances = ceiling(*busy + own.jitter, own.period);
+    Nanoseconds worst = 0;
+    Nanoseconds delay = blocking_;
+    for (Nanoseconds instance = 0; instance < instances; ++instance) {
+      const std::optional<Nanoseconds> queued = queuing_delay(instance, delay);
+      if (!queued) {
+        return std::nullopt;
+      }
+      worst = std::max(worst, own.jitter + *queued - instance * own.period + own.transmission);
+      delay = *queued + own.transmission;
+    }
+    return worst;
+  }
+
+ private:
+  // Frames of the streams in front of `end` that arrive within `time`, transmitted.
+  Nanoseconds interference(std::size_t end, Nanoseconds time) const {
+    Nanoseconds sum = 0;
+    for (std::size_t n = 0; n < end; ++n) {
+      const Stream& stream = streams_[n];
+      if (stream.period != 0) {
+        sum += ceiling(time + stream.jitter, stream.period) * stream.transmission;
+      }
+    }
+    return sum;
+  }
+
+  // Repeats time = start + interference(…) until it stays.
+  std::optional<Nanoseconds> fixed_point(Nanoseconds start, Nanoseconds first, std::size_t end, Nanoseconds offset) {
+    Nanoseconds time = first;
+    for (;;) {
+      const Nanoseconds next = start + interference(end, time + offset);
+      if (next <= time) {
+        return time;
+      }
+      time = next;
+      steps_ += end + 1;
+      if (time > longest_busy_period || steps_ > most_steps) {
+        return std::nullopt;
+      }
+    }
+  }
+
+  // t: from a moment without queued frames of this priority or a higher one to the next such moment.
+  std::optional<Nanoseconds> busy_period() { return fixed_point(blocking_, streams_[at_].transmission, at_ + 1, 0); }
+
+  // w(q): from the begin of the busy period until an instance wins the arbitration.
+  std::optional<Nanoseconds> queuing_delay(Nanoseconds instance, Nanoseconds first) {
+    const Nanoseconds start = blocking_ + instance * streams_[at_].transmission;
+    return fixed_point(start, std::max(start, first), at_, bit_time_);
+  }
+
+  const std::vector<Stream>& streams_;
+  std::size_t at_;
+  Nanoseconds bit_time_;
+  Nanoseconds blocking_;  // B: the longest frame of lower priority
+  std::size_t& steps_;    // of the analyses of all streams
+};
+
+}  // namespace
+
+std::vector<std::optional<Nanoseconds>> response_times(const std::vector<Stream>& streams, Nanoseconds bit_time) {
+  std::vector<std::optional<Nanoseconds>> times(streams.size());
+  Nanoseconds blocking = 0;
+  std::size_t steps = 0;
+  for (std::size_t n = streams.size(); n-- != 0;) {
+    times[n] = Analysis(streams, n, bit_time, blocking, steps).response();
+    blocking = std::max(blocking, streams[n].transmission);
+  }
+  return times;
+}
+
+}  // namespace lexican::codict::network

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frame lengths and response times of a network.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "network/frame.hpp"
+#include "network/response.hpp"
+
+using namespace lexican::codict::network;
+
+namespace {
+
+constexpr Nanoseconds us = 1000;
+constexpr Nanoseconds ms = 1000 * us;
+
+using Times = std::vector<std::optional<Nanoseconds>>;
+
+}  // namespace
+
+TEST_CASE("network: the longest frame has 55 + 10 n bits, with 29 bits of identifier 80 + 10 n") {
+  for (std::uint8_t bytes = 0; bytes <= 8; ++bytes) {
+    CHECK(longest_bits({0x181, false, false, bytes}) == 55U + 10U * bytes);
+    CHECK(longest_bits({0x181, true, false, bytes}) == 80U + 10U * bytes);
+  }
+  CHECK(longest_bits({0x701, false, true, 1}) == 55);  // a remote frame has no data
+}
+
+TEST_CASE("network: the length of a frame with known data counts its stuff bits") {
+  // Identifier 0, no data: 19 zeros and the CRC 0: 34 zeros. A stuff bit follows 5 zeros, then each 5 more.
+  CHECK(exact_bits({0, false, false, 0}, "") == 34 + 13 + 6);
+  // 555h alternates; RTR, IDE, r0 and the DLC are 7 zeros.
+  const unsigned length = exact_bits({0x555, false, false, 0}, "");
+  CHECK(length >= 47 + 1);
+  CHECK(length <= 55);
+}
+
+TEST_CASE("network: no frame is longer than the longest one, and the mean lies between") {
+  std::uint32_t random = 1;
+  for (std::uint8_t bytes = 0; bytes <= 8; ++bytes) {
+    double sum = 0;
+    constexpr unsigned count = 4000;
+    const Frame frame{0x181, false, false, bytes};
+    for (unsigned n = 0; n < count; ++n) {
+      std::string data;
+      while (data.size() < bytes) {
+        random = random * 1664525U + 1013904223U;
+        data += static_cast<char>(random >> 24);
+      }
+      const unsigned length = exact_bits(frame, data);
+      REQUIRE(length <= longest_bits(frame));
+      REQUIRE(length >= 47U + 8U * bytes);
+      sum += length;
+    }
+    if (bytes >= 2) {  // the CRC of few bits is not random
+      CHECK(sum / count == doctest::Approx(mean_bits(frame)).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("network: the example of Davis et al. 2007: the second instance of C is the late one") {
+  // 125 kbit/s, 7 bytes: 125 bits, 1 ms. A every 2.5 ms, B and C every 3.5 ms.
+  const Nanoseconds c = longest_bits({1, false, false, 7}) * 8 * us;
+  CHECK(c == ms);
+  const std::vector<Stream> streams = {{c, 2500 * us, 0}, {c, 3500 * us, 0}, {c, 3500 * us, 0}};
+  CHECK(response_times(streams, 8 * us) == Times{2 * ms, 3 * ms, 3500 * us});
+}
+
+TEST_CASE("network: one stream waits for nothing; two wait for one another") {
+  CHECK(response_times({}, us).empty());
+  CHECK(response_times({{100 * us, ms, 0}}, us) == Times{100 * us});
+  // The higher one is blocked by a frame that has just begun, the lower one waits for the higher one.
+  CHECK(response_times({{100 * us, ms, 0}, {130 * us, ms, 0}}, us) == Times{230 * us, 230 * us});
+}
+
+TEST_CASE("network: jitter delays the stream itself and adds to what lower ones wait for") {
+  // Within 110 us of the lower one, the jitter of 950 us lets two frames of the higher one come.
+  CHECK(response_times({{100 * us, ms, 950 * us}, {100 * us, 10 * ms, 0}}, us) == Times{1150 * us, 300 * us});
+}
+
+TEST_CASE("network: a stream without a period blocks, and has no response time") {
+  CHECK(response_times({{100 * us, ms, 0}, {135 * us, 0, 0}}, us) == Times{235 * us, std::nullopt});
+  // In front of others it is not counted.
+  CHECK(response_times({{135 * us, 0, 0}, {100 * us, ms, 0}}, us) == Times{std::nullopt, 100 * us});
+}
+
+TEST_CASE("network: a bus that is full has no response times below") {
+  CHECK(response_times({{600 * us, ms, 0}, {600 * us, ms, 0}}, us) == Times{1200 * us, std::nullopt});
+}
+
+TEST_CASE("network: the analysis of hostile times ends") {
+  std::vector<Stream> streams;
+  for (int n = 0; n < 200; ++n) {
+    streams.push_back({135 * us, 27001 * us, 3 * 1000 * ms});
+  }
+  streams.push_back({1, 1, 0});
+  CHECK(response_times(streams, us).size() == 201);
+  CHECK(response_times(std::vector<Stream>(60000, {47 * us, 2821 * ms, 0}), us).size() == 60000);
+}
