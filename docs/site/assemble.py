@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""assemble.py ROOT PAGES
+
+Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict, the list of
+rules. Links between them are adapted; a link to another file of the repository becomes its path. Pictures are drawn
+from docs/pictures/*.dot by Graphviz.
+"""
+import os.path
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
+
+
+def pages_of(root):
+    """The place of each page in the site, by its place in the repository."""
+    pages = {}
+    for path in sorted((root / "docs").rglob("*.md")):
+        pages[path.relative_to(root)] = path.relative_to(root / "docs")
+    for name in ("codict", "rules", "network"):
+        if (root / f"tools/codict/docs/{name}.md").exists():
+            pages[Path(f"tools/codict/docs/{name}.md")] = Path(f"{name}.md")
+    pages[Path("tests/conformance/RULES.md")] = Path("conformance.md")
+    return pages
+
+
+def adapt(text, source, pages, root):
+    """The text of a page with links that hold within the site."""
+
+    def link(match):
+        picture, words, target, anchor = match[1], match[2], match[3], match[4] or ""
+        if "://" in target:
+            return match[0]
+        place = Path(os.path.normpath(source.parent / target))
+        if place.suffix == ".svg":
+            return match[0]
+        if place in pages:
+            return f"{picture}[{words}]({os.path.relpath(pages[place], pages[source].parent)}{anchor})"
+        if not (root / place).exists():
+            sys.exit(f"{source}: the link to {target} leads nowhere")
+        return f"{words} (`{place}`)" if str(place) not in words else f"`{place}`"
+
+    return LINK.sub(link, text)
+
+
+def draw(root, to):
+    to.mkdir(parents=True, exist_ok=True)
+    for source in sorted((root / "docs/pictures").glob("*.dot")):
+        subprocess.run(["dot", "-Tsvg", source, "-o", to / f"{source.stem}.svg"], check=True)
+
+
+def main():
+    root, to = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    pages = pages_of(root)
+    for source, place in pages.items():
+        (to / place).parent.mkdir(parents=True, exist_ok=True)
+        (to / place).write_text(adapt((root / source).read_text(), source, pages, root))
+    draw(root, to / "pictures")
+    for file in sorted((root / "docs/pictures").glob("*.svg")):
+        shutil.copy(file, to / "pictures")
+
+
+if __name__ == "__main__":
+    main()
