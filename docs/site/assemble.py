@@ -56,6 +56,9 @@ def draw(root, to):
 def main():
     root, to = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     pages = pages_of(root)
+    listed = (root / "docs/site/mkdocs.yml").read_text()
+    if missing := [str(place) for place in pages.values() if f": {place}\n" not in listed]:
+        sys.exit(f"docs/site/mkdocs.yml, nav, does not list: {', '.join(missing)}")
     for source, place in pages.items():
         (to / place).parent.mkdir(parents=True, exist_ok=True)
         (to / place).write_text(adapt((root / source).read_text(), source, pages, root))
