@@ -29,7 +29,7 @@ script_errors() { grep -c 'CONSOLE.*\(Uncaught\|Error\)' "$place/log"; }
 "$codict" doc "$fixtures/drive.eds" -o "$place/drive.html" || exit 1
 sed 's/^show();$/nonsense();/' "$place/drive.html" >"$place/broken.html"
 
-echo "1..9"
+echo "1..14"
 open_page drive
 report "all objects are shown" 11 "$(shown_objects)"
 report "no error of the script" 0 "$(script_errors)"
@@ -45,3 +45,35 @@ open_page drive nowhere
 report "a search finds nothing where nothing is" 0 "$(shown_objects)"
 open_page broken
 report "an error of the script would be noticed" 1 "$(script_errors)"
+
+# How a page is laid out at a width: pixels beyond it, and descriptions of two lines: measure NAME WIDTH. The page is in a frame, as windows have a least width.
+measure() {
+  cat >"$place/frame.html" <<END
+<body><iframe id="frame" style="width:$2px;height:800px;border:0" src="$1.html"></iframe><script>
+window.onload = () => {
+  const page = document.getElementById('frame').contentDocument;
+  const cells = Array.from(page.querySelectorAll('td, p'), cell => cell.innerText);
+  document.body.dataset.beyond = page.documentElement.scrollWidth - page.documentElement.clientWidth;
+  document.body.dataset.lines = cells.filter(text => text.includes('What it is,\\nin two lines.')).length;
+};
+</script></body>
+END
+  timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$place/profile" --allow-file-access-from-files \
+    --enable-logging=stderr --dump-dom "file://$place/frame.html" >"$place/dom" 2>"$place/log"
+}
+of_frame() { grep -o "data-$1=\"[0-9]*\"" "$place/dom" | grep -o '[0-9]*'; }
+
+measure drive 400
+report "at 400 pixels, nothing has to be scrolled sideways" 0 "$(of_frame beyond)"
+measure drive 1200
+report "nor at 1200 pixels" 0 "$(of_frame beyond)"
+# Names and values without a blank, as long as texts of an EDS may be.
+long=$(printf 'x%.0s' {1..240})
+"$codict" set "$fixtures/drive.eds" 0x2000 "name=$long" -o "$place/long.eds" && "$codict" doc "$place/long.eds" -o "$place/long.html"
+measure long 400
+report "at 400 pixels, long words are broken" 0 "$(of_frame beyond)"
+"$codict" doc "$fixtures/xdd/device10.xdd" -o "$place/lines.html"
+measure lines 1200
+report "line breaks of a description are shown" 1 "$(of_frame lines)"
+measure lines 400
+report "and the page of an XDD has no sideways scrolling" 0 "$(of_frame beyond)"
