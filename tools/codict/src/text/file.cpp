@@ -75,6 +75,15 @@ bool has_bytes(const std::string& path, std::string_view bytes) {
   return present && present->bytes() == bytes;
 }
 
+// Writes what the system has cached of a file or directory to its medium. Some file systems cannot (EINVAL).
+bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL; }
+
+bool sync_directory_of(const std::string& path) {
+  const std::string directory = std::filesystem::path(path).parent_path().string();
+  const Descriptor file(::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return file.number() < 0 || sync(file.number());  // a directory without read permission cannot be synchronised
+}
+
 // A new file takes the place, the name and the permissions of the old one; what a symbolic link names is replaced.
 bool replace_file(const std::string& path, std::string_view bytes) {
   std::error_code error;
@@ -89,9 +98,10 @@ bool replace_file(const std::string& path, std::string_view bytes) {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   const mode_t mode = ::stat(target.c_str(), &old) == 0 ? old.st_mode & 07777U : new_file & ~mask;
-  const bool complete = write_all(file.number(), bytes) && ::fchmod(file.number(), mode) == 0 && file.close();
+  const bool complete =
+      write_all(file.number(), bytes) && ::fchmod(file.number(), mode) == 0 && sync(file.number()) && file.close();
   if (complete && ::rename(temporary.c_str(), target.c_str()) == 0) {
-    return true;
+    return sync_directory_of(target);
   }
   const int first_error = errno;
   ::unlink(temporary.c_str());

@@ -17,7 +17,8 @@ std::optional<Source> read_file(const std::string& path, std::string& why);
 enum class Written { no, unchanged, yes };
 
 /// path "-" is the standard output. A file that has these bytes already is left alone, with its time; else a new file
-/// takes its place when it is complete. On Written::no, why says what is wrong.
+/// takes its place when it is complete and on the medium (fsync of file and directory). On Written::no, why says what
+/// is wrong.
 Written write_file(const std::string& path, std::string_view bytes, std::string& why);
 
 }  // namespace lexican::codict
