@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a shell and its user want to know of the program: made of the same commands and options that it parses.
+// Manual page, generated from the commands and options that the program parses.
 #include <fmt/format.h>
 
 #include <string>
@@ -11,48 +11,6 @@
 namespace lexican::codict::cli {
 
 namespace {
-
-// "--level --disable …"
-std::string long_names(const CommandText& command) {
-  std::string names;
-  for (const OptionText& option : command.options) {
-    for (const std::string& name : option.long_names) {
-      names += (names.empty() ? "--" : " --") + name;
-    }
-  }
-  return names;
-}
-
-// The first word is a command; later ones are options or, where bash completes them, files.
-constexpr std::string_view completion_head = R"(# Completion of codict in bash.
-_codict() {
-  local word=${COMP_WORDS[COMP_CWORD]} words=
-  COMPREPLY=()
-  if [ "$COMP_CWORD" -gt 1 ]; then
-    case $word in
-      -*) ;;
-      *) return ;;
-    esac
-    case ${COMP_WORDS[1]} in
-)";
-
-std::string completion(const CommandLine& line) {
-  std::string script(completion_head);
-  std::string names;
-  for (const CommandText& command : line.describe_commands()) {
-    script += fmt::format("      {}) words='{}' ;;\n", command.name, long_names(command));
-    names += command.name + " ";
-  }
-  return script + fmt::format(R"(    esac
-  else
-    words='{}{}'
-  fi
-  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
-}}
-complete -o bashdefault -o default -F _codict codict
-)",
-                              names, long_names(line.describe()));
-}
 
 // What roff would take for a hyphen, an escape or a request.
 std::string roff(std::string_view text) {
@@ -106,14 +64,6 @@ std::string manual(const CommandLine& line) {
 }
 
 }  // namespace
-
-Command add_completion(CommandLine& line) {
-  Arguments command = line.add_command("completion", "Print what bash needs to complete commands and options");
-  return {command, [&line] {
-            print(completion(line));
-            return clean;
-          }};
-}
 
 Command add_man(CommandLine& line) {
   Arguments command = line.add_command("man", "Print the manual page, for man -l or man1");

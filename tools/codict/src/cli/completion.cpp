@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Completion for shells, generated from the commands and options that the program parses.
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/command.hpp"
+
+namespace lexican::codict::cli {
+
+namespace {
+
+// "--level --disable …"
+std::string long_names(const CommandText& command) {
+  std::string names;
+  for (const OptionText& option : command.options) {
+    for (const std::string& name : option.long_names) {
+      names += (names.empty() ? "--" : " --") + name;
+    }
+  }
+  return names;
+}
+
+// The first word is a command; later ones are options or, where bash completes them, files.
+constexpr std::string_view bash_head = R"(# Completion of codict in bash.
+_codict() {
+  local word=${COMP_WORDS[COMP_CWORD]} words=
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -gt 1 ]; then
+    case $word in
+      -*) ;;
+      *) return ;;
+    esac
+    case ${COMP_WORDS[1]} in
+)";
+
+std::string bash_completion(const CommandLine& line) {
+  std::string script(bash_head);
+  std::string names;
+  for (const CommandText& command : line.describe_commands()) {
+    script += fmt::format("      {}) words='{}' ;;\n", command.name, long_names(command));
+    names += command.name + " ";
+  }
+  return script + fmt::format(R"(    esac
+  else
+    words='{}{}'
+  fi
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+}}
+complete -o bashdefault -o default -F _codict codict
+)",
+                              names, long_names(line.describe()));
+}
+
+// Puts a backslash before each of the marks.
+std::string escaped(std::string_view text, std::string_view marks) {
+  std::string result;
+  for (const char c : text) {
+    result += (marks.find(c) == std::string_view::npos ? "" : "\\") + std::string(1, c);
+  }
+  return result;
+}
+
+// 'text', as one word of zsh.
+std::string zsh_word(std::string_view text) {
+  std::string word;
+  for (const char c : text) {
+    word += c == '\'' ? "'\\''" : std::string(1, c);
+  }
+  return "'" + word + "'";
+}
+
+// Completes values: the words of the option, nothing for numbers, else files.
+std::string zsh_values(const OptionText& option) {
+  if (!option.words.empty()) {
+    return fmt::format(":{}:({})", option.type, fmt::join(option.words, " "));
+  }
+  return fmt::format(":{}:{}", option.type, option.type == "UINT" ? " " : "_files");
+}
+
+// "        '*--level[Least severity …]:ENUM:(note warning error)' \", a line for each name.
+std::string zsh_option(const OptionText& option) {
+  if (!option.name.empty()) {
+    return "";
+  }
+  std::vector<std::string> names;
+  for (const std::string& name : option.short_names) {
+    names.push_back("-" + name);
+  }
+  for (const std::string& name : option.long_names) {
+    names.push_back("--" + name);
+  }
+  std::string lines;
+  for (const std::string& name : names) {
+    lines += fmt::format("        {} \\\n", zsh_word(fmt::format("*{}[{}]{}", name, escaped(option.help, "\\[]:"),
+                                                                 option.type.empty() ? "" : zsh_values(option))));
+  }
+  return lines;
+}
+
+constexpr std::string_view zsh_tail = R"(  esac
+}
+if [ "$funcstack[1]" = _codict ]; then
+  _codict "$@"
+else
+  compdef _codict codict
+fi
+)";
+
+std::string zsh_completion(const CommandLine& line) {
+  std::string commands;
+  std::string cases;
+  for (const CommandText& command : line.describe_commands()) {
+    commands += fmt::format("    {}\n", zsh_word(command.name + ":" + escaped(command.help, "\\:")));
+    cases += fmt::format("    {})\n      _arguments \\\n", command.name);
+    for (const OptionText& option : command.options) {
+      cases += zsh_option(option);
+    }
+    cases += "        '*:file:_files' ;;\n";
+  }
+  std::string script =
+      "#compdef codict\n# Completion of codict in zsh.\n_codict() {\n  local -a commands=(\n" + commands;
+  script += "  )\n  if (( CURRENT == 2 )); then\n    if [[ $words[2] == -* ]]; then\n      _arguments \\\n";
+  for (const OptionText& option : line.describe().options) {
+    script += zsh_option(option);
+  }
+  script += "        && return\n    fi\n    _describe command commands\n    return\n  fi\n";
+  script += "  shift words\n  (( CURRENT-- ))\n  case $words[1] in\n" + cases;
+  return script + std::string(zsh_tail);
+}
+
+// 'text', as one word of fish.
+std::string fish_word(std::string_view text) { return "'" + escaped(text, "\\'") + "'"; }
+
+std::string fish_option(const OptionText& option, const std::string& condition) {
+  if (!option.name.empty()) {
+    return "";
+  }
+  std::string text = fmt::format("complete -c codict -n {}", condition);
+  for (const std::string& name : option.short_names) {
+    text += " -s " + name;
+  }
+  for (const std::string& name : option.long_names) {
+    text += " -l " + name;
+  }
+  if (!option.words.empty()) {
+    text += fmt::format(" -x -a '{}'", fmt::join(option.words, " "));
+  } else if (!option.type.empty()) {
+    text += option.type == "UINT" ? " -x" : " -r -F";
+  }
+  return text + " -d " + fish_word(option.help) + "\n";
+}
+
+std::string fish_completion(const CommandLine& line) {
+  std::string script = "# Completion of codict in fish.\n";
+  for (const OptionText& option : line.describe().options) {
+    script += fish_option(option, "__fish_use_subcommand");
+  }
+  for (const CommandText& command : line.describe_commands()) {
+    script += fmt::format("complete -c codict -n __fish_use_subcommand -f -a {} -d {}\n", command.name,
+                          fish_word(command.help));
+    for (const OptionText& option : command.options) {
+      script += fish_option(option, fmt::format("'__fish_seen_subcommand_from {}'", command.name));
+    }
+  }
+  return script;
+}
+
+}  // namespace
+
+Command add_completion(CommandLine& line) {
+  const auto shell = std::make_shared<std::string>("bash");
+  Arguments command = line.add_command("completion", "Print what a shell needs to complete commands and options");
+  command.add_option("shell", *shell, "bash, zsh or fish; without one, bash").one_of({"bash", "zsh", "fish"});
+  return {command, [&line, shell] {
+            print(*shell == "zsh"    ? zsh_completion(line)
+                  : *shell == "fish" ? fish_completion(line)
+                                     : bash_completion(line));
+            return clean;
+          }};
+}
+
+}  // namespace lexican::codict::cli
