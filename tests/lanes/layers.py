@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ROOMS = ["wire", "core", "object", "service", "od", "node"]
-CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json"}, {"network"}, {"catalogue"}, {"cli"}]
+CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # What a compiler offers without an operating system and without allocation.
 FREESTANDING = {
     "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",

@@ -49,7 +49,7 @@ TEST_CASE("codict: an unknown word for an option is refused with the words that 
 TEST_CASE("codict: no help has control characters, and all formats are named") {
   CHECK(has(run("--help").out, "XPD"));
   for (const char* command : {"check", "completion", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",
-                              "list", "man", "merge", "pdo", "set", "size"}) {
+                              "list", "man", "merge", "new", "pdo", "set", "size"}) {
     CAPTURE(command);
     const Ran ran = run(command + std::string(" --help"));
     CHECK(ran.status == 0);
@@ -76,6 +76,49 @@ TEST_CASE("codict completion: bash completes commands, and the options of a comm
   CHECK(completed("codict check dri") == "\n");  // bash knows the files
   CHECK(completed("codict pdo --lev") == "\n");
   CHECK(run("completion").err.empty());
+}
+
+TEST_CASE("codict: a file that is written is on the medium before it gets its name, and the name before codict ends") {
+  if (test::run_shell("ldd '" LEXICAN_CODICT_PROGRAM "'").status != 0) {
+    return;  // a static program preloads nothing
+  }
+  const Directory directory;
+  test::copy_to(directory, "drive.eds");
+  const Ran written =
+      test::run_shell("cd '" + directory / "" +
+                      "' && ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" LEXICAN_CODICT_FILE_CALLS
+                      "' '" LEXICAN_CODICT_PROGRAM "' convert drive.eds -o copy.eds");
+  CHECK(written.status == 0);
+  CHECK(written.err == "fsync file\nrename\nfsync directory\n");
+  CHECK(test::bytes_of(directory / "copy.eds") == test::bytes_of(directory / "drive.eds"));
+}
+
+TEST_CASE("codict completion zsh: the script has all commands, options and words, and zsh accepts it") {
+  const Ran script = run("completion zsh");
+  CHECK(script.out.substr(0, script.out.find('\n')) == "#compdef codict");
+  CHECK(has(script.out, "    'check:Say what is wrong or odd in descriptions'\n"));
+  CHECK(has(script.out,
+            "'*--level[Least severity that is shown and counts\\: note, warning, error]:ENUM:(note warning error)'"));
+  CHECK(has(script.out, "'*-o[Directory of NAME_od.h and NAME_od.c or .cpp]:TEXT:_files'"));
+  if (test::run_shell("command -v zsh").status == 0) {
+    CHECK(test::run_shell("'" LEXICAN_CODICT_PROGRAM "' completion zsh | zsh -n /dev/stdin").status == 0);
+  }
+}
+
+TEST_CASE("codict completion fish: the script has all commands, options and words, and fish completes with it") {
+  const Ran script = run("completion fish");
+  CHECK(has(script.out,
+            "complete -c codict -n __fish_use_subcommand -f -a check -d 'Say what is wrong or odd in descriptions'\n"));
+  CHECK(has(script.out,
+            "complete -c codict -n '__fish_seen_subcommand_from check' -l level -x -a 'note warning error' -d "));
+  CHECK(run("completion powershell").status == 2);
+  if (test::run_shell("command -v fish").status == 0) {
+    const Ran completed = test::run_shell("'" LEXICAN_CODICT_PROGRAM
+                                          "' completion fish | fish --no-config -c "
+                                          "'source -; complete -C \"codict check --error-f\"'");
+    CHECK(has(completed.out, "--error-format"));
+    CHECK(completed.err.empty());
+  }
 }
 
 TEST_CASE("codict man: the manual page has all commands and options, and nothing that roff complains about") {

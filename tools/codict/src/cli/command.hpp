@@ -49,6 +49,7 @@ Command add_list(CommandLine& line);
 Command add_man(CommandLine& line);
 Command add_merge(CommandLine& line);
 Command add_network(CommandLine& line);
+Command add_new(CommandLine& line);
 Command add_fmt(CommandLine& line);
 Command add_pdo(CommandLine& line);
 Command add_set(CommandLine& line);

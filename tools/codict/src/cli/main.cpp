@@ -31,9 +31,9 @@ int run(int number, char** arguments) {
       "codict " LEXICAN_VERSION,
       "Exit status: 0 all is well, 1 findings or differences, 2 wrong use or unreadable input, 3 internal error.");
   const std::vector<Command> commands = {
-      add_info(line),    add_list(line),    add_get(line),     add_set(line),        add_check(line), add_diff(line),
-      add_convert(line), add_merge(line),   add_fmt(line),     add_doc(line),        add_pdo(line),   add_gen(line),
-      add_size(line),    add_network(line), add_explain(line), add_completion(line), add_man(line)};
+      add_info(line),    add_list(line),    add_get(line), add_set(line),     add_check(line),      add_diff(line),
+      add_convert(line), add_merge(line),   add_fmt(line), add_doc(line),     add_pdo(line),        add_gen(line),
+      add_size(line),    add_network(line), add_new(line), add_explain(line), add_completion(line), add_man(line)};
   const CommandLine::Parsed parsed = line.parse(number, arguments);
   if (!parsed.unknown_command.empty()) {
     complain(words_for_unknown(parsed.unknown_command, commands));
