@@ -57,11 +57,7 @@ constexpr const char* main_source =
 #include <stdio.h>
 #include <string.h>
 
-#include "@DICT@_od.h"
-#include "co_can_virtual.h"
-#include "co_nvm_ram.h"
-#include "co_virtual_clock.h"
-
+@INCLUDES@
 #define NODE_ID @NODE_ID@
 #define BIT_RATE 250000
 #define RUN_TIME 3000 /* ms */
@@ -209,6 +205,11 @@ Words words_of(const Options& options) {
       {"APPLICATION_ROW", options.has_application
                               ? "| `application." + extension + "` | what the dictionary leaves to the application |\n"
                               : ""},
+      {"INCLUDES",
+       "#include \"@DICT@_od.h\"\n"
+       "#include \"co_can_virtual.h\"\n"
+       "#include \"co_nvm_ram.h\"\n"
+       "#include \"co_virtual_clock.h\"\n"},
       {"STORAGE_DATA", options.has_storage ? "static uint8_t Memory[@PREFIX@_PARA_END];\n"
                                              "static CO_NVM_RAM Nvm = {Memory, sizeof Memory};\n"
                                            : ""},
