@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file bit_timing.hpp
-/// The bit timing of a CAN controller, computed when the program is compiled. For drivers, and for boards that want to
-/// know whether their clock fits.
+/// Computes the bit timing of a CAN controller at compile time. For drivers, and for boards that have to check whether
+/// their clock suits a bit rate.
 ///
 ///     inline constexpr co::BitTimingLimits limits = {256, 16, 8, 4};        // of the data sheet
 ///     constexpr co::BitTiming timing = co::bit_timing<24000000, 500000, limits>;
 ///     BTR = (timing.jump - 1) << 7 | (timing.segment2 - 1) << 4 | (timing.segment1 - 1);
 ///
-/// A bit is SYNC_SEG (one quantum), segment 1 (PROP_SEG and PHASE_SEG1), the sample point, and segment 2 (PHASE_SEG2).
-/// A quantum is `prescaler` periods of the clock. [ISO 11898-1]
-/// CiA wants the sample point at 87.5 % of the bit, or else between 85 and 90 % (75 and 90 % from 800 kbit/s on).
-/// [301] Of what a controller can do, the timing with the rate nearest to the wanted one is chosen, of several the
-/// one with the sample point nearest to 87.5 %, of these the one with most quanta. A combination of clock, rate and
-/// controller without such a timing does not compile: the message names clock and rate.
+/// A bit consists of SYNC_SEG (one quantum), segment 1 (PROP_SEG and PHASE_SEG1), the sample point, and segment 2
+/// (PHASE_SEG2). A quantum is `prescaler` periods of the clock. [ISO 11898-1]
+/// CiA 301 recommends a sample point at 87.5 % of the bit, and allows 85…90 % (75…90 % from 800 kbit/s on). [301] Among
+/// the timings that a controller supports, the one with the rate nearest to the required rate is chosen; among equal
+/// ones, the one with the sample point nearest to 87.5 %; among these, the one with most quanta. A combination of
+/// clock, rate and controller without a valid timing does not compile: the message names clock and rate.
 #ifndef CO_DRIVERS_BIT_TIMING_HPP_
 #define CO_DRIVERS_BIT_TIMING_HPP_
 
@@ -23,17 +23,18 @@ namespace co {
 /// The bit rates of CiA 301, bit/s. [301]
 inline constexpr std::uint32_t cia_bit_rates[] = {10000, 20000, 50000, 125000, 250000, 500000, 800000, 1000000};
 
-/// What a controller can do; numbers of quanta and periods, not as they stand in its registers.
+/// Limits of a controller, in quanta and clock periods (not in the coding of its registers).
 struct BitTimingLimits {
   std::uint16_t prescaler;             ///< 1…
   std::uint16_t segment1;              ///< 1…
   std::uint16_t segment2;              ///< segment2_from…
   std::uint16_t jump;                  ///< 1…: synchronisation jump width (SJW)
-  std::uint16_t segment2_from = 1;     ///< of controllers that need time to process what they have sampled: 2
-  std::uint32_t deviation_ppm = 1000;  ///< of the bit rate: half of it is the crystals', see your network
+  std::uint16_t segment2_from = 1;     ///< minimum; 2 for controllers that need time to process the sampled bit
+  std::uint32_t deviation_ppm = 1000;  ///< tolerance of the bit rate: half of what the network allows; the crystals use
+                                       ///< the other half
 };
 
-/// A bit timing; prescaler 0: there is none.
+/// Bit timing; prescaler 0 means: no valid timing.
 struct BitTiming {
   std::uint16_t prescaler;
   std::uint16_t segment1;
@@ -41,9 +42,9 @@ struct BitTiming {
   std::uint16_t jump;
 
   constexpr unsigned quanta() const { return 1U + segment1 + segment2; }
-  /// In units of 0.01 % of the bit.
+  /// Returns the sample point in units of 0.01 % of the bit.
   constexpr unsigned sample_point() const { return (1U + segment1) * 10000U / quanta(); }
-  /// bit/s, rounded down.
+  /// Returns the bit rate in bit/s, rounded down.
   constexpr std::uint32_t rate(std::uint32_t clock) const { return clock / (prescaler * quanta()); }
 };
 
@@ -60,7 +61,7 @@ constexpr std::uint64_t distance(std::uint64_t a, std::uint64_t b) { return a < 
 
 constexpr unsigned least(unsigned a, unsigned b) { return a < b ? a : b; }
 
-// Of a number of quanta: those behind the sample point, which is as near to 87.5 % as can be.
+// Returns the number of quanta in segment 2 that places the sample point as near to 87.5 % as possible.
 constexpr unsigned segment2_of(unsigned quanta, const BitTimingLimits& limits) {
   const unsigned wanted = (quanta + 4) / 8;
   const unsigned at_least = quanta - 1 > limits.segment1 ? quanta - 1 - limits.segment1 : 1;
@@ -68,7 +69,7 @@ constexpr unsigned segment2_of(unsigned quanta, const BitTimingLimits& limits) {
   return wanted < from ? from : least(wanted, limits.segment2);
 }
 
-// Null prescaler: it cannot be.
+// Returns the timing with the given number of quanta per bit; prescaler 0 if it would break a limit.
 constexpr BitTiming of(std::uint32_t clock, std::uint32_t rate, unsigned quanta, const BitTimingLimits& limits) {
   const std::uint64_t quanta_per_second = std::uint64_t{rate} * quanta;
   const std::uint64_t prescaler = (clock + quanta_per_second / 2) / quanta_per_second;
@@ -99,7 +100,7 @@ constexpr bool is_better(const BitTiming& a, const BitTiming& b, std::uint32_t c
 }  // namespace timing
 /// \endcond
 
-/// The same for a clock or rate that is known at run time only; prescaler 0: there is none.
+/// Returns the bit timing for a clock or rate that is known only at run time; prescaler 0: there is none.
 constexpr BitTiming find_bit_timing(std::uint32_t clock, std::uint32_t rate, const BitTimingLimits& limits) {
   BitTiming best = {};
   const unsigned most = 1U + limits.segment1 + limits.segment2;
@@ -118,7 +119,7 @@ struct BitTimingOf {
 };
 /// \endcond
 
-/// \a clock in Hz, \a rate in bit/s.
+/// Bit timing, checked at compile time; \a clock in Hz, \a rate in bit/s.
 template <std::uint32_t clock, std::uint32_t rate, const BitTimingLimits& limits>
 inline constexpr BitTiming bit_timing = BitTimingOf<clock, rate, limits>::value;
 

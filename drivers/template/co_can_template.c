@@ -3,38 +3,39 @@
 
 #include "co_ring.h"
 
-// Frames between the interrupt and the loop. Long enough for what the bus can bring while the loop is busy elsewhere:
-// at 1 Mbit/s a frame takes 47 us at least (no data, 11-bit identifier), one with 8 bytes about 110 us.
+// Length of the receive queue, frames. It has to hold the frames that arrive while the loop is busy: at 1 Mbit/s a
+// frame takes at least 47 us (no data, 11-bit identifier), one with 8 bytes about 110 us.
 #define RECEIVE_QUEUE_FRAMES 32u
 
 static CO_IF_FRM ReceiveMemory[RECEIVE_QUEUE_FRAMES];
 static CO_RING ReceiveQueue;
-static uint16_t ReportedLost;         // frames that found the queue full, as reported to the node
+static uint16_t ReportedLost;         // lost frames (queue full) that are already reported to the node
 static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
 
 // Context: the loop, in CONodeInit(). Prepare the controller (clock, pins, interrupt), but stay off the bus: the bit
 // rate is not known yet. Called again, before Enable, when LSS changes the bit rate.
 static void Init(void) {
-  // Here: the controller's interrupts off, controller in its initialisation mode, transmit mailboxes empty. From here
-  // on no interrupt touches the queue.
+  // Here: disable the controller's interrupts, enter its initialisation mode, clear the transmit mailboxes. The
+  // interrupt does not use the queue after that.
   (void)CORingInit(&ReceiveQueue, ReceiveMemory, RECEIVE_QUEUE_FRAMES);
   ReportedLost = 0;
   NotedEvents = 0;
 }
 
 // Context: the loop. Set the bit timing for baud bit/s (sample point at 87.5 % of the bit for CANopen) and go on the
-// bus. Let everything be received, or set the filters (CO_IF_CAN_DRV_EX.Filter).
+// bus. Receive all identifiers, or set the filters (CO_IF_CAN_DRV_EX.Filter).
 static void Enable(uint32_t baud) {
   CO_UNUSED(baud);  // Here: bit timing registers, normal mode, receive, transmit and error interrupts on.
 }
 
-// Context: the loop. Returns sizeof(CO_IF_FRM): a frame, 0: none, -1: the controller reports an error.
+// Context: the loop. Returns sizeof(CO_IF_FRM): a frame was read; 0: none received; -1: the controller reports an
+// error.
 static int16_t Read(CO_IF_FRM* frm) { return CORingGet(&ReceiveQueue, frm) ? (int16_t)sizeof(CO_IF_FRM) : 0; }
 
-// Context: the loop. Must not block, and must not let frames overtake each other: if the controller has several
-// transmit mailboxes, set them to send in the order of writing, or use one.
-// Returns sizeof(CO_IF_FRM): the controller has taken the frame, 0: no room, or off the bus: the stack asks again, -1:
-// error, likewise.
+// Context: the loop. Must not block or reorder frames: if the controller has several transmit mailboxes, set them to
+// send in the order of writing, or use one.
+// Returns sizeof(CO_IF_FRM): the controller has accepted the frame; 0: no free mailbox, or off the bus; -1: error.
+// After 0 and -1 the stack tries again.
 static int16_t Send(CO_IF_FRM* frm) {
   CO_UNUSED(frm);
   // Here: return 0 if no mailbox is free; else write
@@ -47,21 +48,21 @@ static int16_t Send(CO_IF_FRM* frm) {
 
 // Context: the loop, at an NMT reset. Clear errors and queues, and go back on the bus (leave bus-off).
 static void Reset(void) {
-  // Here: drop what waits in the transmit mailboxes, restart the controller if it is in bus-off.
+  // Here: clear the transmit mailboxes, restart the controller if it is in bus-off.
   CORingClear(&ReceiveQueue);
 }
 
 // Context: the loop, in CONodeStop(), and when LSS changes the bit rate. Go off the bus.
 static void Close(void) {
-  // Here: interrupts off, controller in its initialisation mode, transmit mailboxes empty.
+  // Here: disable the interrupts, enter the initialisation mode, clear the transmit mailboxes.
   CORingClear(&ReceiveQueue);
 }
 
 const CO_IF_CAN_DRV TemplateCanDriver = {Init, Enable, Read, Send, Reset, Close};
 
-// Context: the interrupt of the controller, the one producer of the queue. A full queue counts the frame as lost.
-// Events are only noted: the node belongs to the loop. Where transmission has an interrupt of its own it need do
-// nothing but end the loop's sleep.
+// Context: the interrupt of the controller, the only producer of the queue. If the queue is full, the frame is counted
+// as lost. Events are only stored: the node may be used by the loop only. If transmission has a separate interrupt, it
+// only has to wake the loop.
 void TemplateCanInterrupt(void) {
   const bool received = false;  // Here: is there a frame in the controller?
   if (received) {
@@ -75,10 +76,10 @@ void TemplateCanInterrupt(void) {
 }
 
 static uint8_t TakeNotes(void) {
-  // Here: the controller's interrupts off.
+  // Here: disable the controller's interrupts.
   const uint8_t events = NotedEvents;
   NotedEvents = 0;
-  // Here: and on again.
+  // Here: enable them again.
   return events;
 }
 

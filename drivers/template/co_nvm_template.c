@@ -5,7 +5,7 @@
 #define MEMORY_BYTES 2048u
 #define PAGE_BYTES 32u
 
-// Here: read bytes that lie in the memory. false: it does not answer.
+// Here: read bytes; the range is within the memory. Return false if the memory does not answer.
 static bool ReadMemory(uint32_t start, uint8_t* to, uint32_t size) {
   CO_UNUSED(start);
   CO_UNUSED(to);
@@ -13,8 +13,8 @@ static bool ReadMemory(uint32_t start, uint8_t* to, uint32_t size) {
   return false;
 }
 
-// Here: write a piece of one page, wait for the end of the write cycle, and better read it back. The bytes at from stay
-// as they are: they are the parameters themselves. false: they are not stored.
+// Here: write a part of one page, wait for the end of the write cycle, and preferably read it back. Do not change the
+// bytes at from: they are the parameters themselves. Return false if they are not stored.
 static bool WritePage(uint32_t start, const uint8_t* from, uint32_t size) {
   CO_UNUSED(start);
   CO_UNUSED(from);
@@ -22,29 +22,30 @@ static bool WritePage(uint32_t start, const uint8_t* from, uint32_t size) {
   return false;
 }
 
-// How much of an access lies in the memory.
+// Returns the number of bytes of an access that are within the memory.
 static uint32_t Inside(uint32_t start, uint32_t size) {
   const uint32_t left = start < MEMORY_BYTES ? MEMORY_BYTES - start : 0;
   return size < left ? size : left;
 }
 
-// Context of all functions: the loop. They may take their time: they are called at the start, at an NMT reset and when
-// parameters are stored, never in normal operation. The addresses are those that the application has given to its
+// Context of all functions: the loop. They may block for a while: they are called at the start, at an NMT reset and
+// when parameters are stored, never in normal operation. The addresses are those that the application has set in its
 // parameter groups, from 0.
 
-// Prepare the memory and the bus (SPI, I2C) to it. What is stored stays.
+// Prepare the memory and its bus (SPI, I2C). Do not change the stored data.
 static void Init(void) {
   // Here: pins, clock, write protection.
 }
 
-// Read size bytes from address start. Returns the bytes read; fewer than size means: broken, or behind the end.
+// Read size bytes from address start. Returns the number of bytes read; fewer than size mean an error, or the end of
+// the memory.
 static uint32_t Read(uint32_t start, uint8_t* buffer, uint32_t size) {
   const uint32_t inside = Inside(start, size);
   return inside == 0 || ReadMemory(start, buffer, inside) ? inside : 0;
 }
 
-// Write size bytes to address start. Returns the bytes that are safely stored; fewer than size means: broken, or behind
-// the end.
+// Write size bytes to address start. Returns the number of bytes that are safely stored; fewer than size mean an error,
+// or the end of the memory.
 static uint32_t Write(uint32_t start, uint8_t* buffer, uint32_t size) {
   const uint32_t inside = Inside(start, size);
   uint32_t done = 0;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_template.h
-/// Template of a timer driver: copy both files, rename everything called "template", fill in what the comments ask for.
-/// As it is, it compiles, and no time ever passes. docs/porting.md goes through it step by step, and tests/driver_check
-/// checks what has become of it.
+/// Template of a timer driver: copy both files, rename everything called "template", and implement the parts marked
+/// with "Here". Unchanged, it compiles, but its time does not advance. docs/porting.md describes each step, and
+/// tests/driver_check tests the finished driver.
 ///
-/// There are two ways to drive the timers of a node; this template is of the first kind:
+/// A timer driver works in one of two modes; this template uses the first one:
 /// - Delta mode: a hardware counter runs at CO_NODE_SPEC.TmrFreq (say 1 MHz), and its compare match interrupts exactly
 ///   when something is due. The CPU can sleep until then.
-/// - Cyclic mode: a periodic interrupt that exists anyway (say 1 kHz) is counted. No hardware to program at all: take
-///   co_timer_software.h as it is.
+/// - Cyclic mode: a periodic interrupt that the application already has (say 1 kHz) is counted. It needs no timer
+///   hardware: use co_timer_software.h unchanged.
 ///
 ///     void TIMER_IRQHandler(void) { TemplateTimerInterrupt(); COTmrService(&node.Tmr); }
 ///
-/// The application must supply COTmrLock() and COTmrUnlock(), which keep this interrupt away and let it in again.
-/// If the counter is free running with 32 bits, CO_IF_TIMER_DRV_EX (Now and Alarm) is simpler still, and serves several
+/// The application must define COTmrLock() and COTmrUnlock(), which disable and enable this interrupt.
+/// If the counter is free running with 32 bits, CO_IF_TIMER_DRV_EX (Now and Alarm) is simpler, and supports several
 /// nodes.
 #ifndef CO_TIMER_TEMPLATE_H_
 #define CO_TIMER_TEMPLATE_H_
@@ -26,7 +26,7 @@ extern "C" {
 
 extern const CO_IF_TIMER_DRV TemplateTimerDriver;
 
-/// To be called in the compare interrupt, before COTmrService().
+/// Processes a compare match. Call it in the compare interrupt, before COTmrService().
 void TemplateTimerInterrupt(void);
 
 #ifdef __cplusplus

@@ -7,18 +7,19 @@ constexpr int16_t taken = sizeof(CO_IF_FRM);
 constexpr uint8_t end_of_line = '\r';
 constexpr uint8_t bell = 7;
 
-// Of all text that waits, frames leave as much for the commands of two calls: a frame that is refused comes again,
-// a command does not.
+// Bytes of the transmit buffer that frames leave free, enough for the commands of two calls: the node sends a refused
+// frame again, but not a command.
 constexpr uint32_t room_for_commands = 16;
 
-constexpr uint8_t broken = UINT8_MAX;  // LineLen: the line cannot become a frame
+constexpr uint8_t broken = UINT8_MAX;  // value of LineLen: the line cannot become a frame
 
-// As SocketCAN codes it: the controller (byte 0…3 of the identifier) has lost a received frame (byte 1 of the data).
+// Error frame in the coding of SocketCAN: the controller (byte 0…3 of the identifier) has lost a received frame (byte 1
+// of the data).
 constexpr CO_IF_FRM overflow = {CO_IF_FRM_ERROR | 0x04U, {0, 0x01, 0, 0, 0, 0, 0, 0}, 8};
 
 constexpr uint32_t bit_rates[] = {10000, 20000, 50000, 100000, 125000, 250000, 500000, 800000, 1000000};
 
-// --- Between the contexts
+// --- Data shared between contexts
 
 template <typename Number>
 Number load(const Number& number) {
@@ -36,7 +37,7 @@ void count(uint16_t& counter) {
   }
 }
 
-// --- Text that is received
+// --- Received text
 
 constexpr uint8_t no_digit = 16;
 
@@ -48,7 +49,7 @@ uint8_t digit(uint8_t character) {
   return letter >= 'a' && letter <= 'f' ? static_cast<uint8_t>(letter - 'a' + 10) : no_digit;
 }
 
-// Takes one number after the other from a line; after a fault, the rest no longer matters.
+// Parses hexadecimal numbers from a line. After a fault, good() is false and the numbers are undefined.
 class Reader {
  public:
   Reader(const uint8_t* text, uint8_t length) : text_(text), length_(length) {}
@@ -76,7 +77,7 @@ class Reader {
 
 constexpr unsigned time_stamp = 4;  // digits
 
-// The digits behind the letter. Returns false if they are no frame.
+// Decodes the digits after the letter. Returns false if they do not form a frame.
 bool decode(Reader& line, bool extended, bool remote, CO_IF_FRM& frame) {
   const uint32_t identifier = line.number(extended ? 8 : 3);
   const uint32_t length = line.number(1);
@@ -105,7 +106,7 @@ void take_frame(CO_SLCAN& can, bool extended, bool remote) {
   }
 }
 
-// An answer (the frame is on its way) or the command of a peer.
+// Returns true for an answer of the adapter (it has accepted a frame) and for a command of a peer; both are ignored.
 bool is_passed_over(const CO_SLCAN& can) {
   switch (can.Line[0]) {
     case 'z':
@@ -119,7 +120,7 @@ bool is_passed_over(const CO_SLCAN& can) {
 
 void take_line(CO_SLCAN& can) {
   if (can.LineLen == 0) {
-    return;  // an answer: done
+    return;  // empty line: the adapter's positive answer
   }
   if (can.LineLen > CO_SLCAN_LINE) {
     count(can.Malformed);
@@ -159,7 +160,7 @@ constexpr uint8_t mask = CO_SLCAN_TX_BYTES - 1;
 
 uint8_t waiting(const CO_SLCAN& can) { return static_cast<uint8_t>(load(can.TxHead) - load(can.TxTail)); }
 
-// Puts a line together that is not to be seen before it is complete. There is room.
+// Appends a line to the transmit buffer and publishes it when it is complete. The caller has checked the free space.
 class Writer {
  public:
   explicit Writer(CO_SLCAN& can) : can_(can), head_(can.TxHead) {}
@@ -187,7 +188,7 @@ struct Form {
   uint8_t length;
 };
 
-// An identifier that is too long for 11 bits goes out with 29: cut, it would be another message.
+// An identifier above 7FFh is sent with 29 bits: truncated to 11 bits it would be another message.
 Form form_of(const CO_IF_FRM& frame) {
   const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0 || (frame.Identifier & CO_IF_FRM_ID) > 0x7FF;
   const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
@@ -259,7 +260,7 @@ void enable(void* ctx, uint32_t baud) {
   CORingClear(&can.Frames);
   store(can.Open, static_cast<uint8_t>(1));
   if (CO_SLCAN_TX_BYTES - waiting(can) < 7) {
-    return;  // nobody takes what is sent
+    return;  // no free space: the UART does not transmit
   }
   write_command(can, 'C');
   write_bit_rate(can, baud != 0 ? baud : can.Baud);

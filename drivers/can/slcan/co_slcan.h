@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_slcan.h
-/// A CAN controller behind a line of text: the slcan protocol of Lawicel, over a UART, a USB adapter or any other
-/// stream of bytes that is not lossy. C and C++, bare metal and hosts.
+/// Driver for a CAN controller behind a serial line: the slcan protocol of Lawicel, over a UART, a USB adapter or any
+/// other byte stream without loss. C and C++, bare metal and hosts.
 ///
 ///     static CO_SLCAN can;
 ///     static CO_IF_FRM frames[32];
-///     COSlcanInit(&can, frames, 32, uart_start, NULL);        // once, before the interrupts of the UART are let in
+///     COSlcanInit(&can, frames, 32, uart_start, NULL);        // once, before the UART interrupts are enabled
 ///     ext.Can = &SlcanDriver;  ext.CanCtx = &can;             // CO_NODE_EXT
 ///
 ///     receive interrupt:   COSlcanReceive(&can, UART_DATA);
 ///     transmit interrupt:  const uint8_t* bytes;
 ///                          if (COSlcanPending(&can, &bytes) == 0) { stop the interrupt; }
 ///                          else { UART_DATA = bytes[0]; COSlcanSent(&can, 1); }
-///     uart_start:          let the transmit interrupt in    // there is something to be sent
+///     uart_start:          enable the transmit interrupt    // there is text to send
 ///
 /// Frames are lines that end with CR: t or T, identifier in 3 or 8 hex digits, length, data; r and R are remote frames,
 /// without data. Enable sends C (close), S0…S8 (bit rate, one of 10, 20, 50, 100, 125, 250, 500, 800 and 1000 kbit/s;
-/// at another one the adapter keeps its own) and O (open), Close sends C. Received are frames, with the time stamp
-/// that some adapters append; BELL, by which an adapter refuses what it was sent last, is counted; its other answers,
-/// and the commands of a peer that takes us for its adapter, are passed over. So two nodes can speak with each other
-/// without any adapter in between.
+/// at another one the adapter keeps its rate) and O (open); Close sends C. The driver receives frames, with the time
+/// stamp that some adapters append, and counts BELL, by which an adapter refuses the last line. It ignores the other
+/// answers of the adapter, and the commands of a peer that regards this node as its adapter. So two nodes can
+/// communicate directly, without an adapter.
 ///
-/// A line that is no frame, whatever it looks like, is dropped and counted; the next CR ends it. Frames that find the
-/// ring full are lost: Read reports that by an error frame, coded as SocketCAN does.
-/// Send takes a frame if there is room for all of it, else returns 0; it never waits.
+/// A line that is not a valid frame is dropped and counted; the next CR ends it. Frames are lost while the ring is
+/// full: Read reports that by an error frame in the coding of SocketCAN.
+/// Send queues a frame if there is space for all of its text, else it returns 0; it never blocks.
 ///
 /// Contexts: COSlcanReceive() and COSlcanBroken() in one context, say the receive interrupt; COSlcanPending() and
 /// COSlcanSent() in one, say the transmit interrupt; the driver in the loop, as is uart_start. All may be the same.
@@ -39,48 +39,49 @@ extern "C" {
 #endif
 
 #define CO_SLCAN_LINE 30u      ///< characters of the longest frame, time stamp included, without CR
-#define CO_SLCAN_TX_BYTES 64u  ///< room for text that waits to be sent: two frames and the commands; a power of two
+#define CO_SLCAN_TX_BYTES 64u  ///< capacity of the transmit buffer, bytes: two frames and the commands; a power of two
 
-/// All members but Baud are the driver's.
+/// State of a controller. The application may write Baud; the driver owns all other members.
 typedef struct CO_SLCAN_T {
-  uint32_t Baud;             ///< bit/s where Enable names none; 0: what the adapter has
-  void (*Start)(void* ctx);  ///< called by Send, Enable and Close: there is text to be sent
+  uint32_t Baud;             ///< bit/s if Enable is called with 0; 0: the rate that the adapter has
+  void (*Start)(void* ctx);  ///< called by Send, Enable and Close when there is text to send
   void* Ctx;
   CO_RING Frames;
-  uint16_t LostSeen;   // of the frames that found the ring full, those that Read has reported
+  uint16_t LostSeen;   // lost frames (ring full) that Read has reported
   uint16_t Malformed;  // written by the receiving context only
   uint16_t Refused;    // likewise
   uint8_t Open;        // on the bus: frames are received; written by the loop only
-  uint8_t Busy;        // Send had no room; written by the loop only
-  uint8_t TxHead;      // count 0…255; written by the loop only
+  uint8_t Busy;        // Send had too little space; written by the loop only
+  uint8_t TxHead;      // bytes written, modulo 256; written by the loop only
   uint8_t TxTail;      // written by the transmitting context only
-  uint8_t LineLen;     // characters received, more than CO_SLCAN_LINE: no frame
+  uint8_t LineLen;     // characters received; more than CO_SLCAN_LINE: not a frame
   uint8_t Line[CO_SLCAN_LINE];
   uint8_t Tx[CO_SLCAN_TX_BYTES];
 } CO_SLCAN;
 
-/// Prepares a controller over \a num frames at \a mem for what is received. No other context may use it meanwhile.
-/// Returns false if an argument is null or \a num is 0 or above 32767; nothing is received then.
+/// Initialises a controller with \a num frames at \a mem as its receive queue. No other context may use it meanwhile.
+/// \retval true   the controller is initialised
+/// \retval false  an argument is null, or \a num is 0 or above 32767; the driver receives nothing
 bool COSlcanInit(CO_SLCAN* can, CO_IF_FRM* mem, uint16_t num, void (*start)(void* ctx), void* ctx);
 
-/// A byte has arrived.
+/// Processes a received byte.
 void COSlcanReceive(CO_SLCAN* can, uint8_t byte);
-/// Bytes have been lost, say by an overrun of the UART: the line that is being received is no frame.
+/// Reports lost bytes (such as an overrun of the UART): the driver drops the line that it is receiving.
 void COSlcanBroken(CO_SLCAN* can);
 
-/// Returns how many bytes wait to be sent at \a bytes, 0: none. More may follow behind the end of the buffer: ask
-/// again.
+/// Returns the number of bytes at \a bytes that have to be sent, 0: none. The buffer is circular: call it again after
+/// COSlcanSent() for the bytes after its end.
 uint32_t COSlcanPending(const CO_SLCAN* can, const uint8_t** bytes);
-/// The first \a num of these bytes have been sent, or taken over.
+/// Releases the first \a num of these bytes; they have been sent, or copied.
 void COSlcanSent(CO_SLCAN* can, uint32_t num);
 
-/// Whether CONodeProcess() has something to do for the driver: a frame to be read, or room for one that Send has
-/// refused. To be asked with the interrupts kept away before the CPU is put to sleep.
+/// Returns true if CONodeProcess() has work: a received frame, or free space for a frame that Send has refused. Call it
+/// with interrupts disabled before the CPU is put to sleep.
 bool COSlcanIsDue(const CO_SLCAN* can);
 
-/// Lines that were no frames since COSlcanInit(), saturating. From any context.
+/// Returns the number of invalid lines since COSlcanInit(), saturating. Any context.
 uint16_t COSlcanMalformed(const CO_SLCAN* can);
-/// What the adapter has refused since COSlcanInit(), saturating. From any context.
+/// Returns the number of lines that the adapter has refused (BELL) since COSlcanInit(), saturating. Any context.
 uint16_t COSlcanRefused(const CO_SLCAN* can);
 
 /// The driver; its context is a CO_SLCAN.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_socketcan.h
-/// A CAN interface of Linux (SocketCAN) for C programs; C++ programs may use socketcan.hpp instead.
+/// Driver for a CAN interface of Linux (SocketCAN), for C programs; C++ programs may use socketcan.hpp instead.
 ///
 ///     CO_SOCKETCAN *can = COSocketCanNew();
 ///     if (!COSocketCanOpen(can, "can0")) { puts(COSocketCanError(can)); }

@@ -17,15 +17,16 @@ namespace {
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
-// What a node acts on. Single bus errors are left out: they may flood.
+// Errors that the node processes. Single bus errors are left out: they may flood the receive queue.
 constexpr can_err_mask_t reported_errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_ERR_RESTARTED;
 
-// More frames than a receive queue holds; an end for a bus that is faster than we are.
+// More frames than a receive queue holds: drain() must end on a bus that is faster than this loop.
 constexpr int drain_limit = 4096;
 
 bool not_now(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == ENOBUFS || error == EINTR; }
 
-// The device of the socket is gone; it stays gone for this socket when one of the same name comes back.
+// Returns true if the device of the socket no longer exists. The socket stays unusable even if a device of this name
+// returns.
 bool vanished(int error) { return error == ENODEV || error == ENXIO; }
 
 CO_IF_FRM overflow_frame() {
@@ -34,7 +35,7 @@ CO_IF_FRM overflow_frame() {
 
 bool request(int fd, unsigned long what, const std::string& interface, ifreq& answer) {
   answer = {};
-  std::memcpy(answer.ifr_name, interface.data(), interface.size());  // fits: checked by open()
+  std::memcpy(answer.ifr_name, interface.data(), interface.size());  // the length was checked by open()
   return ::ioctl(fd, what, &answer) == 0;
 }
 
@@ -74,7 +75,7 @@ void SocketCan::enable() {
     return;
   }
   open_socket();
-  on_bus_ = true;  // even if it has failed: the interface may come
+  on_bus_ = true;  // even if open_socket() has failed: the interface may appear later
 }
 
 std::int16_t SocketCan::read(CO_IF_FRM& frame) {
@@ -133,7 +134,7 @@ bool SocketCan::open_socket() {
   if (fd_ < 0) {
     return fail(SocketCanStep::socket, errno);
   }
-  // Options first: a bound socket receives at once.
+  // The options have to be set before the socket is bound, because a bound socket receives at once.
   if (set_options() && bind_to_interface()) {
     return true;
   }
@@ -152,7 +153,7 @@ bool SocketCan::set_options() {
 
 bool SocketCan::apply_filters() {
   if (!filtered_) {
-    return true;  // a new socket passes everything
+    return true;  // a new socket receives every frame
   }
   const auto size = static_cast<socklen_t>(filters_.size() * sizeof(can_filter));
   return ::setsockopt(fd_, SOL_CAN_RAW, CAN_RAW_FILTER, filters_.empty() ? nullptr : filters_.data(), size) == 0;
@@ -172,7 +173,7 @@ bool SocketCan::bind_to_interface() {
   return true;
 }
 
-// Whether there is a socket; an interface that had vanished may be back.
+// Returns true if there is a socket. Opens the interface again if it had vanished.
 bool SocketCan::present() { return fd_ >= 0 || (on_bus_ && open_socket()); }
 
 void SocketCan::release() {
@@ -192,7 +193,7 @@ void SocketCan::drain() {
     if (not_now(errno)) {
       break;
     }
-    failed("receiving", errno);  // an error that has waited hides the frames behind it
+    failed("receiving", errno);  // a pending error hides the frames behind it
   }
   overrun_ = false;
 }
@@ -222,7 +223,7 @@ void SocketCan::note_lost(std::uint32_t total) {
   overrun_ = overrun_ || more != 0;
 }
 
-// Keeps the error and what it means; the socket is closed by whoever has opened it.
+// Stores the error and its text. The function that opened the socket closes it.
 bool SocketCan::fail(SocketCanStep step, int error) {
   code_ = error;
   error_ = socketcan_error(step, error, interface_);

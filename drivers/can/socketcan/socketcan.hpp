@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file socketcan.hpp
-/// A CAN interface of Linux (SocketCAN), through a raw socket that never blocks.
+/// Driver for a CAN interface of Linux (SocketCAN), through a non-blocking raw socket.
 ///
 ///     co::SocketCan can;
 ///     if (!can.open("can0")) { report(can.error()); }            // no exception, the reason in words
 ///     ext.Can = &co::SocketCanDriver;  ext.CanCtx = &can;        // CO_NODE_EXT
 ///     pollfd wait{can.fd(), POLLIN, 0};                          // then CONodeProcess()
 ///
-/// Bit rate. A socket cannot set it, that takes an administrator (ip link set can0 up type can bitrate 250000). Enable
-/// goes on the bus at the rate that the interface has; a rate changed by LSS has to be set by other means.
+/// Bit rate. A socket cannot set it; an administrator can (ip link set can0 up type can bitrate 250000). Enable uses
+/// the bit rate of the interface; a rate changed by LSS has to be set by other means.
 ///
-/// Going on and off the bus. open() does it with a name, Enable with the name of the last open(), Close ends it. Init,
-/// Enable and Reset throw away what was received before. What the kernel has taken to send cannot be called back.
+/// Going on and off the bus. open() connects to the named interface, Enable connects to the interface of the last
+/// open(), Close disconnects. Init, Enable and Reset discard frames received before. Frames that the kernel has
+/// accepted for transmission cannot be cancelled.
 ///
-/// Filters. The kernel passes what the node asks for, exactly (up to 512 identifiers, all frames beyond that); before
-/// the node has asked, everything. Frames sent through this socket are not received by it.
+/// Filters. The kernel passes exactly the identifiers that the node has set (all frames if there are more than 512);
+/// before the node has set any, all frames. Frames sent through this socket are not received by it.
 ///
-/// Errors. Error frames of the controller (bus-off, controller problems, restarted) come out of Read as SocketCAN codes
-/// them. So does a receive queue of the kernel that has overflowed, counted by lost().
+/// Errors. Read returns error frames of the controller (bus-off, controller problems, restarted) in the coding of
+/// SocketCAN. It reports an overflow of the kernel's receive queue the same way; lost() counts the frames.
 /// Send returns 0 while the transmit queue of the interface is full.
-/// Any other error is -1, with errno in code() and words in error(): ENETDOWN while the interface is down (Read reports
-/// it once; sending and receiving go on when it is up again), ENODEV when it has vanished (USB adapters). In this case
-/// the socket is closed, fd() is -1, and every Read and Send tries to open the interface anew: ask for fd() before each
-/// poll(). While it is away Read returns 0 and Send -1.
+/// Any other error is -1, with errno in code() and a text in error(): ENETDOWN while the interface is down (Read
+/// reports it once; sending and receiving resume when it is up again), ENODEV when it has vanished (USB adapters). In
+/// this case the socket is closed, fd() is -1, and every Read and Send tries to open the interface again: call fd()
+/// before each poll(). While the interface is missing, Read returns 0 and Send -1.
 ///
 /// Context: one thread. Owner: the caller; must outlive the node.
 #ifndef CO_DRIVERS_SOCKETCAN_HPP_
@@ -48,13 +49,13 @@ class SocketCan {
   bool open(const std::string& interface);
   void close();
 
-  bool up() const;                    ///< open, and the interface is up
+  bool up() const;                    ///< true if open, and the interface is up
   int fd() const { return fd_; }      ///< for poll() and the like; -1: off the bus
   int code() const { return code_; }  ///< errno of the last error, 0: none since open()
   const std::string& error() const { return error_; }
-  std::uint32_t lost() const { return lost_; }  ///< frames that found the receive queue of the kernel full
+  std::uint32_t lost() const { return lost_; }  ///< frames lost because the kernel's receive queue was full
 
-  /// \name As CO_IF_CAN_DRV_EX
+  /// \name Functions of CO_IF_CAN_DRV_EX
   /// \{
   void init();
   void enable();
@@ -81,12 +82,12 @@ class SocketCan {
   std::string error_;
   std::vector<can_filter> filters_;
   std::uint32_t lost_ = 0;
-  std::uint32_t lost_on_socket_ = 0;  // as the kernel counts: since the socket was made
+  std::uint32_t lost_on_socket_ = 0;  // counted by the kernel since the socket was created
   int code_ = 0;
   int fd_ = -1;
-  bool on_bus_ = false;    // wanted: between open()/Enable and Close
-  bool filtered_ = false;  // filters_ is what the node wants
-  bool overrun_ = false;   // not yet reported
+  bool on_bus_ = false;    // true between open() or Enable and Close
+  bool filtered_ = false;  // filters_ holds what the node has set
+  bool overrun_ = false;   // lost frames that are not yet reported
 };
 
 /// The driver; its context is a SocketCan.

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-// Older kernel headers have the limit in the kernel only.
+// Older kernel headers do not export this limit.
 #ifndef CAN_RAW_FILTER_MAX
 #define CAN_RAW_FILTER_MAX 512
 #endif
@@ -24,12 +24,12 @@ constexpr std::uint8_t highest_dlc = 15;
 
 std::uint8_t bytes_in_use(std::uint8_t length) { return std::min<std::uint8_t>(length, CAN_MAX_DLEN); }
 
-// A remote frame has a length, but no data.
+// Returns false for remote frames: they have a length, but no data.
 bool has_data(std::uint32_t identifier) { return (identifier & CAN_RTR_FLAG) == 0; }
 
 bool is_11_bit(std::uint32_t identifier) { return (identifier & (CAN_EFF_FLAG | CAN_ERR_FLAG)) == 0; }
 
-// Data and remote frames.
+// Returns the filter that passes data and remote frames of one identifier.
 can_filter exactly(std::uint32_t identifier) {
   const canid_t mask = is_11_bit(identifier) ? CAN_SFF_MASK : CAN_EFF_MASK;
   return {identifier, CAN_EFF_FLAG | mask};

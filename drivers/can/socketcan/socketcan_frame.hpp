@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file socketcan_frame.hpp
-/// What the kernel's side of SocketCAN looks like: frames, filters and errors, without a socket.
+/// Conversion of frames, filters and errors between the node and SocketCAN; uses no socket.
 #ifndef CO_DRIVERS_SOCKETCAN_FRAME_HPP_
 #define CO_DRIVERS_SOCKETCAN_FRAME_HPP_
 
@@ -14,28 +14,28 @@
 
 namespace co {
 
-/// The frame to be sent. An identifier above 7FFh without CO_IF_FRM_EXT goes out as a 29-bit one: cut to 11 bits it
-/// would be another message, at worst an NMT command. DLC 9…15 stand for 8 bytes [ISO 11898-1]. Bytes not in use are 0.
+/// Returns the frame to be sent. An identifier above 7FFh without CO_IF_FRM_EXT is sent with 29 bits: truncated to 11
+/// bits it would be another message, at worst an NMT command. DLC 9…15 mean 8 bytes [ISO 11898-1]. Unused bytes are 0.
 can_frame to_socketcan(const CO_IF_FRM& frame);
 
-/// The frame received; bytes not in use are 0. A length above 15 is kept, without data: the node counts such a frame as
-/// malformed.
+/// Returns the received frame; unused bytes are 0. A length above 15 is copied, without data: the node counts such a
+/// frame as malformed.
 CO_IF_FRM from_socketcan(const can_frame& frame);
 
-/// Filters that let exactly these identifiers through; none of them if there are more than the kernel takes: then
-/// everything comes through. \a ids: with flags, any order, may repeat.
+/// Returns filters that pass exactly these identifiers, or one filter that passes all frames if there are more than the
+/// kernel supports. \a ids: with flags, in any order, duplicates allowed.
 std::vector<can_filter> socketcan_filters(const std::uint32_t* ids, std::uint16_t num);
 
-/// Where opening an interface can fail.
+/// Step at which opening an interface has failed.
 enum class SocketCanStep {
   name,       ///< the name is empty or too long
-  socket,     ///< making the socket
-  interface,  ///< looking the interface up
+  socket,     ///< creating the socket
+  interface,  ///< finding the interface
   option,     ///< setting a socket option
   bind,       ///< binding to the interface
 };
 
-/// What has failed, in words a user can act on. \a error: errno.
+/// Returns a text that describes the fault and its remedy. \a error: errno.
 std::string socketcan_error(SocketCanStep step, int error, const std::string& interface);
 
 }  // namespace co

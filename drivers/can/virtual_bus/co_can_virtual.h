@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_virtual.h
-/// A CAN bus inside a program for C programs: any number of nodes and test masters. C++ programs may use
-/// virtual_bus.hpp, which also has faults on demand and the speed of a real bus.
+/// A simulated CAN bus inside a program, for C programs: any number of nodes and test masters. C++ programs may use
+/// virtual_bus.hpp, which also has fault injection and the timing of a real bus.
 ///
 ///     CO_VIRTUAL_BUS *bus = COVirtualBusNew();
 ///     ext.Can = &COVirtualBusDriver;  ext.CanCtx = COVirtualBusAttach(bus, "node 5");      /* CO_NODE_EXT */

@@ -10,10 +10,10 @@ namespace {
 constexpr std::uint32_t crc_polynomial = 0x4599;  // x^15 + x^14 + x^10 + x^8 + x^7 + x^4 + x^3 + 1
 constexpr unsigned crc_width = 15;
 constexpr unsigned stuff_after = 5;        // equal bits
-constexpr unsigned unstuffed = 1 + 2 + 7;  // CRC delimiter, ACK slot and delimiter, EOF
+constexpr unsigned unstuffed = 1 + 2 + 7;  // bits: CRC delimiter, ACK slot and delimiter, EOF
 constexpr std::uint8_t bytes_at_most = 8;  // DLC 9…15 stand for 8 bytes
 
-// The part of a frame that is stuffed, bit by bit as it is sent. 0 is dominant.
+// The stuffed part of a frame, bit by bit in the order of transmission. 0 is dominant.
 class StuffedBits {
  public:
   void put(std::uint32_t value, unsigned width) {  // highest bit first
@@ -47,7 +47,7 @@ class StuffedBits {
   }
 
   std::uint32_t crc_ = 0;
-  std::uint32_t last_ = 1;  // the bus was recessive
+  std::uint32_t last_ = 1;  // the bus is recessive before the frame
   unsigned equal_ = 0;
   unsigned count_ = 0;
 };

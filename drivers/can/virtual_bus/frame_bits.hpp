@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file frame_bits.hpp
-/// How long a frame takes on the wire. [ISO 11898-1]
+/// Length of a frame on the wire. [ISO 11898-1]
 #ifndef CO_DRIVERS_FRAME_BITS_HPP_
 #define CO_DRIVERS_FRAME_BITS_HPP_
 
@@ -8,11 +8,11 @@
 
 namespace co {
 
-/// Bits between two frames, in which nobody sends.
+/// Recessive bits between two frames.
 constexpr unsigned intermission_bits = 3;
 
-/// Bits from the start of frame up to and including the end of frame, with all stuff bits of exactly this frame. Its
-/// receivers have it then; the bus is free intermission_bits later.
+/// Returns the bits from the start of frame up to and including the end of frame, with the stuff bits of this frame. At
+/// that time the receivers have the frame; the bus is idle intermission_bits later.
 unsigned frame_bits(const CO_IF_FRM& frame);
 
 }  // namespace co

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file paced_wire.hpp
-/// When frames begin and end on a wire of a given bit rate. Counted in bits, so that frames that follow one another
-/// never drift, whatever the rate; only what is told outside is rounded up to microseconds.
+/// Computes when frames begin and end on a wire of a given bit rate. It counts in bits, so that consecutive frames do
+/// not drift at any rate; only the returned times are rounded up to microseconds.
 #ifndef CO_DRIVERS_PACED_WIRE_HPP_
 #define CO_DRIVERS_PACED_WIRE_HPP_
 
@@ -19,7 +19,7 @@ class PacedWire {
   /// \a bit_rate: bit/s, not 0.
   explicit PacedWire(std::uint32_t bit_rate) : rate_(bit_rate) {}
 
-  /// A frame begins at \a from, or at the end of the intermission if that comes later.
+  /// Starts a frame at \a from, or at the end of the intermission if that is later.
   void occupy(Time from, unsigned bits) {
     if (from > free()) {
       begin_ = from;
@@ -29,9 +29,9 @@ class PacedWire {
     used_ = used_ % rate_ + bits + intermission_bits;
   }
 
-  /// The last bit of the frame is over.
+  /// Returns the time at which the last bit of the frame ends.
   Time received() const { return after(used_ - intermission_bits); }
-  /// The intermission after the frame is over.
+  /// Returns the time at which the intermission after the frame ends.
   Time free() const { return after(used_); }
 
  private:

@@ -7,7 +7,7 @@
 namespace co {
 namespace {
 
-// SocketCAN's codes, spelled out because this driver also runs where there is no Linux.
+// Error codes of SocketCAN, defined here because this driver also runs on hosts without Linux.
 constexpr std::uint32_t error_controller = 0x004;
 constexpr std::uint32_t error_bus_off = 0x040;
 constexpr std::uint32_t error_restarted = 0x100;
@@ -16,7 +16,7 @@ constexpr std::uint8_t error_dlc = 8;
 
 bool is_error(const CO_IF_FRM& frame) { return (frame.Identifier & CO_IF_FRM_ERROR) != 0; }
 
-// The bits of the arbitration field in the order in which they are sent; the lower value wins. [ISO 11898-1]
+// Returns the bits of the arbitration field in the order of transmission; the lower value wins. [ISO 11898-1]
 //   11-bit identifier: base ID, RTR, IDE = 0;  29-bit: base ID, SRR = 1, IDE = 1, ID extension, RTR
 std::uint32_t arbitration(const CO_IF_FRM& frame) {
   const std::uint32_t rtr = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? 1 : 0;
@@ -98,7 +98,7 @@ CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t contro
 
 const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) {
   CountedRule* decides = nullptr;
-  for (std::size_t i = 0; i < rules_.size(); ++i) {  // by number: a match may add rules
+  for (std::size_t i = 0; i < rules_.size(); ++i) {  // by index: a match may add rules
     CountedRule& counted = rules_[i];
     const Rule& rule = counted.rule;
     if (seen_by_sender(rule.fault) != (phase == Phase::send) || (rule.match && !rule.match(traffic))) {
@@ -158,7 +158,7 @@ void VirtualBus::run_paced() {
   }
 }
 
-// Not in the very moment of the start of frame: whatever is sent in it takes part in the arbitration.
+// Does not start a frame at now(): all frames sent at that time take part in the arbitration.
 bool VirtualBus::start_frame() {
   Port* const port = winner();
   if (port == nullptr || start_of_frame() >= now()) {
@@ -194,7 +194,7 @@ VirtualBus::Time VirtualBus::next_arrival() const {
   return then.received();
 }
 
-// Before the queue of a port changes: what has started by now stays started, and nothing starts in the past.
+// Called before the queue of a port changes: starts the frames that were due, so that none starts in the past.
 void VirtualBus::catch_up() {
   if (wire_) {
     run();
@@ -251,7 +251,7 @@ void VirtualBus::deliver_reordered(const Port* sender) {
   deliver_first([sender](const Late& late) { return late.behind_next && late.sender == sender; });
 }
 
-// Searches anew after every delivery: the trace hook may have added rules or advanced the time.
+// Searches again after every delivery: the trace hook may have added rules or advanced the time.
 void VirtualBus::deliver_first(const std::function<bool(const Late&)>& ready) {
   for (auto it = std::find_if(late_.begin(), late_.end(), ready); it != late_.end();
        it = std::find_if(late_.begin(), late_.end(), ready)) {

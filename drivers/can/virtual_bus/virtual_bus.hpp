@@ -1,37 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file virtual_bus.hpp
-/// A CAN bus inside a program: any number of nodes and test masters, faults on demand, the same result in every run.
+/// A simulated, deterministic CAN bus inside a program: any number of nodes and test masters, and fault injection.
 ///
 ///     co::VirtualBus bus;
 ///     co::VirtualBus::Port& port = bus.attach({"node 5"});
 ///     ext.Can = &co::VirtualBusDriver;  ext.CanCtx = &port;       // CO_NODE_EXT
 ///
-///     co::VirtualBus::Port& master = bus.attach({"master"});      // a test, a master, a tap: the same port without
-///     node master.enable(); master.send(frame); while (auto answer = master.read()) { ... }
+///     co::VirtualBus::Port& master = bus.attach({"master"});      // a test, a master, a monitor: a port without a
+///     node
+///     master.enable(); master.send(frame); while (auto answer = master.read()) { ... }
 ///
-/// The model. A port takes part between enable() and close(). What it sends waits in its transmit queue; of the first
-/// frames of all ports, the one with the highest priority in the sense of CAN arbitration goes over the bus and into
-/// the receive queue of every other port (never of its sender). Normally that happens within send(); between hold() and
-/// release() frames pile up, and send() returns 0 when the transmit queue is full, as a controller does on a busy bus.
-/// Equal identifiers go in the order of attach(). Ports with different bit rates do not hear each other; 0 fits every
-/// rate. Receive filters (CO_IF_CAN_DRV_EX.Filter) are honoured as by hardware, unless Options::filter is off.
-/// A full receive queue loses the frame: counted by Port::lost(), and reported to the node by an error frame.
+/// The model. A port is on the bus between enable() and close(). Sent frames enter its transmit queue; among the first
+/// frames of all ports, the bus transmits the one with the highest priority (CAN arbitration) into the receive queue of
+/// every other port (never of its sender). Normally that happens within send(); between hold() and release() frames
+/// stay queued, and send() returns 0 when the transmit queue is full, like a controller on a busy bus. Frames with
+/// equal identifiers are sent in the order of attach(). Ports with different bit rates do not receive each other's
+/// frames; 0 matches every rate. Receive filters (CO_IF_CAN_DRV_EX.Filter) work like those of a controller, unless
+/// Options::filter is off. A frame that arrives while the receive queue is full is lost: Port::lost() counts it, and an
+/// error frame reports it to the node.
 ///
 /// On a paced bus (pace()) a frame takes as long as on a wire of that bit rate, bit by bit. It needs a time source that
-/// a simulation advances from next_due() to next_due(). The next frame is chosen when the bus is free again, among all
-/// that were sent up to that moment; one on an idle bus starts at once. It arrives when its last bit is over, and its
-/// place in the transmit queue is free then, as in a controller; Traffic::time is that moment. A frame that has started
-/// ends, whatever becomes of its sender, but nothing arrives and nothing starts between hold() and release(). What
-/// faults add (a second copy, a late arrival) takes no time on the wire.
+/// a simulation advances from next_due() to next_due(). The next frame is chosen when the bus is idle again, among all
+/// that were sent up to that moment; on an idle bus a frame starts at once. It arrives when its last bit has ended; at
+/// that time it also leaves the transmit queue, as in a controller. Traffic::time is that moment. A frame that has
+/// started ends, even if its sender is closed; but nothing arrives and nothing starts between hold() and release().
+/// Copies and delays caused by faults take no time on the wire.
 ///
-/// Faults are rules (class Rule): which frames, from which one on, how often, and what happens. Delays need a time
-/// source (set_time()). Delayed frames arrive when their time has come and the bus is used or polled: next_due() tells
-/// a simulation when that is.
+/// Faults are rules (class Rule): the frames, the first one, how often, and the fault. Delays need a time source
+/// (set_time()). Delayed frames arrive at the first use or poll of the bus after their time: next_due() returns it to a
+/// simulation.
 ///
-/// Error frames are coded as in SocketCAN (class in the identifier with CO_IF_FRM_ERROR, controller state in byte 1).
+/// Error frames are coded like those of SocketCAN (class in the identifier with CO_IF_FRM_ERROR, controller state in
+/// byte 1).
 ///
-/// Context: one thread. The trace hook and rules may send, inject and add rules; a frame sent by them takes its turn
-/// after the current one. A rule's match must not clear rules. Owner: the bus owns its ports; it must outlive the nodes
+/// Context: one thread. The trace hook and rules may send, inject and add rules; a frame sent by them is queued behind
+/// the current one. A rule's match must not clear rules. Owner: the bus owns its ports; it must outlive the nodes at
+/// them.
 /// at them.
 #ifndef CO_DRIVERS_VIRTUAL_BUS_HPP_
 #define CO_DRIVERS_VIRTUAL_BUS_HPP_
@@ -54,7 +58,7 @@ namespace co {
 class VirtualBus {
  public:
   class Port;
-  using Time = std::chrono::microseconds;  ///< since any moment; never goes back
+  using Time = std::chrono::microseconds;  ///< since any epoch; never decreases
   static constexpr Time never = Time::max();
 
   struct Options {
@@ -64,12 +68,12 @@ class VirtualBus {
     bool filter = true;         ///< false: a controller without receive filters
   };
 
-  /// A frame with its circumstances.
+  /// A frame with sender and time.
   struct Traffic {
     CO_IF_FRM frame;
     const Port* sender;    ///< null: inject()
-    Time time;             ///< of the attempt to send (rules), on the bus (trace)
-    bool dropped = false;  ///< trace: a rule kept it from all receivers
+    Time time;             ///< time of the call of send() (rules), of the arrival (trace)
+    bool dropped = false;  ///< trace: a rule has discarded it for all receivers
   };
 
   enum class Fault {
@@ -85,8 +89,9 @@ class VirtualBus {
     reorder,    ///< arrives behind the next frame of the same sender, or after Rule::delay (0: not before that frame)
   };
 
-  /// Of the frames for which match is true (empty: all), those from number first (1, 2, …) on suffer the fault, as many
-  /// as times says. Where several rules apply to a frame, the oldest decides; every rule counts the frame.
+  /// Fault injection: among the frames for which match returns true (empty: all), the fault affects `times` frames,
+  /// starting with number `first` (1, 2, …). If several rules apply to a frame, the oldest one decides; every rule
+  /// counts the frame.
   struct Rule {
     Fault fault = Fault::none;
     std::function<bool(const Traffic&)> match = {};
@@ -101,36 +106,36 @@ class VirtualBus {
   VirtualBus(const VirtualBus&) = delete;
   VirtualBus& operator=(const VirtualBus&) = delete;
 
-  /// A new port, off the bus.
+  /// Returns a new port, off the bus.
   Port& attach(Options options);
   Port& attach();
 
-  /// Sends a frame from outside: to all ports, whatever their bit rate. Error frames are reported to all ports.
+  /// Sends a frame from outside to all ports, at every bit rate. Error frames are reported to all ports.
   void inject(const CO_IF_FRM& frame);
 
-  /// Called for every frame on the bus, in the order of the bus.
+  /// Sets the function that is called for every frame, in the order of the bus.
   void set_trace(std::function<void(const Traffic&)> trace);
   void set_time(std::function<Time()> source);
   Time now() const;
-  /// From now on frames take their time on the wire; no frame may be waiting. \a bit_rate: bit/s, 0: no longer.
+  /// Enables the timing of a wire; no frame may be queued. \a bit_rate: bit/s, 0: frames take no time.
   void pace(std::uint32_t bit_rate);
 
-  /// Returns a number for struck().
+  /// Adds a rule. Returns its number for struck().
   std::size_t add_rule(Rule rule);
-  /// Frames that have suffered from a rule.
+  /// Returns the number of frames that a rule has affected.
   std::uint32_t struck(std::size_t rule) const;
-  /// Forgets all rules. Frames that are already delayed still arrive.
+  /// Removes all rules. Frames that are already delayed still arrive.
   void clear_rules();
 
   void hold();
   void release();
 
-  /// Delivers what is due.
+  /// Delivers the frames that are due.
   void poll();
-  /// When the next delayed or paced frame arrives; never if none is due by time.
+  /// Returns the time at which the next delayed or paced frame arrives; never if there is none.
   Time next_due() const;
 
-  /// An error frame. \a error_class: CAN_ERR_… of linux/can/error.h; \a controller: its CAN_ERR_CRTL_… .
+  /// Returns an error frame. \a error_class: CAN_ERR_… of linux/can/error.h; \a controller: its CAN_ERR_CRTL_… .
   static CO_IF_FRM error_frame(std::uint32_t error_class, std::uint8_t controller = 0);
 
  private:
@@ -143,7 +148,7 @@ class VirtualBus {
     CO_IF_FRM frame;
     const Port* sender;
     Time due;
-    bool behind_next;  // reorder: waits for the next frame of the sender
+    bool behind_next;  // reorder: arrives after the next frame of the sender
   };
   struct OnWire {
     CO_IF_FRM frame;
@@ -173,48 +178,51 @@ class VirtualBus {
   std::deque<CountedRule> rules_;
   std::vector<std::unique_ptr<Port>> ports_;
   std::unique_ptr<Port> outside_;
-  std::vector<Late> late_;  // by due, equal ones in the order of sending
+  std::vector<Late> late_;  // ordered by due time, then by time of sending
   std::function<void(const Traffic&)> trace_;
   std::function<Time()> source_;
-  std::optional<PacedWire> wire_;  // of a paced bus
+  std::optional<PacedWire> wire_;  // set on a paced bus
   std::optional<OnWire> on_wire_;
-  Time not_before_{0};  // the next start of frame
+  Time not_before_{0};  // earliest next start of frame
   bool held_ = false;
   bool running_ = false;
 };
 
-/// A controller at the bus: the context of VirtualBusDriver, or the hand of a test.
+/// A controller at the bus: the context of VirtualBusDriver, or used directly by a test.
 class VirtualBus::Port {
  public:
   Port(VirtualBus& bus, Options options);
 
-  /// Goes on the bus with empty queues. \a baud: bit/s, 0: hears and is heard at every rate.
+  /// Goes on the bus with empty queues. \a baud: bit/s; 0: communicates with ports of every bit rate.
   void enable(std::uint32_t baud = 0);
-  /// Goes off the bus; what waits to be sent or read is lost.
+  /// Goes off the bus and discards both queues.
   void close();
   /// Empties the queues and ends bus-off. Filters stay.
   void reset();
-  /// sizeof(CO_IF_FRM): taken; 0: transmit queue full, or refused by a rule; -1: off the bus, bus-off, or by a rule.
+  /// Queues a frame for transmission.
+  /// \retval sizeof(CO_IF_FRM)  the frame is queued or sent
+  /// \retval 0                  the transmit queue is full, or a rule has refused the frame
+  /// \retval -1                 the port is off the bus, in bus-off, or a rule applies
   std::int16_t send(const CO_IF_FRM& frame);
   std::optional<CO_IF_FRM> read();
-  /// The identifiers (with flags) to be received from now on.
+  /// Sets the identifiers (with flags) that the port receives.
   void filter(const std::uint32_t* ids, std::uint16_t num);
 
-  /// The controller reports something: puts an error frame into the receive queue.
+  /// Simulates a report of the controller: puts an error frame into the receive queue.
   void report(const CO_IF_FRM& error);
-  /// The controller goes into bus-off and reports it. It neither sends nor receives until recover() or reset().
+  /// Simulates bus-off and reports it. The port neither sends nor receives until recover() or reset().
   void bus_off();
-  /// The controller is restarted and reports it.
+  /// Simulates the end of bus-off and reports it.
   void recover();
 
   const std::string& name() const { return options_.name; }
   bool enabled() const { return enabled_; }
   std::uint32_t baud() const { return baud_; }
-  /// Frames that found the receive queue full.
+  /// Returns the number of frames lost because the receive queue was full.
   std::uint32_t lost() const { return lost_; }
-  /// Frames in the receive queue.
+  /// Returns the number of frames in the receive queue.
   std::size_t waiting() const { return receive_.size(); }
-  /// What filter() was told last, ascending; empty and filtered() false before.
+  /// Returns the identifiers set by filter(), ascending; empty, and filtered() false, before its first call.
   const std::vector<std::uint32_t>& accepted() const { return accepted_; }
   bool filtered() const { return filtered_; }
 
@@ -237,7 +245,7 @@ class VirtualBus::Port {
   bool enabled_ = false;
   bool bus_off_ = false;
   bool filtered_ = false;
-  bool overrun_ = false;  // not yet reported
+  bool overrun_ = false;  // a lost frame is not yet reported
 };
 
 /// The driver; its context is a VirtualBus::Port.

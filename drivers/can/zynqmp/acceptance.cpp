@@ -7,7 +7,7 @@
 namespace co::zynqmp {
 namespace {
 
-// The bits that tell identifiers apart: base and IDE, and the extension where there is one.
+// Bits that distinguish identifiers: base and IDE, and the extension of 29-bit identifiers.
 constexpr std::uint32_t standard_bits = (0x7FFU << standard_shift) | extended;
 constexpr std::uint32_t extended_bits = standard_bits | (0x3FFFFU << extension_shift);
 
@@ -21,7 +21,7 @@ AcceptanceFilter both(const AcceptanceFilter& a, const AcceptanceFilter& b) {
   return {mask, a.word & mask};
 }
 
-// How many identifiers pass.
+// Returns the number of identifiers that pass a filter.
 std::int32_t width(const AcceptanceFilter& filter) {
   const bool is_standard = (filter.mask & extended) != 0 && (filter.word & extended) == 0;
   std::int32_t ids = 1;
@@ -35,8 +35,8 @@ std::int32_t added_by_merging(const AcceptanceFilter& a, const AcceptanceFilter&
   return width(both(a, b)) - width(a) - width(b);
 }
 
-// Makes one filter of the two with which fewest other identifiers come through; of two equal ones before any others.
-// There is one too many.
+// Merges the pair of filters that adds the fewest other identifiers; duplicates are merged first. Called with one
+// filter more than the controller has.
 void merge_two(Acceptance& all) {
   struct Pair {
     std::uint8_t first;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file acceptance.hpp
-/// Four acceptance filters that let given identifiers through, and as few others as can be seen at a glance.
+/// Computes up to four acceptance filters that pass the given identifiers, and few others.
 #ifndef CO_DRIVERS_ZYNQMP_ACCEPTANCE_HPP_
 #define CO_DRIVERS_ZYNQMP_ACCEPTANCE_HPP_
 
@@ -10,22 +10,22 @@ namespace co::zynqmp {
 
 inline constexpr unsigned filters_at_most = 4;
 
-/// As the registers of the controller hold them. A frame passes if its identifier has the bits of the word where the
-/// mask is 1.
+/// Filter in the coding of the controller's registers. A frame passes if its identifier equals the word in all bits of
+/// the mask.
 struct AcceptanceFilter {
   std::uint32_t mask;
   std::uint32_t word;
 };
 
 struct Acceptance {
-  AcceptanceFilter filter[filters_at_most + 1];  // the last one is of no use to the caller
-  std::uint8_t number;                           // 0: everything passes
+  AcceptanceFilter filter[filters_at_most + 1];  // the last one is used only during the computation
+  std::uint8_t number;                           // 0: all frames pass
 };
 
-/// \a ids: as in CO_IF_CAN_DRV_EX.Filter, any order.
+/// Returns filters for \a ids: coded like in CO_IF_CAN_DRV_EX.Filter, in any order.
 Acceptance acceptance_of(const std::uint32_t* ids, std::uint16_t num);
 
-/// An identifier (with CO_IF_FRM_EXT) as it stands in the registers, without the bits of a remote frame.
+/// Returns an identifier (with CO_IF_FRM_EXT) in the coding of the registers, without the bits of a remote frame.
 std::uint32_t identifier_word(std::uint32_t identifier);
 
 }  // namespace co::zynqmp

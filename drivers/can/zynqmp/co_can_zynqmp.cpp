@@ -14,10 +14,11 @@ constexpr unsigned fifo_frames = 64;
 constexpr std::uint8_t bytes_at_most = 8;
 constexpr std::uint32_t standard_ids = 0x7FF;
 
-// What wakes the loop. That a frame has been sent is added while one is being sent: without one it is always true.
+// Interrupts that are always enabled. all_sent is added only while a frame is being sent: it stays set while the FIFO
+// is empty.
 constexpr std::uint32_t always_wanted = received | receive_overflow | bus_off | woken;
 
-// What a node is told, coded as SocketCAN does.
+// Error classes and details for the node, in the coding of SocketCAN.
 constexpr std::uint32_t class_controller = 0x004;
 constexpr std::uint32_t class_bus_off = 0x040;
 constexpr std::uint32_t class_restarted = 0x100;
@@ -25,14 +26,14 @@ constexpr std::uint8_t detail_overflow = 0x01;
 constexpr std::uint8_t detail_passive = 0x30;
 constexpr std::uint8_t detail_active = 0x40;
 
-// States of CO_CAN_ZYNQMP.Told.
+// Values of CO_CAN_ZYNQMP.Told: the state last reported to the node.
 constexpr std::uint8_t told_active = 0;
 constexpr std::uint8_t told_passive = 1;
 constexpr std::uint8_t told_bus_off = 2;
 
 CO_CAN_ZYNQMP& controller(void* ctx) { return *static_cast<CO_CAN_ZYNQMP*>(ctx); }
 
-// Each of these has one writer, interrupt or loop, so that loads and stores suffice.
+// The interrupt and the loop share these members; each has one writer, so atomic loads and stores suffice.
 template <typename Number>
 Number load(const Number& number) {
   return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
@@ -88,13 +89,13 @@ const CO_CAN_ZYNQMP_RATE* find_rate(const CO_CAN_ZYNQMP& can, std::uint32_t baud
   return nullptr;
 }
 
-// No interrupt comes behind this: what is read back was written.
+// Disables the interrupts. The read-back ensures that the write has reached the controller, so none follows.
 void silence(CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::interrupt_enable, 0);
   static_cast<void>(read(can.Registers, Register::interrupt_enable));
 }
 
-// For what takes the controller a few of its clock periods.
+// Waits until a status bit has a value; for changes that take a few clock periods of the controller.
 void await(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t value) {
   for (unsigned patience = 1000; patience != 0 && (read(can.Registers, Register::status) & bit) != value;) {
     --patience;
@@ -108,7 +109,7 @@ void go_off_the_bus(CO_CAN_ZYNQMP& can) {
   can.Rate = nullptr;
 }
 
-// While there is no interrupt.
+// Discards received frames and counters. The interrupts must be disabled.
 void forget_received(CO_CAN_ZYNQMP& can) {
   for (unsigned n = 0; n < fifo_frames && has(can, received); ++n) {
     static_cast<void>(read_frame(can));
@@ -125,7 +126,7 @@ void want_interrupts(const CO_CAN_ZYNQMP& can) {
 }
 
 void set_filters(const CO_CAN_ZYNQMP& can) {
-  write(can.Registers, Register::filters_used, 0);  // meanwhile everything comes through
+  write(can.Registers, Register::filters_used, 0);  // all frames pass meanwhile
   await(can, filters_busy, 0);
   for (unsigned n = 0; n < can.FilterNum; ++n) {
     write(can.Registers, Register::filters + 2 * n, can.FilterMask[n]);
@@ -153,14 +154,14 @@ void go_on_the_bus(CO_CAN_ZYNQMP& can, const CO_CAN_ZYNQMP_RATE& rate) {
 std::uint32_t word_of(const CO_IF_FRM& frame) {
   const std::uint32_t id = frame.Identifier & CO_IF_FRM_ID;
   const bool remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
-  // Cut to 11 bits a longer one would be another message, at worst an NMT command.
+  // Truncated to 11 bits a longer identifier would be another message, at worst an NMT command.
   if ((frame.Identifier & CO_IF_FRM_EXT) == 0 && id <= standard_ids) {
     return (id << standard_shift) | (remote ? standard_remote : 0);
   }
   return identifier_word(id | CO_IF_FRM_EXT) | standard_remote | (remote ? extended_remote : 0);
 }
 
-// First byte in the highest bits.
+// Returns four bytes as a word, the first byte in the highest bits.
 std::uint32_t word_at(const std::uint8_t* bytes) {
   return (std::uint32_t{bytes[0]} << 24) | (std::uint32_t{bytes[1]} << 16) | (std::uint32_t{bytes[2]} << 8) | bytes[3];
 }
@@ -180,14 +181,14 @@ bool is_sending(CO_CAN_ZYNQMP& can) {
   return can.IsSending != 0;
 }
 
-// Nothing comes before the boot-up message. [301:7.3.2.2.1]
+// Returns true for the boot-up message; no other message may precede it. [301:7.3.2.2.1]
 bool is_boot_up(const CO_IF_FRM& frame) {
   constexpr std::uint32_t error_control = 0x700;
   return (frame.Identifier & ~0x7FU) == error_control && frame.DLC == 1 && frame.Data[0] == 0;
 }
 
-// The interrupt of the empty FIFO is cleared behind the frame, as it comes again while the FIFO is empty. A frame that
-// is sent before that is told by the other one.
+// Clears all_sent after writing the frame, because the flag is set again while the FIFO is empty. A frame that was sent
+// before that is detected by the flag `sent`.
 void send_next(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
   clear(can, sent | arbitration_lost);
   write_frame(can, Register::transmit, word, frame);
@@ -200,7 +201,8 @@ void send_next(CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
   want_interrupts(can);
 }
 
-// A frame that has lost the arbitration is not on the bus now. One that has not, or another one in front of it, is.
+// Returns true if a frame with \a word may be sent first: the frame in the FIFO has lost the arbitration, so it is not
+// on the bus now.
 bool may_overtake(const CO_CAN_ZYNQMP& can, std::uint32_t word) {
   return word < can.SendingWord && has(can, arbitration_lost);
 }
@@ -258,7 +260,7 @@ void tell_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
   can.ToldLost = lost;
 }
 
-// False: nothing has happened since the last report.
+// Fills an error frame with the changes since the last report. Returns false if there are none.
 bool report_events(CO_CAN_ZYNQMP& can, CO_IF_FRM& report) {
   const std::uint32_t lost = COCanZynqmpLost(&can);
   const std::uint8_t state = state_of(can);
@@ -306,7 +308,7 @@ std::int16_t send(void* ctx, const CO_IF_FRM* frm) {
   return try_send(can, *frm) ? taken : std::int16_t{0};
 }
 
-// The frame that is being sent may be the answer to what has asked for the reset.
+// Keeps the frame that is being sent: it may be the answer to the request that caused the reset.
 void reset(void* ctx) {
   CO_CAN_ZYNQMP& can = controller(ctx);
   if (can.Rate == nullptr) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file registers.hpp
 /// The registers of the CAN controllers of Zynq-7000 and Zynq UltraScale+ (UG585, UG1085), and the only functions that
-/// touch them: a test may put a model in their place.
+/// access them, so that a test can replace them by a model.
 #ifndef CO_DRIVERS_ZYNQMP_REGISTERS_HPP_
 #define CO_DRIVERS_ZYNQMP_REGISTERS_HPP_
 
@@ -18,14 +18,14 @@ enum class Register : std::uint8_t {  // byte offset
   interrupt_status = 0x1C,
   interrupt_enable = 0x20,
   interrupt_clear = 0x24,
-  transmit = 0x30,        // identifier, DLC, data 1, data 2: the last one starts the transmission
-  transmit_first = 0x40,  // the same: high priority transmit buffer
-  receive = 0x50,         // the same: reading the last one takes the frame out
+  transmit = 0x30,        // identifier, DLC, data 1, data 2: writing the last one starts the transmission
+  transmit_first = 0x40,  // high priority transmit buffer; same layout
+  receive = 0x50,         // same layout; reading the last register removes the frame
   filters_used = 0x60,
-  filters = 0x64,  // mask and identifier of four
+  filters = 0x64,  // four pairs of mask and identifier
 };
 
-/// Of a group of registers.
+/// Returns the register at a word offset in a group.
 constexpr Register operator+(Register first, unsigned words) {
   return static_cast<Register>(static_cast<unsigned>(first) + 4 * words);
 }
@@ -43,10 +43,10 @@ inline constexpr std::uint32_t is_configuring = 1U << 0;
 inline constexpr std::uint32_t error_state = 3U << 7;
 inline constexpr std::uint32_t error_active = 1U << 7;
 inline constexpr std::uint32_t error_passive = 3U << 7;
-inline constexpr std::uint32_t first_is_full = 1U << 10;  // the high priority transmit buffer
+inline constexpr std::uint32_t first_is_full = 1U << 10;  // high priority transmit buffer
 inline constexpr std::uint32_t filters_busy = 1U << 11;
 
-// Interrupts. They stay until they are cleared, and come again while their reason lasts.
+// Interrupts. They stay set until they are cleared, and are set again while their cause lasts.
 inline constexpr std::uint32_t arbitration_lost = 1U << 0;
 inline constexpr std::uint32_t sent = 1U << 1;
 inline constexpr std::uint32_t receive_overflow = 1U << 6;
@@ -55,7 +55,7 @@ inline constexpr std::uint32_t bus_off = 1U << 9;
 inline constexpr std::uint32_t woken = 1U << 11;
 inline constexpr std::uint32_t all_sent = 1U << 14;  // the transmit FIFO is empty
 
-// Identifier: the bits of the arbitration field in the order of the bus, so that the lower value wins.
+// Identifier: the bits of the arbitration field in the order of transmission, so that the lower value wins.
 inline constexpr std::uint32_t standard_shift = 21;
 inline constexpr std::uint32_t standard_remote = 1U << 20;  // SRR in a frame with 29 bits
 inline constexpr std::uint32_t extended = 1U << 19;

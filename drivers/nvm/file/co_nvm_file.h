@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nvm_file.h
-/// A parameter memory in a file for C programs; C++ programs may use file_nvm.hpp instead.
+/// Driver for a parameter memory in a file, for C programs; C++ programs may use file_nvm.hpp instead.
 ///
 ///     CO_FILE_NVM *memory = COFileNvmNew();
 ///     if (!COFileNvmOpen(memory, "/var/lib/node/parameters", 4096)) { puts(COFileNvmError(memory)); }
 ///     ext.Nvm = &COFileNvmDriver;  ext.NvmCtx = memory;             /* CO_NODE_EXT */
 ///
-/// A write has reached the storage device when it returns (fdatasync).
+/// Write returns after the data has reached the storage device (fdatasync).
 ///
 /// Context: one thread. Owner: the caller; it must outlive the node. One process per file: the file is not locked.
 #ifndef CO_NVM_FILE_H_
@@ -26,7 +26,8 @@ CO_FILE_NVM* COFileNvmNew(void);
 /// Closes the file and releases \a memory, which may be null. The node must not use it any more.
 void COFileNvmFree(CO_FILE_NVM* memory);
 
-/// Opens the file \a path, or creates it, filled with FFh to \a capacity bytes. A longer file keeps its rest.
+/// Opens the file \a path, or creates it, filled with FFh to \a capacity bytes. A longer file keeps the bytes beyond
+/// the capacity.
 /// \retval true   the file is open
 /// \retval false  it cannot be used; COFileNvmError() says why
 bool COFileNvmOpen(CO_FILE_NVM* memory, const char* path, uint32_t capacity);

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint8_t erased = 0xFF;
 constexpr mode_t readable_by_all = 0644;
 
-// A new file is only there after a power cut when its directory has been written, too.
+// Synchronises the directory of a file: otherwise a new file could be missing after a power failure.
 void sync_directory(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   const std::string directory = (slash == std::string::npos) ? "." : path.substr(0, slash + 1);
@@ -29,7 +29,8 @@ void sync_directory(const std::string& path) {
 
 off_t place(std::uint32_t start, std::uint32_t at) { return static_cast<off_t>(start) + static_cast<off_t>(at); }
 
-// Repeats pread/pwrite until everything is done, nothing is left, or it fails. Returns the bytes done.
+// Repeats pread or pwrite until all bytes are processed, the end of the file is reached, or an error occurs. Returns
+// the number of bytes processed.
 template <typename Access>
 std::uint32_t all(std::uint32_t size, Access access) {
   std::uint32_t done = 0;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file file_nvm.hpp
-/// A parameter memory in a file.
+/// Driver for a parameter memory in a file.
 ///
 ///     co::FileNvm memory;
 ///     if (!memory.open("/var/lib/node/parameters", 4096)) { report(memory.error()); }
 ///     ext.Nvm = &co::FileNvmDriver;  ext.NvmCtx = &memory;   // CO_NODE_EXT
 ///
-/// A file that does not exist is created; what is missing to the capacity is filled with FFh, as in a fresh memory.
-/// A longer file keeps its rest. Accesses are cut at the capacity and return what they have done. A write has reached
-/// the storage device when it returns (fdatasync); if that fails it returns 0, because nothing is certain then.
-/// error() tells what went wrong last, in words.
+/// A file that does not exist is created; a file that is shorter than the capacity is extended with FFh, like erased
+/// memory. A longer file keeps the bytes beyond the capacity. Accesses are limited to the capacity and return the
+/// number of bytes processed. Write returns after the data has reached the storage device (fdatasync); if that fails it
+/// returns 0, because the content is undefined then. error() returns a text for the last error.
 ///
-/// Context: one thread. Owner: the caller; must outlive the node. One process per file: nothing is locked.
+/// Context: one thread. Owner: the caller; must outlive the node. One process per file: the file is not locked.
 #ifndef CO_DRIVERS_FILE_NVM_HPP_
 #define CO_DRIVERS_FILE_NVM_HPP_
 
@@ -29,16 +29,16 @@ class FileNvm {
   FileNvm(const FileNvm&) = delete;
   FileNvm& operator=(const FileNvm&) = delete;
 
-  /// \a capacity: bytes. Returns false if the file cannot be used, see error().
+  /// Opens or creates the file. \a capacity: bytes. Returns false if the file cannot be used, see error().
   bool open(const std::string& path, std::uint32_t capacity);
   void close();
 
   std::uint32_t read(std::uint32_t start, std::uint8_t* buffer, std::uint32_t size);
   std::uint32_t write(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
 
-  /// Bytes, 0: not open.
+  /// Returns the capacity in bytes, 0: not open.
   std::uint32_t capacity() const { return capacity_; }
-  /// Empty after a successful open().
+  /// Returns the text of the last error, empty after a successful open().
   const std::string& error() const { return error_; }
 
  private:

@@ -10,7 +10,7 @@ constexpr int erased = 0xFF;
 
 CO_NVM_RAM& memory(void* ctx) { return *static_cast<CO_NVM_RAM*>(ctx); }
 
-// How much of an access lies inside the memory.
+// Returns the number of bytes of an access that are within the memory.
 std::uint32_t inside(const CO_NVM_RAM& ram, std::uint32_t start, std::uint32_t size) {
   if (start >= ram.Size) {
     return 0;

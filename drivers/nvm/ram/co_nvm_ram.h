@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_nvm_ram.h
-/// A parameter memory in RAM: for tests, for nodes that need not remember, and for battery-backed RAM or memory-mapped
-/// FRAM. C and C++, bare metal.
+/// Driver for a parameter memory in RAM: for tests, for nodes without persistent parameters, and for battery-backed RAM
+/// or memory-mapped FRAM. C and C++, bare metal.
 ///
 ///     static uint8_t bytes[1024];
 ///     static CO_NVM_RAM memory = { bytes, sizeof(bytes) };
-///     CONvmRamClear(&memory);                                // unless the bytes have survived
+///     CONvmRamClear(&memory);                                // not if the RAM is battery-backed
 ///     ext.Nvm = &RamNvmDriver;  ext.NvmCtx = &memory;        // CO_NODE_EXT
 ///
-/// Accesses beyond the end are cut there: the functions return what they have done. Init leaves the content alone, so
-/// that it survives CONodeInit() as it would in a real memory.
+/// Accesses are limited to the size of the memory: the functions return the number of bytes processed. Init does not
+/// change the content, so it survives CONodeInit() like that of real memory.
 ///
-/// Context: the loop. Owner: the bytes stay the caller's and must live as long as the node.
+/// Context: the loop. Owner: the caller owns the bytes; they must outlive the node.
 #ifndef CO_NVM_RAM_H_
 #define CO_NVM_RAM_H_
 
@@ -26,7 +26,7 @@ typedef struct CO_NVM_RAM_T {
   uint32_t Size;  ///< bytes at Mem
 } CO_NVM_RAM;
 
-/// Makes the memory as a fresh one is: all bytes FFh.
+/// Sets all bytes to FFh, like erased memory.
 void CONvmRamClear(CO_NVM_RAM* ram);
 
 /// The driver; its context is a CO_NVM_RAM.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_linux.h
-/// The timer of a node on Linux (CLOCK_MONOTONIC) for C programs; C++ programs may use linux_timer.hpp instead.
+/// Timer driver for Linux (CLOCK_MONOTONIC), for C programs; C++ programs may use linux_timer.hpp instead.
 ///
 ///     CO_LINUX_TIMER *timer = COLinuxTimerNew();
 ///     ext.Timer = &COLinuxTimerDriver;  ext.TimerCtx = timer;       /* CO_NODE_EXT */
@@ -30,12 +30,12 @@ CO_LINUX_TIMER* COLinuxTimerNew(void);
 /// Releases \a timer, which may be null. The node must not use it any more.
 void COLinuxTimerFree(CO_LINUX_TIMER* timer);
 
-/// Returns the time-out for poll() and epoll_wait() in ms, rounded up: \a ticks from now, as CONodeNextDeadline()
-/// returns them; -1 (no time-out) for UINT32_MAX.
+/// Returns the time-out for poll() and epoll_wait() in ms, rounded up. \a ticks: time from now, as returned by
+/// CONodeNextDeadline(); -1 (no time-out) for UINT32_MAX.
 int COLinuxTimerPollTimeout(const CO_LINUX_TIMER* timer, uint32_t ticks);
 
-/// Returns a timerfd that is readable from the node's next alarm on, until the node sets another one; -1 and errno if
-/// the kernel has none. It belongs to the timer.
+/// Returns a timerfd that becomes readable at the node's next alarm and stays readable until the node sets another one;
+/// -1 and errno if the kernel has none. The timer owns the descriptor.
 int COLinuxTimerFd(CO_LINUX_TIMER* timer);
 
 /// The driver; its context is a CO_LINUX_TIMER.

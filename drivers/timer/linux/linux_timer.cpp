@@ -22,7 +22,7 @@ timespec timespec_from_ns(std::uint64_t ns) {
 
 }  // namespace
 
-// Whole seconds apart: what is left is below 10^9 * 2^32 and fits into 64 bits.
+// Converts whole seconds separately: the remainder is below 10^9 * 2^32 and fits into 64 bits.
 std::uint64_t ticks_from_ns(std::uint64_t ns, std::uint32_t frequency) {
   return ns / ns_per_second * frequency + ns % ns_per_second * frequency / ns_per_second;
 }
@@ -73,7 +73,8 @@ std::uint64_t LinuxTimer::wait_ns(std::uint32_t ticks) const {
   if (ticks == never || frequency_ == 0) {
     return UINT64_MAX;
   }
-  // From one reading of the clock; its tick has begun already, so the wait is up to one tick shorter than ticks are.
+  // Computed from one reading of the clock. Its tick has already begun, so the wait is up to one tick shorter than
+  // ticks.
   const std::uint64_t ns = clock_() - origin_;
   return ns_from_ticks(ticks_from_ns(ns, frequency_) + ticks, frequency_) - ns;
 }

@@ -5,14 +5,14 @@
 
 namespace {
 
-// Ticks left, 0: stopped or elapsed. Written by the interrupt and, with the interrupt kept away, by the loop.
+// Ticks until the end, 0: stopped or elapsed. Written by the interrupt and, with the interrupt disabled, by the loop.
 volatile std::uint32_t ticks_left = 0;
 
 void init(std::uint32_t /*freq*/) { ticks_left = 0; }
 void reload(std::uint32_t ticks) { ticks_left = ticks; }
 std::uint32_t delay() { return ticks_left; }
 void stop() { ticks_left = 0; }
-void start() {}  // Reload has started the count-down
+void start() {}  // reload() has started the count-down
 
 std::uint8_t update() {
   const std::uint32_t left = ticks_left;

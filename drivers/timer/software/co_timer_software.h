@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_software.h
-/// A timer without hardware of its own: counts the calls of a periodic interrupt (or loop) that the application has
-/// anyway. The way to start on a microcontroller; C and C++, bare metal.
+/// Timer driver without hardware: counts the calls of a periodic interrupt (or loop) that the application already has.
+/// The simplest timer on a microcontroller; C and C++, bare metal.
 ///
 ///     CO_IF_DRV drivers = { &MyCanDriver, &SoftwareTimerDriver, &MyNvmDriver };
 ///     spec.TmrFreq = 1000;                                   // the interrupt comes 1000 times per second
@@ -10,9 +10,9 @@
 /// Each call of COTmrService() is one tick, so CO_NODE_SPEC.TmrFreq must be the frequency of these calls; Init ignores
 /// it. Cyclic timers do not drift: a new count-down begins on the tick on which the last one has ended.
 ///
-/// Contexts: Update in the interrupt (through COTmrService()); the rest in the loop with COTmrLock() held, which must
-/// keep this interrupt away.
-/// Owner: one state in the driver, so one node. Several nodes: CO_IF_TIMER_DRV_EX.
+/// Contexts: Update in the interrupt (through COTmrService()); the other functions in the loop with COTmrLock() held,
+/// which must disable this interrupt.
+/// Owner: the driver has one global state, for one node. For several nodes use CO_IF_TIMER_DRV_EX.
 #ifndef CO_TIMER_SOFTWARE_H_
 #define CO_TIMER_SOFTWARE_H_
 

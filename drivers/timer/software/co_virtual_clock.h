@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_virtual_clock.h
-/// A clock that advances only when the program says so, for tests and simulations in C; C++ programs may use
-/// virtual_clock.hpp instead.
+/// A clock that only the program advances, for tests and simulations in C; C++ programs may use virtual_clock.hpp
+/// instead.
 ///
 ///     CO_VIRTUAL_CLOCK *clock = COVirtualClockNew();
 ///     CO_VIRTUAL_TIMER *timer = COVirtualTimerNew(clock);

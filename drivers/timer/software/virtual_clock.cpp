@@ -15,7 +15,7 @@ std::chrono::microseconds VirtualClock::time() const {
   if (frequency_ == 0) {
     return std::chrono::microseconds{0};
   }
-  // Whole seconds apart, so that the product fits into 64 bits for centuries.
+  // Converts whole seconds separately, so that the product fits into 64 bits for centuries.
   const std::uint64_t rest = (elapsed_ % frequency_) * micros_per_second / frequency_;
   return std::chrono::microseconds{static_cast<std::int64_t>(elapsed_ / frequency_ * micros_per_second + rest)};
 }
@@ -35,7 +35,7 @@ void VirtualClock::advance(std::uint64_t ticks) {
     elapsed_ = std::max(elapsed_, timer->deadline_);
     timer->ring();
   }
-  elapsed_ = std::max(elapsed_, target);  // an alarm function may have gone further
+  elapsed_ = std::max(elapsed_, target);  // an alarm function may have advanced the clock further
 }
 
 bool VirtualClock::advance_to_alarm() {
@@ -80,7 +80,7 @@ void VirtualTimer::set_alarm(std::uint32_t ticks) {
 void VirtualTimer::ring() {
   armed_ = false;
   ++alarms_;
-  // Must be last: the function may destroy this timer.
+  // Called last: the function may destroy this timer.
   if (const auto on_alarm = on_alarm_) {
     on_alarm();
   }

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file virtual_clock.hpp
-/// A clock that stands still until it is advanced, for tests and simulations: any number of nodes on one time.
+/// A clock that only the program advances, for tests and simulations: any number of nodes with a common time.
 ///
 ///     co::VirtualClock clock(0xFFFFFF00);                          // ticks at which it starts
 ///     co::VirtualTimer timer(clock, [&] { COTmrService(&node.Tmr); });
 ///     ext.Timer = &co::VirtualTimerDriver;  ext.TimerCtx = &timer; // CO_NODE_EXT
 ///     clock.advance(clock.ticks(std::chrono::milliseconds(100)));
 ///
-/// Units: ticks, of the frequency that the nodes give at their initialisation (CO_NODE_SPEC.TmrFreq); all nodes of a
-/// clock must have the same. The clock of the nodes wraps at 2^32, elapsed() does not.
-/// advance() stops at every alarm on its way, in the order of time and then of the timers' creation, with the clock on
-/// the tick of the alarm; so nothing comes early or late. advance_to_alarm() leaps over the time in which nothing
-/// happens.
+/// Units: ticks of the frequency that the nodes set at their initialisation (CO_NODE_SPEC.TmrFreq); all nodes of a
+/// clock must use the same one. The clock of the nodes wraps at 2^32, elapsed() does not.
+/// advance() calls every alarm that is due meanwhile, in the order of time, then of the timers' creation, with the
+/// clock at the tick of the alarm; so no alarm is early or late. advance_to_alarm() skips the time without alarms.
 ///
 /// Context: one thread. An alarm function may set alarms, create and destroy timers, and advance the clock.
 /// Owner: the clock must outlive its timers, and these the nodes that use them.
@@ -37,29 +36,30 @@ class VirtualClock {
   VirtualClock(const VirtualClock&) = delete;
   VirtualClock& operator=(const VirtualClock&) = delete;
 
-  /// The time as nodes see it.
+  /// Returns the time of the nodes.
   std::uint32_t now() const { return start_ + static_cast<std::uint32_t>(elapsed_); }
-  /// Ticks since the construction.
+  /// Returns the ticks since the construction.
   std::uint64_t elapsed() const { return elapsed_; }
-  /// elapsed(), rounded down; 0 before a node has given the frequency. A time source for VirtualBus::set_time().
+  /// Returns elapsed() as time, rounded down; 0 before a node has set the frequency. A time source for
+  /// VirtualBus::set_time().
   std::chrono::microseconds time() const;
-  /// A time in ticks, rounded up; 0 before a node has given the frequency.
+  /// Converts a time to ticks, rounded up; 0 before a node has set the frequency.
   std::uint64_t ticks(std::chrono::microseconds time) const;
-  /// Ticks per second, 0: not yet given.
+  /// Returns the ticks per second, 0: not yet set.
   std::uint32_t frequency() const { return frequency_; }
   void set_frequency(std::uint32_t frequency) { frequency_ = frequency; }
 
   void advance(std::uint64_t ticks);
-  /// Advances to the earliest alarm. Returns false, and the clock stands still, if none is set.
+  /// Advances to the earliest alarm. Returns false, without advancing, if none is set.
   bool advance_to_alarm();
-  /// Ticks until the earliest alarm, never: none is set.
+  /// Returns the ticks until the earliest alarm; never if none is set.
   std::uint32_t next_alarm() const;
 
  private:
   friend class VirtualTimer;
   VirtualTimer* earliest() const;
 
-  std::vector<VirtualTimer*> timers_;  // by creation
+  std::vector<VirtualTimer*> timers_;  // in the order of creation
   std::uint64_t elapsed_ = 0;
   std::uint32_t start_;
   std::uint32_t frequency_ = 0;
@@ -75,10 +75,10 @@ class VirtualTimer {
   VirtualTimer& operator=(const VirtualTimer&) = delete;
 
   VirtualClock& clock() const { return clock_; }
-  /// \a ticks from now; 0: no alarm. Replaces the alarm set before.
+  /// Sets the alarm \a ticks from now; 0: no alarm. Replaces the previous alarm.
   void set_alarm(std::uint32_t ticks);
   bool armed() const { return armed_; }
-  /// Alarms that have come.
+  /// Returns the number of expired alarms.
   std::uint64_t alarms() const { return alarms_; }
 
  private:

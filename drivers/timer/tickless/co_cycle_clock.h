@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cycle_clock.h
-/// What the timers that count cycles of a CPU have in common: ticks that are some cycles long.
+/// Tick clock shared by the timer drivers that count cycles of a CPU; a tick is a number of cycles.
 #ifndef CO_CYCLE_CLOCK_H_
 #define CO_CYCLE_CLOCK_H_
 
@@ -10,10 +10,10 @@
 extern "C" {
 #endif
 
-/// A clock of ticks, kept by a driver; both counters wrap at 2^32.
+/// A tick clock, updated by a driver; both counters wrap at 2^32.
 typedef struct CO_CYCLE_CLOCK_T {
   uint32_t PerTick;  ///< cycles
-  uint32_t Cycle;    ///< at which Tick has begun
+  uint32_t Cycle;    ///< cycle at which Tick has begun
   uint32_t Tick;
 } CO_CYCLE_CLOCK;
 

@@ -5,11 +5,11 @@
 
 namespace {
 
-constexpr uint32_t most = 1U << 31;  // cycles to the next interrupt
+constexpr uint32_t most = 1U << 31;  // longest step to the next interrupt, cycles
 
 CO_MTIME& mtime(void* ctx) { return *static_cast<CO_MTIME*>(ctx); }
 
-// The low word wraps as the clock of cycles does.
+// Returns the low word, which wraps at 2^32 like CO_CYCLE_CLOCK.
 uint32_t cycle(const CO_MTIME& t) { return t.Time[0]; }
 
 void change(CO_MTIME& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
@@ -26,7 +26,7 @@ uint64_t time(const CO_MTIME& t) {
   }
 }
 
-// With the high word out of reach first, no value in between interrupts.
+// Writes the maximum to the high word first, so that no intermediate value causes an interrupt.
 void set_compare(CO_MTIME& t, uint64_t at) {
   t.Compare[1] = UINT32_MAX;
   t.Compare[0] = static_cast<uint32_t>(at);
@@ -46,7 +46,7 @@ void init(void* ctx, uint32_t freq) {
   alarm(ctx, 0);
 }
 
-// In the loop the interrupt, which changes what is read, may come in between.
+// Repeats the reading if the interrupt has changed the clock meanwhile.
 uint32_t now(void* ctx) {
   const CO_MTIME& t = mtime(ctx);
   for (;;) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_mtime.h
-/// The machine timer of RISC-V (mtime and mtimecmp) as a clock that interrupts only when something is due. C and C++,
+/// Timer driver for the machine timer of RISC-V (mtime and mtimecmp): interrupts only when a timer is due. C and C++,
 /// bare metal, 32 and 64 bits.
 ///
 ///     static CO_MTIME timer = {(volatile uint32_t*)0x0200BFF8, (volatile uint32_t*)0x02004000, 10000000};   // Hz
@@ -8,8 +8,8 @@
 ///     ext.Timer = &MtimeDriver;  ext.TimerCtx = &timer;                                 // CO_NODE_EXT
 ///     machine timer interrupt: COTmrService(&node.Tmr);
 ///
-/// An alarm further away than 2^31 cycles is reached in steps of these, each an interrupt; so is the time in which no
-/// alarm is set, as the ticks are counted from there.
+/// An alarm further away than 2^31 cycles is reached in steps of 2^31 cycles, each an interrupt; without an alarm the
+/// steps continue, because the tick count is updated in them.
 ///
 /// An alarm is never early. Contexts: the loop, and COTmrService() in the machine timer interrupt. Owner: the caller;
 /// must outlive the node.
@@ -23,13 +23,13 @@
 extern "C" {
 #endif
 
-/// The first three members are the caller's, the others the driver's.
+/// State of the timer. The caller sets the first three members; the driver owns the others.
 typedef struct CO_MTIME_T {
   volatile uint32_t* Time;     ///< mtime: two words, the low one first
   volatile uint32_t* Compare;  ///< mtimecmp of the hart, likewise
-  uint32_t Hz;                 ///< of mtime
+  uint32_t Hz;                 ///< frequency of mtime
   CO_CYCLE_CLOCK Clock;
-  uint32_t Turn;  // changes with it
+  uint32_t Turn;  // incremented when Clock changes
 } CO_MTIME;
 
 /// The driver; its context is a CO_MTIME.

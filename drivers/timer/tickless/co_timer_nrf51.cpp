@@ -11,17 +11,17 @@ constexpr uint32_t clock_hz = 16000000;
 constexpr uint32_t highest_prescaler = 9;
 constexpr uint32_t bits_32 = 3;
 
-// Registers for the present time, and for the alarm.
+// Compare registers for the current time and for the alarm.
 constexpr unsigned present = 0;
 constexpr unsigned due = 1;
 constexpr uint32_t due_interrupt = 1U << (16 + due);
 
-// Ticks between a look at the clock and the compare register that is written then, and more.
+// Ticks that a compare value must be ahead of the clock when it is written; an upper bound of the time of writing.
 constexpr uint32_t lead = 4;
 
 CO_NRF51_TIMER_REGS& registers(void* ctx) { return *static_cast<CO_NRF51_TIMER*>(ctx)->Regs; }
 
-// The interrupt may come between the lines: then the time is that of its own look, which is not older.
+// Returns the current time. If the interrupt captures between the two lines, the result is its reading, which is newer.
 uint32_t look(CO_NRF51_TIMER_REGS& regs) {
   regs.Capture[present] = 1;
   return regs.Compare[present];
@@ -44,7 +44,7 @@ void init(void* ctx, uint32_t freq) {
 
 uint32_t now(void* ctx) { return look(registers(ctx)); }
 
-// A compare register that is written when its time is over would match one turn of the clock later.
+// A compare value that has already passed when it is written would match one wrap of the clock later.
 void alarm(void* ctx, uint32_t ticks) {
   CO_NRF51_TIMER_REGS& regs = registers(ctx);
   regs.InterruptsOff = due_interrupt;

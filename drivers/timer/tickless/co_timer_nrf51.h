@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_timer_nrf51.h
-/// TIMER0 of the nRF51 (or a 32-bit TIMER of the nRF52), as these chips have no SysTick or one that stands still while
-/// the CPU sleeps: a free-running clock with a compare register. C and C++, bare metal.
+/// Timer driver for TIMER0 of the nRF51 (or a 32-bit TIMER of the nRF52), whose SysTick is missing or stops while the
+/// CPU sleeps: a free-running clock with a compare register. C and C++, bare metal.
 ///
 ///     static CO_NRF51_TIMER timer = {(CO_NRF51_TIMER_REGS*)0x40008000};
 ///     spec.TmrFreq = 1000000;                                   // 16 MHz divided by a power of two, 31250 Hz at least
 ///     ext.Timer = &Nrf51TimerDriver;  ext.TimerCtx = &timer;    // CO_NODE_EXT
 ///     void TIMER0_IRQHandler(void) { COTmrService(&node.Tmr); }
 ///
-/// Uses the compare registers 0 and 1. An alarm is never early; one that is over while it is being set comes some ticks
-/// later. Contexts: the loop, and COTmrService() in the interrupt. Owner: the caller; must outlive the node.
+/// Uses the compare registers 0 and 1. An alarm is never early; one that becomes due while it is being set is some
+/// ticks late. Contexts: the loop, and COTmrService() in the interrupt. Owner: the caller; must outlive the node.
 #ifndef CO_TIMER_NRF51_H_
 #define CO_TIMER_NRF51_H_
 
@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-/// The registers of a TIMER, as far as they are used.
+/// Registers of a TIMER that the driver uses.
 typedef struct CO_NRF51_TIMER_REGS_T {
   volatile uint32_t Start;  ///< 000h
   volatile uint32_t Stop;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// SysTick counts from Reload to 0, and then from what Reload holds at that moment; a write to Value, whatever is
-// written, makes it 0, and the next cycle reloads it. So a slice of any length can be followed by one of 2^24 cycles,
-// in which no wrap gets lost.
+// SysTick counts from Reload to 0, then from the value of Reload at that moment; a write of any value to Value sets it
+// to 0, and the next cycle reloads it. A slice is the time from a reload to the next 0. So a slice of any length can be
+// followed by one of 2^24 cycles, during which no wrap gets lost.
 #include "co_timer_systick.h"
 
 #include "cycle_clock.hpp"
@@ -11,12 +11,12 @@ namespace {
 constexpr uint32_t enabled = 1U << 0;
 constexpr uint32_t interrupts = 1U << 1;
 constexpr uint32_t cpu_clock = 1U << 2;
-constexpr uint32_t pending = 1U << 26;      // of ICSR
-constexpr uint32_t end_pending = 1U << 25;  // of ICSR
+constexpr uint32_t pending = 1U << 26;      // bit of ICSR
+constexpr uint32_t end_pending = 1U << 25;  // bit of ICSR
 
-constexpr uint32_t most = 1U << 24;     // cycles of a slice
-constexpr uint32_t least = 64;          // likewise: Reload is written again before such a slice ends
-constexpr uint32_t longest_start = 64;  // cycles; a debugger, or an emulator that was held up, measures more
+constexpr uint32_t most = 1U << 24;     // longest slice, cycles
+constexpr uint32_t least = 64;          // shortest slice, cycles: Reload is written again before it ends
+constexpr uint32_t longest_start = 64;  // cycles; a debugger or a delayed emulator would measure more
 
 CO_SYSTICK& systick(void* ctx) { return *static_cast<CO_SYSTICK*>(ctx); }
 
@@ -28,8 +28,8 @@ struct Reading {
   bool wrapped_after;
 };
 
-// Cycles since the begin of the slice. Where the slice has ended between the readings, the value tells on which side; 0
-// is the end itself.
+// Returns the cycles since the beginning of the slice. If the slice has ended between the two readings of the flag, the
+// value shows on which side it was read; 0 is the end itself.
 uint32_t passed(const CO_SYSTICK& t, const Reading& reading) {
   const bool is_of_next = reading.wrapped_before || (reading.wrapped_after && reading.value > most / 2);
   return reading.value != 0 && is_of_next ? t.Slice + most - reading.value : t.Slice - reading.value;
@@ -41,7 +41,8 @@ uint32_t cycle(const CO_SYSTICK& t) {
   return t.Begin + passed(t, {before, value, has_wrapped(t)});
 }
 
-// What happens in between is always the same: it is measured by init().
+// Restarts SysTick. The cycles between reading and writing Value are constant: measure(), called by init(), measures
+// them.
 [[gnu::noinline]] uint32_t exchange(CO_SYSTICK_REGS& regs, uint32_t reload) {
   const uint32_t value = regs.Value;
   regs.Reload = reload;
@@ -55,8 +56,8 @@ uint32_t cycle(const CO_SYSTICK& t) {
   return value - regs.Value;
 }
 
-// The counter is 0 for a cycle before it is loaded: behind it, 0 is the end of the slice. In an emulator it is so for
-// longer, as another thread loads it, which a CPU that reads registers without a pause holds up.
+// Waits until the counter is loaded. It is 0 for a cycle before that; later, 0 is the end of the slice. In an emulator
+// it is 0 for longer, because another thread loads it, which a CPU that reads registers without a pause delays.
 void await_begin(const CO_SYSTICK& t) {
   while (t.Regs->Value == 0) {
     for (volatile uint32_t pause = 0; pause != 1000; pause = pause + 1) {
@@ -66,7 +67,7 @@ void await_begin(const CO_SYSTICK& t) {
 
 void change(CO_SYSTICK& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
 
-// A slice of 2^24 cycles begins; how much of the one before has passed is kept, and its interrupt is none any more.
+// Begins a slice of 2^24 cycles: adds the elapsed part of the previous slice to the clock and clears its interrupt.
 void begin_longest(CO_SYSTICK& t) {
   const bool before = has_wrapped(t);
   const uint32_t value = exchange(*t.Regs, most - 1);
@@ -76,8 +77,8 @@ void begin_longest(CO_SYSTICK& t) {
   await_begin(t);
 }
 
-// Whoever was held up here for longer than the slice (a CPU by a debugger, or by another program where it is emulated)
-// finds that what followed it is as short: instead, one of 2^24 cycles begins now. The time in between is lost.
+// Called when the CPU was stopped here for longer than the slice (by a debugger, or by the host of an emulator). The
+// slice after it would be as short, so one of 2^24 cycles begins now. The clock loses the time in between.
 void end_slice(CO_SYSTICK& t) {
   t.Begin += t.Slice;
   t.Slice = 0;
@@ -85,7 +86,8 @@ void end_slice(CO_SYSTICK& t) {
   await_begin(t);
 }
 
-// Out of one that is far from its end: there is no interrupt that would have to be told from that of the new slice.
+// Begins a slice that ends at a cycle. The current slice is far from its end, so no interrupt of it can be confused
+// with that of the new slice.
 void begin_slice(CO_SYSTICK& t, uint32_t end) {
   const uint32_t left = end - (t.Begin + t.Slice - t.Regs->Value + t.Start);
   const uint32_t slice = left - least <= most - least ? left : least;
@@ -110,7 +112,7 @@ void init(void* ctx, uint32_t freq) {
   change(t);
 }
 
-// In the loop the interrupt, which changes what is read, may come in between.
+// Repeats the reading if the interrupt has changed the clock meanwhile.
 uint32_t now(void* ctx) {
   const CO_SYSTICK& t = systick(ctx);
   for (;;) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ticks from cycles, by divisions of 32 bits: the clock has to be settled before its cycles have run once around.
+// Conversion of cycles to ticks with 32-bit divisions; settle() has to be called at least once in 2^32 cycles.
 #pragma once
 
 #include "co_cycle_clock.h"
 
 namespace co::cycles {
 
-// The driver's clock begins anew. freq: ticks per second, of which hz is a multiple.
+// Starts a clock at tick 0. freq: ticks per second; hz must be a multiple of it.
 inline void start(CO_CYCLE_CLOCK& clock, uint32_t hz, uint32_t freq, uint32_t cycle) {
   const uint32_t per_tick = freq == 0 ? 0 : hz / freq;
   clock = {per_tick == 0 ? 1 : per_tick, cycle, 0};
@@ -22,7 +22,7 @@ inline void settle(CO_CYCLE_CLOCK& clock, uint32_t cycle) {
   clock.Cycle += passed * clock.PerTick;
 }
 
-// Settles the clock. Cycles from this one until a number of ticks is over, most at most; 0 ticks: no end.
+// Updates the clock. Returns the cycles until a number of ticks has passed, at most `most`; 0 ticks: returns `most`.
 inline uint32_t until(CO_CYCLE_CLOCK& clock, uint32_t cycle, uint32_t ticks, uint32_t most) {
   settle(clock, cycle);
   if (ticks == 0 || ticks > most / clock.PerTick) {
