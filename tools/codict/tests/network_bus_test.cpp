@@ -2,6 +2,7 @@
 // Frame lengths and response times of a network.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,31 @@ constexpr Nanoseconds ms = 1000 * us;
 
 using Times = std::vector<std::optional<Nanoseconds>>;
 
+// The longest response time of a stream in its busy period, by simulation: the longest frame of lower priority begins
+// just before all others arrive. Nothing if the busy period does not end.
+std::optional<Nanoseconds> simulated(const std::vector<Stream>& streams, std::size_t at) {
+  Nanoseconds time = 0;
+  for (std::size_t n = at + 1; n < streams.size(); ++n) {
+    time = std::max(time, streams[n].transmission);
+  }
+  std::vector<Nanoseconds> sent(at + 1, 0);
+  Nanoseconds worst = 0;
+  while (time < 1000 * ms) {
+    const auto is_pending = [&](std::size_t n) { return sent[n] * streams[n].period <= time; };
+    std::size_t next = 0;
+    while (next <= at && !is_pending(next)) {
+      ++next;
+    }
+    if (next > at) {
+      return worst;
+    }
+    const Nanoseconds arrival = sent[next]++ * streams[next].period;
+    time += streams[next].transmission;
+    worst = next == at ? std::max(worst, time - arrival) : worst;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 TEST_CASE("network: the longest frame has 55 + 10 n bits, with 29 bits of identifier 80 + 10 n") {
@@ -32,10 +58,13 @@ TEST_CASE("network: the longest frame has 55 + 10 n bits, with 29 bits of identi
 TEST_CASE("network: the length of a frame with known data counts its stuff bits") {
   // Identifier 0, no data: 19 zeros and the CRC 0: 34 zeros. A stuff bit follows 5 zeros, then each 5 more.
   CHECK(exact_bits({0, false, false, 0}, "") == 34 + 13 + 6);
-  // 555h alternates; RTR, IDE, r0 and the DLC are 7 zeros.
-  const unsigned length = exact_bits({0x555, false, false, 0}, "");
-  CHECK(length >= 47 + 1);
-  CHECK(length <= 55);
+  // 555h alternates; RTR, IDE, r0 and the DLC are 7 zeros: one stuff bit.
+  CHECK(exact_bits({0x555, false, false, 0}, "") == 48);
+  // Calculated by a program of its own.
+  CHECK(exact_bits({0x080, false, false, 0}, "") == 51);
+  CHECK(exact_bits({0x702, false, false, 1}, "\x05") == 58);
+  CHECK(exact_bits({0x705, false, false, 1}, "\x05") == 59);
+  CHECK(exact_bits({0x705, false, true, 1}, "") == 49);
 }
 
 TEST_CASE("network: no frame is longer than the longest one, and the mean lies between") {
@@ -67,6 +96,33 @@ TEST_CASE("network: the example of Davis et al. 2007: the second instance of C i
   CHECK(c == ms);
   const std::vector<Stream> streams = {{c, 2500 * us, 0}, {c, 3500 * us, 0}, {c, 3500 * us, 0}};
   CHECK(response_times(streams, 8 * us) == Times{2 * ms, 3 * ms, 3500 * us});
+}
+
+TEST_CASE("network: response times are those of a simulation of the worst case") {
+  std::uint32_t random = 3;
+  const auto number = [&random](std::uint32_t low, std::uint32_t high) {
+    random = random * 1664525U + 1013904223U;
+    return static_cast<Nanoseconds>(low + (random >> 8) % (high - low + 1));
+  };
+  unsigned later = 0;  // responses above the period: several instances in one busy period
+  for (int round = 0; round < 3000; ++round) {
+    std::vector<Stream> streams;
+    for (Nanoseconds count = number(2, 6); count != 0; --count) {
+      streams.push_back({number(1, 4) * us, number(4, 24) * us / 2, 0});
+    }
+    const Times times = response_times(streams, 1);
+    for (std::size_t n = 0; n < streams.size(); ++n) {
+      double load = 0;
+      for (std::size_t higher = 0; higher <= n; ++higher) {
+        load += static_cast<double>(streams[higher].transmission) / static_cast<double>(streams[higher].period);
+      }
+      if (load < 0.999) {
+        REQUIRE(times[n] == simulated(streams, n));
+        later += *times[n] > streams[n].period ? 1U : 0U;
+      }
+    }
+  }
+  CHECK(later > 100);
 }
 
 TEST_CASE("network: one stream waits for nothing; two wait for one another") {

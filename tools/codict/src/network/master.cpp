@@ -382,7 +382,7 @@ void Master::files(std::uint16_t index, const std::string& name,
   dictionary_.line("ObjectType", "0x8");
   dictionary_.line("SubNumber", std::to_string(files.size() + 1));
   dictionary_.section(fmt::format("{:04X}sub0", index));
-  dictionary_.entry({0, "Highest sub-index supported", 5, "const", "127", false});
+  dictionary_.entry({0, "Highest sub-index supported", 5, "const", std::to_string(files.rbegin()->first), false});
   for (const auto& [node_id, path] : files) {
     dictionary_.section(fmt::format("{:04X}sub{:X}", index, node_id));
     dictionary_.entry({node_id, fmt::format("{} of node {}", name, node_id), domain, "rw", "", false});

@@ -52,13 +52,19 @@ constexpr std::size_t line_height = 22;
 constexpr std::size_t column_width = 250;
 constexpr std::size_t picture_width = 900;
 
-// Places of the PDOs of one direction, by index in Links::pdos.
+// Rows of the PDOs of one direction by COB-ID; the keys are indexes in Links::pdos.
 std::map<std::size_t, std::size_t> column_of(const Links& links, bool is_transmit) {
-  std::map<std::size_t, std::size_t> rows;
+  std::vector<std::size_t> order;
   for (std::size_t n = 0; n < links.pdos.size(); ++n) {
     if (links.pdos[n].pdo.is_transmit == is_transmit) {
-      rows.emplace(n, rows.size());
+      order.push_back(n);
     }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&links](std::size_t a, std::size_t b) { return links.pdos[a].key() < links.pdos[b].key(); });
+  std::map<std::size_t, std::size_t> rows;
+  for (std::size_t row = 0; row < order.size(); ++row) {
+    rows[order[row]] = row;
   }
   return rows;
 }

@@ -92,7 +92,8 @@ std::string transmission_text(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = node.number_or(index, 2, 255);
   const std::uint64_t inhibit = node.number_or(index, 3, 0);
   const std::uint64_t event = node.number_or(index, 5, 0);
-  std::string text = type == 0     ? "synchronous, on events"
+  std::string text = type == 1     ? "every SYNC"
+                     : type == 0   ? "synchronous, on events"
                      : type <= 240 ? fmt::format("every {} SYNC", type)
                      : type >= 254 ? "event-driven"
                                    : "on remote requests";

@@ -10,6 +10,8 @@ namespace {
 
 // Busy periods beyond this are treated as endless: 10 minutes.
 constexpr Nanoseconds longest_busy_period = Nanoseconds{600} * 1000 * 1000 * 1000;
+// A busy period of this load, or a higher one, does not end.
+constexpr double full_load = 1.0 - 1e-9;
 // Steps of all iterations of all streams: bounds the time for hostile input.
 constexpr std::size_t most_steps = 200000000;
 
@@ -89,12 +91,20 @@ class Analysis {
 }  // namespace
 
 std::vector<std::optional<Nanoseconds>> response_times(const std::vector<Stream>& streams, Nanoseconds bit_time) {
-  std::vector<std::optional<Nanoseconds>> times(streams.size());
-  Nanoseconds blocking = 0;
-  std::size_t steps = 0;
+  std::vector<Nanoseconds> blocking(streams.size() + 1, 0);
   for (std::size_t n = streams.size(); n-- != 0;) {
-    times[n] = Analysis(streams, n, bit_time, blocking, steps).response();
-    blocking = std::max(blocking, streams[n].transmission);
+    blocking[n] = std::max(blocking[n + 1], streams[n].transmission);
+  }
+  std::vector<std::optional<Nanoseconds>> times(streams.size());
+  std::size_t steps = 0;
+  double load = 0;
+  for (std::size_t n = 0; n < streams.size(); ++n) {
+    if (streams[n].period != 0) {
+      load += static_cast<double>(streams[n].transmission) / static_cast<double>(streams[n].period);
+    }
+    if (load < full_load) {
+      times[n] = Analysis(streams, n, bit_time, blocking[n + 1], steps).response();
+    }
   }
   return times;
 }
