@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The demo clock without an operating system: what the loop and the interrupts of a microcontroller do for a node. The
-// CPU sleeps whenever there is nothing to do.
+// The demo clock without an operating system: main loop and interrupts of a node on a microcontroller. The CPU sleeps
+// while it is idle.
 #include "board.hpp"
 #include "clock/dictionary.hpp"
 #include "co_core.h"
@@ -11,11 +11,11 @@
 namespace demo {
 namespace {
 
-constexpr std::uint8_t node_id = 1;  // unless LSS stores another
+constexpr std::uint8_t node_id = 1;  // until LSS stores another one
 constexpr std::uint32_t bit_rate = 500000;
 constexpr std::uint32_t ticks_per_second = 1000000;
 
-// What a master sends at once at most, a block of 127 segments, and what others send meanwhile.
+// Length of the receive queue, frames: a block of 127 segments and the frames that other nodes send meanwhile.
 constexpr std::uint16_t frames_received = 160;
 
 std::uint8_t picture[48 * 32 * 3];
@@ -61,8 +61,8 @@ void make_node() {
   CONodeInitEx(&node, &spec, &extension);
 }
 
-// Prints the last error of the node, if there is one: its name, index and sub-index of the object as one number, its
-// meaning.
+// Prints the last error of the node, if there is one: its name, index and sub-index of the object as one number, and
+// its text.
 void print_error() {
   const CO_ERR error = CONodeGetErr(&node);
   if (error == CO_ERR_NONE) {
@@ -76,7 +76,7 @@ void print_error() {
   board::print("\n");
 }
 
-// Without interrupts between the check and the sleep, which one that is pending ends at once.
+// Sleeps if the node is idle. Interrupts are disabled between the check and the sleep; a pending one ends the sleep.
 void sleep_until_due() {
   const std::uint32_t before = board::disable_interrupts();
   if (CONodeNextDeadline(&node) != 0 && !COSlcanIsDue(&can) && uart_lets_sleep()) {
@@ -103,7 +103,7 @@ void on_timer() {
 
 }  // namespace board
 
-// Around what the stack does with its timers, and not nested.
+// Disable and enable interrupts around accesses of the stack to its timers; calls are not nested.
 void COTmrLock() { demo::interrupts_before_lock = board::disable_interrupts(); }
 void COTmrUnlock() { board::restore_interrupts(demo::interrupts_before_lock); }
 

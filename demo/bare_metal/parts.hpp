@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parts.hpp
-/// What the demo uses of its board besides the CPU: a UART, which stands for a CAN controller, and a timer. One file
-/// for each kind, of which the board has one (CMakeLists.txt).
+/// Parts of the board besides the CPU: a UART, in place of a CAN controller, and a timer. There is one file for each
+/// type of UART and timer; CMakeLists.txt selects those of the board.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace demo {
 
-/// 115200 bit/s, 8 data bits, no parity; from now on it interrupts.
+/// Initialises the UART, 115200 bit/s, 8 data bits, no parity, and enables its interrupt.
 void uart_begin();
-/// There is text to be sent. Called with interrupts kept away.
+/// Starts the transmission of pending text. Call it with interrupts disabled.
 void uart_send(CO_SLCAN& can);
-/// To be called in its interrupt.
+/// Handles the interrupt of the UART.
 void uart_interrupt(CO_SLCAN& can);
 
-/// Whether the CPU may sleep as far as the UART is concerned: false while it cannot be relied on to interrupt.
+/// Returns true if the UART will interrupt, so that the CPU may sleep.
 bool uart_lets_sleep();
 
 struct BoardTimer {
@@ -27,7 +27,7 @@ struct BoardTimer {
 };
 
 BoardTimer board_timer();
-/// To be called in its interrupt, before COTmrService().
+/// Handles the interrupt of the timer. Call it before COTmrService().
 void timer_interrupt();
 
 constexpr std::uint32_t uart_speed = 115200;  // bit/s

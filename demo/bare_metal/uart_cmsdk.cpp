@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The UART of Arm's Cortex-M System Design Kit: a register for one byte in each direction.
+// UART of Arm's Cortex-M System Design Kit: a register of one byte in each direction.
 #include "board.hpp"
 #include "parts.hpp"
 
@@ -10,14 +10,14 @@ struct Registers {
   volatile std::uint32_t data;
   volatile std::uint32_t state;
   volatile std::uint32_t control;
-  volatile std::uint32_t interrupts;  // a 1 ends it
+  volatile std::uint32_t interrupts;  // write 1 to clear
   volatile std::uint32_t divisor;
 };
 
-constexpr std::uint32_t transmit_full = 1u << 0;    // of state
-constexpr std::uint32_t receive_full = 1u << 1;     // likewise
-constexpr std::uint32_t receive_overrun = 1u << 3;  // likewise; a 1 ends it
-constexpr std::uint32_t enable_all = 0xFu;          // of control: both directions, with their interrupts
+constexpr std::uint32_t transmit_full = 1u << 0;    // bit of state
+constexpr std::uint32_t receive_full = 1u << 1;     // bit of state
+constexpr std::uint32_t receive_overrun = 1u << 3;  // bit of state; write 1 to clear
+constexpr std::uint32_t enable_all = 0xFu;          // bits of control: both directions, with their interrupts
 constexpr std::uint32_t both_interrupts = 0x3u;
 
 Registers& uart() { return *reinterpret_cast<Registers*>(board::uart_base); }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The UART of the nRF51: a queue of six bytes that are received, one byte that is sent.
+// UART of the nRF51: a receive queue of six bytes, a transmit register of one byte.
 #include "board.hpp"
 #include "parts.hpp"
 
 namespace demo {
 namespace {
 
-// Registers, by their offset.
+// Offsets of registers.
 constexpr std::uint32_t start_receiving = 0x000;
 constexpr std::uint32_t start_sending = 0x008;
 constexpr std::uint32_t received = 0x108;
@@ -32,8 +32,8 @@ volatile std::uint32_t& at(std::uint32_t offset) {
   return *reinterpret_cast<volatile std::uint32_t*>(board::uart_base + offset);
 }
 
-// Returns whether the event has happened, and forgets it: only then, as it may happen between the two accesses, and a
-// byte that is received without its event is never taken, nor are those behind it.
+// Returns true and clears the event if it has occurred. It is not cleared otherwise, because it could occur between the
+// two accesses; a received byte whose event is lost would block the queue.
 bool take(std::uint32_t event) {
   if (at(event) == 0) {
     return false;
@@ -78,7 +78,8 @@ void uart_interrupt(CO_SLCAN& can) {
   }
 }
 
-// QEMU 7.2 forgets to interrupt for a byte that its other end has not taken at once, until a register is written.
+// Returns false while a byte is being sent: QEMU 7.2 omits the interrupt of a byte that the host did not accept at
+// once, until a register is written.
 bool uart_lets_sleep() {
   if (sending) {
     at(interrupts_on) = all_interrupts;

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A 16550: queues of 16 bytes in both directions.
+// UART 16550: queues of 16 bytes in both directions.
 #include "board.hpp"
 #include "parts.hpp"
 
 namespace demo {
 namespace {
 
-// Registers, by their offset.
+// Offsets of registers.
 constexpr std::uint32_t data = 0;
 constexpr std::uint32_t interrupts = 1;
 constexpr std::uint32_t queues = 2;
 constexpr std::uint32_t line_control = 3;
 constexpr std::uint32_t line_status = 5;
-constexpr std::uint32_t divisor_low = 0;   // while line_control says so
-constexpr std::uint32_t divisor_high = 1;  // likewise
+constexpr std::uint32_t divisor_low = 0;   // while divisor_access is set in line_control
+constexpr std::uint32_t divisor_high = 1;  // while divisor_access is set in line_control
 
 constexpr std::uint8_t receive_interrupt = 1u << 0;
 constexpr std::uint8_t transmit_interrupt = 1u << 1;
-constexpr std::uint8_t empty_queues = 0x07;  // and use them, with an interrupt for each byte
+constexpr std::uint8_t empty_queues = 0x07;  // clears and enables the queues, with an interrupt for each byte
 constexpr std::uint8_t eight_bits = 0x03;
 constexpr std::uint8_t divisor_access = 0x80;
 constexpr std::uint8_t has_data = 1u << 0;
 constexpr std::uint8_t has_lost_data = 1u << 1;
-constexpr std::uint8_t can_send = 1u << 5;  // the queue is empty
+constexpr std::uint8_t can_send = 1u << 5;  // the transmit queue is empty
 
 constexpr unsigned queue_length = 16;
 constexpr std::uint32_t clock_hz = 3686400;
@@ -44,7 +44,7 @@ void uart_begin() {
   board::enable_uart_interrupt();
 }
 
-// It interrupts as long as its queue is empty.
+// Enables the transmit interrupt while there is text; it is active as long as the transmit queue is empty.
 void uart_send(CO_SLCAN& can) {
   const std::uint8_t* bytes = nullptr;
   const bool has_text = COSlcanPending(&can, &bytes) != 0;

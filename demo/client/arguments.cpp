@@ -23,10 +23,10 @@ using Kind = ValueType::Kind;
 constexpr std::uint32_t longest = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint8_t usual_own_id = 127;
 
-/// Converts the arguments one after the other; after a fault, the others no longer matter.
+/// Converts arguments and stores the first fault.
 class Conversion {
  public:
-  /// \a name: how the user calls the number.
+  /// Converts a number. \a name: used in the error message.
   std::uint32_t number(const char* name, const std::string& text, std::uint32_t lowest, std::uint32_t highest) {
     const Encoded encoded = encode({Kind::unsigned_integer, 8}, text);
     std::uint64_t value = 0;
@@ -151,7 +151,7 @@ NmtCommand nmt_command(const std::string& name, Conversion& conversion) {
   return {};
 }
 
-/// The node-ID of the master, which must not be that of \a node.
+/// Returns the node-ID of the master, which must differ from \a node.
 std::uint8_t own_id_beside(std::uint8_t node, const std::string& typed, Conversion& conversion) {
   if (typed.empty()) {
     return node == usual_own_id ? usual_own_id - 1 : usual_own_id;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file arguments.hpp
-/// The arguments of a master's command line as typed, and the requests that they mean.
+/// Converts the arguments of a master's command line to requests.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace demo {
 struct Arguments {
   bool write = false;
   std::string node;
-  std::string own_id;  // empty: 127, or 126 if that is the node to talk to
+  std::string own_id;  // empty: 127, or 126 if that is the remote node
   std::string index;   // hexadecimal with or without 0x, decimal behind 0d; so is sub
   std::string sub = "0";
-  std::string type;                  // empty: read guesses, write takes a file as it is
-  std::optional<std::string> value;  // of write
+  std::string type;                  // empty: read guesses the type, write copies the file unchanged
+  std::optional<std::string> value;  // argument of write
   std::string file;                  // instead of the value; empty: none, "-": standard input or output
   std::string timeout = "1000";
   std::string max = "16777216";
@@ -33,19 +33,19 @@ struct Request {
   std::uint8_t own_id;
   std::uint16_t index;
   std::uint8_t sub;
-  std::optional<ValueType> type;  // read: how the value is shown; nothing: guess
+  std::optional<ValueType> type;  // read: type in which the value is printed; none: guess
   Bytes data;                     // write
-  std::string file;               // read: where the bytes go; empty: the value is shown
-  std::uint32_t timeout;          // ms, for each answer; 0: for ever
-  std::uint32_t capacity;         // read: bytes that the object may have
+  std::string file;               // read: file for the bytes; empty: the value is printed
+  std::uint32_t timeout;          // ms, for each answer; 0: no time-out
+  std::uint32_t capacity;         // read: largest size of the object, bytes
 };
 
 struct Prepared {
   Request request;
-  std::string fault;  // empty: nothing is wrong with the arguments
+  std::string fault;  // empty: the arguments are valid
 };
 
-/// Reads the file that shall be written to the object.
+/// Converts the arguments. Reads the file that has to be written to the object.
 Prepared prepare(const Arguments& arguments);
 
 // --- nmt
@@ -60,7 +60,7 @@ constexpr const char* nmt_command_names = "start, stop, preop, reset-node, reset
 struct NmtArguments {
   std::string command;  // one of nmt_command_names
   std::string node;     // or "all"
-  std::string own_id;   // empty: 127, or 126 if that is the node to command
+  std::string own_id;   // empty: 127, or 126 if that is the remote node
 };
 
 struct NmtRequest {
@@ -71,7 +71,7 @@ struct NmtRequest {
 
 struct NmtPrepared {
   NmtRequest request;
-  std::string fault;  // empty: nothing is wrong with the arguments
+  std::string fault;  // empty: the arguments are valid
 };
 
 NmtPrepared prepare(const NmtArguments& arguments);
@@ -80,7 +80,7 @@ NmtPrepared prepare(const NmtArguments& arguments);
 
 struct TourPrepared {
   std::uint8_t node;
-  std::string fault;  // empty: nothing is wrong with the arguments
+  std::string fault;  // empty: the arguments are valid
 };
 
 TourPrepared prepare_tour(const Arguments& arguments);
@@ -93,8 +93,8 @@ enum class LssAction { scan, set_id, set_bit_rate, store, inquire };
 struct LssArguments {
   LssAction action = LssAction::scan;
   std::vector<std::string> address;  // empty: a node without node-ID
-  std::string value;                 // of set-id and set-bitrate
-  bool store = false;                // behind it
+  std::string value;                 // argument of set-id and set-bitrate
+  bool store = false;                // run the service store afterwards
   std::string own_id = "127";
   std::string timeout = "1000";
   std::string listen = "50";
@@ -102,17 +102,17 @@ struct LssArguments {
 
 struct LssRequest {
   LssAction action;
-  std::optional<LssAddress> address;  // nothing: a node without node-ID
+  std::optional<LssAddress> address;  // none: a node without node-ID
   std::uint32_t value;                // node-ID, or bit/s
   bool store;
   std::uint8_t own_id;
   std::uint32_t timeout;  // ms, for the answer of a node
-  std::uint32_t listen;   // ms, for each request that looks for nodes
+  std::uint32_t listen;   // ms, for each request that searches for nodes
 };
 
 struct LssPrepared {
   LssRequest request;
-  std::string fault;  // empty: nothing is wrong with the arguments
+  std::string fault;  // empty: the arguments are valid
 };
 
 LssPrepared prepare(const LssArguments& arguments);

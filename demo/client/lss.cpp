@@ -17,20 +17,20 @@ namespace demo {
 
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
-constexpr std::uint8_t no_sdo = 1;                 // server of an SDO client that is not used
+constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
+constexpr std::uint8_t no_sdo = 1;                 // server of an unused SDO client
 constexpr std::uint8_t waiting = CO_LSSM_WAITING;
 
 std::string shown(const LssAddress& address) {
   return text("0x%08X 0x%08X 0x%08X 0x%08X", address[0], address[1], address[2], address[3]);
 }
 
-/// The numbers are as --address takes them.
+/// Prints the address in the format of --address.
 void print(std::ostream& out, const LssAddress& address) {
   out << "vendor-ID, product code, revision, serial number: " << shown(address) << std::endl;
 }
 
-/// The node in the state configuration has this address. False: the fault is told by \a master.
+/// Returns true if the node in the state configuration has this address; otherwise master.fault() has the reason.
 bool has_identity(LssMaster& master, const LssAddress& address) {
   for (std::uint8_t part = 0; part < CO_LSSM_PARTS; ++part) {
     if (!master.run_alone(COLssmInquire, part)) {
@@ -43,7 +43,7 @@ bool has_identity(LssMaster& master, const LssAddress& address) {
   return true;
 }
 
-/// Finds a node without node-ID, which is then in the state configuration.
+/// Finds a node without node-ID and switches it to the state configuration.
 bool find(LssMaster& master) {
   if (!master.run(COLssmFastscan, nullptr, std::uint8_t{0})) {
     return false;
@@ -53,10 +53,10 @@ bool find(LssMaster& master) {
         "fastscan has found the address 0 0 0 0, which no node has: a node answers every request of a fastscan; "
         "disconnect it, or name the node to configure by --address");
   }
-  return master.answers() <= 1 || master.is_alone();  // a fastscan has listened
+  return master.answers() <= 1 || master.is_alone();  // otherwise the fastscan has already waited for answers
 }
 
-/// Alone in the state configuration, the node answers to its address and has the identity that was found.
+/// Selects the node alone by its address. Returns true if it answers and has this address.
 bool verify(LssMaster& master, const LssAddress& address) {
   if (!master.run(COLssmSwitchGlobal, waiting)) {
     return false;
@@ -67,7 +67,7 @@ bool verify(LssMaster& master, const LssAddress& address) {
   return has_identity(master, address);
 }
 
-/// In the state configuration no fastscan finds a node again.
+/// Switches all these nodes to the state configuration, in which they do not answer a fastscan.
 bool select_all(LssMaster& master, const std::vector<LssAddress>& addresses) {
   return std::all_of(addresses.begin(), addresses.end(),
                      [&](const LssAddress& address) { return master.run(COLssmSwitchSelective, address.data()); });
@@ -109,7 +109,7 @@ bool select(LssMaster& master, const LssRequest& request, std::ostream& out) {
   return true;
 }
 
-/// Two nodes must not start with the same node-ID: it is taken back from all that have answered.
+/// Configures the node-ID. If several nodes have answered, it is removed again from all: they must not share one.
 bool set_node_id(LssMaster& master, std::uint8_t id) {
   if (!master.run(COLssmConfigureNodeId, id)) {
     return false;

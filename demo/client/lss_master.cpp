@@ -10,7 +10,7 @@
 namespace demo {
 namespace {
 
-constexpr unsigned manufacturers_error = 255;  // the specific error code tells more
+constexpr unsigned manufacturers_error = 255;  // the specific error code has the details
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void LssMaster::note_end(CO_LSSM* lssm, CO_LSSM_RESULT result) {
 }
 
 void LssMaster::begin() {
-  node_.set_user(this);  // the SDO client of the same node does so, too
+  node_.set_user(this);  // set for each service, because the SDO client of the same node sets it, too
   ended_ = false;
   fault_.clear();
 }

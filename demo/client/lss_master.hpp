@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file lss_master.hpp
-/// The stack's LSS master for a program that wants to wait until a service has ended. [305]
+/// Synchronous access to the stack's LSS master: each call returns when the service has ended. [305]
 #pragma once
 
 #include <array>
@@ -22,33 +22,33 @@ class LssMaster {
  public:
   struct Times {
     std::uint32_t timeout;  // ms, for the answer of a node
-    std::uint32_t listen;   // ms, for each request that looks for nodes
+    std::uint32_t listen;   // ms, for each request that searches for nodes
   };
 
-  /// \a node runs in \a loop. Both must outlive this.
+  /// \a node must be one of \a loop. Both must outlive this object.
   LssMaster(Node& node, Loop& loop, Times times);
   LssMaster(const LssMaster&) = delete;
   LssMaster& operator=(const LssMaster&) = delete;
 
-  /// Runs a service. An interruption of the program cancels it. False: it has failed, fault() tells why.
+  /// Runs a service. An interruption of the program cancels it. Returns false if it fails; fault() returns the reason.
   template <class... Argument, class... Given>
   bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
     begin();
     return wait_for_end(service(&lssm_, given..., note_end));
   }
 
-  /// Like run(), for a service that exactly one node must answer: waits for further answers and returns false if there
+  /// Runs a service that exactly one node must answer, like run(). Waits for further answers and returns false if there
   /// are any.
   template <class... Argument, class... Given>
   bool run_alone(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
     return run(service, given...) && is_alone();
   }
-  /// Listens on for the time of a request that looks for nodes. False: several nodes have answered the last request.
+  /// Waits for further answers, for the listening time. Returns false if several nodes have answered the last request.
   bool is_alone();
-  /// The program has found a fault of its own, which fault() tells. Always false.
+  /// Stores a fault found by the program, for fault(). Always returns false.
   bool fail(std::string fault);
 
-  /// To the last request.
+  /// Number of answers to the last request, and its results.
   unsigned answers() const { return lssm_.Heard; }
   std::uint32_t value() const { return lssm_.Value; }
   LssAddress address() const { return {lssm_.Address[0], lssm_.Address[1], lssm_.Address[2], lssm_.Address[3]}; }
@@ -66,9 +66,9 @@ class LssMaster {
   CO_LSSM& lssm_;
   Loop& loop_;
   std::uint32_t listen_;  // ms
-  std::string fault_;     // of the program; empty: none
+  std::string fault_;     // fault found by the program; empty: none
   bool ended_ = false;
-  CO_ERR error_ = CO_ERR_NONE;  // of the last service, when it was started
+  CO_ERR error_ = CO_ERR_NONE;  // result of starting the last service
   CO_LSSM_RESULT result_ = CO_LSSM_OK;
 };
 

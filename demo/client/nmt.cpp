@@ -12,8 +12,8 @@ namespace demo {
 
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
-constexpr std::uint8_t no_sdo = 1;                 // server of an SDO client that is not used
+constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
+constexpr std::uint8_t no_sdo = 1;                 // server of an unused SDO client
 
 std::string fault_of(CO_ERR error) {
   switch (error) {

@@ -10,7 +10,7 @@
 
 namespace demo {
 
-/// Goes on the bus as a node, and sends the command. Faults go to \a err. Returns the exit code.
+/// Goes on the bus as a node and sends the command. Prints faults to \a err. Returns the exit code.
 int carry_out(const NmtRequest& request, Host& host, std::ostream& err);
 
 }  // namespace demo

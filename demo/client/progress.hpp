@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file progress.hpp
-/// How far a long transfer is, for people: a bar that moves, or a few lines.
+/// Progress of a long transfer as text: a progress bar, or a few lines.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace demo {
 
-/// A moment of a transfer: bytes, and time since its begin.
+/// State of a transfer: bytes, and time since its start.
 struct Amount {
   std::uint32_t done;
-  std::uint32_t total;  // 0: not known
+  std::uint32_t total;  // 0: unknown
   Micros elapsed;
 };
 
-/// The state in one line: "[#####.....]  50 %  5000 of 10000 bytes, 25.0 kB/s".
+/// Returns the state in one line: "[#####.....]  50 %  5000 of 10000 bytes, 25.0 kB/s".
 std::string progress_text(const Amount& amount);
 
-/// Decides when there is something new to be said.
+/// Limits how often the progress is shown.
 class Progress {
  public:
   enum class Form {
     none,
     lines,  // one at each quarter; every second if the total is not known
-    bar,    // ten times a second once something was transferred, each in place of the one before
+    bar,    // ten times a second after the first byte, each replaces the previous one
   };
 
-  /// \a show is given the texts.
+  /// \a show: called with each text.
   Progress(Form form, std::function<void(const std::string&)> show);
   void update(const Amount& amount);
 
@@ -39,7 +39,7 @@ class Progress {
 
   Form form_;
   std::function<void(const std::string&)> show_;
-  std::uint32_t quarters_ = 0;  // that were said
+  std::uint32_t quarters_ = 0;  // already shown
   Micros said_at_ = 0;
 };
 

@@ -13,9 +13,9 @@
 namespace demo {
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // for these to find their way to the bus
+constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
 
-/// Shows the texts of a Progress; a bar stays in its line until the end.
+/// Prints the texts of a Progress; a bar stays in its line until the end.
 class ProgressLine {
  public:
   ProgressLine(std::ostream& err, Progress::Form form)
@@ -43,7 +43,7 @@ class ProgressLine {
 
   std::ostream& err_;
   bool is_bar_;
-  bool begun_ = false;  // a line without its end
+  bool begun_ = false;  // the line has no end yet
   Progress progress_;
   Amount last_{};
 };
@@ -68,12 +68,12 @@ std::string what_went_wrong(const Request& request, const Outcome& outcome) {
   return outcome.bus_fault.empty() ? words : words + '\n' + outcome.bus_fault;
 }
 
-/// Device name, hardware and software version are of the type VISIBLE_STRING. [301:7.5.2.8]
+/// Returns true for device name, hardware and software version, which are VISIBLE_STRING. [301:7.5.2.8]
 bool is_visible_string(const Request& request) {
   return request.index >= 0x1008 && request.index <= 0x100A && request.sub == 0;
 }
 
-/// The value in the form of its type; without one, a visible string as text, anything else as guess() shows it.
+/// Returns the value in the form of its type; without a type a visible string as text, other objects by guess().
 Shown show(const Request& request, const Bytes& bytes) {
   if (request.type) {
     return demo::show(*request.type, bytes);

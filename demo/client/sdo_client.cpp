@@ -54,7 +54,7 @@ void SdoClient::note_end(CO_CSDO* client, std::uint16_t, std::uint8_t, std::uint
 }
 
 void SdoClient::begin() {
-  node_.set_user(this);  // the LSS master of the same node does so, too
+  node_.set_user(this);  // set for each transfer, because the LSS master of the same node sets it, too
   ended_ = false;
 }
 

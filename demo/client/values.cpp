@@ -51,7 +51,7 @@ std::string range(ValueType type) {
   return (type.kind == Kind::integer ? '-' + std::to_string(largest(type) + 1) : "0") + "..." + highest;
 }
 
-/// Reads the digits of a number, decimal or after 0x. Not all of them read: it is none.
+/// Converts digits, decimal or after 0x. Returns invalid_argument if they are not all valid.
 std::errc magnitude(std::string_view digits, std::uint64_t& number) {
   const bool hex = digits.size() > 2 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X');
   digits.remove_prefix(hex ? 2 : 0);
@@ -66,7 +66,7 @@ Encoded encode_integer(ValueType type, std::string_view text) {
   if (error == std::errc::invalid_argument) {
     return fault('\'' + std::string(text) + "' is no integer");
   }
-  const std::uint64_t lowest = type.kind == Kind::integer ? largest(type) + 1 : 0;  // without its sign
+  const std::uint64_t lowest = type.kind == Kind::integer ? largest(type) + 1 : 0;  // absolute value
   if (error != std::errc() || number > (negative ? lowest : largest(type))) {
     return fault(std::string(text) + " is out of range, " + range(type));
   }
@@ -100,7 +100,7 @@ Encoded encode_real(std::string_view text) {
   return {little_endian(bits, sizeof bits), {}};
 }
 
-/// The shortest text that is read as the same number.
+/// Returns the shortest text that converts to the same number.
 template <class Real, class Bits>
 std::string show_real(const Bytes& bytes) {
   const auto bits = static_cast<Bits>(number_of(bytes));

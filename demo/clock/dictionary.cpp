@@ -16,7 +16,7 @@ CO_EMCY_TBL errors[] = {
 };
 constexpr std::uint16_t number_of_errors = sizeof errors / sizeof errors[0];
 
-// --- A type of our own: a figure of the time of day. It stores and reads as UNSIGNED8 does, but knows its limit.
+// --- An application-specific type: a figure of the time of day. Stored like UNSIGNED8, with an upper limit.
 
 std::uint32_t figure_size(CO_OBJ* obj, CO_NODE* node, std::uint32_t width) {
   return CO_TUNSIGNED8->Size(obj, node, width);

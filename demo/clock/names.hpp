@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file names.hpp
-/// The dictionary of the clock in words.
+/// Texts for the dictionary of the clock.
 #pragma once
 
 #include "trace/decode.hpp"
 
 namespace demo {
 
-/// Names of the objects of the clock, for the trace.
+/// Returns the names of the objects, for the trace.
 const trace::Names& clock_object_names();
-/// What its PDOs hold.
+/// Returns the objects mapped to the PDOs of the clock.
 trace::Mappings clock_mappings();
 
 }  // namespace demo

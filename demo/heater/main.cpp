@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A heater on a CAN interface of Linux: heater vcan0 5. It gets warmer or colder until it is as warm as it shall be.
+// A heater on a CAN interface of Linux: heater vcan0 5. Its temperature approaches the setpoint.
 #include <poll.h>
 
 #include <cstdint>
@@ -17,7 +17,8 @@ constexpr std::uint32_t ticks_per_second = 1000000;
 std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 CO_TMR_MEM timer_of_heat;
 
-// heater_ram has the variables of the dictionary. What changes one through the dictionary has its TPDO sent.
+// Moves the temperature towards the setpoint. heater_ram contains the variables of the dictionary; set() changes one
+// through the dictionary, which triggers its TPDO.
 void heat(void* node) {
   const int missing = heater_ram.setpoint - heater_ram.temperature;
   const int step = missing > 0 ? 1 : (missing < 0 ? -1 : 0);
@@ -25,7 +26,7 @@ void heat(void* node) {
       .set(static_cast<std::int16_t>(heater_ram.temperature + step));
 }
 
-// Prints the last error of the node: its name, index and sub-index of the object, its meaning. Returns false if there
+// Prints the last error of the node: its name, index and sub-index of the object, and its text. Returns false if there
 // is none.
 bool print_error(CO_NODE& node) {
   const CO_ERR error = CONodeGetErr(&node);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file exit.hpp
-/// Exit codes of the demo programs; --help says what each means there.
+/// Exit codes of the demo programs; --help describes their meaning for each program.
 #pragma once
 
 namespace demo {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file host.hpp
-/// The bus and the time in which device and master live: real ones, or simulated ones in tests.
+/// Bus and time of device and master: real ones, or simulated ones in tests.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Timer {
   void* context;
 };
 
-/// Memory that survives a loss of power, or no driver.
+/// Non-volatile memory, or no driver.
 struct Memory {
   const CO_IF_NVM_DRV_EX* driver = nullptr;
   void* context = nullptr;
@@ -36,7 +36,7 @@ class Host {
  public:
   virtual ~Host() = default;
 
-  /// \name The two ends of the bus. Only those may be used that the host was made for.
+  /// \name The two ends of the bus. Only those that the host was created for may be used.
   /// \{
   virtual Can device_can() = 0;
   virtual Timer device_timer() = 0;
@@ -44,16 +44,16 @@ class Host {
   virtual Timer master_timer() = 0;
   /// \}
 
-  /// What is wrong with the bus, in words; empty: nothing so far.
+  /// Returns a text for the fault of the bus; empty: none so far.
   virtual std::string bus_fault() { return {}; }
-  /// Whether it is gone for good.
+  /// Returns true if the bus is permanently lost.
   virtual bool bus_lost() { return false; }
 
-  /// Time since any moment.
+  /// Returns the time since any epoch.
   virtual Micros now() = 0;
-  /// Lets at most \a time pass; ends sooner when a frame arrives or interrupted() becomes true.
+  /// Waits for at most \a time; ends earlier when a frame arrives or interrupted() becomes true.
   virtual void wait(Micros time) = 0;
-  /// Whether somebody wants the program to end, or the bus is lost.
+  /// Returns true if the user has interrupted the program, or the bus is lost.
   virtual bool interrupted() = 0;
 };
 

@@ -52,7 +52,7 @@ VirtualBusHost::VirtualBusHost(const Interruption& interruption) : LinuxHost(int
 }
 
 void VirtualBusHost::wait(Micros time) {
-  LinuxHost::wait(0);  // lets signals in
+  LinuxHost::wait(0);  // handles pending signals
   const auto next = static_cast<Micros>(bus_.next_due().count());
   const Micros until_next = next > now() ? next - now() : 0;
   const auto step = static_cast<std::int64_t>(std::min({time, until_next, second}));
@@ -72,7 +72,7 @@ std::string SocketCanHost::open(const std::string& interface, bool device, bool 
 }
 
 std::vector<pollfd> SocketCanHost::wake_ups() {
-  return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // poll() passes over -1
+  return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // poll() ignores -1
 }
 
 }  // namespace demo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file linux_host.hpp
-/// Real time and SocketCAN, or the bus inside the program with a simulated time.
+/// Hosts on Linux: real time and SocketCAN, or a virtual bus with simulated time.
 #pragma once
 
 #include <poll.h>
@@ -17,8 +17,8 @@
 
 namespace demo {
 
-/// While it lives, SIGINT and SIGTERM are noted instead of ending the program. They are let in while the program waits,
-/// so that none can slip in between a look at happened() and the wait. One at a time.
+/// Stores SIGINT and SIGTERM during its lifetime, instead of ending the program. The signals are unblocked only while
+/// the program waits, so that none is missed between happened() and the wait. One instance at a time.
 class Interruption {
  public:
   Interruption();
@@ -27,7 +27,7 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 
   static bool happened();
-  /// The signal mask for the wait.
+  /// Returns the signal mask for the wait.
   const sigset_t& while_waiting() const { return before_; }
 
  private:
@@ -45,7 +45,7 @@ class LinuxHost : public Host {
   bool interrupted() override { return Interruption::happened(); }
 
  private:
-  /// What ends a wait: descriptors that become readable when a frame arrives.
+  /// Returns the descriptors that become readable when a frame arrives.
   virtual std::vector<pollfd> wake_ups() { return {}; }
 
   const Interruption& interruption_;
@@ -53,8 +53,8 @@ class LinuxHost : public Host {
   co::LinuxTimer master_timer_;
 };
 
-/// The bus inside the program, with a simulated time: it passes when the program waits, and only then. Frames take the
-/// time that they take on a wire.
+/// A virtual bus inside the program, with simulated time, which advances only in wait(). Frames take as long as on a
+/// wire.
 class VirtualBusHost : public LinuxHost {
  public:
   static constexpr std::uint32_t bit_rate = 1'000'000;  // bit/s
@@ -79,7 +79,7 @@ class VirtualBusHost : public LinuxHost {
 class SocketCanHost : public LinuxHost {
  public:
   using LinuxHost::LinuxHost;
-  /// A socket for each end that will be used. Returns why the interface cannot be used, in words; empty: it can.
+  /// Opens a socket for each end that is used. Returns why the interface cannot be used; empty: success.
   std::string open(const std::string& interface, bool device, bool master);
 
   Can device_can() override { return {&co::SocketCanDriver, &device_}; }

@@ -8,7 +8,8 @@ namespace demo {
 
 Loop::Loop(Host& host, std::vector<Node*> nodes) : host_(host), nodes_(std::move(nodes)) {}
 
-/// Returns false if no frame went over the bus: then nothing more happens by itself.
+/// Processes all nodes. Returns false if no frame was transferred: then all nodes are idle until the next timer or
+/// frame.
 bool Loop::process() {
   bool busy = false;
   for (Node* const node : nodes_) {

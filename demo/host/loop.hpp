@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file loop.hpp
-/// The nodes of a program in one thread: while the program waits for something, all of them run.
+/// Runs the nodes of a program in one thread while the program waits for a condition.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ class Loop {
   /// The host and the nodes must outlive the loop.
   Loop(Host& host, std::vector<Node*> nodes);
 
-  /// Lets the nodes run until \a done answers true, which is asked whenever something may have changed. Returns false
-  /// if it did not within \a timeout, or the program was interrupted.
+  /// Runs the nodes until \a done returns true; it is called after each change. Returns false after \a timeout, or if
+  /// the program was interrupted.
   bool run_until(const std::function<bool()>& done, Micros timeout);
 
-  /// Lets the nodes run for some time, unless the program is interrupted.
+  /// Runs the nodes for some time, unless the program is interrupted.
   void run_for(Micros time);
 
-  /// Lets the nodes finish what they have begun (also if the program was interrupted), at most for \a timeout.
+  /// Runs the nodes until they are idle (even if the program was interrupted), at most for \a timeout.
   void flush(Micros timeout);
 
   Micros now() { return host_.now(); }

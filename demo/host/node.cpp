@@ -10,10 +10,10 @@
 namespace demo {
 namespace {
 
-// While the bus is lost, frames are offered to it at this interval, and timers may be late by as much.
+// Interval of send attempts while the bus is lost, and limit of the lateness of timers then.
 constexpr Micros patience = 10 * millisecond;
 
-// A bus that is never idle holds up neither the timers nor the program.
+// Limit of frames per call, so that a busy bus delays neither the timers nor the program.
 constexpr unsigned frames_at_once = 32;
 
 std::string object_text(std::uint32_t key) {
@@ -73,7 +73,7 @@ Node::Node(Setup setup) : tap_{setup.can, std::move(setup.observer), setup.hears
 
   CO_NODE_SPEC spec{};
   spec.NodeId = setup.node_id;
-  spec.Baudrate = 0;  // the interface has its own, set by the system
+  spec.Baudrate = 0;  // the system sets the bit rate of the interface
   spec.Dict = setup.dictionary.first;
   spec.DictLen = setup.dictionary.length;
   spec.EmcyCode = setup.errors.first;
@@ -93,7 +93,7 @@ bool Node::process() {
   at_work_ = this;
   for (unsigned n = 0; n < frames_at_once; ++n) {
     const std::uint32_t received = counters().Received;
-    CONodeProcess(&node_);  // one frame a call
+    CONodeProcess(&node_);  // one frame per call
     COTmrService(&node_.Tmr);
     COTmrProcess(&node_.Tmr);
     if (counters().Received == received) {
@@ -137,7 +137,7 @@ CO_ERR Node::store_lss(std::uint32_t, std::uint8_t) { return CO_ERR_NONE; }
 #endif
 
 Micros Node::due_in() {
-  const Micros due = CONodeNextDeadline(&node_);  // soon, while frames wait to be sent
+  const Micros due = CONodeNextDeadline(&node_);  // short while frames are queued
   return tap_.failing ? std::max(due, patience) : due;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file node.hpp
-/// A CANopen node with all the memory that it needs, on drivers of a host.
+/// A CANopen node with its memory, on drivers of a host.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace demo {
 
 class Node {
  public:
-  /// Called for every frame that the node takes from the bus (received) or puts on it.
+  /// Called for every frame that the node receives or sends.
   using Observer = std::function<void(bool received, const CO_IF_FRM& frame)>;
 
   struct Setup {
@@ -24,9 +24,9 @@ class Node {
     Timer timer;
     Table dictionary;
     Observer observer = {};
-    bool hears_all = false;  // the observer gets the frames that are not for this node, too
+    bool hears_all = false;  // the observer is also called for frames that the node does not receive
     Errors errors = {};
-    Memory memory = {};  // that can be written byte by byte; without it nothing is stored
+    Memory memory = {};  // byte-writable; without it nothing is stored
   };
 
   static constexpr std::uint32_t ticks_per_second = second;
@@ -37,36 +37,35 @@ class Node {
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
 
-  /// Works off the frames that have arrived and the timers that have elapsed. Returns false if no frame went over the
-  /// bus.
+  /// Processes received frames and expired timers. Returns false if no frame was received or sent.
   bool process();
 
-  /// Time until process() has something to do, if no frame arrives before.
+  /// Returns the time until process() has to be called again, if no frame arrives before.
   Micros due_in();
-  /// Whether process() has nothing to do until a frame arrives.
+  /// Returns true if process() has no work until a frame arrives.
   bool is_idle() { return CONodeNextDeadline(&node_) == UINT32_MAX; }
 
-  /// \name What COLssLoad() and COLssStore() have to do. These do not say for which node they are called; it is the one
-  /// that is being made or processed.
+  /// \name Implementations of COLssLoad() and COLssStore(). The callbacks have no node argument; they use the node that
+  /// is being created or processed.
   /// \{
   static CO_ERR load_lss(std::uint32_t* bit_rate, std::uint8_t* node_id);
   static CO_ERR store_lss(std::uint32_t bit_rate, std::uint8_t node_id);
   /// \}
 
-  /// For CONodeGetUser().
+  /// Sets the result of CONodeGetUser().
   void set_user(void* user) { extension_.User = user; }
 
   CO_NODE& stack() { return node_; }
   const CO_NODE& stack() const { return node_; }
-  /// The last error of the node, which is thereby cleared.
+  /// Returns the last error of the node and clears it.
   CO_ERR error() { return CONodeGetErr(&node_); }
-  /// The last error in words: name, object and meaning, and the fault of the dictionary, if there is one. The error is
-  /// thereby cleared. Empty: none.
+  /// Returns the last error as text (name, object and meaning, and the fault of the dictionary, if any) and clears it.
+  /// Empty: none.
   std::string error_text();
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node_); }
 
  private:
-  /// The node's CAN driver: passes everything on and shows it to the observer.
+  /// CAN driver of the node: forwards all calls and reports the frames to the observer.
   struct Tap {
     Can can;
     Observer observer;

@@ -16,7 +16,7 @@
 namespace demo {
 namespace {
 
-// The shortest frame on the line is "t0000" and CR.
+// Length of the shortest frame on the line: "t0000" and CR.
 constexpr std::size_t shortest_line = 6;
 
 std::string words(int error) { return std::generic_category().message(error); }
@@ -44,8 +44,7 @@ int open_socket(const std::string& path) {
   return -1;
 }
 
-// Adapters that are a USB device pass over the speed; others have this one. What arrived for an earlier program is
-// discarded.
+// Opens a serial device and discards bytes received before. USB adapters ignore the speed; others use this one.
 int open_terminal(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK);
   termios settings{};
@@ -57,8 +56,8 @@ int open_terminal(const std::string& path) {
   return fd;
 }
 
-// The name of a new pseudo-terminal; empty, with errno: there is none. It passes bytes on as they are, and seems to
-// have been closed until another program opens it.
+// Returns the name of a new pseudo-terminal; empty, with errno, if it fails. It transfers bytes unchanged, and reports
+// a hang-up until another program opens it.
 std::string name_of(int pseudo_terminal) {
   char name[64] = "";
   if (pseudo_terminal < 0 || ::grantpt(pseudo_terminal) != 0 || ::unlockpt(pseudo_terminal) != 0 ||
@@ -73,7 +72,7 @@ std::string name_of(int pseudo_terminal) {
   return name;
 }
 
-// A socket without another end is an error here, and no signal.
+// Sends bytes. A socket whose other end is closed returns an error instead of raising a signal.
 ssize_t put(int fd, const std::uint8_t* bytes, std::size_t size) {
   const ssize_t sent = ::send(fd, bytes, size, MSG_NOSIGNAL);
   return sent < 0 && errno == ENOTSOCK ? ::write(fd, bytes, size) : sent;
@@ -89,7 +88,7 @@ const CO_IF_CAN_DRV_EX SlcanHost::driver = {
       return SlcanDriver.Read(&at(host).can_, frame);
     },
     [](void* host, const CO_IF_FRM* frame) {
-      at(host).send();  // what could not be sent before
+      at(host).send();  // bytes that could not be sent before
       return at(host).fd_ < 0 ? std::int16_t{-1} : SlcanDriver.Send(&at(host).can_, frame);
     },
     [](void* host) { SlcanDriver.Reset(&at(host).can_); },
@@ -145,7 +144,8 @@ bool SlcanHost::has_other_end() const {
 }
 
 void SlcanHost::wait(Micros time) {
-  constexpr Micros until_next_look = 10 * millisecond;  // poll() does not report that another program opens it
+  constexpr Micros until_next_look = 10 * millisecond;  // interval of polling: poll() does not report that another
+                                                        // program opens it
   LinuxHost::wait(has_other_end() ? time : std::min(time, until_next_look));
 }
 
@@ -163,7 +163,7 @@ void SlcanHost::receive() {
   std::array<std::uint8_t, 256> bytes{};
   static_assert(bytes.size() / shortest_line < std::tuple_size<decltype(frames_)>::value);
   if (fd_ < 0 || CORingCount(&can_.Frames) + bytes.size() / shortest_line >= frames_.size()) {
-    return;  // the rest waits in the kernel
+    return;  // the other bytes stay in the kernel
   }
   const ssize_t size = ::read(fd_, bytes.data(), bytes.size());
   if (size < 0 && errno == EIO && is_pseudo_terminal_) {

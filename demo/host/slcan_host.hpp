@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file slcan_host.hpp
-/// Real time, and a bus of slcan lines: behind a USB adapter, the socket of an emulator, or a pseudo-terminal. The
-/// program has one end, a master or a device; the other nodes are elsewhere.
+/// Real time, and a bus over slcan: by a USB adapter, the socket of an emulator, or a pseudo-terminal. The program has
+/// one end, a master or a device.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ class SlcanHost : public LinuxHost {
   using LinuxHost::LinuxHost;
   ~SlcanHost() override;
 
-  /// \a path: a serial device, or a Unix socket. \a bit_rate: of the bus, bit/s; 0: what the adapter has. Returns why
-  /// it cannot be used, in words; empty: it can.
+  /// Opens an adapter. \a path: a serial device, or a Unix socket. \a bit_rate: bit/s; 0: keeps that of the adapter.
+  /// Returns why it cannot be used; empty: success.
   std::string open(const std::string& path, std::uint32_t bit_rate);
 
-  /// Makes a pseudo-terminal, which path() names, for another program to open as its adapter. What is sent while none
-  /// has opened it is dropped. Returns why that fails, in words; empty: it does not.
+  /// Creates a pseudo-terminal at path(), which another program can open as its adapter. Text sent while it is not open
+  /// is discarded. Returns why it fails; empty: success.
   std::string open_pseudo_terminal();
   const std::string& path() const { return path_; }
 
@@ -45,7 +45,7 @@ class SlcanHost : public LinuxHost {
   void lose(const std::string& why);
 
   std::string path_;
-  std::string gone_;  // why the adapter cannot be used any more; empty: it can
+  std::string gone_;  // reason why the adapter is lost; empty: it is not
   int fd_ = -1;
   bool is_pseudo_terminal_ = false;
   std::array<CO_IF_FRM, 256> frames_{};

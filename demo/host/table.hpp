@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file table.hpp
-/// What a node is made of, in the form in which CO_NODE_SPEC takes it.
+/// Parameters of a node in the form required by CO_NODE_SPEC.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Table {
   std::uint16_t length;
 };
 
-/// Errors that a device can have.
+/// Errors of a device.
 struct Errors {
   CO_EMCY_TBL* first;
   std::uint16_t number;
@@ -22,7 +22,7 @@ struct Errors {
 
 constexpr std::uint8_t no_node_id = 255;
 
-/// Bytes that a node takes from the begin of its memory for its node-ID and bit rate.
+/// Bytes at the beginning of the node's memory used for node-ID and bit rate.
 #if USE_LSS && USE_PARA
 constexpr std::uint32_t lss_memory_size = CO_PARA_SPACE(8U, 1U, 1U);
 #else

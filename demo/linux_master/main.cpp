@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lexican-demo-master: reads or writes one object of a CANopen node, sends an NMT command, finds and configures nodes
-// by LSS, or takes a tour with a demo clock. The requests are functions of the library lexican_demo_client
-// (demo/client).
+// by LSS, or runs the tour of a demo clock. The library lexican_demo_client (demo/client) executes the requests.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -32,7 +31,7 @@ Progress::Form progress_form(bool asked_for) {
   return asked_for ? Progress::Form::lines : Progress::Form::none;
 }
 
-/// The bus to use; or no host, and what is wrong.
+/// The bus to use; or no host, and the fault.
 struct Bus {
   std::unique_ptr<Host> host;
   std::string fault;

@@ -133,12 +133,12 @@ CommandLine read_command_line(int argc, char** argv) {
   app.set_version_flag("--version", text("%d.%d.%d", CO_VER_MAJOR, CO_VER_MINOR, CO_VER_BUILD));
   add_object_options(app, line);
   add_value_options(app, line);
-  app.fallthrough();  // options may come after read and write, too
+  app.fallthrough();  // options are also accepted after read and write
   app.require_subcommand(1);
   CLI::App* const read = app.add_subcommand("read", "Read the object");
   CLI::App* const write = app.add_subcommand("write", "Write the object");
   for (CLI::App* const transfer : {read, write}) {
-    transfer->set_help_flag();  // there is one help for all
+    transfer->set_help_flag();  // one help text for all commands
     transfer->needs(app.get_option("--node"));
     transfer->needs(app.get_option("--index"));
   }

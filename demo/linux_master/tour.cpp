@@ -11,7 +11,7 @@
 namespace demo {
 namespace {
 
-// Of a small device, in an emulator that has to share its computer.
+// Traits of a small device that may run in a slow emulator.
 constexpr DeviceTraits traits_elsewhere = {48, 32, false, 20};
 
 class ClockElsewhere : public Device {

@@ -10,7 +10,7 @@ namespace {
 std::uint8_t picture[picture_size];
 constexpr std::uint8_t hardware[] = "host";
 
-/// Gives all variables the values that they have when the program begins. CONodeInit() loads those that are stored.
+/// Sets all variables to their initial values. CONodeInit() loads the stored ones.
 void forget_variables() {
   clock_set_defaults();
   std::fill(std::begin(picture), std::end(picture), std::uint8_t{0});

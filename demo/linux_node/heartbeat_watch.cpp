@@ -8,14 +8,14 @@ namespace {
 
 constexpr std::uint8_t boot_up = 0;
 
-// The node may get its node-ID while it is watched.
+// Accepts every node-ID, because the node may get one during the measurement.
 bool is_error_control(const CO_IF_FRM& frame) {
   return frame.Identifier > 0x700 && frame.Identifier <= 0x77F && frame.DLC == 1;
 }
 
 }  // namespace
 
-// Answers to node guarding look the same, but come only while there is no heartbeat.
+// Answers to node guarding have the same form, but are sent only while there is no heartbeat.
 void HeartbeatWatch::sent(const CO_IF_FRM& frame, std::uint32_t tick, std::uint32_t period) {
   if (!is_error_control(frame)) {
     return;

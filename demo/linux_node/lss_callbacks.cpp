@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program keeps what LSS configures; a program that only uses the clock decides for itself.
+// LSS callbacks of the program: they store node-ID and bit rate. A program that only uses the class Clock defines its
+// own.
 #include "host/node.hpp"
 
 #if USE_LSS

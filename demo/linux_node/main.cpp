@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lexican-demo-node: the clock as a CANopen node, alone or with a master that shows what it can do.
+// lexican-demo-node: the clock as a CANopen node, alone or with a master that demonstrates its functions.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -28,11 +28,11 @@ constexpr const char* default_interface = "vcan0";
 constexpr bool tour_begins_with_lss = USE_LSS != 0 && USE_LSS_MASTER != 0;
 constexpr std::uint32_t ticks_per_millisecond = Node::ticks_per_second / 1000;
 
-/// The bus to use, and why; or no host, and what is wrong.
+/// The bus to use, and why; or no host, and the fault.
 struct Bus {
   std::unique_ptr<Host> host;
   std::string about;
-  std::string master_options = {};  // by which lexican-demo-master uses the same bus
+  std::string master_options = {};  // options of lexican-demo-master for the same bus
 };
 
 std::string virtual_bus() {
@@ -91,14 +91,14 @@ std::string open_storage(Storage& storage, const Options& options) {
   return options.storage.empty() ? std::string() : storage.open(options.storage);
 }
 
-/// Of the node when it is started.
+/// Returns the node-ID of the node at its start.
 std::uint8_t first_node_id(const Options& options) {
   const bool none = options.serve ? options.unconfigured : tour_begins_with_lss;
   return none ? no_node_id : options.node_id;
 }
 
-/// Two nodes of one bus need different LSS addresses. The storage file identifies a node, also when it is started
-/// again.
+/// Returns a serial number. Two nodes on a bus need different LSS addresses; the storage file identifies a node across
+/// restarts.
 std::uint32_t serial_number(const Options& options) {
   if (!options.serial.empty()) {
     return static_cast<std::uint32_t>(std::stoul(options.serial, nullptr, 0));
@@ -120,7 +120,7 @@ std::string about_node(Clock& clock, const Options& options, std::uint32_t seria
          (options.serve ? text(", serial number 0x%08X; Ctrl-C ends it\n", serial) : "\n");
 }
 
-/// A first command for a master on the same bus.
+/// Returns a first command for a master on the same bus.
 std::string about_master(Clock& clock, const Bus& bus, const Options& options) {
   const std::string master = "Master: demo/run master" + bus.master_options;
   if (clock.node_id() == no_node_id) {
@@ -142,7 +142,7 @@ int show_tour(Host& host, Clock& clock, const Options& options, View& view) {
   return result.failed.empty() ? exit_ok : exit_failed;
 }
 
-/// Shows what is wrong with the bus, once as long as nothing else happens.
+/// Prints a fault of the bus, once until frames are transferred again.
 class FaultReport {
  public:
   void update(Host& host, Clock& clock, View& view) {

@@ -28,7 +28,7 @@ constexpr const char* footer =
     "    2  wrong arguments, or the CAN interface or the file cannot be used\n"
     "  130  ended by Ctrl-C or SIGTERM before the last step";
 
-/// Empty: the words are right.
+/// Returns the fault of the text, empty if it is valid.
 std::string node_id_fault(std::string& words) {
   const bool fits = words == unconfigured || CLI::Range(1, 127)(words).empty();
   return fits ? "" : "'" + words + "' is neither a node-ID, 1...127, nor the word unconfigured";

@@ -11,11 +11,11 @@
 namespace demo {
 
 struct Options {
-  std::string interface;  // SocketCAN; empty: the program chooses
+  std::string interface;  // SocketCAN; empty: automatic
   std::uint8_t node_id = 1;
-  bool unconfigured = false;  // the node starts without
+  bool unconfigured = false;  // the node starts without node-ID
   std::string storage;        // file; empty: none
-  std::string serial;         // number as typed; empty: the program chooses
+  std::string serial;         // number as typed; empty: automatic
   bool serve = false;
   bool virtual_bus = false;
   bool pseudo_terminal = false;
@@ -25,7 +25,7 @@ struct Options {
 
 struct CommandLine {
   Options options;
-  bool run = false;  // false: all is said (--help, or a fault), end with exit_code
+  bool run = false;  // false: end with exit_code (--help, or a fault)
   int exit_code = exit_ok;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file storage.hpp
-/// Where the clock of the program keeps its settings: in RAM, until a file is opened.
+/// Memory for the settings of the clock: RAM, until a file is opened.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ class Storage {
   Storage(const Storage&) = delete;
   Storage& operator=(const Storage&) = delete;
 
-  /// Returns what is wrong with the file, in words; empty: nothing.
+  /// Opens a file. Returns its fault as text; empty: none.
   std::string open(const std::string& path);
-  /// The same with a new file, which is removed at the end.
+  /// Like open(), with a new temporary file, which the destructor removes.
   std::string open_temporary();
 
   Memory memory();

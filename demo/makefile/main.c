@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The firmware of demo/makefile: a node with the driver templates, which stand for the drivers of a real controller.
+// The firmware of demo/makefile: a node with the driver templates in place of the drivers of a real controller.
 #include "co_can_template.h"
 #include "co_core.h"
 #include "co_timer_template.h"

@@ -7,16 +7,16 @@
 #include "co_can_virtual.h"
 #include "co_virtual_clock.h"
 
-/// Switches the device on: the first time on \a bus, then again with what its memory has kept.
+/// Starts the device: on \a bus at the first call, later as after a power cycle, with its stored values.
 void ThermostatPowerOn(CO_VIRTUAL_BUS* bus, CO_VIRTUAL_CLOCK* clock);
 
-/// One pass of the main loop.
+/// Runs one pass of the main loop.
 void ThermostatRun(void);
 
-/// A new measurement, in 0.1 degrees Celsius.
+/// Sets a new measurement, in 0.1 degrees Celsius.
 void ThermostatMeasure(int16_t temperature);
 
-/// Setpoint in 0.1 degrees Celsius.
+/// Returns the setpoint, in 0.1 degrees Celsius.
 int16_t ThermostatSetpoint(void);
 
 #endif

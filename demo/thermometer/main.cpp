@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thermometer on a bus inside of this program, in a simulated time: three seconds, in which it gets warm. The
-// frames of the bus are shown with their meaning. A program for a device has a driver of its own for each:
-// docs/porting.md.
+// The thermometer on a simulated bus inside the program: three seconds of simulated time, in which the temperature
+// rises. The frames on the bus are printed with their meaning. A program for a device uses drivers for its hardware
+// instead: docs/porting.md.
 #include <chrono>
 #include <cstdio>
 #include <cstring>

@@ -12,9 +12,9 @@ std::uint16_t heartbeat_time = 500;  // ms
 std::int16_t temperature = 0;        // 0.1 °C
 std::int16_t limit = 1000;           // 0.1 °C
 
-// What the network sees. CO_KEY: index, sub-index, flags. Flags: R and W for the network, P: PDOs may have it, A: a
-// change sends the PDO, D: the value lies in the entry, N: the node-ID is added to it. The type says what the entry is,
-// the last column where its value lies.
+// The object dictionary. CO_KEY: index, sub-index, flags. Flags: R and W: readable and writable by SDO; P: mappable to
+// PDOs; A: a change triggers the TPDO; D: the entry contains the value; N: the node-ID is added. The second column is
+// the type, the last one the value or its address.
 constexpr CO_OBJ od[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, (CO_DATA)(&error_register)},
@@ -33,7 +33,7 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x2000, 0, CO_OBJ___APR_), CO_TSIGNED16, (CO_DATA)(&temperature)},
     {CO_KEY(0x2001, 0, CO_OBJ_____RW), CO_TSIGNED16, (CO_DATA)(&limit)},
 };
-CO_OD_CHECK(od);  // a table that is wrong does not compile
+CO_OD_CHECK(od);  // an invalid table does not compile
 
 constexpr std::uint16_t entries = sizeof od / sizeof od[0];
 

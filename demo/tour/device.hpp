@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file device.hpp
-/// The clock that a master talks to: in the same program, or anywhere else on the bus.
+/// The clock that the master uses: in the same program, or elsewhere on the bus.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace demo {
 struct DeviceTraits {
   std::uint32_t picture_width;   // pixels
   std::uint32_t picture_height;  // pixels
-  bool can_lose_power;           // at our command, and remembers what it has stored
-  unsigned patience;             // how often the usual time it may take for everything
+  bool can_lose_power;           // lose_power() works and keeps the stored values
+  unsigned patience;             // factor of all time-outs
 
-  /// Bytes: red, green and blue of each pixel.
+  /// Returns the size in bytes: red, green and blue of each pixel.
   constexpr std::uint32_t picture_size() const { return picture_width * picture_height * 3; }
 };
 
@@ -25,13 +25,13 @@ class Device {
 
   virtual const DeviceTraits& traits() const = 0;
 
-  /// Lets it boot, if it has a node-ID. Returns false if that cannot be.
+  /// Starts the device. Returns false if that fails.
   virtual bool start() = 0;
-  /// Nothing is left but what it has stored. It has to be started again.
+  /// Simulates a power failure: only stored values remain. start() must be called again.
   virtual void lose_power() = 0;
-  /// no_node_id: it waits for the LSS master.
+  /// Returns its node-ID; no_node_id: it waits for the LSS master.
   virtual std::uint8_t node_id() const = 0;
-  /// Its node, where that has to run in the master's loop; null: it runs elsewhere.
+  /// Returns the node to run in the master's loop; null: the device runs elsewhere.
   virtual Node* node_in_loop() = 0;
 };
 

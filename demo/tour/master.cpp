@@ -12,7 +12,7 @@ SdoClient::Options sdo_options(const Device& device) {
   return options;
 }
 
-// The highest node-ID that is free: the usual place of a master.
+// Returns the highest free node-ID, which is usual for a master.
 std::uint8_t own_node_id(std::uint8_t device) { return device == 127 ? 126 : 127; }
 
 }  // namespace

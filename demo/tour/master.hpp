@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file master.hpp
-/// A small CANopen master, a node of its own; a device in the same program runs in its loop, while it waits.
+/// A small CANopen master with a separate node; while it waits, it also runs a device in the same program.
 #pragma once
 
 #include <cstdint>
@@ -24,17 +24,17 @@ enum class State : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, pre
 
 class Master {
  public:
-  /// Goes on the bus. \a node_id: the node to talk to; \a host and \a device must outlive the master.
+  /// Goes on the bus. \a node_id: the remote node; \a host and \a device must outlive the master.
   Master(Host& host, Device& device, std::uint8_t node_id, Node::Observer observer = {});
 
   bool command(Nmt command);
-  /// Sends a frame as it is; false: the bus does not take it.
+  /// Sends a frame unchanged. Returns false if the bus does not accept it.
   bool send(CO_IF_FRM frame);
-  /// Waits for a boot-up or heartbeat message with this state, which may have come since the last command.
+  /// Waits for a boot-up or heartbeat message with this state, received since the last command.
   bool await_state(State state, Micros timeout);
-  /// Waits for the next frame of an identifier, which may have come since the last command or frame that was sent.
+  /// Waits for the next frame of an identifier, received since the last command or sent frame.
   std::optional<CO_IF_FRM> await_frame(std::uint32_t identifier, Micros timeout);
-  /// What has come so far is no longer waited for.
+  /// Discards the frames received so far.
   void forget();
 
   SdoClient& sdo() { return sdo_; }
@@ -53,8 +53,8 @@ class Master {
 
   std::uint8_t node_id_;
   Node::Observer observer_;
-  std::deque<State> heard_;       // states of the node that nobody has waited for yet
-  std::deque<CO_IF_FRM> frames_;  // PDO, SYNC and EMCY messages likewise
+  std::deque<State> heard_;       // received states of the node, not yet checked
+  std::deque<CO_IF_FRM> frames_;  // received PDO, SYNC and EMCY messages, not yet checked
   ClientDictionary dictionary_;
   Node node_;
   Loop loop_;

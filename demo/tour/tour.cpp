@@ -16,9 +16,9 @@ namespace {
 
 constexpr Micros heartbeat_timeout = 3 * second;
 constexpr std::uint32_t largest_picture = 192 * 128 * 3;  // bytes
-constexpr TimeOfDay set_time = {12, 34, 57};              // the minute changes while we look
+constexpr TimeOfDay set_time = {12, 34, 57};              // the minute changes during the tour
 
-/// Colours that change from pixel to pixel.
+/// Returns a picture whose colours change from pixel to pixel.
 Bytes test_picture(const DeviceTraits& traits) {
   Bytes picture;
   picture.reserve(traits.picture_size());
@@ -40,7 +40,7 @@ std::uint32_t number(const Bytes& data) {
   return result;
 }
 
-/// The transfer has to end with this abort code.
+/// Checks that the transfer has ended with this abort code.
 Finding expect_abort(const char* what, const Transfer& transfer, std::uint32_t code) {
   return {transfer.code == code, std::string(what) + ": " + transfer.outcome()};
 }
@@ -57,7 +57,7 @@ Finding expect_text(const char* what, const Transfer& transfer, const char* expe
 
 bool has_booted(Tour& tour) { return tour.master.await_state(State::boot_up, at_most(tour, second)); }
 
-/// One that is not in this program may have booted before anybody was there to listen.
+/// Waits for the boot-up message. A device outside this program may have booted earlier; then it is reset.
 Finding boot(Tour& tour) {
   const bool is_elsewhere = tour.device.node_in_loop() == nullptr;
   const bool booted = tour.device.start() &&
@@ -117,7 +117,7 @@ Finding name_station(Tour& tour) {
   return expect_text("the station name", tour.sdo.upload(0x2201, 0), station_name);
 }
 
-/// For a transfer of the picture: room for it, and the progress is shown.
+/// Returns options for a transfer of the picture: its size, and a progress display.
 SdoClient::Options picture_options(const Tour& tour) {
   View& view = tour.view;
   Progress progress(view.progress_form(), [&view](const std::string& text) { view.progress(text); });
@@ -136,7 +136,7 @@ Finding fetch_picture(Tour& tour) {
   if (!read.done()) {
     return failure("reading the picture", read);
   }
-  // A larger one than ours has something else at its end.
+  // A picture that is larger than this one has other content at its end.
   const Bytes expected = test_picture(tour.traits);
   const bool same =
       read.data.size() >= expected.size() && std::equal(expected.begin(), expected.end(), read.data.begin());
@@ -183,7 +183,7 @@ Finding read_clock(Tour& tour) {
   const auto passed = static_cast<std::uint32_t>((tour.master.loop().now() - tour.set_at) / second);
   const std::uint32_t set = seconds_of(tour.set_to);
   const std::uint32_t shown = (figure[0] * 60u + figure[1]) * 60u + figure[2];
-  // The clock was set somewhere within one of its seconds, and one that is elsewhere some time after we have begun to.
+  // The clock was set within one of its seconds; a clock elsewhere is set some time after the beginning.
   const std::uint32_t seconds = (shown + seconds_per_day - set) % seconds_per_day;
   const bool right = seconds <= passed + 1 && seconds + tour.traits.patience >= passed;
   return {right, text("%02u:%02u:%02u, %u s after it was set", figure[0], figure[1], figure[2], passed)};
@@ -197,9 +197,9 @@ Finding reset(Tour& tour) {
 
 struct Step {
   const char* title;
-  const char* shown;  // in the summary
+  const char* shown;  // text in the summary
   Finding (*take)(Tour& tour);
-  State begin = State::pre_operational;  // where those before leave the node; boot_up: it is not known yet
+  State begin = State::pre_operational;  // state of the node before the step; boot_up: unknown
 };
 
 constexpr Step configured[] = {
@@ -260,7 +260,7 @@ Nmt command_to(State state) {
   }
 }
 
-/// A step that went wrong may have left the node in another state than the next one expects.
+/// Runs a step. After a failed step the node may be in another state than the step requires: switches the state first.
 Finding take(const Step& step, bool after_failure, Tour& tour) {
   const bool is_ready =
       !after_failure || step.begin == State::boot_up ||
@@ -290,7 +290,7 @@ std::vector<Step> steps_with([[maybe_unused]] const Device& device) {
   return all;
 }
 
-/// A few in a line.
+/// Prints several items per line.
 void show_list(const std::vector<std::string>& items, View& view) {
   constexpr std::size_t per_line = 5;
   for (std::size_t first = 0; first < items.size(); first += per_line) {
@@ -311,11 +311,11 @@ TourResult take_tour(Device& device, Master& master, View& view) {
   TourResult result;
   result.of = all.size();
   const Micros begin = master.loop().now();
-  bool has_failed = false;  // the step before
+  bool has_failed = false;  // result of the previous step
   for (const Step& step : all) {
     view.heading(result.steps + 1, step.title);
     const Finding finding = take(step, has_failed, tour);
-    master.loop().run_for(millisecond);  // what was sent last is still seen in this step
+    master.loop().run_for(millisecond);  // the last frames still belong to this step
     if (master.loop().interrupted()) {
       result.interrupted = true;
       break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file tour.hpp
-/// What the demo shows: steps that a master takes with the clock, each with what is expected of it.
+/// Steps of the tour that a master executes with the clock, each with its expected result.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,18 @@
 namespace demo {
 
 struct TourResult {
-  unsigned steps = 0;               // taken to their end
-  std::size_t of = 0;               // steps that there are
-  std::vector<std::string> shown;   // what those that went as expected have shown
-  std::vector<std::string> failed;  // titles of the others
+  unsigned steps = 0;               // completed steps
+  std::size_t of = 0;               // number of all steps
+  std::vector<std::string> shown;   // results of the successful steps
+  std::vector<std::string> failed;  // titles of the failed steps
   Micros duration = 0;
   bool interrupted = false;
 };
 
-/// Takes all steps, one after the other, whatever the result of those before. A clock without node-ID gets it from the
-/// master.
+/// Runs all steps, even after failed ones. The master configures a clock without node-ID.
 TourResult take_tour(Device& device, Master& master, View& view);
 
-/// The last words: what was shown, and what a node has counted. \a whose: the label before its counters.
+/// Prints the summary: results, and counters of a node. \a whose: the label before its counters.
 void summarise(const TourResult& result, const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
 void show_counters(const CO_NODE_COUNTERS& counters, View& view, const char* whose = "node");
 

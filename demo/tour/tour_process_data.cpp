@@ -21,10 +21,10 @@ std::optional<CO_IF_FRM> await_time(Tour& tour, Micros timeout) {
   return tour.master.await_frame(0x180u + tour.master.node_id(), at_most(tour, timeout));
 }
 
-/// Whether it is \a begin, or a second later.
+/// Returns true if \a time is \a begin, or a second later.
 bool is_just_after(const TimeOfDay& begin, const TimeOfDay& time) { return seconds_of(time) - seconds_of(begin) <= 1; }
 
-/// The TPDO that answers to a time that was set. One may have been on its way before.
+/// Returns the TPDO after a time was set. The one before it may have been queued earlier; it is skipped.
 std::optional<CO_IF_FRM> await_time_after(Tour& tour, const TimeOfDay& begin) {
   auto answer = await_time(tour, 2 * second);
   if (answer && !is_just_after(begin, time_in(*answer))) {
@@ -33,13 +33,13 @@ std::optional<CO_IF_FRM> await_time_after(Tour& tour, const TimeOfDay& begin) {
   return answer;
 }
 
-/// The code of the next EMCY message; nothing if none comes.
+/// Returns the code of the next EMCY message; nothing after a time-out.
 std::optional<std::uint16_t> await_emcy(Tour& tour) {
   const auto message = tour.master.await_frame(0x080u + tour.master.node_id(), at_most(tour, second));
   return message ? std::optional(CO_GET_WORD(&*message, 0)) : std::nullopt;
 }
 
-/// Bytes of a number of 32 bits.
+/// Returns a 32-bit number as bytes.
 Bytes bytes_of(std::uint32_t number) {
   return {static_cast<std::uint8_t>(number), static_cast<std::uint8_t>(number >> 8),
           static_cast<std::uint8_t>(number >> 16), static_cast<std::uint8_t>(number >> 24)};
@@ -62,7 +62,7 @@ Transfer apply(Tour& tour, const std::vector<Setting>& settings) {
   return last;
 }
 
-/// How many SYNC messages are followed by TPDO1.
+/// Returns the number of SYNC messages that are followed by TPDO1.
 unsigned count_synchronous(Tour& tour, unsigned messages) {
   unsigned right = 0;
   for (unsigned n = 0; n < messages; ++n) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file tour_steps.hpp
-/// What the steps of the tour have in common, and those of them that are about process data, LSS and storage.
+/// Common parts of the steps of the tour, and the steps for process data, LSS and storage.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ struct Tour {
   View& view;
   SdoClient& sdo = master.sdo();
   const DeviceTraits& traits = device.traits();
-  TimeOfDay set_to = {};  // the clock
-  Micros set_at = 0;      // when; 0: not yet
+  TimeOfDay set_to = {};  // time that the clock was set to
+  Micros set_at = 0;      // when it was set; 0: not yet
 };
 
 constexpr char station_name[] = "Central Station";
@@ -33,7 +33,7 @@ Bytes bytes_of(const char* text);
 
 constexpr std::uint32_t seconds_per_day = 24 * 60 * 60;
 
-/// Since midnight.
+/// Returns the seconds since midnight.
 constexpr std::uint32_t seconds_of(const TimeOfDay& time) {
   return (time.hour * 60u + time.minute) * 60u + time.second;
 }
@@ -42,36 +42,36 @@ inline Finding failure(const char* what, const Transfer& transfer) {
   return {false, std::string(what) + ": " + transfer.outcome()};
 }
 
-/// The node is in Operational: TPDO1 tells the time.
+/// Checks that TPDO1 transmits the time. The node must be in Operational.
 Finding hear_time(Tour& tour);
 
-/// RPDO1 sets it.
+/// Sets the clock by RPDO1.
 Finding set_clock_by_pdo(Tour& tour);
 
-/// RPDO1 sets it to what no clock shows.
+/// Sets the clock by RPDO1 to an invalid time, and expects an EMCY message.
 Finding set_nonsense_by_pdo(Tour& tour);
 
-/// The node produces SYNC for a while, with a synchronous TPDO1.
+/// Lets the node produce SYNC for a while, with a synchronous TPDO1.
 Finding produce_sync(Tour& tour);
 
 #if USE_LSS_MASTER
-/// The node starts without node-ID.
+/// Starts the node without node-ID, and finds it by fastscan.
 Finding find_unconfigured(Tour& tour);
 
-/// The node that was found gets its node-ID, stores it and boots.
+/// Configures and stores the node-ID of the found node, which boots then.
 Finding give_node_id(Tour& tour);
 #endif
 
-/// How long the tour waits for what should happen within \a time.
+/// Returns the time-out for an event that is expected within \a time.
 inline Micros at_most(const Tour& tour, Micros time) { return time * tour.traits.patience; }
 
-/// The time zone is set, and stored with the name of the station.
+/// Sets the time zone, and stores it with the name of the station.
 Finding save_settings(Tour& tour);
 
-/// The node is started again, and has what was stored.
+/// Restarts the node after a power failure, and checks the stored values.
 Finding lose_power(Tour& tour);
 
-/// Another time zone is set, but not stored; an NMT reset brings the one back that was.
+/// Sets another time zone without storing it, and checks that an NMT reset restores the stored one.
 Finding reset_settings(Tour& tour);
 
 }  // namespace demo

@@ -9,7 +9,7 @@ namespace demo {
 namespace {
 
 constexpr unsigned segments_shown = 4;
-constexpr unsigned segments_worth_showing = 4;  // behind these; more are folded
+constexpr unsigned segments_worth_showing = 4;  // further segments; if there are more, they are folded
 
 // Select Graphic Rendition of ECMA-48.
 constexpr const char* plain = "";
@@ -64,7 +64,7 @@ View::Row View::row(Micros time, bool received, const CO_IF_FRM& frame, const st
                                             meaning};
 }
 
-/// Whether it is certain that frames are left out.
+/// Returns true if frames have been left out.
 bool View::is_folding() const { return segments_ > segments_shown + segments_worth_showing; }
 
 void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
@@ -75,7 +75,7 @@ void View::frame(Micros time, bool received, const CO_IF_FRM& frame) {
     }
     return;
   }
-  if (meaning.place == trace::Place::edge || !is_folding()) {  // others may come in between
+  if (meaning.place == trace::Place::edge || !is_folding()) {  // frames of other services may occur in between
     end_fold();
   }
   put(row(time, received, frame, meaning.text));

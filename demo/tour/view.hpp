@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file view.hpp
-/// What a person sees: a decoded trace of the bus, in which long transfers are folded, and what is said about it.
+/// Output for users: a decoded trace of the bus, in which long transfers are folded, and results.
 #pragma once
 
 #include <ostream>
@@ -20,25 +20,25 @@ class View {
     bool terminal = false;  // lines can be rewritten
     bool colours = false;
     bool every_frame = false;       // false: long transfers are folded
-    const char* others = "master";  // who sends what the node receives
+    const char* others = "master";  // label of the sender of received frames
   };
 
   View(std::ostream& out, const trace::Names& names, Style style, trace::Mappings mappings = {})
       : out_(out), decoder_(names, std::move(mappings)), style_(style) {}
 
-  /// The titles of the columns.
+  /// Prints the titles of the columns.
   void columns();
-  /// A frame that the node has received or sent \a time after the start.
+  /// Prints a frame that the node has received or sent \a time after the start.
   void frame(Micros time, bool received, const CO_IF_FRM& frame);
 
   void heading(unsigned number, const std::string& title);
   void finding(bool good, const std::string& text);
-  /// A text with a short label before it. \a colour: an escape sequence, or "".
+  /// Prints a text after a short label. \a colour: an escape sequence, or "".
   void note(const char* label, const std::string& text, const char* colour = "");
   void line(const std::string& text);
 
   Progress::Form progress_form() const { return style_.terminal ? Progress::Form::bar : Progress::Form::lines; }
-  /// How far a long transfer is; on a terminal a line that the next one replaces.
+  /// Prints the progress of a long transfer; on a terminal, each line replaces the previous one.
   void progress(const std::string& text);
 
  private:
@@ -56,9 +56,9 @@ class View {
   std::ostream& out_;
   trace::Decoder decoder_;
   Style style_;
-  bool bar_shown_ = false;      // as the last line, without an end
-  unsigned segments_ = 0;       // of the present transfer, from its middle
-  std::vector<Row> held_back_;  // of these, the first that will be shown if not many more come
+  bool bar_shown_ = false;      // the bar is the last line, without a line end
+  unsigned segments_ = 0;       // segments of the current transfer
+  std::vector<Row> held_back_;  // rows that are printed if the transfer ends soon
 };
 
 }  // namespace demo

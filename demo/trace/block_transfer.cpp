@@ -4,11 +4,11 @@
 namespace demo::trace {
 namespace {
 
-constexpr std::uint8_t abort_transfer = 0x80;  // the one byte that is no segment within a sub-block
+constexpr std::uint8_t abort_transfer = 0x80;  // the only first byte that is not a segment within a sub-block
 constexpr std::uint8_t last_segment = 0x80;
 constexpr std::uint8_t sequence_number = 0x7F;
 
-// Commands of block transfer in bits 7…5, and what they mean in bits 1…0. [301:7.2.4.3.8…7.2.4.3.16]
+// Commands of block transfer in bits 7…5, and their sub-commands in bits 1…0. [301:7.2.4.3.8…7.2.4.3.16]
 enum Request : unsigned { upload_request = 5, download_request = 6 };
 enum Response : unsigned { download_response = 5, upload_response = 6 };
 enum Step : unsigned { initiate = 0, end = 1, acknowledged = 2, start = 3 };
@@ -35,7 +35,7 @@ Role BlockTransfer::segment(const CO_IF_FRM& frame) {
 
 Role BlockTransfer::request(const CO_IF_FRM& frame) {
   if (command(frame) == download_request) {
-    if ((frame.Data[0] & end) == 0) {  // bit 1 says whether a size is given
+    if ((frame.Data[0] & end) == 0) {  // otherwise bit 1 is the size indicator
       begin(Sender::client, 0);
     }
     return Role::command;

@@ -43,7 +43,7 @@ std::string candump(const CO_IF_FRM& frame) {
   return result;
 }
 
-/// Error classes of SocketCAN (CAN_ERR_… in linux/can/error.h).
+/// Returns the name of a SocketCAN error class (CAN_ERR_… in linux/can/error.h).
 const char* error_class(const CO_IF_FRM& frame) {
   if ((frame.Identifier & 0x040u) != 0) {
     return "bus-off ";
@@ -118,7 +118,7 @@ std::string value(const CO_IF_FRM& frame, const Names& names) {
   return (form == Form::decimal) ? text("%u", number) : text("%0*Xh", static_cast<int>(2 * size), number);
 }
 
-/// Second half of an initiate frame: the value itself, or what is announced.
+/// Returns the content of bytes 4…7 of an initiate frame: the value, or the announced size.
 std::string content(const CO_IF_FRM& frame, const Names& names) {
   if ((frame.Data[0] & expedited) != 0) {
     return " = " + value(frame, names);
@@ -129,7 +129,7 @@ std::string content(const CO_IF_FRM& frame, const Names& names) {
   return ", segments of unknown size";
 }
 
-/// The bytes of a segment, if they can be read; else how many.
+/// Returns the bytes of a segment if they are readable, else their number.
 std::string carried(const std::uint8_t* bytes, unsigned size) {
   const bool readable = size > 0 && is_readable(bytes, size);
   return readable ? ": " + quoted(bytes, size) : text(", %u byte%s", size, size == 1 ? "" : "s");
@@ -157,7 +157,7 @@ std::string block_total(const CO_IF_FRM& frame) {
   return (frame.Data[0] & block_size_given) != 0 ? text(", %u bytes", CO_GET_LONG(&frame, 4)) : ", unknown size";
 }
 
-/// How many bytes of the last segment count is told only at the end of the transfer.
+/// The number of valid bytes in the last segment is transmitted only at the end of the transfer.
 std::string block_segment(const CO_IF_FRM& frame) {
   const unsigned number = frame.Data[0] & ~last_block_segment;
   const bool last = (frame.Data[0] & last_block_segment) != 0;
@@ -236,7 +236,8 @@ std::string response(const CO_IF_FRM& frame, const Names& names) {
   }
 }
 
-/// Of a segmented transfer: whether the frame carries a segment that is not the last, asks for one, or confirms one.
+/// Returns true if a frame of a segmented transfer is in its middle: a segment except the last one, a request for one,
+/// or its confirmation.
 bool is_in_segments(Sender from, const CO_IF_FRM& frame) {
   if (command(frame) == 0) {
     return (frame.Data[0] & last_segment) == 0;

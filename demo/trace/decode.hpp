@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file decode.hpp
-/// CAN frames in the words of CiA 301, of the pre-defined connection set [301:7.3.3], and of CiA 305.
+/// Decodes CAN frames in terms of CiA 301, for the pre-defined connection set [301:7.3.3], and of CiA 305.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace demo::trace {
 
-/// How the value of an object is best read.
+/// Format of an object's value.
 enum class Form { decimal, hex, characters };
 
 struct ObjectName {
@@ -25,7 +25,7 @@ struct ObjectName {
   Form form;
 };
 
-/// What the objects of the node are called; any order.
+/// Names of the node's objects, in any order.
 using Names = std::vector<ObjectName>;
 
 /// An object in a PDO.
@@ -35,14 +35,14 @@ struct Mapped {
   std::uint8_t bytes;  // 1…4
 };
 
-/// What PDOs hold, by their CAN-ID less the node-ID: 180h, 200h, …
+/// Objects in PDOs, by their CAN-ID minus the node-ID: 180h, 200h, …
 using Mappings = std::map<std::uint16_t, std::vector<Mapped>>;
 
-/// The place of a frame in an SDO transfer, or in a fastscan.
+/// Place of a frame in an SDO transfer, or in a fastscan.
 enum class Place {
-  outside,  // of any
-  edge,     // begin, end and abort; all there is of an expedited transfer, or of another LSS service
-  middle,   // segments but the last, and what asks for or confirms these: a long transfer has many of them
+  outside,  // in neither
+  edge,     // beginning, end and abort; each frame of an expedited transfer, or of another LSS service
+  middle,   // segments except the last one, their requests and confirmations: a long transfer has many of them
 };
 
 struct Meaning {
@@ -55,8 +55,9 @@ class Decoder {
   /// \a names must outlive the decoder.
   explicit Decoder(const Names& names, Mappings mappings = {}) : names_(names), mappings_(std::move(mappings)) {}
 
-  /// What \a frame means. A frame of no known service is shown in the notation of candump: "123#DEADBEEF".
-  /// Frames have to come in the order of the bus: what a segment of a block transfer is, the frames before it tell.
+  /// Returns the meaning of \a frame. A frame of an unknown service is shown in the notation of candump:
+  /// "123#DEADBEEF". Frames must be passed in the order of the bus, because segments of block transfers are detected by
+  /// the frames before.
   Meaning decode(const CO_IF_FRM& frame);
 
  private:
@@ -64,13 +65,13 @@ class Decoder {
 
   const Names& names_;
   Mappings mappings_;
-  std::array<BlockTransfer, 128> transfers_{};  // with the server of that node-ID
+  std::array<BlockTransfer, 128> transfers_{};  // by the node-ID of the server
 };
 
-/// Meaning of an SDO abort code; "unknown abort code" if it is none of CiA 301. [301:7.2.4.3.17]
+/// Returns the meaning of an SDO abort code; "unknown abort code" if it is not in CiA 301. [301:7.2.4.3.17]
 const char* abort_meaning(std::uint32_t code);
 
-/// An abort code as the standard writes it: 0609 0030h.
+/// Returns an abort code in the notation of the standard: 0609 0030h.
 std::string abort_code(std::uint32_t code);
 
 }  // namespace demo::trace

@@ -14,7 +14,7 @@ constexpr unsigned switch_selective = 0x40;  // …43h
 constexpr unsigned identify = 0x46;          // …4Bh
 constexpr unsigned identified = 0x4F;
 constexpr unsigned fastscan = 0x51;
-constexpr unsigned fastscan_begin = 0x80;  // as bit
+constexpr unsigned fastscan_begin = 0x80;  // a bit
 constexpr unsigned inquire = 0x5A;         // …5Dh
 
 const char* part(unsigned number) {
@@ -78,7 +78,7 @@ std::string request(const CO_IF_FRM& frame) {
   }
 }
 
-/// Of a service that can fail.
+/// Returns the text for the result of a service that can fail.
 std::string result(const char* service, const CO_IF_FRM& frame) {
   const std::string words = std::string("LSS answer: ") + service;
   return words + (frame.Data[1] == 0 ? " done" : text(" refused, error %u", frame.Data[1]));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file layer_setting.hpp
-/// LSS frames in the words of CiA 305.
+/// Decodes LSS frames in terms of CiA 305.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace demo::trace {
 
-/// Nothing if it is no LSS frame. What fastscan asks bit by bit is the middle of something long.
+/// Returns the meaning of an LSS frame, nothing for other frames. The bitwise requests of a fastscan are its middle.
 std::optional<Meaning> decode_layer_setting(const CO_IF_FRM& frame);
 
 }  // namespace demo::trace

@@ -19,7 +19,7 @@ struct Row {
   const char* meaning;
 };
 
-/// The first row that fits. [301:7.2.7.1 table 26]
+/// The first row that matches is used. [301:7.2.7.1 table 26]
 constexpr Row rows[] = {
     {0x8110, 0xFFFF, "CAN overrun, a message is lost"},
     {0x8120, 0xFFFF, "CAN error passive"},
@@ -70,7 +70,7 @@ std::string time(const CO_IF_FRM& frame) {
 
 // --- PDO [301:7.2.2]
 
-/// TPDO1, RPDO1, TPDO2, … have the function codes 3, 4, 5, …
+/// Returns the name of a PDO; TPDO1, RPDO1, TPDO2, … have the function codes 3, 4, 5, …
 std::string pdo_name(unsigned function_code) {
   return text("%s%u", function_code % 2 != 0 ? "TPDO" : "RPDO", (function_code - 1) / 2);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file text.hpp
-/// Text for people: printf formats into std::string, and bytes as hex digits.
+/// Text output: printf formats into std::string, and bytes as hex digits.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace demo {
 
-/// As printf, into a string.
+/// Formats like printf() and returns a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
 
-/// \a size bytes as two hex digits each, with spaces between them.
+/// Returns \a size bytes as two hex digits each, separated by spaces.
 std::string hex_bytes(const std::uint8_t* bytes, std::size_t size);
 
-/// Whether all bytes are characters of a readable text (ASCII); true if there are none.
+/// Returns true if all bytes are printable ASCII characters, or there are none.
 bool is_readable(const std::uint8_t* bytes, std::size_t size);
 
-/// The bytes as characters, between quotation marks.
+/// Returns the bytes as characters, in quotation marks.
 std::string quoted(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace demo

@@ -7,7 +7,7 @@
 
 namespace {
 
-// The model of the bus has one context, so the wire is one thread's at a time.
+// The simulated bus is not thread-safe: the mutex protects it.
 struct Wire {
   std::mutex mutex;
   co::VirtualBus bus;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A virtual CAN bus between nodes that run in different threads.
+// A virtual CAN bus for nodes in different threads.
 #ifndef DEMO_TWO_THREADS_BUS_H_
 #define DEMO_TWO_THREADS_BUS_H_
 
@@ -11,7 +11,7 @@ extern "C" {
 
 extern const CO_IF_CAN_DRV_EX BusDriver;
 
-// A new controller: the context of the driver.
+// Returns a new controller: the context of the driver.
 void* BusAttach(void);
 
 #ifdef __cplusplus

@@ -17,7 +17,7 @@
 #define SYNC_MICROSECONDS 5000u
 #define TEMPERATURE_ERROR 0u
 
-// What the threads share. The pairs hold a number and its complement.
+// Data shared by the threads. The pairs hold a number and its complement.
 static uint32_t Input[2] = {0, ~0u};
 static uint32_t Output[2] = {0, ~0u};
 static uint8_t Alarm;
@@ -75,7 +75,7 @@ static atomic_bool Stops;
 static pthread_t RealTimeThread;
 static pthread_t MainlineThread;
 
-#ifdef WITHOUT_TURNS  // for the test that the thread sanitizer sees what is missing then
+#ifdef WITHOUT_TURNS  // for the test that the thread sanitizer reports the missing lock
 static void Enter(void* user) { CO_UNUSED(user); }
 static void Leave(void* user) { CO_UNUSED(user); }
 #else
@@ -83,11 +83,11 @@ static void Enter(void* user) { (void)pthread_mutex_lock((pthread_mutex_t*)user)
 static void Leave(void* user) { (void)pthread_mutex_unlock((pthread_mutex_t*)user); }
 #endif
 
-// In the real-time thread, which holds the node's turn then.
+// Called in the real-time thread, which holds the node lock.
 void DeviceUpdate(void) { ++Report.Received; }
 bool IsDevice(const CO_NODE* node) { return node == &Node; }
 
-// What the device is for. The SDO server of the other thread reads and writes the same objects.
+// Control task of the device. The SDO server in the other thread accesses the same objects.
 static void Control(void) {
   CO_LOCK_OD(&Node);
   Report.Torn += Input[1] == ~Input[0] ? 0 : 1;
@@ -104,7 +104,7 @@ static void AddCycle(struct timespec* time) {
   }
 }
 
-// A priority above that of all other threads, where the program has the right to it.
+// Uses a priority above that of all other threads, if the program has the permission.
 static void* RealTime(void* unused) {
   const struct sched_param priority = {.sched_priority = 50};
   struct timespec next;
@@ -123,7 +123,7 @@ static void* RealTime(void* unused) {
   return unused;
 }
 
-// An alarm that the network has written becomes an error, and is sent back by an event-driven TPDO.
+// Raises an error for an alarm that the network has written, and sends it back by an event-driven TPDO.
 static void Watch(void) {
   static uint8_t seen;
   uint8_t alarm = 0;
@@ -147,8 +147,8 @@ static void Watch(void) {
   CO_UNLOCK_CAN_SEND(&Node);
 }
 
-// Asleep it would not see the frames that the real-time thread leaves to it: it looks every millisecond, too. Those
-// that come while it works are for the next round: timers must not wait for them.
+// Polls every millisecond, because frames that the real-time thread has put into the ring do not end its sleep. Frames
+// that arrive meanwhile are processed in the next round, so that they do not delay the timers.
 static void* Mainline(void* unused) {
   while (!atomic_load(&Stops)) {
     for (unsigned calls = CORingCount(&Ring) + 1u; calls != 0; --calls) {
@@ -161,7 +161,7 @@ static void* Mainline(void* unused) {
   return unused;
 }
 
-// With priority inheritance the mainline is not held up while the real-time thread waits for it.
+// With priority inheritance other threads cannot delay the mainline while the real-time thread waits for it.
 static void MakeMutex(void) {
   pthread_mutexattr_t attributes;
   (void)pthread_mutexattr_init(&attributes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device: one node, two threads. One of them comes every millisecond, for SYNC and PDOs; the other has all the time
-// that is left, for SDO, EMCY and storage.
+// The device: one node, two threads. One runs every millisecond, for SYNC and PDOs; the other one runs in the remaining
+// time, for SDO, EMCY and storage.
 #ifndef DEMO_TWO_THREADS_DEVICE_H_
 #define DEMO_TWO_THREADS_DEVICE_H_
 
@@ -9,24 +9,24 @@
 #define DEVICE_ID 5u
 #define PROFILE_SIZE 600u
 
-// Dictionary: 2000h:1, :2 from the network, 2001h:1, :2 to it, 2100h a limit, 2101h a profile, 2102h an alarm.
+// Dictionary: 2000h:1, :2 received, 2001h:1, :2 transmitted, 2100h a limit, 2101h a profile, 2102h an alarm.
 
 typedef struct DEVICE_REPORT_T {
-  uint32_t Cycles;        // of the real-time thread
+  uint32_t Cycles;        // cycles of the real-time thread
   uint32_t Received;      // RPDOs that were written
-  uint32_t Torn;          // what belongs together was seen apart
+  uint32_t Torn;          // inconsistent pairs
   uint32_t Lost;          // frames
-  uint32_t LongestCycle;  // µs that the real-time thread has worked, waiting for the other one included
+  uint32_t LongestCycle;  // execution time of the real-time thread in µs, including waiting for the lock
 } DEVICE_REPORT;
 
-// Prints the error of the node, if there is one.
+// Starts the device. Prints the error of the node, if there is one, and returns it.
 CO_ERR DeviceStart(void* controller);
 DEVICE_REPORT DeviceStop(void);
 
-// What 2100h is after another start, by what was stored.
+// Returns the value of 2100h that another start loads.
 uint32_t DeviceStoredLimit(void);
 
-// For COPdoUpdate(): an RPDO of this node.
+// Counts a received RPDO; for COPdoUpdate().
 void DeviceUpdate(void);
 bool IsDevice(const CO_NODE* node);
 

@@ -4,7 +4,7 @@
 
 #include "co_core.h"
 
-// Returns the last error of a node, which is thereby cleared, and prints its name, its object and its meaning.
+// Returns the last error of a node and clears it; prints its name, object and text.
 CO_ERR PrintError(CO_NODE* node, const char* name_of_node);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two nodes on a virtual bus: a device with two threads, and its partner, which gives it a fixed amount of work. Ends
-// with 0 when all of it is done and nothing was lost or torn, however long that takes.
+// Two nodes on a virtual bus: a device with two threads, and a partner that gives it a fixed amount of work. Ends with
+// 0 when all work is done without lost frames or inconsistent data, regardless of the time needed.
 #include <stdio.h>
 
 #include "bus.h"
@@ -39,7 +39,7 @@ void COEmcyReceived(CO_NODE* node, uint8_t nodeId, uint16_t code, uint8_t reg, c
   PartnerHearError(nodeId);
 }
 
-// Waits until a counter of the partner has come so far.
+// Waits until a counter of the partner has reached a number.
 static bool Reaches(const uint32_t* counter, uint32_t number) {
   const uint32_t start = ClockMicroseconds();
   while (*counter < number && ClockMicroseconds() - start < PATIENCE) {
@@ -61,7 +61,7 @@ static void WriteParameters(uint32_t round) {
 }
 
 static void GiveAlarm(uint32_t round, uint8_t alarm) {
-  const uint32_t number = 2 * round - alarm;  // of alarms, and ends of them
+  const uint32_t number = 2 * round - alarm;  // expected count of alarms and their ends
   Check(PartnerWrite(CO_DEV(0x2102, 0), &alarm, 1), "the alarm is written");
   Check(Reaches(&Partner.Errors, number), "an EMCY message tells of it");
   Check(Reaches(&Partner.Events, number), "a PDO, too");

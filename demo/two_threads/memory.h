@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A memory as slow as a flash: the device stores its parameters there. It forgets them when the program ends.
+// A memory as slow as flash, for the parameters of the device. It is volatile: its content is lost when the program
+// ends.
 #ifndef DEMO_TWO_THREADS_MEMORY_H_
 #define DEMO_TWO_THREADS_MEMORY_H_
 

@@ -18,7 +18,7 @@ static uint32_t Output[2] = {0, ~0u};
 static uint8_t Alarm;
 static uint8_t ErrorRegister;
 
-// 1028h names nodes by its sub-indexes, so the device's is the fifth.
+// The sub-indexes of 1028h are node-IDs, so the device has sub-index 5.
 static CO_OBJ Objects[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)0},
                            {CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)&ErrorRegister},
                            {CO_KEY(0x1005, 0, CO_OBJ_D___R_), CO_TSYNC_ID, (CO_DATA)0x80},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file board.hpp
-/// What a program without an operating system knows of its board, and may ask of it. The boards are machines of QEMU;
-/// machine.hpp and cpu.hpp are those of the board that the program is linked for (boards.cmake).
+/// Functions that a program without an operating system uses of its board. The boards are machines of QEMU; machine.hpp
+/// and cpu.hpp are those of the board that the program is linked for (boards.cmake).
 #pragma once
 
 #include "cpu.hpp"
@@ -9,16 +9,16 @@
 
 namespace board {
 
-/// The program's interrupt handlers, of the timer and of the UART that machine.hpp names. An interrupt whose handler
-/// the program does not define ends it as a fault does.
+/// Interrupt handlers, defined by the program: of the timer and of the UART in machine.hpp. An interrupt without a
+/// handler ends the program like a fault.
 void on_timer();
 void on_uart();
 
-/// Lets interrupts of the UART, or of a timer that is not part of the CPU, come to the CPU.
+/// Enable the interrupt of the UART, or of a timer that is not part of the CPU, in the interrupt controller.
 void enable_uart_interrupt();
 void enable_timer_interrupt();
 
-/// On the terminal of the host (semihosting).
+/// Print on the terminal of the host (semihosting).
 void print(const char* text);
 void print_hex(std::uint32_t number);
 

@@ -5,9 +5,9 @@
 
 extern "C" {
 
-int board_main() asm("main");  // by another name: C++ forbids to call main()
+int board_main() asm("main");  // alias, because C++ forbids calling main()
 
-// Of sections.ld.
+// Symbols defined by sections.ld.
 extern std::uint32_t board_data_source[], board_data_begin[], board_data_end[], board_bss_begin[], board_bss_end[];
 extern void (*board_initialisers_begin[])();
 extern void (*board_initialisers_end[])();
@@ -23,7 +23,7 @@ constexpr std::uint32_t application_exit = 0x20026;
 
 constexpr int status_of_fault = 99;
 
-// Word by word, and not by a function of the C library, which may need variables.
+// Copies word by word: a function of the C library may need initialised variables.
 void copy_variables() {
   const std::uint32_t* from = board_data_source;
   for (volatile std::uint32_t* to = board_data_begin; to != board_data_end; ++to) {

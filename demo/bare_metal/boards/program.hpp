@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file program.hpp
-/// What the start-up code of the CPUs shares.
+/// Start-up code shared by the CPUs.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@ inline volatile std::uint32_t& at(std::uintptr_t address) {
   return *reinterpret_cast<volatile std::uint32_t*>(address);
 }
 
-/// From the first instruction in C++ on: brings variables to their values and calls main(), whose result is the status.
+/// Initialises the variables and calls main(), whose result is the exit status.
 [[noreturn]] void run_program();
 
-/// A fault, or an interrupt without a handler: says where, and ends with status 99.
+/// Prints the place of a fault, or of an interrupt without a handler, and ends the program with status 99.
 [[noreturn]] void report_fault(const char* what, std::uint32_t number, std::uint32_t address, std::uint32_t caller);
 
-/// An operation of semihosting.
+/// Requests an operation of semihosting.
 std::uint32_t ask_host(std::uint32_t operation, const void* argument);
 
 }  // namespace board

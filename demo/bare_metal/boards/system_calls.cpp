@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What newlib asks of a system, for programs that use its memory or its output.
+// System functions that newlib requires, for programs that use its heap or its output.
 #include <sys/stat.h>
 #include <sys/time.h>
 
@@ -10,9 +10,9 @@
 
 extern "C" {
 
-extern char board_bss_end[], board_heap_end[];  // of sections.ld
+extern char board_bss_end[], board_heap_end[];  // defined by sections.ld
 
-void* __dso_handle = nullptr;  // of crtbegin.o, which is not linked
+void* __dso_handle = nullptr;  // defined by crtbegin.o, which is not linked
 
 void* _sbrk(std::ptrdiff_t increment) {
   static char* end = board_bss_end;
@@ -38,7 +38,7 @@ int _fstat(int, struct stat* result) {
   return 0;
 }
 
-// Since QEMU was started, in steps of 10 ms.
+// Returns the time since the start of QEMU, in steps of 10 ms.
 int _gettimeofday(struct timeval* now, void*) {
   constexpr std::uint32_t clock = 0x10;
   const std::uint32_t hundredths = board::ask_host(clock, nullptr);

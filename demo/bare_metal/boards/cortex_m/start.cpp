@@ -2,7 +2,7 @@
 #include "program.hpp"
 
 extern "C" {
-extern std::uint32_t board_stack_top[];  // of sections.ld
+extern std::uint32_t board_stack_top[];  // defined by sections.ld
 
 [[noreturn]] void board_start();
 void board_fault();
@@ -24,8 +24,8 @@ constexpr bool has_floating_point = false;
 
 void enable_interrupt(unsigned number) { at(interrupt_set_enable) = 1u << number; }
 
-// Code that makes no unaligned accesses, as all for a Cortex-M0 and that of -mno-unaligned-access, faults on one on
-// every core.
+// Enables a fault on unaligned accesses, if the code is compiled without them (always for a Cortex-M0, else by
+// -mno-unaligned-access): so it faults on every core.
 void trap_unaligned_access() {
 #ifndef __ARM_FEATURE_UNALIGNED
   at(configuration_and_control) = at(configuration_and_control) | 1u << 3;
@@ -52,7 +52,7 @@ void enable_uart_interrupt() {
 
 void enable_timer_interrupt() { enable_interrupt(timer_interrupt); }
 
-// Not inlined: the host is asked from one place.
+// Not inlined, so that all host requests have one address.
 [[gnu::noinline]] std::uint32_t ask_host(std::uint32_t operation, const void* argument) {
   register std::uint32_t r0 asm("r0") = operation;
   register const void* r1 asm("r1") = argument;
@@ -70,7 +70,7 @@ void board_start() {
   board::run_program();
 }
 
-// The CPU has left the registers r0 to r3, r12, lr, pc and xPSR on the stack.
+// Handles a fault. The CPU has pushed the registers r0 to r3, r12, lr, pc and xPSR.
 [[gnu::naked]] void board_fault() {
   asm volatile(
       "mrs r0, msp\n\t"

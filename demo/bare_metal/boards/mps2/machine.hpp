@@ -7,7 +7,7 @@
 
 namespace board {
 
-constexpr std::uint32_t core_hz = 25000000;  // what SysTick counts
+constexpr std::uint32_t core_hz = 25000000;  // clock of SysTick
 
 constexpr std::uintptr_t uart_base = 0x40004000;  // CMSDK UART0
 constexpr unsigned uart_interrupts[] = {0, 1};    // received, sent

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t timer_cause = 0x80000007;
 constexpr std::uint32_t external_cause = 0x8000000B;
-constexpr std::uint32_t timer_enable = 1u << 7;      // of mie
-constexpr std::uint32_t external_enable = 1u << 11;  // of mie
+constexpr std::uint32_t timer_enable = 1u << 7;      // bit of mie
+constexpr std::uint32_t external_enable = 1u << 11;  // bit of mie
 
 // Registers of the interrupt controller (PLIC).
 constexpr std::uintptr_t priorities = interrupt_controller_base;
@@ -45,7 +45,7 @@ void enable_uart_interrupt() {
 
 void enable_timer_interrupt() { asm volatile("csrs mie, %0" : : "r"(timer_enable)); }
 
-// The host knows a request by its three instructions, none of them compressed, in one page.
+// Requests an operation of the host, which recognises it by these three instructions, uncompressed and in one page.
 [[gnu::noinline]] std::uint32_t ask_host(std::uint32_t operation, const void* argument) {
   register std::uint32_t a0 asm("a0") = operation;
   register const void* a1 asm("a1") = argument;
@@ -82,7 +82,7 @@ extern "C" {
 
 [[noreturn]] void board_run() { board::run_program(); }
 
-// Saves what a function may change. The program has no floating-point registers.
+// Saves the registers that a function may change. The program uses no floating-point registers.
 [[gnu::naked, gnu::aligned(4)]] void board_trap() {
   asm volatile(
       "addi sp, sp, -64\n\t"
