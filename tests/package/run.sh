@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # run.sh WAY LANGUAGE DIRECTORY SOURCE PREFIX
 # Builds the program main.c (LANGUAGE C) or main.cpp (CXX) in DIRECTORY against the library, whose sources are in SOURCE
-# and which is installed in PREFIX, in one WAY of using it; and runs it. WAY readme runs the command lines of README.md.
+# and which is installed in PREFIX, in one WAY of using it; and runs it. WAY readme runs the command lines of README.md and docs/use.md.
 set -euo pipefail
 
 way=$1 language=$2 directory=$3 source=$4 prefix=$5
@@ -31,12 +31,12 @@ by_cmake() {
   [ -z "$(find "$directory" -name 'lexican_*' -o -name 'lexican-demo*')" ]
 }
 
-# The blocks of a LANGUAGE in README.md: of its top, and of "Use it" up to its first subsection.
+# The blocks of a LANGUAGE in README.md, "A complete program", and in docs/use.md, "Build, install, link".
 readme_blocks() {
   awk -v language="$1" '
-    /^## / { used = 0 } /^# / || /^## Use it$/ { used = 1 } /^### / { used = 0 }
+    /^## / { used = /^## (A complete program|Build, install, link)$/ }
     /^```/ { inside = used && $0 == "```" language; next }
-    inside' "$source/README.md"
+    inside' "$source/README.md" "$source/docs/use.md"
 }
 
 # Packages are not installed here: what README names has to be there.
@@ -49,7 +49,7 @@ sudo() {
   done
 }
 
-# README.md as a user follows it, in a copy of the sources and with a home directory of its own. There is no make: demo/run
+# The commands of README.md and docs/use.md as a user follows them, in a copy of the sources and with a home directory of its own. There is no make: demo/run
 # does not install it.
 by_readme() {
   export HOME=$directory/home PATH=$directory/bin:$PATH

@@ -51,18 +51,18 @@ answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal
 answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
 answers "several boards to be served" 2 "demo/run: --serve runs one board, not all" --bare-metal all --serve
 
-# All commands of README: the arguments are right. What is missing is then looked for, and cannot be installed here.
-readme_commands() { sed -nE 's/^(demo\/run( [^#]*)?)(#.*)?$/\1/p' "$root/README.md" | sed 's/ *&* *$//; s/ \[BOARD\]//'; }
+# All commands of README and docs/demo.md: the arguments are right. What is missing is then looked for, and cannot be installed here.
+readme_commands() { sed -nE 's/^(demo\/run( [^#]*)?)(#.*)?$/\1/p' "$root/README.md" "$root"/docs/{demo,use}.md | sed 's/ *&* *$//; s/ \[BOARD\]//'; }
 count=0
 while read -r command; do
   count=$((count + 1))
   read -ra words <<<"$command"
   output=$(checked "${words[@]:1}" 2>&1 </dev/null)
   [[ $output != "demo/run: "* ]]
-  verdict $? "README: $command" "$output"
+  verdict $? "documented: $command" "$output"
 done < <(readme_commands)
 [ $count -ge 9 ]
-verdict $? "README has commands of the demo" "$count found"
+verdict $? "the pages have commands of the demo" "$count found"
 
 # The help texts and the programs name the same options, with as many values.
 . <(sed -n '/^options_of()/,/^}/p' "$root/demo/run")
