@@ -18,7 +18,7 @@ report() {  # NAME COMMAND...
 }
 
 needs_no_loader() { ! LC_ALL=C readelf --program-headers "$codict" | grep -E 'INTERP|NEEDED'; }
-needs_no_library() { LC_ALL=C ldd "$codict" 2>&1 | grep -F 'not a dynamic executable'; }
+needs_no_library() { [[ $(LC_ALL=C ldd "$codict" 2>&1) == *'not a dynamic executable'* ]]; }
 runs_without_environment() { env -i "$codict" --version; }
 
 # A directory that has nothing but the program and a description is the root; a user namespace allows it to any user.
