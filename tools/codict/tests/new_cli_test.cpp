@@ -61,6 +61,16 @@ TEST_CASE("codict new --from: the description is copied, names are those of the 
   CHECK(run_in(directory, "gen 'My pump/drive.eds' -o 'My pump/generated' --language c++ --check").status == 0);
 }
 
+TEST_CASE("codict new: names with blanks and signs, and a directory with a slash at its end") {
+  const Directory directory;
+  const std::string source = test::copy_to(directory, "drive.eds");
+  std::filesystem::rename(source, directory / "a $drive.eds");
+  CHECK(run_in(directory, "new pump/ --from 'a $drive.eds'").status == 0);
+  const std::string lists = test::bytes_of(directory / "pump/CMakeLists.txt");
+  CHECK(has(lists, "project(pump LANGUAGES"));
+  CHECK(has(lists, "DESCRIPTION \"a \\$drive.eds\" NAME a_drive "));
+}
+
 TEST_CASE("codict new: existing files are named and nothing is written") {
   const Directory directory;
   test::write_bytes(directory / "README.md", "mine");

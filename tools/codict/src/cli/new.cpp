@@ -35,7 +35,8 @@ struct Options {
 std::string project_name(const std::string& directory) {
   std::error_code ignored;
   const std::filesystem::path path = std::filesystem::weakly_canonical(directory, ignored);
-  const std::string name = gen::identifier(path.filename().string());
+  const std::string name =
+      gen::identifier((path.has_filename() ? path.filename() : path.parent_path().filename()).string());
   return name.empty() ? "device" : name;
 }
 

@@ -32,7 +32,7 @@ add_library(@NAME@_device OBJECT@APPLICATION@)
 target_link_libraries(@NAME@_device PUBLIC lexican::lexican)
 find_program(LEXICAN_CODICT codict HINTS ${LEXICAN_CODICT_HINT} DOC "The program codict, for the machine that builds")
 if(LEXICAN_CODICT)
-  lexican_generate(TARGET @NAME@_device DESCRIPTION @DESCRIPTION@ NAME @DICT@ LANGUAGE @LANGUAGE@
+  lexican_generate(TARGET @NAME@_device DESCRIPTION "@CMAKE_DESCRIPTION@" NAME @DICT@ LANGUAGE @LANGUAGE@
     OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/generated)
 else()
   # Without codict, the generated files are compiled as they are; they do not follow changes of the description.
@@ -155,7 +155,7 @@ With an installed Lexican (`find_package`), leave `-DLEXICAN` out; it has no dri
 | File | Content |
 |---|---|
 | `@DESCRIPTION@` | the description of the device; change objects here |
-| `generated/` | the object dictionary. The build runs `codict gen` again after a change if codict is found; by hand: `codict gen @DESCRIPTION@ -o generated --name @DICT@@GEN_LANGUAGE@` |
+| `generated/` | the object dictionary. The build runs `codict gen` again after a change if codict is found; by hand: `codict gen "@DESCRIPTION@" -o generated --name @DICT@@GEN_LANGUAGE@` |
 | `main.@EXT@` | the node and its main loop; the application's code belongs into `RunApplication()` |
 @APPLICATION_ROW@| `CMakeLists.txt` | the build, and a test |
 
@@ -181,6 +181,15 @@ std::string upper(std::string text) {
     c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   }
   return text;
+}
+
+// Escapes what CMake would interpret in a quoted argument.
+std::string cmake_quoted(const std::string& text) {
+  std::string quoted;
+  for (const char c : text) {
+    quoted += c == '"' || c == '$' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return quoted;
 }
 
 std::string settings_of(const Options& options) {
@@ -227,6 +236,7 @@ Words words_of(const Options& options) {
       {"NAME", options.name},
       {"DICT", options.dictionary},
       {"PREFIX", upper(options.dictionary)},
+      {"CMAKE_DESCRIPTION", cmake_quoted(options.description)},
       {"DESCRIPTION", options.description},
       {"LANGUAGE", options.is_cpp ? "CXX" : "C"},
       {"EXT", extension},
