@@ -108,7 +108,8 @@ std::uint16_t tpdo_objects(std::uint16_t number) { return static_cast<std::uint1
 std::uint8_t* rpdo_memory(std::uint16_t number) { return rpdo_bytes[number]; }
 std::uint8_t* tpdo_memory(std::uint16_t number) { return tpdo_bytes[number]; }
 
-// Four of each have those of the pre-defined connection set. More take turns from 181h on, which nobody else may have.
+// Returns the CAN-ID of an RPDO. Up to four PDOs use the pre-defined connection set; more of them use unused
+// identifiers from 181h, alternately for RPDOs and TPDOs.
 std::uint32_t rpdo_id(std::uint16_t number) {
   return CO_RPDO_N <= 4 ? CO_COBID_RPDO_DEFAULT(number) + node_id : 0x181u + 2u * number;
 }

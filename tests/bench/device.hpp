@@ -20,8 +20,8 @@ extern CO_NODE node;
 /// \{
 void clear_dictionary();
 void add(std::uint16_t index, std::uint8_t sub, std::uint32_t flags, const CO_OBJ_TYPE* type, CO_DATA data);
-/// What a usual device has: device information, SYNC consumer, EMCY producer with history, heartbeat consumers for the
-/// nodes of heard_nodes, one SDO server.
+/// Adds the objects of a typical device: device information, SYNC consumer, EMCY producer with history, heartbeat
+/// consumers for the nodes of heard_nodes, one SDO server.
 void add_usual_objects();
 constexpr std::uint8_t heard_nodes[] = {10, 20, 30};
 constexpr std::uint16_t heard_period = 1000;  ///< ms

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file machine.hpp
-/// The machine that counts. There are two, each with its clock.hpp and machine.cpp:
+/// The machine that counts instructions or cycles. There are two, each with its clock.hpp and machine.cpp:
 ///
 /// - mps2: a Cortex-M3 in QEMU (mps2-an385), whose clock goes on by the same time with each instruction
 ///   (-icount shift=10). It runs the code of a Cortex-M0+, too, whose instructions are among its own.
-/// - callgrind: the host under valgrind, which counts by itself; here it is told from where to where.
+/// - callgrind: the host under valgrind, which counts; the program marks the range to count.
 #pragma once
 
 #include <cstdint>

@@ -57,7 +57,7 @@ void measure(const char* name, What what, unsigned number = usual_number) {
   report(name, ticks_of(name, what, number), number, number);
 }
 
-/// The same for a byte of operations that carry several.
+/// Measures like measure(), per byte of an operation that transfers several bytes.
 template <class What>
 void measure_byte(const char* name, What what, unsigned number, unsigned size) {
   report(name, ticks_of(name, what, number), number, number * size);

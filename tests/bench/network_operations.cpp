@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop, foreign frames, heartbeats, emergencies.
+// Operations: the main loop, unrelated frames, heartbeats, emergencies.
 #include <iterator>
 
 #include "device.hpp"

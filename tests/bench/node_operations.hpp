@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// A frame of any 11-bit identifier that nobody here wants.
+/// A frame with an 11-bit identifier that the node does not consume.
 class ForeignFrame : public Operation {
  public:
   explicit ForeignFrame(void (*set_up_node)()) : set_up_node_(set_up_node) {}

@@ -56,7 +56,7 @@ CO_IF_FRM segment(std::uint32_t id, std::uint8_t specifier, const std::uint8_t* 
   return made;
 }
 
-// As often as a block transfer asks for it at once.
+// Processes all frames that a block transfer has pending.
 void process_all() {
   do {
     CONodeProcess(&node);

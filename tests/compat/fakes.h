@@ -16,7 +16,7 @@ extern const CO_IF_TIMER_DRV FakeCyclicTimerDriver;  ///< a periodic interrupt a
 extern const CO_IF_TIMER_DRV FakeDeltaTimerDriver;   ///< a compare match
 extern const CO_IF_NVM_DRV FakeNvmDriver;
 
-/// What the drivers were told.
+/// Calls and arguments that the drivers have received.
 typedef struct FAKES {
   unsigned CanInits;
   unsigned CanEnables;
@@ -41,11 +41,10 @@ const char* BusSent(void);
 /// Lets \a ticks pass in the timer interrupt, then in the loop.
 void TimePasses(CO_NODE* node, uint32_t ticks);
 
-/// Initialises and starts a node (node-ID 1) without timers of its own; its boot-up message has been taken from the
-/// bus.
+/// Initialises and starts a node (node-ID 1) without application timers; removes its boot-up message from the bus.
 void NodeUp(CO_NODE* node, const CO_OBJ* dict, uint16_t len);
 
-/// The same with what CONodeInitEx() is given besides.
+/// Like NodeUp(), with the extension for CONodeInitEx().
 void NodeUpEx(CO_NODE* node, const CO_OBJ* dict, uint16_t len, const CO_NODE_EXT* ext);
 
 #ifdef __cplusplus

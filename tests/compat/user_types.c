@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object types of the application: all five functions, functions left out, abort codes of its own, and basic types
-// reused.
+// Object types of the application: all five functions, omitted functions, application-specific abort codes, and reused
+// basic types.
 #include <string.h>
 
 #include "co_core.h"

@@ -10,7 +10,7 @@ using namespace test;
 
 using Events = std::vector<CO_CAN_EVENT>;
 
-// What the application is told of an error frame.
+// Returns the events that the application receives for an error frame.
 Events events_of(const char* text) {
   Fixture node(Setup().without(0x1014, 0));  // no EMCY
   Events events;

@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-// Before each group: reset node, "load" to 1011h, reset again; the tool's marks on 7FFh are nobody's.
+// Prepares a group of tests: reset node, "load" to 1011h, reset again; no node consumes the tool's markers on 7FFh.
 void prepare(Fixture& node) {
   node.rx("000#8101");
   node.tx("701#00");

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// What the application is told: node-ID, code, register, five bytes.
+// Arguments of the callback: node-ID, code, register, five bytes.
 class Consumer : public Fixture {
  public:
   explicit Consumer(std::uint32_t second = 0x82, Setup setup = Setup())
@@ -62,7 +62,8 @@ TEST_CASE("EMCY consumer: nodes that it does not name, or not validly, are not h
   CHECK(node.counters().Unclaimed == 4);
 }
 
-TEST_CASE("EMCY consumer: frames of another length, and remote frames, are malformed and told to nobody") {
+TEST_CASE(
+    "EMCY consumer: frames of another length, and remote frames, are malformed and not passed to the application") {
   Consumer node;
   std::uint32_t malformed = 0;
   for (const char* frame : {"082#", "082#10", "082#10811101020304", "082#R"}) {

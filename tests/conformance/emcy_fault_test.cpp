@@ -54,7 +54,7 @@ TEST_CASE("EMCY: 512 PDOs at once") {
   CHECK(node.trace().size() == 1024);
 }
 
-TEST_CASE("EMCY: what nobody has raised is not resolved, and a fault that is forgotten is not sent") {
+TEST_CASE("EMCY: a fault that was not raised is not resolved, and a discarded fault is not sent") {
   EmcyNode node{Setup()};
   node.resolve_fault(Fault::pdo_short, 1);
   node.call([&] { co::event::forget(node.node, Fault::pdo_short); });
@@ -242,7 +242,8 @@ TEST_CASE("EMCY: controller states before the start and after the stop of the no
   node.silent();
 }
 
-TEST_CASE("EMCY: faults in Stopped are in 1003h and not sent; a lost frame of then ends by itself [E9]") {
+TEST_CASE(
+    "EMCY: faults in Stopped are in 1003h and not sent; a frame lost in Stopped resolves without a message [E9]") {
   EmcyNode node{Setup()};
   node.rx("000#0201");
   node.can_event(CO_CAN_OVERRUN);

@@ -103,7 +103,7 @@ TEST_CASE("fixture: a frame at another time fails" * doctest::should_fail()) {
   node.tx_at(9ms, "701#7F");
 }
 
-TEST_CASE("fixture: a frame that nobody has looked at fails" * doctest::should_fail()) {
+TEST_CASE("fixture: a frame that the test has not checked fails" * doctest::should_fail()) {
   Fixture node;
   node.rx("601#4000100000000000");
 }

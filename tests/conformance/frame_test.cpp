@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("frames: a remote frame on an identifier of the node is malformed, elsewhere nobody's [Q1]") {
+TEST_CASE("frames: a remote frame on an identifier of the node is malformed, on other identifiers unclaimed [Q1]") {
   Fixture node;
   std::vector<std::string> passed_on;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
@@ -105,7 +105,7 @@ TEST_CASE("frames: COIfCanRead() gives at most 8 bytes, and skips and counts fra
   CHECK(node.counters().Malformed == malformed + 2);
 }
 
-TEST_CASE("frames: what nobody claims goes to the application as it came, and is counted") {
+TEST_CASE("frames: an unclaimed frame is passed to the application unchanged, and is counted") {
   Fixture node;
   std::vector<std::string> passed_on;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };

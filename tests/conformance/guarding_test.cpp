@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node guarding: answers to remote frames with the node's own error control identifier, which nobody else may use.
+// Node guarding: answers to remote frames with the node's error control identifier, which no other node may use.
 // [301:7.2.8.2.2.1]
 #include "support/fixture.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("own identifier: a data frame of somebody else is reported with EMCY 8150h, and malformed [H5] [E7]") {
+TEST_CASE("own identifier: a data frame of another node is reported with EMCY 8150h, and malformed [H5] [E7]") {
   for (const std::string data : {"7F", "00", "", "0102030405060708"}) {
     CAPTURE(data);
     Fixture node;

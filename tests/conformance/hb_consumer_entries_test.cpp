@@ -99,7 +99,7 @@ TEST_CASE("1016h: a node that another entry monitors is refused, in whatever ent
   node.ask("601#4016100100000000", "581#4316100164000500");
   node.ask("601#4016100200000000", "581#4316100264000600");
   node.ask("601#4016100300000000", "581#4316100300000000");
-  CHECK(node.configure(3, 0x00050000) == 0);  // time 0: monitors nobody
+  CHECK(node.configure(3, 0x00050000) == 0);  // time 0: monitors no node
   CHECK(node.configure(1, 0x00050000) == 0);
   CHECK(node.configure(3, 0x00050064) == 0);  // free now
   CHECK(node.configure(1, 0x00050064) == 0x06040043);
@@ -286,7 +286,7 @@ static_assert(co::dictionary::check<value_in_entry>().fault == CO_DICT_DIRECT_TY
 static_assert(co::dictionary::check<too_many>().fault == CO_DICT_NOT_CONFIGURED);
 static_assert(co::dictionary::check<elsewhere>().fault == CO_DICT_WRONG_PLACE);
 
-TEST_CASE("1016h: firmware gives an entry by position, and activates it by itself") {
+TEST_CASE("1016h: firmware sets an entry by position, and activates it") {
   Monitor node({});
   node.entry[1] = {&node.node, nullptr, (CO_MODE)0, 0, 0, 0, 0};
   CO_HBCONS* const second = &node.entry[1];

@@ -220,7 +220,7 @@ TEST_CASE("heartbeat consumer: heartbeats of other nodes and 29-bit frames are n
   node.emergency(five_missing);
 }
 
-// What a heartbeat does, as the standard says.
+// Returns the effect of a heartbeat according to the standard.
 std::string expected_of(unsigned byte, unsigned dlc, CO_MODE& state) {
   const unsigned told = byte & 0x7FU;
   const CO_MODE mode = told == 0     ? CO_INIT

@@ -37,7 +37,7 @@ bool answers(Fixture& node, const CO_IF_FRM& request) {
   return !sent.empty();
 }
 
-// What a master finds out, bit by bit.
+// Returns the identity that a master finds, bit by bit.
 Identity find(Fixture& node) {
   Identity found = {};
   REQUIRE(answers(node, scan(0, 0x80, 0, 0)));

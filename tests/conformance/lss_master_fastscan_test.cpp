@@ -24,7 +24,7 @@ class Slaves {
  public:
   explicit Slaves(std::vector<LssNumbers> addresses) : addresses_(std::move(addresses)), part_(addresses_.size(), 0) {}
 
-  /// Of slaves that answer, the last one does so at the end of the time.
+  /// Answers for the slaves; the last slave answers at the end of the time.
   void serve(LssMaster& node) {
     while (lss_ends.empty()) {
       for (const std::string& request : node.frames()) {
@@ -80,7 +80,7 @@ class Slaves {
   unsigned answers_ = 0;
 };
 
-TEST_CASE("LSS master fastscan: nobody answers: there is no slave without node-ID") {
+TEST_CASE("LSS master fastscan: without an answer there is no slave without node-ID") {
   LssMaster node;
   node.run("7E5#5100000000800000", COLssmFastscan, nullptr, std::uint8_t{0});
   node.after(49ms);
@@ -156,7 +156,7 @@ TEST_CASE("LSS master fastscan: known parts are asked for once") {
   }
 }
 
-TEST_CASE("LSS master fastscan: nobody has the known parts") {
+TEST_CASE("LSS master fastscan: no slave has the known parts") {
   for (unsigned num = 1; num <= 4; ++num) {
     LssMaster node;
     Slaves slaves({{1, 2, 3, 4}, {5, 6, 7, 8}});

@@ -441,7 +441,7 @@ TEST_CASE("MPDO lists: 1FCFh and 1FFFh are the last of them; the next index is n
   without_dispatching.tx({"181#0101220111000000", "181#0101220221000000"});
 }
 
-// What the compiler checks.
+// Macros that the compiler checks.
 
 static_assert(CO_MPDO_SCAN(3, 0x2201, 4) == 0x03220104);
 static_assert(CO_MPDO_DISPATCH(3, 0x2201, 4, 0x6000, 0xFD, 5) == 0x032201046000FD05);

@@ -26,7 +26,7 @@ TEST_CASE("NMT: start, stop and enter pre-operational change the state [N2] [N5]
   node.silent();
 }
 
-TEST_CASE("NMT: node-ID 0 addresses all nodes, another node-ID nobody here [N1]") {
+TEST_CASE("NMT: node-ID 0 addresses all nodes, another node-ID does not address this node [N1]") {
   Fixture node(Setup().node_id(5));
   node.rx("000#0100");
   CHECK(node.mode() == CO_OPERATIONAL);

@@ -59,7 +59,7 @@ void check_disabled(Node& node) {
   CHECK(node.memory == counting(20));
 }
 
-TEST_CASE("OD disabled: nobody reads or writes it: 0601 0001h and 0601 0002h") {
+TEST_CASE("OD disabled: the object cannot be read or written: 0601 0001h and 0601 0002h") {
   Node node;
   check_disabled(node);
 }
@@ -132,7 +132,7 @@ TEST_CASE("OD disabled: a node without an index takes extensible types for their
 
 #if USE_DICT_CHECK
 
-// What a C compiler does not find out.
+// An error that a C compiler does not detect.
 TEST_CASE("OD disabled: an OD_TYPE in front of an OD_TYPE keeps the node from starting, and is named") {
   static const CO_OBJ_TYPE* const number = OD_TUNSIGNED32;
   static const OD_TYPE twice = OD_VALUE(number, OD_ORIGINAL);

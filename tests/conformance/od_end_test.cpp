@@ -196,7 +196,7 @@ TEST_CASE("OD end: an extension that gives way to another in any call: one abort
   }
 }
 
-TEST_CASE("OD end: the type behind it gives the object another extension in any of its own calls") {
+TEST_CASE("OD end: the type behind it gives the object another extension in any of its calls") {
   for (const std::vector<std::string>& frames : transfers()) {
     for (unsigned which = 0; which < 5; ++which) {
       CAPTURE(frames.front());

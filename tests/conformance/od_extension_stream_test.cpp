@@ -482,7 +482,7 @@ ODR_t read_with_late_end(OD_stream_t* stream, void* buf, OD_size_t count, OD_siz
   return *passed == 0 ? ODR_OK : ODR_PARTIAL;
 }
 
-TEST_CASE("OD extension, stream: a UNICODE_STRING that ends with half a character gets no byte that nobody has read") {
+TEST_CASE("OD extension, stream: a UNICODE_STRING that ends with half a character gets no byte that was not read") {
   for (const bool late : {false, true}) {
     CAPTURE(late);
     Node node(0x3002, {0x41, 0x00, 0x42, 0x00, 0x43, 0x00, 0x44});
@@ -587,7 +587,7 @@ TEST_CASE("OD extension, stream: the application sets the position within what h
   CHECK(Bytes(buffer, buffer + 5) == counting(5, 71));
 }
 
-TEST_CASE("OD extension, stream: what goes on with an access that nobody has begun is refused, not begun anew") {
+TEST_CASE("OD extension, stream: the continuation of an access that was not begun is refused, not begun anew") {
   Node node(0x3004, counting(20));
   node.extension.put_at(node, 0x3005);
   std::uint8_t buffer[20] = {};

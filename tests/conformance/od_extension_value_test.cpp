@@ -61,7 +61,7 @@ std::string hex(const Bytes& data, std::size_t n) {
   return text;
 }
 
-// Who reaches it --------------------------------------------------------------------------------------------------
+// Accesses that reach the extension --------------------------------------------------------------------------------
 
 TEST_CASE("OD extension, value: without one the object is what its original type makes of it") {
   Node node;
@@ -180,9 +180,9 @@ TEST_CASE("OD extension, value: a length that is not the object's never reaches 
   CHECK(extension.take_log().empty());
 }
 
-// What it answers ---------------------------------------------------------------------------------------------------
+// Results of the extension -------------------------------------------------------------------------------------------
 
-// Enumerations are as short as they can be on Arm.
+// Enumerations have the smallest possible size on Arm.
 constexpr int largest = sizeof(ODR_t) == 1 ? INT8_MAX : INT32_MAX;
 
 struct Row {
@@ -362,7 +362,7 @@ TEST_CASE("OD extension, value: the original functions with the node-ID (flag N)
   node.ask("601#4013300000000000", "581#4313300012000000");
 }
 
-// A type of the application that refuses with a code of its own.
+// Refuses with an abort code of the application.
 CO_ERR refuse(CO_OBJ* obj, CO_NODE* node) {
   COObjTypeUserSDOAbort(obj, node, 0x05040004);
   return CO_ERR_TYPE_WR;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// co_od.h: parameter groups by name, stored and restored as the network does it, and never torn. [301:7.5.2.13]
+// co_od.h: parameter groups by name, stored and restored as by the network, atomically. [301:7.5.2.13]
 #include <cstring>
 
 #include "support/failing_nvm.hpp"
@@ -22,8 +22,8 @@ struct Application {
   std::uint8_t bytes[8];
 };
 
-// Groups "PERSIST_COMM" and "PERSIST_APP" (2, 3), one without a name (4), one that is stored by itself (5), and an
-// object in none.
+// Device with groups "PERSIST_COMM" and "PERSIST_APP" (2, 3), one without a name (4), one that is stored autonomously
+// (5), and an object in no group.
 struct Device {
   CO_DATA data(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
 
@@ -257,7 +257,7 @@ TEST_CASE("OD groups: a dictionary that the node does not use is not stored") {
   CHECK(device.nvm.steps == 0);
 }
 
-// What a device that has lost its power at some step of storing finds at its next start.
+// Checks the values that a device finds at its next start after a power failure at each step of storing.
 TEST_CASE("OD groups: power off at every byte of OD_storeGroup and OD_restoreGroup: old or new values, never others") {
   std::uint64_t cuts = 0;
   for (const bool restores : {false, true}) {

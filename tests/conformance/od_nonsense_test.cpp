@@ -36,7 +36,7 @@ struct Node : Fixture {
   }
 };
 
-// What a function answers, and how many bytes it says have passed: count and more.
+// Invalid answer of a function: its result, and the number of bytes that it reports.
 struct Nonsense {
   int result;
   std::int64_t more;

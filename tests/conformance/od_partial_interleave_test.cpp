@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// Who does what: three pieces each.
+// A participant that accesses the object in three pieces.
 class Actor {
  public:
   virtual ~Actor() = default;
@@ -108,7 +108,7 @@ class Upload : public Client {
   }
 };
 
-// Of bytes that nobody else writes: it takes the place of what is there at its end.
+// A download of bytes that no other actor writes: it replaces the content at its end.
 class Download : public Client {
  public:
   using Client::Client;

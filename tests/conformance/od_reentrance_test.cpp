@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extensions (co_od.h) that act on the node while they work for it: they stop it, take themselves away, read their own
-// object, change the dictionary. Whoever has called goes on or is refused, and what is served afterwards is right.
+// Extensions (co_od.h) that act on the node during an access: they stop it, remove themselves, read their object,
+// change the dictionary. The caller continues or is refused, and later accesses work.
 #include <algorithm>
 
 #include "support/block_frames.hpp"

@@ -63,7 +63,7 @@ void check(std::vector<Mapped> objects, std::mt19937& random) {
 
 constexpr std::uint32_t boolean(unsigned n) { return 0x22500001U | n << 8; }
 
-// As PdoVariables begins: byte k of sub-index s holds 16 s + k + 1.
+// Returns the initial value of PdoVariables: byte k of sub-index s holds 16 s + k + 1.
 Mapped number(unsigned bytes, unsigned sub) {
   std::uint32_t value = 0;
   for (unsigned k = 0; k < bytes; ++k) value |= (16 * sub + k + 1) << (8 * k);

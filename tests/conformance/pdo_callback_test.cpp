@@ -131,7 +131,7 @@ TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a SYNC comes aft
   check_left(node);
 }
 
-TEST_CASE("PDO callback: the same at a SYNC of its own [Q9] [Y9]") {
+TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a produced SYNC comes after all of it [Q9] [Y9]") {
   SyncTable table = table_of(1);
   table.sync_id = 0x40000080;
   table.cycle = 10000;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// What the type of 22FFh does when it is read or written.
+// Returns the action of the type of 22FFh when it is read or written.
 std::function<void(CO_NODE*)>& action() {
   static std::function<void(CO_NODE*)> what;
   return what;

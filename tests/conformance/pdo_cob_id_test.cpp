@@ -14,7 +14,7 @@ PdoTable both_on() {
   return table;
 }
 
-/// The same, with bit 31 set in both.
+/// Returns the table of both_on() with bit 31 set in both COB-IDs.
 PdoTable both_off() {
   PdoTable table = both_on();
   table.rpdo[0].cob_id |= 0x80000000;

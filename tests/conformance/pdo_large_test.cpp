@@ -107,7 +107,8 @@ TEST_CASE("large: 256 event timers at once, no period lost") {
   }
 }
 
-TEST_CASE("large: the last PDOs are switched off and on by SDO; a foreign frame among 1024 identifiers is foreign") {
+TEST_CASE(
+    "large: the last PDOs are switched off and on by SDO; an unrelated frame among 1024 identifiers is not consumed") {
   LargeNode node;
   node->ask("601#23FF1501FF010180", "581#60FF150100000000");
   node->rx(LargeNode::rpdo(511, 0x1234));

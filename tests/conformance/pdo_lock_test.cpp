@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// What happens at a node: "lock", "unlock", callbacks and accesses of a user type.
+// Log of events at a node: "lock", "unlock", callbacks and accesses of a user type.
 class Diary {
  public:
   explicit Diary(PdoNode& node) {

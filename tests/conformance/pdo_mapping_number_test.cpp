@@ -130,7 +130,7 @@ TEST_CASE("PDO mapping: sub 0 checks every entry again: 0604 0041h, and it leave
     for (unsigned place = 0; place < 8; ++place) {
       node.rpdo[0] = table.rpdo[0];
       node.tpdo[0] = table.tpdo[0];
-      node.rpdo[0].map[place] = one.rpdo;  // by the application, which nobody checks
+      node.rpdo[0].map[place] = one.rpdo;  // written by the application, without a check
       node.tpdo[0].map[place] = one.tpdo;
       CHECK(node.set(0x1600, 0, 1, place) == 0);
       CHECK(node.set(0x1600, 0, 1, place + 1) == abort_not_mappable);

@@ -98,7 +98,7 @@ Bytes little_endian(T value) {
   return bytes;
 }
 
-/// A node, its model, and somebody who writes to both.
+/// A node, its model, and a client that writes to both.
 class Trial {
  public:
   explicit Trial(unsigned seed) : random_(seed), objects_(node_->Dict), words_{words(false), words(true)} {

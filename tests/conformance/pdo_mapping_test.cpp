@@ -18,7 +18,7 @@ PdoTable both_on() {
   return table;
 }
 
-/// The same with bit 31 set.
+/// Returns the table of both_on() with bit 31 set.
 PdoTable both_off() {
   PdoTable table = both_on();
   table.rpdo[0].cob_id |= 0x80000000;
@@ -149,7 +149,7 @@ TEST_CASE("PDO mapping: the other PDOs do not matter to one that is being mapped
   node.tx("181#11122122");
 }
 
-// What may be mapped --------------------------------------------------------------------------------------------------
+// Objects that may be mapped ----------------------------------------------------------------------------------------
 
 /// A node whose RPDO 0 and TPDO 0 are ready to be mapped.
 struct Ready : PdoNode {

@@ -155,7 +155,7 @@ class Types {
   std::deque<UserType> users_;
 };
 
-/// The mapping of the object by itself, and with a byte before and after it where there is room.
+/// Mappings of the object alone, and with a byte before and after it where the PDO has space.
 struct Around {
   Around(const Case& one, bool alone) {
     constexpr bool bits = USE_PDO_BITS != 0;

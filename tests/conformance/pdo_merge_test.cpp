@@ -16,7 +16,7 @@ using namespace test;
 constexpr std::size_t memory_size = 40;
 constexpr std::size_t guard = 12;
 
-// A variable of 1, 2 or 4 bytes at an address of its own.
+// A variable of 1, 2 or 4 bytes at a separate address.
 struct Variable {
   std::size_t offset;
   unsigned bytes;
@@ -95,7 +95,7 @@ std::vector<std::size_t> as_they_are(std::size_t number) {
   return order;
 }
 
-// Neighbours of the widths given, from an offset on.
+// Returns adjacent variables of the given widths, from an offset on.
 std::vector<Variable> row(const std::vector<unsigned>& widths, std::size_t offset) {
   std::vector<Variable> all;
   for (const unsigned bytes : widths) {
@@ -134,7 +134,7 @@ TEST_CASE("PDO merge: every mixture of widths that fits into a PDO, side by side
   extend(extend, widths, 0);
 }
 
-TEST_CASE("PDO merge: neighbours in every order") {
+TEST_CASE("PDO merge: adjacent variables in every order") {
   for (const std::vector<unsigned>& widths :
        {std::vector<unsigned>{1, 1, 1, 1, 1}, std::vector<unsigned>{2, 2, 2, 2}, std::vector<unsigned>{4, 4},
         std::vector<unsigned>{1, 1, 2, 4}, std::vector<unsigned>{2, 1, 1, 2}}) {
@@ -148,7 +148,7 @@ TEST_CASE("PDO merge: neighbours in every order") {
   }
 }
 
-TEST_CASE("PDO merge: neighbours of which one is left out, or mapped elsewhere in the PDO") {
+TEST_CASE("PDO merge: adjacent variables of which one is omitted, or mapped elsewhere in the PDO") {
   const std::vector<Variable> variables = row({1, 1, 1, 1, 1, 1}, guard);
   for (const std::vector<std::size_t>& order :
        {std::vector<std::size_t>{0, 1, 3, 4}, std::vector<std::size_t>{0, 2, 4},
@@ -224,7 +224,7 @@ TEST_CASE("PDO merge: one variable in several entries, and rows that overlap") {
   CHECK(node.u8[2] == 5);
 }
 
-TEST_CASE("PDO merge: neighbours of which one may not be written keep to themselves") {
+TEST_CASE("PDO merge: adjacent variables of which one may not be written are not merged with it") {
   PdoTable table;
   table.rpdo[0].on(0x80000201, 255, {0x22010108, 0x22010208, 0x22010308});
   const std::uint8_t* closed = nullptr;

@@ -74,7 +74,7 @@ void configure_as(SyncNode& node) {
   }
 }
 
-// What a node does from its boot-up on.
+// Returns the actions of a node since its boot-up.
 std::vector<std::string> life(SyncNode& node) {
   std::vector<std::string> all;
   const auto note = [&] {

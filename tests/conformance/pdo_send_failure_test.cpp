@@ -19,7 +19,7 @@ SyncTable table_of() {
   return table;
 }
 
-// Events, SYNCs of its own, event timers, RPDOs, SDO.
+// Runs a session: events, SYNC production, event timers, RPDOs, SDO.
 std::vector<std::string> session(SyncNode& node) {
   std::vector<std::string> all;
   const auto collect = [&] {

@@ -167,7 +167,7 @@ TEST_CASE("PDO callback: COPdoSyncUpdate that switches RPDOs off and on loses no
   CHECK(updates <= 6);
 }
 
-TEST_CASE("PDO callback: COPdoUpdate may answer with an SDO client's request or a frame of its own [Q9]") {
+TEST_CASE("PDO callback: COPdoUpdate may answer with an SDO client's request or an application frame [Q9]") {
   SyncNode node(asynchronous());
   node.start();
   callbacks().pdo_update = [&](CO_RPDO*) {

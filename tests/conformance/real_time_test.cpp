@@ -52,7 +52,7 @@ TEST_CASE("real time: frames of other services wait for CONodeProcess, in their 
   CHECK(node.counters().Unclaimed == 1);
 }
 
-TEST_CASE("real time: frames that nobody wants take no place in the ring") {
+TEST_CASE("real time: unrelated frames do not enter the ring") {
   RealTimeNode node(pdos());
   unsigned seen = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++seen; };
@@ -271,7 +271,7 @@ TEST_CASE("real time: an overrun and a reset that wait are both carried out, and
   node.silent();
 }
 
-TEST_CASE("real time: COPdoTransmit is called by whoever has the event: SYNC and timers, or the mainline") {
+TEST_CASE("real time: COPdoTransmit is called in the context of the event: SYNC and timers, or the mainline") {
   SyncTable table = pdos();
   table.tpdo[2].on(0x40000381, 255, {0x22110108});
   RealTimeNode node(table);

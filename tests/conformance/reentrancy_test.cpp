@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// What the functions of the type at 3000h (a stream of 20 bytes) and 3001h (a value of 8 bytes) do besides.
+// Actions in the functions of the types at 3000h (a stream of 20 bytes) and 3001h (a value of 8 bytes).
 struct Script {
   std::function<void(CO_NODE*)> on_init;
   std::function<void(CO_NODE*)> on_read;

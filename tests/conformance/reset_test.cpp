@@ -32,7 +32,7 @@ CO_ERR stream_write(CO_OBJ*, CO_NODE*, void* buffer, uint32_t size) {
 }
 const CO_OBJ_TYPE stream_type = {stream_size, nullptr, stream_read, stream_write, stream_reset};
 
-// What the application does between two frames: it reads and writes the objects of the transfers itself.
+// Accesses the objects of the transfers as the application, between two frames.
 void use_dictionary(Fixture& node) {
   node.call([&] {
     std::uint8_t bytes[4] = {0xA1, 0xA2, 0xA3, 0xA4};
@@ -163,7 +163,7 @@ void check_no_transfer(Fixture& node) {
   node.ask("601#0001020300000000", "581#8001020301000405");
 }
 
-// As much as a fresh node sends from its boot-up on: nothing but heartbeats.
+// Checks that the node behaves like a new one since its boot-up: it sends only heartbeats.
 void check_heartbeats_only(Fixture& node, Time time) {
   const std::uint16_t ms = node.objects.heartbeat;
   node.after(time);

@@ -36,7 +36,7 @@ TEST_CASE("RPDO: each frame is written, the same data again as well") {
   CHECK(node.u8[0] == 0x42);
 }
 
-TEST_CASE("RPDO: a frame is written to the objects of its own PDO and to no others") {
+TEST_CASE("RPDO: a frame is written only to the objects that its PDO maps") {
   PdoTable table;
   std::uint8_t sub = 1;
   for (unsigned n = 0; n < fixture_rpdos; ++n) {

@@ -166,7 +166,8 @@ TEST_CASE("SDO block upload: the queue of the node does not fill with segments [
   CHECK(sent.back().substr(0, 6) == "581#7F");
 }
 
-TEST_CASE("SDO block upload: a paused one goes on by itself, in a loop that sleeps as long as the node says [D20]") {
+TEST_CASE(
+    "SDO block upload: a paused one resumes without a call, in a loop that sleeps until CONodeNextDeadline() [D20]") {
   Fixture node(Setup().wake(Wake::deadline));
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(5);
@@ -285,7 +286,7 @@ TEST_CASE("SDO block download: answers that the controller refuses come later, n
   }
 }
 
-// What one call sends, with a received frame or without.
+// Returns the frames sent by one call, with or without a received frame.
 std::vector<std::string> call_once(Fixture& node, std::string_view received = {}) {
   node.calls(1);
   received.empty() ? node.loop() : node.rx(received);

@@ -134,7 +134,7 @@ TEST_CASE("SDO block channels: a value is open to both, the last one to end wins
   CHECK(node.objects.u32 == 0x01010101);
 }
 
-TEST_CASE("SDO block channels: silence is watched and answered on each channel by itself [D11] [D18]") {
+TEST_CASE("SDO block channels: silence is monitored and answered separately on each channel [D11] [D18]") {
   Fixture node(two());
   node.ask("601#C60421007A030000", "581#A40421007F000000");
   node.ask("690#A40121007F000000", "6A0#C601210079030000");

@@ -263,7 +263,7 @@ TEST_CASE("SDO block download: after an error no segment is taken for a command 
   check_idle(node);
 }
 
-// What objects say ---------------------------------------------------------------------------------------------------
+// Errors of objects --------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO block download: a value that is not allowed is refused by the last answer [D10]") {
   Fixture node;

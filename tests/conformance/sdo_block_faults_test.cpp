@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: block transfers on a bus that loses, doubles and delays frames, at every position. With a CRC or an
-// announced size there is the right data or an abort that somebody has reported; never wrong data, never a hang. [T11]
+// SDO server: block transfers on a bus that loses, duplicates and delays frames, at every position. With a CRC or an
+// announced size the data are right or the transfer is aborted with a report; never wrong data, never a hang. [T11]
 #include <algorithm>
 
 #include "support/block_frames.hpp"

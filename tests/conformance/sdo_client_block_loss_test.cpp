@@ -229,7 +229,7 @@ TEST_CASE("SDO client: one fault at any frame of a block download: the right dat
   }
 }
 
-// Of a sub-block with a single segment nothing is heard if that is lost: the failure is reported. [T11]
+// If the only segment of a sub-block is lost, neither side can detect it: the failure is reported. [T11]
 TEST_CASE("SDO client: a segment that is lost, repeated or overtaken does not fail a block upload [T11] [D11]") {
   for (const std::size_t length : {14U, 100U, 455U, 896U}) {
     const std::size_t count = (length + 6) / 7;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: answers that are for nobody any more, or for somebody else. [C1]
+// SDO client: answers to a transfer that has ended, or to another client. [C1]
 #include "support/sdo_client_states.hpp"
 
 #if USE_CSDO
@@ -70,7 +70,7 @@ TEST_CASE("SDO client: an abort that names another object ends a transfer that h
   }
 }
 
-// What a slow server may still send of the transfer of 2000h:05 when that has timed out.
+// Frames that a slow server may send for the transfer of 2000h:05 after its time-out.
 constexpr const char* late[] = {
     "585#4300200511223344", "585#410020050E000000", "585#6000200500000000", "585#0001020304050607",
     "585#1108090A0B0C0D0E", "585#2000000000000000", "585#3000000000000000", "585#8000200501000405",

@@ -151,7 +151,7 @@ TEST_CASE("SDO client, own node: strings and domains are written") {
   CHECK(node.write(0x2112, 0, counted(3)).code != 0);
 }
 
-// What a client at the other end of the bus gets.
+// Returns the abort code that a remote client receives.
 std::uint32_t code_over_the_bus(Fixture& node, std::uint16_t index, std::uint8_t sub, Bytes& data) {
   CO_IF_FRM request = frame("601#4000000000000000");
   CO_SET_WORD(&request, index, 1);

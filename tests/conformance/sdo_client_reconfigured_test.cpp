@@ -40,7 +40,7 @@ void check_is_answered_at_586(SdoClient& node) {
   node.silent();
 }
 
-// What ends the transfer, and what is sent for that.
+// Action that ends the transfer, and the frames sent for it.
 struct End {
   const char* what;
   void (*happens)(Waiting& node);

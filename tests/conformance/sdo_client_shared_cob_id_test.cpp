@@ -92,7 +92,8 @@ TEST_CASE(
 }
 
 // The route of client 1 moves forward.
-TEST_CASE("SDO client: a callback switches the client in front of its own off and asks again: one frame, one answer") {
+TEST_CASE(
+    "SDO client: a callback switches off the client before this one and starts a request: one frame, one answer") {
   Clients node(three_at_585());
   start(node, 1, 0x2001);
   node.on_end = [&](const ClientEnd&) {

@@ -83,7 +83,7 @@ void each_ends_with(const std::string& code, Function function, bool also_in_sub
   }
 }
 
-// Who ends the transfer ----------------------------------------------------------------------------------------------
+// Causes of the end of a transfer ------------------------------------------------------------------------------------
 
 TEST_CASE("SDO stream types: End after the client's abort tells its code [D6]") {
   each_ends_with("08000000", [](Fixture& node) { node.rx("601#8000300000000008"); });
@@ -238,7 +238,7 @@ TEST_CASE("SDO stream types: a block upload is not complete before the client sa
 
 #endif
 
-// What the type functions say -----------------------------------------------------------------------------------------
+// Results of the type functions ---------------------------------------------------------------------------------------
 
 const auto refuse = [](CO_OBJ*, CO_NODE*) { return CO_ERR_OBJ_RANGE; };
 const auto refuse_with_code = [](CO_OBJ* obj, CO_NODE* node) {
@@ -287,7 +287,7 @@ TEST_CASE("SDO stream types: a Begin that fails refuses the transfer, there is n
   }
 }
 
-TEST_CASE("SDO stream types: a code of its own in Begin without an error has no effect") {
+TEST_CASE("SDO stream types: a specific code in Begin without an error has no effect") {
   for (const Initiate& initiate : initiates()) {
     CAPTURE(initiate.request);
     Stream node(initiate.expedited ? 2 : 890);
@@ -386,7 +386,7 @@ TEST_CASE("SDO stream types: an End that fails after an upload, or after an abor
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("SDO stream types: a code of its own in End without an error has no effect, then or later") {
+TEST_CASE("SDO stream types: a specific code in End without an error has no effect, then or later") {
   Stream node;
   node.on_end = only_set_code;
   node.ask("601#2B00300011220000", "581#6000300000000000");

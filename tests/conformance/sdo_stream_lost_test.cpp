@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: the object of an open transfer changes its place or its size in a function of its own type, and the timer
-// that watches transfers.
+// SDO server: a function of its type changes address or size of the object of an open transfer; so does the timer that
+// monitors transfers.
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 

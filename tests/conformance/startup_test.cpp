@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1F80h, NMT startup: does the node enter Operational by itself? [302-2] [U1]
+// 1F80h, NMT startup: does the node self-start (enter Operational without a command)? [302-2] [U1]
 #include "support/fixture.hpp"
 
 namespace {

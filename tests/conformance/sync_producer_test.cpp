@@ -291,7 +291,7 @@ TEST_CASE("SYNC producer: its own PDOs count with the number of its SYNC [Y9] [X
                                   "080#03", "080#04", "181#11"});
 }
 
-TEST_CASE("SYNC producer: a SYNC of somebody else is ignored and counted, not reported [Y10]") {
+TEST_CASE("SYNC producer: a SYNC of another producer is ignored and counted, not reported [Y10]") {
   SyncTable table = producer(100000);
   table.tpdo[0].on(0x40000181, 1, {0x22010108});
   table.rpdo[0].on(0x201, 1, {0x22010108});
@@ -307,7 +307,7 @@ TEST_CASE("SYNC producer: a SYNC of somebody else is ignored and counted, not re
   CHECK(node.objects.error_register == 0);
 }
 
-TEST_CASE("SYNC producer: the window is that of its own SYNC [X4] [Y9]") {
+TEST_CASE("SYNC producer: the window begins with the produced SYNC [X4] [Y9]") {
   SyncTable table = producer(100000);
   table.window = 10000;
   table.rpdo[0].on(0x201, 1, {0x22010108});

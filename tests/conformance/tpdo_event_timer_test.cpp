@@ -134,7 +134,8 @@ TEST_CASE("TPDO event timer: a PDO that is switched on in Operational begins wit
   node.tx_at(200ms, "181#11");
 }
 
-TEST_CASE("TPDO event timer: a new time counts from its write; 0 ends it; nobody else's timer is touched [P11] [D39]") {
+TEST_CASE(
+    "TPDO event timer: a new time counts from its write; 0 ends it; timers of other TPDOs do not change [P11] [D39]") {
   PdoNode node(timed(100), [](Setup& setup) { setup.heartbeat(1000); });
   node.start();
   node.after(90ms);

@@ -18,7 +18,7 @@ typedef struct WAY_T {
   uint32_t Echo;  // bit that is set in the identifier on its way
 } WAY;
 
-// Who takes part in a check.
+// Participants of a check.
 typedef struct BUS_T {
   END Own;
   END Peer;
@@ -123,7 +123,7 @@ static const char* Pass(const WAY* way, const CO_IF_FRM* frm) {
   return IsSame(way, frm, &got) ? NULL : "frame $ with # bytes arrives as another";
 }
 
-// The same on all ways; says the verdict if it is a bad one.
+// Passes a frame on all ways; prints the verdict if it is negative.
 static bool PassAll(const BUS* bus, const char* name, const CO_IF_FRM* frm) {
   for (uint8_t way = 0; way < bus->Ways; ++way) {
     const char* const wrong = Pass(&bus->Way[way], frm);
@@ -348,7 +348,8 @@ static void CheckEmpty(const BUS* bus) {
   CheckPass(bus->Own.Check, "can.empty", "Read returns 0 where there is no frame");
 }
 
-// What waits in the controller of the peer, as nobody has acknowledged it, is thrown away.
+// Returns true if a frame of the peer is received. Resets the peer, whose controller would repeat an unacknowledged
+// frame.
 static bool HearsPeer(const BUS* bus) {
   CO_IF_FRM frm;
   Fill(&frm, 0x200, 1, 1);
@@ -394,7 +395,7 @@ static void CheckReset(const BUS* bus) {
   }
 }
 
-// As when the bit rate is switched, and when the node is started again.
+// Checks the calls of a switched bit rate, and of a restart of the node.
 static void CheckAgain(const BUS* bus) {
   CO_IF_FRM frm;
   Fill(&frm, 0x300, 5, 9);
@@ -424,7 +425,7 @@ static bool Receives(const BUS* bus, const char* name, uint32_t id) {
   return wrong == NULL;
 }
 
-// As the node does: Filter comes before Enable, and after every change.
+// Calls Filter like the node does: before Enable, and after every change.
 static bool ReceivesAll(const BUS* bus, const char* name, const uint32_t* ids, uint16_t num, uint16_t step) {
   bus->Own.Ex->Filter(bus->Own.Ctx, ids, num);
   for (uint32_t n = 0; n < num; n += step) {

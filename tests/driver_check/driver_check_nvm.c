@@ -161,7 +161,7 @@ static bool IsErased(const NVM* nvm, uint32_t start, uint32_t size) {
   return true;
 }
 
-// Between neighbours that must not change.
+// Overwrites a range and checks that the adjacent bytes do not change.
 static bool Overwrites(const NVM* nvm, uint32_t start, uint32_t size) {
   const uint32_t unit = nvm->Shape.ProgramSize;
   const uint32_t end = start + size;
@@ -170,7 +170,7 @@ static bool Overwrites(const NVM* nvm, uint32_t start, uint32_t size) {
          Holds(nvm, start - unit, unit, 0x11) && Holds(nvm, end, unit, 0x11);
 }
 
-// Between neighbours that must stay erased.
+// Programs a range and checks that the adjacent bytes stay erased.
 static bool Programs(const NVM* nvm, uint32_t start, uint32_t size) {
   const uint32_t unit = nvm->Shape.ProgramSize;
   return EraseFront(nvm, start + size + unit) && WritePattern(nvm, start, size, 0x22) &&

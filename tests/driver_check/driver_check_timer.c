@@ -24,7 +24,7 @@ static void Unlock(const CO_DRIVER_CHECK* c) {
 // some for long waits. One such call is let pass where there is no alarm.
 static uint32_t Spare(const CO_DRIVER_CHECK* c) { return HasClock(c) ? 1 : 0; }
 
-// As the stack does it: Start only after a Stop.
+// Starts a timer with the calls of the stack: Start only after a Stop.
 static void Load(CO_DRIVER_CHECK* c, uint32_t ticks) {
   if (HasClock(c)) {
     c->Ext->Timer->Alarm(c->Ext->TimerCtx, ticks);

@@ -104,7 +104,7 @@ void start_clock() {
   board::at(board::timer_base) = 1;
 }
 
-// What entering and leaving a function of the target has cost before and after the clock was read.
+// Measures the cost of entering and leaving a function of the target, before and after the clock is read.
 void calibrate() {
   constexpr unsigned number = 64;
   counts = true;

@@ -185,7 +185,7 @@ class Bench {
     }
   }
 
-  // What happens -----------------------------------------------------------
+  // Actions ----------------------------------------------------------------
 
   void step() {
     const std::uint8_t kind = input_.byte();
@@ -225,7 +225,7 @@ class Bench {
     frame.Data[3] &= 15U;
   }
 
-  // What a frame may change: what it names, and what is being downloaded.
+  // Receives a frame. It may change the objects that it names, and the object of an open download.
   void receive(const CO_IF_FRM& frame) {
     bus_.to_node.assign(1, frame);
     memory_.remember();
@@ -507,7 +507,7 @@ class Bench {
     }
   }
 
-  // What must hold -----------------------------------------------------------
+  // Properties to check ------------------------------------------------------
 
   void check() const {
     require(!locked_ && !objects_locked_, "no lock is left");

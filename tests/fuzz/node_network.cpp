@@ -237,7 +237,7 @@ void Network::write(std::uint16_t index, std::uint8_t sub, unsigned size, std::u
   }
 }
 
-// What the application does ------------------------------------------------
+// Actions of the application -----------------------------------------------
 
 void Network::configure() {
   const Entry& entry = settings[input_.below(std::size(settings))];
@@ -251,7 +251,7 @@ void Network::configure_pdo() {
   write(index, entry.sub, entry.size, any_value(entry.size));
 }
 
-// As the standard wants it; some steps may be refused. [301:7.5.2.36]
+// Maps a PDO in the order that the standard requires; some steps may be refused. [301:7.5.2.36]
 void Network::map_pdo() {
   const std::uint8_t which = input_.byte();
   const bool is_tpdo = (which & 4U) != 0;

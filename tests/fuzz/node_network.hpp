@@ -42,7 +42,7 @@ struct NetworkObjects {
   CO_HBCONS heartbeat_consumers[2] = {};
   std::uint8_t error_behaviour = 0;
   std::uint32_t startup = CO_NMT_STARTUP_STAY;
-  // None exists, until somebody switches it on.
+  // All PDOs are disabled until a frame enables them.
   PdoObjects rpdo[network_pdos] = {
       {0x80000205, 255, 0, 0, 0, 2, {0x20000008, 0x20000110}},
       {0x80000305, 1, 0, 0, 0, 3, {0x20000320, 0x00050008, 0x20000B08}},
@@ -67,7 +67,7 @@ class Network {
  public:
   Network(CO_NODE& node, NetworkObjects& objects, Input& input) : node_(node), objects_(objects), input_(input) {}
 
-  /// What an application does. \a kind: bits 0…4 count.
+  /// Executes an action of the application. \a kind: bits 0…4 count.
   void act(std::uint8_t kind);
 
   /// Lets an SDO request name one of the entries of these services.

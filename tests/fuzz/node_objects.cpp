@@ -94,7 +94,7 @@ constexpr CO_OBJ_TYPE_EX source_type = {
     {size_of_source, nullptr, read_source, write_source, COObjTypeExReset}, reset_source, begin_source, end_source};
 
 #if USE_OD
-// What an extension says: usually what is so, else anything.
+// Returns the result of an extension: usually the correct one, else a random one.
 ODR_t extension_answer(OD_stream_t* stream, OD_size_t count, OD_size_t* passed, bool is_last) {
   const std::uint32_t what = chance(16);
   *passed = what == 15 ? chance(256) : count;

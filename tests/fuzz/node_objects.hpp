@@ -78,7 +78,7 @@ struct Source {
 extern Source source;
 
 #if USE_OD
-/// Of 2000h:14, a stream, and 2000h:15, a text: it keeps the contract, or not, as chance has it.
+/// Extension of 2000h:14, a stream, and 2000h:15, a text: it keeps or breaks the contract at random.
 extern OD_extension_t extension;
 #endif
 

@@ -80,7 +80,7 @@ class Bench {
     transfer_at_last();
   }
 
-  // What waits is no longer allowed to be sent, or thrown away by a reset.
+  // Changes the NMT state. Queued frames may then be forbidden, or discarded by a reset.
   void change_mode(CO_MODE mode) {
     if (mode != CO_PREOP && mode != CO_OPERATIONAL) {
       for (Peer& peer : peers_) {
@@ -90,7 +90,7 @@ class Bench {
   }
 
  private:
-  // What happens -----------------------------------------------------------
+  // Actions ------------------------------------------------------------
 
   void act(std::uint8_t kind) {
     Peer& peer = peers_[(kind >> 5) & 1U];
@@ -256,7 +256,7 @@ class Bench {
     }
   }
 
-  // Why a transfer may end by itself; 0: for no reason.
+  // Returns the reason why a transfer may end without an answer; 0: none.
   std::uint32_t reason(const Peer& peer) const {
     if (cancelled_ == &peer) {
       return CO_SDO_ERR_TOS_LOCAL;
@@ -449,7 +449,8 @@ class Bench {
 
   // Time -----------------------------------------------------------------------------
 
-  // What a client says by itself while the controller takes nothing could not be told from an answer.
+  // Lets time pass. The controller accepts frames before: otherwise a time-out abort could not be distinguished from an
+  // answer.
   void pass(std::uint32_t ticks) {
     accept();
     passes_ = true;
@@ -462,7 +463,7 @@ class Bench {
     passes_ = false;
   }
 
-  // What must hold -------------------------------------------------------------------
+  // Properties to check ---------------------------------------------------------------
 
   void check() {
     for (Peer& peer : peers_) {

@@ -64,7 +64,7 @@ class Device {
     COTmrService(&node_.Tmr);
     COTmrProcess(&node_.Tmr);
   }
-  // What has been sent since the last call.
+  // Returns the frames sent since the last call.
   std::vector<CO_IF_FRM> take_sent() { return std::exchange(sent_, {}); }
 
   unsigned accepts = always;  // frames that the controller still takes
@@ -200,7 +200,7 @@ class Device {
   std::optional<CO_IF_FRM> received_;
   std::vector<CO_IF_FRM> sent_;
   std::uint32_t now_ = 0xFFFFF000;  // wraps soon
-  // Memory of its own, so that the address sanitizer sees the first byte beyond.
+  // Allocated separately, so that the address sanitizer detects accesses beyond the end.
   std::unique_ptr<std::uint8_t[]> buffer_ = std::make_unique<std::uint8_t[]>(CO_SSDO_N * CO_SDO_BUF_BYTE);
   CO_NODE_EXT ext_{};
   CO_NODE node_{};

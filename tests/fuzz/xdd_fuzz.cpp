@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const xdd::Edition edition : {xdd::Edition::v10, xdd::Edition::v11}) {
       const Description again = description_of(xdd::write(device, edition));
       require(again.devices.size() == 1, "what is written is read");
-      // What has been kept may have got a meaning at its new place: more may be there.
+      // A preserved element may be interpreted at its new place, so there may be more objects.
       for (const Object& object : device.objects) {
         require(again.devices[0].find(object.index) != nullptr, "no object is lost");
       }

@@ -74,7 +74,7 @@ struct Desk {
   demo::Node slave{{255, host.device_can(), host.device_timer(), {slave_dictionary, 7}}};
 };
 
-/// A slave at a port of its own that does what is planned here: by default what CiA 305 says.
+/// A slave at a separate port with planned behaviour; by default it conforms to CiA 305.
 class OddSlave {
  public:
   explicit OddSlave(Desk& desk, demo::LssAddress own) : own_(own), port_(desk.host.bus.attach({"odd"})) {

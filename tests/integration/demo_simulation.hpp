@@ -33,7 +33,7 @@ class SimulatedHost : public demo::Host {
   demo::Micros interrupted_at = UINT64_MAX;
   std::string fault;
   bool lost = false;
-  /// What happens beside the program while that waits; false: nothing. May be empty.
+  /// Called while the program waits; returns false if it has done nothing. May be empty.
   std::function<bool()> others;
 
  private:

@@ -143,7 +143,7 @@ TEST_CASE("demo: in the tour a clock without node-ID is found, gets one, and kee
   CHECK(bench.shows("ok  node-ID 5, \"Central Station\", time zone 60 min: all as stored"));
 }
 
-TEST_CASE("demo: a clock without node-ID that nobody configures says nothing") {
+TEST_CASE("demo: a clock without node-ID that is not configured sends nothing") {
   Bench bench(demo::no_node_id);
   REQUIRE(bench.clock.start());
   unsigned frames = 0;
@@ -399,7 +399,7 @@ TEST_CASE("demo: the master waits for a state that comes after its command, not 
   CHECK(bench.master.await_state(State::operational, 0));
 }
 
-TEST_CASE("demo: the master is a node of its own, with another node-ID than the clock") {
+TEST_CASE("demo: the master is a separate node, with another node-ID than the clock") {
   SimulatedHost host;
   std::vector<std::string> boots;
   host.bus.set_trace([&](const VirtualBus::Traffic& traffic) {
@@ -464,7 +464,7 @@ TEST_CASE("demo: TPDO1 tells the time when it changes, in Operational, 100 ms af
   CHECK(same(demo::Clock::time(), 7, 8, 9));
 }
 
-TEST_CASE("demo: each figure that no clock shows is an emergency of its own, until it is right") {
+TEST_CASE("demo: each invalid figure of the time is a separate emergency, until it is valid") {
   Bench bench;
   bench.start();
   REQUIRE(bench.master.command(demo::Nmt::start));

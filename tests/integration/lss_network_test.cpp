@@ -43,8 +43,8 @@ std::vector<CO_OBJ> dictionary(const Address& address) {
 /// and sends it to work. After losses it looks again.
 class Commissioning {
  public:
-  /// Ends when \a enough scans in turn have found nobody, or after 200. \a known: parts of \a address that all slaves
-  /// have.
+  /// Ends after \a enough consecutive scans without a result, or after 200 scans. \a known: parts of \a address that
+  /// all slaves share.
   Commissioning(unsigned enough, std::uint8_t known, const Address& address)
       : enough_(enough), known_(known), address_(address) {}
 
@@ -87,7 +87,7 @@ class Commissioning {
   unsigned enough_;
   std::uint8_t known_;
   Address address_;
-  unsigned none_ = 0;   // scans in turn that have found nobody
+  unsigned none_ = 0;   // consecutive scans without a result
   unsigned scans_ = 0;  // that are over
 };
 
@@ -130,7 +130,7 @@ class Network {
   std::vector<std::uint32_t> boot_ups;  // node-IDs
 
  private:
-  /// As World::settle(), but all nodes run before frames go over the bus: with many nodes this is much faster.
+  /// Like World::settle(), but all nodes run before frames are transferred: with many nodes this is much faster.
   void settle() {
     for (bool any = true; any;) {
       line.bus.hold();
@@ -152,7 +152,8 @@ class Network {
   std::vector<std::vector<CO_OBJ>> tables_;
 };
 
-/// Corner values, neighbours one bit apart, and random ones. No two are equal. The first parts are the same in all.
+/// Returns corner values, addresses that differ in one bit, and random ones, without duplicates. The first \a same
+/// parts are equal in all.
 std::vector<Address> addresses(std::size_t number, std::size_t same) {
   constexpr Address usual = {0x00000319, 0x12345678, 0x00010002, 0x80000001};
   std::set<Address> all = {usual};

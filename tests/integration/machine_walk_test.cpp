@@ -142,7 +142,7 @@ struct Pair {
       step(command);
     }
   }
-  // Nothing arrives for some eighths of the time-out.
+  // Waits for some eighths of the time-out without frames.
   void be_silent(std::size_t slices) {
     for (; slices > 0; --slices) {
       const std::optional<SdoBytes> said = model.slice();
@@ -150,7 +150,7 @@ struct Pair {
       REQUIRE(bench.line.take_texts() == (said ? Texts{test::notation(frame_of(0x585, *said))} : Texts{}));
     }
   }
-  // A segment that nobody has asked for tells whether a transfer is open: without one, the abort names its own bytes.
+  // Checks that no transfer is open: then an unexpected segment is aborted with the multiplexer of its bytes.
   void check_idle() {
     REQUIRE(bench.ask("605#60AABBCC00000000") == Texts{"585#80AABBCC01000405"});
     REQUIRE(bench.ask("605#00AABBCC00000000") == Texts{"585#80AABBCC01000405"});

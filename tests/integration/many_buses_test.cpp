@@ -25,7 +25,7 @@ using test::Texts;
 using test::World;
 using Bytes = std::vector<std::uint8_t>;
 
-// What a node of the shared dictionary below owns. The dictionary knows only where in it a variable lies.
+// Variables of one node of the shared dictionary below, which holds only their offsets.
 struct Variables {
   std::uint16_t setpoint;
   std::uint32_t serial_number;

@@ -203,7 +203,7 @@ TEST_CASE("PDO network: a node that is stopped neither takes nor sends PDOs, and
   check_stopped_node_breaks_the_ring(16);
 }
 
-TEST_CASE("PDO network: all nodes talk at once; nothing is lost, nobody takes what is not meant for it") {
+TEST_CASE("PDO network: all nodes send at once; no frame is lost, no node consumes unrelated frames") {
   Ring ring(16);
   ring.pass_on = false;
   for (std::uint32_t round = 1; round <= 50; ++round) {

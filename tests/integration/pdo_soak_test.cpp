@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A minute, or LEXICAN_SOAK_MINUTES (environment), on a bus of 1 Mbit/s that is never idle, at a node with PDOs of
-// every kind, SYNC, TIME, EMCY and heartbeats in both directions, SDO, and at its neighbour, a guarded SYNC and TIME
-// producer and NMT master: nothing is lost that must not be lost. [T16]
+// A soak test of one minute, or LEXICAN_SOAK_MINUTES (environment), on a bus of 1 Mbit/s that is never idle, with a
+// node that has PDOs of every kind, SYNC, TIME, EMCY and heartbeats in both directions, SDO, and a second node, a
+// guarded SYNC and TIME producer and NMT master: no frame is lost that must not be lost. [T16]
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -152,7 +152,7 @@ TEST_CASE("receive filter: a server that is switched off by its own client answe
   CHECK_FALSE(second.ask({0x40, 0x02, 0x20}).has_value());
 }
 
-TEST_CASE("receive filter: a 29-bit identifier of a second server is told from its 11-bit neighbour [Q1]") {
+TEST_CASE("receive filter: a 29-bit identifier of a second server is distinguished from the 11-bit one [Q1]") {
   World world;
   Line& line = world.add_line("bus");
   const Device& device = world.add_device(line, options(true));

@@ -56,7 +56,7 @@ class Pairs {
   std::size_t kinds_;
 };
 
-// As many as \a rounds, in transfers of up to 300 frames.
+// Runs \a rounds triples of faults, in transfers of up to 300 frames.
 void run_triples(unsigned rounds, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };

@@ -29,7 +29,7 @@ constexpr Milliseconds enough_to_transfer{100};
 
 enum class Side { client, server };
 
-// What happens to a node, and how it comes back.
+// A disturbance of a node, and its recovery.
 struct Blow {
   std::string name;
   std::function<void(SdoPair&)> strike;

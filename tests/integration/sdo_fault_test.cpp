@@ -58,9 +58,9 @@ class Course {
     }
   }
 
-  // What is lost within the blocks comes again: all but the frames that begin the transfer, and those that end it
-  // behind the last segment. [D11] [D12] Except the only segment of a last block: whoever repeats the acknowledge
-  // before it cannot know that there was one. In blocks of one segment that is true of each.
+  // Returns true if a lost frame is repeated: all frames within the blocks are, but not those that begin the transfer,
+  // or end it after the last segment. [D11] [D12] Nor is the only segment of a last block: after a repeated acknowledge
+  // before it, the receiver cannot detect that there was one. In blocks of one segment that is true of each.
   bool is_repeated(Direction direction, std::uint32_t position) const {
     const std::uint32_t blksize = direction == Direction::download ? CO_SDO_BUF_SEG : 127;
     const std::uint32_t last_segment = frames_ - 3;

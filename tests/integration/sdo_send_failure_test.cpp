@@ -125,7 +125,7 @@ class Bench {
     check_next();
   }
 
-  // The same offers as with refuse(), but frames may be lost. Returns the code of the transfer.
+  // Refuses the frames like refuse(), but frames may be lost. Returns the code of the transfer.
   std::uint32_t squeeze(Direction direction, std::uint32_t first, std::uint32_t times) {
     const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
     pair_.line.bus.add_rule({Fault::refuse, match, first, times});

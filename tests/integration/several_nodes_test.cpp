@@ -134,7 +134,7 @@ TEST_CASE("several nodes: each answers SDO requests under its own identifiers on
   }
 }
 
-TEST_CASE("several nodes: requests to node-IDs that nobody has stay without answer") {
+TEST_CASE("several nodes: requests to unused node-IDs are not answered") {
   Crowd crowd(16);
   crowd.line.take();
   for (unsigned id = 0; id <= 127; id = (id == 0) ? 17 : id + 1) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file soak_neighbour.hpp
-/// Node 6 of the soak test: it produces SYNC (with an identifier of its own) and TIME, is guarded, is the NMT master,
-/// and reads an object of node 5. What it sends is counted.
+/// Node 6 of the soak test: it produces SYNC (with a separate identifier) and TIME, is guarded, is the NMT master, and
+/// reads an object of node 5. It counts the frames that it sends.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -45,7 +45,7 @@ std::vector<SdoObject> objects() {
   };
 }
 
-// What the counters of a node must be, and what its SDO server must say, told from the frames on its bus.
+// Expected counters of a node and answers of its SDO server, computed from the frames on its bus.
 class Ledger {
  public:
   explicit Ledger(std::uint8_t node_id, bool filter) : request_(0x600u + node_id), node_id_(node_id), filter_(filter) {}
@@ -109,7 +109,7 @@ class Ledger {
     answers.insert(answers.end(), more.begin(), more.end());
   }
 
-  // A node with a heartbeat is not guarded; nobody else has its identifier. [H5]
+  // A node with a heartbeat is not guarded; no other node uses its identifier. [H5]
   void hear_error_control(const CO_IF_FRM& frame) {
     const bool guards = USE_GUARDING != 0 && frame.Identifier != error_control_;
     ++(guards ? claimed : malformed);
@@ -194,7 +194,7 @@ class Soak {
   explicit Soak(std::uint32_t seed) : random_(seed) {
     line_.bus.set_trace([this](const VirtualBus::Traffic& traffic) { on_bus(traffic); });
     test::callbacks().can_receive = [this](CO_IF_FRM*) { ++not_claimed_; };
-    open_.ledger.hear(test::frame("706#00"));  // the neighbour came later
+    open_.ledger.hear(test::frame("706#00"));  // the second node was started later
   }
   ~Soak() { test::callbacks() = {}; }
   Soak(const Soak&) = delete;
@@ -252,7 +252,7 @@ class Soak {
     }
   }
 
-  // Whatever has happened, a node that is told to leave Stopped answers a read at once. Within a sub-block of a
+  // Checks that a node that leaves Stopped answers a read at once, in any previous state. Within a sub-block of a
   // download a read looks like a segment: its client has to end that first.
   void ask() {
     line_.say("000#8000");

@@ -37,7 +37,7 @@ struct Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// What the thermometer says meanwhile.
+  /// Returns the frames that the thermometer sends meanwhile.
   Frames after(std::chrono::milliseconds time) {
     for (auto passed = 0ms; passed <= time; passed += 1ms) {
       CONodeProcess(&node);

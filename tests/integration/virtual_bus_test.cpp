@@ -190,7 +190,7 @@ TEST_CASE("nodes on a virtual bus: heartbeats of several nodes keep their period
   CHECK(of_six == 4);
 }
 
-TEST_CASE("nodes on a virtual bus: foreign frames end at the receive filter that the node has asked for") {
+TEST_CASE("nodes on a virtual bus: unrelated frames are rejected by the receive filter that the node has set") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);

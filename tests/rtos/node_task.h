@@ -32,7 +32,7 @@ extern "C" {
 #define NODE_TASK_STACK 1024u  ///< words; docs/sizes.md tells what the stack needs, your callbacks add theirs
 #define NODE_TASK_PRIORITY 3u
 
-/// What the controller can do. Start and Stop: no interrupt comes after Stop has returned.
+/// Functions of the controller. Start and Stop: no interrupt occurs after Stop has returned.
 typedef struct NODE_TASK_CAN_T {
   void (*Start)(void* ctx, uint32_t baud);           ///< on the bus
   bool (*Write)(void* ctx, const CO_IF_FRM* frame);  ///< false: no mailbox is free

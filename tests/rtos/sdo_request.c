@@ -3,14 +3,14 @@
 
 #define TIME_OUT 5000u  // ms, for each answer
 
-// Of each client: who waits, and what came. Touched with the lock of the node held.
+// State of each client: the waiting task, and the result. Accessed with the lock of the node held.
 static struct {
   TaskHandle_t Waits;
   uint32_t Code;
   bool Over;
 } Requests[CO_CSDO_N];
 
-// In the task of the node, with the lock held.
+// Called in the task of the node, with the lock held.
 static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
   CO_UNUSED(index);
   CO_UNUSED(sub);
@@ -30,7 +30,7 @@ static CO_ERR Start(SDO_REQUEST* self, CO_CSDO* client, uint32_t key, uint8_t* b
                : COCSdoRequestDownload(client, key, buffer, size, Done, TIME_OUT);
 }
 
-// The notification may have come for something else: what counts is Over.
+// A notification may have another cause: only Over ends the wait.
 static uint32_t Transfer(SDO_REQUEST* self, uint32_t key, uint8_t* buffer, uint32_t size, uint32_t* num, bool reads) {
   NodeTaskLock(self->Node);
   CO_CSDO* const client = COCSdoFind(&self->Node->Node, self->Client);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two controllers on one wire, each with an interrupt, which is a thread of its own.
+// Two controllers on one wire, each with an interrupt that runs as a thread.
 #ifndef WIRE_H_
 #define WIRE_H_
 

@@ -59,7 +59,7 @@ Transfers transfers_of(const Case& what) {
   return transfers;
 }
 
-// Nobody waits for the intermission after the last frame.
+// The time excludes the intermission after the last frame.
 double micros_of(std::uint64_t bits, const Hardware& hardware) {
   return static_cast<double>(bits - co::intermission_bits) * 1e6 / hardware.bit_rate;
 }

@@ -27,7 +27,7 @@ class Station {
   void go_round();
   /// Until all that was received is processed.
   void work_off();
-  /// Nothing to be done, sent or waited for.
+  /// Returns true if the station has nothing to process, send or wait for.
   bool is_at_rest();
 
   CO_NODE node{};

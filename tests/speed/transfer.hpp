@@ -23,7 +23,7 @@ struct Transfers {
 /// Where the server has the object.
 constexpr std::uint16_t object_index = 0x2000;
 constexpr std::uint8_t object_sub = 0;
-/// Of the server.
+/// Node-ID of the server.
 constexpr std::uint8_t server_id = 5;
 
 }  // namespace speed

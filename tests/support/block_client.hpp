@@ -39,7 +39,7 @@ struct BlockOptions {
 };
 
 struct BlockResult {
-  /// 0: done. Else the code of whoever has aborted; a client that gets no answer does so with 0504 0000h.
+  /// 0: success. Else the abort code of either side; a client without an answer aborts with 0504 0000h.
   std::uint32_t abort = 0;
   Bytes data{};
   unsigned requests = 0;  ///< frames of the client

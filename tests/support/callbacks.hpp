@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file callbacks.hpp
-/// The stack's callbacks have fixed names; here a test can put a function of its own behind each. All are empty again
-/// when a Fixture ends.
+/// The stack's callbacks have fixed names; a test can set a function for each of them here. All are cleared when a
+/// Fixture ends.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file entry.hpp
-/// An entry of the dictionary by itself, for tests of object types.
+/// A single entry of the dictionary, for tests of object types.
 #pragma once
 
 #include "fixture.hpp"

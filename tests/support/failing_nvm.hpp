@@ -12,7 +12,7 @@
 namespace test {
 
 struct FailingNvm {
-  /// What a byte holds whose step was interrupted.
+  /// Content of a byte whose write was interrupted.
   enum class Torn : std::uint8_t { untouched, half, garbage, done };
 
   explicit FailingNvm(CO_NVM_SHAPE of) : shape(of), bytes(of.Capacity, 0xFF) {}

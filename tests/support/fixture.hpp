@@ -95,7 +95,7 @@ struct Objects {
   CO_OBJ_STR_RW unicode{0, 6, 8, reinterpret_cast<std::uint8_t*>(unicode_memory)};
 };
 
-/// What a fixture is made of. All settings have the default that most tests want.
+/// Settings of a fixture. All have the defaults that most tests need.
 class Setup {
  public:
   Setup& node_id(std::uint8_t id);
@@ -239,7 +239,7 @@ class Fixture {
   std::uint32_t download(std::uint16_t index, std::uint8_t sub, const Bytes& data, bool announced = true,
                          Where at = {__builtin_FILE(), __builtin_LINE()});
 
-  /// The same by block transfer (block_client.hpp).
+  /// Reads an object by block transfer (block_client.hpp).
   BlockResult block_upload(std::uint16_t index, std::uint8_t sub, const BlockOptions& options = {},
                            Where at = {__builtin_FILE(), __builtin_LINE()});
   BlockResult block_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, const BlockOptions& options = {},
@@ -248,10 +248,10 @@ class Fixture {
   /// The longest time that the server waits for a client. It counts in eighths, each rounded up to ticks.
   Time sdo_time_out() const { return std::chrono::milliseconds{CO_SDO_TIMEOUT} + 8 * Time{1000000 / setup_.rate_ + 1}; }
 
-  void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, from now on
+  void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, until the end of the case
   /// Segments of block uploads, as many as a call may send, are not counted.
   void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
-  /// Of CONodeProcess() in rx() and loop(), while there is something to be done.
+  /// Limits the calls of CONodeProcess() in rx() and loop(), while there is work.
   void calls(unsigned limit) { calls_ = limit; }
   static constexpr unsigned enough_calls = 200;  ///< without progress; more is a hang
   /// Memory behind an entry of a type of the test.

@@ -8,7 +8,7 @@
 
 namespace test {
 
-// The server ends an abandoned transfer by itself. [D18]
+// Waits until the server ends an abandoned transfer by its time-out. [D18]
 void Fixture::check_back_to_idle() {
   const auto busy = [this] {
     return std::any_of(std::begin(node.Sdo), std::end(node.Sdo), [](const CO_SDO& sdo) { return sdo.Obj != nullptr; });

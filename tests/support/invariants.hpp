@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file invariants.hpp
-/// What must hold after every frame of every test: forms of frames, NMT states in which they may be sent, and memory of
-/// the dictionary that nobody was allowed to change.
+/// Properties that are checked after every frame of every test: forms of frames, NMT states in which they may be sent,
+/// and dictionary memory that must not change.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class MemoryWatch {
   std::vector<std::uint32_t> changed() const;
   bool is_stream(std::uint32_t dev) const;
   bool is_read_only(std::uint32_t dev) const;
-  /// The same, for an entry that shares the memory of one which was allowed to change.
+  /// Returns true for an entry that shares the memory of an entry which was allowed to change.
   bool shares(std::uint32_t dev, const std::set<std::uint32_t>& allowed) const;
 
  private:

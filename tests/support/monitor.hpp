@@ -24,7 +24,7 @@ struct Monitored {
 
 inline constexpr std::size_t monitor_entries = CO_HBCONS_N;
 
-/// What lies behind 1016h. Only time and node-ID are set, as an application does.
+/// Data of 1016h. Only time and node-ID are set, as by an application.
 struct MonitorEntries {
   MonitorEntries(std::initializer_list<Monitored> monitored);
   std::array<CO_HBCONS, monitor_entries> entry;
@@ -39,8 +39,8 @@ class Monitor : public MonitorEntries, public Fixture {
 
   /// Writes 1016h by SDO; the abort code, 0: done.
   std::uint32_t configure(std::uint8_t sub, std::uint32_t value);
-  /// What CONmtHbConsChange(), CONmtHbConsEvent() and CONmtModeChange() have told since the last look, joined by ", ":
-  /// "5 PREOP", "5 missing", "mode STOP".
+  /// Checks the calls of CONmtHbConsChange(), CONmtHbConsEvent() and CONmtModeChange() since the last check, joined by
+  /// ", ": "5 PREOP", "5 missing", "mode STOP".
   void told(const std::string& all, Where at = {__builtin_FILE(), __builtin_LINE()});
   /// tx(), where the node has EMCY messages.
   void emergency(std::string_view frame, Where at = {__builtin_FILE(), __builtin_LINE()});

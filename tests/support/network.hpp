@@ -39,9 +39,9 @@ class Line {
 
   /// The frames on the bus since the last call, with their senders and times.
   std::vector<co::VirtualBus::Traffic> take();
-  /// The same in can-utils notation, and only what devices have said.
+  /// Returns the frames sent by devices, in can-utils notation.
   Texts take_texts();
-  /// For long runs: keeps no frames from now on.
+  /// Stops recording frames, for long runs.
   void stop_recording();
 
   co::VirtualBus bus;
@@ -74,7 +74,7 @@ class Device {
   /// Works off frames and timers, but only when there are frames or the moment has come that the node has asked for by
   /// CONodeNextDeadline(). Returns false if there was nothing to do.
   bool process();
-  /// The same, whatever the node has asked for.
+  /// Processes the device even before its deadline.
   void wake();
   /// Clock ticks at which the node wants to be called; UINT64_MAX: never.
   std::uint64_t due_at() const { return due_at_; }
@@ -117,7 +117,7 @@ class World {
   Line& add_line(const std::string& name);
   Device& add_device(Line& line, const DeviceOptions& options);
 
-  /// Processes until nobody has anything to do now. A network that never comes to rest ends the test case.
+  /// Processes all devices until they are idle. A network that does not become idle ends the test case.
   void settle();
   /// Lets time go by; every device is processed at the ticks it asks for by CONodeNextDeadline().
   void pass(std::chrono::microseconds time);

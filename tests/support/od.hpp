@@ -29,7 +29,7 @@ inline OD_IO_t variable(Bytes& memory) {
   return io;
 }
 
-/// What a read has answered. Behind its end the buffer must not have been touched.
+/// Result of a read. Bytes behind the end of the data must not have changed.
 struct Given {
   ODR_t result;
   Bytes data;

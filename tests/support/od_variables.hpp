@@ -26,7 +26,7 @@ class Variables {
  public:
   Variables();
 
-  /// Of known length, readable in pieces.
+  /// Returns the variables of known length that are readable in pieces.
   std::vector<Variable> all();
   /// Those whose pieces stay as they are written.
   std::vector<Variable> writable();

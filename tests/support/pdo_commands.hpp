@@ -45,7 +45,7 @@ inline unsigned pdos(const std::vector<std::string>& sent) {
   return static_cast<unsigned>(std::count_if(sent.begin(), sent.end(), is_pdo));
 }
 
-// Whatever a callback has asked for, no PDO follows it, no timer is left, and the node works again after a start.
+// Checks that no PDO follows a callback's request, no timer is left, and the node works again after a start.
 inline void check_left(PdoNode& node) {
   node.after(2000ms);
   CHECK(pdos(node.frames()) == 0);

@@ -43,7 +43,7 @@ struct PdoEntries {
   PdoEntries& on(std::uint32_t cob_id_value, std::uint8_t type_value, std::initializer_list<std::uint32_t> words);
 };
 
-/// What the dictionary starts with.
+/// Initial values of the dictionary.
 struct PdoTable {
   PdoTable();
   std::array<PdoEntries, 4> rpdo;  ///< 80000201h, 80000301h, …

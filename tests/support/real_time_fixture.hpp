@@ -52,7 +52,7 @@ class RealTimeNode : public MainlineRing, public SyncNode {
     mainline(at);
     CHECK(mode() == CO_OPERATIONAL);
   }
-  /// Time passes; the timer interrupt comes, and nobody runs.
+  /// Lets time pass with timer interrupts, but without running any thread.
   void pass(Time time, Where at = {__builtin_FILE(), __builtin_LINE()}) { elapse_only(time, 1, at); }
 };
 

@@ -27,13 +27,13 @@ struct ClientEntries {
   Entry entry[3] = {{0x605, 0x585, 5}, {0x606, 0x586, 6}, {0x607, 0x587, 7}};
 };
 
-/// The only client asks for the objects of its own node.
+/// Returns entries whose first client uses the SDO server of the same node.
 inline ClientEntries local_entries() { return {{{0x601, 0x581, 1}, {0x606, 0x586, 6}, {0x607, 0x587, 7}}}; }
 
 /// Bytes 1, 2, 3, … (modulo 256) from \a first on.
 Bytes counted(std::size_t size, unsigned first = 1);
 
-/// What a callback was told, and what could be asked then.
+/// Arguments of a callback, and the client's values at that time.
 struct ClientEnd {
   unsigned client;
   std::uint16_t index;
@@ -65,9 +65,9 @@ class SdoClient : public ClientEntries, public Fixture {
   void goes_on(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   /// One callback has come since the last look, with \a code; the client is idle.
   ClientEnd ended(std::uint32_t code, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// The same for an upload that has succeeded, with these bytes.
+  /// Checks an upload that has succeeded with these bytes.
   ClientEnd has_read(const Bytes& data, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// The same for a download that has succeeded.
+  /// Checks a download that has succeeded.
   ClientEnd has_written(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
 
   CO_CSDO* csdo(unsigned client = 0) { return &node.CSdo[client]; }
@@ -78,7 +78,7 @@ class SdoClient : public ClientEntries, public Fixture {
 
   /// Called in each callback, when its data are already noted.
   std::function<void(const ClientEnd&)> on_end;
-  /// Callbacks that nobody has looked at.
+  /// Callbacks that the test has not checked yet.
   std::deque<ClientEnd> ends;
 
  private:
@@ -108,7 +108,7 @@ inline void check_asks(SdoClient& node) {
   node.has_read({0x11});
 }
 
-/// The same with these COB-IDs, from 2000h:05.
+/// Checks that the client uses these COB-IDs for an upload from 2000h:05.
 inline void check_asks(SdoClient& node, const std::string& tx, const std::string& rx) {
   node.start_upload(0x2000, 5, 4);
   node.tx(tx + "#4000200500000000");

@@ -303,7 +303,7 @@ SdoBytes SdoClientModel::acknowledge(bool all) {
   return {0xA2, byte(ackseq_), byte(largest_block)};
 }
 
-// Of the last segment, the client has kept what fits its buffer.
+// Compares with the bytes that the client has stored of the last segment (those that fit its buffer).
 bool SdoClientModel::is_last_again(const SdoBytes& response) const {
   const std::size_t first = data_.size() - segment_bytes;
   const std::size_t kept = std::min(segment_bytes, size_ - first);

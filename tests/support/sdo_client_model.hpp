@@ -32,7 +32,7 @@ class SdoClientModel {
   std::optional<SdoBytes> answer(const SdoBytes& response);
   /// The next segment of a block download, which is thereby sent. Nothing: there is none now.
   std::optional<SdoBytes> segment();
-  /// May the client say this by itself, in a silence? If so, it has.
+  /// Returns true if the client may send this without a received frame, and changes the state accordingly.
   bool remind(const SdoBytes& request);
   /// The transfer ends by something else than an answer of the server.
   void close(std::uint32_t code);

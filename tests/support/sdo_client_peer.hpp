@@ -31,7 +31,7 @@ class SdoPeer {
   explicit SdoPeer(Bytes data, PeerOptions options = {});
 
   Frames answers_to(const CO_IF_FRM& request);
-  /// What it sends when it has heard nothing for a while: its last acknowledge once more.
+  /// Returns the frames sent after a time without frames: the last acknowledge once more.
   Frames after_silence();
 
   Bytes object;
@@ -63,7 +63,7 @@ class SdoPeer {
   Frames repeat_;
 };
 
-/// What happens to the frames of one direction, by number from 0.
+/// Fault of a frame of one direction, by number from 0.
 struct Disturbance {
   enum class Kind { none, lose, repeat, swap_with_next, change_bit };
   Kind kind = Kind::none;

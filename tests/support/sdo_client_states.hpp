@@ -13,7 +13,7 @@
 
 namespace test {
 
-/// What a frame of the server leads to.
+/// Reaction of the client to a frame of the server.
 struct ClientReaction {
   std::string commands;           ///< bytes and ranges of bytes; "rest": all that no other reaction of the state names
   std::vector<std::string> sent;  ///< by the client

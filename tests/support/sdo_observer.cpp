@@ -131,7 +131,7 @@ void SdoObserver::receive(const CO_IF_FRM& frm) {
   }
 }
 
-// What fits into the buffer is written after the end only.
+// Data that fit into the buffer are written only at the end.
 bool SdoObserver::may_have_written() const {
   const bool block = phase_ == Phase::receiving || phase_ == Phase::received;
   const bool was_full = segments_ > CO_SDO_BUF_SEG || (segments_ == CO_SDO_BUF_SEG && !last_);

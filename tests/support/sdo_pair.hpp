@@ -64,7 +64,7 @@ struct SdoDeviceOptions {
   std::array<std::uint32_t, 3> bytes = {16, 16, 16};  ///< of 2010h, 2011h, 2012h
   bool block = true;                                  ///< CO_NODE_SPEC.SdoBuf is given
   std::uint16_t heartbeat_ms = 0;
-  std::uint16_t tx_queue = 0;  ///< frames in memory of its own; 0: those in the node
+  std::uint16_t tx_queue = 0;  ///< frames in separate memory; 0: those in the node
 };
 
 /// A node with 1000h, 1001h, 1017h, 1018h, 1200h, 1201h and 1280h, 1281h, 1282h (rw, not valid; if configured), 2001h
@@ -130,7 +130,7 @@ class Exchange {
 
   /// Starts a transfer of data that differ from those of the one before. \a time_out: of the client, for each answer.
   void start(Direction direction, std::uint32_t key, Milliseconds time_out);
-  /// What a transfer that is over has done wrong. Empty: it has the right data on both sides, or an abort code.
+  /// Returns the fault of a finished transfer. Empty: both sides have the right data, or an abort code.
   std::string wrong() const;
   Seat& seat() const { return client_.seats[number_]; }
 

@@ -228,7 +228,7 @@ std::uint32_t ForeignClient::give_up(std::uint32_t code) {
   return code;
 }
 
-// What a transfer before has left over is not for this one.
+// Discards frames of a previous transfer first.
 std::uint32_t ForeignClient::upload(std::uint16_t index) {
   while (port_.read()) {
   }

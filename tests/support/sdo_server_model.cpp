@@ -171,7 +171,7 @@ SdoBytes SdoServerModel::continued(bool shorter) const {
   }
 }
 
-// What all transfers begin with --------------------------------------------------------------------------------------
+// Begin of all transfers ---------------------------------------------------------------------------------------------
 
 SdoObject* SdoServerModel::find(const SdoBytes& request) {
   const auto found = std::find_if(objects_.begin(), objects_.end(), [&](const SdoObject& object) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_server_model.hpp
-/// An SDO server beside that of the stack: it knows the protocol of the standard and nothing of the stack. Sweeps,
-/// walks and fuzz targets hold the stack against it. [301:7.2.4.3]
+/// A model of an SDO server, derived only from the standard and independent of the stack. Sweeps, walks and fuzz
+/// targets compare the stack with it. [301:7.2.4.3]
 ///
 ///     SdoServerModel model({{0x2000, 0, true, true, SdoObject::Kind::number, 1, {7}}}, CO_SDO_BUF_SEG);
 ///     model.answer({0x40, 0x00, 0x20, 0x00});            // 4F 00 20 00 07 00 00 00
 ///
-/// Owner: the test. One model is one channel with a dictionary of its own.
+/// Owner: the test. One model is one channel with a separate dictionary.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ using Bytes = std::vector<std::uint8_t>;
 using SdoBytes = std::array<std::uint8_t, 8>;
 using SdoKey = std::array<std::uint8_t, 3>;  ///< multiplexer as in a frame
 
-/// What an object looks like from the network.
+/// An object as seen from the network.
 struct SdoObject {
   enum class Kind { number, boolean, domain, octets, text, characters };
   std::uint16_t index;
@@ -50,7 +50,7 @@ class SdoServerModel {
   std::optional<SdoBytes> segment();
   /// Both, while the controller takes every frame.
   std::vector<SdoBytes> answers(const SdoBytes& request);
-  /// An eighth of the time-out passes. What the server then says by itself.
+  /// Lets an eighth of the time-out pass. Returns the frame that the server sends then.
   std::optional<SdoBytes> slice();
   /// The NMT state ends what is open. [N8]
   void close() { state_ = State::idle; }

@@ -42,7 +42,7 @@ class SyncNode : public SyncEntries, public PdoNode {
         }) {}
 };
 
-/// EMCY messages of node 1 that the stack sends by itself: code, error register (generic and communication), and the
+/// Returns an EMCY message of node 1 that the stack raises: code, error register (generic and communication), and the
 /// number of the PDO, from 1, or another detail. [301:7.2.7.1]
 inline std::string emcy(std::uint16_t code, std::uint8_t detail = 0) {
   CO_IF_FRM frm{0x81, {}, 8};
@@ -52,7 +52,7 @@ inline std::string emcy(std::uint16_t code, std::uint8_t detail = 0) {
   return notation(frm);
 }
 
-/// What a node sends that has EMCY, and one that has not.
+/// Returns the EMCY messages if the node has EMCY, else none.
 inline std::vector<std::string> reports([[maybe_unused]] std::initializer_list<std::string> all) {
   return USE_EMCY != 0 ? std::vector<std::string>(all) : std::vector<std::string>{};
 }

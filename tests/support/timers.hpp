@@ -7,7 +7,7 @@
 
 namespace test {
 
-/// What ran, in order. The parameter of a timer is a number.
+/// Log of timer actions, in order. The parameter of a timer is a number.
 using Runs = std::vector<std::uintptr_t>;
 Runs& runs();
 

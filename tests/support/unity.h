@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file unity.h
-/// Unity's names for tests, in C and in C++, so that the tests of a firmware team run here as they are.
+/// Unity's names for tests, in C and in C++, so that the tests of a firmware team run here unchanged.
 ///
-/// Inside a doctest case a failure is a failure of that case. In a program with a main() of its own (UNITY_BEGIN,
-/// RUN_TEST, UNITY_END) every test is a line of output and counts in the summary, and a program that ran no test fails;
-/// the environment variable UNITY_ONLY names the one test to run. A failed assertion ends its test: in C++ by an
-/// exception, so that destructors run; in C by a jump to RUN_TEST, so that C code needs RUN_TEST around its assertions.
-/// The functions behind the names are in unity.cpp.
+/// Inside a doctest case a failure is a failure of that case. In a program with a main() (UNITY_BEGIN, RUN_TEST,
+/// UNITY_END) every test is a line of output and counts in the summary, and a program that ran no test fails; the
+/// environment variable UNITY_ONLY names the one test to run. A failed assertion ends its test: in C++ by an exception,
+/// so that destructors run; in C by a jump to RUN_TEST, so that C code needs RUN_TEST around its assertions. The
+/// functions behind the names are in unity.cpp.
 #ifndef LEXICAN_UNITY_H_
 #define LEXICAN_UNITY_H_
 

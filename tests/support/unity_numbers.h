@@ -13,7 +13,7 @@
 #define UNITY_EACH(type, expected, actual, num, message) \
   UNITY_REQUIRE(unity_each((type), (int64_t)(expected), (actual), (size_t)(num)), message)
 
-// A table: each name on a line of its own.
+// A table with one name per line.
 // clang-format off
 
 // Names without a width: as wide as possible for single values, an int for the elements of an array; HEX: 32 bits.

@@ -10,7 +10,7 @@
 
 namespace test {
 
-/// What lies between separators; nothing behind the last one.
+/// Returns the texts between separators; none after the last one.
 inline std::vector<std::string> parts_of(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (!text.empty()) {
@@ -21,7 +21,7 @@ inline std::vector<std::string> parts_of(std::string_view text, char separator) 
   return parts;
 }
 
-/// What lies between spaces.
+/// Returns the words between spaces.
 inline std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words = parts_of(text, ' ');
   words.erase(std::remove(words.begin(), words.end(), ""), words.end());

@@ -172,7 +172,7 @@ void ZynqmpModel::soft_reset() {
   filtering_ = 0;
 }
 
-// What waits is kept.
+// Keeps the queued frames.
 void ZynqmpModel::enter_configuration() {
   on_ = false;
   wire_.reset();

@@ -16,7 +16,7 @@ using demo::millisecond;
 using demo::Progress;
 using demo::second;
 
-/// What was shown of a transfer.
+/// Records the texts shown of a transfer.
 struct Watcher {
   explicit Watcher(Progress::Form form) : progress(form, [this](const std::string& text) { shown.push_back(text); }) {}
   void sees(const Amount& amount) { progress.update(amount); }
@@ -81,7 +81,7 @@ TEST_CASE("demo progress: no bar is shown while the node has not answered") {
   CHECK(watcher.shown.size() == 1);
 }
 
-TEST_CASE("demo progress: nothing is shown if nobody wants it") {
+TEST_CASE("demo progress: nothing is shown without a request") {
   Watcher watcher(Progress::Form::none);
   watcher.sees({1000, 1000, second});
   CHECK(watcher.shown.empty());

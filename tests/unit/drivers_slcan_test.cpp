@@ -32,7 +32,7 @@ struct Line {
       COSlcanReceive(&can, static_cast<std::uint8_t>(character));
     }
   }
-  /// What the node reads, in candump notation; empty: nothing.
+  /// Returns the frame that the node reads, in candump notation; empty: none.
   std::string read() {
     CO_IF_FRM frame{};
     const std::int16_t result = SlcanDriver.Read(&can, &frame);
@@ -308,7 +308,7 @@ TEST_CASE("slcan: frames leave room for the commands") {
   CHECK(line.take() == "t60180102030405060708\rt60280102030405060708\rC\rC\rS6\rO\r");
 }
 
-TEST_CASE("slcan: a line that nobody reads holds up neither commands nor frames") {
+TEST_CASE("slcan: a line whose text is not read blocks neither commands nor frames") {
   Line line;
   for (unsigned n = 0; n < 100; ++n) {
     SlcanDriver.Close(&line.can);

@@ -69,7 +69,7 @@ class Interface {
   void up() { REQUIRE(ip({"link", "set", interface, "up"})); }
 };
 
-// A CAN adapter at a serial line (slcan) whose other end nobody reads: a bus that has come to a stop.
+// A CAN adapter at a serial line (slcan) whose other end is not read: a blocked bus.
 class StuckAdapter {
  public:
   StuckAdapter() {

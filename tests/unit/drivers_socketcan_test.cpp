@@ -41,7 +41,7 @@ can_frame raw_frame(canid_t id, std::uint8_t length) {
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// No interface can have this name: it is as long as names can be, and made of what nobody uses.
+// Name of an interface that does not exist: it has the maximum length and no real interface uses it.
 const char* const missing = "no-such-can-bus";
 
 }  // namespace

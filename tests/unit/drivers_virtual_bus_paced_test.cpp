@@ -266,7 +266,7 @@ TEST_CASE("paced bus: a frame that has started ends although its sender leaves; 
         +[](VirtualBus::Port& port) { port.bus_off(); }}) {
     CHECK(leave_by(leave, 0us).empty());
     CHECK(leave_by(leave, 1us) == Texts{at(48, "080#")});
-    CHECK(leave_by(leave, 51us) == Texts{at(51, "080#")});  // nobody has polled the bus before
+    CHECK(leave_by(leave, 51us) == Texts{at(51, "080#")});  // the bus was not polled before
     CHECK(leave_by(leave, 52us) == Texts{at(52, "080#"), at(51 + 48, "300#")});
   }
 }

@@ -24,7 +24,7 @@ void check_text(const std::string& text) {
   }
 }
 
-TEST_CASE("error names: each error has a name and a meaning of its own") {
+TEST_CASE("error names: each error has a unique name and meaning") {
   std::set<std::string> names = {COErrName(CO_ERR_NONE)};
   CHECK(COErrName(CO_ERR_NONE) == std::string("CO_ERR_NONE"));
   CHECK(COErrText(CO_ERR_NONE) == std::string("no error"));

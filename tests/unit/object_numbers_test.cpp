@@ -56,7 +56,8 @@ std::uint64_t masked(std::uint64_t value, unsigned bytes) {
   return bytes == 8 ? value : value & ((std::uint64_t{1} << (8 * bytes)) - 1);
 }
 
-// What the variable holds after \a value was written: its sign fills the bytes that are not on the bus.
+// Returns the content of the variable after \a value was written: sign extension fills the bytes that are not on the
+// bus.
 std::uint64_t stored(const Kind& kind, std::uint64_t value) {
   const std::uint64_t low = masked(value, kind.width);
   const bool negative = kind.is_signed && ((low >> (8 * kind.width - 1)) & 1U) != 0;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// Memory in which a variable lies at an odd address, between bytes that nobody may touch.
+// Memory with a variable at an odd address, between bytes that must not change.
 struct Odd {
   alignas(8) std::uint8_t memory[32];
   unsigned shift;

@@ -142,7 +142,7 @@ TEST_CASE("OD_getSub: an object of no known kind is ODR_DEV_INCOMPAT") {
   }
 }
 
-// What the table has --------------------------------------------------------------------------------------------------
+// Attributes in the table ---------------------------------------------------------------------------------------------
 
 TEST_CASE("OD_getSub: of numbers the length on the bus, their variable, and ODA_MB from two bytes on") {
   Fixture node(with_extensible());

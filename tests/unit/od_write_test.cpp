@@ -39,7 +39,7 @@ Bytes now(const Variable& one) {
   return read(io, static_cast<OD_size_t>(one.value.size())).data;
 }
 
-// Of an OCTET_STRING or domain: what is behind the last piece is not its value any more.
+// Returns false for OCTET_STRING and domain: bytes behind the last piece are no longer part of the value.
 bool keeps_the_rest(const Variable& one) { return one.name != "OCTET_STRING"; }
 
 Bytes text_of(const CO_OBJ_STR_RW& text) { return {text.Start, text.Start + text.Size}; }

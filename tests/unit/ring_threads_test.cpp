@@ -12,7 +12,7 @@ namespace {
 using test::is_numbered;
 using test::numbered;
 
-TEST_CASE("ring: one thread puts while another gets, nothing is torn, lost or out of order") {
+TEST_CASE("ring: one thread puts while another gets, no frame is partially written, lost or out of order") {
   constexpr std::uint32_t number = 50000;
   CO_IF_FRM mem[16];
   CO_RING ring;

@@ -41,7 +41,7 @@ CO_NODE& empty_node() {
   return node;
 }
 
-TEST_CASE("routes: an empty table knows nobody") {
+TEST_CASE("routes: an empty table has no owner for any identifier") {
   CO_NODE& node = empty_node();
   for (const std::uint32_t id : {0x000U, 0x601U, 0x7FFU, 0x80000601U, 0x9FFFFFFFU}) {
     CHECK(found(node, id).empty());

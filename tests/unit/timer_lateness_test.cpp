@@ -57,7 +57,7 @@ std::uint8_t update() {
 
 const CO_IF_TIMER_DRV counter_driver = {init, reload, delay, stop, start, update};
 
-// The same as a free running clock; it has no alarm, the loop asks for the next deadline.
+// Clock driver without alarm: a free-running clock; the loop uses CONodeNextDeadline().
 std::uint32_t clock_now(void*) { return static_cast<std::uint32_t>(hardware.now); }
 const CO_IF_TIMER_DRV_EX clock_driver = {[](void*, std::uint32_t) {}, clock_now, nullptr};
 
@@ -159,7 +159,7 @@ TEST_CASE("timer lateness: a timer that is created while an expiry is pending ru
   CHECK(runs == Runs{{2, 5}, {4, 6}, {3, 8}, {1, 10}, {1, 20}});
 }
 
-TEST_CASE("timer lateness: COTmrService tells of what has elapsed, whoever has noticed it first") {
+TEST_CASE("timer lateness: COTmrService reports expired timers, independent of the function that has detected them") {
   const auto service = [](Device& device) { return COTmrService(&device.node.Tmr); };
   const std::function<void(Device&)> notices[] = {
       [](Device& d) { d.create(100, 0, 2); },
@@ -337,7 +337,7 @@ TEST_CASE("timer lateness: time does not go back when a driver without a clock w
   CHECK(runs == Runs{{1, 10}, {2, 13}, {1, 22}, {1, 32}});
 }
 
-// The same tick by tick, for either kind of driver.
+// Advances tick by tick, for either kind of driver.
 void walk(Device& device, std::uint64_t tick) {
   while (hardware.now < tick) jump(device, hardware.now + 1);
 }
@@ -363,7 +363,7 @@ TEST_CASE("timer lateness: order across the wrap of the clock at 2^32, with eith
   }
 }
 
-// What actions do while the interrupt goes on.
+// Parameters of actions that run while the interrupt continues.
 Device* acting;
 std::int16_t victim;
 

@@ -98,7 +98,7 @@ TEST_CASE("timer order: when all have elapsed or are deleted, the next ones star
   });
 }
 
-// What the stack should do, with a clock that does not wrap.
+// Model of the expected behaviour, with a clock that does not wrap.
 class Model {
  public:
   void create(std::int16_t id, std::uint32_t start, std::uint32_t cycle, std::uintptr_t n) {

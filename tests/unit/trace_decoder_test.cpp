@@ -91,7 +91,7 @@ TEST_CASE("trace: an abort shows object, code and reason, from either side [301 
   CHECK(meaning("581#8000210178563412") == "SDO ABORT 2100h:01 hour: 1234 5678h unknown abort code");
 }
 
-TEST_CASE("trace: every abort code of CiA 301 has a meaning of its own [301 SDO abort codes]") {
+TEST_CASE("trace: every abort code of CiA 301 has a unique meaning [301 SDO abort codes]") {
   const std::uint32_t codes[] = {
       0x05030000, 0x05040000, 0x05040001, 0x05040002, 0x05040003, 0x05040004, 0x05040005, 0x06010000,
       0x06010001, 0x06010002, 0x06020000, 0x06040041, 0x06040042, 0x06040043, 0x06040047, 0x06060000,

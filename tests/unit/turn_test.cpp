@@ -13,7 +13,7 @@ using namespace test;
 
 using Entries = std::vector<std::string>;
 
-// What happens in turns and between them.
+// Log of events while the node lock is held, and between.
 class Diary {
  public:
   Diary() {
@@ -230,7 +230,7 @@ struct NotedNvm {
       meanwhile()();
     }
   }
-  // What another thread does while the memory works.
+  // Returns the action of another thread while the memory is being accessed.
   static std::function<void()>& meanwhile() {
     static std::function<void()> function;
     return function;

@@ -21,7 +21,7 @@ bool device_runs = false;
 bool master_runs = false;
 bool test_listens = false;
 
-// What the test has received and not yet expected.
+// Frame that was received, but not expected yet.
 CO_IF_FRM pending;
 bool is_pending = false;
 std::uint64_t pending_time = 0;

@@ -19,13 +19,13 @@ void serve_controllers();
 
 /// The device in Pre-operational, its boot-up message received, and the test at the second controller.
 void start_device();
-/// The same, with something to be done between initialisation and start, and without the boot-up message.
+/// Like start_device(), with a function to be called between initialisation and start, and without the boot-up message.
 void start_device(void (*prepare)());
-/// The same in Operational.
+/// Starts the device and switches it to Operational.
 void start_operational();
 /// The device and the master in Pre-operational: the second controller is the master's.
 void start_nodes();
-/// Ends both nodes and the test's part; frames that nobody has expected are a failure.
+/// Stops both nodes and the test's controller; received frames that were not expected are a failure.
 void leave_bus();
 
 void run(std::uint32_t microseconds);

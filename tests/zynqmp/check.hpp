@@ -26,7 +26,7 @@ constexpr Cases all_of(const Case (&cases)[number]) {
 /// Runs them all and prints "1..N", and "ok" or "not ok" for each. Returns how many have failed.
 unsigned run_all(const Cases* groups, unsigned number);
 
-/// Of the case that runs: a failure ends what it does on the bus, so that it comes to its end soon.
+/// Returns true after a failure of the running case; then it skips its actions on the bus to end soon.
 bool has_failed();
 /// Three texts in a row, of which any may be null.
 void fail(const char* file, int line, const char* what, const char* more = nullptr, const char* still_more = nullptr);

@@ -28,7 +28,7 @@ void send_many(unsigned number) {
   }
 }
 
-// What has come is told first; then the frames, oldest first.
+// Checks that an overrun is reported first, then the frames, oldest first.
 void overrun_of_fifo() {
   device_can.FrameNum = short_queue;
   start_operational();

@@ -141,7 +141,7 @@ void serve_interrupt() {
   word(cpu_interface + 0x10) = acknowledged;
 }
 
-// What the compiler calls, too.
+// Functions that the compiler calls implicitly.
 void* memcpy(void* to, const void* from, std::size_t size) {
   auto* const target = static_cast<unsigned char*>(to);
   const auto* const source = static_cast<const unsigned char*>(from);

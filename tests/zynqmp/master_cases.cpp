@@ -111,7 +111,7 @@ void exchange_pdos(std::uint32_t milliseconds) {
   run_ms(1);
 }
 
-// Of 1000 cycles, less those at both ends.
+// Expects the PDOs of 1000 cycles, except those at both ends.
 void expect_all(unsigned pdos) {
   if (pdos < 996) {
     CHECK_EQUAL(pdos, 1000);

@@ -15,7 +15,7 @@ constexpr std::uint8_t master_id = 1;
 extern CO_NODE device;
 extern CO_NODE master;
 
-/// What the entries of the device name, and defaults.
+/// Variables of the device's entries, and their defaults.
 struct DeviceObjects {
   std::uint8_t error_register = 0;
   std::uint8_t history_number = 0;
@@ -48,7 +48,7 @@ struct MasterObjects {
 };
 extern MasterObjects master_objects;
 
-/// What the callbacks of the device, and of the master, were told since the nodes were started.
+/// Arguments of the callbacks of the device and of the master since the nodes were started.
 struct Told {
   unsigned can_events[CO_CAN_EVENT_NUM];
   unsigned heartbeat_events;

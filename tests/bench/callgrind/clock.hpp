@@ -17,7 +17,7 @@ inline std::uint32_t clock_of_machine() {
 /// Callgrind knows how many.
 inline std::uint32_t ticks_between(std::uint32_t, std::uint32_t) { return 0; }
 
-/// What has been counted so far does not count.
+/// Resets the count.
 inline void forget_count() { CALLGRIND_ZERO_STATS; }
 
 }  // namespace bench

@@ -12,7 +12,7 @@ inline std::uint32_t clock_of_machine() { return *reinterpret_cast<volatile std:
 /// Ticks between two of these.
 inline std::uint32_t ticks_between(std::uint32_t before, std::uint32_t after) { return (before - after) & 0x00FFFFFFu; }
 
-/// What has been counted so far does not count.
+/// Resets the count.
 inline void forget_count() {}
 
 }  // namespace bench

@@ -10,7 +10,7 @@
 
 extern "C" {
 
-// Of the linker script.
+// Symbols of the linker script.
 extern std::uint32_t data_source[], data_begin[], data_end[], bss_begin[], bss_end[], stack_top[];
 extern void (*initialisers_begin[])();
 extern void (*initialisers_end[])();
@@ -68,7 +68,7 @@ std::uint32_t tenths_of(std::uint64_t ticks, std::uint32_t units) {
   return static_cast<std::uint32_t>((ticks * probe_instructions * 10 + all / 2) / all);
 }
 
-// Of reading the clock once.
+// Returns the ticks of one reading of the clock.
 std::uint32_t ticks_of_clock() {
   constexpr unsigned number = 16;
   Operation nothing;

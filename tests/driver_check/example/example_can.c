@@ -5,10 +5,10 @@
 
 static CO_IF_FRM ReceiveMemory[RECEIVE_QUEUE_FRAMES];
 static CO_RING ReceiveQueue;
-static uint16_t ReportedLost;         // frames that found the queue full
+static uint16_t ReportedLost;         // lost frames (queue full) already reported
 static volatile uint8_t NotedEvents;  // bit n: CO_CAN_EVENT n, set by the interrupt
 
-// Off the bus, and no interrupt from here on: nobody else uses the queue while it is made.
+// Goes off the bus and disables the interrupts, so that the queue is not used while it is initialised.
 static void Init(void) {
   ExampleCan.Control = 0;
   ExampleCan.Transmit.Request = 0;
@@ -17,7 +17,7 @@ static void Init(void) {
   NotedEvents = 0;
 }
 
-// 16 time quanta a bit, sampled after 14 of them: 87.5 %.
+// Sets 16 time quanta per bit, with the sample point after 14 of them: 87.5 %.
 static void Enable(uint32_t baud) {
   ExampleCan.BitTiming = (13u << 24) | (2u << 16) | (EXAMPLE_CLOCK / (16u * baud));
   ExampleCan.Control = EXAMPLE_CAN_ON | EXAMPLE_CAN_INTERRUPTS;
@@ -29,7 +29,7 @@ static uint32_t Word(const uint8_t* bytes) {
   return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-// The identifier's flags lie where CO_IF_FRM has them.
+// The flags of the identifier have the positions of CO_IF_FRM.
 static int16_t Send(CO_IF_FRM* frm) {
   const bool on = (ExampleCan.Control & EXAMPLE_CAN_ON) != 0;
   if (!on || ExampleCan.Transmit.Request != 0) {
@@ -74,7 +74,7 @@ static void TakeFrame(void) {
   (void)CORingPut(&ReceiveQueue, &frm);
 }
 
-// The one producer of the queue. Events are only noted here: the node belongs to the loop.
+// The only producer of the queue. Events are only stored: the node may be used by the loop only.
 void ExampleCanInterrupt(void) {
   const uint32_t status = ExampleCan.Status;
   if ((status & EXAMPLE_CAN_RECEIVED) != 0) {
@@ -89,7 +89,7 @@ void ExampleCanInterrupt(void) {
   ExampleCan.Clear = status & ~EXAMPLE_CAN_RECEIVED;
 }
 
-// Takes the notes while the interrupts of the controller are off: none is lost between reading and clearing.
+// Reads and clears the events with the interrupts of the controller disabled, so that none is lost.
 static uint8_t TakeNotes(void) {
   const uint32_t control = ExampleCan.Control;
   ExampleCan.Control = control & ~EXAMPLE_CAN_INTERRUPTS;

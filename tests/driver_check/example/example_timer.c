@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "example_board.h"
 
-#define LONGEST_STEP 0x4000u  // ticks: far below a turn of the counter, so that a late interrupt does no harm
+#define LONGEST_STEP 0x4000u  // ticks: far below the range of the counter, so that a late interrupt does no harm
 
-// What interrupt and loop share; the loop touches it with the interrupt kept away (COTmrLock()).
-static bool Waits;         // for a match
-static bool Matched;       // the whole time has elapsed, and Update has not told it yet
-static bool FollowsMatch;  // the next Reload goes on from the match that Update has just told
-static uint32_t Left;      // ticks beyond the match that is being waited for
+// Data shared by interrupt and loop; the loop accesses them with the interrupt disabled (COTmrLock()).
+static bool Waits;         // a match is awaited
+static bool Matched;       // the whole time has elapsed, and Update has not reported it yet
+static bool FollowsMatch;  // the next Reload counts from the match that Update has just reported
+static uint32_t Left;      // ticks to count after the next match
 
 static void Init(uint32_t freq) {
   ExampleTimer.Enable = 0;
@@ -17,11 +17,11 @@ static void Init(uint32_t freq) {
   FollowsMatch = false;
 }
 
-// Ticks until the match; negative: it is over.
+// Returns the ticks until the match; negative: it has passed.
 static int16_t UntilMatch(void) { return (int16_t)(ExampleTimer.Compare - ExampleTimer.Counter); }
 
-// From the last match on. If the next one is over by the time it is written, it would come a turn of the counter late:
-// it is raised by software.
+// Sets the next match, counted from the previous one. If it has passed by the time it is written, it would come one
+// wrap of the counter late: the interrupt is raised by software.
 static void Step(void) {
   const uint32_t step = Left < LONGEST_STEP ? Left : LONGEST_STEP;
   Left -= step;
@@ -57,7 +57,7 @@ static void Stop(void) {
   FollowsMatch = false;
 }
 
-static void Start(void) {}  // Reload has done it
+static void Start(void) {}  // Reload has started it
 
 static uint8_t Update(void) {
   if (!Matched) {

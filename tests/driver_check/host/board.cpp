@@ -86,7 +86,7 @@ void init_can() { the_board->port.close(); }
 void enable_can(std::uint32_t baud) { the_board->port.enable(baud); }
 std::int16_t read_can(CO_IF_FRM* frm) { return co::VirtualBusDriver.Read(&the_board->port, frm); }
 
-// As such drivers may: it uses the frame of the caller.
+// Uses the frame of the caller, which classic drivers may do.
 std::int16_t send_can(CO_IF_FRM* frm) {
   const std::int16_t result = the_board->port.send(*frm);
   *frm = {};

@@ -44,7 +44,7 @@ class Board {
   void step();
 };
 
-// What the checks have said.
+// Output of the checks.
 struct Report {
   std::vector<std::string> lines;
   [[nodiscard]] std::map<std::string, std::string> verdicts() const;  // ok, not ok or skipped, by name

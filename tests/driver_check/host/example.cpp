@@ -123,7 +123,7 @@ void connect_example(Board& board, std::function<void()> can_interrupt, std::fun
 
 namespace {
 
-// As NodeTurn(), but it sleeps without asking what has happened since it has begun.
+// Like NodeTurn(), but sleeps without checking for events since its start.
 void careless_turn() {
   CONodeProcess(&Node);
   COTmrProcess(&Node.Tmr);

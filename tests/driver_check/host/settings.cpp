@@ -81,7 +81,7 @@ void in_loopback(Setting& s) {
   s.board.each_turn = [&can] { can.step(); };
 }
 
-// What the script feed does.
+// Configures the setting for the script feed.
 void be_fed(Setting& s) {
   s.ext.Can = &co::VirtualBusDriver;
   s.ext.CanCtx = &s.board.port;

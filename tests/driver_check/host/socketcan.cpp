@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// driver_check_socketcan INTERFACE peer|feed: the check of the SocketCAN driver on an interface with nobody else on it,
-// with a second socket or with the script feed as the other end. Status 0: every check was run, and none has failed.
+// driver_check_socketcan INTERFACE peer|feed: the check of the SocketCAN driver on an unused interface, with a second
+// socket or with the script feed as the other end. Status 0: every check was run, and none has failed.
 #include <unistd.h>
 
 #include <cstdio>

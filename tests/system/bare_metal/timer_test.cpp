@@ -21,7 +21,7 @@ volatile bool waiting;
 
 std::uint32_t now() { return timer.driver->Now(timer.context); }
 
-// As numbers of a loop through all of them.
+// Returns the next pseudo-random number of a fixed sequence.
 std::uint32_t random_number() {
   static std::uint32_t state = 1;
   state = state * 1664525u + 1013904223u;
@@ -67,7 +67,7 @@ namespace board {
 
 void on_uart() {}
 
-// As COTmrService() does: an interrupt that comes before its time is a step of the driver.
+// Like COTmrService(): an interrupt before the alarm is only a step of the driver.
 void on_timer() {
   demo::timer_interrupt();
   const std::uint32_t time = now();

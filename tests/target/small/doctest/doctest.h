@@ -74,7 +74,7 @@ inline Case operator*(Case one, doctest::skip decorator) { return one.skipped = 
 
 bool add(Case& one);
 
-/// What an assertion or a message has to say.
+/// Text of an assertion or a message.
 class Message {
  public:
   template <class T>
@@ -92,7 +92,7 @@ class Message {
   std::string text_;
 };
 
-/// What an assertion does: it holds, it fails, or it fails and ends the case.
+/// Results of an assertion: it passes, it fails, or it fails and ends the case.
 void pass();
 void fail(const char* file, int line, const char* text);
 void end(const char* file, int line, const char* text);
