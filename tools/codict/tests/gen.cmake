@@ -21,6 +21,10 @@ if(TARGET lexican_demo_dictionary AND NOT LEXICAN_PRESET STREQUAL "minimal")
   lexican_warnings(lexican_codict_node_tests)
   target_compile_options(lexican_codict_node_tests PRIVATE ${LEXICAN_TEST_OPTIONS})
   add_test(NAME lexican_codict_node_tests COMMAND lexican_codict_node_tests)
+  if(NOT LEXICAN_SANITIZE)
+    add_test(NAME codict_verify COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/verify_test.sh $<TARGET_FILE:codict> ${lexican_root}
+      ${CMAKE_CURRENT_SOURCE_DIR}/fixtures ${CMAKE_CURRENT_BINARY_DIR}/verify)
+  endif()
 endif()
 
 # What the compilers say to the dictionaries of the corpus.

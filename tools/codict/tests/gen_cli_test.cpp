@@ -173,6 +173,27 @@ TEST_CASE("codict gen: --store gives a storage group its sub-index of 1010h") {
   CHECK(test::run_codict(directory / "", "size " + small + " --store DRIVE=none").status == 0);
 }
 
+TEST_CASE("codict gen: --verify says what it needs, before anything is written") {
+  const test::Directory directory;
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "codict does not contain: name its sources, --stack DIR"},
+      {"--stack .", ".: no sources of Lexican"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' --preset huge", "--preset huge: no such file"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' --preset ../presets/slave", "no such file"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' -D '=5'", "-D =5: the form is NAME=VALUE"},
+      {"--stack '" LEXICAN_SOURCE_DIR "' -D 'A B=5'", "-D A B=5: the form is NAME=VALUE"},
+  };
+  for (const auto& [arguments, text] : cases) {
+    CAPTURE(arguments);
+    const Ran ran = run(directory, small + " -o new --verify " + arguments);
+    CHECK(ran.status == 2);
+    CHECK_MESSAGE(test::has(ran.err, text), ran.err);
+    CHECK_FALSE(std::filesystem::exists(directory / "new"));
+  }
+  CHECK(run(directory, small + " -o new --verify-source new/verify.c").status == 0);
+  CHECK(test::has(bytes_of(directory / "new/verify.c"), "{SMALL_2000_0, \"Speed\"},"));
+}
+
 TEST_CASE("codict gen: wrong use ends with 2") {
   const test::Directory directory;
   CHECK(run(directory, small).status == 2);

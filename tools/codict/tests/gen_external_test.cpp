@@ -92,6 +92,8 @@ TEST_CASE("gen: the stubs define all that the application has to define, and com
     std::ofstream(directory / output.files[0].name.c_str()) << output.files[0].bytes;
     std::ofstream(directory / stubs.c_str()) << output.stubs;
     CHECK(compiled(directory, stubs, language) == "");
+    std::ofstream(directory / ("verify_" + stubs).c_str()) << output.verify;
+    CHECK(compiled(directory, "verify_" + stubs, language) == "");
     for (const gen::External& external : output.externals) {
       CHECK_MESSAGE(output.stubs.find(" " + external.name + " =") + output.stubs.find(" " + external.name + ";") !=
                         2 * std::string::npos,

@@ -16,6 +16,7 @@
 #include "cli/output.hpp"
 #include "cli/render.hpp"
 #include "cli/stores.hpp"
+#include "cli/verify.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
 #include "text/file.hpp"
@@ -31,7 +32,9 @@ struct Options {
   std::string eds;
   std::string xdd;
   std::string stubs;
+  std::string verify_source;
   std::vector<std::string> stores;
+  VerifyOptions verify;
   gen::Options gen;
   bool is_check = false;
   bool is_report = false;
@@ -123,6 +126,9 @@ std::vector<gen::File> files_of(const Options& options, const gen::Output& outpu
   for (gen::File& file : files) {
     file.name.insert(0, options.directory + "/");
   }
+  if (!options.verify_source.empty()) {
+    files.push_back({options.verify_source, output.verify});
+  }
   if (!options.eds.empty()) {
     files.push_back(
         description(output, options.eds, [](const Device& device) { return eds::write(device, eds::WriteOptions()); }));
@@ -181,32 +187,19 @@ bool show(Input& input, const Findings& findings, bool shows_notes) {
                       [](const Finding& finding) { return finding.rule->severity == Severity::error; });
 }
 
-int run(Options options) {
-  std::optional<Input> input = load(options.file);
-  if (!input) {
-    return unusable;
-  }
-  options.gen.source = std::filesystem::path(input->source().name()).filename();
+bool complete(Options& options, const Input& input) {
+  options.gen.source = std::filesystem::path(input.source().name()).filename();
+  options.gen.node_id = node_id_of(input.device(), 0);
   if (options.gen.name.empty()) {
     options.gen.name = gen::default_name(options.file);
   } else if (gen::identifier(options.gen.name) != options.gen.name) {
     complain("--name: small letters, digits and single underscores, and no word of C");
-    return unusable;
+    return false;
   }
-  if (!parse_stores(options.stores, options.gen)) {
-    return unusable;
-  }
-  Findings findings;
-  const gen::Output output = gen::generate(input->device(), options.gen, findings);
-  suppress(*input, catalogue::Origin::generator, findings);
-  const bool is_right = show(*input, findings, options.shows_notes);
-  if (output.files.empty()) {
-    return found;
-  }
-  if (!is_right && !options.is_forced) {
-    complain("nothing is written: --force makes a dictionary nevertheless");
-    return found;
-  }
+  return parse_stores(options.stores, options.gen) && check_verify(options.verify);
+}
+
+int write_all(const Options& options, const gen::Output& output) {
   const std::vector<gen::File> files = files_of(options, output);
   if (!have_places(options, files) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
@@ -222,6 +215,28 @@ int run(Options options) {
     print(output_text(options, output));
   }
   return std::max<int>(status, write_stubs(options, output));
+}
+
+int run(Options options) {
+  std::optional<Input> input = load(options.file);
+  if (!input || !complete(options, *input)) {
+    return unusable;
+  }
+  Findings findings;
+  const gen::Output output = gen::generate(input->device(), options.gen, findings);
+  suppress(*input, catalogue::Origin::generator, findings);
+  const bool is_right = show(*input, findings, options.shows_notes);
+  if (output.files.empty()) {
+    return found;
+  }
+  if (!is_right && !options.is_forced) {
+    complain("nothing is written: --force makes a dictionary nevertheless");
+    return found;
+  }
+  const int status = write_all(options, output);
+  return options.verify.is_wanted && status != unusable
+             ? std::max<int>(status, verify(output, options.gen, options.verify))
+             : status;
 }
 
 }  // namespace
@@ -257,6 +272,8 @@ Command add_gen(CommandLine& line) {
   command.add_flag("--json", options->is_json, "The same for programs");
   command.add_flag("--notes", options->shows_notes, "Show notes, too");
   command.add_flag("--force", options->is_forced, "Make a dictionary although the description has errors");
+  add_verify(command, options->verify);
+  command.add_option("--verify-source", options->verify_source, "Write the program that --verify compiles, C or C++");
   command.add_flag("--unique-names", options->gen.unique_names, "Two entries with one name are an error");
   command.add_flag("--trigger-tpdos", options->gen.trigger_tpdos,
                    "A change of an object that a TPDO may map triggers it (flag A)");

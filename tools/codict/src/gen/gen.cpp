@@ -24,6 +24,7 @@ Output generate(const Device& device, const Options& options, Findings& findings
   output.costs = costs_of(plan);
   output.groups = stored_groups(plan);
   output.externals = externals_of(plan, options);
+  output.verify = write_verify(plan, options);
   output.stubs = output.externals.empty() ? "" : write_stubs(plan, options);
   output.device = described(device, plan);
   return output;

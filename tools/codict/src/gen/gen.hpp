@@ -23,6 +23,7 @@ struct Output {
   std::vector<Cost> costs;
   std::vector<StoredGroup> groups;  ///< the storage groups
   std::vector<External> externals;  ///< what the application has to define
+  std::string verify;               ///< source of the program that starts a node with the dictionary
   std::string stubs;                ///< source that defines the externals; empty if there are none
   Device device;                    ///< as it is made: for an EDS or XDD that matches it
 };

@@ -61,6 +61,20 @@ class Configuration {
     out.blank();
   }
 
+  // The compiler names what the configuration has: #error cannot.
+  void write_messages(Lines& out) const {
+    const char* const form =
+        "#if {0}\n#pragma message(\"verify: the description has {1}, the configuration has {2} = \" "
+        "CODICT_VALUE({2}) \": set {2} to {3}\")\n#define CODICT_REFUSED\n#endif";
+    for (const std::string& macro : needs_) {
+      out.add(fmt::runtime(form), "!" + macro, "objects that need " + macro, macro, 1);
+    }
+    for (const auto& [macro, number] : numbers_) {
+      out.add(fmt::runtime(form), fmt::format("{} < {}", macro, number),
+              fmt::format("{} {}", service_of(macro), number), macro, number);
+    }
+  }
+
  private:
   void add(const Item& item) {
     need(item.place == nullptr ? "" : item.place->needs);
@@ -236,6 +250,14 @@ std::string generated_comment(const Options& options) {
 
 bool needs_para(const Plan& plan) {
   return std::any_of(plan.groups.begin(), plan.groups.end(), [](const Group& group) { return group.sub_index != 0; });
+}
+
+std::string write_requirements(const Plan& plan) {
+  Lines out;
+  out.add("#define CODICT_TEXT(value) #value\n#define CODICT_VALUE(macro) CODICT_TEXT(macro)");
+  Configuration(plan).write_messages(out);
+  out.add("#ifdef CODICT_REFUSED\n#error \"the configuration is too small for the description\"\n#endif\n");
+  return out.take();
 }
 
 std::string write_header(const Plan& plan, const Options& options) {

@@ -21,6 +21,7 @@ struct Options {
   std::string name;    ///< of everything that is written: a C identifier
   std::string source;  ///< file name of the description, for the comment at the top
   Language language = Language::c;
+  std::uint8_t node_id = 1;                   ///< of the node that the program of --verify starts
   std::uint32_t string_capacity = 32;         ///< bytes of a string that can be written and whose length nobody says
   bool unique_names = false;                  ///< two entries with one name are an error
   bool trigger_tpdos = false;                 ///< flag A for all that a TPDO may map

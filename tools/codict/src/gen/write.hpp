@@ -36,6 +36,12 @@ std::vector<External> externals_of(const Plan& plan, const Options& options);
 /// The source of a file, C and C++ alike, which defines these symbols.
 std::string write_stubs(const Plan& plan, const Options& options);
 
+/// Directives that name each setting of co_cfg.h that is too small for the plan, with its value.
+std::string write_requirements(const Plan& plan);
+
+/// The source of a program, C and C++ alike, that starts a node with the dictionary and prints what the stack says.
+std::string write_verify(const Plan& plan, const Options& options);
+
 /// \name Names that header and source share
 /// \{
 std::string macro_of(const Item& item, const Options& options);     ///< "CLOCK_2100_1"
