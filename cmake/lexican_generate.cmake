@@ -2,13 +2,17 @@
 # lexican_generate(): the object dictionary of a target, made from a device description when it is built.
 
 # lexican_generate(TARGET app DESCRIPTION device.eds [NAME name] [LANGUAGE C|CXX] [OUTPUT_DIRECTORY dir]
-#                  [EDS file] [XDD file] [OPTIONS …])
+#                  [EDS file] [XDD file] [VERIFY ON|OFF] [OPTIONS …])
 #
 # Adds NAME_od.h and NAME_od.c or NAME_od.cpp to a target of this directory, and lets it include the header. NAME: the
 # name of the file; LANGUAGE: CXX where the project has it, as the compiler then proves most; EDS, XDD: descriptions of
 # what is made, in the directory of the build; OPTIONS: of `codict gen`. The target links lexican::lexican itself.
+#
+# VERIFY: starts a node with the dictionary and lexican::lexican when the target is built; the build fails if the stack
+# reports an error. ON by default, except in a cross build or without a target lexican::lexican.
 function(lexican_generate)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;DESCRIPTION;NAME;LANGUAGE;OUTPUT_DIRECTORY;EDS;XDD" "OPTIONS")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;DESCRIPTION;NAME;LANGUAGE;OUTPUT_DIRECTORY;EDS;XDD;VERIFY"
+    "OPTIONS")
   if(NOT arg_TARGET OR NOT arg_DESCRIPTION OR arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "lexican_generate(TARGET target DESCRIPTION file …) is its form, given is: ${ARGV}")
   elseif(arg_LANGUAGE AND NOT arg_LANGUAGE MATCHES "^(C|CXX)$")
@@ -46,6 +50,18 @@ function(lexican_generate)
     endif()
   endforeach()
   lexican_find_codict(codict)
+  if(NOT DEFINED arg_VERIFY)
+    set(arg_VERIFY ON)
+  endif()
+  if(CMAKE_CROSSCOMPILING OR NOT TARGET lexican::lexican)
+    set(arg_VERIFY OFF)
+  endif()
+  set(dictionary ${files})
+  if(arg_VERIFY)
+    string(REGEX REPLACE "_od(\\.[a-z]+)$" "_verify\\1" verify ${source})
+    list(APPEND arg_OPTIONS --verify-source ${verify})
+    list(APPEND files ${verify})
+  endif()
 
   # A file that has not changed keeps its time, which Ninja understands and others take for out of date.
   set(touch)
@@ -58,8 +74,22 @@ function(lexican_generate)
     ${touch}
     DEPENDS ${description} ${codict}
     COMMENT "" VERBATIM)
-  target_sources(${arg_TARGET} PRIVATE ${files})
+  target_sources(${arg_TARGET} PRIVATE ${dictionary})
   target_include_directories(${arg_TARGET} PUBLIC $<BUILD_INTERFACE:${arg_OUTPUT_DIRECTORY}>)
+  if(arg_VERIFY)
+    lexican_verify_dictionary(${arg_TARGET} ${arg_NAME} ${arg_OUTPUT_DIRECTORY} ${source} ${verify})
+  endif()
+endfunction()
+
+# Builds and runs the program that starts a node with a dictionary, before its target is built.
+function(lexican_verify_dictionary target name directory source verify)
+  set(program ${target}_verify_${name})
+  add_executable(${program} EXCLUDE_FROM_ALL ${source} ${verify})
+  target_include_directories(${program} PRIVATE ${directory})
+  target_link_libraries(${program} PRIVATE lexican::lexican)
+  set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/lexican_verify)
+  add_custom_command(TARGET ${program} POST_BUILD COMMAND ${program} VERBATIM)
+  add_dependencies(${target} ${program})
 endfunction()
 
 # What codict calls a dictionary whose name nobody has given.
