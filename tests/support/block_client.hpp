@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file block_client.hpp
-/// A client of SDO block transfers, typed from the standard, that survives lost frames as well as a client can. The
-/// CRC is its own, bit by bit. [301:7.2.4.3.9-16]
+/// A client for SDO block transfers, derived from the standard, that recovers from lost frames as far as possible. It
+/// computes the CRC separately from the stack, bit by bit. [301:7.2.4.3.9-16]
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,24 @@ namespace test {
 class Fixture;
 using Bytes = std::vector<std::uint8_t>;
 
-/// The line of a test that a failure is reported for.
+/// Line of a test, for failure reports.
 struct Where {
   const char* file;
   int line;
 };
 
-/// Frames are counted from 0, those of the client and those of the server each for themselves.
+/// Settings and faults. Frames are numbered from 0, separately for client and server.
 struct BlockOptions {
   bool crc = true;                          ///< the client supports the CRC
   bool sized = true;                        ///< it announces the size of a download
-  std::vector<std::uint8_t> blksizes{127};  ///< that it asks for in an upload, one block after the other, and anew
+  std::vector<std::uint8_t> blksizes{127};  ///< requested blksizes of an upload, one per block, repeated
   std::uint8_t pst = 0;                     ///< protocol switch threshold of an upload
   std::set<unsigned> lost_requests{};       ///< frames of the client that do not arrive
   std::set<unsigned> doubled_requests{};    ///< frames that arrive twice
   std::set<unsigned> late_requests{};       ///< frames that arrive after the next one
   std::set<unsigned> lost_answers{};        ///< frames of the server that do not arrive
-  std::uint32_t announced_more = 0;         ///< bytes that are announced and do not come, modulo 2^32
-  std::uint16_t crc_error = 0;              ///< bits of the CRC that arrive wrong
+  std::uint32_t announced_more = 0;         ///< announced bytes that are not sent, modulo 2^32
+  std::uint16_t crc_error = 0;              ///< bits of the CRC that are inverted
 };
 
 struct BlockResult {

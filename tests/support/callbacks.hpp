@@ -36,7 +36,7 @@ struct Callbacks {
   std::function<void()> od_unlock;  ///< CO_NODE_EXT.OdUnlock
   std::function<void()> enter;      ///< CO_NODE_EXT.Enter
   std::function<void()> leave;      ///< CO_NODE_EXT.Leave
-  unsigned fatal_errors = 0;        ///< CONodeFatalError() is counted and returns
+  unsigned fatal_errors = 0;        ///< calls of CONodeFatalError(), which returns
 };
 
 Callbacks& callbacks();

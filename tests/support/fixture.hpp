@@ -3,11 +3,11 @@
 /// A node on a virtual bus with a virtual clock, driven by frames in candump notation:
 ///
 ///     Fixture node;                                      // node-ID 1, Pre-operational, boot-up already received
-///     node.rx("601#4000100000000000");                   // the bus sends to the node
-///     node.tx("581#4300100091010F00");                   // the node has sent exactly this since, nothing else
+///     node.rx("601#4000100000000000");                   // sends a frame to the node
+///     node.tx("581#4300100091010F00");                   // expects exactly these frames since the last check
 ///     node.after(1000ms);  node.silent();
 ///
-/// After every call the properties that must hold whatever happens are checked (invariants.hpp).
+/// Every call checks the invariants (invariants.hpp).
 #pragma once
 
 #include <doctest/doctest.h>
@@ -50,16 +50,16 @@ namespace test {
 using namespace std::chrono_literals;
 using Time = std::chrono::microseconds;
 
-/// How the loop of the application waits for time to pass.
+/// Way in which the application's loop waits.
 enum class Wake {
-  alarm,       ///< it sleeps until the alarm that the node has asked for
-  deadline,    ///< it sleeps as long as CONodeNextDeadline() says; the driver has no alarm
-  every_tick,  ///< it polls at each tick of the clock
+  alarm,       ///< until the alarm that the node has set
+  deadline,    ///< until CONodeNextDeadline(); the driver has no alarm
+  every_tick,  ///< polls at each tick of the clock
 };
 
 inline constexpr std::uint32_t mebibyte = 1U << 20;
 
-/// The variables behind the dictionary of a fixture. Index and value are listed at Setup::dictionary().
+/// Variables of a fixture's dictionary. Setup::dictionary() lists indexes and values.
 struct Objects {
   std::uint8_t error_register = 0;
   std::uint16_t heartbeat = 0;
@@ -85,7 +85,7 @@ struct Objects {
   std::uint32_t read_only = 0xCAFEBABE;
   std::uint32_t no_access = 0;
   std::uint32_t record = 0x01010101;
-  std::map<std::uint32_t, Bytes> memory;       ///< of the domains, by size
+  std::map<std::uint32_t, Bytes> memory;       ///< memory of the domains, by size
   std::map<std::uint32_t, CO_OBJ_DOM> domain;  ///< by size
   std::uint8_t text_memory[16] = {'t', 'e', 'x', 't', 0};
   CO_OBJ_STR_RW text{0, 4, 16, text_memory};
@@ -104,8 +104,8 @@ class Setup {
   Setup& heartbeat(std::uint16_t ms);
   Setup& wake(Wake how);
   Setup& timers(std::uint16_t number);
-  Setup& tx_queue(std::uint16_t frames);  ///< own memory instead of the node's CO_TX_QUEUE_N frames
-  Setup& stay_in_init();                  ///< CONodeStart() is left to the test
+  Setup& tx_queue(std::uint16_t frames);  ///< frames in separate memory, instead of CO_TX_QUEUE_N frames in the node
+  Setup& stay_in_init();                  ///< the test calls CONodeStart()
   Setup& nmt_master();                    ///< the node may send NMT commands
   /// CO_NODE_SPEC.EmcyCode, and its length as CO_NODE_EXT.EmcyNum.
   Setup& emergencies(std::vector<CO_EMCY_TBL> table);
@@ -113,8 +113,8 @@ class Setup {
   Setup& without(std::uint16_t index, std::uint8_t sub);
   Setup& ends_with(CO_OBJ end_mark);
   Setup& only_small();          ///< without the domains of more than 15 bytes: fast, for sweeps
-  Setup& with_70000();          ///< a domain of that size: looking at it after each frame takes its time
-  Setup& with_mebibyte();       ///< a domain of that size, which is not watched
+  Setup& with_70000();          ///< a domain of that size: checking it after each frame takes time
+  Setup& with_mebibyte();       ///< a domain of that size, which is not checked
   Setup& without_sdo_buffer();  ///< CO_NODE_SPEC.SdoBuf is null
   Setup& writable(std::function<bool(const void*, std::uint32_t)> may_write);
   Setup& nvm(const CO_IF_NVM_DRV_EX& driver, void* context);  ///< must outlive the fixture
@@ -125,12 +125,12 @@ class Setup {
   Setup& mainline(CO_RING& of);  ///< CO_NODE_EXT.Mainline; must outlive the fixture
   Setup& foreign();              ///< CO_NODE_EXT.Foreign
 #endif
-  Setup& may_change(std::uint16_t index, std::uint8_t sub);  ///< the node itself writes this object
+  Setup& may_change(std::uint16_t index, std::uint8_t sub);  ///< allows the node to write this object
   Setup& before_init(std::function<void(Objects&)> change);
 
  private:
   friend class Fixture;
-  /// Read-only unless said otherwise.
+  /// Returns the dictionary. Entries are read-only unless marked.
   /// 1000h 000F0191h, 1001h, 1008h device name, 100Ah "1.0", 1014h 80h + node-ID, 1017h (rw), 1018h,
   /// 1200h, 1201h and 1202h (rw, invalid) where the configuration has that many servers;
   /// 200wh (rw) a number of w bytes, 2020h BOOLEAN, 2024h REAL32, 2028h REAL64, 2026h TIME_OF_DAY;
@@ -168,33 +168,33 @@ class Setup {
   std::vector<std::pair<std::uint16_t, std::uint8_t>> may_change_ = {{0x1001, 0}};
 };
 
-/// A frame that the driver took, and when.
+/// A frame accepted by the driver, and its time.
 struct Sent {
   CO_IF_FRM frm;
-  std::uint64_t tick;  ///< since the fixture was made
+  std::uint64_t tick;  ///< since the construction of the fixture
 };
 
-/// The far side of the CAN driver. A test plans its faults here.
+/// Test side of the CAN driver, with fault injection.
 struct FakeCan {
   std::deque<CO_IF_FRM> to_node;
   std::deque<Sent> sent;
   std::vector<std::uint32_t> filter;
   bool filter_off_bus = false;    ///< the first filter came before Enable
   std::uint64_t attempts = 0;     ///< calls of Send, from 1
-  std::uint64_t refuse_from = 0;  ///< attempts refuse_from … refuse_to-1 are answered with \a refusal
+  std::uint64_t refuse_from = 0;  ///< Send returns \a refusal for the attempts refuse_from … refuse_to-1
   std::uint64_t refuse_to = 0;
-  std::int16_t refusal = 0;  ///< 0: not now, -1: error
+  std::int16_t refusal = 0;  ///< 0: busy, -1: error
   bool has_refused = false;
-  std::int16_t read_result = 0;  ///< what Read returns when there is no frame
+  std::int16_t read_result = 0;  ///< result of Read without a frame
   unsigned init_calls = 0;
   unsigned resets = 0;
   std::uint32_t baud = 0;
   bool on_bus = false;
 
   void refuse_next(std::uint64_t number, std::int16_t with = 0);
-  void refuse_nth(std::uint64_t number, std::int16_t with = 0);  ///< counted from now, 1 = the next
+  void refuse_nth(std::uint64_t number, std::int16_t with = 0);  ///< relative to now, 1 = the next attempt
   void refuse_all() { accept_next(0); }
-  void accept_next(std::uint64_t number);  ///< and no more
+  void accept_next(std::uint64_t number);  ///< later attempts are refused
   void accept_all() { refuse_to = 0; }
 };
 
@@ -205,37 +205,37 @@ class Fixture {
   Fixture(const Fixture&) = delete;
   Fixture& operator=(const Fixture&) = delete;
 
-  /// The bus sends a frame; the loop runs until the node has nothing more to do.
+  /// Sends a frame to the node and runs the loop until the node is idle.
   void rx(std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
   void rx(const CO_IF_FRM& frm, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// Everything that the node has sent since the last look is this, in this order.
+  /// Checks that the node has sent exactly these frames, in this order, since the last check.
   void tx(std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
   void tx(std::initializer_list<std::string_view> all, Where at = {__builtin_FILE(), __builtin_LINE()});
   void silent(Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// rx() and tx().
+  /// Calls rx() and tx().
   void ask(std::string_view request, std::string_view answer, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// The next frame was sent at \a time after the begin of the last after() (rounded up to ticks).
+  /// Checks that the next frame was sent at \a time after the begin of the last after() (rounded up to ticks).
   void tx_at(Time time, std::string_view text, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// Takes what was sent out of the record: "time in ms since the last after() began, frame".
+  /// Returns the recorded frames and clears the record: "time in ms since the last after() began, frame".
   std::vector<std::string> trace();
-  std::vector<std::string> frames();  ///< the same without times
+  std::vector<std::string> frames();  ///< like trace(), without times
 
   void after(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});  ///< lets time pass
-  void jump(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});   ///< … during which the loop does not run
-  /// Time passes, the timer interrupt comes, but not the loop. COTmrService() then tells 1 (\a elapsed).
+  void jump(Time time, Where at = {__builtin_FILE(), __builtin_LINE()});   ///< lets time pass without running the loop
+  /// Lets time pass with the timer interrupt, without the loop. \a elapsed: expected result of COTmrService().
   void elapse_only(Time time, std::int16_t elapsed = 1, Where at = {__builtin_FILE(), __builtin_LINE()});
-  void idle(Time time);                       ///< Time passes, and nothing comes, not even the timer interrupt.
+  void idle(Time time);                       ///< lets time pass without loop and timer interrupt
   std::uint64_t ticks(Time time) const;       ///< rounded up
-  std::uint64_t now() const { return now_; }  ///< ticks since the fixture was made
+  std::uint64_t now() const { return now_; }  ///< ticks since the construction of the fixture
 
-  /// Runs anything else on the node, with the checks.
+  /// Calls an API function on the node, with the checks.
   void call(const std::function<void()>& api, Where at = {__builtin_FILE(), __builtin_LINE()});
-  void init_again(Where at = {__builtin_FILE(), __builtin_LINE()});  ///< CONodeInitEx() as at first
-  void loop(Where at = {__builtin_FILE(), __builtin_LINE()});        ///< CONodeProcess() until nothing is left to do
+  void init_again(Where at = {__builtin_FILE(), __builtin_LINE()});  ///< repeats the first CONodeInitEx()
+  void loop(Where at = {__builtin_FILE(), __builtin_LINE()});        ///< calls CONodeProcess() until the node is idle
 
-  /// A client on server channel 1, for data too long to be typed. Empty: aborted, or not as the standard says.
+  /// Reads an object as a client on server channel 1. Empty: aborted, or not conforming to the standard.
   Bytes upload(std::uint16_t index, std::uint8_t sub, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// Returns the abort code, 0: done.
+  /// Writes an object likewise. Returns the abort code, 0: success.
   std::uint32_t download(std::uint16_t index, std::uint8_t sub, const Bytes& data, bool announced = true,
                          Where at = {__builtin_FILE(), __builtin_LINE()});
 
@@ -245,16 +245,16 @@ class Fixture {
   BlockResult block_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, const BlockOptions& options = {},
                              Where at = {__builtin_FILE(), __builtin_LINE()});
 
-  /// The longest time that the server waits for a client. It counts in eighths, each rounded up to ticks.
+  /// Returns the longest time-out of the server. It counts in eighths, each rounded up to ticks.
   Time sdo_time_out() const { return std::chrono::milliseconds{CO_SDO_TIMEOUT} + 8 * Time{1000000 / setup_.rate_ + 1}; }
 
   void may_change(std::uint16_t index, std::uint8_t sub);  ///< outside of a download, until the end of the case
-  /// Segments of block uploads, as many as a call may send, are not counted.
+  /// Limits the frames sent per call; segments of block uploads are not counted.
   void frames_per_call(unsigned limit) { frames_per_call_ = limit; }
   /// Limits the calls of CONodeProcess() in rx() and loop(), while there is work.
   void calls(unsigned limit) { calls_ = limit; }
-  static constexpr unsigned enough_calls = 200;  ///< without progress; more is a hang
-  /// Memory behind an entry of a type of the test.
+  static constexpr unsigned enough_calls = 200;  ///< without progress; more calls mean an endless loop
+  /// Adds the memory of an entry whose type belongs to the test to the invariants.
   void watch(std::uint16_t index, std::uint8_t sub, const void* memory, std::size_t size, bool stream = false);
 
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node); }
@@ -264,7 +264,8 @@ class Fixture {
   bool in_turn() const { return in_turn_; }  ///< between CO_NODE_EXT.Enter and Leave
   CO_NODE* operator->() { return &node; }
 
-  /// Same protocol state as \a other: mode, servers, routes, queue, timers. Empty if so, else what differs.
+  /// Compares the protocol state with \a other: mode, servers, routes, queue, timers. Returns the difference, empty:
+  /// none.
   std::string difference(const Fixture& other) const;
   unsigned armed_timers() const;
 
@@ -272,7 +273,7 @@ class Fixture {
   FakeCan can;
   CO_NODE node;
 #if USE_OD
-  OD_t od{};  ///< the index of its dictionary
+  OD_t od{};  ///< index of the dictionary
 #endif
 
  private:
@@ -314,12 +315,12 @@ class Fixture {
   unsigned calls_ = enough_calls;  // in rx() and loop()
   bool od_locked_ = false;         // CO_NODE_EXT.OdLock has been called
   bool in_turn_ = false;           // CO_NODE_EXT.Enter has been called
-  bool guarded_ = false;           // by a remote frame: the answers have a toggle bit
-  std::size_t segments_ = 0;       // of block uploads, sent
+  bool guarded_ = false;           // by a remote frame: answers have a toggle bit
+  std::size_t segments_ = 0;       // sent segments of block uploads
   std::vector<std::string> violations_;
 };
 
-/// Start ticks at which counters of 32 bits show what they are worth.
+/// Start ticks at which 32-bit counters wrap or change sign soon.
 inline constexpr std::uint32_t clock_starts[] = {0, 0x80000000U - 1000U, 0xFFFFFFFFU - 999U};
 /// Ticks per second.
 inline constexpr std::uint32_t clock_rates[] = {1000, 1000000, 300, 1024, 32768};

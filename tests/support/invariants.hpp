@@ -14,18 +14,18 @@
 
 namespace test {
 
-/// Empty if a node with \a node_id may send \a frm in \a mode, else what is wrong with it. \a sdo: the frame is one of
-/// an SDO server, \a sending: in a block upload, after its start.
+/// Returns the fault of a frame; empty if a node with \a node_id may send \a frm in \a mode. \a sdo: the frame is one
+/// of an SDO server, \a sending: in a block upload, after its start.
 std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo, bool sending = false);
 
-/// The bytes behind the entries of a dictionary.
+/// Copy of the memory of a dictionary's entries.
 class MemoryWatch {
  public:
-  void add(CO_OBJ& entry);  ///< domains of more than 100000 bytes are left out
+  void add(CO_OBJ& entry);  ///< domains of more than 100000 bytes are omitted
   void add(std::uint32_t key, const void* memory, std::size_t size, bool stream);
-  void release(std::uint32_t dev);  ///< changes of this entry are of no interest any more
+  void release(std::uint32_t dev);  ///< changes of this entry are allowed from this call on
   void remember();
-  /// Entries (without flags) whose memory is not as it was remembered.
+  /// Returns the entries (without flags) whose memory has changed.
   std::vector<std::uint32_t> changed() const;
   bool is_stream(std::uint32_t dev) const;
   bool is_read_only(std::uint32_t dev) const;

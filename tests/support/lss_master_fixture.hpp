@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file lss_master_fixture.hpp
-/// A node that is LSS master, and how its services have ended:
+/// A node that is LSS master, and the results of its services:
 ///
 ///     LssMaster node;
-///     node.run("7E5#5E00000000000000", COLssmInquireNodeId);      // started, and on the bus
+///     node.run("7E5#5E00000000000000", COLssmInquireNodeId);      // starts it and expects the request
 ///     node.rx("7E4#5E05000000000000");
-///     CHECK(node.end(CO_LSSM_OK).value == 5);                     // the one service that has ended
+///     CHECK(node.end(CO_LSSM_OK).value == 5);                     // result of the service
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace test {
 
 using LssNumbers = std::array<std::uint32_t, 4>;
 
-/// How a service has ended, as the callback was told.
+/// Arguments of the callback at the end of a service.
 struct LssEnd {
   CO_LSSM_RESULT result;
   std::uint32_t value;
@@ -32,8 +32,8 @@ struct LssEnd {
 };
 
 inline std::vector<LssEnd> lss_ends;
-inline std::function<void(CO_LSSM*)> lss_next;  ///< run by the callback
-inline unsigned lss_depth = 0;                  ///< of callbacks
+inline std::function<void(CO_LSSM*)> lss_next;  ///< called by the callback
+inline unsigned lss_depth = 0;                  ///< nesting depth of callbacks
 
 inline void note_lss(CO_LSSM* lssm, CO_LSSM_RESULT result) {
   CHECK(lss_depth == 0);
@@ -71,7 +71,7 @@ class LssMaster : public Fixture {
     call([&] { err = service(&node.Lssm, given..., note_lss); });
     return err;
   }
-  /// Started, and the request is on the bus.
+  /// Starts a service and checks its request.
   template <class... Argument, class... Given>
   void run(const char* request, CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
     REQUIRE(start(service, given...) == CO_ERR_NONE);
@@ -83,7 +83,7 @@ class LssMaster : public Fixture {
   void cancel() {
     call([&] { CHECK(COLssmCancel(&node.Lssm) == CO_ERR_NONE); });
   }
-  /// The one service that has ended since the last look.
+  /// Returns the result of the only service that has ended since the last check.
   LssEnd end(CO_LSSM_RESULT result, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     if (lss_ends.size() != 1 || lss_ends[0].result != result) {
       ADD_FAIL_CHECK_AT(at.file, at.line,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file monitor.hpp
-/// A node that monitors others, with a record of what the application is told:
+/// A node that monitors others, with a record of its callbacks:
 ///
 ///     Monitor node({{5, 100}, {6, 250}});     // 1016h:1 node 5, 100 ms; 1016h:2 node 6, 250 ms
 ///     node.rx("705#7F");                      node.told("5 PREOP");
@@ -32,23 +32,23 @@ struct MonitorEntries {
 
 class Monitor : public MonitorEntries, public Fixture {
  public:
-  /// All CO_HBCONS_N entries exist, those beyond the list with time 0. 1001h and, unless \a setup has another, 1029h
-  /// are as Setup says.
+  /// Creates all CO_HBCONS_N entries; those beyond the list have time 0. 1001h and, unless \a setup replaces it, 1029h
+  /// are those of Setup.
   explicit Monitor(std::initializer_list<Monitored> monitored, const Setup& setup = {});
   ~Monitor();
 
-  /// Writes 1016h by SDO; the abort code, 0: done.
+  /// Writes 1016h by SDO. Returns the abort code, 0: success.
   std::uint32_t configure(std::uint8_t sub, std::uint32_t value);
   /// Checks the calls of CONmtHbConsChange(), CONmtHbConsEvent() and CONmtModeChange() since the last check, joined by
   /// ", ": "5 PREOP", "5 missing", "mode STOP".
   void told(const std::string& all, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// tx(), where the node has EMCY messages.
+  /// Calls tx() if the node has EMCY messages.
   void emergency(std::string_view frame, Where at = {__builtin_FILE(), __builtin_LINE()});
 
   std::vector<std::string> record;
 };
 
-/// A state as Monitor::told() names it.
+/// Returns the name of a state as in Monitor::told().
 std::string name_of(CO_MODE mode);
 
 }  // namespace test

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file network.hpp
-/// Many devices on many virtual buses with one virtual clock, seen from the buses.
+/// Simulates many devices on many virtual buses with one virtual clock, observed from the buses.
 ///
 ///     test::World world;
 ///     test::Line& line = world.add_line("left");
 ///     test::Device& five = world.add_device(line, {5});      // boots
-///     line.say("000#0105");  world.settle();                 // all frames are processed, no time goes by
-///     world.pass(100ms);  line.take();                       // what was on the bus since the last take()
+///     line.say("000#0105");  world.settle();                 // processes all frames, without time
+///     world.pass(100ms);  line.take();                       // returns the frames since the last take()
 ///
 /// Context: one thread. Owner: the world owns lines and devices.
 #pragma once
@@ -29,7 +29,7 @@ namespace test {
 using Texts = std::vector<std::string>;
 using Milliseconds = std::chrono::milliseconds;
 
-/// A bus with a master port that hears nothing itself: what is on the bus is recorded.
+/// A bus with a master port that receives nothing: all frames on the bus are recorded.
 class Line {
  public:
   Line(const std::string& name, co::VirtualClock& clock);
@@ -37,7 +37,7 @@ class Line {
   void say(std::string_view notation);
   void say(const CO_IF_FRM& frame);
 
-  /// The frames on the bus since the last call, with their senders and times.
+  /// Returns the frames on the bus since the last call, with their senders and times.
   std::vector<co::VirtualBus::Traffic> take();
   /// Returns the frames sent by devices, in can-utils notation.
   Texts take_texts();
@@ -56,14 +56,14 @@ struct DeviceOptions {
   std::uint16_t heartbeat_ms = 0;
   std::uint32_t domain_bytes = 16;  ///< capacity of 2010h
   bool filter = true;               ///< the controller has receive filters
-  bool plain = false;               ///< drivers without context; one living device at most
+  bool plain = false;               ///< classic drivers; one device at a time
   bool start = true;                ///< false: stays in CO_INIT
-  const CO_OBJ* table = nullptr;    ///< instead of the device's own dictionary, ended by CO_OBJ_DICT_ENDMARK
+  const CO_OBJ* table = nullptr;    ///< replaces the device's dictionary; ended by CO_OBJ_DICT_ENDMARK
   void* user = nullptr;             ///< CO_NODE_EXT.User
 };
 
-/// A node with everything it needs. Its dictionary: 1000h, 1001h, 1008h "device", 1017h, 1018h, 1200h, 1201h (not
-/// valid, rw, if configured), 2000h UNSIGNED16 rw, 2001h UNSIGNED64 rw, 2002h UNSIGNED32 ro 11223344h, 2010h DOMAIN rw.
+/// A node with its memory. Its dictionary: 1000h, 1001h, 1008h "device", 1017h, 1018h, 1200h, 1201h (not valid, rw, if
+/// configured), 2000h UNSIGNED16 rw, 2001h UNSIGNED64 rw, 2002h UNSIGNED32 ro 11223344h, 2010h DOMAIN rw.
 class Device {
  public:
   Device(Line& line, co::VirtualClock& clock, const DeviceOptions& options);
@@ -71,12 +71,12 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// Works off frames and timers, but only when there are frames or the moment has come that the node has asked for by
-  /// CONodeNextDeadline(). Returns false if there was nothing to do.
+  /// Processes frames and timers if there are frames or the deadline of CONodeNextDeadline() has passed. Returns false
+  /// if there was no work.
   bool process();
   /// Processes the device even before its deadline.
   void wake();
-  /// Clock ticks at which the node wants to be called; UINT64_MAX: never.
+  /// Returns the deadline of the node in clock ticks; UINT64_MAX: none.
   std::uint64_t due_at() const { return due_at_; }
   CO_MODE mode() { return CONmtGetMode(&node.Nmt); }
   CO_NODE_COUNTERS counters() const { return CONodeGetCounters(&node); }
@@ -119,7 +119,7 @@ class World {
 
   /// Processes all devices until they are idle. A network that does not become idle ends the test case.
   void settle();
-  /// Lets time go by; every device is processed at the ticks it asks for by CONodeNextDeadline().
+  /// Lets time pass; every device is processed at its deadlines (CONodeNextDeadline()).
   void pass(std::chrono::microseconds time);
 
   co::VirtualClock clock;

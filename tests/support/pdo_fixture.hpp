@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file pdo_fixture.hpp
-/// A node with four RPDOs and four TPDOs (or as many as are configured) in variables, and objects to map:
+/// A node with four RPDOs and four TPDOs (or as many as are configured), variables for their parameters, and objects to
+/// map:
 ///
 ///     PdoTable table;                                        // all PDOs off, nothing mapped
 ///     table.rpdo[0].on(0x201, 255, {0x22010108});            // 1400h:1, 1400h:2, 1600h
@@ -19,7 +20,7 @@
 ///   224wh:1      RW    not mappable, w = 1, 2, 4, 8 (n8, n16, n32, n64)
 ///   2250h        P RW  BOOLEAN (boolean), 0
 ///   2254h, 2258h P RW  REAL32, REAL64 (real32, real64), 1.0
-/// The dictionary of Setup is there as well.
+/// The dictionary of Setup is included.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +55,7 @@ struct PdoTable {
 inline constexpr unsigned fixture_rpdos = CO_RPDO_N < 4 ? CO_RPDO_N : 4;
 inline constexpr unsigned fixture_tpdos = CO_TPDO_N < 4 ? CO_TPDO_N : 4;
 
-/// The objects to be mapped.
+/// Variables of the mappable objects.
 struct PdoVariables {
   PdoVariables();
   std::uint8_t u8[8], a8[8], r8, w8, n8, boolean[8] = {};
@@ -72,17 +73,18 @@ class PdoNode : public PdoTable, public PdoVariables, public Fixture {
   /// \a change: settings of the fixture; entries that it adds replace those of this one.
   explicit PdoNode(const PdoTable& table = {}, const std::function<void(Setup&)>& change = {});
 
-  /// Enters Operational; nothing is sent.
+  /// Enters Operational and checks that no frame is sent.
   void start(Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// SDO download of 1…8 bytes. Returns the abort code, 0: done.
+  /// Writes 1…8 bytes by SDO. Returns the abort code, 0: success.
   std::uint32_t set(std::uint16_t index, std::uint8_t sub, unsigned bytes, std::uint64_t value,
                     Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// SDO upload of 1…8 bytes. Must succeed.
+  /// Reads 1…8 bytes by SDO. Must succeed.
   std::uint64_t get(std::uint16_t index, std::uint8_t sub, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// COTPdoTrigPdo() and COTPdoRequest().
+  /// Call COTPdoTrigPdo() and COTPdoRequest().
   void trigger(std::uint16_t number, Where at = {__builtin_FILE(), __builtin_LINE()});
   CO_ERR request(std::uint16_t number, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// The whole procedure [301:7.5.2.36]: off, number 0, words, number, COB-ID. Returns the first abort code, 0: done.
+  /// Runs the remapping procedure [301:7.5.2.36]: off, number 0, words, number, COB-ID. Returns the first abort code,
+  /// 0: success.
   std::uint32_t remap_rpdo(unsigned n, const std::vector<std::uint32_t>& words, std::uint32_t cob_id,
                            Where at = {__builtin_FILE(), __builtin_LINE()});
   std::uint32_t remap_tpdo(unsigned n, const std::vector<std::uint32_t>& words, std::uint32_t cob_id,

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_client_fixture.hpp
-/// A node with SDO clients, whose servers are played by the test:
+/// A node with SDO clients; the test simulates their servers:
 ///
 ///     SdoClient node;                            // client 0 asks node-ID 5 at 605h/585h, 1 asks 6, 2 asks 7
 ///     node.start_upload(0x2000, 5, 8);           // COCSdoRequestUpload() into a buffer of 8 bytes
 ///     node.tx("605#4000200500000000");
 ///     node.rx("585#4F00200511000000");
-///     node.has_read({0x11});                     // the callback has come, once, with code 0
+///     node.has_read({0x11});                     // the callback was called once, with code 0
 ///
-/// Buffers have guards around them, and are gone when the callback has come.
+/// Buffers have guards around them, and are released after the callback.
 #pragma once
 
 #include "fixture.hpp"
@@ -17,7 +17,7 @@
 
 namespace test {
 
-/// The memory of 1280h + n.
+/// Variables of 1280h + n.
 struct ClientEntries {
   struct Entry {
     std::uint32_t tx;
@@ -30,7 +30,7 @@ struct ClientEntries {
 /// Returns entries whose first client uses the SDO server of the same node.
 inline ClientEntries local_entries() { return {{{0x601, 0x581, 1}, {0x606, 0x586, 6}, {0x607, 0x587, 7}}}; }
 
-/// Bytes 1, 2, 3, … (modulo 256) from \a first on.
+/// Returns the bytes 1, 2, 3, … (modulo 256) from \a first on.
 Bytes counted(std::size_t size, unsigned first = 1);
 
 /// Arguments of a callback, and the client's values at that time.
@@ -49,21 +49,21 @@ class SdoClient : public ClientEntries, public Fixture {
   explicit SdoClient(Setup setup = Setup().only_small(), const ClientEntries& entries = {});
   ~SdoClient();
 
-  /// Requests that may be refused. They can be used within a callback, too. Times in ms.
+  /// Start requests that may be refused, also within a callback. Times in ms.
   CO_ERR try_upload(std::uint16_t index, std::uint8_t sub, std::uint32_t size, std::uint32_t timeout = 1000,
                     unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   CO_ERR try_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, std::uint32_t timeout = 1000,
                       unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// Requests that must be taken.
+  /// Start requests that must be accepted.
   void start_upload(std::uint16_t index, std::uint8_t sub, std::uint32_t size, std::uint32_t timeout = 1000,
                     unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   void start_download(std::uint16_t index, std::uint8_t sub, const Bytes& data, std::uint32_t timeout = 1000,
                       unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   CO_ERR cancel(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
 
-  /// No callback has come, the transfer goes on.
+  /// Checks that no callback was called and the transfer is open.
   void goes_on(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
-  /// One callback has come since the last look, with \a code; the client is idle.
+  /// Checks that one callback was called since the last check, with \a code, and the client is idle.
   ClientEnd ended(std::uint32_t code, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   /// Checks an upload that has succeeded with these bytes.
   ClientEnd has_read(const Bytes& data, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
@@ -76,7 +76,7 @@ class SdoClient : public ClientEntries, public Fixture {
   bool is_busy(unsigned client = 0) const { return node.CSdo[client].State == CO_CSDO_STATE_BUSY; }
   bool is_watched(unsigned client = 0) const;  ///< its timer is armed
 
-  /// Called in each callback, when its data are already noted.
+  /// Called in each callback, after its data are stored.
   std::function<void(const ClientEnd&)> on_end;
   /// Callbacks that the test has not checked yet.
   std::deque<ClientEnd> ends;
@@ -86,7 +86,7 @@ class SdoClient : public ClientEntries, public Fixture {
     bool open = false;
     std::uint32_t key = 0;
     Bytes memory;  ///< guard, buffer, guard
-    Bytes sent;    ///< of a download: must not change
+    Bytes sent;    ///< data of a download: must not change
   };
   Setup with_entries(Setup setup);
   static void note_end(CO_CSDO* csdo, std::uint16_t index, std::uint8_t sub, std::uint32_t code);
@@ -100,7 +100,7 @@ class SdoClient : public ClientEntries, public Fixture {
   unsigned in_callback_ = 0;
 };
 
-/// The client works: it reads 2001h.
+/// Checks that the client works: it reads 2001h.
 inline void check_asks(SdoClient& node) {
   node.start_upload(0x2001, 0, 4);
   node.tx("605#4001200000000000");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_pair.hpp
-/// SDO transfers between nodes of ours on a virtual bus: devices with clients, and a bench of two of them that checks
-/// for every transfer what must hold whatever happens on the bus.
+/// SDO transfers between Lexican nodes on a virtual bus: devices with clients, and a pair of them that checks the
+/// invariants of every transfer, with any fault on the bus.
 ///
 ///     test::SdoPair pair({2000});
 ///     pair.line.bus.add_rule({co::VirtualBus::Fault::drop, {}, 7});
@@ -26,12 +26,12 @@ using Bytes = std::vector<std::uint8_t>;
 enum class Direction { upload, download };
 inline constexpr Direction both_directions[] = {Direction::upload, Direction::download};
 
-/// Neither constant nor periodic in 7, and different for each seed.
+/// Returns pseudo-random bytes: neither constant nor periodic in 7, and different for each seed.
 Bytes noise(std::uint32_t size, std::uint32_t seed);
 
 class SdoDevice;
 
-/// An SDO client of a device, and the memory of its present or last request, between guards.
+/// An SDO client of a device, and the memory of its current or last request, between guards.
 class Seat {
  public:
   Seat(SdoDevice& device, unsigned number) : device_(device), number_(number) {}
@@ -39,10 +39,10 @@ class Seat {
   CO_ERR upload(std::uint32_t key, std::uint32_t size, Milliseconds time_out);
   CO_ERR download(std::uint32_t key, const Bytes& data, Milliseconds time_out);
   bool is_over() const { return callbacks == 1; }
-  Bytes data() const;  ///< as many bytes as COCSdoGetNum() has told
+  Bytes data() const;  ///< returns COCSdoGetNum() bytes
 
-  unsigned callbacks = 1;        ///< since the request
-  std::uint32_t code = 0;        ///< of the callback
+  unsigned callbacks = 1;        ///< calls since the request
+  std::uint32_t code = 0;        ///< argument of the callback
   std::uint32_t num = 0;         ///< COCSdoGetNum() in the callback
   std::uint64_t tick = 0;        ///< of the clock in the callback
   std::function<void()> on_end;  ///< called in the callback
@@ -56,7 +56,7 @@ class Seat {
   unsigned number_;
   std::uint32_t key_ = 0;
   Bytes memory_;  // guard, buffer, guard
-  Bytes sent_;    // of a download: must not change
+  Bytes sent_;    // data of a download: must not change
 };
 
 struct SdoDeviceOptions {
@@ -76,22 +76,22 @@ class SdoDevice {
   SdoDevice(const SdoDevice&) = delete;
   SdoDevice& operator=(const SdoDevice&) = delete;
 
-  /// The client talks to node \a server, to its default channel (0) or to its second one (1).
+  /// Connects a client to the first (0) or second (1) channel of node \a server.
   void connect(unsigned client, std::uint8_t server, unsigned channel = 0);
-  /// 1201h: the second channel.
+  /// Enable and disable the second channel, 1201h.
   void open_second_channel();
   void close_second_channel();
-  /// Initialises and starts the node, after a CONodeStop().
+  /// Initialises and starts the node after CONodeStop().
   void power_up();
 
-  Bytes read(std::uint32_t key) const;  ///< the application reads 2001h, 2010h, …
+  Bytes read(std::uint32_t key) const;  ///< reads 2001h, 2010h, … as the application
   void fill(std::uint32_t key, const Bytes& data);
   void resize(std::uint32_t key, std::uint32_t bytes);
 
   CO_NODE* operator->() { return &device_.node; }
   CO_NODE* node() { return &device_.node; }
   World& world() { return world_; }
-  /// Neither a timer nor a frame waits.
+  /// Returns true if no timer is armed and no frame is queued.
   bool is_at_rest() const { return device_.due_at() == UINT64_MAX; }
   co::VirtualBus::Port& port() { return device_.port; }
   CO_NODE_COUNTERS counters() const { return device_.counters(); }
@@ -123,12 +123,12 @@ class SdoDevice {
   Device& device_;
 };
 
-/// The transfers of one client, and the objects of its server.
+/// Transfers of one client, and the objects of its server.
 class Exchange {
  public:
   Exchange(SdoDevice& client, unsigned seat, SdoDevice& server) : client_(client), number_(seat), server_(server) {}
 
-  /// Starts a transfer of data that differ from those of the one before. \a time_out: of the client, for each answer.
+  /// Starts a transfer with data that differ from the previous ones. \a time_out: of the client, for each answer.
   void start(Direction direction, std::uint32_t key, Milliseconds time_out);
   /// Returns the fault of a finished transfer. Empty: both sides have the right data, or an abort code.
   std::string wrong() const;
@@ -144,15 +144,15 @@ class Exchange {
 };
 
 struct SdoPairOptions {
-  std::uint32_t bytes = 16;        ///< of the object
+  std::uint32_t bytes = 16;        ///< size of the object
   bool block = true;               ///< the server has a buffer for block transfers
-  std::uint16_t heartbeat_ms = 0;  ///< of both
-  std::uint16_t tx_queue = 0;      ///< of both; 0: as configured
+  std::uint16_t heartbeat_ms = 0;  ///< of both nodes
+  std::uint16_t tx_queue = 0;      ///< of both nodes; 0: as configured
   std::uint32_t ticks_per_second = 1000;
-  bool second_channel = false;  ///< the server's is 1201h, not 1200h
+  bool second_channel = false;  ///< uses 1201h instead of 1200h
 };
 
-/// A client, node 1, and a server, node 5. Transfers are those of client 0.
+/// A client, node 1, and a server, node 5. Client 0 runs the transfers.
 class SdoPair {
  public:
   static constexpr std::uint8_t client_id = 1;
@@ -164,18 +164,18 @@ class SdoPair {
   explicit SdoPair(const SdoPairOptions& options);
 
   void start(Direction direction, std::uint32_t key = object, Milliseconds time_out = Milliseconds{1000});
-  /// Lets time pass until it is over, checks what it has left behind, and returns its code. One that takes longer than
-  /// \a limit ends the test case; 0: no time may pass.
+  /// Lets time pass until the transfer has ended, checks the state after it, and returns its code. A transfer longer
+  /// than \a limit ends the test case; 0: no time may pass.
   std::uint32_t finish(Milliseconds limit);
-  /// Both.
+  /// Calls start() and finish().
   std::uint32_t run(Direction direction, std::uint32_t key = object, Milliseconds time_out = Milliseconds{1000},
                     Milliseconds limit = Milliseconds{0});
   std::string wrong() const { return exchange_.wrong(); }
-  /// The next transfers, in both directions, are done.
+  /// Checks that the next transfers, in both directions, succeed.
   void check_next(Milliseconds limit = Milliseconds{0});
-  /// Neither waits for anything, now or at least after \a within.
+  /// Returns true if both nodes become idle within \a within.
   bool comes_to_rest(Milliseconds within);
-  /// Frames of an undisturbed transfer.
+  /// Returns the number of frames of an undisturbed transfer.
   std::uint32_t count_frames(Direction direction, std::uint32_t key = object);
 
   Seat& seat() const { return exchange_.seat(); }
