@@ -74,7 +74,7 @@ void remap_one(CO_NODE& node, unsigned index) {
   }
 }
 
-// Returns the sub-index of the communication parameter that keeps the PDO from existing; 0: none.
+// Returns the sub-index of the communication parameter that prevents the PDO from existing; 0: none.
 uint8_t wrong_parameter(Direction direction, uint32_t cob_id, uint8_t type) {
   if (!cob_id::is_free(cob_id)) {
     return 1;
@@ -82,7 +82,8 @@ uint8_t wrong_parameter(Direction direction, uint32_t cob_id, uint8_t type) {
   return is_type(direction, type) ? 0 : 2;
 }
 
-// Returns whether the dictionary allows the PDO, and resolves its mapping. Otherwise the node's error says why not.
+// Returns whether the dictionary allows the PDO, and resolves its mapping. Otherwise reports the reason as the node's
+// error.
 bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
   const Direction direction = direction_of(index);
   const bool receives = direction == Direction::receive;
@@ -100,7 +101,7 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
   return false;
 }
 
-// Not inlined, as it needs a lot of the CPU's stack, and ending a PDO does, too.
+// Not inlined, because it needs much of the CPU's stack, like the functions that end a PDO.
 [[gnu::noinline]] void begin(CO_NODE& node, CO_PDO& pdo, unsigned index) {
   const bool receives = direction_of(index) == Direction::receive;
   const uint32_t cob_id = read_number(node, CO_DEV(index, 1), sizeof cob_id, wire::cob_invalid);

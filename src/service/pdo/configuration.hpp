@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the dictionary says of PDOs.
+// Configuration of PDOs from the dictionary.
 #pragma once
 
 #include "service/pdo/plan.hpp"
@@ -25,13 +25,13 @@ constexpr bool is_acyclic(uint8_t type) { return USE_SYNC != 0 && type == type_a
 constexpr bool is_event_driven(uint8_t type) { return type >= type_event; }
 [[nodiscard]] bool is_type(Direction direction, uint8_t type);
 
-// SYNC start value of a TPDO; 0: none.
+// Returns the SYNC start value of a TPDO; 0: none.
 [[nodiscard]] uint8_t start_value(CO_NODE& node, unsigned number);
 
-// Ticks of a number of units; the longest time that there is where they do not fit.
+// Converts a time to ticks; 0: the time is 0, or beyond the timer's range.
 [[nodiscard]] uint32_t ticks(const CO_NODE& node, uint32_t time, uint32_t unit);
 
-// PDOs are named by the index of their communication parameters.
+// Returns the number of the PDO whose communication parameter has this index.
 constexpr unsigned number_of(unsigned index) { return index & 0x01FFU; }
 
 // The key of a TPDO for messages: its communication parameter; 0: no TPDO can have this number.
@@ -47,14 +47,14 @@ void configure(CO_NODE& node, unsigned index);
 // Resolves the mapping of the PDO, which must have at least one entry.
 [[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, CO_PDO_MAP& map);
 
-// What it is before it is configured ends, and it begins to be what it was configured to be. identifier:
-// wire::no_frame if it does not exist; event: ticks
+// Stop the present operation of a PDO, and start the configured one. identifier: wire::no_frame if the PDO does not
+// exist; event: ticks
 void end_rpdo(CO_NODE& node, CO_PDO& pdo);
 void end_tpdo(CO_NODE& node, CO_PDO& pdo);
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event);
 void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote);
 
-// The event timer has changed.
+// Apply a change of the event timer.
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks);
 void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks);
 

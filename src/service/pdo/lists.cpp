@@ -10,10 +10,10 @@
 namespace co::mpdo {
 namespace {
 
-// That there is no place for all is said before anything else.
+// Returns the first error, but a lack of space (CO_ERR_OBJ_MAP_LEN) has priority.
 CO_ERR worse_of(CO_ERR err, CO_ERR next) { return err == CO_ERR_NONE || next == CO_ERR_OBJ_MAP_LEN ? next : err; }
 
-// The entries of the lists from first to last that are used, in the order of the dictionary.
+// Adds the used entries of a list with indices first…last, in the order of the dictionary.
 template <class T>
 CO_ERR resolve_entries(CO_NODE& node, uint16_t first, uint16_t last, CO_ERR (*add)(CO_NODE&, T)) {
   const CO_OBJ* const begin = dict::find(node.Dict, CO_DEV(first, 1));
@@ -36,7 +36,7 @@ CO_ERR resolve_entries(CO_NODE& node, uint16_t first, uint16_t last, CO_ERR (*ad
   return result;
 }
 
-// The objects of a block lie side by side in the dictionary.
+// Checks the objects of a block, which have consecutive sub-indices.
 CO_ERR check_block(CO_NODE& node, Direction direction, uint32_t key, uint8_t num) {
   if (CO_GET_SUB(key) + num > UINT8_MAX + 1) {
     return CO_ERR_OBJ_RANGE;
@@ -114,7 +114,7 @@ CO_ERR read_entry(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return number.Read(obj, node, buffer, size);
 }
 
-// An entry that does not fit into the node's memory is taken back.
+// Restores the previous entry if the new one does not fit into the node's memory.
 template <class T, const CO_OBJ_TYPE& number, CO_ERR (*resolve)(CO_NODE&)>
 CO_ERR write_entry(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   T before = 0;

@@ -14,7 +14,7 @@
 namespace co::mpdo {
 namespace {
 
-constexpr uint16_t nobody = 0;  // producers are numbered from 1
+constexpr uint16_t nobody = 0;  // no producer: numbers start at 1
 
 bool get(const uint8_t* bits, uint16_t place) { return (bits[place / 8U] & (1U << (place % 8U))) != 0; }
 void put(uint8_t* bits, uint16_t place) {
@@ -24,12 +24,12 @@ void clear(uint8_t* bits, uint16_t place) {
   bits[place / 8U] = static_cast<uint8_t>(bits[place / 8U] & ~(1U << (place % 8U)));
 }
 
-// Entries have their numbers until a frame has been processed in which CODictInit() was called.
+// Returns the object of an entry number; null if CODictInit() has renumbered the entries, until remap() has run.
 CO_OBJ* object_at(CO_NODE& node, uint16_t entry) {
   return entry < node.Dict.Num && (node.Pending & event::remap) == 0 ? &node.Dict.Root[entry] : nullptr;
 }
 
-// Only one TPDO has the scanner list. [301:7.2.3.2.2]
+// Resolves the list that the PDO uses. Only one TPDO can use the scanner list. [301:7.2.3.2.2]
 CO_ERR resolve_list(CO_NODE& node, unsigned index) {
   if (pdo::direction_of(index) == Direction::receive) {
     return resolve_dispatch(node);
@@ -39,7 +39,7 @@ CO_ERR resolve_list(CO_NODE& node, unsigned index) {
   return taken ? CO_ERR_OBJ_INCOMPATIBLE : resolve_scan(node);
 }
 
-// The object is that of the entry, or one of its block behind it.
+// Returns the object that an entry of the dispatching list, or a block of it, assigns to an object of the producer.
 CO_OBJ* dispatch(CO_NODE& node, uint32_t producer) {
   for (uint16_t n = 0; n < node.Mpdo.BlockNum; ++n) {
     const CO_MPDO_BLOCK& block = node.Mpdo.Block[n];
@@ -74,7 +74,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
   return CO_ERR_NONE;
 }
 
-// Up to 4 bytes of process data; static data types hold nothing.
+// Returns whether an object can be sent in a multiplex PDO: up to 4 bytes; static data types have no data.
 CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key) {
   if (obj == nullptr || rules::is_static_type(key)) {
     return dict::has_index(node.Dict, key) ? CO_ERR_OBJ_MAP_TYPE : CO_ERR_OBJ_NOT_FOUND;
@@ -203,7 +203,7 @@ CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame) {
   return err;
 }
 
-// A callback may have changed the list.
+// The list is checked again, because a callback may have changed it.
 void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent) {
   CO_MPDO& mpdo = node.Mpdo;
   if (place >= mpdo.ScanNum || mpdo.Scan[place] != entry) {

@@ -8,7 +8,7 @@ namespace co::mpdo {
 
 using pdo::Direction;
 
-// Sub 0 of the mapping. [301:7.5.2.36, 38]
+// Values of sub 0 of the mapping for multiplex PDOs. [301:7.5.2.36, 38]
 inline constexpr uint8_t sam = 0xFE;  // source address mode
 inline constexpr uint8_t dam = 0xFF;  // destination address mode
 
@@ -19,41 +19,43 @@ inline constexpr uint8_t dam = 0xFF;  // destination address mode
 [[nodiscard]] inline bool is_one(const CO_PDO_MAP& map) { return map.Mode != 0; }
 inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
 
-// As pdo::resolve(), for a number that is none of objects.
+// Like pdo::resolve(), for a number of mapped objects above CO_PDO_MAP_N.
 [[nodiscard]] CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map);
 
-// The lists. An entry of which an object cannot be had is left out; the first error is returned.
+// Resolve the scanner and the dispatching list. Entries with an invalid object are omitted; the first error is
+// returned.
 [[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
 [[nodiscard]] CO_ERR resolve_dispatch(CO_NODE& node);
 [[nodiscard]] CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key);
 
 // Consumer -----------------------------------------------------------------------------------------------------------
 
-// Is the frame of the PDO's kind, and meant for this node?
+// Return whether the frame matches the addressing mode of the PDO, and addresses this node.
 [[nodiscard]] bool is_kind(const CO_PDO_MAP& map, const CO_IF_FRM& frame);
 [[nodiscard]] bool is_addressed(const CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame);
 
-// The object that it writes; null: there is none.
+// Returns the object that the frame writes; null: there is none.
 [[nodiscard]] CO_OBJ* find(CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame);
 void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame);
 
 // Producer in source address mode ------------------------------------------------------------------------------------
 
-// The TPDO, whose objects are those of the scanner list. A place is that of an object in it.
+// Sets or clears the TPDO that sends the objects of the scanner list. place: index of an object in the list.
 void set_producer(CO_NODE& node, unsigned number, const CO_PDO_MAP& map);
 [[nodiscard]] CO_TPDO* producer(CO_NODE& node);
 
-// Objects wait to be sent: one (false: the list does not have it), or all, if this is the producer.
+// Mark an object of the scanner list as pending (false: it is not in the list), or all objects if the TPDO is the
+// producer.
 bool mark(CO_NODE& node, uint16_t entry);
 void mark_all(CO_TPDO& pdo);
 void forget_marks(CO_NODE& node);
 [[nodiscard]] bool is_waiting(const CO_NODE& node);
 
-// The next one that waits, in the order of the list, after the one before.
+// Finds the next pending object in the order of the list, beginning behind the one sent last.
 [[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
 [[nodiscard]] CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame);
 
-// The object does not wait any more, because it could be sent, or not be read.
+// Clears the mark of an object that was sent, or could not be read.
 void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
 

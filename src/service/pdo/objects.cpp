@@ -23,7 +23,7 @@ uint16_t communication_of(const CO_OBJ& obj) {
   return static_cast<uint16_t>((is_tpdo(obj) ? pdo::first_tpdo : pdo::first_rpdo) + number_of(obj));
 }
 
-// Of a PDO without the COB-ID in the dictionary it cannot be said.
+// Returns whether the PDO exists; false if its COB-ID is not in the dictionary.
 bool exists(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t cob_id = 0;
   const CO_ERR err = dict::read_u32(node.Dict, CO_DEV(communication_of(obj), 1), cob_id);
@@ -53,7 +53,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return number.Read(obj, node, buffer, size);
 }
 
-// The value before a write. False: it is not of this length, or cannot be read.
+// Reads the value before a write. Returns false if it has another length or cannot be read.
 template <class T>
 bool read_before(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& number, uint32_t size, T& before) {
   return size == sizeof before && number.Read(&obj, &node, &before, size) == CO_ERR_NONE;
@@ -68,14 +68,14 @@ T value_in(const void* buffer) {
 
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
-// Bit 30 has no meaning for an RPDO.
+// Returns whether a COB-ID may be written. Bit 30 is ignored in RPDOs.
 bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   const bool asked = USE_PDO_RTR == 0 && is_tpdo(obj) && ((value & changeable_flags) == 0);
   const bool same = ((before ^ value) & ~CO_TPDO_COBID_REMOTE) == 0;
   return !asked && (same || cob_id::may_replace(before, value));
 }
 
-// Not inlined: nothing of it is on the CPU's stack while the PDO is configured.
+// Not inlined, so that its map is not on the CPU's stack while the PDO is configured.
 [[gnu::noinline]] bool can_exist(CO_NODE& node, const CO_OBJ& obj) {
   CO_PDO_MAP map;
   return pdo::resolve(node, communication_of(obj), map).err == CO_ERR_NONE;
@@ -103,7 +103,7 @@ CO_ERR write_cob_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Sub 2 --------------------------------------------------------------------------------------------------------------
 
-// A multiplex PDO that exists stays event-driven. [301:7.2.3.2]
+// Returns whether the type is allowed: a multiplex PDO that exists remains event-driven. [301:7.2.3.2]
 bool fits_mapping([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_OBJ& obj, [[maybe_unused]] uint8_t type) {
 #if USE_MPDO
   const auto mapping = static_cast<uint16_t>(CO_GET_IDX(obj.Key) + pdo::from_communication_to_mapping);
@@ -175,7 +175,8 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Mapping ------------------------------------------------------------------------------------------------------------
 
-// The number that sub 0 already has leaves the mapping as it is: it may be the designer's.
+// Writes the number of mapped objects. Writing the present number of sub 0 does not require flag P, because the mapping
+// may be the designer's.
 CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {

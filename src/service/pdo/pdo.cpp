@@ -5,7 +5,7 @@
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 
-// What is left of PDOs that are not configured.
+// Functions for configurations without RPDOs or without TPDOs.
 
 namespace co::pdo {
 
@@ -39,7 +39,8 @@ using namespace co;
 
 namespace {
 
-// Does a PDO have this number? A function, since a comparison with a count of 0 PDOs causes a compiler warning.
+// Returns whether a PDO has this number. A function, because a comparison with a count of 0 PDOs causes a compiler
+// warning.
 constexpr bool is_pdo(uint16_t number, unsigned count) { return number < count; }
 
 // Returns whether an entry belongs to the table of the node: the index of an entry of another table would select an

@@ -6,17 +6,17 @@
 
 namespace co::pdo {
 
-// Takes the configuration of all PDOs from the dictionary. A PDO whose mapping is wrong does not exist.
+// Configures all PDOs from the dictionary. A PDO with an invalid mapping does not exist.
 void init(CO_NODE& node);
 
-// Entering and leaving Operational.
+// Start PDOs when Operational is entered, and stop them when it is left.
 void on_mode_rpdos(CO_NODE& node);
 void on_mode_tpdos(CO_NODE& node);
 
-// A frame for RPDO number. False: it is shorter than the mapping.
+// Processes a frame for RPDO number. Returns false if it is malformed, for example shorter than the mapping.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// A remote request for TPDO number.
+// Processes a remote request for TPDO number.
 [[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 // Samples and sends the synchronous TPDOs, then writes the synchronous RPDOs. counter: 0 if the SYNC has none.
@@ -24,21 +24,21 @@ void sample(CO_NODE& node, uint8_t counter);
 void apply(CO_NODE& node);
 
 #if USE_MPDO
-// See co_pdo.h; number exists.
+// Implements COTPdoSendTo() (co_pdo.h) for a number that exists.
 [[nodiscard]] CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value);
 
-// Objects of the scanner list that wait can be sent again.
+// Continues with the pending objects of the scanner list when the controller can accept frames.
 [[nodiscard]] bool on_free(CO_NODE& node, uint16_t number);
 #endif
 
-// After the synchronous window nothing synchronous is sent, or taken until the next SYNC.
+// Ends the synchronous window: withdraws synchronous TPDOs, and ignores synchronous RPDOs until the next SYNC.
 void end_window(CO_NODE& node);
 
-// Nothing synchronous waits for a controller that is not on the bus.
+// Withdraws synchronous TPDOs when the controller is not on the bus.
 void flush(CO_NODE& node);
 
-// An event for the TPDOs that map the object; while objects are locked it waits until they are not. Returns what keeps
-// one from being sent; CO_ERR_TPDO_OBJ_TRIGGER: none maps it.
+// Triggers the TPDOs that map the object; deferred while OdLock is held. Returns the error of a TPDO that is not sent;
+// CO_ERR_TPDO_OBJ_TRIGGER: no TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
 void send_touched(CO_NODE& node);
 inline void settle_touched(CO_NODE& node) {
@@ -47,10 +47,10 @@ inline void settle_touched(CO_NODE& node) {
   }
 }
 
-// Entries have other numbers.
+// Resolves all mappings again after CODictInit() has renumbered the entries.
 void remap(CO_NODE& node);
 
-// See co_pdo.h; number and object exist.
+// Implement the functions of co_pdo.h for numbers and objects that exist.
 [[nodiscard]] CO_ERR request(CO_NODE& node, uint16_t number);
 [[nodiscard]] bool was_received(CO_NODE& node, uint16_t number);
 [[nodiscard]] bool was_received(CO_NODE& node, const CO_OBJ& obj);

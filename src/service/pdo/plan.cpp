@@ -11,7 +11,7 @@
 #include "service/pdo/mpdo.hpp"
 #include "wire/bytes.hpp"
 
-// Only an application that defines them has them; see co_pdo.h.
+// Weak references: null unless the application defines the functions; see co_pdo.h.
 #pragma weak CORpdoWriteData
 #pragma weak COTpdoReadData
 
@@ -20,11 +20,13 @@ namespace {
 
 constexpr uint16_t no_entry = 0xFFFF;
 constexpr unsigned all_bits = 64;
-constexpr unsigned unit = 8 / one_byte;                                      // bits
-constexpr bool copies = USE_FAST_PATHS != 0 && wire::host_is_little_endian;  // plain numbers, else by their types
-constexpr unsigned longest_number = 4;  // bytes, that callbacks of the application do not get
+constexpr unsigned unit = 8 / one_byte;  // bits per unit
+// Numbers are copied directly, not by their types.
+constexpr bool copies = USE_FAST_PATHS != 0 && wire::host_is_little_endian;
+constexpr unsigned longest_number = 4;  // bytes; longer values are passed to callbacks of the application
 
-// BOOLEAN, INTEGER8, 16, 32, UNSIGNED8, 16, 32: objects that are never written, only skipped. [301:7.4.1 table 44]
+// Lengths of the static data types BOOLEAN, INTEGER8, 16, 32, UNSIGNED8, 16, 32: their bits are skipped, never written.
+// [301:7.4.1 table 44]
 constexpr uint8_t static_type_bits[] = {1, 8, 16, 32, 8, 16, 32};
 
 bool is_static_type(uint32_t mapping) { return CO_GET_IDX(mapping) - 1U < sizeof static_type_bits; }
@@ -36,7 +38,7 @@ bool is_skipped(Direction direction, uint32_t mapping) {
   return direction == Direction::receive && fits && mapping == CO_LINK(index, 0, bits);
 }
 
-// What copies an object.
+// Returns the type function that copies an object.
 auto function_of(const CO_OBJ& obj, Direction direction) {
   return direction == Direction::receive ? obj.Type->Write : obj.Type->Read;
 }
@@ -57,13 +59,13 @@ bool has_length(CO_NODE& node, CO_OBJ& obj, unsigned bits) {
 
 bool is_number(const CO_OBJ_TYPE* type) { return type == &COTInt8 || type == &COTInt16 || type == &COTInt32; }
 
-// Entries have their numbers until a frame has been processed in which CODictInit() was called.
+// Returns whether CODictInit() has renumbered the entries: the numbers in mappings are invalid until remap() has run.
 bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
 
 uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
 
-// Is the value nothing but the bytes of its variable, which can be accessed at once? What a change has to be noticed of
-// (flag A) is written by its type.
+// Returns whether the value is exactly the bytes of its variable, accessible in one access. RPDO objects with flag A
+// are written by their type, which detects changes.
 bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned bytes) {
   constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
   const bool aligned = (address_of(obj) & (bytes - 1U)) == 0;
@@ -75,13 +77,13 @@ bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsig
          (CO_IS_ASYNC(obj.Key) == 0 && port::is_writable(node, data_of<void>(obj), bytes));
 }
 
-// Joins the words of what lies side by side, in the frame as in memory, to one copy each: numbers of any width that no
-// access tears.
+// Joins numbers that are adjacent in the frame and in memory to copies of whole words. Aligned numbers are still
+// written in one access each.
 void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
   unsigned position = 0;   // in the frame
-  unsigned first = 0;      // place of the first number that lies beside the next,
-  unsigned begin = 0;      // where it lies in the frame,
-  uintptr_t distance = 0;  // and how far behind the frame in memory: never 0
+  unsigned first = 0;      // place of the first number of the current run of adjacent numbers
+  unsigned begin = 0;      // its position in the frame
+  uintptr_t distance = 0;  // its address minus its position; never 0
   for (unsigned place = 0; place < num; ++place) {
     const uintptr_t address = address_of(root[map.Entry[place]]);
     if (address - position != distance) {
@@ -109,7 +111,7 @@ void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned place, const CO_OBJ* obj
   }
 }
 
-// What is not aligned in the frame, a 16- or 32-bit number. Returns the bytes.
+// Copies a 16- or 32-bit number that is not aligned in the frame. Returns its bytes.
 template <Direction direction>
 inline unsigned copy_shifted(void* variable, uint8_t* data, unsigned bytes) {
   uint32_t value = 0;
@@ -131,7 +133,7 @@ inline unsigned copy_shifted(void* variable, uint8_t* data, unsigned bytes) {
   return bytes;
 }
 
-// Variables are aligned: no number is torn. Returns the bytes.
+// Executes one copy. Variables are aligned, so each number is accessed atomically. Returns the bytes copied.
 template <Direction direction>
 inline unsigned copy_access(void* variable, uint8_t* data, unsigned step) {
   constexpr bool receives = direction == Direction::receive;
@@ -169,7 +171,7 @@ CO_ERR copy_plain(const CO_OBJ* root, const CO_PDO_MAP& map, uint8_t* data, Dire
                                          : copy_plain<Direction::transmit>(root, map, data);
 }
 
-// An object that is copied by its type, and where it lies in the frame, in units.
+// An object that is copied by its type, and its place in the frame, in units of CO_PDO_MAP.Length.
 struct Part {
   CO_OBJ& obj;
   unsigned position;
@@ -188,7 +190,8 @@ void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_
   }
 }
 
-// value: the object's bytes in the order of the bus, which become those of the CPU.
+// Calls the Read or Write function of an object. value: the object's bytes in the order of the bus, converted to and
+// from that of the CPU.
 CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
   const uint32_t bytes = bytes_of(part);
   const uint32_t number = obj::is_stream(part.obj) ? 0 : bytes;
@@ -226,7 +229,7 @@ CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction
   return pass(node, part, frame.Data + first_byte(part), direction);
 }
 
-// The type function may change the table: the key is read first.
+// Copies an object and reports an error. Reads the key first, because the type function may change the table.
 CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
   const uint32_t key = part.obj.Key;
   const CO_ERR err = copy_by_type(node, frame, part, direction);
@@ -236,7 +239,7 @@ CO_ERR copy_or_report(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Directi
   return err;
 }
 
-// What a type function may change ends it: the PDO, or the numbers of the entries.
+// Returns whether a type function has ended the PDO or renumbered the entries.
 bool is_over(const CO_NODE& node, const CO_PDO_MAP& map) { return !has(map, served) || is_numbered_anew(node); }
 
 CO_ERR copy_by_types(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction) {
@@ -292,7 +295,7 @@ CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy auth
 Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author) {
   const Direction direction = direction_of(index);
   unsigned bits = 0;
-  uint8_t fitting = 0;  // entries that lie in the frame completely
+  uint8_t fitting = 0;  // entries that fit completely into the frame
   bool plain = copies;
   map.Length = 0;
   mpdo::set_mode(map, 0);

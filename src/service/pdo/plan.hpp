@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a PDO holds: a mapping of the dictionary, resolved into steps, and the copies that they stand for.
+// Resolved PDO mappings: the mapping entries of a PDO, the copies that they require, and the copying itself.
 #pragma once
 
 #include "co_core.h"
@@ -14,9 +14,10 @@ enum class Direction : uint8_t { receive, transmit };
 // mapped object needs besides R or W: flag P if the network maps it, none if the designer does.
 enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
-// Of CO_PDO_MAP.Flags; the others belong to the PDO.
-constexpr uint8_t passed = 0x40;  // sent or received since the application has asked
-constexpr uint8_t served = 0x80;  // being sent or received; cleared by whatever changes the PDO, or ends Operational
+// Bits of CO_PDO_MAP.Flags; tpdo.cpp and rpdo.cpp define the others.
+constexpr uint8_t passed = 0x40;  // sent or received since the application has read it
+// The PDO is being sent or received; cleared when the PDO is changed or Operational ends.
+constexpr uint8_t served = 0x80;
 
 [[nodiscard]] inline bool has(const CO_PDO_MAP& map, unsigned flags) { return (map.Flags & flags) != 0; }
 inline void set(CO_PDO_MAP& map, unsigned flags) { map.Flags = static_cast<uint8_t>(map.Flags | flags); }
@@ -24,7 +25,7 @@ inline void clear(CO_PDO_MAP& map, unsigned flags) { map.Flags = static_cast<uin
 
 [[nodiscard]] inline bool exists(const CO_PDO_MAP& map) { return map.Length != 0; }
 
-// Bytes of the frame.
+// Returns the length of the frame in bytes.
 [[nodiscard]] inline uint8_t length_of(const CO_PDO_MAP& map) {
   return USE_PDO_BITS != 0 ? static_cast<uint8_t>((map.Length + 7U) / 8U) : map.Length;
 }
@@ -35,10 +36,10 @@ constexpr Direction direction_of(unsigned index) {
   return (index & of_tpdo) != 0 ? Direction::transmit : Direction::receive;
 }
 
-// The number that an entry holds; what it is without one, or with one of another width. width: bytes, up to 4
+// Returns the number in an entry; otherwise if there is no entry, or one with another width. width: bytes, up to 4
 [[nodiscard]] uint32_t read_number(CO_NODE& node, uint32_t key, uint32_t width, uint32_t otherwise);
 
-// May the object that a mapping entry names be mapped so? [301:7.4.7, 7.5.2.36]
+// Returns whether a mapping value is allowed. [301:7.4.7, 7.5.2.36]
 [[nodiscard]] CO_ERR check(CO_NODE& node, Direction direction, uint32_t mapping, MappedBy author);
 
 // Outcome of resolving a mapping.
@@ -47,10 +48,10 @@ struct Resolved {
   uint8_t sub;  // sub-index of the entry with the error; 0: their number is wrong, or there is no error
 };
 
-// Resolves num entries of the mapping at index (1600h…, 1A00h…). Only a map that is resolved gets a length.
+// Resolves num entries of the mapping at index (1600h…, 1A00h…). Sets map.Length only on success.
 [[nodiscard]] Resolved resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map, MappedBy author);
 
-// Holds CO_NODE_EXT.OdLock while it lives.
+// Scope in which CO_NODE_EXT.OdLock is held. Scopes may nest.
 class Lock {
  public:
   explicit Lock(CO_NODE& node) : node_(node) {
@@ -73,39 +74,40 @@ class Lock {
 // Copying ------------------------------------------------------------------------------------------------------------
 
 constexpr bool maps_bits = USE_PDO_BITS != 0;
-constexpr uint8_t one_byte = maps_bits ? 8 : 1;  // in units of CO_PDO_MAP.Length and Step
-constexpr uint8_t by_type = 0x80;                // in Step
-constexpr uint8_t shifted = maps_bits ? 1 : 16;  // in Step of a number: it is not aligned in the frame
+constexpr uint8_t one_byte = maps_bits ? 8 : 1;  // unit of CO_PDO_MAP.Length and Step
+constexpr uint8_t by_type = 0x80;                // bit of Step[0]: objects are copied by their types
+constexpr uint8_t shifted = maps_bits ? 1 : 16;  // bit of Step: the number is not aligned in the frame
 
 typedef volatile uint32_t Word __attribute__((may_alias));
 typedef volatile uint16_t Half __attribute__((may_alias));
 
-// The 8 bytes of a frame, to or from where they are kept: both lie aligned.
+// Copies the 8 bytes of a frame to or from a buffer; both are aligned.
 inline void copy_data(uint8_t* to, const uint8_t* from) {
   wire::put_aligned(to, wire::get_aligned(from));
   wire::put_aligned(to + sizeof(Word), wire::get_aligned(from + sizeof(Word)));
 }
 
-// Copies the data of a frame into the objects of a PDO that is served, or the objects into a frame, while they are
-// locked. What cannot be written is the node's error, and the rest is written all the same; a TPDO is read as a whole,
-// or what the type has answered is returned. CO_ERR_TPDO_COM_OBJ: something has changed the PDO meanwhile, what was
-// left of it is not copied.
+// Copies the data of a frame into the objects of a PDO that is being served, or the objects into a frame, with OdLock
+// held. RPDO: objects that cannot be written become the node's error, the others are written. TPDO: returns the error
+// of an object that cannot be read. CO_ERR_TPDO_COM_OBJ: the PDO was changed meanwhile, the remaining objects are not
+// copied.
 [[nodiscard]] CO_ERR copy_objects(CO_NODE& node, const CO_PDO_MAP& map, CO_IF_FRM& frame, Direction direction);
 
 [[nodiscard]] inline uint16_t number_of(const CO_NODE& node, const CO_OBJ& obj) {
   return static_cast<uint16_t>(&obj - node.Dict.Root);
 }
 
-// Place of an entry in the mapping, or CO_PDO_MAP_N.
+// Returns the place of an entry in the mapping, or CO_PDO_MAP_N.
 [[nodiscard]] unsigned find(const CO_PDO_MAP& map, uint16_t entry);
 
-// Of many PDOs most are known at a glance.
+// Returns whether the PDO maps an entry. Span is a cheap pre-filter: it rejects most PDOs without reading their
+// mapping.
 [[nodiscard, gnu::always_inline]] inline bool maps(const CO_PDO_MAP& map, uint16_t entry) {
   const auto behind = static_cast<uint16_t>(entry - map.Entry[0]);
   return behind >> map.Span == 0 && find(map, entry) != CO_PDO_MAP_N;
 }
 
-// It has passed, with every object. Asking forgets it.
+// Marks the PDO and all its objects as sent or received. has_passed() returns and clears the mark.
 inline void pass(CO_PDO_MAP& map) {
   __builtin_memset(map.Passed, 0xFF, sizeof map.Passed);
   set(map, passed);

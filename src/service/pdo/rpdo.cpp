@@ -19,28 +19,28 @@ namespace {
 
 using event::Fault;
 
-// Of CO_PDO_MAP.Flags, beside those of plan.hpp.
+// Bits of CO_PDO_MAP.Flags, in addition to those of plan.hpp.
 enum Flag : uint8_t {
-  queued = 0x01,     // it is in the list of those that wait for the SYNC
-  fresh = 0x02,      // queued, and Data has not been written yet
-  too_short = 0x04,  // reported
-  too_long = 0x08,   // reported
-  late = 0x10,       // reported
-  unknown = 0x20,    // reported: the frame names no object
+  queued = 0x01,     // the PDO is in the list of RPDOs that wait for the SYNC
+  fresh = 0x02,      // queued, and Data was not written to the objects yet
+  too_short = 0x04,  // pdo_short is raised
+  too_long = 0x08,   // pdo_long is raised
+  late = 0x10,       // pdo_timeout is raised
+  unknown = 0x20,    // pdo_unknown is raised: the frame names no object
 };
 constexpr unsigned reported = too_short | too_long | late | unknown;
 
 static_assert(offsetof(CO_RPDO, Own.Data) % sizeof(Word) == 0);
 
-// Links of the list are numbers from 1.
+// Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
 CO_RPDO& at(CO_NODE& node, uint16_t link) { return node.RPdo[link - 1]; }
 uint16_t link_of(const CO_RPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo.Node->RPdo + 1); }
 
-// RPDOs know no remote requests.
+// Returns whether an RPDO is synchronous. Types 252 and 253 (remote requests) are not possible.
 bool is_synchronous(const CO_RPDO& pdo) { return USE_SYNC != 0 && pdo.Type <= last_synchronous_type; }
 
-// Faults of the flags from too_short on.
+// Faults of the flags from too_short on, in this order.
 constexpr Fault faults[] = {
     Fault::pdo_short,
     Fault::pdo_long,
@@ -50,8 +50,8 @@ constexpr Fault faults[] = {
 #endif
 };
 
-// Of the faults that flags name those in is are there, and the others are not. Each is reported once, and gone once,
-// with the number of the PDO, from 1 (255 for all above). Callbacks may end the PDO.
+// Raises or resolves the faults in flags, so that those in is are raised and the others are not. Each change is
+// reported once, with the number of the PDO from 1 (255 for all numbers above). Callbacks may end the PDO.
 void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
   unsigned flag = too_short;
   for (const Fault fault : faults) {
@@ -74,7 +74,7 @@ void watch(CO_RPDO& pdo) {
   report(pdo, late, 0);  // its callbacks may end the PDO
 }
 
-// A frame longer than the mapping is taken. [301:7.2.7.1 table 26]
+// Returns false if the frame is too short. A longer frame is processed. [301:7.2.7.1 table 26]
 bool check_length(CO_RPDO& pdo, unsigned length) {
   const unsigned mapped = length_of(pdo.Map);
   if (length == mapped && !has(pdo.Map, too_short | too_long)) {
@@ -88,7 +88,7 @@ bool check_length(CO_RPDO& pdo, unsigned length) {
   return true;
 }
 
-// Keeps the data; the last that comes before the SYNC counts.
+// Stores the data until the SYNC; the last frame before the SYNC is used.
 void keep(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   copy_data(pdo.Own.Data, frame.Data);
@@ -109,7 +109,7 @@ void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
   }
 }
 
-// What a multiplex PDO writes is told by the frame. False: there is nothing to be written.
+// Writes the object that the frame of a multiplex PDO names. Returns false if there is none.
 bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_FRM& frame) {
 #if USE_MPDO
   CO_NODE& node = *pdo.Node;
@@ -144,7 +144,8 @@ void forget_kept(CO_NODE& node) {
   node.RPdoFirst = none;
 }
 
-// Both are called while nothing else of the list can change: frames and resets wait.
+// Calls the callbacks of the RPDOs that were written at the SYNC. The list cannot change meanwhile, because frames and
+// resets are deferred.
 void tell(CO_NODE& node, uint16_t first) {
   for (uint16_t link = first; link != none;) {
     CO_RPDO& pdo = at(node, link);
@@ -158,12 +159,13 @@ void tell(CO_NODE& node, uint16_t first) {
   }
 }
 
-// While the bit rate is switched, no RPDO is applied.
+// Returns whether the bit rate is being switched: RPDOs are ignored then.
 bool is_switching([[maybe_unused]] const CO_NODE& node) {
   return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.Held != 0;
 }
 
-// The application may end Operational meanwhile, or the PDO. False: the frame is too short.
+// Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short or of the
+// wrong kind.
 [[gnu::noinline]] bool take(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
     return true;
@@ -198,7 +200,7 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
 
 }  // namespace
 
-// Nothing is expected any more, and what was reported is over.
+// Stops the deadline and resolves all faults.
 void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
   tmr::stop(node.Tmr, pdo.Tmr);
   clear(pdo.Map, served);
@@ -237,7 +239,7 @@ void on_mode_rpdos(CO_NODE& node) {
 
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return take(node, node.RPdo[number], frame); }
 
-// All of one SYNC together.
+// Writes all synchronous RPDOs of one SYNC with OdLock held.
 void apply(CO_NODE& node) {
   const uint16_t first = node.RPdoFirst;
   if (first == none) {

@@ -19,20 +19,20 @@
 namespace co::pdo {
 namespace {
 
-// Of CO_PDO_MAP.Flags, beside those of plan.hpp.
+// Bits of CO_PDO_MAP.Flags, in addition to those of plan.hpp.
 enum Flag : uint8_t {
-  pending = 0x01,    // an event waits for the end of the inhibit time, or for the SYNC
-  inhibited = 0x02,  // event-driven: the timer runs for the inhibit time
-  sampled = 0x02,    // synchronous: Data holds what was sampled at the last SYNC
-  starts = 0x04,     // it has a SYNC start value
-  waiting = 0x08,    // for that SYNC, whose number Count holds
-  remote = 0x10,     // may be asked for
-  touched = 0x20,    // an object has changed while objects were locked
+  pending = 0x01,    // an event is deferred until the inhibit time has elapsed, or until the SYNC
+  inhibited = 0x02,  // event-driven: the inhibit time is running
+  sampled = 0x02,    // synchronous: Data holds the sample of the last SYNC
+  starts = 0x04,     // the PDO has a SYNC start value
+  waiting = 0x08,    // the SYNC start value, in Count, was not reached yet
+  remote = 0x10,     // remote requests are allowed
+  touched = 0x20,    // an object was changed while OdLock was held
 };
 
 static_assert(offsetof(CO_TPDO, Own) % sizeof(Word) == 0);
 
-// Links of the list are numbers from 1.
+// Links of the list are PDO numbers from 1.
 constexpr uint16_t none = 0;
 CO_TPDO& at(CO_NODE& node, uint16_t link) { return node.TPdo[link - 1]; }
 
@@ -40,16 +40,17 @@ uint16_t number_of(const CO_TPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo
 
 bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
 
-// Are remote requests answered with what was sampled at the last SYNC?
+// Returns whether remote requests are answered with the sample of the last SYNC.
 bool is_kept(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
 
-// Nothing replaces what waits of a multiplex PDO: it may be another object.
+// Queues a frame. A queued frame of a multiplex PDO is not replaced by a newer one, because it may contain another
+// object.
 bool give(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   return mpdo::is_one(pdo.Map) ? transmit::send_for_application(node, frame) : transmit::send_process_data(node, frame);
 }
 
-// The application has ended Operational meanwhile, or the PDO.
+// Returns why a PDO was not sent: the application has ended Operational, or changed the PDO, meanwhile.
 CO_ERR end_of(const CO_TPDO& pdo) { return is_operational(*pdo.Node) ? CO_ERR_TPDO_COM_OBJ : CO_ERR_NMT_MODE; }
 
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
@@ -89,8 +90,8 @@ CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
   return err;
 }
 
-// The objects that wait, each at most once, or one of them where there is an inhibit time. They go on when nothing else
-// waits for the controller.
+// Sends the pending objects of the scanner list, each at most once; with an inhibit time only one of them. Continues
+// only while the transmit queue is empty.
 CO_ERR send_scanned(CO_TPDO& pdo) {
   CO_NODE& node = *pdo.Node;
   const bool all = pdo.Own.Time.Inhibit == 0;
@@ -113,7 +114,7 @@ CO_ERR send_scanned(CO_TPDO& pdo) {
 }
 #endif
 
-// What a PDO that is served is for. What was sampled at the last SYNC answers remote requests until the next one.
+// Purpose of serve(). A sample is kept for remote requests until the next SYNC.
 enum class Use : uint8_t { sample, send, send_sampled };
 
 CO_ERR serve(CO_TPDO& pdo, Use use) {
@@ -129,7 +130,7 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
     if (!has(pdo.Map, served)) {
       return end_of(pdo);
     }
-    if (err == CO_ERR_TPDO_COM_OBJ) {  // an object's error has been reported with the key of the object
+    if (err == CO_ERR_TPDO_COM_OBJ) {  // the error of an object was already reported with the object's key
       error::report(*pdo.Node, err);
     }
     return err;
@@ -144,8 +145,8 @@ void on_time(void* pdo_pointer);
 
 void start(CO_TPDO& pdo, uint32_t ticks) { tmr::start(pdo.Node->Tmr, pdo.Tmr, ticks, 0, on_time, &pdo); }
 
-// The times of an event-driven PDO begin with each transmission. The event time of one that the timer has asked for
-// began when the timer elapsed, so that nothing drifts; an inhibit time never begins before the transmission.
+// Restarts the inhibit or event time after a transmission. by_timer: the event time starts at the expiry of the timer,
+// so that it does not drift; an inhibit time never starts before the transmission.
 void restart(CO_TPDO& pdo, bool by_timer) {
   const CO_TPDO_TIMES& time = pdo.Own.Time;
   if (time.Inhibit != 0) {
@@ -160,8 +161,8 @@ void restart(CO_TPDO& pdo, bool by_timer) {
   }
 }
 
-// What cannot be sent now is not sent later, but the event timer goes on. An event for the PDO that comes from its own
-// callback is part of it.
+// Sends an event-driven PDO. On an error nothing is sent later, but the event timer is restarted. Events for this PDO
+// from its own callbacks are ignored while it is being sent.
 CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
   set(pdo.Map, served | inhibited);
   const CO_ERR err = serve(pdo, Use::send);
@@ -175,7 +176,7 @@ CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
   return err;
 }
 
-// Is the event time, once the inhibit time is?
+// Returns whether the event time has elapsed when the inhibit time has.
 bool is_over(const CO_TPDO_TIMES& time) { return time.Event != 0 && time.Event <= time.Inhibit; }
 
 void end_inhibit(CO_TPDO& pdo) {
@@ -202,7 +203,7 @@ void on_time(void* pdo_pointer) {
   settle_touched(*pdo.Node);
 }
 
-// An event inside the inhibit time is kept. [301:7.2.2.6]
+// Sends the PDO, or defers the event while the inhibit time is running. [301:7.2.2.6]
 CO_ERR take_event(CO_TPDO& pdo) {
   if (!has(pdo.Map, inhibited)) {
     return send_event(pdo, false);
@@ -236,7 +237,7 @@ bool has_counter([[maybe_unused]] const CO_NODE& node) {
 #endif
 }
 
-// Is this the SYNC that it is sent with? The one with the start value counts as the first. [301:7.5.2.37]
+// Returns whether the PDO is sent with this SYNC. The SYNC with the start value counts as the first one. [301:7.5.2.37]
 bool counts(CO_TPDO& pdo, uint8_t counter) {
   const bool is_waiting = has(pdo.Map, waiting);
   if (has(pdo.Map, starts) && has_counter(*pdo.Node) && (counter == 0 || (is_waiting && counter != pdo.Count))) {
@@ -258,7 +259,8 @@ bool counts(CO_TPDO& pdo, uint8_t counter) {
   return true;
 }
 
-// It may just have become another one. What Read functions change of the PDO itself is part of it.
+// Processes a SYNC. A callback may have changed the transmission type meanwhile. Changes of mapped objects by their
+// Read functions trigger no further transmission of this PDO.
 void take_sync(CO_TPDO& pdo, uint8_t counter) {
   if (!is_synchronous(pdo.Type)) {
     return;
@@ -276,7 +278,7 @@ void take_sync(CO_TPDO& pdo, uint8_t counter) {
   }
 }
 
-// Has the PDO this entry? In a scanner list it waits from now on.
+// Returns whether the PDO maps this entry. In a scanner list the object is also marked as pending.
 bool takes(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
@@ -294,7 +296,7 @@ void take_touched(CO_TPDO& pdo) {
   }
 }
 
-// The list of synchronous PDOs is in the order of their numbers.
+// Finds the link to a PDO in the list of synchronous TPDOs, which is ordered by number.
 uint16_t& find_link(CO_NODE& node, uint16_t to) {
   uint16_t* link = &node.TPdoFirst;
   while (*link != none && *link < to) {
@@ -314,7 +316,7 @@ void list(CO_NODE& node, unsigned number, bool listed) {
   }
 }
 
-// Enters Operational, or the PDO comes into being there.
+// Starts a PDO: when Operational is entered, or when the PDO is configured in Operational.
 void begin(CO_TPDO& pdo) {
   constexpr auto lasting = static_cast<uint8_t>(remote | passed);
   if (!exists(pdo.Map)) {
@@ -394,7 +396,7 @@ void on_mode_tpdos(CO_NODE& node) {
   settle_touched(node);
 }
 
-// [301:7.2.2.5.3]
+// Answers a remote request. [301:7.2.2.5.3]
 bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
   CO_TPDO& pdo = node.TPdo[number];
   if (USE_PDO_RTR == 0) {
@@ -443,7 +445,8 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
   return all;
 }
 
-// What Read functions change meanwhile is sent, too; what is changed by that waits for the next event.
+// Sends the TPDOs of touched objects. Changes by their Read functions are sent in a second round; changes in that round
+// wait for the next event.
 void send_touched(CO_NODE& node) {
   constexpr unsigned rounds = 2;
   for (unsigned round = 0; round < rounds && node.Touched != 0 && node.OdLocked == 0; ++round) {

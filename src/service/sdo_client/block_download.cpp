@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block download: the segments come out of the caller's buffer. [301:7.2.4.3.9-11]
+// Block download: segments are read from the caller's buffer. [301:7.2.4.3.9-11]
 #include "core/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 
@@ -12,7 +12,7 @@ void begin_block(CO_CSDO& client, uint8_t blksize) {
   clear(client, last_sent);
 }
 
-// Num never goes beyond Size.
+// Counts acknowledged segments; Num never exceeds Size.
 void count_acknowledged(CO_CSDO& client, uint32_t segments) {
   const uint32_t left = client.Size - client.Num;
   const uint32_t n = segments * wire::segment_bytes < left ? segments * wire::segment_bytes : left;
@@ -22,7 +22,8 @@ void count_acknowledged(CO_CSDO& client, uint32_t segments) {
   client.Num += n;
 }
 
-// A server that has waited for the segments of this block acknowledges those of the last one again.
+// Returns whether an acknowledge repeats that of the previous block: the server has waited too long for segments of
+// this one.
 bool is_of_block_before(const CO_CSDO& client) {
   const bool is_whole = client.Seq == client.BlkSize || has(client, last_sent);
   return client.Num != 0 && !is_whole;
@@ -58,7 +59,7 @@ uint32_t block_download_accepted(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t blksize = step.response.Data[4];
   step.silent = true;
-  if (state_of(client) == State::block_download) {  // repeated by a server that has waited for the segments
+  if (state_of(client) == State::block_download) {  // repeated by a server that has waited too long for segments
     return no_abort;
   }
   if (!wire::is_blksize(blksize)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block upload: the segments go straight into the caller's buffer. [301:7.2.4.3.13-15]
+// Block upload: segments are stored directly in the caller's buffer. [301:7.2.4.3.13-15]
 #include "service/sdo_client/transfer.hpp"
 
 namespace co::sdo_client {
@@ -23,7 +23,7 @@ void count_bytes(CO_CSDO& client, uint32_t n) {
   client.Num += n;
 }
 
-// How many bytes of the last segment are data is known at the end only.
+// Stores a segment. The number of data bytes in the last segment is known only from the end message.
 uint32_t take(CO_CSDO& client, const CO_IF_FRM& segment) {
   const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
   const uint32_t room = client.Size - position;
@@ -39,7 +39,7 @@ uint32_t take(CO_CSDO& client, const CO_IF_FRM& segment) {
   return no_abort;
 }
 
-// The server goes on behind the last segment that has arrived in order.
+// Acknowledges the segments in sequence: the server continues behind the last of them.
 void end_block(CO_CSDO& client, CO_IF_FRM& request) {
   client.AckSeq = client.Seq;
   put_acknowledge(client, request);
@@ -47,7 +47,7 @@ void end_block(CO_CSDO& client, CO_IF_FRM& request) {
   begin_block(client);
 }
 
-// The same behind the last segment of all. Its bytes are counted at the end.
+// Acknowledges the last block. The bytes of its last segment are counted at the end of the transfer.
 void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
   client.AckSeq = client.Seq;
   put_acknowledge(client, request);
@@ -56,13 +56,13 @@ void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
   set_state(client, State::block_upload_end);
 }
 
-// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
-// others are lost, then the client is silent for a while and asks for them.
+// Returns whether a frame that ends a block is the repeated end of the previous block. If instead all other segments of
+// the block were lost, the client does not respond and sends the acknowledge again after a part of the time-out.
 bool is_repeated(const CO_CSDO& client, uint8_t number) {
   return number > 1 && client.AckSeq != 0 && !has(client, heard);
 }
 
-// The last segment of some objects looks like their end.
+// Returns whether a frame is a valid end message. The last segment of some objects has the same form.
 bool is_right_end(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const uint32_t n = wire::segment_bytes - wire::unused_in_block(frame.Data[0]);
   return wire::response_of(frame.Data[0]) == wire::Response::end_block_upload && n <= client.Size - client.Num &&

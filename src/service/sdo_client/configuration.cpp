@@ -15,14 +15,14 @@ struct Configuration {
   uint32_t tx_id;
   uint32_t rx_id;
   uint8_t node_id;
-  CO_CSDO_STATE state;  // idle: there is a server
+  CO_CSDO_STATE state;  // idle: the client is configured
 };
 
 bool are_bases(uint32_t tx, uint32_t rx) {
   return tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
 }
 
-// The own dictionary needs no identifiers.
+// Reads 1280h + number. An access to the own dictionary has no identifiers.
 Configuration read_configuration(CO_NODE& node, uint16_t number) {
   constexpr uint8_t last_node_id = 127;
   Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
@@ -54,7 +54,7 @@ uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client
 
 void take_configuration(CO_CSDO& client, const Configuration& found) {
   CO_NODE& node = *client.Node;
-  if (client.TxId != found.tx_id) {  // an abort that waits keeps the old one
+  if (client.TxId != found.tx_id) {  // an abort in the transmit queue keeps the previous identifier
     transmit::withdraw(node, client.WasTxId);
     client.WasTxId = client.TxId;
     client.TxId = found.tx_id;
@@ -65,7 +65,7 @@ void take_configuration(CO_CSDO& client, const Configuration& found) {
   routes::change(node, found.rx_id, routes::Service::sdo_client, number_of(client));
 }
 
-// True: something has changed. The callback of a transfer that ends may have configured the client already.
+// Returns whether something has changed. The callback of an ended transfer may already have configured the client.
 bool configure_client(CO_CSDO& client) {
   if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
     return false;

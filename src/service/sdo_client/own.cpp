@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client whose server is the own node: the dictionary with the rights of the network, and without the network.
+// Access of an SDO client to the dictionary of its own node, with the rights of the network, without frames.
 #include "core/access.hpp"
 #include "object/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
@@ -9,7 +9,8 @@ namespace {
 
 bool is_value(const CO_OBJ& obj, uint32_t size) { return !obj::is_stream(obj) && size <= sizeof(uint64_t); }
 
-// What is left of a stream of unknown size once the buffer is full: nothing, or it does not fit.
+// Determines the final size of a stream of unknown size when the buffer is full. A stream that has further bytes does
+// not fit.
 CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
   size = obj::size(obj, node, 0);
   if (!obj::is_unknown(size)) {
@@ -73,7 +74,7 @@ uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
   return !obj::is_unknown(size) && size > client.Size ? CO_SDO_ERR_MEM : no_abort;
 }
 
-// The checks before the type is told.
+// Checks the length before the type's Begin function is called.
 uint32_t check_size(CO_CSDO& client, CO_OBJ& obj, uint32_t& size) {
   if (has(client, is_upload)) {
     size = obj::size(obj, *client.Node, 0);
@@ -102,7 +103,7 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
 
 }  // namespace
 
-// A type function of another transfer may have led here.
+// Accesses the object. Nested, because a type function of another transfer may have caused the call.
 uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;

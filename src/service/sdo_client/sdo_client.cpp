@@ -13,7 +13,7 @@
 namespace co::sdo_client {
 namespace {
 
-// A quarter of the time-out is what the client listens at a time in a block upload.
+// In a block upload the timer runs for a quarter of the time-out at a time.
 constexpr uint32_t quarters = 4;
 constexpr uint8_t reminder_quarter = 2;
 
@@ -32,7 +32,7 @@ void await(CO_CSDO& client) {
   tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
 }
 
-// Must be last: the callback may start the next transfer.
+// Must be the last action: the callback may start the next transfer.
 void finish(CO_CSDO& client, uint32_t code) {
   if (state_of(client) == State::own_served) {
     set_state(client, State::own_ended);
@@ -48,7 +48,8 @@ void finish(CO_CSDO& client, uint32_t code) {
   client.Call(&client, CO_GET_IDX(key), CO_GET_SUB(key), code);
 }
 
-// A server that has stopped in the middle of a block may have lost the acknowledge, or the client its last segment.
+// Handles a quarter without segments. A server that stops within a block may have lost the acknowledge, or the client
+// may have lost the last segment of the block.
 void listen_on(CO_CSDO& client) {
   client.Silence = has(client, active) ? 0 : static_cast<uint8_t>(client.Silence + 1);
   if (client.Silence == quarters) {
@@ -62,7 +63,8 @@ void listen_on(CO_CSDO& client) {
   await(client);
 }
 
-// What type functions ask for waits until the access is over; a change of the NMT state has ended it already.
+// Accesses the own dictionary. Requests of type functions are deferred until the access is complete; a change of the
+// NMT state may have ended the transfer meanwhile.
 void take_turn(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const event::Serving serving(node);
@@ -86,7 +88,7 @@ void on_time(void* client_pointer) {
 
 uint32_t refuse_response(Step&) { return CO_SDO_ERR_CMD; }
 
-// Block transfer is optional for servers; the others are not.
+// Returns whether the server does not support block transfer, which is optional for servers.
 bool is_block_refused(const Step& step) {
   const uint32_t code = wire::get_high(step.response);
   const uint32_t asked = in(State::block_download_initiated, State::block_upload_initiated);
@@ -136,12 +138,12 @@ constexpr Row<Response, Service> rows[] = {
 
 constexpr Machine<State, rows> machine(refuse_response);
 
-// An answer that names another object belongs to an older transfer.
+// Returns whether the response to an initiate request names another object: it belongs to a previous transfer.
 bool is_for_another(const CO_CSDO& client, const CO_IF_FRM& frame) {
   return (in(state_of(client)) & initiated) != 0 && wire::multiplexer(frame) != client.Key;
 }
 
-// Segments of a block look like anything; the state tells them.
+// Returns the kind of a response. Segments of a block have no command specifier: the state decides.
 Response response_in(const CO_CSDO& client, const CO_IF_FRM& frame) {
   const bool in_block =
       USE_SDO_BLOCK != 0 && (state_of(client) == State::block_upload ||
@@ -161,7 +163,7 @@ CO_ERR send_initiate(CO_CSDO& client) {
   return CO_ERR_NONE;
 }
 
-// A timer does it, so that the callback never comes before the request has returned.
+// Starts the access by a timer, so that the callback never runs before the request function has returned.
 void queue_own(CO_CSDO& client) {
   client.Num = 0;
   client.Total = has(client, is_upload) ? 0 : client.Size;
@@ -169,7 +171,7 @@ void queue_own(CO_CSDO& client) {
   tmr::start(client.Node->Tmr, client.Tmr, 1, 0, on_time, &client);
 }
 
-// What the timer cannot count is longer than anybody waits.
+// Converts the time-out to ticks. Time-outs beyond the timer's range are limited to the longest time.
 uint32_t ticks(const CO_NODE& node, uint32_t timeout) {
   const uint32_t ticks = tmr::ticks(node.Tmr, timeout, CO_TMR_UNIT_1MS);
   return timeout != 0 && ticks == 0 ? UINT32_MAX : ticks;
@@ -213,7 +215,7 @@ CO_ERR request(CO_CSDO* client, uint32_t key, uint8_t* buf, uint32_t size, CO_CS
   return start(*client, timeout);
 }
 
-// Returns whether it has sent any.
+// Returns whether any segment was sent.
 bool send_segments(CO_CSDO& client) {
   bool sent = false;
   while (send_segment(client)) {
@@ -222,7 +224,7 @@ bool send_segments(CO_CSDO& client) {
   return sent;
 }
 
-// Not inlined: a client by itself lies within reach of short loads.
+// Not inlined: relative to a pointer to the client, all members are reached by short loads.
 [[gnu::noinline]] void take(CO_CSDO& client, const CO_IF_FRM& response) {
   CO_IF_FRM request = wire::empty_frame(client.TxId);
   Step step = {client, response, request, false, false, no_abort};
@@ -293,7 +295,7 @@ void init(CO_NODE& node) {
   configure(node);
 }
 
-// An idle client hears what others, on the same COB-IDs, are answered, and what comes late.
+// An idle client ignores frames: responses to other clients with the same COB-IDs, and late responses.
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   const bool well_formed = frame.DLC == wire::sdo_dlc;
   CO_CSDO& client = node.CSdo[number];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A transfer of one client: what the services of the machine share.
+// State and helper functions of a client transfer, shared by the services of the state machine.
 #pragma once
 
 #include "co_csdo.h"
@@ -9,43 +9,43 @@
 
 namespace co::sdo_client {
 
-// What the client waits for.
+// State of the protocol: the response that the client awaits.
 enum class State : uint8_t {
   idle,
-  own,         // its turn: the object is one of the own dictionary
-  own_served,  // a type function may be running: the callback comes afterwards
-  own_ended,   // the same, and the access is over: Ticks holds the code
+  own,         // access to the own dictionary is queued
+  own_served,  // type functions of that access may be running: the callback is deferred
+  own_ended,   // that access was ended meanwhile: Ticks holds the abort code
   download_initiated,
   download,
   upload_initiated,
   upload,
   block_download_initiated,
-  block_download,  // segments are sent, or all of a block are
+  block_download,  // segments are being sent, or await their acknowledge
   block_download_end,
   block_upload_initiated,
   block_upload,      // within a block
-  block_upload_end,  // all segments are there
+  block_upload_end,  // all segments have arrived
   count
 };
 
 // CO_CSDO.Flags
 enum Flag : uint8_t {
   is_upload = 0x01,
-  sized = 0x02,      // the server has told the size of an upload
+  sized = 0x02,      // the server has announced the size of an upload
   crc = 0x04,        // both sides support the CRC
-  heard = 0x08,      // block upload: a segment of the block has arrived
+  heard = 0x08,      // block upload: a segment of the current block has arrived
   active = 0x10,     // block upload: a segment has arrived since the timer was started
-  last_sent = 0x20,  // block download: the last segment of all was sent
+  last_sent = 0x20,  // block download: the last segment of the transfer was sent
 };
 
-// What a service of the machine works on: the client, the response and the next request in the making.
+// Context of a service of the state machine: the client, the response, and the next request.
 struct Step {
   CO_CSDO& client;
   const CO_IF_FRM& response;
   CO_IF_FRM& request;
-  bool silent;      // no request now
-  bool done;        // the request, if any, is the last
-  uint32_t result;  // when done
+  bool silent;      // no request is sent
+  bool done;        // the transfer is complete; the request, if any, is the last one
+  uint32_t result;  // abort code of the transfer, valid with done
 };
 
 inline State state_of(const CO_CSDO& client) { return static_cast<State>(client.Step); }
@@ -54,7 +54,7 @@ inline bool has(const CO_CSDO& client, Flag flag) { return (client.Flags & flag)
 inline void set(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags | flag); }
 inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8_t>(client.Flags & ~flag); }
 
-// The services of the machine. They return the abort code with which the client ends the transfer. [301:7.2.4.3]
+// Services of the state machine. They return the abort code with which the client ends the transfer. [301:7.2.4.3]
 [[nodiscard]] uint32_t download_accepted(Step& step);
 [[nodiscard]] uint32_t segment_downloaded(Step& step);
 [[nodiscard]] uint32_t upload_accepted(Step& step);
@@ -66,27 +66,29 @@ inline void clear(CO_CSDO& client, Flag flag) { client.Flags = static_cast<uint8
 [[nodiscard]] uint32_t block_segment_uploaded(Step& step);
 [[nodiscard]] uint32_t block_upload_ended(Step& step);
 
-// Takes the configuration anew, unless a transfer is going on.
+// Reads the configuration again, unless a transfer is in progress.
 void refresh(CO_CSDO& client);
 
-// Ends the transfer, and tells the server where it may. Must be last: the callback may start the next transfer.
+// Ends the transfer, and sends an abort to the server if SDO is allowed. Must be the last action: the callback may
+// start the next transfer.
 void abort_transfer(CO_CSDO& client, uint32_t code);
 
-// The first request of a transfer. by_block: if it is long enough.
+// Fills the first request of a transfer. by_block: requests a block transfer if the data are long enough.
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
-// The size that the server tells. Returns an abort code.
+// Stores the size that the server announces. Returns an abort code.
 [[nodiscard]] uint32_t take_size(Step& step);
-// Are these all bytes that the server has told of? Returns an abort code.
+// Compares a total length with the announced size. Returns an abort code.
 [[nodiscard]] uint32_t check_total(const CO_CSDO& client, uint32_t total);
 
-// Sends the next segment of a block download. False: there is none, or the controller does not take it.
+// Sends the next segment of a block download. Returns false if there is none, or the controller does not accept it.
 [[nodiscard]] bool send_segment(CO_CSDO& client);
 
-// Block upload: is this the last segment of all once more?
+// Block upload: returns whether the frame repeats the last segment of the transfer.
 [[nodiscard]] bool is_last_segment_again(const CO_CSDO& client, const CO_IF_FRM& frame);
 
-// Block upload: tells a server that has fallen silent what has arrived. False: nothing is to be told.
+// Block upload: fills a repeated acknowledge for a server that no longer sends. Returns false if there is nothing to
+// acknowledge.
 [[nodiscard]] bool put_reminder(CO_CSDO& client, CO_IF_FRM& request);
 
 // Reads or writes the own dictionary. Returns an abort code.

@@ -14,7 +14,7 @@ uint32_t append(CO_CSDO& client, const uint8_t* data, uint32_t n) {
   return no_abort;
 }
 
-// Without a size it has as many of the four bytes as the caller wants.
+// Stores expedited data. If the server indicates no size, the caller's buffer determines the length, up to 4 bytes.
 uint32_t take_expedited(Step& step) {
   CO_CSDO& client = step.client;
   const uint8_t command = step.response.Data[0];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block download. The segments of a block wait in the buffer; it is handed to the object when it is full, and at the
-// end, after length and CRC were found right. [301:7.2.4.3.9-11]
+// Block download. Segments are collected in the buffer, which is written to the object when it is full, and at the end
+// of the transfer after the checks of length and CRC. [301:7.2.4.3.9-11]
 #include "core/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
 
@@ -9,7 +9,7 @@
 namespace co::sdo_server {
 namespace {
 
-// A new block, of as many segments as fit into the buffer.
+// Starts a block of as many segments as fit into the buffer.
 void begin_block(CO_SDO& channel) {
   const auto room = static_cast<uint8_t>((CO_SDO_BUF_BYTE - channel.Fill) / wire::segment_bytes);
   channel.BlkSize = room != 0 ? room : CO_SDO_BUF_SEG;
@@ -23,7 +23,8 @@ void sum(CO_SDO& channel, uint32_t n) {
   }
 }
 
-// What is wrong with a segment is told at the end of the block: those behind it would else be taken for commands.
+// Stores a segment. Errors are reported at the end of the block, because the client's further segments could otherwise
+// be taken for commands.
 void keep(CO_SDO& channel, const CO_IF_FRM& segment) {
   const uint32_t least = wire::is_last_in_block(segment.Data[0]) ? 0 : wire::segment_bytes;
   if (channel.Fill + least > channel.Size - channel.Num) {
@@ -46,7 +47,7 @@ uint32_t hand_over(CO_SDO& channel, uint32_t n) {
   return abort;
 }
 
-// The buffer is full: room for the next block.
+// Writes the full buffer to the object.
 uint32_t empty_buffer(CO_SDO& channel) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
@@ -61,7 +62,7 @@ void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
   answer.Data[2] = channel.AckSize;
 }
 
-// The client goes on behind the last segment that has arrived in order.
+// Acknowledges the segments in sequence: the client continues behind the last of them.
 void acknowledge(CO_SDO& channel, CO_IF_FRM& answer) {
   channel.AckSeq = channel.Seq;
   begin_block(channel);
@@ -69,7 +70,7 @@ void acknowledge(CO_SDO& channel, CO_IF_FRM& answer) {
   put_acknowledge(channel, answer);
 }
 
-// The last segment of some objects looks like their end.
+// Returns whether a frame is a valid end message. The last segment of some objects has the same form.
 bool is_right_end(const CO_SDO& channel, const CO_IF_FRM& frame) {
   const uint32_t n = channel.Fill - wire::unused_in_block(frame.Data[0]);
   return wire::request_of(frame.Data[0]) == wire::Request::end_block_download &&
@@ -90,9 +91,10 @@ void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   answer.Data[4] = channel.BlkSize;
 }
 
-// Restarts the time-out for a segment in order, and for one behind a gap whose number is higher than all before: the
-// client is sending the rest of its block. A block of which nothing was in order allows that once only. So requests of
-// a client that polls, which look like segments, do not keep the transfer open, nor do data beyond its size.
+// Restarts the time-out for a segment in sequence, and for one behind a gap whose number is higher than all before,
+// because the client is sending the rest of its block. A block without any segment in sequence permits that only once.
+// Therefore neither repeated requests of a polling client, which look like segments, nor data beyond the size keep the
+// transfer open.
 void restart_time_out(CO_SDO& channel, unsigned number) {
   const bool in_order = number == channel.Seq + 1U && !has(channel, too_long);
   const bool nothing_acknowledged = channel.AckSize != 0 && channel.AckSeq == 0;
@@ -101,8 +103,8 @@ void restart_time_out(CO_SDO& channel, unsigned number) {
   }
 }
 
-// The end of a block that comes before anything else of the block is the repeated end of the block before; or all
-// others are lost, then the server is silent for a while and asks for them.
+// If the first segment of a block to arrive is its end, it is either the repeated end of the previous block, or all
+// other segments were lost. The server does not respond; it sends the acknowledge again after a part of the time-out.
 bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   const unsigned number = wire::seqno(segment.Data[0]);
   if (number - 1 >= channel.BlkSize || state_of(channel) != State::block_download) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block upload. The segments come out of the buffer, a window of the object that goes back when the client has lost
-// some. They are sent as the controller takes them. [301:7.2.4.3.13-15]
+// Block upload. The buffer holds a window of the object, which goes back when the client has lost segments. Segments
+// are sent as the controller accepts them. [301:7.2.4.3.13-15]
 #include "core/events.hpp"
 #include "core/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-// The CRC covers each byte once, also if the client has lost it.
+// Updates the CRC, which covers each byte once, even if it is sent again.
 void sum(CO_SDO& channel, uint32_t position) {
   if (channel.Read <= channel.Summed) {
     return;
@@ -24,7 +24,7 @@ void sum(CO_SDO& channel, uint32_t position) {
   channel.Summed = channel.Read;
 }
 
-// Lets the next call of CONodeProcess() or COTmrProcess() continue.
+// Pauses the transfer until the next call of CONodeProcess() or COTmrProcess().
 void pause(CO_NODE& node) {
   node.Paused = 1;
   node.Burst = CO_SDO_BLOCK_PACE;
@@ -35,7 +35,7 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
     return CO_SDO_ERR_TOS_STATE;
   }
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
-  __builtin_memset(buffer_of(channel), 0, n);  // what a type does not fill is not old data
+  __builtin_memset(buffer_of(channel), 0, n);  // clears bytes that the type may not fill
   const uint32_t abort = pass(channel, position, buffer_of(channel), n);
   if (abort == again) {
     channel.Fill = 0;
@@ -49,7 +49,8 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   return abort;
 }
 
-// Is the segment at the position in the buffer, or can it be read? Else abort says why, if SDO is still allowed.
+// Returns whether the segment at the position is in the buffer, after reading it if necessary. Otherwise abort is the
+// reason, if SDO is still allowed.
 bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
   if (channel.Read - position - 1 < channel.Fill || position >= channel.Size) {
     return true;
@@ -60,7 +61,7 @@ bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
   return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
 
-// The segment, of which so many bytes are in the buffer.
+// Fills a segment from the left bytes in the buffer.
 void fill(CO_IF_FRM& frame, const uint8_t* from, uint32_t left) {
   if (left >= wire::segment_bytes) {
     wire::copy_segment(frame.Data + 1, from);
@@ -99,7 +100,7 @@ uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_I
   if (!wire::is_blksize(request.Data[4])) {
     return CO_SDO_ERR_BLK_SIZE;
   }
-  // What cannot be read again has to fit into the buffer.
+  // Data that cannot be read again have to fit into the buffer.
   const bool can_go_back =
       obj::can_seek(obj) || channel.Size <= sizeof channel.Value || channel.Size <= CO_SDO_BUF_BYTE;
   return can_go_back || !is_worth_block(channel.Size, request) ? no_abort : CO_SDO_ERR_CMD;

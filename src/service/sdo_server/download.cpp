@@ -4,7 +4,7 @@
 namespace co::sdo_server {
 namespace {
 
-// Bytes that a download can have when the client does not say how many.
+// Returns the maximum number of bytes of a download whose size is not announced.
 uint32_t capacity(CO_NODE& node, CO_OBJ& obj) { return access::size(obj, node, obj::is_stream(obj) ? UINT32_MAX : 0); }
 
 uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request) {
@@ -26,7 +26,7 @@ uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& reque
   return abort == no_abort && is_told(channel) ? close(channel, no_abort) : abort;
 }
 
-// Takes the size that the client announces, or the most that the object can have.
+// Sets Size to the announced size, or to the maximum of the object.
 uint32_t take_size(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request, bool announced) {
   CO_NODE& node = *channel.Node;
   if (announced) {
@@ -116,7 +116,7 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
   if (wire::is_last_segment(command)) {
     tell_total(channel, n);
   }
-  CO_IF_FRM segment = request;  // a type function may change what it is given
+  CO_IF_FRM segment = request;  // a copy, because a type function may change its buffer
   abort = pass(channel, channel.Num, segment.Data + 1, n);
   channel.Num = channel.Read;
   answer.Data[0] = wire::download_segment_response(channel.Flags & toggled);

@@ -10,7 +10,7 @@
 namespace co::sdo_server {
 namespace {
 
-// An initiate download by block; the command is one of the four that initiate a transfer.
+// Returns whether an initiate request is a block download; the command is one of the four initiate requests.
 constexpr bool is_block_download(uint8_t command) { return command >= 0xC0; }
 static_assert(wire::request_of(0xC0) == wire::Request::initiate_block_download);
 static_assert(wire::request_of(0xA4) == wire::Request::initiate_block_upload);

@@ -14,7 +14,7 @@ using namespace co;
 
 bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
-// A client may have the COB-IDs of another node's default SDO server.
+// Returns whether a CAN-ID is allowed. A client may use the CAN-IDs of another node's default SDO server.
 bool may_use(const CO_OBJ& obj, uint32_t id) {
   constexpr uint16_t first_client = 0x1280;
   const bool of_client = CO_GET_IDX(obj.Key) >= first_client;

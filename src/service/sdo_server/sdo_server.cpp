@@ -21,7 +21,8 @@ uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& ans
 
 using wire::Request;
 
-// The abort names the transfer that it ends; without one, or where the request begins another, what the request names.
+// Aborts with the key of the open transfer; if there is none, or if the request initiates one, with the key in the
+// request.
 uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
   const Request command = wire::request_of(request.Data[0]);
   const bool begins = command == Request::initiate_block_download || command == Request::initiate_block_upload;
@@ -31,8 +32,8 @@ uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
   return CO_SDO_ERR_CMD;
 }
 
-// A new initiate in an open transfer drops that and is served: its client has started anew. [301:7.2.4.3] Within a
-// block of a download everything but an abort is a segment.
+// States in which an initiate request closes an open transfer and starts a new one. [301:7.2.4.3] Within a block of a
+// download every frame but an abort is a segment.
 constexpr uint32_t outside_block = in(State::idle, State::download, State::upload, State::block_download_end,
                                       State::block_upload_ready, State::block_upload, State::block_upload_end);
 
@@ -59,7 +60,7 @@ constexpr Row<Request, Service> rows[] = {
 
 constexpr Machine<State, rows> machine(refuse_command);
 
-// Segments of a block look like anything; the state tells them.
+// Returns whether a frame is a segment of a block download. Segments have no command specifier: the state decides.
 bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
   const State state = state_of(channel);
   return has_block && (state == State::block_download || state == State::block_download_end) &&
@@ -67,7 +68,7 @@ bool is_segment(const CO_SDO& channel, const CO_IF_FRM& frame) {
          (state == State::block_download || is_last_segment_again(channel, frame));
 }
 
-// The transfer is over, without an abort where SDO is no longer allowed.
+// Ends the transfer, without an abort if SDO is no longer allowed.
 void give_up(CO_SDO& channel, uint32_t abort) {
   CO_NODE& node = *channel.Node;
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
@@ -77,7 +78,7 @@ void give_up(CO_SDO& channel, uint32_t abort) {
   abort_transfer(channel, abort);
 }
 
-// A channel is busy while its type functions run: they may change the NMT state.
+// Runs a service. The channel is busy while type functions run, because they may change the NMT state.
 inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
@@ -94,7 +95,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) 
   }
 }
 
-// Not inlined: a channel by itself lies within reach of short loads.
+// Not inlined: relative to a pointer to the channel, all members are reached by short loads.
 [[gnu::noinline]] bool serve(CO_SDO& channel, const CO_IF_FRM& frame) {
   if (frame.DLC != wire::sdo_dlc) {
     return false;
@@ -118,7 +119,7 @@ uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
 }
 #endif
 
-// The identifier of an entry, or no_frame. Without one the default server has those that every node reserves for it.
+// Returns the identifier in an entry, or no_frame. Without an entry the default server uses the predefined identifiers.
 // [301:7.3.5]
 [[gnu::noinline]] uint32_t identifier(CO_NODE& node, uint16_t number, uint8_t sub, wire::CobId base) {
   const uint32_t cob_id =
@@ -139,7 +140,7 @@ void configure_channel(CO_NODE& node, uint16_t number) {
   }
   close(channel, CO_SDO_ERR_TOS_STATE);
   channel.RxId = rx_id;
-  if (channel.TxId != tx_id) {  // an answer that waits keeps the old one
+  if (channel.TxId != tx_id) {  // a response in the transmit queue keeps the previous identifier
     transmit::withdraw(node, channel.WasTxId);
     channel.WasTxId = channel.TxId;
     channel.TxId = tx_id;

@@ -36,8 +36,8 @@ void on_slice(void* node_pointer) {
   rest(node);
 }
 
-// The position of our own streams is set before each piece: the application may have used it in between. Types of the
-// application are reset at the beginning, and when an upload goes back.
+// Sets the position of a piece. Positions of library streams are set before each piece, because the application may
+// have used the object in between. Types of the application are reset at the begin, and when an upload goes back.
 [[gnu::always_inline]] inline CO_ERR seek_piece(const CO_SDO& channel, CO_OBJ& obj, uint32_t position) {
   if (obj.Type->Reset == stream::reset) {
     return stream::seek(obj, position);
@@ -45,7 +45,7 @@ void on_slice(void* node_pointer) {
   return position != channel.Read ? obj::seek(obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
-// A type that did not know its size may know it after a read, which may have filled only a part.
+// Updates the size after a Read of an object of unknown size, which may have filled only a part of the buffer.
 uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
@@ -62,7 +62,7 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   return no_abort;
 }
 
-// access::open() has seen that the type has the function.
+// Calls Read or Write; access::open() has checked that the type has the function.
 inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
   if (!has(channel, download)) {
@@ -75,7 +75,7 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
   return err;
 }
 
-// A type function of another transfer may have led here.
+// Calls the End function. Nested, because a type function of another transfer may have caused the call.
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
   const access::Nested nested(node, &obj);
@@ -100,7 +100,7 @@ void abort_transfer(CO_SDO& channel, uint32_t code) {
   close(channel, code);
 }
 
-// One timer watches all channels: a transfer ends after eight slices without a frame.
+// One timer supervises all channels: a transfer ends after eight slices without a frame.
 void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
   CO_NODE& node = *channel.Node;
   channel.Obj = &obj;
@@ -152,7 +152,7 @@ uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   return no_abort;
 }
 
-// Values are numbers in the byte order of the CPU for type functions, and in that of the bus everywhere else here.
+// Type functions access values in the byte order of the CPU; all other functions here use the byte order of the bus.
 uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   const bool swaps = !wire::host_is_little_endian && !obj::is_stream(obj);
   if (swaps && has(channel, download)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A transfer of one channel: what the services of the machine share.
+// State and helper functions of a server transfer, shared by the services of the state machine.
 #pragma once
 
 #include "core/access.hpp"
@@ -14,28 +14,28 @@ enum class State : uint8_t {
   download,
   upload,
   block_download,      // within a block
-  block_download_end,  // all segments are there
+  block_download_end,  // all segments have arrived
   block_upload_ready,  // initiated
-  block_upload,        // segments are sent, or all of a block are
-  block_upload_end,    // the last message of the server is sent
+  block_upload,        // segments are being sent, or await their acknowledge
+  block_upload_end,    // the end message was sent, its response is awaited
   count
 };
 
 // CO_SDO.Flags
 enum Flag : uint8_t {
-  sized = 0x01,      // the size of a download was announced
+  sized = 0x01,      // a value: collected in Value, read or written as a whole
   whole = 0x02,      // a value: collected in Value, read or written in one piece
-  too_long = 0x04,   // block download: more data than the object can have
+  too_long = 0x04,   // block download: more data than the object can hold
   download = 0x08,   // direction
-  toggled = 0x10,    // segmented transfer: toggle bit that is expected next, in place
+  toggled = 0x10,    // segmented transfer: toggle bit expected next, as in the frame
   crc = 0x20,        // both sides support the CRC
-  begun = 0x40,      // see is_told()
-  last_sent = 0x80,  // block upload: the last segment of all was sent
+  begun = 0x40,      // Begin was called: see is_told()
+  last_sent = 0x80,  // block upload: the last segment of the transfer was sent
 };
 
 inline constexpr bool has_block = USE_SDO_BLOCK != 0;
 
-// CO_SDO.Idle while a type function of the transfer may be running: it is closed afterwards only.
+// Value of CO_SDO.Idle while type functions of the transfer may be running: it is closed only after they have returned.
 inline constexpr uint8_t busy = 0xFF;
 
 inline State state_of(const CO_SDO& channel) { return static_cast<State>(channel.State); }
@@ -46,13 +46,13 @@ inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint
 
 static_assert(toggled == wire::toggle_bit);
 
-// Was the type told of the begin, and does it want to know the end?
+// Returns whether the type's Begin function was called, so that its End function has to be called.
 inline bool is_told(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
 
-// No answer at all, unless it gets its length again.
+// Suppresses the response. Setting the DLC again enables it.
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
-// The services of the machine: a request, and the answer in the making. They return an abort code. [301:7.2.4.3]
+// Services of the state machine. They process a request, fill the response, and return an abort code. [301:7.2.4.3]
 using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
@@ -66,18 +66,18 @@ using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FR
 [[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 [[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
-// Ends the transfer with an abort code, or no_abort: it is complete. The type is told; what it then answers to a
-// complete download is the result.
+// Ends the transfer with an abort code, or no_abort if it is complete. Calls the type's End function; its error for a
+// complete download is returned as abort code.
 uint32_t close(CO_SDO& channel, uint32_t code);
 
-// A new transfer, of the object that the request names; its client has given up the one before.
+// Starts a new transfer of the object in the request; a previous transfer of the client is closed.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
-// Asks the application whether the client may begin this transfer of an object that exists and has the access right.
-// Afterwards looks the object up again: the application may have changed the dictionary. Returns an abort code.
+// Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
+// Finds the object again afterwards, because the hook may have changed the dictionary. Returns an abort code.
 [[nodiscard]] uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request);
 
-// Calls restart() and makes the checks that every transfer begins with: object, access right, access hook. The object
+// Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
 // becomes node.Served. Returns an abort code.
 [[nodiscard]] inline uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
   restart(channel, request);
@@ -89,13 +89,13 @@ void restart(CO_SDO& channel, const CO_IF_FRM& request);
   return abort;
 }
 
-// The transfer of the object takes more than this frame: the time-out watches it.
+// Continues the transfer beyond this frame, supervised by the time-out.
 void go_on(CO_SDO& channel, CO_OBJ& obj, State state);
 
-// No time-out is needed when no transfer is open.
+// Stops the time-out timer if no transfer is open.
 void rest(CO_NODE& node);
 
-// The checks that every segment begins with. An entry that has left its place is lost.
+// Performs the checks at the begin of every segment. channel.Obj is null if the entry was moved.
 [[nodiscard]] inline uint32_t check_segment(const CO_SDO& channel, const CO_IF_FRM& request) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
@@ -103,42 +103,43 @@ void rest(CO_NODE& node);
   return wire::toggle(request) != (channel.Flags & toggled) ? CO_SDO_ERR_TBIT : no_abort;
 }
 
-// The same, and tells the client.
+// Sends an abort to the client and closes the transfer.
 void abort_transfer(CO_SDO& channel, uint32_t code);
 
-// A stream belongs to one channel at a time, and its type may have to be told.
+// Reserves a stream for this channel (one channel at a time), and calls the type's Begin function.
 [[nodiscard]] uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size);
 
-// Does the object pass as a value, in one piece? Anything else passes in the pieces that arrive.
+// Returns whether the object is transferred as a value, as a whole. Other objects are transferred in the pieces that
+// arrive.
 [[nodiscard]] inline bool is_value(const CO_SDO& channel, const CO_OBJ& obj) {
   return !obj::is_stream(obj) && channel.Size <= sizeof channel.Value;
 }
 
-// Can these be all bytes of the download?
+// Returns an abort code if the download cannot have this total length.
 [[nodiscard]] uint32_t check_total(CO_SDO& channel, uint32_t total);
-// All bytes are there: hands over a value, and closes.
+// Completes a download: writes a value and closes the transfer.
 [[nodiscard]] uint32_t finish_download(CO_SDO& channel);
 
-// The last piece has n bytes: for types that are told how much a download has been (co_od.h). What was announced stays,
-// and is compared afterwards.
+// Sets Size to the total length before the last piece of n bytes is written, for extensions that need it (co_od.h). An
+// announced size is not changed; it is compared afterwards.
 inline void tell_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_t n) {
   if (USE_OD != 0 && !has(channel, sized)) {
     channel.Size = channel.Num + n;
   }
 }
 
-// In place of an abort code: the type needs another call to find the position.
+// Result of pass() instead of an abort code: the type needs another call to reach the position.
 constexpr uint32_t again = 1;
 
-// Read or write in the direction of the transfer; both return an abort code. begin_data: the first bytes of all, or
-// none, which opens a stream. pass: a piece, up to position Read, or again where it goes back: fewer than n bytes where
-// the end of an object of unknown size is found.
+// Read or write in the direction of the transfer, and return an abort code. begin_data: the first bytes, or none to
+// open a stream. pass: a piece, up to position Read; it may be less than n bytes at the end of an object of unknown
+// size. pass returns again while the type has not reached the position.
 [[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
 [[nodiscard]] uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
 // Block transfer --------------------------------------------------------------------------------------------------
 
-// Without a buffer there are no block transfers.
+// Returns whether there is a buffer, which block transfers require.
 [[nodiscard]] inline bool has_buffer(const CO_SDO& channel) { return channel.Node->SdoBuf != nullptr; }
 
 [[nodiscard]] inline uint8_t* buffer_of(const CO_SDO& channel) {
@@ -147,9 +148,9 @@ constexpr uint32_t again = 1;
   return CO_SSDO_N == 1 ? node.SdoBuf : node.SdoBuf + size * static_cast<size_t>(&channel - node.Sdo);
 }
 
-// May the object be uploaded by block? Returns an abort code.
+// Checks whether the object can be uploaded by block transfer. Returns an abort code.
 [[nodiscard]] uint32_t check_block_upload(const CO_SDO& channel, const CO_OBJ& obj, const CO_IF_FRM& request);
-// The client may name a size up to which it had rather have no block transfer.
+// Returns whether the size is above the client's protocol switch threshold.
 [[nodiscard]] inline bool is_worth_block(uint32_t size, const CO_IF_FRM& request) {
   const uint8_t switch_threshold = request.Data[5];
   return switch_threshold == 0 || size > switch_threshold;
@@ -157,17 +158,17 @@ constexpr uint32_t again = 1;
 void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request);
 void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
 
-// Sends segments of a block upload, as many as there are and transmit::offer() takes. Returns an abort code.
+// Sends segments of a block upload while there are any and transmit::offer() accepts them. Returns an abort code.
 [[nodiscard]] uint32_t send_segments(CO_SDO& channel);
 
-// Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. True: it ends
-// the block, and end_block() answers.
+// Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. Returns true
+// if it ends the block: end_block() then responds.
 [[nodiscard]] bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment);
 
-// Block download: is this the last segment of all once more?
+// Block download: returns whether the frame repeats the last segment of the transfer.
 [[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);
 
-// Block download: tells a client that has fallen silent what has arrived.
+// Block download: repeats the acknowledge to a client that no longer sends.
 void remind(CO_SDO& channel);
 
 }  // namespace co::sdo_server
