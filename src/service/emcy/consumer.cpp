@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EMCY consumer: 1028h names the COB-ID of each node at its node-ID. [301:7.5.2.30]
+// EMCY consumer: the sub-index of 1028h is the node-ID, its value the COB-ID. [301:7.5.2.30]
 #include "service/emcy/emcy.hpp"
 
 #if CO_EMCY_CONS_N > 0

@@ -54,7 +54,8 @@ unsigned table_length(const CO_EMCY& emcy) {
   return given != 0 && given < CO_EMCY_N ? given : CO_EMCY_N;
 }
 
-// Lets an error come or go. False: it has before, or there is none, which the node tells.
+// Sets or clears an error. Returns false if it has that state already, or if there is no such error (reported as the
+// node's error).
 bool change(CO_EMCY& emcy, unsigned err, bool come) {
   if (emcy.Root == nullptr) {
     error::report(*emcy.Node, CO_ERR_EMCY_BAD_ROOT);
@@ -93,7 +94,8 @@ uint8_t register_of(const CO_EMCY& emcy) {
   return static_cast<uint8_t>(faults != 0 ? bits | communication : bits);
 }
 
-// In 1001h. A value in the entry itself may lie in read-only memory.
+// Stores the error register and writes 1001h. An entry with flag D is not written, because it may be in read-only
+// memory.
 void show_register(CO_NODE& node, uint8_t bits) {
   node.Emcy.Register = bits;
   CO_OBJ* const obj = dict::find(node.Dict, key_register);
@@ -113,7 +115,7 @@ uint8_t update_register(CO_NODE& node) {
 
 // Messages ------------------------------------------------------------------------------------------------------------
 
-// 0 ticks are a time that the timer cannot hold.
+// Starts a timer. ticks 0 is a time beyond the timer's range.
 [[gnu::noinline]] void start(CO_NODE& node, CO_TMR_MEM& timer, uint32_t ticks, CO_TMR_FUNC func) {
   tmr::start(node.Tmr, timer, ticks != 0 ? ticks : UINT32_MAX, 0, func, &node);
 }
@@ -125,7 +127,7 @@ void remove_first(CO_EMCY& emcy) {
   }
 }
 
-// x 100 µs; 0: none.
+// Returns the inhibit time in units of 100 µs; 0: none.
 unsigned inhibit_time(CO_NODE& node) {
   uint16_t time = 0;
   return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : 0;
@@ -133,7 +135,7 @@ unsigned inhibit_time(CO_NODE& node) {
 
 void go_on(void* node_pointer);
 
-// Until the inhibit time, or the next attempt where the transmit queue is full.
+// Sends queued messages until the inhibit time starts; if the transmit queue is full, tries again later.
 void send_waiting(CO_NODE& node, uint32_t identifier) {
   constexpr unsigned next_attempt = 10;  // x 100 µs
   CO_EMCY& emcy = node.Emcy;
@@ -162,8 +164,8 @@ void go_on(void* node_pointer) {
   }
 }
 
-// Shows the error register, and sends a message with it. In a full queue the newest takes the place of the last, so
-// that the last always tells the present state.
+// Updates the error register and sends a message with it. In a full queue the message replaces the newest one, so that
+// the last message always reports the present state.
 void post(CO_NODE& node, CO_EMCY_MSG msg) {
   msg = wire::with_register(msg, update_register(node));
   const uint32_t id = identifier(node);
@@ -197,7 +199,8 @@ void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
 
 // Faults that may come with every frame -------------------------------------------------------------------------------
 
-// Such a fault is over when it has not come again for a second: its timer does not run any more.
+// Faults that may occur with every frame. They are resolved when their timer has elapsed: they have not occurred for a
+// second.
 constexpr Fault held[CO_EMCY_HOLD_N] = {Fault::overrun, Fault::collision};
 static_assert(static_cast<uint8_t>(held[0]) == 0 && static_cast<uint8_t>(held[1]) == 1);
 
@@ -212,13 +215,13 @@ void let_go(void* node_pointer) {
 
 // The controller ------------------------------------------------------------------------------------------------------
 
-// Nothing can be sent; 8140h follows when the node is back. [301:7.2.7.1]
+// Begins bus-off. Nothing can be sent; 8140h is sent after the recovery. [301:7.2.7.1]
 void begin_bus_off(CO_NODE& node) {
   number_of(node, Fault::recovered) = 1;
   update_register(node);
 }
 
-// The error passive state that came before a bus-off is over with it.
+// Resolves error passive and bus-off; an error passive state before a bus-off ends with it.
 void recover(CO_NODE& node) {
   Fault over = Fault::passive;
   if (number_of(node, Fault::recovered) != 0) {

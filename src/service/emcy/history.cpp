@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1003h, pre-defined error field. [301:7.5.2.4] Its entries are a ring, so that a new error moves none.
+// 1003h, pre-defined error field. [301:7.5.2.4] Its entries are a ring, so that adding an error moves no other.
 #include "service/emcy/emcy.hpp"
 
 #if USE_EMCY
@@ -12,13 +12,13 @@ namespace {
 
 constexpr uint16_t index = 0x1003;
 
-// Sub-index of the entry that the network sees at this one, of those in use.
+// Converts a sub-index that the network uses to the sub-index of the entry in the ring. sub: in use
 uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
   const unsigned newest = history.Off >= sub ? history.Off : history.Off + history.Max;
   return static_cast<uint8_t>(newest + 1U - sub);
 }
 
-// Sub-index 0 needs no variable.
+// Returns the length of an entry. Sub-index 0 needs no variable.
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   if (CO_GET_SUB(obj->Key) == 0) {
     return 1;
@@ -26,7 +26,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   return uintptr_t{obj->Data} == 0 ? 0 : 4;
 }
 
-// Entries are counted from sub-index 1 without a gap.
+// Counts the entries from sub-index 1 on, without a gap.
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
   const uint8_t sub = CO_GET_SUB(obj->Key);
   if (sub == 0) {

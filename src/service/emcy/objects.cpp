@@ -15,7 +15,7 @@ constexpr uint32_t reserved = 1U << 30;
 
 bool is_valid(uint32_t cob_id) { return (cob_id & wire::cob_invalid) == 0; }
 
-// A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
+// Returns whether a COB-ID may be written. A restricted CAN-ID is refused in a COB-ID that is not valid, too. [P5]
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   const bool is_usable = cob_id::is_free(value) && (value & reserved) == 0;
   return value == before || (is_usable && !(is_valid(before) && is_valid(value)));

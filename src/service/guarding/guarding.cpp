@@ -12,7 +12,7 @@ namespace co::guarding {
 #if USE_GUARDING
 namespace {
 
-// Ticks; 0: no life guarding. [301:7.5.2.11, 7.5.2.12]
+// Returns the life time in ticks; 0: no life guarding. [301:7.5.2.11, 7.5.2.12]
 uint32_t life_time(CO_NODE& node) {
   uint16_t guard_time = 0;  // ms
   uint8_t factor = 0;
@@ -21,7 +21,7 @@ uint32_t life_time(CO_NODE& node) {
   return exists ? tmr::ticks(node.Tmr, uint32_t{guard_time} * factor, CO_TMR_UNIT_1MS) : 0;
 }
 
-// The heartbeat wins: while its timer runs there is no guarding. [301:7.2.8.2.2.1]
+// Returns whether a heartbeat is produced, which replaces guarding. [301:7.2.8.2.2.1]
 bool is_replaced_by_heartbeat(const CO_NODE& node) { return tmr::is_running(node.HbProdTmr); }
 
 void lose_master(void* node_pointer) {
@@ -52,7 +52,8 @@ void restart_life(CO_NODE& node, uint32_t ticks) {
   }
 }
 
-// An answer that still waits is the answer to this request, too: the toggle bit must not skip a value on the bus.
+// Responds to a remote request. A response that is still in the transmit queue is the response to this request, too,
+// because the toggle bit must not skip a value on the bus.
 void answer(CO_NODE& node) {
   CO_IF_FRM* const waiting = transmit::find_waiting(node, wire::CobId::error_control + node.NodeId);
   const uint8_t toggle = waiting != nullptr ? waiting->Data[0] & wire::toggle : node.GuardToggle;

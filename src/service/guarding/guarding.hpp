@@ -6,16 +6,16 @@
 
 namespace co::guarding {
 
-// The route of the own error control frames; the toggle bit starts at 0.
+// Adds the route of the node's error control frames; the toggle bit starts at 0.
 void init(CO_NODE& node);
 
-// Somebody else has sent an error control frame of this node.
+// Reports that another node has sent an error control frame of this node.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// The NMT master guards.
+// Processes a guarding request of the NMT master.
 [[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// Life guarding ends where error control is not allowed.
+// Stops life guarding when error control is not allowed.
 void on_mode(CO_NODE& node);
 
 }  // namespace co::guarding

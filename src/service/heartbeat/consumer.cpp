@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat consumer: 1016h. [301:7.2.8.3.2.2, 7.5.2.19] A heartbeat only notes its time; one timer for all consumers
-// elapses when the first of them could be missing, and looks who is.
+// Heartbeat consumer: 1016h. [301:7.2.8.3.2.2, 7.5.2.19] A heartbeat only stores its time. One timer for all consumers
+// elapses when the first node may be missing, and then checks all of them.
 #include "co_hb_cons.h"
 
 #include "core/dict.hpp"
@@ -16,16 +16,16 @@
 namespace co::heartbeat {
 namespace {
 
-// CO_HBCONS.Tmr while it holds no state byte.
+// Values of CO_HBCONS.Tmr without a state byte.
 constexpr int16_t unheard = -1;
 constexpr int16_t missing = -2;
 
 constexpr bool is_active(uint16_t ms, uint8_t node_id) { return ms != 0 && node_id >= 1 && node_id <= 127; }
 
-// Has the node been heard since the entry was configured?
+// Returns whether a heartbeat was received since the entry was configured.
 bool is_watching(const CO_HB_WATCH& watch) { return watch.Period != 0 && watch.Cons->Tmr != unheard; }
 
-// The entry that monitors a node.
+// Returns the entry that monitors a node.
 CO_HB_WATCH* find(CO_NODE& node, uint8_t node_id) {
   for (CO_HB_WATCH& watch : node.HbCons) {
     if (watch.Period != 0 && watch.Cons->NodeId == node_id) {
@@ -37,13 +37,13 @@ CO_HB_WATCH* find(CO_NODE& node, uint8_t node_id) {
 
 void check(void* node_pointer);
 
-// Ticks until the node is missing, at least 1.
+// Returns the ticks until the node is missing, at least 1.
 uint32_t ticks_left(const CO_HB_WATCH& watch, uint32_t now) {
   const uint32_t passed = now - watch.Seen;
   return passed < watch.Period ? watch.Period - passed : 1;
 }
 
-// The timer elapses with the first of the times that run.
+// Starts the timer with the shortest of the remaining times.
 void plan(CO_NODE& node) {
   const uint32_t now = tmr::now(node.Tmr);
   uint32_t next = 0;
@@ -69,7 +69,7 @@ void miss(CO_NODE& node, CO_HBCONS& cons) {
   CONmtHbConsEvent(&node.Nmt, node_id);
 }
 
-// Callbacks may change everything: what is next is only planned when all have returned.
+// Checks all nodes. The timer is started only after all callbacks have returned, because they may change the entries.
 void check(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   const uint32_t now = tmr::now(node.Tmr);
@@ -105,7 +105,7 @@ void stop(CO_NODE& node, CO_HB_WATCH& watch) {
   watch.Period = 0;
 }
 
-// Lets the entry monitor the node, of which nothing has been heard so far.
+// Starts monitoring; the first heartbeat was not received yet.
 CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   const bool active = is_active(ms, node_id);
   const uint32_t period = active ? tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS) : 0;

@@ -28,7 +28,7 @@ void restart(CO_NODE& node, uint32_t ticks) {
   }
 }
 
-// 1017h, producer heartbeat time. [301:7.5.2.20] The value itself is kept by the basic type.
+// 1017h, producer heartbeat time. [301:7.5.2.20] The basic type stores the value.
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) { return CO_TUNSIGNED16->Size(obj, node, width); }
 
@@ -54,7 +54,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 }  // namespace
 
-// Runs from the boot-up message on, which counts as the first heartbeat, through all states.
+// Starts the producer at the boot-up message, which counts as the first heartbeat; it runs in all NMT states.
 void on_mode(CO_NODE& node) {
   if (!is_allowed(node)) {
     tmr::stop(node.Tmr, node.HbProdTmr);

@@ -8,11 +8,11 @@ namespace co::heartbeat {
 
 void on_mode(CO_NODE& node);
 
-// Consumer: nobody is monitored any more where error control is not allowed. [301:7.5.2.19] The entries of 1016h are
-// taken by their type.
+// Consumer: stops monitoring when error control is not allowed. [301:7.5.2.19] The Init functions of the types add the
+// entries of 1016h.
 void on_mode_consumer(CO_NODE& node);
 
-// The heartbeat of the node that 1016h names at sub-index number. False: malformed.
+// Processes the heartbeat of the node monitored by sub-index number of 1016h. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 }  // namespace co::heartbeat

@@ -9,9 +9,9 @@ namespace co::led {
 namespace {
 
 constexpr uint32_t step = 50;         // ms, the shortest phase
-constexpr uint32_t all_over = 24000;  // ms, a multiple of every period
+constexpr uint32_t all_over = 24000;  // ms, a multiple of all periods
 
-// A number of flashes, each a phase long and followed by one that is dark, at the begin of a period.
+// A number of flashes at the begin of a period; each lasts one phase and is followed by a dark phase.
 struct Pattern {
   uint8_t phase;    // ms
   uint8_t flashes;  // in a period
@@ -26,13 +26,13 @@ constexpr Pattern flashing(uint8_t flashes) { return {200, flashes, static_cast<
 
 constexpr bool is_steady(const Pattern& pattern) { return pattern.period == 1; }
 
-// late: phases by which the pattern begins later.
+// Returns whether the LED is lit. late: phases by which the pattern is delayed
 bool is_lit(const Pattern& pattern, uint32_t ms, uint8_t late) {
   const uint32_t phase = (ms / pattern.phase + pattern.period - late) % pattern.period;
   return phase % 2 == 0 && phase < 2U * pattern.flashes;
 }
 
-// The first row that applies is shown.
+// Patterns of conditions; the first matching row is used.
 struct Row {
   uint8_t what;
   Pattern pattern;
@@ -67,7 +67,7 @@ uint8_t leds_at(const CO_LED_STATE& state, uint32_t ms) {
   return static_cast<uint8_t>((green ? CO_LED_RUN : 0) | (red ? CO_LED_ERR : 0));
 }
 
-// A node without node-ID waits for LSS.
+// Returns the LSS condition: configuration, or waiting for a node-ID.
 unsigned lss_of([[maybe_unused]] const CO_NODE& node) {
 #if USE_LSS
   const bool waits = node.Nmt.Mode == CO_INIT && node.Lss.Started != 0;
@@ -98,7 +98,7 @@ void tick(void* node_pointer) {
   show(node, leds_at(state_of(node), led.Phase));
 }
 
-// Runs while there is something to be changed.
+// Starts or stops the timer, which runs while an LED blinks or flashes.
 void run_timer(CO_NODE& node, bool runs) {
   CO_LED& led = node.Led;
   const uint32_t ticks = tmr::ticks(node.Tmr, step, CO_TMR_UNIT_1MS);

@@ -8,17 +8,17 @@
 
 namespace co::led {
 
-// Faults from before are forgotten; the services that have reported them begin anew.
+// Clears all faults; the services that have raised them start anew.
 void init(CO_NODE& node);
 
 void on_mode(CO_NODE& node);
 
-// Something that they show has changed.
+// Updates the LEDs after a change of a condition.
 void update(CO_NODE& node);
 
 void report_can(CO_NODE& node, CO_CAN_EVENT what);
 
-// A fault has come, or gone; each counts.
+// Raise and resolve a fault. Faults are counted.
 void raise(CO_NODE& node, event::Fault fault);
 void resolve(CO_NODE& node, event::Fault fault);
 

@@ -6,14 +6,14 @@
 
 namespace co::lss {
 
-// The node is being initialised: node-ID and bit rate are those that were stored, else those that it has.
+// Initialises node-ID and bit rate: the stored values, otherwise those that the application has given.
 void begin(CO_NODE& node);
 
-// What was stored becomes the node-ID of the next reset; this one becomes the node's.
+// load() loads the node-ID for the next reset; take_node_id() makes it the node's.
 void load(CO_NODE& node);
 void take_node_id(CO_NODE& node);
 
-// The node is started: does it have to wait for a node-ID?
+// Returns whether the started node has to wait for a node-ID.
 [[nodiscard]] bool awaits_node_id(CO_NODE& node);
 
 void init(CO_NODE& node);

@@ -14,18 +14,19 @@ namespace {
 
 using wire::Lss;
 
-// What a service waits for. Answers are awaited from the state answer on, those of any slave from found on.
+// State of a service: the event that it awaits. From answer on responses are evaluated, from found on those of any
+// slave.
 enum class State : uint8_t {
   idle,
-  sending,    // the next frame of a request
-  leaving,    // a request that nobody answers
-  silent,     // the switch of the bit rate
-  switched,   // the nodes that are later
-  answer,     // of one slave
-  found,      // a slave
-  begun,      // fastscan: a slave without node-ID
-  scanned,    // fastscan: a slave that has this bit clear
-  confirmed,  // fastscan: a slave that has this number
+  sending,    // the gap before the next frame of a request
+  leaving,    // end of the gap after a request without response
+  silent,     // end of the delay before the switch of the bit rate
+  switched,   // end of the delay after the switch, for slower nodes
+  answer,     // response of one slave
+  found,      // responses of the identified slaves
+  begun,      // fastscan: a slave without node-ID responds
+  scanned,    // fastscan: a slave whose bit is 0 responds
+  confirmed,  // fastscan: a slave with this number responds
 };
 
 constexpr uint32_t gap = 1;  // ms, between frames
@@ -52,7 +53,7 @@ uint32_t time_of(const CO_LSSM& master) {
 
 void on_time(void* master_pointer);
 
-// What the timer cannot count is longer than anybody waits.
+// Starts the time of a state. Times beyond the timer's range are limited to the longest time.
 void wait(CO_LSSM& master, State state) {
   CO_TMR& timers = master.Node->Tmr;
   set_state(master, state);
@@ -60,7 +61,7 @@ void wait(CO_LSSM& master, State state) {
   tmr::start(timers, master.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &master);
 }
 
-// Must be last: the callback may start the next service.
+// Must be the last action: the callback may start the next service.
 void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   CO_NODE& node = *master.Node;
   node.Held = is_switching(master) ? 0 : node.Held;
@@ -69,7 +70,7 @@ void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   master.Call(&master, result);
 }
 
-// Sends a frame, and waits. False: it was not sent, nothing has changed.
+// Sends a frame and starts the time of the next state. Returns false, without any change, if the frame was not sent.
 [[nodiscard]] bool send(CO_LSSM& master, const CO_IF_FRM& frame, State then) {
   const bool sent = transmit::send_for_application(*master.Node, frame);
   if (sent) {
@@ -88,7 +89,7 @@ void end_unless(bool sent, CO_LSSM& master) {
 // Requests of frames that carry a number each ------------------------------------------------------------------------
 
 struct Request {
-  unsigned command;  // of the first frame; those of the others follow
+  unsigned command;  // command specifier of the first frame; those of the others are consecutive
   uint8_t frames;
   Lss answer;
   State then;
@@ -115,7 +116,7 @@ CO_ERR check(const CO_LSSM* master, CO_LSSM_CALLBACK callback, bool is_possible)
   return master->Node->Nmt.Mode > CO_INIT ? CO_ERR_NONE : CO_ERR_NMT_MODE;
 }
 
-// Who never uses the master need not receive answers.
+// Prepares a service. The route for responses is added only when a service is used.
 void prepare(CO_LSSM& master, CO_LSSM_CALLBACK callback, Lss answer) {
   master.Call = callback;
   master.Answer = static_cast<uint8_t>(answer);
@@ -143,7 +144,7 @@ CO_ERR start(CO_LSSM* master, CO_LSSM_CALLBACK callback, const Request& request,
   return err == CO_ERR_NONE ? begin(*master, callback, request, numbers) : err;
 }
 
-// A service that one slave answers with the command of the request. The number is carried by the frame.
+// Starts a service to which one slave responds with the command of the request. number: parameter of the frame
 CO_ERR start(CO_LSSM* master, CO_LSSM_CALLBACK callback, unsigned command, bool is_possible, uint32_t number) {
   const Request request = {command, 1, static_cast<Lss>(command), State::answer};
   return start(master, callback, request, is_possible ? &number : nullptr);
@@ -168,7 +169,7 @@ CO_LSSM_RESULT read(CO_LSSM& master, const CO_IF_FRM& answer) {
 
 // Activate bit timing ------------------------------------------------------------------------------------------------
 
-// The request has to be on the bus before it is silent.
+// Starts the switch of the bit rate. The request must have been sent before transmission is disabled.
 CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
   CO_NODE& node = *master.Node;
   transmit::flush(node);
@@ -264,7 +265,7 @@ void init(CO_NODE& node) {
   node.Lssm.Routed = 0;
 }
 
-// The bit rate of the others is switched, whatever becomes of this node.
+// A switch of the bit rate continues during a reset, because the other nodes switch, too.
 void on_mode(CO_NODE& node) {
   CO_LSSM& master = node.Lssm;
   const bool stopped = node.Nmt.Mode == CO_INVALID;

@@ -8,10 +8,10 @@ namespace co::lss_master {
 
 void init(CO_NODE& node);
 
-// The service that is going on ends when the node is stopped or reset.
+// Ends the service in progress when the node is stopped or reset.
 void on_mode(CO_NODE& node);
 
-// An answer of a slave. False: malformed.
+// Processes a response of a slave. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 }  // namespace co::lss_master

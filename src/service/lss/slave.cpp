@@ -73,7 +73,7 @@ constexpr Event event_of(uint8_t command) {
   return is_in(command, Lss::inquire, wire::lss_address_parts) ? Event::inquire : Event::unknown;
 }
 
-// A part of the LSS address: sub-indices 1…4 of 1018h.
+// Reads a part of the LSS address: sub-indices 1…4 of 1018h.
 bool read_part(CO_NODE& node, uint8_t part, uint32_t& number) {
   return dict::read_u32(node.Dict, CO_DEV(0x1018, part + 1U), number) == CO_ERR_NONE;
 }
@@ -84,7 +84,8 @@ uint32_t part_of(CO_NODE& node, unsigned part) {
   return number;
 }
 
-// A node without node-ID is in Initialisation, where nothing else is sent. A callback may have stopped the node.
+// Sends a frame. An unconfigured node is in Initialisation and sends nothing else. A callback may have stopped the
+// node.
 void send(CO_NODE& node, const CO_IF_FRM& frame) {
   if (event::is_allowed(node, CO_LSS_ALLOWED)) {
     node.Nmt.Mode == CO_INIT ? transmit::send_ahead(node, frame) : static_cast<void>(transmit::send(node, frame));
@@ -101,7 +102,7 @@ void answer(CO_NODE& node, const CO_IF_FRM& request, uint32_t data) {
   send(node, frame);
 }
 
-// A node that waits for a node-ID gets to work.
+// Enters an LSS state. The state waiting starts an unconfigured node that has received a node-ID.
 void enter(CO_NODE& node, State state) {
   CO_LSS& lss = node.Lss;
   const bool configured = lss.Started != 0 && lss.CfgNodeId != wire::no_node_id;
@@ -115,15 +116,15 @@ void enter(CO_NODE& node, State state) {
 
 // Access hook --------------------------------------------------------------------------------------------------------
 
-// Parameters of a service that changes the node; 0 where it has none.
+// Parameters of a service that changes the node; 0 if the service has no such parameter.
 struct Change {
   uint8_t state;  // CO_LSS_WAIT, CO_LSS_CONF
   uint8_t node_id;
   uint32_t rate;
 };
 
-// Asks the application. Returns 0, or the error code that is answered, with the manufacturer's in the next byte. A node
-// that the application has stopped refuses as well.
+// Calls the access hook. Returns 0, or the error code of the response, with the manufacturer's code in the next byte.
+// Refuses also if the application has stopped the node.
 uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
 #if USE_ACCESS_HOOK
   const uint8_t error = gate::ask(node, &CO_CALLBACKS::AccessLss, access);
@@ -161,7 +162,7 @@ void switch_global(CO_NODE& node, const CO_IF_FRM& request) {
   }
 }
 
-// The parts come in their order; any other begins anew.
+// Processes a part of the address. The parts have to arrive in their order; any other part restarts the sequence.
 void switch_selective(CO_NODE& node, const CO_IF_FRM& request) {
   CO_LSS& lss = node.Lss;
   const unsigned part = request.Data[0] - static_cast<unsigned>(Lss::switch_selective);
@@ -195,7 +196,7 @@ void end_switch(void* node_pointer) {
   transmit::flush(node);
 }
 
-// Runs a function after the delay.
+// Calls a function after the switch delay.
 void wait(CO_NODE& node, CO_TMR_FUNC then) {
   if (node.Lss.Delay == 0) {
     then(&node);
@@ -210,7 +211,7 @@ void switch_rate(void* node_pointer) {
   wait(node, end_switch);
 }
 
-// Enters the NMT state of the switch. Returns false if the application has stopped the node.
+// Enters the NMT state for the switch. Returns false if the application has stopped the node.
 bool prepare_switch(CO_NODE& node, CO_MODE mode) {
   if (node.Nmt.Mode > CO_INIT && mode > CO_INIT && mode < CO_MODE_NUM) {
     event::change_mode(node, mode);
@@ -218,7 +219,8 @@ bool prepare_switch(CO_NODE& node, CO_MODE mode) {
   return event::is_allowed(node, CO_LSS_ALLOWED);
 }
 
-// The node must not act on process data of a bus that it is about to leave: it leaves Operational first.
+// Activates the bit rate. The node leaves Operational first, because it must not process PDOs of a bus that it is about
+// to leave.
 void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint16_t delay = wire::get_u16(request.Data + 1);
   CO_ACCESS_LSS access = {};
@@ -231,7 +233,7 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   }
   const uint32_t ticks = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
-  node.Baudrate = node.Lss.CfgBaudrate;  // whatever a reset loads meanwhile
+  node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
   node.Held = 1;
   wait(node, switch_rate);
 }
@@ -245,7 +247,7 @@ uint32_t code_of(CO_ERR err) {
   }
 }
 
-// Returns an error code of LSS.
+// Stores node-ID and bit rate. Returns an error code of LSS.
 uint32_t store_pending(CO_NODE& node) {
   const budget::Command counted(node);
   const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
@@ -271,7 +273,8 @@ void inquire(CO_NODE& node, const CO_IF_FRM& request) {
 
 void inquire_node_id(CO_NODE& node, const CO_IF_FRM& request) { answer(node, request, node.NodeId); }
 
-// Vendor-ID and product code are equal; revision and serial number lie between their limits.
+// Returns whether a part of the address matches: vendor-ID and product code are equal; revision and serial number are
+// within their limits.
 bool is_identified(CO_NODE& node, unsigned step, uint32_t value) {
   constexpr uint8_t parts[] = {0, 1, 2, 2, 3, 3};
   constexpr uint8_t first_limit = 2;
@@ -301,7 +304,7 @@ void identify_unconfigured(CO_NODE& node, const CO_IF_FRM&) {
   }
 }
 
-// A part of which all bits are known leads to the next; the last one selects the node.
+// Processes a fastscan. When all bits of a part have matched, the next part follows; the last one selects the node.
 void fastscan(CO_NODE& node, const CO_IF_FRM& request) {
   CO_LSS& lss = node.Lss;
   const wire::Fastscan scan = wire::get_fastscan(request);
@@ -357,7 +360,7 @@ bool has_address(CO_NODE& node) {
   return part == wire::lss_address_parts;
 }
 
-// A node is served after CONodeStart(), in Operational if the configuration says so.
+// Returns whether LSS services are processed: after CONodeStart(), in Operational depending on CO_LSS_IN_OPERATIONAL.
 bool is_served(const CO_NODE& node) {
   const CO_MODE mode = node.Nmt.Mode;
   return mode == CO_INIT ? node.Lss.Started != 0 : CO_LSS_IN_OPERATIONAL != 0 || mode != CO_OPERATIONAL;

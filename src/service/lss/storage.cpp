@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node-ID and bit rate in the node's memory.
+// Storage of node-ID and bit rate in the node's non-volatile memory.
 #include "core/events.hpp"
 #include "core/port.hpp"
 #include "core/store.hpp"
@@ -16,7 +16,7 @@ struct Stored {
 };
 
 store::Record record_at(uint32_t offset) {
-  constexpr uint32_t version = 0x4C535331;  // "LSS1": no parameter group
+  constexpr uint32_t version = 0x4C535331;  // "LSS1": distinguishes the record from parameter groups
   return {offset, sizeof(Stored), version, 0};
 }
 
@@ -29,7 +29,7 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
-  // A reset that is requested while the memory works follows.
+  // A reset that is requested during the memory access is executed afterwards.
   const store::Found found =
       store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
   event::settle(*node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1029h: what the node does when it has lost the network. [301:7.5.2.32]
+// 1029h: reaction of the node to the loss of the network. [301:7.5.2.32]
 #include "co_error_behaviour.h"
 
 #include "core/dict.hpp"

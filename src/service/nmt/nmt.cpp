@@ -27,7 +27,7 @@ struct Command {
   CO_MODE mode;
 };
 
-// [301:7.3.2.1 figure 46] What is commanded already changes nothing.
+// Commands of the NMT master. [301:7.3.2.1 figure 46] A command for the present state has no effect.
 constexpr Command commands[] = {
     {wire::NmtCommand::start, 0, CO_OPERATIONAL},
     {wire::NmtCommand::stop, 0, CO_STOP},
@@ -113,7 +113,7 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
     nmt::boot(node);
     event::settle(node);
   }
-  if (nmt->Mode != CO_INVALID) {  // CONmtModeChange() has not stopped the node
+  if (nmt->Mode != CO_INVALID) {  // false if CONmtModeChange() has stopped the node
     event::change_mode(node, mode);
   }
   event::settle(node);

@@ -16,7 +16,8 @@ bool starts_itself(CO_NODE& node) {
 
 }  // namespace
 
-// The first mode after Initialisation decides: if it is not Pre-operational, the application wants another.
+// Executes the self-start, if the first mode after Initialisation is Pre-operational; otherwise the application has
+// requested another mode.
 void on_mode(CO_NODE& node) {
   CO_NMT& nmt = node.Nmt;
   const bool first = nmt.Booting != 0;

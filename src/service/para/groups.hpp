@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups that 1010h names.
+// Parameter groups of 1010h and 1011h.
 #pragma once
 
 #include "co_core.h"

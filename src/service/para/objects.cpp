@@ -13,19 +13,19 @@
 namespace co::para {
 namespace {
 
-constexpr uint32_t save_signature = 0x65766173;  // "save", "load" in the order of the bus
+constexpr uint32_t save_signature = 0x65766173;  // "save" and "load" in the order of the bus
 constexpr uint32_t load_signature = 0x64616F6C;
 
 bool is_number(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
-// Sub-index 1 stands for all groups where there are others.
+// Returns whether the entry stands for all groups: sub-index 1, if there are others.
 bool is_all(CO_NODE& node, const CO_OBJ& obj) {
   uint8_t last = 0;
   const uint32_t number = CO_DEV(CO_GET_IDX(obj.Key), 0);
   return CO_GET_SUB(obj.Key) == 1 && CODictRdByte(&node.Dict, number, &last) == CO_ERR_NONE && last > 1;
 }
 
-// For each group that an entry stands for.
+// Calls a function for each group that an entry stands for.
 template <class Function>
 void for_groups(CO_NODE& node, const CO_OBJ& obj, Function function) {
   if (!is_all(node, obj)) {
@@ -50,7 +50,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   return type->Size(obj, node, width);
 }
 
-// What the network can do with the groups of an entry. [301:7.5.2.13 figure 60]
+// Returns the operations that the network can execute on the groups of an entry. [301:7.5.2.13 figure 60]
 template <uint32_t bits>
 uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t all = 0;
@@ -71,7 +71,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_ERR_NONE;
 }
 
-// Each group is tried; the first error is the answer.
+// Executes "save" or "load" for each group. Returns the first error.
 template <uint32_t signature, CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t value = 0;
@@ -91,7 +91,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return first;
 }
 
-// 1020h is 0 when the configuration is not the one that it names.
+// Records whether the configuration is verified: 1020h is 0 if it is not.
 void note_verified(CO_NODE& node, uint32_t value) { node.Verified = value != 0 ? 1 : node.Verified; }
 
 CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {
@@ -118,7 +118,7 @@ CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return err;
 }
 
-// For the application. A reset that is requested while the memory works follows.
+// Implements an API function. A reset that is requested during the memory access is executed afterwards.
 template <CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
 CO_ERR run(CO_NODE& node, const CO_PARA& group) {
   if (!is_saved_on_command(group)) {

@@ -111,7 +111,8 @@ void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
   }
 }
 
-// A change that the budget has delayed is newer than what is stored.
+// Returns whether a group keeps its values: it has a change that the budget has delayed, which is newer than the stored
+// values.
 bool must_stay(CO_NODE& node, const CO_PARA& group) { return budget::is_empty(node) && is_followed(node, group); }
 
 bool has_autonomous_group(CO_NODE& node) {
@@ -131,7 +132,8 @@ bool holds(const CO_PARA& group, const CO_OBJ& obj) {
   return CO_IS_DIRECT(obj.Key) == 0 && place - start < group.Size;
 }
 
-// Where strings and domains have their bytes is the affair of their types.
+// Returns whether an object is part of a group. Strings and domains always count, because only their types know where
+// their bytes are located.
 bool is_stored(CO_NODE& node, const CO_OBJ& obj) {
   if (obj::is_stream(obj)) {
     return true;
@@ -180,7 +182,7 @@ CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
 
 namespace {
 
-// Loads the first bytes of the groups of a reset, as many as a member says: all of them, or a part.
+// Loads the groups of a reset. member: the number of bytes to load, CO_PARA.Size or CO_PARA.ComSize.
 CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
   const bool is_part = member != &CO_PARA::Size;
   CO_ERR last = CO_ERR_NONE;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access of an SDO client to the dictionary of its own node, with the rights of the network, without frames.
+// Access of an SDO client to the dictionary of the same node, with the rights of the network, without frames.
 #include "core/access.hpp"
 #include "object/stream.hpp"
 #include "service/sdo_client/transfer.hpp"

@@ -46,7 +46,7 @@ void take(CO_NODE& node, uint8_t counter) {
   event::sync(node, counter);
 }
 
-// What callbacks ask for waits until the SYNC has been taken.
+// Sends a SYNC and processes it. Requests of callbacks are deferred until the SYNC was processed.
 void produce(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   CO_SYNC& sync = node.Sync;
@@ -60,10 +60,11 @@ void produce(void* node_pointer) {
   take(node, sync.Counter);
 }
 
-// 0 is no period.
+// Returns whether a period is below the limit; 0 means that no SYNC is produced.
 bool is_too_short(uint32_t period) { return period != 0 && period < CO_SYNC_PERIOD_MIN; }
 
-// The first SYNC comes after a period. The counter goes on where only the period has changed.
+// Starts or stops the producer. The first SYNC is sent after one period. The counter continues if only the period has
+// changed.
 void run_producer(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
   const uint32_t time = read(node, cycle_index);
@@ -75,7 +76,7 @@ void run_producer(CO_NODE& node) {
   tmr::start(node.Tmr, sync.Tmr, 0, period, produce, &node);
 }
 
-// Reported until a SYNC has the right length.
+// Raises or resolves the fault sync_length, which remains until a SYNC has the right length.
 void check_length(CO_NODE& node, bool right) {
   CO_SYNC& sync = node.Sync;
   if (!right && sync.Wrong == 0) {
@@ -104,7 +105,7 @@ CO_ERR read_long(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED32->Read(obj, node, buffer, size);
 }
 
-// A producer keeps its CAN-ID; it may become a consumer.
+// Returns whether a COB-ID may be written. A producer cannot change its CAN-ID, but may become a consumer.
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   constexpr uint32_t own_bits = ~(producer | wire::cob_invalid);
   const bool same = ((before ^ value) & own_bits) == 0;
@@ -199,7 +200,7 @@ void on_mode(CO_NODE& node) {
   }
 }
 
-// A producer hears nobody else. [301:7.2.5.1]
+// A producer ignores SYNC messages of other nodes. [301:7.2.5.1]
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (node.Sync.Produces != 0) {
     return false;

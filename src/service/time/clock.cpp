@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock. It is a time of the past and the ticks of that moment; what has passed since is counted in seconds, which
-// are a whole number of ticks.
+// The clock: a past time and the ticks at that time. The time since then is counted in whole seconds, which are a whole
+// number of ticks.
 #include "core/timer.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"
@@ -19,7 +19,7 @@ CO_TIME_OF_DAY later(const CO_TIME_OF_DAY& time, uint32_t days, uint32_t ms) {
   return sum;
 }
 
-// Up to now, but for a part of a second. Returns the ticks of that part.
+// Advances the clock by the whole seconds that have elapsed. Returns the remaining ticks.
 uint32_t carry_on(CO_NODE& node) {
   constexpr uint32_t seconds_per_day = wire::ms_per_day / 1000;
   CO_TIME& time = node.Time;
@@ -33,7 +33,7 @@ uint32_t carry_on(CO_NODE& node) {
 
 void carry_on(void* node_pointer) { carry_on(*static_cast<CO_NODE*>(node_pointer)); }
 
-// Of less than a second. Digit by digit, because 1000 times the ticks may be more than 32 bits.
+// Converts ticks of less than a second to ms, digit by digit, because 1000 times the ticks may exceed 32 bits.
 uint32_t ms_of(uint32_t ticks, uint32_t freq) {
   uint32_t ms = 0;
   for (uint8_t digit = 0; digit < 3; ++digit) {

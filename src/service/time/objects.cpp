@@ -31,7 +31,7 @@ CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return err;
 }
 
-// The clock lies nowhere: what is read and written are the bytes of the message.
+// The clock has no variable: the bytes that are read and written are those of a TIME message.
 
 uint32_t size(CO_OBJ*, CO_NODE*, uint32_t) { return wire::time_bytes; }
 

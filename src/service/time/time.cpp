@@ -35,7 +35,7 @@ CO_ERR send(CO_NODE& node) {
 
 void send(void* node_pointer) { static_cast<void>(send(*static_cast<CO_NODE*>(node_pointer))); }
 
-// The producer's period runs while it may send.
+// Starts or stops the producer: its period runs while TIME may be sent.
 void run_producer(CO_NODE& node) {
   CO_TIME& time = node.Time;
   const bool runs = time.Period != 0 && produces(node) && is_allowed(node);

@@ -8,23 +8,23 @@
 
 namespace co::time {
 
-// What 1012h says holds from now on.
+// Reads 1012h and applies it.
 void init(CO_NODE& node);
 
-// False: malformed.
+// Processes a TIME message. Returns false if it is malformed.
 [[nodiscard]] bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
 void on_mode(CO_NODE& node);
 
-// A message that waits for a bus that is gone is not to be sent later.
+// Withdraws a TIME message from the transmit queue when the controller leaves the bus: it must not be sent later.
 void flush(CO_NODE& node);
 
-// Sets the clock and lets it run; the errors of COTimeSet().
+// Sets and starts the clock. Returns the errors of COTimeSet().
 [[nodiscard]] CO_ERR set_clock(CO_NODE& node, const CO_TIME_OF_DAY& time);
 
 [[nodiscard]] bool is_set(const CO_NODE& node);
 
-// 0 if it was not set yet.
+// Returns the time of the clock; 0 if it was not set yet.
 [[nodiscard]] CO_TIME_OF_DAY read_clock(CO_NODE& node);
 
 void stop_clock(CO_NODE& node);
