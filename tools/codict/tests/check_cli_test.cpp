@@ -38,13 +38,14 @@ const std::string unlisted = " --disable eds-list-unlisted ";
 
 TEST_CASE("codict check --error-format github: workflow commands, with signs escaped where they would mean something") {
   CHECK(check("--error-format github octal.eds").out ==
-        "::warning file=octal.eds,line=30,col=14,title=od-value-octal::a leading 0 means octal: 10%0Afix: write it "
-        "without the 0, or with 0x\n"
-        "::error file=octal.eds,line=37,col=16,title=od-value-octal-digit::8 and 9 are no octal digits, and a leading "
-        "0 means octal%0Afix: leave out the leading 0, or write 0x\n");
+        "::warning file=octal.eds,line=30,col=14,title=od-value-octal::2000h 'Ten': '012' is octal, read as 10"
+        "%0Afix: write it without the leading 0, or with 0x\n"
+        "::error file=octal.eds,line=37,col=16,title=od-value-octal-digit::2001h 'No number': '018' begins with 0, "
+        "but is not an octal number%0Afix: remove the leading 0, or write 0x\n");
   const Ran odd = check_text("a,b%:c.eds", variable("2000", "Own=1\nOther=2"), unlisted + "--error-format github");
   CHECK(odd.out ==
-        "::notice file=a%2Cb%25%3Ac.eds,line=6,col=1,title=eds-key-unknown::an unknown key: kept%0Aand 1 more\n");
+        "::notice file=a%2Cb%25%3Ac.eds,line=6,col=1,title=eds-key-unknown::2000h 'x': key 'Own' is unknown to CiA 306"
+        "%0Afix: check the spelling%0Aand 1 more\n");
 }
 
 TEST_CASE("codict check --error-format sarif: one run over all files, with the rules that were broken") {
@@ -97,7 +98,8 @@ TEST_CASE("codict check: --json is a form of its own") {
 
 TEST_CASE("codict check --werror: warnings are errors") {
   const Ran ran = check("--level error --werror octal.eds");
-  CHECK(ran.out.find("octal.eds:30:14: error: a leading 0 means octal: 10 [od-value-octal]") != std::string::npos);
+  CHECK(ran.out.find("octal.eds:30:14: error: 2000h 'Ten': '012' is octal, read as 10 [od-value-octal]") !=
+        std::string::npos);
   CHECK(ran.err == "codict: 2 errors\n");
   CHECK(check("--level error --werror bit_pattern.eds").status == 0);  // notes stay what they are
 }
@@ -138,10 +140,12 @@ TEST_CASE("codict check: a comment suppresses rules in the key below it") {
   CHECK(found("; codict: ignore od-value-octal\n" + octal) == "");
   CHECK(found(";codict: ignore od-limit-order, od-value-octal -- as the drawing has it\n\n" + octal + "\nLowLimit=9\n" +
               "HighLimit=1") ==
-        "a.eds:6:17: note: nothing to suppress where this comment is for [suppression-unused]\n"
+        "a.eds:6:17: note: 2000h 'x': comment suppresses nothing [suppression-unused]\n"
         "    ;codict: ignore od-limit-order, od-value-octal -- as the drawing has it\n"
-        "                    ^~~~~~~~~~~~~~\n"
-        "a.eds:9:10: warning: above the high limit [od-limit-order]\n    LowLimit=9\n             ^\n");
+        "                    ^~~~~~~~~~~~~~\n    fix: remove it\n"
+        "a.eds:9:10: warning: 2000h 'x': LowLimit 9 is above HighLimit 1 [od-limit-order]\n    LowLimit=9\n            "
+        " ^\n"
+        "    fix: exchange or correct the limits\n");
   CHECK(found("; codict: ignore od-value-octal\nLowLimit=010\n" + octal).find("a.eds:8:14: ") == 0);
   CHECK(found("; codict: ignores od-value-octal\n" + octal).find("[od-value-octal]") != std::string::npos);
   CHECK(found("; codict: ignore od-value-octal --\n" + octal) == "");
@@ -212,14 +216,14 @@ TEST_CASE("codict check: a suppression without an effect, and one of no rule, ar
   const std::string text =
       "[FileInfo]\n; codict: ignore od-limitt\n" + variable("2000", "") + "; codict: ignore od-limit gen-limits\n";
   CHECK(check_text("a.eds", text, unlisted).out ==
-        "a.eds:2:18: warning: there is no such rule [suppression-unknown]\n    ; codict: ignore od-limitt\n"
-        "                     ^~~~~~~~~\n    fix: od-limit\n"
-        "a.eds:9:18: note: nothing follows that this comment could be for [suppression-unused]\n"
-        "    ; codict: ignore od-limit gen-limits\n                     ^~~~~~~~\n");
+        "a.eds:2:18: warning: rule 'od-limitt' does not exist [suppression-unknown]\n    ; codict: ignore od-limitt\n"
+        "                     ^~~~~~~~~\n    fix: did you mean od-limit?\n"
+        "a.eds:9:18: note: 2000h 'x': comment at the end of the file suppresses nothing [suppression-unused]\n"
+        "    ; codict: ignore od-limit gen-limits\n                     ^~~~~~~~\n    fix: remove it\n");
   const Ran last = check_text("a.xdd",
                               "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.1\">"
                               "<ISO15745Profile/><!-- codict: ignore od-limit --></ISO15745ProfileContainer>");
-  CHECK(last.out.find("nothing follows that this comment could be for") != std::string::npos);
+  CHECK(last.out.find("comment at the end of the file suppresses nothing") != std::string::npos);
   CHECK(check_text("a.xdd", "<ISO15745ProfileContainer><!-- codict: ignore od-limit").status == 1);
 }
 
@@ -231,7 +235,7 @@ TEST_CASE("codict check: more comments than anybody writes for one place do what
   const Ran eds = check_text("a.eds", variable("2000", (comments + "Own=1").c_str()), unlisted);
   CHECK_FALSE(test::has(eds.out, "eds-key-unknown]"));
   CHECK_FALSE(test::has(eds.out, "suppression-unused"));
-  CHECK(test::has(eds.out, "there is no such rule [suppression-unknown]"));
+  CHECK(test::has(eds.out, " does not exist [suppression-unknown]"));
   std::string elements;
   for (int n = 0; n < 60000; ++n) {
     elements += "<!-- codict: ignore xdd-unknown -->";
@@ -271,7 +275,7 @@ TEST_CASE("codict check --baseline: what is known is not told, wherever it stand
   CHECK(run("--baseline base.json b.eds").status == 1);  // another file
   const std::string fresh = "DefaultValue= 012\nLowLimit=010";
   test::write_bytes(directory / "a.eds", "; moved\n\n" + variable("2001", fresh.c_str()));
-  const Ran moved = run("--baseline base.json a.eds");
+  const Ran moved = run("--all --baseline base.json a.eds");
   CHECK(moved.status == 1);
   CHECK(moved.out.find("a.eds:9:10: warning: ") != std::string::npos);
   CHECK(moved.err == "codict: a.eds: no longer found, but in the baseline: 2\ncodict: 2 warnings\n");

@@ -86,36 +86,44 @@ TEST_CASE("check: pdo-empty: a PDO with a valid COB-ID maps an object") {
 }
 
 TEST_CASE("check: pdo-pair: communication parameters and mapping come together, but not where PDOs are compact") {
-  CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping\n");
+  CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping parameter\n");
   CHECK(found(check::check_pdo_parameters, record("1601", {"0"})) ==
-        "pdo-pair: RPDO 2 has no communication parameters\n");
+        "pdo-pair: RPDO 2 has no communication parameter\n");
   CHECK(found(check::check_pdo_parameters, "[DeviceInfo]\nCompactPDO=0x3\n" + tpdo_communication) == "");
 }
 
 TEST_CASE("check: pdo-object: what is mapped is described") {
-  CHECK(of_tpdo({"1", "0x20010010"}) == "pdo-object: the object is not described\n");
-  CHECK(of_tpdo({"1", "0x20000110"}) == "pdo-object: the object is not described\n");
+  CHECK(of_tpdo({"1", "0x20010010"}) == "pdo-object: mapped object 2001h does not exist\n");
+  CHECK(of_tpdo({"1", "0x20000110"}) == "pdo-object: mapped object 2000h:01 does not exist\n");
 }
 
+namespace {
+
+// The finding about a PDO that maps 2000h with this access and PDO mapping.
+std::string refused(const char* pdo, const std::string& access, const char* mapping, const char* object = "2000h 'x'") {
+  return std::string("pdo-access: ") + pdo + " maps " + object + " (access " + access + ", PDO mapping " + mapping +
+         ")\n";
+}
+
+}  // namespace
+
 TEST_CASE("check: pdo-access: what is mapped may be mapped, in that direction") {
-  const std::string no_tpdo = "pdo-access: the object cannot be in a TPDO\n";
-  const std::string no_rpdo = "pdo-access: the object cannot be in an RPDO\n";
   const auto tpdo = [](const char* access) { return of_tpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
   const auto rpdo = [](const char* access) { return of_rpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
   for (const char* const access : {"ro", "rwr", "const"}) {
     CHECK(tpdo(access) == "");
-    CHECK(rpdo(access) == no_rpdo);
+    CHECK(rpdo(access) == refused("RPDO 1", access, "optional"));
   }
   for (const char* const access : {"wo", "rww"}) {
-    CHECK(tpdo(access) == no_tpdo);
+    CHECK(tpdo(access) == refused("TPDO 1", access, "optional"));
     CHECK(rpdo(access) == "");
   }
-  CHECK(of_tpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == no_tpdo);
+  CHECK(of_tpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == refused("TPDO 1", "rw", "no"));
 }
 
 TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the description names the object") {
-  const std::string no_tpdo = "pdo-access: the object cannot be in a TPDO\n";
-  const std::string no_rpdo = "pdo-access: the object cannot be in an RPDO\n";
+  const std::string no_tpdo = refused("TPDO 1", "rw", "no");
+  const std::string no_rpdo = refused("RPDO 1", "rw", "no");
   const std::string unsaid = "[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=0\n";
   const std::string of_array =
       "[2000]\nParameterName=x\nObjectType=8\nSubNumber=2\n"
@@ -127,8 +135,8 @@ TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the de
   CHECK(of_rpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == no_rpdo);
   CHECK(of_tpdo({"1", "0x20000010"}, unsaid) == no_tpdo);
   CHECK(of_rpdo({"1", "0x20000010"}, unsaid) == no_rpdo);
-  CHECK(of_tpdo({"1", "0x20000110"}, of_array) == no_tpdo);
-  CHECK(of_tpdo({"1", "0x20000210"}, compact) == no_tpdo);
+  CHECK(of_tpdo({"1", "0x20000110"}, of_array) == refused("TPDO 1", "rw", "no", "2000h:01 'x'"));
+  CHECK(of_tpdo({"1", "0x20000210"}, compact) == refused("TPDO 1", "rw", "no", "2000h:02 'x2'"));
   CHECK(of_tpdo({"2", "0x20010010", "0x20000010"}, unsaid + variable("2001", "6", "ro")) == no_tpdo);
   // A PDO that is off has a mapping, too.
   CHECK(found(check::check_pdo_parameters,
@@ -138,41 +146,43 @@ TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the de
 }
 
 TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may be a byte") {
-  CHECK(of_tpdo({"1", "0x20000020"}) == "pdo-bits: the object has 16 bits\n");
-  CHECK(of_tpdo({"1", "0x20000008"}) == "pdo-part: the object has 16 bits\n");
+  CHECK(of_tpdo({"1", "0x20000020"}) == "pdo-bits: mapping of 32 bits, but 2000h 'x' has 16\n");
+  CHECK(of_tpdo({"1", "0x20000008"}) == "pdo-part: mapping of 8 bits, but 2000h 'x' has 16\n");
   CHECK(of_tpdo({"1", "0x20000001"}, variable("2000", "1", "ro")) == "");
   CHECK(of_tpdo({"1", "0x20000008"}, variable("2000", "1", "ro")) == "");
-  CHECK(of_tpdo({"1", "0x20000009"}, variable("2000", "1", "ro")) == "pdo-bits: the object has 1 bits\n");
+  CHECK(of_tpdo({"1", "0x20000009"}, variable("2000", "1", "ro")) ==
+        "pdo-bits: mapping of 9 bits, but 2000h 'x' has 1\n");
   CHECK(of_tpdo({"1", "0x20000040"}, variable("2000", "0x0A", "ro")) == "");
 }
 
 TEST_CASE("check: pdo-length: 64 bits fit") {
   const std::string wide = variable("2000", "7", "rw");
   CHECK(of_tpdo({"2", "0x20000020", "0x20000020"}, wide) == "");
-  CHECK(of_tpdo({"3", "0x20000020", "0x20000020", "0x20000020"}, wide) == "pdo-length: TPDO 1 has 96 bits\n");
+  CHECK(of_tpdo({"3", "0x20000020", "0x20000020", "0x20000020"}, wide) ==
+        "pdo-length: TPDO 1 has 96 bits, more than 64\n");
 }
 
 TEST_CASE("check: pdo-gap, pdo-mapped-count: sub-index 0 counts what is mapped") {
-  CHECK(of_tpdo({"2", "0x20000010"}) == "pdo-gap: 1 of the sub-indexes up to this one map an object\n");
-  CHECK(of_tpdo({"2", "0x20000010", "0"}) == "pdo-gap: 1 of the sub-indexes up to this one map an object\n");
+  CHECK(of_tpdo({"2", "0x20000010"}) == "pdo-gap: sub-index 0 is 2, but the number of mapped objects is 1\n");
+  CHECK(of_tpdo({"2", "0x20000010", "0"}) == "pdo-gap: sub-index 0 is 2, but the number of mapped objects is 1\n");
   CHECK(of_tpdo({"1", "0x20000010", "0"}) == "");
-  CHECK(of_tpdo({"65"}) == "pdo-mapped-count: no number of mapped objects\n");
+  CHECK(of_tpdo({"65"}) == "pdo-mapped-count: 65 is not a number of mapped objects\n");
   CHECK(of_tpdo({"0xFE"}) == "");
   CHECK(of_tpdo({"0xFF"}) == "");
 }
 
 TEST_CASE("check: pdo-dummy: in RPDOs, of types that the device says") {
-  CHECK(of_tpdo({"1", "0x00050008"}) == "pdo-dummy: a dummy in a TPDO\n");
-  CHECK(of_rpdo({"1", "0x00050008"}) == "pdo-dummy: the device has no dummy of this type\n");
+  CHECK(of_tpdo({"1", "0x00050008"}) == "pdo-dummy: dummy mapping in a TPDO\n");
+  CHECK(of_rpdo({"1", "0x00050008"}) == "pdo-dummy: dummy mapping of UNSIGNED8, which the device does not support\n");
   CHECK(of_rpdo({"1", "0x00050008"}, "[DummyUsage]\nDummy0005=1\n") == "");
   CHECK(of_rpdo({"1", "0x00050008"}, "[DummyUsage]\nDummy0005=0\nDummy0006=1\n") ==
-        "pdo-dummy: the device has no dummy of this type\n");
+        "pdo-dummy: dummy mapping of UNSIGNED8, which the device does not support\n");
 }
 
 TEST_CASE("check: pdo-granularity: lengths are multiples of it") {
   const std::string bit = variable("2000", "1", "ro");
   CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=8\n") ==
-        "pdo-granularity: the device has a granularity of 8\n");
+        "pdo-granularity: mapped length 1 is not a multiple of the granularity 8\n");
   CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=1\n") == "");
 }
 
@@ -180,17 +190,19 @@ TEST_CASE("check: pdo-type: types that CiA 301 has, remote ones for TPDOs only")
   const auto type = [](const char* index, const char* mapping, const char* value) {
     return found(check::check_pdo_parameters, record(index, {"2", "0x80000000", value}) + record(mapping, {"0"}));
   };
-  const std::string wrong = "pdo-type: no transmission type of this kind of PDO\n";
+  const auto wrong = [](const char* pdo, const char* value) {
+    return std::string("pdo-type: ") + pdo + " has invalid transmission type " + value + "\n";
+  };
   for (const char* const value : {"0", "1", "240", "254", "255"}) {
     CHECK(type("1400", "1600", value) == "");
     CHECK(type("1800", "1A00", value) == "");
   }
   for (const char* const value : {"241", "251", "256"}) {
-    CHECK(type("1400", "1600", value) == wrong);
-    CHECK(type("1800", "1A00", value) == wrong);
+    CHECK(type("1400", "1600", value) == wrong("RPDO 1", value));
+    CHECK(type("1800", "1A00", value) == wrong("TPDO 1", value));
   }
   for (const char* const value : {"252", "253"}) {
-    CHECK(type("1400", "1600", value) == wrong);
+    CHECK(type("1400", "1600", value) == wrong("RPDO 1", value));
     CHECK(type("1800", "1A00", value) == "");
   }
 }
@@ -200,8 +212,8 @@ TEST_CASE("check: pdo-time: inhibit and event time belong to PDOs with events") 
     return found(check::check_pdo_parameters,
                  record("1800", {"5", "0x80000000", type, inhibit, "", event}) + record("1A00", {"0"}));
   };
-  CHECK(times("1", "10", "0") == "pdo-time: inhibit time of a PDO without events\n");
-  CHECK(times("253", "0", "10") == "pdo-time: event time of a PDO without events\n");
+  CHECK(times("1", "10", "0") == "pdo-time: inhibit time 10 has no effect without events\n");
+  CHECK(times("253", "0", "10") == "pdo-time: event time 10 has no effect without events\n");
   CHECK(times("1", "0", "0") == "");
   CHECK(times("254", "10", "10") == "");
 }
@@ -212,8 +224,8 @@ TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
     return found(check::check_pdo_parameters,
                  record(communication, {"2", cob_id, type}) + record(mapping, {"1", "0x20000010"}) + number + others);
   };
-  const std::string rpdo = "pdo-sync-missing: RPDO 1 waits for SYNC, and there is no object 1005h\n";
-  const std::string tpdo = "pdo-sync-missing: TPDO 1 waits for SYNC, and there is no object 1005h\n";
+  const std::string rpdo = "pdo-sync-missing: RPDO 1 depends on SYNC, but object 1005h is missing\n";
+  const std::string tpdo = "pdo-sync-missing: TPDO 1 depends on SYNC, but object 1005h is missing\n";
   for (const char* const type : {"0", "1", "240"}) {
     CHECK(with("1400", "1600", "0x201", type) == rpdo);
     CHECK(with("1800", "1A00", "$NODEID+0x40000180", type) == tpdo);
@@ -231,14 +243,14 @@ TEST_CASE("check: a DCF's values are checked, where it has them") {
   std::string mapping = record("1A00", {"1", "0x20000010"});
   mapping += "ParameterValue=0x20000020\n";
   CHECK(found(check::check_pdo_parameters, tpdo_communication + mapping + number) ==
-        "pdo-bits: the object has 16 bits\n");
+        "pdo-bits: mapping of 32 bits, but 2000h 'x' has 16\n");
 }
 
 TEST_CASE("check: cob-id-restricted: what CiA 301 keeps for other services [301: table 40]") {
   const auto emcy = [](const std::string& value) {
     return found(check::check_cob_ids, variable("1014", "7", "rw", value));
   };
-  const std::string wrong = "cob-id-restricted: an identifier that CiA 301 keeps for others\n";
+  const std::string wrong = "cob-id-restricted: COB-ID ";
   for (const char* const value : {"0", "0x001", "0x07F", "0x101", "0x180", "0x581", "0x5FF", "0x601", "0x67F", "0x6E0",
                                   "0x6FF", "0x701", "0x7FF"}) {
     CHECK_MESSAGE(emcy(value).substr(0, wrong.size()) == wrong, value);
@@ -252,7 +264,7 @@ TEST_CASE("check: cob-id-restricted: what CiA 301 keeps for other services [301:
 
 TEST_CASE("check: cob-id-form: more than 11 bits need bit 29") {
   CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x881")) ==
-        "cob-id-form: more than 11 bits, without bit 29\n");
+        "cob-id-form: COB-ID 881h has more than 11 bits, but bit 29 is 0\n");
   CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x20000881")) == "");
 }
 
@@ -260,13 +272,13 @@ TEST_CASE("check: cob-id-twice: an identifier has one service, with a node-ID an
   const std::string sync = variable("1005", "7", "rw", "0x80");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "$NODEID+0x80")) == "");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x80")) ==
-        "cob-id-twice: the identifier of SYNC, too\n");
+        "cob-id-twice: COB-ID 080h is also that of SYNC\n");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x20000080")) == "");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x80000080")) == "");
   CHECK(
       found(check::check_cob_ids, record("1201", {"2", "0x640", "0x5C0"}) + record("1280", {"2", "0x640", "0x5C0"})) ==
-      "cob-id-restricted: an identifier that CiA 301 keeps for others\n"
-      "cob-id-restricted: an identifier that CiA 301 keeps for others\n");
+      "cob-id-restricted: COB-ID 640h is restricted by CiA 301 (default SDO)\n"
+      "cob-id-restricted: COB-ID 5C0h is restricted by CiA 301 (default SDO)\n");
 }
 
 TEST_CASE("check: od-mandatory, od-error-control: what each device has") {
@@ -274,9 +286,10 @@ TEST_CASE("check: od-mandatory, od-error-control: what each device has") {
                           record("1018", {"1", "1"}) + variable("1017", "6", "rw", "0");
   CHECK(found(check::check_services, all) == "");
   CHECK(found(check::check_services, "") ==
-        "od-mandatory: there is no object 1000h\nod-mandatory: there is no object 1001h\n"
-        "od-mandatory: there is no object 1018h\n"
-        "od-error-control: nobody can tell whether the device is alive\n");
+        "od-mandatory: mandatory object 1000h 'Device type' is missing\nod-mandatory: mandatory object 1001h 'Error "
+        "register' is missing\n"
+        "od-mandatory: mandatory object 1018h 'Identity object' is missing\n"
+        "od-error-control: neither heartbeat nor node guarding\n");
 }
 
 namespace {
@@ -293,20 +306,23 @@ TEST_CASE("check: sdo-default: the first server's identifiers are fixed [301: 7.
   CHECK(of_services(record("1200", {"2", "$NODEID+0x600", "$NODEID+0x580"})) == "");
   CHECK(of_services(record("1200", {"2", "0x600", "0x580"})) == "");
   CHECK(of_services(record("1200", {"2", "$NODEID+0x580", "$NODEID+0x600"})) ==
-        "sdo-default: not the identifier of the first SDO server\nsdo-default: not the identifier of the first SDO "
-        "server\n");
+        "sdo-default: COB-ID $NODEID+0x580 is not 600h plus the node-ID\n"
+        "sdo-default: COB-ID $NODEID+0x600 is not 580h plus the node-ID\n");
   CHECK(of_services("[DeviceComissioning]\nNodeID=5\n" + record("1200", {"2", "0x605", "0x585"})) == "");
   CHECK(of_services("[DeviceComissioning]\nNodeID=6\n" + record("1200", {"1", "0x605"})) ==
-        "sdo-default: not the identifier of the first SDO server\n");
+        "sdo-default: COB-ID 0x605 is not 600h plus the node-ID\n");
 }
 
 TEST_CASE("check: heartbeat-consumer: node-ID and time, each node once [301: 7.5.2.19]") {
   CHECK(of_services(record("1016", {"3", "0x007F03E8", "0x000103E8", "0"})) == "");
-  CHECK(of_services(record("1016", {"1", "0x00800001"})) == "heartbeat-consumer: no node-ID and time\n");
-  CHECK(of_services(record("1016", {"1", "0x01010001"})) == "heartbeat-consumer: no node-ID and time\n");
-  CHECK(of_services(record("1016", {"1", "0x00000001"})) == "heartbeat-consumer: no node-ID and time\n");
+  CHECK(of_services(record("1016", {"1", "0x00800001"})) ==
+        "heartbeat-consumer: 0x00800001 has node-ID 128, not 1 to 127\n");
+  CHECK(of_services(record("1016", {"1", "0x01010001"})) ==
+        "heartbeat-consumer: 0x01010001 has node-ID 257, not 1 to 127\n");
+  CHECK(of_services(record("1016", {"1", "0x00000001"})) ==
+        "heartbeat-consumer: 0x00000001 has node-ID 0, not 1 to 127\n");
   CHECK(of_services(record("1016", {"2", "0x00050001", "0x00050002"})) ==
-        "heartbeat-consumer-twice: node 5 has an entry already\n");
+        "heartbeat-consumer-twice: second entry for node 5\n");
   CHECK(of_services(record("1016", {"2", "0x00050001", "0x00050000"})) == "");
 }
 
@@ -315,7 +331,7 @@ TEST_CASE("check: sync-window: no longer than the cycle") {
     return of_services(variable("1006", "7", "rw", cycle) + variable("1007", "7", "rw", window));
   };
   CHECK(sync("1000", "1000") == "");
-  CHECK(sync("1000", "1001") == "sync-window: longer than the cycle in 1006h\n");
+  CHECK(sync("1000", "1001") == "sync-window: SYNC window 1001 is longer than the cycle 1000 in 1006h\n");
   CHECK(sync("0", "1001") == "");
 }
 
@@ -324,22 +340,23 @@ TEST_CASE("check: pdo-multiplexed: sub-index 0 FEh or FFh, and what belongs to i
     return found(check::check_multiplexed,
                  record("1800", {"2", "$NODEID+0x180", type}) + record("1A00", {mode}) + more);
   };
-  const std::string no_list = "pdo-multiplexed-list: there is no scanner list\n";
+  const std::string no_list = "pdo-multiplexed-list: source address mode without scanner list\n";
   CHECK(of_mode("0xFF", "255") == "");
   CHECK(of_mode("0xFE", "254") == no_list);
   CHECK(of_mode("0xFE", "254", record("1FA0", {"1", "1"})) == "");
   CHECK(of_mode("0xFE", "254", record("1FCF", {"1", "1"})) == "");
   CHECK(of_mode("0xFE", "254", record("1FD0", {"1", "1"})) == no_list);
-  CHECK(of_mode("0xFF", "253") == "pdo-multiplexed-type: not sent by events\n");
+  CHECK(of_mode("0xFF", "253") == "pdo-multiplexed-type: multiplexed PDO with transmission type 253\n");
   CHECK(of_mode("0x40", "1") == "");
   CHECK(of_mode("0xFF", "255", "[DeviceInfo]\nGroupMessaging=0\n") ==
-        "pdo-multiplexed: the device says that it has no multiplexed PDOs\n");
+        "pdo-multiplexed: multiplexed PDO, but GroupMessaging is 0\n");
   CHECK(of_mode("0xFF", "255", "[DeviceInfo]\nGroupMessaging=1\n") == "");
   const std::string receiver = record("1400", {"2", "$NODEID+0x200", "255"}) + record("1600", {"0xFE"});
-  CHECK(found(check::check_multiplexed, receiver) == "pdo-multiplexed-list: there is no dispatching list\n");
+  CHECK(found(check::check_multiplexed, receiver) ==
+        "pdo-multiplexed-list: source address mode without dispatching list\n");
   CHECK(found(check::check_multiplexed, receiver + record("1FFF", {"1", "1"})) == "");
   CHECK(found(check::check_multiplexed, receiver + record("1FA0", {"1", "1"})) ==
-        "pdo-multiplexed-list: there is no dispatching list\n");
+        "pdo-multiplexed-list: source address mode without dispatching list\n");
 }
 
 TEST_CASE("check: od-type-complex, od-unmappable: a value has one type, and what is mapped a length") {
@@ -347,9 +364,9 @@ TEST_CASE("check: od-type-complex, od-unmappable: a value has one type, and what
     return found(check::check_structure, variable("2000", code, "rw", "", mapping));
   };
   CHECK(type("0x1B", "1") == "");
-  CHECK(type("0x21", "0") == "od-type-complex: a type of several values for one value\n");
+  CHECK(type("0x21", "0") == "od-type-complex: data type 0021h is a structure, but this is one value\n");
   CHECK(type("0x0F", "0") == "");
-  CHECK(type("0x0F", "1") == "od-unmappable: a DOMAIN has no length that a PDO could map\n");
+  CHECK(type("0x0F", "1") == "od-unmappable: DOMAIN with PDO mapping\n");
 }
 
 TEST_CASE("check: od-array-types: elements of an ARRAY have one type; sub-indexes 0 and FFh are none") {
@@ -360,7 +377,7 @@ TEST_CASE("check: od-array-types: elements of an ARRAY have one type; sub-indexe
                                              sub + "]\nParameterName=x\nAccessType=ro\nDataType=" + last + "\n");
   };
   CHECK(array("8", "6") == "");
-  CHECK(array("8", "7") == "od-array-types: another type than that of sub-index 1\n");
+  CHECK(array("8", "7") == "od-array-types: element is UNSIGNED32, but sub-index 1 is UNSIGNED16\n");
   CHECK(array("9", "7") == "");
   CHECK(array("8", "7", "FF") == "");
 }
@@ -370,28 +387,28 @@ TEST_CASE("check: od-link, od-module-…: what is named is there, and what a mod
   const std::string list = record("1027", {"1", "1"});
   const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
   const std::string linked = variable("2000", "5", "rw") + "[2000ObjectLinks]\nObjectLinks=1\n1=0x2001\n";
-  CHECK(check(linked) == "od-link: this object is not described\n");
+  CHECK(check(linked) == "od-link: linked object 2001h does not exist\n");
   CHECK(check(linked + variable("2001", "5", "rw")) == "");
   CHECK(check(linked + module + list + variable("M1Fixed2001", "5", "rw")) == "");
-  CHECK(check(module) == "od-module-list: there is no object 1027h\n");
+  CHECK(check(module) == "od-module-list: modules are described, but object 1027h is missing\n");
   CHECK(check(module + list + variable("2001", "5", "rw") + variable("M1Fixed2001", "5", "rw")) ==
-        "od-module-object: the coupler itself has this object\n");
+        "od-module-object: module 1 defines an object of the bus coupler\n");
   CHECK(check(module + list + "[ConnectedModules]\nNrOfEntries=2\n1=1\n2=0\n") == "");
   CHECK(check(module + list + "[ConnectedModules]\nNrOfEntries=1\n1=2\n") ==
-        "od-module-number: this module is not described\n");
+        "od-module-number: connected module 2 is not described\n");
 }
 
 TEST_CASE("check: od-former, od-store-pair, od-granularity: objects that are gone, pairs, and the width of a PDO") {
   const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
   for (const char* const index : {"1004", "100B", "100E", "100F"}) {
-    CHECK(check(variable(index, "7", "ro")) == "od-former: no longer an object of CiA 301\n");
+    CHECK(check(variable(index, "7", "ro")) == "od-former: object is no longer defined by CiA 301\n");
   }
   CHECK(check(record("1010", {"1", "1"}) + record("1011", {"1", "1"})) == "");
   CHECK(check(record("1010", {"1", "1"})) == "");
   CHECK(check(record("1010", {"2", "1", "1"}) + record("1011", {"1", "1"})) ==
-        "od-store-pair: 1010h has other sub-indexes\n");
+        "od-store-pair: sub-indexes differ from those of 1010h\n");
   CHECK(check("[DeviceInfo]\nGranularity=64\n") == "");
-  CHECK(check("[DeviceInfo]\nGranularity=65\n") == "od-granularity: more bits than a PDO has\n");
+  CHECK(check("[DeviceInfo]\nGranularity=65\n") == "od-granularity: granularity 65 is above 64 bits\n");
 }
 
 TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it is not what is in use") {
@@ -402,23 +419,26 @@ TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it i
                                            "sub2]\nParameterName=x\nDataType=5\nAccessType=ro\n");
   };
   CHECK(zero("2000", "ro", "2") == "");
-  CHECK(zero("2000", "ro", "3") == "od-sub-zero-large: the highest sub-index is 2\n");
+  CHECK(zero("2000", "ro", "3") == "od-sub-zero-large: sub-index 0 is 3, but the highest sub-index is 2\n");
   CHECK(zero("2000", "rw", "3") == "");
   CHECK(zero("1003", "ro", "8") == "");
 }
 
 TEST_CASE("check: od-standard-…: objects of the communication profile are what CiA 301 says [301: 7.5.2]") {
   const auto check = [](const std::string& eds) { return found(check::check_standard, eds); };
-  const std::string other_type = "od-standard-type: CiA 301 has another data type here\n";
+  const auto other_type = [](const char* type, const char* right) {
+    return std::string("od-standard-type: data type ") + type + ", but CiA 301 defines " + right + "\n";
+  };
   CHECK(check(variable("1000", "7", "ro") + variable("1001", "5", "ro") + variable("1008", "9", "const") +
               variable("1017", "6", "rw") + variable("2000", "6", "rw")) == "");
-  CHECK(check(variable("1000", "6", "ro")) == other_type);
-  CHECK(check(variable("1008", "0xA", "const")) == other_type);
-  CHECK(check(variable("1017", "7", "rw")) == other_type);
+  CHECK(check(variable("1000", "6", "ro")) == other_type("UNSIGNED16", "UNSIGNED32"));
+  CHECK(check(variable("1008", "0xA", "const")) == other_type("OCTET_STRING", "VISIBLE_STRING"));
+  CHECK(check(variable("1017", "7", "rw")) == other_type("UNSIGNED32", "UNSIGNED16"));
   CHECK(check(record("1018", {"4", "1", "1", "1", "1"})) == "");
-  CHECK(check(record("1800", {"2", "$NODEID+0x180", "255"})) == other_type);  // of 32 bits, the transmission type, too
+  CHECK(check(record("1800", {"2", "$NODEID+0x180", "255"})) ==
+        other_type("UNSIGNED32", "UNSIGNED8"));  // of 32 bits, the transmission type, too
   CHECK(check(record("1A00", {"1", "0x20000010"})) == "");
-  CHECK(check(record("1003", {"1", "0"})) == "od-standard-kind: CiA 301 has another kind of object here\n");
+  CHECK(check(record("1003", {"1", "0"})) == "od-standard-kind: object type RECORD, but CiA 301 defines ARRAY\n");
   CHECK(check("[1010]\nParameterName=x\n[1010sub1]\nParameterName=x\nDataType=7\nAccessType=rw\n") == "");
 }
 
@@ -433,17 +453,20 @@ TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 are what these pro
   const std::string words = variable("6040", "6", "rww") + variable("6041", "6", "ro");
   CHECK(found(io, words) == "");
   CHECK(found(drive, words) == "");
-  CHECK(found(drive, variable("6041", "6", "ro")) == "profile-object-missing: a drive has a controlword, 6040h\n");
-  CHECK(found(drive, words + variable("6060", "5", "rw")) == "profile-type: CiA 402 has another data type here\n");
-  CHECK(found(drive, words + variable("607A", "4", "ro")) == "profile-access: masters write this object of CiA 402\n");
+  CHECK(found(drive, variable("6041", "6", "ro")) ==
+        "profile-object-missing: profile 402, but controlword 6040h is missing\n");
+  CHECK(found(drive, words + variable("6060", "5", "rw")) ==
+        "profile-type: data type UNSIGNED8, but CiA 402 defines INTEGER8\n");
+  CHECK(found(drive, words + variable("607A", "4", "ro")) ==
+        "profile-access: access ro, but masters write this object of CiA 402\n");
   CHECK(found(drive, words + variable("6064", "4", "rw")) ==
-        "profile-access: masters only read this object of CiA 402\n");
+        "profile-access: access rw, but masters only read this object of CiA 402\n");
   CHECK(found(drive, words + variable("6081", "7", "ro")) == "");  // a parameter may be fixed
-  CHECK(found(drive, words + array("6064", "4", "ro")) == "profile-kind: CiA 402 has another kind of object here\n");
+  CHECK(found(drive, words + array("6064", "4", "ro")) == "profile-kind: object type ARRAY, but CiA 402 defines VAR\n");
   CHECK(found(io, array("6000", "5", "ro") + array("6411", "3", "rww") + variable("6423", "1", "rw")) == "");
-  CHECK(found(io, array("6401", "6", "ro")) == "profile-type: CiA 401 has another data type here\n");
+  CHECK(found(io, array("6401", "6", "ro")) == "profile-type: data type UNSIGNED16, but CiA 401 defines INTEGER16\n");
   CHECK(found(io, variable("1000", "7", "ro", "0x00030191") + array("6000", "5", "ro")) ==
-        "profile-object-missing: 1000h says that there are digital outputs, 6200h\n");
+        "profile-object-missing: bit 17 announces digital outputs, but 6200h is missing\n");
 }
 
 TEST_CASE("check: the profile of a device is the lower half of object 1000h, and of an unknown one nothing is said") {

@@ -174,14 +174,14 @@ Ran check(const std::string& arguments) {
 TEST_CASE("codict check: a finding has its place, its line with a caret, its rule, and what to do") {
   const Ran ran = check("octal.eds");
   CHECK(ran.status == 1);
-  CHECK(ran.out == R"(octal.eds:30:14: warning: a leading 0 means octal: 10 [od-value-octal]
+  CHECK(ran.out == R"(octal.eds:30:14: warning: 2000h 'Ten': '012' is octal, read as 10 [od-value-octal]
     DefaultValue=012
                  ^~~
-    fix: write it without the 0, or with 0x
-octal.eds:37:16: error: 8 and 9 are no octal digits, and a leading 0 means octal [od-value-octal-digit]
+    fix: write it without the leading 0, or with 0x
+octal.eds:37:16: error: 2001h 'No number': '018' begins with 0, but is not an octal number [od-value-octal-digit]
     DefaultValue=018
                    ^
-    fix: leave out the leading 0, or write 0x
+    fix: remove the leading 0, or write 0x
 )");
   CHECK(ran.err == "codict: 1 error, 1 warning\n");
 }
@@ -260,7 +260,9 @@ TEST_CASE("codict check: a whole device has no findings; what it lacks are findi
   CHECK(whole.out.empty());
   const Ran part = run("check semicolon.eds");
   CHECK(part.status == 1);
-  CHECK(part.out.find("semicolon.eds:1:1: error: there is no object 1018h [od-mandatory]\n") != std::string::npos);
+  CHECK(
+      part.out.find("semicolon.eds:1:1: error: mandatory object 1018h 'Identity object' is missing [od-mandatory]\n") !=
+      std::string::npos);
 }
 
 TEST_CASE("codict diff: a device is the same as itself") {
@@ -408,8 +410,9 @@ TEST_CASE("codict: what an XDD says is shown and changed as what an EDS says") {
   CHECK(run("set " + other + " 2000 default=2").status == 1);
   CHECK(run("set " + other + " 2000 colour=1").status == 2);
   CHECK(bytes_of(other) == wanted);
-  CHECK(run("check xdd/device10.xdd").out.find("xdd/device10.xdd:138:11: error: TPDO 1 has no mapping [pdo-pair]\n") !=
-        std::string::npos);
+  const std::string found = run("check xdd/device10.xdd").out;
+  CHECK(found.find("xdd/device10.xdd:138:11: error: 1800h") != std::string::npos);
+  CHECK(found.find("TPDO 1 has no mapping parameter [pdo-pair]\n") != std::string::npos);
   CHECK(run("doc xdd/device10.xdd --to md -o -").out.find("## <a id=\"g-1\"></a>Working\n") != std::string::npos);
 }
 
@@ -551,8 +554,9 @@ TEST_CASE("codict set: a value that is an error is not written, unless it must b
   const Ran ran = run("set '" + path + "' 0x2000 default=256");
   CHECK(ran.status == 1);
   CHECK(ran.out.empty());
-  CHECK(ran.err == path + ":29:14: error: does not fit UNSIGNED8 [od-value-range]\n" +
+  CHECK(ran.err == path + ":29:14: error: 2000h 'One': '256' does not fit UNSIGNED8 (0 to 255) [od-value-range]\n" +
                        "    DefaultValue=256\n                 ^~~\n" +
+                       "    fix: correct the value, or use a larger data type\n" +
                        "codict: nothing is written: --force writes it nevertheless\n");
   CHECK(bytes_of(path) == before);
   CHECK(run("set --force '" + path + "' 0x2000 default=256").status == 0);

@@ -106,7 +106,7 @@ TEST_CASE("codict check: findings in JSON have their line and a caret") {
 )");
   const Ran ran = run("check " + path);
   CHECK(ran.status == 1);
-  CHECK(has(ran.out, ":2:104: error: does not fit UNSIGNED8 [od-value-range]\n"));
+  CHECK(has(ran.out, ":2:104: error: 2000h 'x': '300' does not fit UNSIGNED8 (0 to 255) [od-value-range]\n"));
   CHECK(has(ran.out, std::string(103, ' ') + "    ^~~\n"));
   CHECK_FALSE(has(run("check --disable json-type " + path).err, "there is no rule"));
 }

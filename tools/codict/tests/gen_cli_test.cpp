@@ -46,7 +46,8 @@ TEST_CASE("codict gen: an error is shown with file, line, column and rule, and n
   std::ofstream(directory / "bad.eds") << "[2000]\nParameterName=Bad\nDataType=5\nAccessType=rw\nDefaultValue=256\n";
   const Ran ran = run(directory, "bad.eds -o new");
   CHECK(ran.status == 1);
-  CHECK(ran.err.find("bad.eds:5:14: error: this is no value of its data type [gen-value]\n") != std::string::npos);
+  CHECK(ran.err.find("bad.eds:5:14: error: 2000h 'Bad': '256' does not fit UNSIGNED8 [gen-value]\n") !=
+        std::string::npos);
   CHECK_FALSE(std::filesystem::exists(directory / "new"));
 }
 

@@ -35,4 +35,7 @@ struct Reading {
 /// "10", "-1", "$NODEID+384", "none", "malformed" and so on, with quotes around texts.
 std::string meaning(const lexican::codict::Value& value);
 
+/// Whether a message is a fault in lower case without a full stop, fits a terminal, and has a remedy.
+bool is_well_said(const lexican::codict::Finding& finding);
+
 }  // namespace test

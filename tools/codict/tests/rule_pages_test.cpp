@@ -250,6 +250,18 @@ TEST_CASE("rule pages: the wrong example breaks the rule, and nothing else but n
   CHECK(wrong == "");
 }
 
+TEST_CASE("rule pages: messages about the wrong example are short, state a fault and have a remedy") {
+  std::string wrong;
+  for (const Rule* rule : catalogue::all_rules()) {
+    const Page page = page_of(*rule);
+    const Findings findings = page.examples.empty() ? Findings() : judge(*rule, page.examples.front());
+    for (const Finding& finding : findings.all()) {
+      wrong += test::is_well_said(finding) ? "" : message_of(finding) + " [" + finding.hint + "]\n";
+    }
+  }
+  CHECK(wrong == "");
+}
+
 TEST_CASE("rule pages: in the right example, only notes are left, and not of this rule") {
   std::string wrong;
   for (const Rule* rule : catalogue::all_rules()) {

@@ -38,3 +38,9 @@ TEST_CASE("rules: the reference has a section and a line of a table for each rul
     CHECK_MESSAGE(contains(all, "\n| [" + id + "](#" + id + ") | "), id);
   }
 }
+
+TEST_CASE("rules: each summary states a fault: short, and without a full stop") {
+  for (const Rule* rule : catalogue::all_rules()) {
+    CHECK_MESSAGE((rule->about.size() <= 90 && rule->about.back() != '.'), rule->id);
+  }
+}

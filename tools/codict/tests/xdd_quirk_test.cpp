@@ -169,7 +169,7 @@ TEST_CASE("XDD: a property that begins as those of CANopenNode is one of them") 
   };
   const test::XmlReading slip = found("CO_storageGruop");
   REQUIRE(slip.has("xdd-property"));
-  CHECK(slip.findings.all().front().hint == "maybe CO_storageGroup");
+  CHECK(slip.findings.all().front().hint == "did you mean CO_storageGroup?");
   CHECK_FALSE(found("CO_storageGroup").has("xdd-property"));
   CHECK_FALSE(found("Own").has("xdd-property"));
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catalogue/suppress.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -61,17 +63,17 @@ using ByRule = std::map<const Rule*, Wanted>;
 
 std::string hint_for(std::string_view id) {
   const std::vector<std::string_view> near = similar(id, all_ids());
-  return near.empty() ? "codict explain names all rules" : std::string(near.front());
+  return near.empty() ? "codict explain lists all rules" : "did you mean " + std::string(near.front()) + "?";
 }
 
 void add_unused(const Wanted& wanted, Findings& findings) {
   for (const Suppression& suppression : wanted.suppressions) {
     if (!wanted.is_used(suppression)) {
-      findings.add(rules::suppression_unused, suppression.rule, "nothing to suppress where this comment is for");
+      findings.add(rules::suppression_unused, suppression.rule, "comment suppresses nothing", "remove it");
     }
   }
   for (const Span place : wanted.nowhere) {
-    findings.add(rules::suppression_unused, place, "nothing follows that this comment could be for");
+    findings.add(rules::suppression_unused, place, "comment at the end of the file suppresses nothing", "remove it");
   }
 }
 
@@ -85,7 +87,7 @@ ByRule by_rule(const Source& source, const std::vector<Suppression>& suppression
     const std::string_view id = source.slice(suppression.rule);
     const Rule* const rule = find_rule(id);
     if (rule == nullptr && !is_generator) {
-      findings.add(rules::suppression_unknown, suppression.rule, "there is no such rule",
+      findings.add(rules::suppression_unknown, suppression.rule, fmt::format("rule {} does not exist", in_quotes(id)),
                    ++unknown > most_hints ? std::string() : hint_for(id));
     } else if (rule != nullptr && suppression.scope) {
       all[rule].suppressions.push_back(suppression);

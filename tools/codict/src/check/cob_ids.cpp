@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -7,6 +9,7 @@
 #include "check/network.hpp"
 #include "model/cob_id.hpp"
 #include "model/pdo.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -15,16 +18,31 @@ namespace {
 struct Range {
   std::uint32_t first;
   std::uint32_t last;
+  const char* use;
 };
 
 // Identifiers that no configurable service may have. [301: table 40]
-constexpr std::array<Range, 7> restricted = {
-    {{0x000, 0x000}, {0x001, 0x07F}, {0x101, 0x180}, {0x581, 0x5FF}, {0x601, 0x67F}, {0x6E0, 0x6FF}, {0x701, 0x7FF}}};
+constexpr std::array<Range, 7> restricted = {{{0x000, 0x000, "NMT"},
+                                              {0x001, 0x07F, "reserved"},
+                                              {0x101, 0x180, "reserved"},
+                                              {0x581, 0x5FF, "default SDO"},
+                                              {0x601, 0x67F, "default SDO"},
+                                              {0x6E0, 0x6FF, "reserved"},
+                                              {0x701, 0x7FF, "NMT error control"}}};
 
-bool is_restricted(std::uint32_t identifier) {
-  return std::any_of(restricted.begin(), restricted.end(), [identifier](const Range& range) {
-    return identifier >= range.first && identifier <= range.last;
+// Null if the identifier is free.
+const Range* restriction_of(const CobId& cob_id) {
+  const std::uint32_t identifier = cob_id.identifier();
+  const auto* const range = std::find_if(restricted.begin(), restricted.end(), [identifier](const Range& each) {
+    return identifier >= each.first && identifier <= each.last;
   });
+  return cob_id.is_extended() || range == restricted.end() ? nullptr : range;
+}
+
+// "COB-ID 181h", "COB-ID 181h with node-ID 1".
+std::string title_of(const Device& device, const CobId& cob_id) {
+  const bool adds_node_id = value_in_force(*device.find(cob_id.index, cob_id.sub_index)).adds_node_id;
+  return fmt::format("COB-ID {:03X}h{}", cob_id.identifier(), adds_node_id ? " with node-ID 1" : "");
 }
 
 bool is_default_sdo(const CobId& cob_id) { return cob_id.index == 0x1200; }
@@ -37,13 +55,16 @@ Span span_of(const Device& device, const CobId& cob_id) {
 void check_one(const Device& device, const CobId& cob_id, Findings& findings) {
   constexpr std::uint32_t flags = 0xE0000000U;
   const std::uint32_t bits = cob_id.is_extended() ? 0x1FFFFFFFU : 0x7FFU;
+  const Range* const range = restriction_of(cob_id);
   if ((cob_id.value & ~flags & ~bits) != 0) {
-    findings.add(rules::cob_id_form, span_of(device, cob_id), "more than 11 bits, without bit 29");
-  } else if (!cob_id.is_extended() && !is_default_sdo(cob_id) && is_restricted(cob_id.identifier()) &&
-             // A client's server may have the identifiers of the default SDO, and 0 is not configured yet.
-             !is_sdo_client(cob_id)) {
-    findings.add(rules::cob_id_restricted, span_of(device, cob_id), "an identifier that CiA 301 keeps for others",
-                 "an object with bit 31 has none");
+    findings.add(rules::cob_id_form, span_of(device, cob_id),
+                 fmt::format("COB-ID {:X}h has more than 11 bits, but bit 29 is 0", cob_id.value),
+                 "set bit 29, or use an 11-bit identifier");
+  } else if (range != nullptr && !is_default_sdo(cob_id) && !is_sdo_client(cob_id)) {
+    // An SDO client may use the identifiers of a default SDO server, and 0 is not configured yet.
+    findings.add(rules::cob_id_restricted, span_of(device, cob_id),
+                 fmt::format("{} is restricted by CiA 301 ({})", title_of(device, cob_id), range->use),
+                 "choose another COB-ID, or disable the service by bit 31");
   }
 }
 
@@ -64,7 +85,9 @@ void check_cob_ids(const Device& device, Findings& findings) {
     const std::uint64_t key = cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0);
     const auto [place, is_new] = seen.emplace(key, cob_id.service);
     if (!is_new && !is_sdo_client(cob_id)) {
-      findings.add(rules::cob_id_twice, span_of(device, cob_id), "the identifier of " + place->second + ", too");
+      findings.add(rules::cob_id_twice, span_of(device, cob_id),
+                   fmt::format("{} is also that of {}", title_of(device, cob_id), place->second),
+                   "choose another COB-ID for one of them");
     }
   }
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
 #include "check/check.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -15,7 +18,10 @@ void check_pdos(const Field<std::uint16_t>& number, std::uint16_t first, const D
   });
   const bool may_be_implicit = device.features.compact_pdo.value != 0 && number.value > described;
   if (number.is_given && number.value != described && !may_be_implicit) {
-    findings.add(rules::pdo_count, number.span, std::to_string(described) + " are described");
+    findings.add(rules::pdo_count, number.span,
+                 fmt::format("{} is {}, but the number of described PDOs is {}",
+                             first == 0x1400 ? "NrOfRXPDO" : "NrOfTXPDO", number.value, described),
+                 "correct the number, or describe the PDOs");
   }
 }
 
@@ -27,7 +33,9 @@ void check_identity(const Field<std::uint32_t>& number, std::uint8_t sub_index, 
   }
   if (entry->default_value.integer != Integer(number.value)) {
     findings.add(rules::identity, number.span,
-                 "object 1018h has another default at sub-index " + std::to_string(sub_index));
+                 fmt::format("{:X}h differs from {} in {}", number.value, text_of(entry->default_value),
+                             subject_of(device, 0x1018, sub_index)),
+                 "use one number in both places");
   }
 }
 

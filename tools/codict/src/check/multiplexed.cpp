@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Multiplexed PDOs, whose frames name the object that they carry. [301: 7.2.2.6, 7.5.2.36]
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "check/network.hpp"
@@ -26,7 +28,9 @@ void check_type(const Pdo& pdo, Findings& findings) {
   const Entry* const type = pdo.parameter(2);
   if (type != nullptr && value_in_force(*type).is_integer() &&
       value_in_force(*type).integer.bits() < event_manufacturer) {
-    findings.add(rules::multiplexed_type, value_in_force(*type).span, "not sent by events");
+    findings.add(rules::multiplexed_type, value_in_force(*type).span,
+                 fmt::format("multiplexed PDO with transmission type {}", value_in_force(*type).integer.bits()),
+                 "write 254 or 255");
   }
 }
 
@@ -39,11 +43,14 @@ void check_multiplexed(const Device& device, Findings& findings) {
     }
     const Value& mode = value_in_force(*pdo.mapping->find(0));
     if (device.features.group_messaging.is_given && !device.features.group_messaging.value) {
-      findings.add(rules::multiplexed, mode.span, "the device says that it has no multiplexed PDOs");
+      findings.add(rules::multiplexed, mode.span, "multiplexed PDO, but GroupMessaging is 0",
+                   "set GroupMessaging=1, or correct sub-index 0");
     }
     if (mode.integer.bits() == source_mode && !has_list(device, pdo.is_transmit)) {
-      findings.add(rules::multiplexed_list, mode.span,
-                   pdo.is_transmit ? "there is no scanner list" : "there is no dispatching list");
+      findings.add(
+          rules::multiplexed_list, mode.span,
+          pdo.is_transmit ? "source address mode without scanner list" : "source address mode without dispatching list",
+          pdo.is_transmit ? "describe 1FA0h to 1FCFh" : "describe 1FD0h to 1FFFh");
     }
     check_type(pdo, findings);
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
 #include "check/check.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -15,8 +18,9 @@ void check_sub_number(const Object& object, Findings& findings) {
   if (object.compact.value != 0 || !object.sub_number.is_given || object.sub_number.value == number) {
     return;
   }
-  findings.add(rules::sub_number, object.sub_number.span, std::to_string(number) + " sub-objects are described",
-               "SubNumber=" + std::to_string(number));
+  findings.add(rules::sub_number, object.sub_number.span,
+               fmt::format("SubNumber is {}, but the number of sub-objects is {}", object.sub_number.value, number),
+               fmt::format("SubNumber={}", number));
 }
 
 // Those whose sub-index 0 counts what is in use, and not what is there. [301: 7.5.2.5, 7.5.2.36]
@@ -29,19 +33,24 @@ bool counts_entries(const Object& object, const Sub& zero) {
 void check_sub_zero(const Object& object, Findings& findings) {
   const Sub* const zero = object.find(0);
   if (zero == nullptr) {
-    findings.add(rules::sub_zero_missing, object.span, "there is no sub-index 0");
+    findings.add(rules::sub_zero_missing, object.span, "sub-index 0 is missing",
+                 fmt::format("add it as UNSIGNED8 with default value {}", highest_sub(object)));
     return;
   }
   const std::uint8_t highest = highest_sub(object);
   if (!zero->has_value() && !zero->is_implied) {
-    findings.add(rules::sub_zero_value, zero->span, "sub-index 0 has no default: the highest sub-index is taken",
-                 "DefaultValue=" + std::to_string(highest));
+    findings.add(rules::sub_zero_value, zero->span,
+                 fmt::format("sub-index 0 has no default value, {} is used", highest),
+                 fmt::format("DefaultValue={}", highest));
   }
   const Value& value = zero->default_value;
+  const std::string differs =
+      fmt::format("sub-index 0 is {}, but the highest sub-index is {}", text_of(value), highest);
   if (value.is_integer() && value.integer < Integer(highest) && !counts_entries(object, *zero)) {
-    findings.add(rules::sub_zero_small, value.span, "there are higher sub-indexes");
+    findings.add(rules::sub_zero_small, value.span, differs, fmt::format("write {}", highest));
   } else if (value.is_integer() && Integer(highest) < value.integer && !counts_entries(object, *zero)) {
-    findings.add(rules::sub_zero_large, value.span, "the highest sub-index is " + std::to_string(highest));
+    findings.add(rules::sub_zero_large, value.span, differs,
+                 fmt::format("write {}, or describe the missing sub-objects", highest));
   }
 }
 
@@ -59,18 +68,24 @@ void check_limits(const Entry& entry, Findings& findings) {
   const bool has_low = is_number(entry.low_limit);
   const bool has_high = is_number(entry.high_limit);
   if (has_low && has_high && is_less(entry.high_limit, entry.low_limit)) {
-    findings.add(rules::limit_order, entry.low_limit.span, "above the high limit");
+    findings.add(rules::limit_order, entry.low_limit.span,
+                 fmt::format("LowLimit {} is above HighLimit {}", text_of(entry.low_limit), text_of(entry.high_limit)),
+                 "exchange or correct the limits");
     return;
   }
   for (const Value* value : {&entry.default_value, &entry.actual_value}) {
     if (!is_number(*value)) {
       continue;
     }
+    const std::string title =
+        fmt::format("{} value {}", value == &entry.default_value ? "default" : "configured", text_of(*value));
     if (has_low && is_less(*value, entry.low_limit)) {
-      findings.add(rules::limit, value->span, "below the low limit");
+      findings.add(rules::limit, value->span, fmt::format("{} is below LowLimit {}", title, text_of(entry.low_limit)),
+                   "raise the value or lower the limit");
     }
     if (has_high && is_less(entry.high_limit, *value)) {
-      findings.add(rules::limit, value->span, "above the high limit");
+      findings.add(rules::limit, value->span, fmt::format("{} is above HighLimit {}", title, text_of(entry.high_limit)),
+                   "lower the value or raise the limit");
     }
   }
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "check/network.hpp"
 #include "model/pdo.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -18,10 +21,12 @@ std::string title_of(const Pdo& pdo) { return (pdo.is_transmit ? "TPDO " : "RPDO
 void check_pair(const Device& device, const Pdo& pdo, Findings& findings) {
   const bool is_implicit = device.features.compact_pdo.value != 0;
   if (pdo.mapping == nullptr && !is_implicit) {
-    findings.add(rules::pdo_pair, pdo.communication->span, title_of(pdo) + " has no mapping");
+    findings.add(rules::pdo_pair, pdo.communication->span, title_of(pdo) + " has no mapping parameter",
+                 fmt::format("describe {:04X}h", pdo.communication->index + 0x200));
   }
   if (pdo.communication == nullptr && !is_implicit) {
-    findings.add(rules::pdo_pair, pdo.mapping->span, title_of(pdo) + " has no communication parameters");
+    findings.add(rules::pdo_pair, pdo.mapping->span, title_of(pdo) + " has no communication parameter",
+                 fmt::format("describe {:04X}h", pdo.mapping->index - 0x200));
   }
 }
 
@@ -36,10 +41,12 @@ void check_number(const Pdo& pdo, Findings& findings) {
   const Span place = value.is_given ? value.span : zero->span;
   const std::uint64_t number = value.integer.bits();
   if (number > mapped_limit && number != 0xFE && number != 0xFF) {
-    findings.add(rules::pdo_mapped_count, place, "no number of mapped objects");
+    findings.add(rules::pdo_mapped_count, place, fmt::format("{} is not a number of mapped objects", number),
+                 "write 0 to 64, or 254 or 255 for a multiplexed PDO");
   } else if (!pdo.is_multiplexed && number != pdo.mapped.size()) {
     findings.add(rules::pdo_gap, place,
-                 std::to_string(pdo.mapped.size()) + " of the sub-indexes up to this one map an object");
+                 fmt::format("sub-index 0 is {}, but the number of mapped objects is {}", number, pdo.mapped.size()),
+                 "correct sub-index 0, or map the missing objects");
   }
 }
 
@@ -66,10 +73,16 @@ bool takes_dummy(const Device& device, std::uint16_t type) {
 
 void check_dummy(const Device& device, const Pdo& pdo, const MappedObject& mapped, Span span, Findings& findings) {
   if (pdo.is_transmit) {
-    findings.add(rules::pdo_dummy, span, "a dummy in a TPDO");
+    findings.add(rules::pdo_dummy, span, "dummy mapping in a TPDO", "map an object of the device");
   } else if (!takes_dummy(device, mapped.index)) {
-    findings.add(rules::pdo_dummy, span, "the device has no dummy of this type", "see [DummyUsage]");
+    findings.add(rules::pdo_dummy, span,
+                 fmt::format("dummy mapping of {}, which the device does not support", type_text(mapped.index)),
+                 fmt::format("set Dummy{:04X}=1 in [DummyUsage]", mapped.index));
   }
+}
+
+std::string name_of(const Device& device, const MappedObject& mapped) {
+  return subject_of(device, mapped.index, mapped.sub_index);
 }
 
 void check_bits(const Device& device, const MappedObject& mapped, Span span, Findings& findings) {
@@ -77,12 +90,13 @@ void check_bits(const Device& device, const MappedObject& mapped, Span span, Fin
   if (bits == 0) {
     return;  // a string's length is not in its type
   }
-  const std::string has = "the object has " + std::to_string(bits) + " bits";
+  const std::string text = fmt::format("mapping of {} bits, but {} has {}", mapped.bits, name_of(device, mapped), bits);
+  const std::string hint = fmt::format("write {:04X}{:02X}{:02X}h", mapped.index, mapped.sub_index, bits);
   // BOOLEAN may be mapped as a byte. [301: 7.4.7.1]
   if (mapped.bits > std::max(bits, 8U)) {
-    findings.add(rules::pdo_bits, span, has);
+    findings.add(rules::pdo_bits, span, text, hint);
   } else if (mapped.bits < bits) {
-    findings.add(rules::pdo_part, span, has);
+    findings.add(rules::pdo_part, span, text, hint);
   }
 }
 
@@ -91,19 +105,23 @@ void check_mapped(const Device& device, const Pdo& pdo, const MappedObject& mapp
   if (mapped.is_dummy()) {
     check_dummy(device, pdo, mapped, span, findings);
   } else if (mapped.entry == nullptr) {
-    findings.add(rules::pdo_object, span, "the object is not described");
+    findings.add(rules::pdo_object, span, fmt::format("mapped object {} does not exist", name_of(device, mapped)),
+                 "describe the object, or correct the mapping");
   } else {
     const Directions directions = directions_of(*mapped.entry);
     if (!(pdo.is_transmit ? directions.send : directions.receive)) {
       findings.add(rules::pdo_access, span,
-                   pdo.is_transmit ? "the object cannot be in a TPDO" : "the object cannot be in an RPDO",
-                   "see its AccessType and PDOMapping");
+                   fmt::format("{} maps {} (access {}, PDO mapping {})", title_of(pdo), name_of(device, mapped),
+                               name_of(mapped.entry->access.value), name_of(mapped.entry->pdo_mapping.value)),
+                   "correct AccessType or PDOMapping of the object");
     }
     check_bits(device, mapped, span, findings);
   }
   const std::uint8_t granularity = device.features.granularity.value;
   if (granularity != 0 && mapped.bits % granularity != 0) {
-    findings.add(rules::pdo_granularity, span, "the device has a granularity of " + std::to_string(granularity));
+    findings.add(rules::pdo_granularity, span,
+                 fmt::format("mapped length {} is not a multiple of the granularity {}", mapped.bits, granularity),
+                 "correct Granularity, or map a longer object");
   }
 }
 
@@ -114,7 +132,9 @@ void check_mapping(const Device& device, const Pdo& pdo, Findings& findings) {
     check_mapped(device, pdo, mapped, findings);
   }
   if (pdo.bits() > frame_bits) {
-    findings.add(rules::pdo_length, pdo.mapping->span, title_of(pdo) + " has " + std::to_string(pdo.bits()) + " bits");
+    findings.add(rules::pdo_length, pdo.mapping->span,
+                 fmt::format("{} has {} bits, more than {}", title_of(pdo), pdo.bits(), frame_bits),
+                 "map fewer or shorter objects");
   }
 }
 
@@ -134,7 +154,9 @@ bool is_type(std::uint64_t type, bool is_transmit) {
 void check_time(const Pdo& pdo, std::uint8_t sub_index, const char* what, Findings& findings) {
   const Entry* const time = pdo.parameter(sub_index);
   if (time != nullptr && value_in_force(*time).is_integer() && value_in_force(*time).integer.bits() != 0) {
-    findings.add(rules::pdo_time, value_in_force(*time).span, std::string(what) + " of a PDO without events");
+    findings.add(rules::pdo_time, value_in_force(*time).span,
+                 fmt::format("{} {} has no effect without events", what, text_of(value_in_force(*time))),
+                 "write 0, or use transmission type 254 or 255");
   }
 }
 
@@ -148,7 +170,9 @@ void check_communication(const Pdo& pdo, Findings& findings) {
   }
   const std::uint64_t number = value_in_force(*type).integer.bits();
   if (!is_type(number, pdo.is_transmit)) {
-    findings.add(rules::pdo_type, value_in_force(*type).span, "no transmission type of this kind of PDO");
+    findings.add(rules::pdo_type, value_in_force(*type).span,
+                 fmt::format("{} has invalid transmission type {}", title_of(pdo), number),
+                 pdo.is_transmit ? "write 0 to 240, 252 to 255" : "write 0 to 240, 254 or 255");
   } else if (pdo.is_transmit && number != event_manufacturer && number != event_profile) {
     check_time(pdo, inhibit_sub, "inhibit time", findings);
     check_time(pdo, event_sub, "event time", findings);
@@ -174,7 +198,8 @@ void check_sync(const Device& device, const std::vector<Pdo>& pdos, Findings& fi
   const auto pdo = std::find_if(pdos.begin(), pdos.end(), is_synchronous);
   if (pdo != pdos.end() && device.find(0x1005) == nullptr) {
     findings.add(rules::pdo_sync, value_in_force(*pdo->parameter(2)).span,
-                 title_of(*pdo) + " waits for SYNC, and there is no object 1005h");
+                 fmt::format("{} depends on SYNC, but object 1005h is missing", title_of(*pdo)),
+                 "describe 1005h, or use transmission type 254 or 255");
   }
 }
 

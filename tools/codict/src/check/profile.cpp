@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/profile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
+
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -115,20 +119,28 @@ std::uint32_t device_type(const Device& device) {
 void check_entry(const Entry& entry, const Fact& fact, const Profile& profile, Findings& findings) {
   if (entry.data_type.value != 0 && entry.data_type.value != fact.type) {
     findings.add(rules::profile_type, entry.data_type.is_given ? entry.data_type.span : entry.span,
-                 named(profile) + " has another data type here", std::string(data_type(fact.type).name));
+                 fmt::format("data type {}, but {} defines {}", type_text(entry.data_type.value), named(profile),
+                             type_text(fact.type)),
+                 "use " + type_text(fact.type));
   }
   const Access access = entry.access.value;
   if (fact.use == Use::write && is_readable(access) && !is_writable(access)) {
-    findings.add(rules::profile_access, entry.access.span, "masters write this object of " + named(profile));
+    findings.add(rules::profile_access, entry.access.span,
+                 fmt::format("access {}, but masters write this object of {}", name_of(access), named(profile)),
+                 "make it writable");
   } else if (fact.use == Use::read && is_writable(access)) {
-    findings.add(rules::profile_access, entry.access.span, "masters only read this object of " + named(profile));
+    findings.add(rules::profile_access, entry.access.span,
+                 fmt::format("access {}, but masters only read this object of {}", name_of(access), named(profile)),
+                 "make it read-only");
   }
 }
 
 void check_object(const Object& object, const Fact& fact, const Profile& profile, Findings& findings) {
   if (object.object_code.value != fact.code) {
     findings.add(rules::profile_kind, object.object_code.is_given ? object.object_code.span : object.span,
-                 named(profile) + " has another kind of object here", std::string(name_of(fact.code)));
+                 fmt::format("object type {}, but {} defines {}", name_of(object.object_code.value), named(profile),
+                             name_of(fact.code)),
+                 fmt::format("use {}", name_of(fact.code)));
   }
   if (fact.code == var && object.subs.empty()) {
     check_entry(object, fact, profile, findings);
@@ -143,7 +155,7 @@ void check_object(const Object& object, const Fact& fact, const Profile& profile
 void check_missing(const Device& device, std::uint16_t index, const char* text, Findings& findings) {
   if (device.find(index) == nullptr) {
     const Object* const type = device.find(0x1000);
-    findings.add(rules::profile_object_missing, type != nullptr ? type->span : Span{}, text);
+    findings.add(rules::profile_object_missing, type != nullptr ? type->span : Span{}, text, "describe the object");
   }
 }
 
@@ -151,15 +163,15 @@ void check_all_there(const Device& device, const Profile& profile, Findings& fin
   constexpr std::uint32_t digital_inputs = 1U << 16;
   constexpr std::uint32_t digital_outputs = 1U << 17;
   if (profile.number == 402) {
-    check_missing(device, 0x6040, "a drive has a controlword, 6040h", findings);
-    check_missing(device, 0x6041, "a drive has a statusword, 6041h", findings);
+    check_missing(device, 0x6040, "profile 402, but controlword 6040h is missing", findings);
+    check_missing(device, 0x6041, "profile 402, but statusword 6041h is missing", findings);
     return;
   }
   if ((device_type(device) & digital_inputs) != 0) {
-    check_missing(device, 0x6000, "1000h says that there are digital inputs, 6000h", findings);
+    check_missing(device, 0x6000, "bit 16 announces digital inputs, but 6000h is missing", findings);
   }
   if ((device_type(device) & digital_outputs) != 0) {
-    check_missing(device, 0x6200, "1000h says that there are digital outputs, 6200h", findings);
+    check_missing(device, 0x6200, "bit 17 announces digital outputs, but 6200h is missing", findings);
   }
 }
 

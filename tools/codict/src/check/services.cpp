@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <set>
 #include <string>
 #include <utility>
 
 #include "check/network.hpp"
 #include "model/pdo.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -12,15 +15,16 @@ namespace {
 
 void check_mandatory(const Device& device, Findings& findings) {
   for (const auto& [index, name] :
-       {std::pair(0x1000, "1000h"), std::pair(0x1001, "1001h"), std::pair(0x1018, "1018h")}) {
+       {std::pair(0x1000, "Device type"), std::pair(0x1001, "Error register"), std::pair(0x1018, "Identity object")}) {
     if (device.find(static_cast<std::uint16_t>(index)) == nullptr) {
-      findings.add(rules::mandatory, {}, std::string("there is no object ") + name);
+      findings.add(rules::mandatory, {}, fmt::format("mandatory object {:04X}h '{}' is missing", index, name),
+                   "describe it");
     }
   }
   const bool has_heartbeat = device.find(0x1017) != nullptr;
   const bool has_guarding = device.find(0x100C) != nullptr && device.find(0x100D) != nullptr;
   if (!has_heartbeat && !has_guarding) {
-    findings.add(rules::error_control, {}, "nobody can tell whether the device is alive");
+    findings.add(rules::error_control, {}, "neither heartbeat nor node guarding", "describe 1017h, or 100Ch and 100Dh");
   }
 }
 
@@ -41,7 +45,9 @@ void check_default_sdo(const Device& device, Findings& findings) {
     const Integer with_node = wanted.base + device.commissioning.node_id.value;
     const bool is_of_node = !value.adds_node_id && value.integer == with_node;
     if (value.integer != Integer(wanted.base) && !is_of_node) {
-      findings.add(rules::sdo_default, value.span, "not the identifier of the first SDO server", wanted.formula);
+      findings.add(rules::sdo_default, value.span,
+                   fmt::format("COB-ID {} is not {:X}h plus the node-ID", text_of(value), wanted.base),
+                   fmt::format("write {}", wanted.formula));
     }
   }
 }
@@ -63,9 +69,12 @@ void check_consumers(const Device& device, Findings& findings) {
     const std::uint64_t node = value.integer.bits() >> node_shift;
     const bool is_used = (value.integer.bits() & 0xFFFF) != 0;
     if (node > last_node || (node == 0 && is_used)) {
-      findings.add(rules::consumer_entry, value.span, "no node-ID and time");
+      findings.add(rules::consumer_entry, value.span,
+                   fmt::format("{} has node-ID {}, not 1 to 127", text_of(value), node),
+                   "write node-ID * 65536 + milliseconds");
     } else if (is_used && node != 0 && !nodes.insert(node).second) {
-      findings.add(rules::consumer_twice, value.span, "node " + std::to_string(node) + " has an entry already");
+      findings.add(rules::consumer_twice, value.span, fmt::format("second entry for node {}", node),
+                   "remove one of the entries");
     }
   }
 }
@@ -81,7 +90,10 @@ void check_sync(const Device& device, Findings& findings) {
   const Value& window_time = value_in_force(*window);
   if (cycle_time.is_integer() && window_time.is_integer() && cycle_time.integer.bits() != 0 &&
       cycle_time.integer < window_time.integer) {
-    findings.add(rules::sync_window, window_time.span, "longer than the cycle in 1006h");
+    findings.add(
+        rules::sync_window, window_time.span,
+        fmt::format("SYNC window {} is longer than the cycle {} in 1006h", text_of(window_time), text_of(cycle_time)),
+        "lower 1007h, or raise 1006h");
   }
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects of the communication profile, against what CiA 301 says of them. [301: 7.5.2]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
 
 #include "check/check.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -73,15 +76,19 @@ void check_kind(const Object& object, Findings& findings) {
   const auto* const kind =
       std::find_if(kinds.begin(), kinds.end(), [&object](const Kind& each) { return each.indexes.has(object.index); });
   if (kind != kinds.end() && object.object_code.is_given && object.object_code.value != kind->code) {
-    findings.add(rules::standard_kind, object.object_code.span, "CiA 301 has another kind of object here",
-                 std::string(name_of(kind->code)));
+    findings.add(
+        rules::standard_kind, object.object_code.span,
+        fmt::format("object type {}, but CiA 301 defines {}", name_of(object.object_code.value), name_of(kind->code)),
+        fmt::format("use {}", name_of(kind->code)));
   }
 }
 
 void check_type(const Entry& entry, std::uint16_t wanted, Findings& findings) {
   if (entry.data_type.value != 0 && entry.data_type.value != wanted) {
-    findings.add(rules::standard_type, entry.data_type.span, "CiA 301 has another data type here",
-                 std::string(data_type(wanted).name));
+    findings.add(
+        rules::standard_type, entry.data_type.span,
+        fmt::format("data type {}, but CiA 301 defines {}", type_text(entry.data_type.value), type_text(wanted)),
+        "use " + type_text(wanted));
   }
 }
 

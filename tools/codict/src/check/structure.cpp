@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How objects hang together: types, links, modules of bus couplers, objects that come in pairs.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::check {
 
@@ -17,10 +20,11 @@ namespace {
 void check_type(const Device& device, const Entry& entry, Findings& findings) {
   const DataType& type = data_type_of(device, entry.data_type.value);
   if (type.kind == TypeKind::structure) {
-    findings.add(rules::type_complex, entry.data_type.span, "a type of several values for one value",
-                 "a RECORD has sub-objects with types of their own");
+    findings.add(rules::type_complex, entry.data_type.span,
+                 fmt::format("data type {:04X}h is a structure, but this is one value", entry.data_type.value),
+                 "use a basic type, or a RECORD with sub-objects");
   } else if (type.kind == TypeKind::domain && entry.pdo_mapping.value != PdoMapping::no) {
-    findings.add(rules::unmappable, entry.pdo_mapping.span, "a DOMAIN has no length that a PDO could map");
+    findings.add(rules::unmappable, entry.pdo_mapping.span, "DOMAIN with PDO mapping", "set PDOMapping=0");
   }
 }
 
@@ -34,8 +38,9 @@ void check_elements(const Object& array, Findings& findings) {
   });
   if (other != array.subs.end()) {
     findings.add(rules::array_types, other->data_type.span,
-                 "another type than that of sub-index " + std::to_string(first->sub_index),
-                 "what has several types is a RECORD");
+                 fmt::format("element is {}, but sub-index {} is {}", type_text(other->data_type.value),
+                             first->sub_index, type_text(first->data_type.value)),
+                 "use one data type, or describe the object as a RECORD");
   }
 }
 
@@ -45,8 +50,8 @@ void check_capacity(const Entry& entry, Findings& findings) {
   const bool is_string = value.kind == Value::Kind::octets || value.kind == Value::Kind::text;
   if (is_string && entry.node.byte_length.is_given && size > entry.node.byte_length.value) {
     findings.add(rules::string_capacity, value.span,
-                 "CO_byteLength is " + std::to_string(entry.node.byte_length.value) + ", this has " +
-                     std::to_string(size) + " bytes");
+                 fmt::format("default value has {} bytes, but CO_byteLength is {}", size, entry.node.byte_length.value),
+                 "raise CO_byteLength, or shorten the value");
   }
 }
 
@@ -62,7 +67,8 @@ bool is_of_module(const Device& device, std::uint16_t index) {
 void check_links(const Device& device, const Object& object, Findings& findings) {
   for (const Field<std::uint16_t>& link : object.links) {
     if (link.value != 0 && device.find(link.value) == nullptr && !is_of_module(device, link.value)) {
-      findings.add(rules::link, link.span, "this object is not described");
+      findings.add(rules::link, link.span, fmt::format("linked object {:04X}h does not exist", link.value),
+                   "correct or remove the link");
     }
   }
 }
@@ -70,7 +76,9 @@ void check_links(const Device& device, const Object& object, Findings& findings)
 void check_fixed_objects(const Device& device, const Module& module, Findings& findings) {
   for (const Object& object : module.fixed) {
     if (device.find(object.index) != nullptr) {
-      findings.add(rules::module_object, object.span, "the coupler itself has this object");
+      findings.add(rules::module_object, object.span,
+                   fmt::format("module {} defines an object of the bus coupler", module.number),
+                   "remove one of the objects, or correct its index");
     }
   }
 }
@@ -81,14 +89,16 @@ void check_connected_modules(const Device& device, Findings& findings) {
         std::any_of(device.modules.begin(), device.modules.end(),
                     [&connected](const Module& module) { return module.number == connected.value; });
     if (connected.value != 0 && !is_described) {  // 0: a slot without a module
-      findings.add(rules::module_number, connected.span, "this module is not described");
+      findings.add(rules::module_number, connected.span,
+                   fmt::format("connected module {} is not described", connected.value),
+                   "correct the number, or describe the module");
     }
   }
 }
 
 void check_modules(const Device& device, Findings& findings) {
   if (!device.modules.empty() && device.find(0x1027) == nullptr) {
-    findings.add(rules::module_list, {}, "there is no object 1027h");
+    findings.add(rules::module_list, {}, "modules are described, but object 1027h is missing", "describe it");
   }
   for (const Module& module : device.modules) {
     check_fixed_objects(device, module, findings);
@@ -102,7 +112,7 @@ constexpr std::array<std::uint16_t, 4> former_objects = {0x1004, 0x100B, 0x100E,
 void check_former(const Device& device, Findings& findings) {
   for (const std::uint16_t index : former_objects) {
     if (const Object* const object = device.find(index)) {
-      findings.add(rules::former, object->span, "no longer an object of CiA 301");
+      findings.add(rules::former, object->span, "object is no longer defined by CiA 301", "remove it");
     }
   }
 }
@@ -119,7 +129,7 @@ void check_store(const Device& device, Findings& findings) {
   const Object* const store = device.find(0x1010);
   const Object* const restore = device.find(0x1011);
   if (store != nullptr && restore != nullptr && sub_indexes_of(*store) != sub_indexes_of(*restore)) {
-    findings.add(rules::store_pair, restore->span, "1010h has other sub-indexes");
+    findings.add(rules::store_pair, restore->span, "sub-indexes differ from those of 1010h", "use the same in both");
   }
 }
 
@@ -141,7 +151,9 @@ void check_structure(const Device& device, Findings& findings) {
   check_store(device, findings);
   constexpr std::uint8_t most_granular = 64;
   if (device.features.granularity.value > most_granular) {
-    findings.add(rules::granularity, device.features.granularity.span, "more bits than a PDO has");
+    findings.add(rules::granularity, device.features.granularity.span,
+                 fmt::format("granularity {} is above {} bits", device.features.granularity.value, most_granular),
+                 "write 0 to 64");
   }
 }
 

@@ -46,7 +46,7 @@ std::vector<Folded> each_alone(const std::vector<Finding>& findings) {
   std::vector<Folded> all;
   all.reserve(findings.size());
   for (const Finding& finding : findings) {
-    all.push_back({&finding, 0});
+    all.push_back({&finding, 0, {}});
   }
   return all;
 }

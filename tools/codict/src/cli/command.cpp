@@ -16,6 +16,7 @@
 #include "eds/recognise.hpp"
 #include "eds/suppressions.hpp"
 #include "json/read.hpp"
+#include "model/subject.hpp"
 #include "text/file.hpp"
 #include "text/number.hpp"
 #include "text/similar.hpp"
@@ -112,6 +113,9 @@ void suppress(const Input& input, catalogue::Origin origin, Findings& findings) 
                                                 : input.xdd != nullptr ? xdd::suppressions(*input.xdd)
                                                                        : std::vector<Suppression>();
   catalogue::suppress(input.source(), suppressions, origin, findings);
+  for (const Device& device : input.description.devices) {
+    name_subjects(device, findings);
+  }
 }
 
 void check_all(Input& input) {

@@ -82,7 +82,7 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
     const Severity severity = finding.severity;
     text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", visible(source.name()),
                         position.line, position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
-                        name_of(severity), has_colour ? plain : "", visible(finding.text), finding.rule->id);
+                        name_of(severity), has_colour ? plain : "", visible(message_of(finding)), finding.rule->id);
     text += excerpt(source, encoding, finding.span);
     if (!finding.hint.empty()) {
       text += fmt::format("    fix: {}\n", visible(finding.hint));
@@ -114,7 +114,7 @@ Json to_json(const Source& source, const std::vector<Folded>& findings) {
     Json json;
     json["severity"] = name_of(finding.severity);
     json["rule"] = finding.rule->id;
-    json["text"] = finding.text;
+    json["text"] = message_of(finding);
     if (!finding.hint.empty()) {
       json["fix"] = finding.hint;
     }

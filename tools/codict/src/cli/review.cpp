@@ -12,13 +12,13 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// One finding of each rule and text of which there are more than before.
+// Returns the first finding of each kind that is more frequent than before.
 std::vector<Finding> added(const Findings& before, const Findings& after) {
   std::vector<Finding> result;
   const std::vector<Folded> old = fold(before.all());
   for (const Folded& now : fold(after.all())) {
     const auto same = std::find_if(old.begin(), old.end(), [&now](const Folded& candidate) {
-      return candidate.first->rule == now.first->rule && candidate.first->text == now.first->text;
+      return candidate.first->rule == now.first->rule && candidate.kind == now.kind;
     });
     if (same == old.end() || same->more < now.more) {
       result.push_back(*now.first);

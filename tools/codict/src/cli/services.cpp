@@ -40,8 +40,8 @@ std::string to_uri(std::string_view path) {
   return path.substr(0, 1) == "/" ? "file://" + uri : uri;
 }
 
-std::string message_of(const Finding& finding) {
-  return finding.hint.empty() ? finding.text : finding.text + "\nfix: " + finding.hint;
+std::string message_with_hint(const Finding& finding) {
+  return message_of(finding) + (finding.hint.empty() ? "" : "\nfix: " + finding.hint);
 }
 
 // Columns are characters there, not bytes.
@@ -69,7 +69,7 @@ std::string to_github(const Source& source, const std::vector<Folded>& findings)
     const std::string more = folded.more == 0 ? "" : fmt::format("\nand {} more", folded.more);
     text += fmt::format("::{} file={},line={},col={},title={}::{}\n", github_word(finding.severity),
                         escaped_property(source.name()), position.line, position.column,
-                        escaped_property(finding.rule->id), escaped_message(message_of(finding) + more));
+                        escaped_property(finding.rule->id), escaped_message(message_with_hint(finding) + more));
   }
   return text;
 }
@@ -94,7 +94,7 @@ void Sarif::add(const Input& input, const std::vector<Finding>& findings) {
     results_.push_back({{"ruleId", finding.rule->id},
                         {"ruleIndex", number_of(*finding.rule)},
                         {"level", name_of(finding.severity)},
-                        {"message", {{"text", message_of(finding)}}},
+                        {"message", {{"text", message_with_hint(finding)}}},
                         {"locations", Json::array({Json{{"physicalLocation", location}}})}});
   }
 }

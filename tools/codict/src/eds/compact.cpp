@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compact storage: one section for all sub-objects of an ARRAY, and lists of their names and values. [306: 4.6.4]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -61,11 +63,17 @@ void read_sub_list(Object& object, const NamedSection& addition, const Reader& r
     const bool is_free = sub != nullptr && !member_of(*sub, addition.name.kind).is_given;
     if (is_free) {
       member_of(*sub, addition.name.kind) = text_of(reader.document, *entry.key);
+      if (sub->is_implied && addition.name.kind == SectionKind::values) {
+        sub->extent = {entry.key->name.begin, entry.key->value.end};
+      }
       continue;
     }
     rest.children.push_back(kept(reader.document, *entry.key));
     reader.findings.add(rules::compact_entry, entry.key->name,
-                        sub == nullptr ? "there is no such sub-index: kept" : "its own section says it, too: kept");
+                        sub == nullptr
+                            ? fmt::format("{:04X}h has no sub-index {:02X}h", object.index, entry.number)
+                            : fmt::format("{:04X}h:{:02X} has a section that defines this", object.index, entry.number),
+                        sub == nullptr ? "raise CompactSubObj, or remove the entry" : "remove the entry");
   }
   for (const Key* key : list.others) {
     keep_key(*key, rest.children, reader);
@@ -97,11 +105,12 @@ void expand_compact(Object& object, const Reader& reader) {
   }
   if (object.compact.value > highest_sub) {
     reader.findings.add(codict::rules::value_range, object.compact.span,
-                        "sub-index FFh is the structure: 254 is taken");
+                        fmt::format("CompactSubObj is {}, 254 is used", object.compact.value), "write 254");
   }
   if (reader.implied_subs + number > most_implied_subs) {
     reader.findings.add(rules::compact_limit, object.compact.span,
-                        "more than " + std::to_string(most_implied_subs) + " sub-objects without sections: left out");
+                        fmt::format("more than {} sub-objects of compact storage; left out", most_implied_subs),
+                        "describe fewer sub-objects");
     return;
   }
   reader.implied_subs += number;
@@ -124,7 +133,8 @@ void read_addition(const NamedSection& addition, const Reader& reader) {
   Object* const object = reader.device.find(addition.name.index);
   if (object == nullptr || addition.section->is_duplicate) {
     if (object == nullptr) {
-      reader.findings.add(rules::section_orphan, addition.section->name, "a list for an object that has no section");
+      reader.findings.add(rules::section_orphan, addition.section->name,
+                          fmt::format("section [{:04X}] of the object is missing", addition.name.index), "add it");
     }
     reader.device.others.push_back(kept(reader.document, *addition.section));
   } else if (addition.name.kind == SectionKind::links) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eds/document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -50,7 +52,7 @@ void report_encoding(const Source& source, Encoding encoding, Findings& findings
   const std::string_view bytes = source.bytes();
   const auto mark = static_cast<std::uint32_t>(mark_size(bytes));
   if (mark != 0) {
-    findings.add(rules::encoding_mark, {0, mark}, "a mark for UTF-8 at the beginning: passed over");
+    findings.add(rules::encoding_mark, {0, mark}, "UTF-8 byte order mark, ignored", "save the file without it");
   }
   if (is_ascii(bytes.substr(mark))) {
     return;
@@ -60,9 +62,11 @@ void report_encoding(const Source& source, Encoding encoding, Findings& findings
   const Span letters{static_cast<std::uint32_t>(first - bytes.begin()),
                      static_cast<std::uint32_t>(last - bytes.begin())};
   if (encoding == Encoding::utf8) {
-    findings.add(rules::encoding_utf8, letters, "not ASCII: read as UTF-8");
+    findings.add(rules::encoding_utf8, letters, "characters outside ASCII, read as UTF-8",
+                 "use ASCII if old tools read the file");
   } else {
-    findings.add(rules::encoding_guess, letters, "neither ASCII nor UTF-8: read as " + std::string(name_of(encoding)),
+    findings.add(rules::encoding_guess, letters,
+                 "characters in an unknown code page, read as " + std::string(name_of(encoding)),
                  "save the file as UTF-8");
   }
 }
@@ -72,7 +76,8 @@ void report_line_ends(const Source& source, Findings& findings) {
   for (std::uint32_t line = 2; line < source.lines(); ++line) {
     if (line_end_of(source, line) != first) {
       const std::uint32_t end = source.line(line).end;
-      findings.add(rules::syntax_line_end, {end, end}, "lines end in different ways");
+      findings.add(rules::syntax_line_end, {end, end}, "mixed line ends: LF and CR LF",
+                   "save the file with one kind of line end");
       return;
     }
   }
@@ -97,14 +102,15 @@ std::vector<std::uint32_t> sorted(const Source& source, const std::vector<Named>
   return places;
 }
 
-template <typename Named>
+// text: returns the message about a name.
+template <typename Named, typename Text>
 void mark_duplicates(const Source& source, const std::vector<std::uint32_t>& by_name, std::vector<Named>& all,
-                     const Rule& rule, const char* text, Findings& findings) {
+                     const Rule& rule, Text text, Findings& findings) {
   for (std::size_t n = 1; n < by_name.size(); ++n) {
     Named& one = all[by_name[n]];
     if (compare_names(source.slice(all[by_name[n - 1]].name), source.slice(one.name)) == 0) {
       one.is_duplicate = true;
-      findings.add(rule, one.name, text);
+      findings.add(rule, one.name, text(one.name), "remove one of them, or correct its name");
     }
   }
 }
@@ -156,12 +162,14 @@ Document::Document(Source source, Findings& findings)
 void Document::read_line(std::uint32_t number, Findings& findings) {
   const Span all = source_.line(number);
   if (all.size() > standard_line) {
-    findings.add(rules::syntax_length, {all.begin + standard_line, all.end}, "more than 255 characters in a line");
+    findings.add(rules::syntax_length, {all.begin + standard_line, all.end},
+                 fmt::format("line has {} characters, more than {}", all.size(), standard_line), "shorten the value");
   }
   const std::string_view bytes = raw(all);
   if (const auto found = std::find_if(bytes.begin(), bytes.end(), is_control); found != bytes.end()) {
     const std::uint32_t at = all.begin + static_cast<std::uint32_t>(found - bytes.begin());
-    findings.add(rules::syntax_control, {at, at + 1}, "a control character");
+    findings.add(rules::syntax_control, {at, at + 1},
+                 fmt::format("control character {:02X}h", static_cast<unsigned char>(*found)), "remove it");
   }
   Span line = trimmed_span(source_, all);
   if (number == 1) {
@@ -173,9 +181,9 @@ void Document::read_line(std::uint32_t number, Findings& findings) {
   }
   const bool is_indented = line.begin != all.begin && number != 1;
   if (content.front() == '#' || content.substr(0, 2) == "//") {
-    findings.add(rules::syntax_comment, line, "comments begin with ;: taken for one");
+    findings.add(rules::syntax_comment, line, "comment does not begin with a semicolon", "begin it with ;");
   } else if (is_indented) {
-    findings.add(rules::syntax_indent, {all.begin, line.begin}, "blanks at the beginning of a line");
+    findings.add(rules::syntax_indent, {all.begin, line.begin}, "leading blanks in the line", "remove them");
   }
   if (content.front() == '[') {
     read_section(number, line, findings);
@@ -190,14 +198,15 @@ void Document::read_section(std::uint32_t number, Span line, Findings& findings)
   Span name{line.begin + 1,
             close == std::string_view::npos ? line.end : line.begin + static_cast<std::uint32_t>(close)};
   if (close == std::string_view::npos) {
-    findings.add(rules::syntax_section, line, "a section's name ends with ]");
+    findings.add(rules::syntax_section, line, fmt::format("no ] after section name {}", in_quotes(text(name))),
+                 "write [name] on a line of its own");
   } else if (close + 1 != content.size()) {
     findings.add(rules::syntax_section_tail, trimmed_span(source_, {name.end + 1, line.end}),
-                 "text behind the name of a section: passed over", "put it into a line of its own that begins with ;");
+                 "text after the section header is ignored", "move it to a line that begins with ;");
   }
   name = trimmed_span(source_, name);
   if (name.is_empty()) {
-    findings.add(rules::syntax_section, line, "a section without a name");
+    findings.add(rules::syntax_section, line, "section header without a name", "write the name between the brackets");
   }
   if (!sections_.empty()) {
     sections_.back().end = number;
@@ -208,21 +217,26 @@ void Document::read_section(std::uint32_t number, Span line, Findings& findings)
 void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
   const std::size_t equals = raw(line).find('=');
   if (equals == std::string_view::npos) {
-    findings.add(rules::syntax_line, line, "neither a section nor a key with a value nor a comment: passed over");
+    findings.add(rules::syntax_line, line,
+                 fmt::format("{} is not a section, key or comment; ignored", in_quotes(text(line))),
+                 "join it with the line above, or begin it with ;");
     return;
   }
   const std::uint32_t at = line.begin + static_cast<std::uint32_t>(equals);
   const Span name = trimmed_span(source_, {line.begin, at});
   const Span value = at + 1 == line.end ? Span{line.end, line.end} : trimmed_span(source_, {at + 1, line.end});
   if (name.is_empty()) {
-    findings.add(rules::syntax_line, line, "a value without a key: passed over");
+    findings.add(rules::syntax_line, line, "value without a key; ignored", "write key=value");
     return;
   }
   if (raw(name).find_first_of(" \t\r") != std::string_view::npos) {
-    findings.add(rules::syntax_key, name, "blanks in the name of a key: left out", "write it without blanks");
+    findings.add(rules::syntax_key, name, fmt::format("blanks in key {} are ignored", in_quotes(text(name))),
+                 "write it without blanks");
   }
   if (sections_.empty()) {
-    findings.add(rules::syntax_outside, name, "a key before the first section: not used");
+    findings.add(rules::syntax_outside, name,
+                 fmt::format("key {} before the first section is not used", in_quotes(text(name))),
+                 "move it into its section");
     keys_outside_.push_back({name, value, number, false});
   } else {
     sections_.back().keys.push_back({name, value, number, false});
@@ -231,12 +245,14 @@ void Document::read_key(std::uint32_t number, Span line, Findings& findings) {
 
 void Document::sort_names(Findings& findings) {
   by_name_ = sorted(source_, sections_);
-  mark_duplicates(source_, by_name_, sections_, rules::duplicate_section,
-                  "a second section of this name: the first one is used", findings);
+  mark_duplicates(
+      source_, by_name_, sections_, rules::duplicate_section,
+      [this](Span name) { return "duplicate section [" + shortened(text(name)) + "]; the first is used"; }, findings);
   for (Section& section : sections_) {
     section.by_name = sorted(source_, section.keys);
-    mark_duplicates(source_, section.by_name, section.keys, rules::duplicate_key,
-                    "a second key of this name: the first one is used", findings);
+    mark_duplicates(
+        source_, section.by_name, section.keys, rules::duplicate_key,
+        [this](Span name) { return "duplicate key " + in_quotes(text(name)) + "; the first is used"; }, findings);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eds/fields.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -28,6 +30,11 @@ Kept kept(const Document& document, const Section& section) {
   return result;
 }
 
+Span extent_of(const Document& document, const Section& section) {
+  const Source& source = document.source();
+  return {source.line(section.line).begin, source.line(section.end - 1).end};
+}
+
 std::optional<Key> storage_location(const Document& document, const Section& section) {
   constexpr std::string_view word = "StorageLocation=";
   for (const Span comment : document.comments(section)) {
@@ -41,14 +48,17 @@ std::optional<Key> storage_location(const Document& document, const Section& sec
 
 void report_length(const Text& text, std::size_t longest, Findings& findings) {
   if (longest != 0 && text.span.size() > longest) {
-    findings.add(rules::key_length, text.span, "longer than " + std::to_string(longest) + " characters");
+    findings.add(rules::key_length, text.span,
+                 fmt::format("text has {} characters, more than {}", text.span.size(), longest), "shorten it");
   }
 }
 
 void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader) {
   others.push_back(kept(reader.document, key));
   if (!key.is_duplicate && !key.value.is_empty()) {  // an empty value is as good as no key
-    reader.findings.add(rules::key_unknown, key.name, "an unknown key: kept");
+    reader.findings.add(rules::key_unknown, key.name,
+                        fmt::format("key {} is unknown to CiA 306", in_quotes(reader.document.text(key.name))),
+                        "check the spelling");
   }
 }
 
@@ -81,7 +91,8 @@ NumberedList read_list(const Section& section, std::string_view count_key, std::
       interpret_number(list.count, std::numeric_limits<std::uint32_t>::max(), reader.findings);
     }
     if (is_empty) {
-      reader.findings.add(rules::list_entry, key.name, "an entry without a value");
+      reader.findings.add(rules::list_entry, key.name, fmt::format("list entry {} has no value", entry.number),
+                          "write the index of an object, or remove the entry");
     }
   }
   std::stable_sort(list.entries.begin(), list.entries.end(),
@@ -89,12 +100,16 @@ NumberedList read_list(const Section& section, std::string_view count_key, std::
   const std::size_t size = list.entries.size();
   if (list.count.value != size || !list.count.is_given) {
     const Span place = list.count.is_given ? list.count.span : section.name;
-    reader.findings.add(rules::list_count, place, std::to_string(size) + " entries are there",
-                        std::string(count_key) + "=" + std::to_string(size));
+    const std::string count = list.count.is_given ? in_quotes(list.count.text) : "missing";
+    reader.findings.add(rules::list_count, place,
+                        fmt::format("{} is {}, but the number of entries is {}", count_key, count, size),
+                        fmt::format("{}={}", count_key, size));
   }
   for (std::size_t n = 0; n < size && gaps == Gaps::are_wrong; ++n) {
     if (list.entries[n].number != n + 1) {
-      reader.findings.add(rules::list_numbers, list.entries[n].key->name, "entries are numbered from 1 without gaps");
+      reader.findings.add(rules::list_numbers, list.entries[n].key->name,
+                          fmt::format("list entry {} instead of {}", list.entries[n].number, n + 1),
+                          "number the entries from 1 without gaps");
       break;
     }
   }

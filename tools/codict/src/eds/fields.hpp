@@ -39,6 +39,9 @@ struct Slot {
 
 void report_length(const Text& text, std::size_t longest, Findings& findings);
 
+/// Returns the text of a section from its header to its last line.
+Span extent_of(const Document& document, const Section& section);
+
 /// ";StorageLocation=PERSIST", a key that libEDSsharp hides in a comment; none if there is none.
 std::optional<Key> storage_location(const Document& document, const Section& section);
 

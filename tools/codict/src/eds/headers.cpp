@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // FileInfo, DeviceInfo and the other sections that belong to the whole device. [306: 4.4, 4.5]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -124,13 +126,13 @@ void read_comments(const Section& section, const Reader& reader) {
 
 void read_commissioning(const NamedSection& header, const Reader& reader) {
   if (header.name.word != "DeviceComissioning") {
-    reader.findings.add(rules::commissioning_spelling, header.section->name,
-                        "CiA 306 spells this section DeviceComissioning", "leave out one m");
+    reader.findings.add(rules::commissioning_spelling, header.section->name, "section spelled DeviceCommissioning",
+                        "write [DeviceComissioning], with one m");
   }
   Commissioning& commissioning = reader.device.commissioning;
   if (commissioning.is_given) {  // in the other spelling
     reader.findings.add(rules::duplicate_section, header.section->name,
-                        "a second section of this meaning: the first one is used");
+                        "duplicate section [DeviceComissioning]; the first is used", "remove one of them");
     reader.device.others.push_back(kept(reader.document, *header.section));
     return;
   }
@@ -152,7 +154,8 @@ void interpret_range(DynamicChannel& channel, Findings& findings) {
   const std::size_t dash = channel.first_index.text.find('-');
   if (dash == std::string::npos) {
     Findings said_already;
-    findings.add(codict::rules::value_number, channel.first_index.span, "a range is first-last");
+    findings.add(codict::rules::value_number, channel.first_index.span,
+                 fmt::format("{} is not a range", in_quotes(channel.first_index.text)), "write 0xA000-0xA03F");
     interpret_number(channel.first_index, u16, said_already);
     return;
   }
@@ -250,7 +253,10 @@ void check_file_name(const FileInfo& file, const Reader& reader) {
   const std::string& path = reader.document.source().name();
   const std::string_view name = std::string_view(path).substr(path.find_last_of('/') + 1);
   if (!file.file_name.is_empty() && file.file_name.text != name && name != "<stdin>") {
-    reader.findings.add(rules::file_name, file.file_name.span, "the file has another name");
+    reader.findings.add(
+        rules::file_name, file.file_name.span,
+        fmt::format("FileName is {}, but the file is named {}", in_quotes(file.file_name.text), in_quotes(name)),
+        "correct FileName, or rename the file");
   }
 }
 
@@ -285,20 +291,23 @@ void check_headers(const Reader& reader) {
   check_file_name(file, reader);
   for (const Text* date : {&file.creation_date, &file.modification_date}) {
     if (!date->is_empty() && !has_form(date->text, "00-00-0000")) {
-      reader.findings.add(rules::file_date, date->span, "a date is mm-dd-yyyy: kept");
+      reader.findings.add(rules::file_date, date->span, fmt::format("{} is not a date", in_quotes(date->text)),
+                          "write month-day-year: 12-31-2020");
     }
   }
   for (const Text* time : {&file.creation_time, &file.modification_time}) {
     if (!time->is_empty() && !has_form(time->text, "00:00~M")) {
-      reader.findings.add(rules::file_time, time->span, "a time is hh:mmAM or hh:mmPM: kept");
+      reader.findings.add(rules::file_time, time->span, fmt::format("{} is not a time", in_quotes(time->text)),
+                          "write hours:minutes with AM or PM: 09:30AM");
     }
   }
   if (!file.eds_version.is_empty() && !is_version(file.eds_version.text)) {
-    reader.findings.add(rules::file_version, file.eds_version.span, "no version of CiA 306 that is known: kept");
+    reader.findings.add(rules::file_version, file.eds_version.span,
+                        fmt::format("{} is not a version of CiA 306", in_quotes(file.eds_version.text)), "write 4.0");
   }
   for (const std::string_view name : {"FileInfo", "DeviceInfo", "MandatoryObjects"}) {
     if (reader.document.find(name) == nullptr) {
-      reader.findings.add(rules::section_missing, {}, "there is no section " + std::string(name));
+      reader.findings.add(rules::section_missing, {}, fmt::format("section [{}] is missing", name), "add it");
     }
   }
 }

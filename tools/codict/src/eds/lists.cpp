@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The three lists of objects. The sections are the truth, the lists are checked against them. [306: 4.6.2]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -8,6 +10,7 @@
 #include "eds/parts.hpp"
 #include "eds/rules.hpp"
 #include "model/parse.hpp"
+#include "model/subject.hpp"
 
 namespace lexican::codict::eds {
 
@@ -28,15 +31,21 @@ void check_entry(const Field<std::uint16_t>& entry, ListKind kind, const Reader&
   }
   Object* const object = reader.device.find(entry.value);
   if (object == nullptr) {
-    reader.findings.add(rules::list_no_section, entry.span, "this object has no section");
+    reader.findings.add(rules::list_no_section, entry.span,
+                        fmt::format("listed object {:04X}h has no section", entry.value),
+                        fmt::format("describe it in [{:04X}], or remove the entry", entry.value));
     return;
   }
   if (object->is_listed) {
-    reader.findings.add(rules::list_twice, entry.span, "this object is in a list already");
+    reader.findings.add(rules::list_twice, entry.span,
+                        fmt::format("object {} is listed more than once", subject_of(*object)), "remove the entry");
   }
   object->is_listed = true;
   if (list_of(entry.value) != kind) {
-    reader.findings.add(rules::list_wrong, entry.span, "this object belongs to another list");
+    const std::string_view right = list_name(list_of(entry.value));
+    reader.findings.add(rules::list_wrong, entry.span,
+                        fmt::format("object {} belongs to [{}]", subject_of(*object), right),
+                        fmt::format("move it to [{}]", right));
   }
 }
 
@@ -82,9 +91,9 @@ void check_lists(const Reader& reader) {
   for (Object& object : reader.device.objects) {
     const bool is_type = object.index < 0x1000;  // the lists begin with 1000h
     if (!object.is_listed && !is_type) {
-      reader.findings.add(
-          rules::list_unlisted, object.span,
-          has_lists ? "this object is in no list: it is read" : "there are no lists: all objects are read");
+      reader.findings.add(rules::list_unlisted, object.span,
+                          has_lists ? "object is in no list" : "object lists are missing; all objects are read",
+                          fmt::format("add it to [{}]", list_name(list_of(object.index))));
     }
   }
 }

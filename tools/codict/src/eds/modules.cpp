@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Modules of a bus coupler: what each adds to the dictionary. [306: 4.7]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -34,6 +36,7 @@ SubExtension read_extension(const NamedSection& named, const Reader& reader) {
   SubExtension extension;
   extension.object.index = named.name.index;
   extension.object.span = named.section->name;
+  extension.object.extent = extent_of(reader.document, *named.section);
   for (const Key& key : named.section->keys) {
     if (key.is_duplicate || !read_into(extension, key, extension_slots, reader)) {
       read_key(extension.object, key, reader);
@@ -94,7 +97,9 @@ void read_modules(const std::vector<NamedSection>& sections, const Reader& reade
   }
   if (reader.device.module_count.value != modules.size() && reader.device.module_count.is_given) {
     reader.findings.add(rules::list_count, reader.device.module_count.span,
-                        std::to_string(modules.size()) + " modules are described");
+                        fmt::format("NrOfEntries is {}, but the number of modules is {}",
+                                    in_quotes(reader.device.module_count.text), modules.size()),
+                        fmt::format("NrOfEntries={}", modules.size()));
   }
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects and sub-objects, each a section. [306: 4.6]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -21,7 +23,10 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
   if (!read_into(entry, key, python_slots, reader)) {
     return false;
   }
-  reader.findings.add(rules::dialect, key.name, "a key of python-canopen");
+  reader.findings.add(
+      rules::dialect, key.name,
+      fmt::format("key {} is defined by python-canopen only", in_quotes(reader.document.text(key.name))),
+      "convert the description to XDD for other tools");
   entry.unit.is_given = !entry.unit.words.labels.empty();
   reader.device.dialect = python_dialect;
   return true;
@@ -31,8 +36,10 @@ void read_storage_group(Entry& entry, const Section& section, const Reader& read
   if (const std::optional<Key> key = storage_location(reader.document, section)) {
     static_cast<Text&>(entry.node.storage_group) = text_of(reader.document, *key);
     entry.node.storage_group.value = entry.node.storage_group.text;
-    reader.findings.add(rules::hidden_key, {key->name.begin, key->value.end},
-                        "a storage group, as libEDSsharp hides it");
+    reader.findings.add(
+        rules::hidden_key, {key->name.begin, key->value.end},
+        fmt::format("storage group {} in a comment of libEDSsharp", in_quotes(entry.node.storage_group.text)),
+        "keep the comment, or convert the description to XDD");
   }
 }
 
@@ -40,7 +47,8 @@ void interpret_object_code(Entry& entry, bool has_subs, Findings& findings) {
   entry.object_code.value = has_subs ? ObjectCode::record : ObjectCode::variable;
   if (entry.object_code.is_empty()) {
     findings.add(rules::object_type_missing, entry.span,
-                 has_subs ? "ObjectType missing: RECORD" : "ObjectType missing: VAR");
+                 has_subs ? "ObjectType is missing, read as RECORD" : "ObjectType is missing, read as VAR",
+                 has_subs ? "add ObjectType=0x9" : "add ObjectType=0x7");
     return;
   }
   Field<std::uint8_t> number;
@@ -48,7 +56,9 @@ void interpret_object_code(Entry& entry, bool has_subs, Findings& findings) {
   interpret_number(number, 0xFF, findings);
   const auto code = static_cast<ObjectCode>(number.value);
   if (name_of(code).empty() || code == ObjectCode::null) {
-    findings.add(rules::object_type, entry.object_code.span, "this is no object type");
+    findings.add(rules::object_type, entry.object_code.span,
+                 fmt::format("{} is not an object type", in_quotes(entry.object_code.text)),
+                 "write 0x7 (VAR), 0x8 (ARRAY), 0x9 (RECORD) or 0x2 (DOMAIN)");
   } else {
     entry.object_code.value = code;
   }
@@ -63,14 +73,17 @@ void interpret_access(Entry& entry, Findings& findings) {
   if (word.size() != entry.access.text.size()) {
     const auto size = static_cast<std::uint32_t>(word.size());
     findings.add(codict::rules::value_comment, {entry.access.span.begin + size, entry.access.span.end},
-                 "text behind the access type: ignored", "put it into a line of its own that begins with ;");
+                 "text after the access type is ignored", "move it to a line that begins with ;");
   }
   entry.access.value = access_named(word);
   if (entry.access.value == Access::unknown || entry.access.value == Access::none) {
     entry.access.value = Access::unknown;
-    findings.add(rules::access_unknown, entry.access.span, "this is no access type", "ro, wo, rw, rwr, rww or const");
+    findings.add(rules::access_unknown, entry.access.span, fmt::format("{} is not an access type", in_quotes(word)),
+                 "write ro, wo, rw, rwr, rww or const");
   } else if (word != name_of(entry.access.value)) {
-    findings.add(rules::access_case, entry.access.span, "access types are written in small letters");
+    findings.add(rules::access_case, entry.access.span,
+                 fmt::format("access type {} is not in small letters", in_quotes(word)),
+                 fmt::format("write {}", name_of(entry.access.value)));
   }
 }
 
@@ -82,7 +95,7 @@ bool is_type_needed(const Entry& entry) {
 
 void require(const Text& field, std::string_view key, const Entry& entry, Findings& findings) {
   if (field.is_empty()) {
-    findings.add(rules::key_missing, entry.span, std::string(key) + " is missing");
+    findings.add(rules::key_missing, entry.span, std::string(key) + " is missing", "add " + std::string(key) + "=");
   }
 }
 
@@ -111,7 +124,8 @@ namespace {
 
 void report_misplaced(const Text& field, std::string_view key, Findings& findings) {
   if (!field.is_empty()) {
-    findings.add(rules::key_misplaced, field.span, std::string(key) + " does not belong to an object with sub-objects");
+    findings.add(rules::key_misplaced, field.span, std::string(key) + " has no effect in an object with sub-objects",
+                 "move it to the sub-objects");
   }
 }
 
@@ -142,14 +156,16 @@ void interpret_object(Object& object, Findings& findings) {
   for (Sub& sub : object.subs) {
     interpret_entry(sub, false, findings);
     if (has_sub_objects(sub.object_code.value)) {
-      findings.add(rules::object_type, sub.object_code.span, "a sub-object has no sub-objects");
+      findings.add(rules::object_type, sub.object_code.span,
+                   fmt::format("sub-object of type {}", name_of(sub.object_code.value)), "write 0x7 (VAR)");
     }
   }
   if (has_sub_objects(object.object_code.value)) {
     report_misplaced_keys(object, findings);
   } else if (!object.subs.empty()) {
     findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
-                 "only ARRAY, RECORD and DEFSTRUCT have sub-objects");
+                 fmt::format("object type {}, but there are sub-objects", name_of(object.object_code.value)),
+                 "write ObjectType=0x9 (RECORD), or remove the sub-objects");
   }
 }
 
@@ -160,13 +176,16 @@ bool keep_object_key(Sub& sub, const Key& key, const Reader& reader) {
   });
   if (is_known) {
     sub.others.push_back(kept(reader.document, key));
-    reader.findings.add(rules::key_misplaced, key.name, "a sub-object has no sub-objects");
+    reader.findings.add(rules::key_misplaced, key.name,
+                        fmt::format("key {} has no effect in a sub-object", in_quotes(reader.document.text(key.name))),
+                        "remove it");
   }
   return is_known;
 }
 
 void read_sub(Sub& sub, const Section& section, const Reader& reader) {
   sub.span = section.name;
+  sub.extent = extent_of(reader.document, section);
   for (const Key& key : section.keys) {
     if (key.is_duplicate || !(read_into(static_cast<Entry&>(sub), key, entry_slots, reader) ||
                               keep_object_key(sub, key, reader) || read_python_key(sub, key, reader))) {
@@ -196,10 +215,13 @@ const DataType& type_of(const Entry& entry, const Reader& reader) {
     return type;
   }
   if (type.kind != TypeKind::unknown || reader.device.find(code) != nullptr) {
-    reader.findings.add(rules::type_own, entry.data_type.span, "not a simple type of CiA 301");
+    reader.findings.add(rules::type_own, entry.data_type.span,
+                        fmt::format("data type {:04X}h is not a basic type of CiA 301", code),
+                        "use a basic type for other tools");
   } else {
     reader.findings.add(rules::type_unknown, entry.data_type.span,
-                        "neither a type of CiA 301 nor an object of the device");
+                        fmt::format("data type {:04X}h is unknown to CiA 301 and to the device", code),
+                        "use a type of CiA 301, or describe it as DEFTYPE");
   }
   return type;
 }
@@ -217,6 +239,7 @@ namespace {
 
 void read_object(Object& object, const Section& section, const Reader& reader) {
   object.span = section.name;
+  object.extent = extent_of(reader.document, section);
   for (const Key& key : section.keys) {
     read_key(object, key, reader);
   }
@@ -242,7 +265,8 @@ void read_part(const NamedSection& part, std::vector<Object>& objects, const Rea
   }
   if (is_new) {
     object.span = part.section->name;
-    reader.findings.add(rules::section_orphan, part.section->name, "a sub-object of an object that has no section");
+    reader.findings.add(rules::section_orphan, part.section->name,
+                        fmt::format("section [{:04X}] of the object is missing", part.name.index), "add it");
   }
   Sub& sub = object.subs.emplace_back();
   sub.sub_index = part.name.sub_index;
@@ -251,8 +275,10 @@ void read_part(const NamedSection& part, std::vector<Object>& objects, const Rea
 
 void keep_second(const NamedSection& part, std::vector<Kept>& others, const Reader& reader) {
   if (!part.section->is_duplicate) {  // else that has been said
-    reader.findings.add(rules::duplicate_section, part.section->name,
-                        "a second section of this meaning: the first one is used");
+    reader.findings.add(
+        rules::duplicate_section, part.section->name,
+        fmt::format("duplicate section [{}]; the first is used", shortened(reader.document.text(part.section->name))),
+        "remove one of them, or correct its index");
   }
   others.push_back(kept(reader.document, *part.section));
 }

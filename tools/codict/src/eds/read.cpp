@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eds/read.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -22,12 +24,16 @@ struct Sorted {
   std::vector<NamedSection> others;
 };
 
-void report_form(const NamedSection& named, Findings& findings) {
+void report_form(const NamedSection& named, const Reader& reader) {
+  const std::string name = shortened(reader.document.text(named.section->name));
   if (named.name.has_odd_zeros) {
-    findings.add(rules::section_zeros, named.section->name, "an index has four digits, a sub-index no leading zeros");
+    reader.findings.add(rules::section_zeros, named.section->name,
+                        fmt::format("missing or extra leading zeros in [{}]", name),
+                        "write four digits for an index, none too many for a sub-index");
   }
   if (named.name.has_odd_case) {
-    findings.add(rules::section_form, named.section->name, "digits are capital letters, sub is in small ones");
+    reader.findings.add(rules::section_form, named.section->name, fmt::format("unusual capitals in [{}]", name),
+                        "write digits in capitals, sub in small letters");
   }
 }
 
@@ -52,7 +58,7 @@ Sorted sort_sections(const Reader& reader) {
   Sorted sorted;
   for (const Section& section : reader.document.sections()) {
     const NamedSection named{section_name(reader.document.raw(section.name)), &section};
-    report_form(named, reader.findings);
+    report_form(named, reader);
     place_of(named.name.kind, sorted).push_back(named);
   }
   return sorted;
@@ -74,7 +80,10 @@ void keep_others(const std::vector<NamedSection>& others, const Reader& reader) 
   for (const NamedSection& named : others) {
     const std::string_view name = reader.document.raw(named.section->name);
     if (compare_names(name, "Tools") != 0 && !named.section->is_duplicate) {
-      reader.findings.add(rules::section_unknown, named.section->name, "an unknown section: kept");
+      reader.findings.add(
+          rules::section_unknown, named.section->name,
+          fmt::format("section {} is unknown to CiA 306", in_quotes(reader.document.text(named.section->name))),
+          "check the spelling");
     }
     reader.device.others.push_back(kept(reader.document, *named.section));
   }

@@ -205,7 +205,9 @@ void plan_groups(const Options& options, Plan& plan, Findings& findings) {
       lay_out_stored(plan, group);
     }
     if (!ids.insert(group.id).second || group.id.empty()) {
-      findings.add(rules::name, {}, fmt::format("the storage group {} has the name of another one", group.name));
+      findings.add(rules::name, {},
+                   fmt::format("storage group {} has the same name in C as another one", in_quotes(group.name)),
+                   "rename one of them");
     }
   }
   plan_stores(plan, options, findings);

@@ -58,11 +58,11 @@ class Items {
 
   void add(const Object& object) {
     if (object.node.disabled.value) {
-      findings_.add(rules::left_out, object.span, "the object is disabled: it gets no entry");
+      findings_.add(rules::left_out, object.span, "disabled object has no entry", "remove CO_disabled");
       return;
     }
     if (object.index < 0x00A0) {
-      findings_.add(rules::left_out, object.span, "the definition of a type gets no entry");
+      findings_.add(rules::left_out, object.span, "type definition has no entry", "ignore the note");
       return;
     }
     if (!object.node.count_label.text.empty()) {
@@ -78,11 +78,11 @@ class Items {
  private:
   void add_subs(const Object& object) {
     if (object.subs.empty()) {
-      findings_.add(rules::no_subs, object.span, "an ARRAY or RECORD without sub-objects: it gets no entry");
+      findings_.add(rules::no_subs, object.span, "object without sub-objects has no entry", "describe its sub-objects");
       return;
     }
     if (object.find(0) == nullptr) {
-      findings_.add(rules::sub_zero, object.span, "sub-index 0 is missing: the highest sub-index is put there");
+      findings_.add(rules::sub_zero, object.span, "sub-index 0 is missing and is added", "describe it");
       Sub number;
       number.name.text = "Highest sub-index supported";
       number.data_type.value = type_code::unsigned8;
@@ -131,9 +131,9 @@ class Items {
     const std::uint16_t named = entry.data_type.value == 0 && is_domain ? type_code::domain : entry.data_type.value;
     item.form = form_of(data_type_of(device_, named).code);
     if (item.form == nullptr && item.place == nullptr) {
-      const std::string reason = named == 0 ? "it has no data type" : fmt::format("{:04X}h is no data type", named);
+      const std::string reason = named == 0 ? "data type is missing" : fmt::format("unknown data type {:04X}h", named);
       findings_.add(rules::type, entry.data_type.is_given ? entry.data_type.span : entry.span,
-                    reason + ": its type is the application's");
+                    reason + "; the application defines the type", "use a data type of CiA 301");
       item.form = form_of(type_code::domain);
       item.has_own_type = true;
     }
@@ -151,7 +151,8 @@ class Items {
     if (!fits) {
       item.form = &unsigned_form(item.place->bytes);
       findings_.add(rules::place, item.span,
-                    fmt::format("CiA 301 has {} for this: it is taken", data_type(item.form->code).name));
+                    fmt::format("data type differs from {} of CiA 301, which is used", data_type(item.form->code).name),
+                    "correct the data type");
     }
     item.type = item.place->type;
   }
@@ -162,7 +163,7 @@ class Items {
     }
     if (item.access == Access::unknown) {
       findings_.add(rules::access, entry.access.is_given ? entry.access.span : entry.span,
-                    "nothing says who may read and write it");
+                    "access type is missing or unknown", "add the access type");
     }
     return item.access != Access::unknown;
   }
@@ -173,7 +174,9 @@ class Items {
     const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
     const bool is_text = is_number && item.value.kind == Value::Kind::text;  // of another type, or a time
     if (item.value.kind == Value::Kind::malformed || is_text) {
-      findings_.add(rules::value, item.value.span, "this is no value of its data type");
+      findings_.add(rules::value, item.value.span,
+                    fmt::format("{} does not fit {}", in_quotes(item.value.text), data_type(item.form->code).name),
+                    "correct the default value");
       return false;
     }
     if (is_number && item.value.kind == Value::Kind::none) {
@@ -189,7 +192,9 @@ class Items {
     if (item.has_own_type) {
       item.value = {};
     } else if (is_zero || (is_domain && item.value.kind == Value::Kind::malformed)) {
-      findings_.add(rules::value_none, item.value.span, "these are no octets: taken for no value");
+      findings_.add(rules::value_none, item.value.span,
+                    fmt::format("{} is not an octet string; ignored", in_quotes(item.value.text)),
+                    "remove the default value, or write octets");
       item.value = {};
     }
   }
@@ -203,10 +208,11 @@ class Items {
   void set_standard_value(Item& item, const Object& object, bool has_subs) {
     const std::string_view type = item.place == nullptr ? "" : item.place->type;
     if (type == "CO_TPDO_ID" || (type == "CO_TSDO_ID" && item.index != 0x1200)) {
-      findings_.add(rules::cob_id, item.span, "no COB-ID: it is switched off (bit 31)");
+      findings_.add(rules::cob_id, item.span, "COB-ID is missing; the service is disabled (bit 31)",
+                    "add a default value");
       set_number(item, cob_id_off);
     } else if (type == "CO_TSYNC_ID" || type == "CO_TEMCY_ID" || type == "CO_TTIME_ID") {
-      findings_.add(rules::cob_id, item.span, "no COB-ID: that of CiA 301 is taken");
+      findings_.add(rules::cob_id, item.span, "COB-ID is missing; that of CiA 301 is used", "add a default value");
       set_number(item, type == "CO_TTIME_ID" ? 0x100 : 0x80);
       item.value.adds_node_id = type == "CO_TEMCY_ID";
     } else if (type == "CO_TSDO_ID") {
@@ -234,8 +240,10 @@ class Items {
       return;
     }
     if (item.value.is_given) {
-      findings_.add(rules::cob_id, item.value.span, "the COB-ID of the default SDO: $NODEID is added",
-                    "write $NODEID+0x600, $NODEID+0x580");
+      findings_.add(
+          rules::cob_id, item.value.span,
+          fmt::format("COB-ID {} of the default SDO lacks $NODEID, which is added", in_quotes(item.value.text)),
+          item.sub_index == 1 ? "write $NODEID+0x600" : "write $NODEID+0x580");
     }
     set_number(item, item.sub_index == 1 ? 0x600 : 0x580);
     item.value.adds_node_id = true;
@@ -257,7 +265,9 @@ class Items {
     const bool may_add = item.place != nullptr ? item.place->node_id_relative
                                                : is_integer(data_type(item.form->code).kind) && item.value.is_integer();
     if (!may_add) {
-      findings_.add(rules::node_id, item.value.span, "this cannot depend on the node-ID");
+      findings_.add(rules::node_id, item.value.span,
+                    fmt::format("{} in an entry that cannot depend on the node-ID", in_quotes(item.value.text)),
+                    "write the value without $NODEID");
     }
     return may_add;
   }
@@ -284,7 +294,7 @@ class Items {
     const bool has_variable = item.form->bytes != 0 && item.value.is_given;
     item.has_own_type = true;
     item.storage = has_variable ? Storage::variable : Storage::application;
-    findings_.add(rules::external, item.span, "its type is the application's");
+    findings_.add(rules::external, item.span, "the application defines the type", "define it in the application");
   }
 
   void set_external(Item& item) {
@@ -292,7 +302,8 @@ class Items {
     if (is_constant_text(item)) {
       item.type = "CO_TSTRING";
     }
-    findings_.add(rules::external, item.span, "the application has its memory");
+    findings_.add(rules::external, item.span, "no default value; the application defines the memory",
+                  "add a default value");
   }
 
   static bool is_constant_text(const Item& item) {
@@ -338,7 +349,8 @@ class Items {
       item.type = "CO_TSTRING";
     } else if (asked == 0 && may_grow) {
       findings_.add(rules::capacity, item.span,
-                    fmt::format("nothing says how long it may be: {} bytes", item.capacity));
+                    fmt::format("maximum length is missing; {} bytes are used", item.capacity),
+                    "set CO_stringLengthMin, or use --string-capacity");
     }
   }
 
@@ -352,7 +364,10 @@ class Items {
       return;
     }
     if (is_less(item, entry.high_limit, entry.low_limit)) {
-      findings_.add(rules::limits, entry.low_limit.span, "the low limit is above the high limit: neither is kept");
+      findings_.add(rules::limits, entry.low_limit.span,
+                    fmt::format("LowLimit {} is above HighLimit {}; both are ignored", in_quotes(entry.low_limit.text),
+                                in_quotes(entry.high_limit.text)),
+                    "exchange or correct the limits");
       return;
     }
     const bool has_low = has_number(entry.low_limit) && !is_lowest(item, entry.low_limit);
@@ -365,7 +380,10 @@ class Items {
     item.limits.holds_default = !is_less(item, value, entry.low_limit) && !is_less(item, entry.high_limit, value);
     if (!item.limits.holds_default && !item.value.adds_node_id) {
       findings_.add(rules::limits_default, item.value.is_given ? item.value.span : item.span,
-                    "the default value is outside of the limits");
+                    fmt::format("default value {} is outside the limits {} to {}",
+                                item.value.text.empty() ? "0" : shortened(item.value.text),
+                                text_or(entry.low_limit, "lowest"), text_or(entry.high_limit, "highest")),
+                    "change the value, or widen the limits");
     }
     item.limits.holds_default = item.limits.holds_default && !item.value.adds_node_id;
   }
@@ -398,6 +416,10 @@ class Items {
     return value.kind == Value::Kind::integer || value.kind == Value::Kind::real;
   }
 
+  static std::string text_or(const Value& limit, const char* other) {
+    return limit.text.empty() ? other : shortened(limit.text);
+  }
+
   // Neither less nor greater than what is no number.
   static bool is_less(const Item& item, const Value& a, const Value& b) {
     if (!has_number(a) || !has_number(b)) {
@@ -408,11 +430,14 @@ class Items {
 
   bool is_usable(const Value& limit) {
     if (limit.adds_node_id) {
-      findings_.add(rules::limits, limit.span, "a limit that depends on the node-ID is not kept");
+      findings_.add(rules::limits, limit.span,
+                    fmt::format("limit {} depends on the node-ID; ignored", in_quotes(limit.text)), "write a number");
       return false;
     }
     if (!has_number(limit) && limit.kind != Value::Kind::none) {
-      findings_.add(rules::limits, limit.span, "this is no limit of its data type: neither limit is kept");
+      findings_.add(rules::limits, limit.span,
+                    fmt::format("limit {} does not fit the data type; ignored", in_quotes(limit.text)),
+                    "write a number of the data type");
       return false;
     }
     return true;

@@ -87,12 +87,17 @@ void check_object(const Plan& plan, const Item& mapping, Span span, Findings& fi
     return;
   }
   if (object->pdo == PdoMapping::no) {
-    findings.add(rules::pdo_mappable, span, "PDOMapping of the object is 0; the PDO maps it nevertheless");
+    findings.add(rules::pdo_mappable, span, fmt::format("mapped object {} has PDOMapping=0", name_of_object(*object)),
+                 "set PDOMapping=1");
   }
   const bool goes_out = object->access == Access::rwr || object->pdo == PdoMapping::tpdo;
   const bool comes_in = object->access == Access::rww || object->pdo == PdoMapping::rpdo;
   if (is_receive(mapping.index) ? goes_out : comes_in) {
-    findings.add(rules::pdo_direction, span, "the object is meant for PDOs of the other direction");
+    const bool receives = is_receive(mapping.index);
+    findings.add(rules::pdo_direction, span,
+                 fmt::format("{} maps {}, which is for {}s", receives ? "RPDO" : "TPDO", name_of_object(*object),
+                             receives ? "TPDO" : "RPDO"),
+                 "correct the access type, or map another object");
   }
 }
 
@@ -115,13 +120,16 @@ void check_pdo(Plan& plan, const Item& number, Findings& findings) {
     if (fault.empty()) {
       check_object(plan, *mapping, span, findings);
     } else {
-      findings.add(rules::pdo_object, span, fmt::format("{}: {}", title_of(number.index), fault));
+      findings.add(rules::pdo_object, span, fmt::format("{}: {}", title_of(number.index), fault),
+                   "correct the mapping, or the access of the object");
     }
     sum.bits.push_back(static_cast<unsigned>(mapping->value.integer.magnitude & 0xFFU));
     bits += sum.bits.back();
   }
   if (bits > most_bits) {
-    findings.add(rules::pdo_bits, number.span, fmt::format("the mapped objects have {} bits", bits));
+    findings.add(rules::pdo_bits, number.span,
+                 fmt::format("mapped objects have {} bits, more than {}", bits, most_bits),
+                 "map fewer or shorter objects");
   }
   plan.pdos.push_back(std::move(sum));
 }

@@ -54,9 +54,12 @@ void plan_names(const Options& options, Plan& plan, Findings& findings) {
     if (with_name.size() > 1 && options.unique_names) {
       const Item& other = *with_name[with_name[0] == &item ? 1 : 0];
       findings.add(rules::name, item.span,
-                   fmt::format("the name {} is also that of {}", item.alias, place_name(other)));
+                   fmt::format("name {} is also that of {}", in_quotes(item.alias), place_name(other)),
+                   "rename one of them, or omit --unique-names");
     } else if (with_name.size() > 1) {
-      findings.add(rules::name_shared, item.span, "another entry has this name: the index is put behind it");
+      findings.add(rules::name_shared, item.span,
+                   fmt::format("name {} is shared; the index is appended", in_quotes(item.alias)),
+                   "give the entries different names");
     }
     if (with_name.size() > 1 || could_be_made(plan, item.alias)) {
       item.alias += "_" + identifier("x" + suffix_of(item)).substr(1);
@@ -64,7 +67,8 @@ void plan_names(const Options& options, Plan& plan, Findings& findings) {
     const auto [owner, is_new] = owners.emplace(item.alias, &item);
     if (!is_new) {
       findings.add(rules::name, item.span,
-                   fmt::format("the name {} is also that of {}", item.alias, place_name(*owner->second)));
+                   fmt::format("name {} is also that of {}", in_quotes(item.alias), place_name(*owner->second)),
+                   "rename one of them");
     }
   }
 }
@@ -89,7 +93,8 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
   constexpr std::size_t most_items = 0xFFFE;  // and the end mark
   const bool has_reason = findings.count(Severity::error) != 0;
   if ((plan.items.empty() && !has_reason) || plan.items.size() > most_items) {
-    findings.add(rules::count, {}, fmt::format("{} entries", plan.items.size()));
+    findings.add(rules::count, {}, fmt::format("dictionary has {} entries, not 1 to {}", plan.items.size(), most_items),
+                 "describe other objects");
   }
   plan_names(options, plan, findings);
   plan_groups(options, plan, findings);

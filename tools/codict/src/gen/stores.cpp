@@ -309,13 +309,12 @@ void report_unstored(const Plan& plan, const Assignment& stores, Findings& findi
     }
     const std::string& failure = stores.failure_of(n);
     const std::string free = stores.free_places();
-    findings.add(rules::store, plan.items[group.members.front().item].span,
-                 fmt::format("storage group {}: {}; {}", group.name,
-                             failure.empty() ? "no sub-index of 1010h is named for it" : failure + " (1010h)",
-                             free.empty() ? "no sub-index is left" : "1010h has " + free),
-                 fmt::format("name a sub-index of 1010h \"Save {0}\", or give --store {0}=SUB (hexadecimal), or "
-                             "--store {0}=none to leave it in RAM",
-                             group.name));
+    findings.add(
+        rules::store, plan.items[group.members.front().item].span,
+        fmt::format("storage group {}: {}; {}", group.name,
+                    failure.empty() ? "no sub-index of 1010h is named for it" : failure + " (1010h)",
+                    free.empty() ? "no sub-index is left" : "1010h has " + free),
+        fmt::format("name a sub-index of 1010h \"Save {0}\", or give --store {0}=SUB or {0}=none", group.name));
   }
 }
 
@@ -338,11 +337,13 @@ void report_unused(const Plan& plan, Findings& findings) {
                          std::any_of(plan.groups.begin(), plan.groups.end(),
                                      [&](const Group& group) { return group.sub_index == item.sub_index; });
     if (is_store && !is_used) {
-      findings.add(rules::store_unused, item.span, "there is no storage group for it: \"save\" is refused");
+      findings.add(rules::store_unused, item.span, "sub-index has no storage group, \"save\" is refused",
+                   "assign objects to a storage group, or remove it");
     }
   }
   if (plan.groups.size() > 1 && plan.find(store_index, 1) == nullptr) {
-    findings.add(rules::store_unused, {}, "there are storage groups and no 1010h: nothing loads or stores them");
+    findings.add(rules::store_unused, {}, "storage groups are neither loaded nor stored: 1010h is missing",
+                 "describe 1010h and 1011h");
   }
 }
 
@@ -385,8 +386,9 @@ void join_groups(Plan& plan, Findings& findings) {
     if (item.group > joined) {
       joined = item.group;
       findings.add(rules::store_joined, item.span,
-                   fmt::format("1010h has one sub-index: the storage group {} is a part of {}",
-                               plan.groups[item.group].name, plan.groups[1].name));
+                   fmt::format("storage group {} is joined to {}: 1010h has one sub-index",
+                               in_quotes(plan.groups[item.group].name), in_quotes(plan.groups[1].name)),
+                   "add sub-indexes to 1010h and 1011h");
     }
     item.group = std::min<std::size_t>(item.group, 1);
   }

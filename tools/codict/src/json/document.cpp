@@ -134,6 +134,7 @@ class Builder {
   bool end() {
     node_ = std::move(open_.back());
     open_.pop_back();
+    node_.end = at();
     return add();
   }
   bool add() {

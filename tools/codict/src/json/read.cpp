@@ -101,7 +101,7 @@ class Reader {
   template <typename T>
   void required(std::string_view name, T& member) {
     if (node_.find(name) == nullptr) {
-      context_.findings.add(rules::missing, node_.span, std::string(name) + " is missing");
+      context_.findings.add(rules::missing, node_.span, fmt::format("member \"{}\" is missing", name), "add it");
     }
     (*this)(name, member);
   }
@@ -118,6 +118,7 @@ class Reader {
 
   void end_of(Entry& entry) {
     entry.span = node_.span;
+    entry.extent = {node_.span.begin, node_.end};
     for (std::size_t n = first_untyped_; n != context_.untyped.size(); ++n) {
       context_.untyped[n].entry = &entry;
     }
@@ -138,9 +139,13 @@ class Reader {
     for (const Node& child : node_.children) {
       const bool is_known = std::find(names_.begin(), names_.end(), child.name) != names_.end();
       if (!is_known) {
-        context_.findings.add(rules::unknown, child.name_span, "the schema has no such member here: not used");
+        context_.findings.add(rules::unknown, child.name_span,
+                              fmt::format("member {} is unknown; not used", in_quotes(child.name)),
+                              "correct the name, or remove it");
       } else if (node_.find(child.name) != &child) {
-        context_.findings.add(rules::duplicate, child.name_span, "a second member of this name: the first is used");
+        context_.findings.add(rules::duplicate, child.name_span,
+                              fmt::format("duplicate member {}; the first is used", in_quotes(child.name)),
+                              "remove one of them");
       }
     }
   }
@@ -148,7 +153,8 @@ class Reader {
  private:
   bool is_a(const Node& node, Kind kind) const {
     if (node.kind != kind) {
-      context_.findings.add(rules::type, node.span, fmt::format("{} is wanted here", name_of(kind)));
+      context_.findings.add(rules::type, node.span, fmt::format("{} instead of {}", name_of(node.kind), name_of(kind)),
+                            fmt::format("write {}", name_of(kind)));
     }
     return node.kind == kind;
   }
@@ -173,14 +179,26 @@ class Reader {
     if (std::is_signed_v<T> ? fits_signed(number, bits) : fits_unsigned(number, bits)) {
       value = static_cast<T>(number.bits());
     } else {
-      context_.findings.add(rules::range, node.span, fmt::format("no number of {} bits", bits));
+      context_.findings.add(
+          rules::range, node.span,
+          fmt::format("{}{} does not fit {} bits", number.is_negative ? "-" : "", number.magnitude, bits),
+          "correct the number");
     }
   }
   template <typename E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
   void read(const Node& node, E& value) {
     if (is_a(node, Kind::string) && !take_word(node.text, value)) {
-      context_.findings.add(rules::word, node.span, "this is none of the words for it");
+      context_.findings.add(rules::word, node.span, fmt::format("unknown word {}", in_quotes(node.text)),
+                            fmt::format("write one of: {}", list_of_words<E>()));
     }
+  }
+  template <typename E>
+  static std::string list_of_words() {
+    std::string list;
+    for (const Word<E>& word : words_of<E>()) {
+      list += (list.empty() ? "" : ", ") + std::string(word.word);
+    }
+    return list;
   }
   template <typename E>
   static bool take_word(std::string_view text, E& value) {
@@ -261,7 +279,9 @@ class Reader {
       const bool is_another = std::is_same_v<T, std::uint16_t> && !is_of_eds(context_.format);
       const std::optional<T> meaning = is_another ? std::nullopt : meaning_of(field, context_.format);
       if (meaning && *meaning != field.value && !is_refused(*meaning, field)) {
-        context_.findings.add(rules::contradiction, field.span, "the text says something else than the value");
+        context_.findings.add(rules::contradiction, field.span,
+                              fmt::format("text {} contradicts the value; the text is used", in_quotes(field.text)),
+                              "change both, or remove one of them");
         field.value = *meaning;
       }
     }
@@ -273,7 +293,9 @@ class Reader {
     if constexpr (std::is_same_v<T, std::uint32_t>) {
       const bool is_so = field.value == 0 && meaning > 0xFF;
       if (is_so) {
-        context_.findings.add(codict::rules::value_range, field.span, "larger than what it stands for");
+        context_.findings.add(codict::rules::value_range, field.span,
+                              fmt::format("{} is not in the range 0 to 255", in_quotes(field.text)),
+                              "correct the number");
       }
       return is_so;
     }
@@ -297,7 +319,8 @@ class Reader {
       field.value = field.text;
     } else if constexpr (std::is_enum_v<T>) {
       if (!field.is_empty() && !take_word(field.text, field.value)) {
-        context_.findings.add(rules::word, field.span, "this is none of the words for it");
+        context_.findings.add(rules::word, field.span, fmt::format("unknown word {}", in_quotes(field.text)),
+                              fmt::format("write one of: {}", list_of_words<T>()));
       }
     } else if constexpr (std::is_same_v<T, bool>) {
       interpret_flag(field, context_.findings);
@@ -305,7 +328,8 @@ class Reader {
       const ParsedInteger number = parse_integer(field.text);
       field.value = static_cast<T>(number.value.bits());
       if (!field.is_empty() && !number.is_number()) {
-        context_.findings.add(codict::rules::value_number, field.span, "this is no number");
+        context_.findings.add(codict::rules::value_number, field.span,
+                              fmt::format("{} is not a number", in_quotes(field.text)), "write a number");
       }
     } else {
       interpret_number(field, std::numeric_limits<T>::max(), context_.findings);
@@ -361,7 +385,9 @@ class Reader {
   void read_meaning_of_kind(const Node& meaning, bool has_kind, Value& value) {
     if (has_kind && value.kind == Value::Kind::octets) {
       if (is_a(meaning, Kind::string) && !read_octets(meaning.text, value.octets)) {
-        context_.findings.add(codict::rules::value_octets, meaning.span, "these are no pairs of hexadecimal digits");
+        context_.findings.add(codict::rules::value_octets, meaning.span,
+                              fmt::format("{} is not an octet string", in_quotes(meaning.text)),
+                              "write pairs of hexadecimal digits");
       }
     } else if (value.kind == Value::Kind::real && meaning.kind == Kind::integer) {
       value.real = meaning.real;
@@ -383,7 +409,9 @@ class Reader {
     codict::interpret(value, type, is_settled ? ignored : context_.findings);
     const bool is_contradiction = untyped.has_meaning && contradicts(said, value);
     if (is_contradiction) {
-      context_.findings.add(rules::contradiction, value.span, "the text says something else than the value");
+      context_.findings.add(rules::contradiction, value.span,
+                            fmt::format("text {} contradicts the value; the text is used", in_quotes(value.text)),
+                            "change both, or remove one of them");
     }
     const bool stays = said.kind != Value::Kind::none && !is_typed && said.kind != value.kind;
     if (is_contradiction || !(is_settled || stays)) {
@@ -473,10 +501,12 @@ class Reader {
       return number != nullptr ? number->integer.bits() : 0;
     };
     std::stable_sort(elements.begin(), elements.end(), [key](const Node* a, const Node* b) { return key(a) < key(b); });
-    const auto end = std::unique(elements.begin(), elements.end(), [key, this](const Node* a, const Node* b) {
+    const auto end = std::unique(elements.begin(), elements.end(), [key, name, this](const Node* a, const Node* b) {
       const bool is_second = key(a) == key(b);
       if (is_second) {
-        context_.findings.add(rules::duplicate, b->span, "it is there already: the first is used");
+        context_.findings.add(rules::duplicate, b->span,
+                              fmt::format("duplicate {} {}; the first is used", name, key(b)),
+                              "remove one of them, or correct its number");
       }
       return is_second;
     });

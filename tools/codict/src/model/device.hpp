@@ -169,6 +169,8 @@ struct Entry {
   std::vector<Property> properties;  ///< all others
   std::vector<Kept> others;          ///< keys, attributes and elements that no standard knows
   Span span;                         ///< where it begins: the section's name, the element's start tag
+  Span extent;                       ///< its whole text: the section, the element
+  Span parameter_extent;             ///< of the parameter that describes it [311]
 
   bool has_value() const { return default_value.is_given || actual_value.is_given; }
 };

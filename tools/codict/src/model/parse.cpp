@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "model/parse.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -48,46 +50,68 @@ Span from(const Text& text, std::size_t offset) {
   return at < text.span.size() ? Span{text.span.begin + at, text.span.end} : text.span;
 }
 
-// Says what is wrong with a number; false if it cannot be taken for one.
+void report_word(const Text& text, Findings& findings) {
+  const bool is_true = !text.text.empty() && to_lower(text.text.front()) == 't';
+  findings.add(rules::value_word, text.span, fmt::format("{} instead of a number", in_quotes(text.text)),
+               is_true ? "write 1" : "write 0");
+}
+
+// Reports the fault of a number. Returns false if the text has no meaning.
 bool accept_number(const ParsedInteger& number, const Text& text, Findings& findings) {
   const Span rest = from(text, number.fault_at);
   switch (number.fault) {
     case NumberFault::none: return true;
     case NumberFault::empty:
-    case NumberFault::no_number: findings.add(rules::value_number, rest, "this is no number"); return false;
-    case NumberFault::octal_digit:
-      findings.add(rules::value_octal_digit, rest, "8 and 9 are no octal digits, and a leading 0 means octal",
-                   "leave out the leading 0, or write 0x");
+    case NumberFault::no_number:
+      findings.add(rules::value_number, rest, fmt::format("{} is not a number", in_quotes(text.text)),
+                   "write a decimal number, or a hexadecimal one with 0x");
       return false;
-    case NumberFault::too_large: findings.add(rules::value_range, text.span, "larger than 64 bits"); return false;
+    case NumberFault::octal_digit:
+      findings.add(rules::value_octal_digit, rest,
+                   fmt::format("{} begins with 0, but is not an octal number", in_quotes(text.text)),
+                   "remove the leading 0, or write 0x");
+      return false;
+    case NumberFault::too_large:
+      findings.add(rules::value_range, text.span, fmt::format("{} is larger than 64 bits", in_quotes(text.text)),
+                   "write a smaller number");
+      return false;
     case NumberFault::suffix:
-      findings.add(rules::value_suffix, rest, "a number has no suffix: ignored", "leave it out");
+      findings.add(rules::value_suffix, rest, fmt::format("suffix in {} is ignored", in_quotes(text.text)),
+                   "remove it");
       return true;
     case NumberFault::comment:
-      findings.add(rules::value_comment, rest, "text behind the number: ignored",
-                   "put it into a line of its own that begins with ;");
+      findings.add(rules::value_comment, rest, "text after the number is ignored",
+                   "move it to a line that begins with ;");
       return true;
     case NumberFault::fraction:
-      findings.add(rules::value_fraction, rest, "an integer has no decimal point");
+      findings.add(rules::value_fraction, rest, fmt::format("decimal point in integer {}", in_quotes(text.text)),
+                   "write an integer, or use REAL32");
       return false;
     case NumberFault::zero_fraction:
-      findings.add(rules::value_fraction, rest, "an integer has no decimal point: ignored", "leave it out");
+      findings.add(rules::value_fraction, rest, fmt::format("fraction of integer {} is ignored", in_quotes(text.text)),
+                   "remove it");
       return true;
-    case NumberFault::word:
-      findings.add(rules::value_word, text.span, "true and false are written 1 and 0");
-      return true;
+    case NumberFault::word: report_word(text, findings); return true;
   }
   return false;
 }
 
 void warn_of_octal(const ParsedInteger& number, const Text& text, Findings& findings) {
   if (number.base == Base::octal) {
-    findings.add(rules::value_octal, text.span, "a leading 0 means octal: " + std::to_string(number.value.magnitude),
-                 "write it without the 0, or with 0x");
+    findings.add(rules::value_octal, text.span,
+                 fmt::format("{} is octal, read as {}", in_quotes(text.text), number.value.magnitude),
+                 "write it without the leading 0, or with 0x");
   }
 }
 
-// A number that fits; a bit pattern becomes what it means.
+// The numbers of an integer type: "0 to 255".
+std::string range_of(const DataType& type) {
+  const std::uint64_t all = ~std::uint64_t{0} >> (64U - type.bits);
+  return type.kind == TypeKind::signed_integer ? fmt::format("-{} to {}", all / 2 + 1, all / 2)
+                                               : fmt::format("0 to {}", all);
+}
+
+// Returns whether a number fits its type. A bit pattern becomes the negative number.
 bool fit(Integer& number, const DataType& type, const Value& value, Findings& findings) {
   const bool is_signed = type.kind == TypeKind::signed_integer;
   if (is_signed ? fits_signed(number, type.bits) : fits_unsigned(number, type.bits)) {
@@ -95,10 +119,15 @@ bool fit(Integer& number, const DataType& type, const Value& value, Findings& fi
   }
   if (is_signed && fits_unsigned(number, type.bits)) {
     number = sign_extended(number.magnitude, type.bits);
-    findings.add(rules::value_bit_pattern, value.span, "a bit pattern is taken for a negative number");
+    const std::string meaning = fmt::format("{}{}", number.is_negative ? "-" : "", number.magnitude);
+    findings.add(rules::value_bit_pattern, value.span,
+                 fmt::format("{} is read as the bit pattern of {}", in_quotes(value.text), meaning),
+                 "write " + meaning);
     return true;
   }
-  findings.add(rules::value_range, value.span, "does not fit " + std::string(type.name));
+  findings.add(rules::value_range, value.span,
+               fmt::format("{} does not fit {} ({})", in_quotes(value.text), type.name, range_of(type)),
+               "correct the value, or use a larger data type");
   return false;
 }
 
@@ -110,7 +139,9 @@ void interpret_integer(Value& value, const DataType& type, Findings& findings) {
   }
   warn_of_octal(formula.number, value, findings);
   if (formula.has_node_id && !formula.is_standard) {
-    findings.add(rules::value_node_id_form, value.span, "not the standard's form of $NODEID+number");
+    findings.add(rules::value_node_id_form, value.span,
+                 fmt::format("{} is not in the form $NODEID+number", in_quotes(value.text)),
+                 "write $NODEID first, in capitals and without blanks");
   }
   value.adds_node_id = formula.has_node_id;
   value.integer = formula.number.value;
@@ -126,17 +157,23 @@ void interpret_real(Value& value, const DataType& type, Findings& findings) {
   switch (real.form) {
     case RealForm::decimal: break;
     case RealForm::integer:
-      findings.add(rules::value_real_integer, value.span, "taken for a number, not for a bit pattern",
+      findings.add(rules::value_real_integer, value.span,
+                   fmt::format("{} has no decimal point, read as a number", in_quotes(value.text)),
                    "write a decimal point");
       break;
     case RealForm::bit_pattern:
-      findings.add(rules::value_real_bits, value.span, "taken for the bit pattern of a REAL", "write a decimal number");
+      findings.add(rules::value_real_bits, value.span,
+                   fmt::format("{} is read as the bit pattern of {}", in_quotes(value.text), value.real),
+                   "write a decimal number");
       break;
     case RealForm::decimal_comma:
-      findings.add(rules::value_decimal_comma, value.span, "a decimal comma is taken for a point", "write a point");
+      findings.add(rules::value_decimal_comma, value.span, fmt::format("decimal comma in {}", in_quotes(value.text)),
+                   "write a decimal point");
       break;
     case RealForm::no_number:
-      findings.add(rules::value_number, value.span, "this is no " + std::string(type.name));
+      findings.add(rules::value_number, value.span,
+                   fmt::format("{} is not a number of type {}", in_quotes(value.text), type.name),
+                   "write a decimal number");
       break;
   }
 }
@@ -159,14 +196,15 @@ void interpret_octets(Value& value, Findings& findings) {
   if (!read_octets(value.text, value.octets)) {
     value.kind = Value::Kind::malformed;
     value.octets.clear();
-    findings.add(rules::value_octets, value.span, "these are no pairs of hexadecimal digits");
+    findings.add(rules::value_octets, value.span, fmt::format("{} is not an octet string", in_quotes(value.text)),
+                 "write pairs of hexadecimal digits: 01 2A");
   }
 }
 
 void interpret_text(Value& value, Findings& findings) {
   value.kind = Value::Kind::text;
   if (value.text.size() > 1 && value.text.front() == '"' && value.text.back() == '"') {
-    findings.add(rules::value_quotes, value.span, "the quotes are a part of the string");
+    findings.add(rules::value_quotes, value.span, "quotes around the string are part of it", "remove them");
   }
 }
 
@@ -182,7 +220,9 @@ void interpret_time(Value& value, Findings& findings) {
   }
   value.kind = Value::Kind::integer;
   value.integer = days.value.magnitude << 32 | milliseconds.value.magnitude;
-  findings.add(rules::value_time, value.span, "two numbers are taken for days and milliseconds");
+  findings.add(rules::value_time, value.span,
+               fmt::format("{} are two numbers, read as days and milliseconds", in_quotes(text)),
+               fmt::format("write {}", value.integer.magnitude));
 }
 
 void interpret_unknown(Value& value, Findings& findings) {
@@ -222,7 +262,8 @@ void interpret(Value& value, const DataType& type, Findings& findings) {
     case TypeKind::unknown: interpret_unknown(value, findings); return;
   }
   if (equal_ignoring_case(value.text.substr(0, 7), "$nodeid")) {
-    findings.add(rules::value_node_id_type, value.span, "only an integer depends on the node-ID");
+    findings.add(rules::value_node_id_type, value.span, fmt::format("$NODEID in a value of type {}", type.name),
+                 "remove $NODEID, or use an integer type");
   }
 }
 
@@ -237,7 +278,8 @@ void interpret_number(Field<T>& field, std::uint64_t largest, Findings& findings
   }
   warn_of_octal(number, field, findings);
   if (number.value.is_negative || number.value.magnitude > largest) {
-    findings.add(rules::value_range, field.span, "not between 0 and " + std::to_string(largest));
+    findings.add(rules::value_range, field.span,
+                 fmt::format("{} is not in the range 0 to {}", in_quotes(field.text), largest), "correct the number");
     return;
   }
   field.value = static_cast<T>(number.value.magnitude);
@@ -251,7 +293,7 @@ template void interpret_number(Field<std::uint32_t>&, std::uint64_t, Findings&);
 void interpret_flag(Field<bool>& field, Findings& findings) {
   const bool is_word = equal_ignoring_case(field.text, "true") || equal_ignoring_case(field.text, "false");
   if (is_word) {
-    findings.add(rules::value_word, field.span, "true and false are written 1 and 0");
+    report_word(field, findings);
     field.value = to_lower(field.text.front()) == 't';
     return;
   }

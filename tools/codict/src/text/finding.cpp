@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "text/number.hpp"
+
 namespace lexican::codict {
 
 std::string_view name_of(Severity severity) {
@@ -32,13 +34,54 @@ void Findings::sort() {
   });
 }
 
+namespace {
+
+bool is_of_word(char c) { return is_digit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+// Returns the text with # for each number (word with a digit) and each quoted name.
+std::string kind_of(const Finding& finding) {
+  const std::string& text = finding.text;
+  if (finding.span == Span{}) {
+    return text;
+  }
+  std::string kind;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t quote = text[at] == '\'' ? text.find('\'', at + 1) : std::string::npos;
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto word_end = std::find_if_not(begin, text.end(), is_of_word);
+    const std::size_t end =
+        quote != std::string::npos ? quote + 1 : std::max(at + 1, static_cast<std::size_t>(word_end - text.begin()));
+    const bool is_value = quote != std::string::npos || std::any_of(begin, word_end, is_digit);
+    kind += is_value ? "#" : text.substr(at, end - at);
+    at = end;
+  }
+  return kind;
+}
+
+}  // namespace
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::size_t size = std::min(text.size(), longest);
+  while (size != 0 && size != text.size() && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80) {
+    --size;  // inside of a UTF-8 character
+  }
+  return std::string(text.substr(0, size)) + (size != text.size() ? "..." : "");
+}
+
+std::string in_quotes(std::string_view text) { return "'" + shortened(text) + "'"; }
+
+std::string message_of(const Finding& finding) {
+  return finding.subject.empty() ? finding.text : finding.subject + ": " + finding.text;
+}
+
 std::vector<Folded> fold(const std::vector<Finding>& findings) {
   std::vector<Folded> folded;
-  std::map<std::pair<const Rule*, std::string_view>, std::size_t> places;
+  std::map<std::pair<const Rule*, std::string>, std::size_t> places;
   for (const Finding& finding : findings) {
-    const auto [place, is_new] = places.try_emplace({finding.rule, finding.text}, folded.size());
+    const auto [place, is_new] = places.try_emplace({finding.rule, kind_of(finding)}, folded.size());
     if (is_new) {
-      folded.push_back({&finding, 0});
+      folded.push_back({&finding, 0, place->first.second});
     } else {
       ++folded[place->second].more;
     }

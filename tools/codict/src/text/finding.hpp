@@ -28,10 +28,20 @@ struct Rule {
 struct Finding {
   const Rule* rule = nullptr;
   Span span;
-  std::string text;                       ///< the same for equal findings: what differs is shown by the place
+  std::string text;                       ///< the fault with its values, in lower case without a full stop
   std::string hint;                       ///< what to do; may be empty
   Severity severity = Severity::warning;  ///< that of the rule, unless somebody takes it for worse
+  std::string subject;                    ///< the object that contains the place: "2000h 'Ratio'"; may be empty
 };
+
+/// Returns a text of the input for a message, cut after 40 bytes.
+std::string shortened(std::string_view text);
+
+/// Returns the shortened text in quotes.
+std::string in_quotes(std::string_view text);
+
+/// Returns subject and text.
+std::string message_of(const Finding& finding);
 
 /// The findings of one source, in the order in which they were made until they are sorted.
 class Findings {
@@ -43,7 +53,7 @@ class Findings {
     if (all_.size() == most) {
       ++dropped_;
     } else {
-      all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity});
+      all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity, {}});
     }
   }
   std::size_t dropped() const { return dropped_; }
@@ -55,6 +65,10 @@ class Findings {
   void remove_if(Predicate is_unwanted) {
     all_.erase(std::remove_if(all_.begin(), all_.end(), is_unwanted), all_.end());
   }
+  template <typename Call>
+  void for_each(Call call) {
+    std::for_each(all_.begin(), all_.end(), call);
+  }
   void sort();  ///< by place; those of one place keep their order
 
  private:
@@ -62,10 +76,12 @@ class Findings {
   std::size_t dropped_ = 0;
 };
 
-/// Findings of one rule with one text: the first, and how many follow.
+/// Findings of one rule whose texts differ in numbers and quoted names only: the first, and how many follow. Findings
+/// without a place are folded if their texts are equal, because the place does not show the difference.
 struct Folded {
   const Finding* first = nullptr;
   std::size_t more = 0;
+  std::string kind;  ///< what the texts have in common
 };
 
 /// In the order of the first ones.

@@ -137,7 +137,8 @@ Encoding encoding_of(const Source& source, Findings& findings) {
     return declared == Encoding::utf8 ? Encoding::utf8 : declared;
   }
   if (declared == Encoding::utf8) {
-    findings.add(rules::encoding, {0, 0}, "not the encoding that the XML declaration says: a guess is used");
+    findings.add(rules::encoding, {0, 0}, "bytes are not UTF-8, read as " + std::string(name_of(guess)),
+                 "save the file as UTF-8, or declare its encoding");
   }
   return declared == Encoding::utf8 ? guess : declared;
 }
@@ -178,7 +179,8 @@ Document::Document(Source source, Findings& findings)
       tree_.load_buffer_inplace(buffer_.data(), buffer_.size(), parse_options, pugi::encoding_utf8);
   if (!result && result.status != pugi::status_no_document_element) {
     const auto at = static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(result.offset, 0, source_.size()));
-    findings.add(rules::syntax, {at, at}, std::string("not well-formed: ") + result.description());
+    findings.add(rules::syntax, {at, at}, std::string("not well-formed: ") + result.description(),
+                 "correct the XML at this place");
   }
   find_root(findings);
 }
@@ -187,7 +189,7 @@ void Document::find_root(Findings& findings) {
   for (const pugi::xml_node node : tree_) {
     if (node.type() == pugi::node_doctype) {
       const std::uint32_t at = offset(node.value());
-      findings.add(rules::doctype, {at, at}, "a document type: its entities are not used");
+      findings.add(rules::doctype, {at, at}, "document type, whose entities are not used", "remove it");
     } else if (node.type() == pugi::node_element && !root_) {
       root_ = node;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "xdd/fields.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -50,7 +52,8 @@ bool is_known(std::string_view name) {
 
 void report_unknown(std::string_view name, Span span, std::string_view text, const Reader& reader) {
   if (reader.shared.dialect == Dialect::container && !is_known(name)) {
-    reader.findings.add(rules::unknown, span, std::string(text));
+    reader.findings.add(rules::unknown, span, fmt::format("{} {} is unknown to CiA 311", text, in_quotes(name)),
+                        "check the spelling");
   }
 }
 
@@ -71,7 +74,7 @@ bool is_leaf(pugi::xml_node element) {
 
 void report_duplicate(Span place, const Reader& reader) {
   if (reader.shared.dialect == Dialect::container) {  // others have conditions for them
-    reader.findings.add(rules::duplicate, place, "said a second time: the first is used");
+    reader.findings.add(rules::duplicate, place, "given more than once; the first is used", "remove it");
   }
 }
 
@@ -102,19 +105,20 @@ bool is_named(std::string_view name, std::string_view wanted, Span span, const R
     return false;
   }
   if (reader.shared.dialect == Dialect::container) {
-    reader.findings.add(rules::name_case, span, "CiA 311 writes " + std::string(wanted));
+    reader.findings.add(rules::name_case, span, fmt::format("wrong capitals in {}", in_quotes(name)),
+                        fmt::format("write {}", wanted));
   }
   return true;
 }
 
 void keep(pugi::xml_attribute attribute, std::vector<Kept>& others, const Reader& reader) {
   others.push_back(kept(reader.document, attribute));
-  report_unknown(local_name(attribute), others.back().span, "an unknown attribute: kept", reader);
+  report_unknown(local_name(attribute), others.back().span, "attribute", reader);
 }
 
 void keep(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   others.push_back(kept(reader.document, element));
-  report_unknown(local_name(element), reader.document.tag(element), "an unknown element: kept", reader);
+  report_unknown(local_name(element), reader.document.tag(element), "element", reader);
 }
 
 void keep_rest(pugi::xml_node element, std::vector<Kept> rest, std::vector<Kept>& others, const Reader& reader) {
@@ -169,7 +173,8 @@ pugi::xml_node find(const Ids& ids, std::string_view id) {
 bool may_copy(pugi::xml_node element, const Reader& reader) {
   const std::size_t size = reader.document.whole(element).size();
   if (size > reader.shared.copies_left) {
-    reader.findings.add(rules::copies, reader.document.tag(element), "too much to be read once more");
+    reader.findings.add(rules::copies, reader.document.tag(element), "too many references; this one is not read",
+                        "split the element, or refer to it less often");
     return false;
   }
   reader.shared.copies_left -= size;
@@ -186,7 +191,8 @@ bool read_hex(const Text& text, std::size_t digits, std::uint64_t largest, std::
   }
   value = number;
   if (digits != 0 && (has_prefix || plain.size() != digits)) {
-    findings.add(rules::hex_digits, text.span, std::to_string(digits) + " hexadecimal digits, without 0x");
+    findings.add(rules::hex_digits, text.span, fmt::format("{} does not have {} digits", in_quotes(text.text), digits),
+                 fmt::format("write {:0{}X}", number, digits));
   }
   return true;
 }
@@ -198,9 +204,11 @@ void interpret_boolean(Field<bool>& field, Findings& findings) {
   const bool is_true = field.text == "1" || equal_ignoring_case(field.text, "true");
   field.value = is_true;
   if (!is_true && field.text != "0" && !equal_ignoring_case(field.text, "false")) {
-    findings.add(rules::boolean, field.span, "neither true nor false: false", "true or false");
+    findings.add(rules::boolean, field.span, fmt::format("{} is not a boolean, read as false", in_quotes(field.text)),
+                 "write true or false");
   } else if (field.text.size() > 1 && field.text != "true" && field.text != "false") {
-    findings.add(rules::boolean, field.span, "true and false are written in small letters");
+    findings.add(rules::boolean, field.span, fmt::format("{} is not in small letters", in_quotes(field.text)),
+                 is_true ? "write true" : "write false");
   }
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a device is in a network. [311: ApplicationLayers, TransportLayers, NetworkManagement]
+#include <fmt/format.h>
+
 #include <limits>
 #include <string>
 #include <utility>
@@ -72,15 +74,16 @@ bool read_bit_rate(const Text& text, std::uint32_t& kbit, const Reader& reader) 
   const std::string_view rest = trimmed(std::string_view(text.text).substr(end));
   const bool is_kbit = rest.empty() || equal_ignoring_case(rest, "Kbps") || equal_ignoring_case(rest, "kbit/s");
   if (!number.is_number() || !is_kbit || number.value.magnitude > u32) {
-    reader.findings.add(rules::bit_rate, text.span, "this is no bit rate", "125 Kbps");
+    reader.findings.add(rules::bit_rate, text.span, fmt::format("{} is not a bit rate", in_quotes(text.text)),
+                        "write 125 Kbps");
     return false;
   }
   const auto value = static_cast<std::uint32_t>(number.value.magnitude);
   const bool is_in_bits = rest.empty() && value >= 10000;
   kbit = is_in_bits ? value / 1000 : value;
   if (text.text.substr(end) != unit) {
-    reader.findings.add(rules::bit_rate, text.span, is_in_bits ? "taken for bit/s" : "taken for kbit/s",
-                        std::to_string(kbit) + std::string(unit));
+    reader.findings.add(rules::bit_rate, text.span, fmt::format("{} is read as {} kbit/s", in_quotes(text.text), kbit),
+                        fmt::format("write {}{}", kbit, unit));
   }
   return true;
 }
@@ -171,7 +174,8 @@ bool read_dummy(pugi::xml_node element, std::vector<Kept>& others, const Reader&
   if (sign <= word.size() || !equal_ignoring_case(text.substr(0, word.size()), word) ||
       !parse_hex(text.substr(word.size(), sign - word.size()), type) || type > u16 || sign == text.size()) {
     reader.findings.add(rules::dummy, entry.is_given ? entry.span : reader.document.tag(element),
-                        "this is no dummy: kept, and not used");
+                        fmt::format("{} is not a dummy entry; not used", in_quotes(entry.text)),
+                        "write Dummy0001=0 or Dummy0001=1");
     others.push_back(kept(reader.document, element));
     return true;
   }
@@ -191,14 +195,16 @@ void interpret_direction(Field<Access>& access, Findings& findings) {
   } else if (access.text == "readWriteOutput") {
     access.value = Access::rww;
   } else if (access.is_given) {
-    findings.add(rules::access_unknown, access.span, "this is no access", "readOnly, writeOnly or readWriteOutput");
+    findings.add(rules::access_unknown, access.span, fmt::format("{} is not an access", in_quotes(access.text)),
+                 "write readOnly, writeOnly or readWriteOutput");
   }
 }
 
 void interpret_hex(Field<std::uint16_t>& field, Findings& findings) {
   std::uint64_t value = 0;
   if (!field.is_empty() && !read_hex(field, 0, u16, value, findings)) {
-    findings.add(rules::index, field.span, "this is no hexadecimal number");
+    findings.add(rules::index, field.span, fmt::format("{} is not a hexadecimal number", in_quotes(field.text)),
+                 "write hexadecimal digits");
   }
   field.value = static_cast<std::uint16_t>(value);
 }

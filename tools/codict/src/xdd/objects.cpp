@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // CANopenObjectList, and objects of private dialects. [311]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <string>
@@ -64,6 +66,7 @@ bool take_subs(pugi::xml_node child, std::vector<pugi::xml_node>& subs) {
 Part read_part(pugi::xml_node element, const Reader& reader) {
   Part part;
   part.span = reader.document.tag(element);
+  part.extent = reader.document.whole(element);
   read_element(part, element, part_slots, part.others, reader, [&](pugi::xml_node child) {
     return take_subs(child, part.subs) || read_word(part.words, child, part.others, reader);
   });
@@ -82,13 +85,16 @@ void interpret_object_code(Entry& entry, bool has_subs, const Reader& reader) {
   entry.object_code.value = has_subs ? ObjectCode::record : ObjectCode::variable;
   if (entry.object_code.is_empty()) {
     reader.findings.add(rules::object_type_missing, entry.span,
-                        has_subs ? "objectType missing: RECORD" : "objectType missing: VAR");
+                        has_subs ? "objectType is missing, read as RECORD" : "objectType is missing, read as VAR",
+                        has_subs ? "add objectType=\"9\"" : "add objectType=\"7\"");
     return;
   }
   const ParsedInteger number = parse_integer(entry.object_code.text);
   const auto code = static_cast<ObjectCode>(number.value.magnitude & 0xFF);
   if (!number.is_number() || number.value.magnitude > 0xFF || name_of(code).empty() || code == ObjectCode::null) {
-    reader.findings.add(rules::object_type, entry.object_code.span, "this is no object type");
+    reader.findings.add(rules::object_type, entry.object_code.span,
+                        fmt::format("{} is not an object type", in_quotes(entry.object_code.text)),
+                        "write 7 (VAR), 8 (ARRAY), 9 (RECORD) or 2 (DOMAIN)");
   } else {
     entry.object_code.value = code;
   }
@@ -104,7 +110,9 @@ void interpret_data_type(Entry& entry, const Reader& reader) {
   } else if (const DataType* type = data_type_named(entry.data_type.text)) {
     entry.data_type.value = type->code;
   } else {
-    reader.findings.add(rules::type_unknown, entry.data_type.span, "this is no data type");
+    reader.findings.add(rules::type_unknown, entry.data_type.span,
+                        fmt::format("{} is not a data type", in_quotes(entry.data_type.text)),
+                        "write a code of CiA 301, for example 05");
   }
 }
 
@@ -123,7 +131,9 @@ void choose_type(Entry& entry, const Reader& reader) {
     return;
   }
   if (of_object != 0) {
-    reader.findings.add(rules::parameter_differs, entry.data_type.span, "the parameter has another data type");
+    reader.findings.add(rules::parameter_differs, entry.data_type.span,
+                        fmt::format("data type {:04X}h, but the parameter has {:04X}h", of_object, of_parameter),
+                        "use one type in both");
   }
   const bool has_octets = !entry.default_value.is_empty() || !entry.actual_value.is_empty();
   const bool is_domain = entry.object_code.value == ObjectCode::domain || !has_octets;
@@ -153,7 +163,10 @@ void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, E
     return;
   }
   if (!is_same) {
-    reader.findings.add(rules::parameter_differs, own.span, "the parameter says something else");
+    reader.findings.add(
+        rules::parameter_differs, own.span,
+        fmt::format("{} {} differs from {} of the parameter", attribute, in_quotes(own.text), in_quotes(chosen.text)),
+        "use one value in both");
   }
   entry.others.push_back({"@" + std::string(attribute), static_cast<const Text&>(own), {}, own.span});
 }
@@ -176,6 +189,7 @@ void append(std::vector<Kept>& to, std::vector<Kept>& from) {
 // A parameter is what its object is, and becomes the object's. [311: uniqueIDRef]
 void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.span = own.span;
+  entry.extent = own.extent;
   entry.name = std::move(own.name);
   entry.object_code = std::move(own.object_code);
   entry.data_type = std::move(own.data_type);
@@ -204,7 +218,9 @@ pugi::xml_node parameter_of(const Entry& own, const Reader& reader) {
   const std::string_view id = trimmed(reader.document.raw(own.parameter_id.span));
   const pugi::xml_node element = find(reader.shared.parameters, id);
   if (!element) {
-    reader.findings.add(rules::reference, own.parameter_id.span, "there is no such parameter");
+    reader.findings.add(rules::reference, own.parameter_id.span,
+                        fmt::format("parameter {} does not exist", in_quotes(own.parameter_id.text)),
+                        "correct uniqueIDRef, or add the parameter");
     return {};
   }
   const bool is_readable = reader.shared.used.try_emplace(id, true).second || may_copy(element, reader);
@@ -238,7 +254,7 @@ void complete_access(Entry& entry, bool is_variable, const Reader& reader) {
   } else if (entry.object_code.value == ObjectCode::domain) {
     entry.access.value = Access::rw;
   } else {
-    reader.findings.add(rules::access_missing, entry.span, "there is no access");
+    reader.findings.add(rules::access_missing, entry.span, "access is missing", "add accessType");
   }
 }
 
@@ -247,7 +263,7 @@ void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
     entry.data_type.value = type_code::domain;
   }
   if (is_variable && entry.data_type.value == 0 && !entry.type.reference.is_given) {
-    reader.findings.add(rules::type_missing, entry.span, "there is no data type");
+    reader.findings.add(rules::type_missing, entry.span, "data type is missing", "add dataType");
   }
 }
 
@@ -287,14 +303,21 @@ bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, 
   if (read_hex(number, reader.device.format == Format::other_xml ? 0 : wanted, largest, value, reader.findings)) {
     return true;
   }
-  reader.findings.add(rules::index, number.is_given ? number.span : place, "this is no index: kept, and not used");
+  reader.findings.add(rules::index, number.is_given ? number.span : place,
+                      number.is_given ? fmt::format("{} is not an index; not used", in_quotes(number.text))
+                                      : "index is missing; not used",
+                      "write hexadecimal digits");
   return false;
 }
 
 // False for what is there a second time.
 bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const Reader& reader) {
   if (seen[number]) {
-    reader.findings.add(rules::duplicate_object, place, "said a second time: the first is used");
+    const bool is_sub = seen.size() == 0x100;
+    reader.findings.add(rules::duplicate_object, place,
+                        is_sub ? fmt::format("duplicate sub-index {:02X}h; the first is used", number)
+                               : fmt::format("duplicate object {:04X}h; the first is used", number),
+                        "remove one of them, or correct its number");
     return false;
   }
   seen[number] = true;
@@ -344,7 +367,8 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
   const bool is_variable = !has_sub_objects(object.object_code.value);
   if (is_variable && !subs.empty()) {
     reader.findings.add(rules::object_type, object.object_code.is_given ? object.object_code.span : object.span,
-                        "only ARRAY, RECORD and DEFSTRUCT have sub-objects");
+                        fmt::format("object type {}, but there are sub-objects", name_of(object.object_code.value)),
+                        "write objectType=\"9\" (RECORD), or remove the sub-objects");
   }
   complete_access(object, is_variable, reader);
   complete_type(object, is_variable, reader);
@@ -385,7 +409,9 @@ void check_count(ObjectList& list, ListKind kind, const Reader& reader) {
   const auto number = std::count_if(objects.begin(), objects.end(),
                                     [kind](const Object& object) { return list_of(object.index) == kind; });
   if (list.count.value != static_cast<std::uint64_t>(number)) {
-    reader.findings.add(rules::list_count, list.count.span, std::to_string(number) + " objects of this kind are there");
+    reader.findings.add(rules::list_count, list.count.span,
+                        fmt::format("count is {}, but the number of objects is {}", list.count.value, number),
+                        fmt::format("write {}", number));
   }
 }
 
@@ -398,7 +424,9 @@ void read_flags(Entry& entry, pugi::xml_node element, const Reader& reader) {
   }
   const pugi::xml_node flags = find(reader.shared.templates, raw_attribute(reference, "uniqueIDRef"));
   if (!flags) {
-    reader.findings.add(rules::reference, reader.document.tag(reference), "there are no such flags");
+    reader.findings.add(rules::reference, reader.document.tag(reference),
+                        fmt::format("flags {} do not exist", in_quotes(raw_attribute(reference, "uniqueIDRef"))),
+                        "correct the reference");
     return;
   }
   if (!may_copy(flags, reader)) {
@@ -492,7 +520,8 @@ void read_indexed_parameters(const Reader& reader) {
     }
     if (is_read) {
       reader.findings.add(rules::duplicate_object, reader.document.tag(element),
-                          "said a second time: the first is used");
+                          fmt::format("duplicate {:04X}h:{:02X}; the first is used", indexed.index, indexed.sub_index),
+                          "remove one of them, or correct its number");
     }
     reader.device.others.push_back(kept(reader.document, element));
   }
@@ -552,11 +581,16 @@ void interpret_access(Field<Access>& access, bool is_parameter, const Reader& re
   access.value =
       of_parameter != Access::unknown && (is_parameter || of_object == Access::unknown) ? of_parameter : of_object;
   if (access.value == Access::unknown) {
-    reader.findings.add(rules::access_unknown, access.span, "this is no access",
-                        is_parameter ? "read, write, readWrite, const …" : "ro, wo, rw or const");
-  } else if (access.text !=
-             (is_parameter ? parameter_words[static_cast<std::size_t>(access.value)] : name_of(access.value))) {
-    reader.findings.add(rules::access_case, access.span, "not the word that CiA 311 has here");
+    reader.findings.add(rules::access_unknown, access.span, fmt::format("{} is not an access", in_quotes(access.text)),
+                        is_parameter ? "write read, write, readWrite or const" : "write ro, wo, rw or const");
+    return;
+  }
+  const std::string_view right =
+      is_parameter ? parameter_words[static_cast<std::size_t>(access.value)] : name_of(access.value);
+  if (access.text != right) {
+    reader.findings.add(rules::access_case, access.span,
+                        fmt::format("{} is not the word of CiA 311", in_quotes(access.text)),
+                        fmt::format("write {}", right));
   }
 }
 
@@ -572,13 +606,15 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
   if (word == all.end()) {
     const bool is_true = mapping.text == "1" || equal_ignoring_case(mapping.text, "true");
     mapping.value = is_true ? PdoMapping::optional : PdoMapping::no;
-    reader.findings.add(rules::pdo_mapping, mapping.span, "neither no, optional, default, TPDO nor RPDO",
-                        std::string(name_of(mapping.value)));
+    reader.findings.add(rules::pdo_mapping, mapping.span,
+                        fmt::format("{} is not a PDO mapping", in_quotes(mapping.text)),
+                        fmt::format("write {}", name_of(mapping.value)));
     return;
   }
   mapping.value = *word;
   if (mapping.text != name_of(*word)) {
-    reader.findings.add(rules::pdo_mapping, mapping.span, "not with the capitals that CiA 311 has");
+    reader.findings.add(rules::pdo_mapping, mapping.span, fmt::format("wrong capitals in {}", in_quotes(mapping.text)),
+                        fmt::format("write {}", name_of(*word)));
   }
 }
 

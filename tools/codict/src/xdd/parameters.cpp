@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ApplicationProcess: types, templates, parameters and groups. [311]
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -50,7 +52,9 @@ void check_order(pugi::xml_node element, const Reader& reader) {
     }
     const std::size_t rank = rank_of(local_name(child));
     if (rank < last) {
-      reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
+      reader.findings.add(rules::order, reader.document.tag(child),
+                          fmt::format("element {} is not in the order of the schema", in_quotes(local_name(child))),
+                          "move it before the elements that follow it in the schema");
       return;
     }
     last = rank;
@@ -77,7 +81,8 @@ void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
     return equal_ignoring_case(candidate, srdo.text);
   });
   if (word == words.end()) {
-    findings.add(rules::property, srdo.span, "neither tx, rx, trx nor no: no");
+    findings.add(rules::property, srdo.span, fmt::format("{} is not an SRDO access, read as no", in_quotes(srdo.text)),
+                 "write tx, rx, trx or no");
   } else {
     srdo.value = static_cast<SrdoAccess>(word - words.begin());
   }
@@ -89,7 +94,8 @@ void interpret_length(Field<std::uint32_t>& length, Findings& findings) {
     return;
   }
   if (!number.is_number() || number.value.is_negative || number.value.magnitude > 0xFFFFFFFF) {
-    findings.add(rules::property, length.span, "this is no length");
+    findings.add(rules::property, length.span, fmt::format("{} is not a length", in_quotes(length.text)),
+                 "write a number");
   } else {
     length.value = static_cast<std::uint32_t>(number.value.magnitude);
   }
@@ -117,8 +123,8 @@ void check_property_name(const Text& name, Findings& findings) {
     known.push_back(slot.name);
   }
   const std::vector<std::string_view> near = similar(name.text, known);
-  findings.add(rules::property, name.span, "CANopenNode knows no property of this name",
-               near.empty() ? "" : "maybe " + std::string(near.front()));
+  findings.add(rules::property, name.span, fmt::format("property {} is unknown to CANopenNode", in_quotes(name.text)),
+               near.empty() ? "check the spelling" : fmt::format("did you mean {}?", near.front()));
 }
 
 void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
@@ -190,7 +196,9 @@ void interpret_node(NodeProperties& node, Findings& findings) {
 void inherit(Entry& entry, const Reader& reader) {
   const pugi::xml_node element = find(reader.shared.templates, entry.template_id.text);
   if (!element) {
-    reader.findings.add(rules::reference, entry.template_id.span, "there is no such template");
+    reader.findings.add(rules::reference, entry.template_id.span,
+                        fmt::format("template {} does not exist", in_quotes(entry.template_id.text)),
+                        "correct the reference, or add the template");
     return;
   }
   if (!may_copy(element, reader)) {
@@ -216,7 +224,9 @@ void collect_ids(pugi::xml_node list, Ids& ids, const Reader& reader) {
   for (const pugi::xml_node element : list.children()) {
     const std::string_view id = raw_attribute(element, "uniqueID");
     if (!id.empty() && !ids.try_emplace(id, element).second) {
-      reader.findings.add(rules::duplicate_id, reader.document.tag(element), "a second one of this id");
+      reader.findings.add(rules::duplicate_id, reader.document.tag(element),
+                          fmt::format("duplicate uniqueID {}; the first is used", in_quotes(id)),
+                          "give each element an id of its own");
     }
   }
 }
@@ -267,7 +277,9 @@ void read_templates(pugi::xml_node list, std::vector<Kept>& others, const Reader
 void read_member(Group& group, pugi::xml_node element, const Reader& reader) {
   group.parameters.push_back(text_of(element, "uniqueIDRef", group.others, reader));
   if (!find(reader.shared.parameters, raw_attribute(element, "uniqueIDRef"))) {
-    reader.findings.add(rules::reference, group.parameters.back().span, "there is no such parameter");
+    reader.findings.add(rules::reference, group.parameters.back().span,
+                        fmt::format("parameter {} does not exist", in_quotes(group.parameters.back().text)),
+                        "correct the reference, or add the parameter");
   }
 }
 
@@ -332,6 +344,7 @@ void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reade
 
 void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader) {
   entry.span = reader.document.tag(element);
+  entry.parameter_extent = reader.document.whole(element);
   read_element(entry, element, parameter_slots, entry.others, reader,
                [&](pugi::xml_node child) { return read_parameter_part(entry, child, reader); });
   interpret_access(entry.access, true, reader);
@@ -374,7 +387,8 @@ void read_unused_parameters(pugi::xml_node list, const Reader& reader) {
     if (is_used || local_name(element) != "parameter" || element.child("index")) {
       continue;
     }
-    reader.findings.add(rules::parameter_unused, reader.document.tag(element), "no object refers to this parameter");
+    reader.findings.add(rules::parameter_unused, reader.document.tag(element), "no object refers to the parameter",
+                        "add uniqueIDRef to its object, or remove it");
     read_parameter(element, reader.device.parameters.emplace_back(), reader);
     finish_parameter(reader.device.parameters.back(), reader);
   }

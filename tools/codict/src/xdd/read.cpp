@@ -41,7 +41,8 @@ Format format_of_namespace(pugi::xml_node container, const Reader& reader) {
   if (value != namespace10) {
     reader.findings.add(
         rules::xml_namespace, attribute ? reader.document.span(attribute) : reader.document.tag(container),
-        value.empty() ? "there is no namespace" : "not a namespace of CiA 311", std::string(namespace10));
+        value.empty() ? std::string("namespace is missing") : in_quotes(value) + " is not a namespace of CiA 311",
+        "write " + std::string(namespace10));
   }
   return Format::xdd10;
 }
@@ -62,7 +63,8 @@ Format final_format(const Device& device, std::string_view path) {
 
 void set_dialect(std::string_view name, std::string_view about, pugi::xml_node root, const Reader& reader) {
   reader.device.dialect = name;
-  reader.findings.add(rules::dialect, reader.document.tag(root), std::string(about));
+  reader.findings.add(rules::dialect, reader.document.tag(root), "private format: " + std::string(about),
+                      "convert it to XDD for other tools");
 }
 
 // ApplicationProcess has been read before. What belongs to a body is found at other places of other dialects, too.
@@ -188,7 +190,9 @@ void check_file_name(const Reader& reader) {
   const std::string_view name = path.substr(path.find_last_of('/') + 1);
   const Text& file_name = reader.device.file.file_name;
   if (!file_name.is_empty() && file_name.text != name && name != "<stdin>") {
-    reader.findings.add(rules::file_name, file_name.span, "the file has another name");
+    reader.findings.add(rules::file_name, file_name.span,
+                        "fileName is " + in_quotes(file_name.text) + ", but the file is named " + in_quotes(name),
+                        "correct fileName, or rename the file");
   }
 }
 
@@ -208,7 +212,7 @@ void read_device(pugi::xml_node element, Dialect dialect, const Document& docume
                   "a description as maxon has it: parameters with an index", element, reader);
       break;
     case Dialect::device_profile:
-      set_dialect("DeviceProfile", "a DeviceProfile, with elements where CiA 311 has attributes", element, reader);
+      set_dialect("DeviceProfile", "DeviceProfile with elements instead of attributes", element, reader);
       break;
     case Dialect::canopennode:
       device.format = Format::project_xml;

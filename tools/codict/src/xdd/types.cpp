@@ -48,7 +48,8 @@ void read_named_type(TypeUse& type, pugi::xml_node element, std::vector<Kept>& o
     type.iec = text_of(child, {}, rest, reader);
     type.code = code_named(type.iec.text);
     if (type.code == 0) {
-      reader.findings.add(rules::type_unknown, type.iec.span, "this is no data type");
+      reader.findings.add(rules::type_unknown, type.iec.span, in_quotes(type.iec.text) + " is not a data type",
+                          "write a type of CiA 301, for example UNSIGNED8");
     }
     return true;
   });
@@ -154,7 +155,8 @@ bool read_type(TypeUse& type, pugi::xml_node child, std::vector<Kept>& others, c
   if (name == "dataTypeIDRef") {
     type.reference = text_of(child, "uniqueIDRef", others, reader);
     if (!find(reader.shared.types, raw_attribute(child, "uniqueIDRef"))) {
-      reader.findings.add(rules::reference, type.reference.span, "there is no such data type");
+      reader.findings.add(rules::reference, type.reference.span,
+                          "data type " + in_quotes(type.reference.text) + " does not exist", "correct the reference");
     }
     type.code = code_of_reference(raw_attribute(child, "uniqueIDRef"), reader, 0);
     return true;

@@ -105,7 +105,8 @@ void read_value_part(Text& text, pugi::xml_node child, std::vector<Kept>& rest, 
 bool read_allowed_part(Allowed& allowed, pugi::xml_node child, std::vector<Kept>& rest, const Reader& reader) {
   const std::string_view name = local_name(child);
   if (name == "value" && !allowed.ranges.empty()) {
-    reader.findings.add(rules::order, reader.document.tag(child), "not in the order of the schema");
+    reader.findings.add(rules::order, reader.document.tag(child), "value after a range",
+                        "put values before ranges, as in the schema");
   }
   if (name == "value" || name == "valueEntry") {
     allowed.values.push_back(read_allowed_value(child, rest, reader));
