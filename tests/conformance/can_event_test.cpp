@@ -35,7 +35,7 @@ TEST_CASE("CAN events: an error frame reports all that it holds, each event once
   CHECK(events_of("20000140#0000000000000000") == Events{CO_CAN_BUS_OFF, CO_CAN_RECOVERED});
 }
 
-TEST_CASE("CAN events: bus-off, then recovered by a restart or by being error active again, told once") {
+TEST_CASE("CAN events: bus-off, then recovered by a restart or by being error active again, reported once") {
   CHECK(events_of("20000040#0000000000000000") == Events{CO_CAN_BUS_OFF});
   CHECK(events_of("20000100#0000000000000000") == Events{CO_CAN_RECOVERED});
   CHECK(events_of("20000004#0040000000000000") == Events{CO_CAN_RECOVERED});

@@ -127,7 +127,7 @@ TEST_CASE("EMCY consumer: while an entry is valid its other bits do not change; 
   CHECK(node.heard().size() == 1);
 }
 
-TEST_CASE("EMCY consumer: two entries with the same COB-ID are both told") {
+TEST_CASE("EMCY consumer: a message on a COB-ID of two entries is reported for both") {
   Consumer node(0x20012345);
   node.rx("00012345#1081110102030405");
   CHECK(node.heard() == Heard{"2 8110 11 0102030405", "3 8110 11 0102030405"});

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 using co::event::Fault;
 
-TEST_CASE("EMCY: each fault has its code; the third of the five bytes tells which node or PDO [E7] [E11]") {
+TEST_CASE("EMCY: each fault has its code; the third of the five bytes is the node-ID or PDO number [E7] [E11]") {
   const struct {
     Fault fault;
     const char* sent;
@@ -165,7 +165,7 @@ TEST_CASE("EMCY: a controller that recovers from nothing is no news") {
   CHECK(node.errors().empty());
 }
 
-TEST_CASE("EMCY: at bus-off 1001h tells it at once; recovered, the node sends 8140h and then 0000h [E7] [Q5]") {
+TEST_CASE("EMCY: at bus-off 1001h changes at once; after recovery the node sends 8140h and then 0000h [E7] [Q5]") {
   EmcyNode node{Setup()};
   node.rx("20000040#0000000000000000");
   node.silent();

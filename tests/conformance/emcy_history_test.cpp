@@ -127,7 +127,7 @@ TEST_CASE("1003h: COEmcyHistReset and a write of the application empty it as wel
   node.trace();
 }
 
-TEST_CASE("1003h: its entries cannot be written, even where the table says so [E4]") {
+TEST_CASE("1003h: its entries cannot be written, even if they are writable in the table [E4]") {
   std::uint32_t entry = 0;
   EmcyNode node(
       Setup().emergencies(errors_of_device()).with({CO_KEY(0x1003, 5, CO_OBJ_____RW), CO_TEMCY_HIST, &entry}));
@@ -177,7 +177,7 @@ TEST_CASE("1003h: entries behind a gap are not used") {
   node.ask("601#4003100600000000", "581#8003100624000008");
 }
 
-TEST_CASE("1003h: a node without it works as well, and nothing is said") {
+TEST_CASE("1003h: a node without it works without an error") {
   Fixture node(Setup().emergencies(errors_of_device()));
   CHECK(node.error() == CO_ERR_NONE);
   node.call([&] { COEmcySet(&node->Emcy, current, nullptr); });

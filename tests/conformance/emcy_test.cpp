@@ -207,7 +207,7 @@ TEST_CASE("EMCY: null pointers end in CONodeFatalError(), questions answer -1") 
 
 // Objects that are missing, or of another kind ------------------------------------------------------------------------
 
-TEST_CASE("EMCY: without 1001h the messages are right all the same, and the node says what is missing") {
+TEST_CASE("EMCY: without 1001h the messages are right, and the node reports the missing object") {
   EmcyNode node(Setup().emergencies(errors_of_device()).without(0x1001, 0));
   CHECK(node.error() == (USE_DICT_CHECK != 0 ? CO_ERR_CFG_1001_0 : CO_ERR_NONE));
   node.set(current);
@@ -259,7 +259,7 @@ TEST_CASE("EMCY: 1001h is written only when it changes") {
   CHECK(node.trace().size() == 4);
 }
 
-TEST_CASE("EMCY: without 1014h nothing is sent; a node with a table of errors says that it is missing") {
+TEST_CASE("EMCY: without 1014h nothing is sent; a node with a table of errors reports the missing object") {
   Fixture node(Setup().emergencies(errors_of_device()).without(0x1014, 0));
   CHECK(node.error() == (USE_DICT_CHECK != 0 ? CO_ERR_CFG_1014_0 : CO_ERR_NONE));
   node.call([&] { COEmcySet(&node->Emcy, current, nullptr); });

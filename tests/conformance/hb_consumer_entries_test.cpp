@@ -211,7 +211,7 @@ TEST_CASE("1016h: a time that the timer cannot hold is refused, and the old entr
   node.emergency(five_missing);
 }
 
-TEST_CASE("1016h: of two entries of the table for one node the first counts, and the node says so") {
+TEST_CASE("1016h: of two entries of the table for one node the first is used, and the node reports the duplicate") {
   Monitor node({{5, 100}, {5, 10}, {6, 100}});
   CHECK(node.error() == CO_ERR_OBJ_INIT);
   node.rx("705#05");

@@ -146,7 +146,7 @@ TEST_CASE("heartbeat consumer: a change of the NMT state of this node leaves the
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: each change of the state is told, and every boot-up message [H3]") {
+TEST_CASE("heartbeat consumer: each change of the state is reported, and every boot-up message [H3]") {
   Monitor node({{5, 100}});
   for (const std::string state : {"00", "00", "7F", "7F", "05", "05", "04", "00", "00"}) {
     node.rx("705#" + state);
@@ -154,7 +154,7 @@ TEST_CASE("heartbeat consumer: each change of the state is told, and every boot-
   node.told("5 INIT, 5 INIT, 5 PREOP, 5 OPERATIONAL, 5 STOP, 5 INIT, 5 INIT");
 }
 
-TEST_CASE("heartbeat consumer: a node that is back in the same state is told, too [H3]") {
+TEST_CASE("heartbeat consumer: a node that is back in the same state is reported, too [H3]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.after(100ms);
@@ -166,7 +166,7 @@ TEST_CASE("heartbeat consumer: a node that is back in the same state is told, to
   node.emergency(five_back);
 }
 
-TEST_CASE("heartbeat consumer: the last state is still the old one while the change is told") {
+TEST_CASE("heartbeat consumer: within the callback of a change, the last state is still the old one") {
   Monitor node({{5, 100}});
   std::vector<CO_MODE> before;
   callbacks().heartbeat_change = [&](CO_NMT* nmt, std::uint8_t id, CO_MODE) {

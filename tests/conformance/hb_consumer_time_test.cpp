@@ -55,7 +55,7 @@ TEST_CASE("heartbeat consumer: a new node with a shorter time is not waited for 
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: a late loop tells a missing node once, and keeps the phase of the periods [Q8]") {
+TEST_CASE("heartbeat consumer: a late loop reports a missing node once, and keeps the phase of the periods [Q8]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.jump(1050ms);

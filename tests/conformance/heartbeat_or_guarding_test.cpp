@@ -97,7 +97,7 @@ TEST_CASE("heartbeat or guarding: a remote frame that is not answered starts no 
   CHECK(both.lost == 0);
 }
 
-TEST_CASE("heartbeat or guarding: a missing master is back with its remote frame, whatever 1017h says [G2]") {
+TEST_CASE("heartbeat or guarding: a missing master is back with its remote frame, for any value of 1017h [G2]") {
   Both both(0);
   Fixture& node = both.node;
   node.ask("701#R1", "701#7F");

@@ -15,7 +15,7 @@ TEST_CASE("heartbeat: every period after boot-up, which counts as the first one 
   node.silent();
 }
 
-TEST_CASE("heartbeat: it tells the NMT state [N5] [Transition 01-04]") {
+TEST_CASE("heartbeat: it transmits the NMT state [N5] [Transition 01-04]") {
   Fixture node(Setup().heartbeat(100).node_id(0x22));
   node.after(100ms);
   node.tx("722#7F");

@@ -382,7 +382,7 @@ TEST_CASE("LED: faults that it does not show, and faults that were never raised,
   CHECK(node.err() == red_double);
 }
 
-TEST_CASE("LED: what the application says holds through resets, what the node has found out ends with them") {
+TEST_CASE("LED: states set by the application survive resets, states detected by the node end with them") {
   LedNode node;
   node.start();
   node.set(CO_LED_CONFIG, true);
@@ -397,7 +397,7 @@ TEST_CASE("LED: what the application says holds through resets, what the node ha
   CHECK(node.err() == off);
 }
 
-TEST_CASE("LED: LSS and a program download, told by the application [LED2]") {
+TEST_CASE("LED: LSS and a program download, set by the application [LED2]") {
   LedNode node;
   node.rx("000#0101");
   node.start();

@@ -95,7 +95,7 @@ TEST_CASE("life guarding: every remote frame starts the time anew [G1]") {
   node.expect("lost ");
 }
 
-TEST_CASE("life guarding: the loss is told once, and the next remote frame ends it [G2] [B2]") {
+TEST_CASE("life guarding: the loss is reported once, and the next remote frame resolves it [G2] [B2]") {
   Guarded node(50, 2);
   node.rx("000#0101");
   for (int loss = 0; loss < 5; ++loss) {
@@ -210,7 +210,7 @@ TEST_CASE("life guarding: it ends with the node") {
   node.silent();
 }
 
-TEST_CASE("life guarding: the application may reset or stop the node when it is told [Q9]") {
+TEST_CASE("life guarding: the application may reset or stop the node in the callback [Q9]") {
   for (const bool stop : {false, true}) {
     CAPTURE(stop);
     Guarded node(100, 1);
@@ -258,7 +258,7 @@ TEST_CASE("life guarding: the same at every start of the clock and at every rate
   }
 }
 
-TEST_CASE("life guarding: a late loop tells the loss once; a request that it reads first counts [Q8]") {
+TEST_CASE("life guarding: a late loop reports the loss once; a request that it reads first counts [Q8]") {
   Guarded node(100, 1);
   node.guard();
   node.jump(1000ms);

@@ -92,7 +92,7 @@ TEST_CASE("LSS fastscan: a part out of turn, and impossible requests, are not an
   CHECK(answers(node, scan(2, 0, 1, 2)));
 }
 
-TEST_CASE("LSS fastscan: begins anew whenever the master says so") {
+TEST_CASE("LSS fastscan: begins anew at each start request of the master") {
   Fixture node(slave({1, 2, 3, 4}));
   REQUIRE(answers(node, scan(0, 0x80, 0, 0)));
   REQUIRE(answers(node, scan(1, 0, 0, 1)));

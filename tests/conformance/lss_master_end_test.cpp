@@ -240,7 +240,7 @@ TEST_CASE("LSS master: times last over a reset") {
   node.end(CO_LSSM_NOT_FOUND);
 }
 
-TEST_CASE("LSS master: a full transmit queue is told") {
+TEST_CASE("LSS master: a full transmit queue is reported") {
   LssMaster node(Setup().tx_queue(2));  // one place is the application's
   node.can.refuse_all();
   SUBCASE("at the start: nothing begins") {

@@ -25,7 +25,7 @@ TEST_CASE("LSS master: each service sends its request, and ends with the answer 
   }
 }
 
-TEST_CASE("LSS master: what was inquired is told") {
+TEST_CASE("LSS master: an inquired value is passed to the callback") {
   LssMaster node;
   const std::uint32_t numbers[] = {0x00000319, 0x12345678, 0xFFFFFFFF, 0x00000044, 255};
   for (std::size_t n = 0; n < 5; ++n) {
@@ -64,7 +64,7 @@ TEST_CASE("LSS master: configure bit timing: table 0, its index for the bit rate
   }
 }
 
-TEST_CASE("LSS master: a slave that refuses is told with its error code, and that of its manufacturer") {
+TEST_CASE("LSS master: a refusal is reported with its error code, and that of the manufacturer") {
   const char* refusals[][2] = {
       {"7E5#1120000000000000", "7E4#11"}, {"7E5#1300040000000000", "7E4#13"}, {"7E5#1700000000000000", "7E4#17"}};
   for (std::size_t n = 0; n < 3; ++n) {

@@ -102,7 +102,7 @@ TEST_CASE("LSS, activate bit timing with delay 0 in Operational: the node leaves
   device.applies_nothing();
 }
 
-TEST_CASE("LSS, activate bit timing: Pre-operational and Stopped stay, whatever 1029h:1 says") {
+TEST_CASE("LSS, activate bit timing: Pre-operational and Stopped do not change, for any value of 1029h:1") {
   for (const std::uint8_t behaviour : {std::uint8_t{0}, std::uint8_t{2}}) {
     for (const char* command : {"000#8001", "000#0201"}) {
       Device device(behaviour);

@@ -266,7 +266,7 @@ TEST_CASE("LSS: a node that is stopped while the bit rate is switched leaves its
   }
 }
 
-TEST_CASE("LSS: store: what is pending is given to the application, whose answer is told [L5]") {
+TEST_CASE("LSS: store: the pending values are passed to the application, whose result is sent [L5]") {
   Configured device;
   Fixture& node = device.node;
   std::uint32_t baud = 0;
@@ -300,7 +300,7 @@ TEST_CASE("LSS: what was stored is loaded at power-on: node-ID and bit rate") {
   node.tx("709#00");
 }
 
-TEST_CASE("LSS: store: a node that can store nothing says so [L5]") {
+TEST_CASE("LSS: store: a node without storage answers that it is not supported [L5]") {
   CO_NODE* device = nullptr;
   callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(device, 0, baud, id); };
   Configured slave;
@@ -343,7 +343,7 @@ TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
   CHECK(COLssNvmStore(nullptr, 0, baud, id) == CO_ERR_BAD_ARG);
 }
 
-TEST_CASE("LSS: what cannot be loaded is told, and the node keeps node-ID and bit rate") {
+TEST_CASE("LSS: a failure to load is reported, and the node keeps node-ID and bit rate") {
   SUBCASE("error") {
     callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) {
       *baud = 5;
@@ -410,7 +410,7 @@ TEST_CASE("LSS: identify non-configured: answered by nodes without node-ID alone
   without.ask("7E5#4C00000000000000", "7E4#5000000000000000");
 }
 
-TEST_CASE("LSS: a node without node-ID sends no boot-up and no heartbeat, and hears nothing but LSS [L7] [D50]") {
+TEST_CASE("LSS: a node without node-ID sends no boot-up and no heartbeat, and processes only LSS [L7] [D50]") {
   Fixture node(slave(no_node_id).heartbeat(10));
   node.after(1000ms);
   node.silent();
@@ -466,7 +466,7 @@ TEST_CASE("LSS: frames of the application wait for the boot-up message of a node
   node.tx({"705#00", "123#AA"});
 }
 
-TEST_CASE("LSS: a node that its application stops in COLssLoad() or COLssStore() says nothing more") {
+TEST_CASE("LSS: a node that its application stops in COLssLoad() or COLssStore() sends no more frames") {
   Fixture node(slave().heartbeat(10));
   callbacks().lss_load = [&](std::uint32_t*, std::uint8_t*) { return CONodeStop(&node.node), CO_ERR_NONE; };
   node.rx("000#8101");

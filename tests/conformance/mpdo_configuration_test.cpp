@@ -356,7 +356,7 @@ TEST_CASE("MPDO scanner list: what does not fit leaves the list as it was [301:7
   CHECK(node.frames() == sent);
 }
 
-TEST_CASE("MPDO scanner list: that there is no place is said, whatever else is wrong [301:7.5.2.39]") {
+TEST_CASE("MPDO scanner list: missing space is reported before any other error [301:7.5.2.39]") {
   MpdoTable table;
   table.scan = {0x01300001, 0x08220101, 0x08220201};
   MpdoNode node(table);

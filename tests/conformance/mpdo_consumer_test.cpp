@@ -369,7 +369,7 @@ TEST_CASE("MPDO destination: a type function may stop or reset the node, and cha
 
 // Source address mode -------------------------------------------------------------------------------------------------
 
-TEST_CASE("MPDO source: the dispatching list says which object is written [301:7.5.2.40]") {
+TEST_CASE("MPDO source: the dispatching list selects the object that is written [301:7.5.2.40]") {
   MpdoNode node(from_source({0x0122010160000105, 0x0122020160000206, 0x0022040860010005}));
   node.start();
   node.rx("201#05006001A1A2A3A4");

@@ -61,7 +61,7 @@ TEST_CASE("MPDO to a destination: address, multiplexer, data, eight bytes always
   CHECK_FALSE(was_sent(node, 0));
 }
 
-TEST_CASE("MPDO to a destination: it says why it sends nothing") {
+TEST_CASE("MPDO to a destination: the result is the reason why nothing is sent") {
   MpdoTable table = to_destination();
   table.tpdo[1].on(0x40000281, 255, {0x22010108});
   MpdoNode node(table);
@@ -105,7 +105,7 @@ TEST_CASE("MPDO to a destination: what waits for the controller is not replaced,
   node.tx({"181#8500620101000000", "181#8600620102000000", "181#8500620103000000"});
 }
 
-TEST_CASE("MPDO to a destination: a full transmit queue is told: nothing is sent later") {
+TEST_CASE("MPDO to a destination: a full transmit queue is reported: nothing is sent later") {
   MpdoNode node(to_destination(), [](Setup& setup) { setup.tx_queue(4); });
   node.start();
   node.can.refuse_all();
@@ -121,7 +121,7 @@ TEST_CASE("MPDO to a destination: a full transmit queue is told: nothing is sent
   node.tx({"181#8500620100000000", "181#8500620101000000"});
 }
 
-TEST_CASE("MPDO to a destination: it knows no events, no event timer, no start and no remote requests") {
+TEST_CASE("MPDO to a destination: it has no events, no event timer, no start and no remote requests") {
   MpdoTable table = to_destination();
   table.tpdo[0].cob_id = 0x181;
   table.tpdo[0].event = 10;
@@ -239,7 +239,8 @@ TEST_CASE("MPDO from a source: what has passed is the PDO, and each object") {
   node.frames();
 }
 
-TEST_CASE("MPDO from a source: an inhibit time between two frames; objects wait with their values of then [X6]") {
+TEST_CASE(
+    "MPDO from a source: an inhibit time between two frames; queued objects are sent with their current values [X6]") {
   MpdoNode node(from_source(100));  // 10 ms
   node.start();
   write(node, 0x2211, 0x42);
@@ -313,7 +314,7 @@ TEST_CASE("MPDO from a source: the event timer sends all objects [X7]") {
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: event and inhibit time: every object has its turn [X7]") {
+TEST_CASE("MPDO from a source: event and inhibit time: all objects are sent in rotation [X7]") {
   for (const std::uint16_t event : {std::uint16_t{5}, std::uint16_t{10}, std::uint16_t{25}}) {
     CAPTURE(event);
     MpdoTable table = from_source(100);
@@ -395,7 +396,7 @@ TEST_CASE("MPDO from a source: a PDO that is switched off, or whose list changes
   node.tx("181#0101220881000000");
 }
 
-TEST_CASE("MPDO from a source: an empty list sends nothing, and says so") {
+TEST_CASE("MPDO from a source: an empty list sends nothing, and this is reported") {
   MpdoTable table = from_source();
   table.scan = {};
   MpdoNode node(table);
@@ -413,7 +414,7 @@ TEST_CASE("MPDO from a source: there are no remote requests") {
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: what the controller refuses goes on when it takes frames, with the values of then") {
+TEST_CASE("MPDO from a source: refused frames are sent when the controller is free, with their current values") {
   MpdoNode node(from_source());
   node.frames_per_call(6);
   node.start();

@@ -161,7 +161,7 @@ TEST_CASE("NMT master: commands from callbacks [Q9]") {
   CHECK(node.mode() == CO_STOP);
 }
 
-TEST_CASE("NMT master: a heartbeat consumer hears what the command did") {
+TEST_CASE("NMT master: a heartbeat consumer receives the state after the command") {
   Master master(Setup().node_id(1));
   Fixture slave(Setup().node_id(2).heartbeat(100));
   CHECK(master.command(CO_NMT_COMMAND_START, 2) == CO_ERR_NONE);

@@ -129,7 +129,7 @@ TEST_CASE("NMT: reset node and reset communication end in Pre-operational after 
   }
 }
 
-TEST_CASE("NMT: the application is told of a reset when it is done, and of every change of state before it") {
+TEST_CASE("NMT: the reset callback comes after the reset, and callbacks of changes of state before it") {
   Fixture node;
   std::vector<int> told;
   callbacks().reset_request = [&](CO_NMT* nmt, CO_NMT_RESET reset) {
@@ -235,7 +235,7 @@ TEST_CASE("NMT: an open SDO transfer survives start and enter pre-operational [N
   node.ask("601#6000000000000000", "581#096F646500000000");
 }
 
-TEST_CASE("NMT: every command to every node, exactly as the table says [N1] [N2]") {
+TEST_CASE("NMT: every command to every node, exactly as in the table of the standard [N1] [N2]") {
   Fixture node(Setup().node_id(5).only_small());
   std::vector<std::string> wrong;
   for (unsigned command = 0; command < 256; ++command) {
@@ -333,7 +333,7 @@ TEST_CASE("NMT: state byte of a heartbeat [N5]") {
   CHECK(CONmtModeEncode(CO_MODE_NUM) == 255);
 }
 
-TEST_CASE("NMT: null arguments stop the device or are told") {
+TEST_CASE("NMT: null arguments stop the device or are reported") {
   Fixture node;
   CONmtReset(nullptr, CO_RESET_NODE);
   CONmtSetMode(nullptr, CO_STOP);

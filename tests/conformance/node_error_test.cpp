@@ -72,7 +72,7 @@ TEST_CASE("node error: a type of the application that refuses a value or a piece
 }
 
 #if USE_CSDO
-TEST_CASE("node error: a request of a client to the own node that is refused is told to its callback alone") {
+TEST_CASE("node error: a refused request of a client to the own node is reported only to its callback") {
   LoggedStream value;
   value.data = {1, 2, 3, 4};
   value.on_piece = refuse;

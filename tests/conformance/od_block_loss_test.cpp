@@ -217,7 +217,7 @@ TEST_CASE("OD block loss: downloads that lose any one frame reach the extension 
   }
 }
 
-TEST_CASE("OD block loss: a download with a wrong CRC or a wrong length never tells the extension an end") {
+TEST_CASE("OD block loss: after a wrong CRC or a wrong length the extension is never called with the last piece") {
   Node node;
   node.extension.data = {1};
   BlockOptions options;

@@ -80,7 +80,8 @@ const std::vector<Open>& open_transfers() {
   return all;
 }
 
-TEST_CASE("OD end: another extension aborts an open transfer at its next frame, and the type is told the end at once") {
+TEST_CASE(
+    "OD end: another extension aborts an open transfer at its next frame, and End of the type is called at once") {
   for (const Open& open : open_transfers()) {
     for (const unsigned from : {0U, 1U, 2U}) {  // extended by another, taken away, extended for the first time
       CAPTURE(std::string(open.name));
@@ -113,7 +114,7 @@ TEST_CASE("OD end: another extension aborts an open transfer at its next frame, 
   }
 }
 
-TEST_CASE("OD end: after the time-out of such a transfer nothing is told any more") {
+TEST_CASE("OD end: after the time-out of such a transfer End is not called again") {
   Node node;
   node.give(&node.extension.extension);
   node.ask("601#2100300014000000", "581#6000300000000000");
@@ -251,7 +252,7 @@ TEST_CASE("OD end: a partial access of the application is over with the extensio
 
 #if USE_CSDO
 
-TEST_CASE("OD end: a client to the own node, too, is aborted, and the type is told the end") {
+TEST_CASE("OD end: a client to the own node, too, is aborted, and End of the type is called") {
   for (const bool uploads : {true, false}) {
     Variables variables;
     SdoClient node(variables.setup(), local_entries());

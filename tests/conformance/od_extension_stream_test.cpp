@@ -330,14 +330,14 @@ TEST_CASE("OD extension, stream: both functions are the original ones: nothing i
 
 // Downloads ---------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, stream: an expedited download comes in one call that knows its length") {
+TEST_CASE("OD extension, stream: an expedited download is passed in one call with its length") {
   Node node(0x3004);
   node.ask("601#2B04300011220000", "581#6004300000000000");
   CHECK(node.extension.take_log() == Log{"write 2 at 0 of 2"});
   CHECK(node.extension.data == Bytes{0x11, 0x22});
 }
 
-TEST_CASE("OD extension, stream: a segmented download tells its length with the last piece, announced or not") {
+TEST_CASE("OD extension, stream: a segmented download passes its length with the last piece, announced or not") {
   for (const bool announced : {true, false}) {
     Node node(0x3004);
     node.ask(announced ? "601#2104300009000000" : "601#2004300000000000", "581#6004300000000000");
@@ -394,7 +394,7 @@ TEST_CASE("OD extension, stream: an extension that refuses the end refuses the d
   CHECK(node.extension.data == Bytes{0xEE});
 }
 
-TEST_CASE("OD extension, stream: too long and too short: the function is not told an end that the object cannot have") {
+TEST_CASE("OD extension, stream: too long and too short: the function is not called for the last piece") {
   Node node(0x3005, counting(10));
   node.ask("601#2105300009000000", "581#8005300013000706");
   node.ask("601#210530000B000000", "581#8005300012000706");
@@ -425,7 +425,7 @@ TEST_CASE("OD extension, stream: too long and too short: the function is not tol
   }
 }
 
-TEST_CASE("OD extension, stream: a function that ends too early is 0607 0012h, one that wants more 0607 0013h") {
+TEST_CASE("OD extension, stream: a function that ends too early is 0607 0012h, one that requires more 0607 0013h") {
   Node node;
   static OD_size_t wants = 0;
   static OD_size_t has = 0;

@@ -142,7 +142,7 @@ TEST_CASE("OD extension, value: a number by block transfer comes whole, too") {
   }
 }
 
-TEST_CASE("OD extension, value: what the extension is told of the variable") {
+TEST_CASE("OD extension, value: the variable in the arguments of the extension") {
   Node node;
   LoggedExtension extension;
   OD_stream_t seen{};
@@ -240,7 +240,7 @@ TEST_CASE("OD extension, value: ODR_OK with another number of bytes is 0604 0047
   node.ask("601#4000300000000000", "581#8000300047000406");
 }
 
-TEST_CASE("OD extension, value: what the application's own functions are told") {
+TEST_CASE("OD extension, value: the arguments of the application's own functions") {
   struct {
     ODR_t result;
     CO_ERR read, write;
@@ -410,7 +410,7 @@ TEST_CASE("OD extension, value: it acts from the next access on, until it is tak
   node.ask("601#4000300000000000", "581#4300300011223344");
 }
 
-TEST_CASE("OD extension, value: one for several objects and all sub-indexes knows which is meant") {
+TEST_CASE("OD extension, value: one for several objects and all sub-indexes gets index and sub-index") {
   Node node;
   LoggedExtension extension;
   std::vector<std::uint32_t> seen;

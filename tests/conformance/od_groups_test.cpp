@@ -88,7 +88,7 @@ ODR_t restore(Fixture& node, unsigned group) {
   return result;
 }
 
-TEST_CASE("OD groups: a name is found at its sub-index of 1010h, and told by it") {
+TEST_CASE("OD groups: a name is found at its sub-index of 1010h, and returned for it") {
   Device device;
   Fixture node(device.setup());
   CHECK(OD_findStorageGroup(&node.od, "PERSIST_COMM") == 2);

@@ -143,7 +143,7 @@ TEST_CASE("OD nonsense: ODR_PARTIAL without a byte, or with more than asked for,
   node.ask("601#6000000000000000", "581#8001300047000406");
 }
 
-TEST_CASE("OD nonsense: a write that says it took another number of bytes is 0604 0047h") {
+TEST_CASE("OD nonsense: a write that reports another number of bytes is 0604 0047h") {
   for (const int result : {ODR_OK + 0, ODR_PARTIAL + 0}) {
     Nonsense nonsense{result, -1, 0, 0};
     Node node;
@@ -155,7 +155,7 @@ TEST_CASE("OD nonsense: a write that says it took another number of bytes is 060
   }
 }
 
-TEST_CASE("OD nonsense: bytes that an extension puts behind what it says are not shown") {
+TEST_CASE("OD nonsense: bytes that an extension writes behind its reported length are not transmitted") {
   Node node;
   OD_extension_t extension{nullptr, nullptr, nullptr, {}};
   extension.read = [](OD_stream_t*, void* buf, OD_size_t count, OD_size_t* passed) {

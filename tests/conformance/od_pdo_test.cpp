@@ -179,7 +179,7 @@ TEST_CASE("OD PDO: a null function: a TPDO is not sent, an RPDO writes nothing")
   CHECK(node.word == 0x44332211);
 }
 
-TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the original function tells a change only") {
+TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the original function only on a change") {
   Node node(table_of({0x30070020}));
   node.frames_per_call(3);
   LoggedExtension extension;
@@ -291,7 +291,7 @@ TEST_CASE("OD PDO: flag A: an extension that keeps the value elsewhere: each wri
   node.tx("181#01020304");
 }
 
-TEST_CASE("OD PDO: flag A: an extension that writes another object tells of both") {
+TEST_CASE("OD PDO: flag A: an extension that writes another object triggers the TPDOs of both") {
   PdoTable table = table_of({0x30070020});
   table.tpdo[1].on(0x40000281, 255, {0x22140120});
   Node node(table);

@@ -398,7 +398,7 @@ TEST_CASE("parameters: a damaged record without callback is no fault: the table 
 
 #if USE_EMCY
 
-TEST_CASE("parameters: the application tells the network of a recovered group by EMCY 6300h") {
+TEST_CASE("parameters: the application reports a recovered group to the network by EMCY 6300h") {
   GroupDevice device;
   device.nvm.bytes = stored_twice().nvm.bytes;
   device.nvm.bytes[100 + 28] ^= 1;

@@ -72,7 +72,7 @@ struct Device {
 constexpr const char* save_all = "601#2310100173617665";
 constexpr const char* all_saved = "581#6010100100000000";
 
-TEST_CASE("parameters: 1010h tells what is stored on command (bit 0) and autonomously (bit 1) [S1]") {
+TEST_CASE("parameters: 1010h shows what is stored on command (bit 0) and autonomously (bit 1) [S1]") {
   Device device;
   Fixture node(device.setup());
   node.ask("601#4010100000000000", "581#4F10100004000000");
@@ -82,7 +82,7 @@ TEST_CASE("parameters: 1010h tells what is stored on command (bit 0) and autonom
   node.ask("601#4010100500000000", "581#8010100511000906");
 }
 
-TEST_CASE("parameters: 1011h tells what can be restored (bit 0) [S1]") {
+TEST_CASE("parameters: 1011h shows what can be restored (bit 0) [S1]") {
   Device device;
   Fixture node(device.setup());
   node.ask("601#4011100000000000", "581#4F11100004000000");
@@ -371,7 +371,7 @@ TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tel
   node.ask("601#4000230200000000", "581#4300230222000000");
 }
 
-TEST_CASE("parameters: what was damaged is told, and the group has its default values") {
+TEST_CASE("parameters: damaged records are reported, and the group has its default values") {
   Device device;
   {
     Fixture node(device.setup());
@@ -491,7 +491,7 @@ const CO_IF_NVM_DRV_EX raw_driver = {[](void*) {},
                                      },
                                      nullptr, nullptr};
 
-TEST_CASE("parameters: with a driver that tells no shape the bytes of a group lie at Offset as they are") {
+TEST_CASE("parameters: with a driver without geometry the bytes of a group are stored plainly at Offset") {
   std::fill(std::begin(raw_memory), std::end(raw_memory), std::uint8_t{0xFF});
   raw_writes = 0;
   Device device;

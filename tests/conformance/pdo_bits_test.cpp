@@ -166,7 +166,7 @@ TEST_CASE("PDO bits: a frame is too short below its last bit's byte only: EMCY 8
   CHECK(node.frames() == reports({emcy(0, 1), emcy(0x8220, 1)}));
 }
 
-TEST_CASE("PDO bits: each of 64 objects says whether it has passed") {
+TEST_CASE("PDO bits: the flag of each of 64 objects shows whether it was transferred") {
   PdoTable table;
   PdoEntries& rpdo = table.rpdo[0].on(0x201, 255, {});
   for (unsigned n = 0; n < 63; ++n) rpdo.map[rpdo.number++] = boolean(1);

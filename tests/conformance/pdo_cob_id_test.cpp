@@ -256,7 +256,7 @@ TEST_CASE("PDO COB-ID: without bit 30 a TPDO answers remote requests, with it no
 
 #else
 
-TEST_CASE("PDO COB-ID: a node that knows no remote requests refuses a TPDO without bit 30: 0609 0030h [P4]") {
+TEST_CASE("PDO COB-ID: a node without remote requests refuses a TPDO without bit 30: 0609 0030h [P4]") {
   PdoNode node(both_off());
   CHECK(node.set(0x1800, 1, 4, 0x181) == abort_range);
   CHECK(node.get(0x1800, 1) == 0xC0000181);

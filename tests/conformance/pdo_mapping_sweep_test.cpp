@@ -354,7 +354,7 @@ class Trial {
   unsigned exchanged_ = 0;
 };
 
-TEST_CASE("PDO mapping sweep: writes in random order are answered, and PDOs laid out, as the model says") {
+TEST_CASE("PDO mapping sweep: results of writes in random order, and layouts of PDOs, equal those of the model") {
   unsigned exchanged = 0;
   for (unsigned seed = 1; seed <= 40 / stride(20); ++seed) {
     CAPTURE(seed);

@@ -167,7 +167,7 @@ TEST_CASE("PDO send failure: type 0 that a full queue refuses stays marked for t
   node.silent();
 }
 
-TEST_CASE("PDO send failure: when the queue is empty again the node wants nothing of the loop") {
+TEST_CASE("PDO send failure: when the queue is empty again the node has no deadline") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22110108});
   SyncNode node(table);

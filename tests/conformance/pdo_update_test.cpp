@@ -99,7 +99,7 @@ TEST_CASE("PDO callback: COPdoReceive that switches the PDO off, or maps it anew
   }
 }
 
-TEST_CASE("PDO callback: COPdoUpdate tells which RPDO was written, COPdoSyncUpdate only synchronous ones") {
+TEST_CASE("PDO callback: COPdoUpdate gets the written RPDO, COPdoSyncUpdate only synchronous ones") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     SyncNode node(table_of(type));
     node.start();

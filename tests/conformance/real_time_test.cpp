@@ -69,7 +69,7 @@ TEST_CASE("real time: unrelated frames do not enter the ring") {
   CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
 }
 
-TEST_CASE("real time: COIfCanReceive() gets them in the mainline where the node is told to leave them there") {
+TEST_CASE("real time: COIfCanReceive() gets them in the mainline if the node is configured to leave them there") {
   RealTimeNode node(pdos(), [](Setup& setup) { setup.foreign(); });
   std::vector<std::string> seen;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { seen.push_back(notation(*frm)); };

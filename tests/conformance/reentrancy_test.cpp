@@ -444,7 +444,7 @@ TEST_CASE("reentrancy: a reset asked for while a function changes the mode is do
   CHECK(node.mode() == CO_PREOP);
 }
 
-TEST_CASE("reentrancy: a reset asked for at a bus-off is done when that has been told") {
+TEST_CASE("reentrancy: a reset requested at a bus-off is done after the callback") {
   Fixture node;
   node.rx("000#0101");
   Resetting application(CO_PREOP);

@@ -187,7 +187,7 @@ TEST_CASE("synchronous RPDO: after the window frames are discarded until the nex
   node.silent();
 }
 
-TEST_CASE("synchronous RPDO: event-driven RPDOs know no window [X4]") {
+TEST_CASE("synchronous RPDO: the window does not apply to event-driven RPDOs [X4]") {
   SyncTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   table.window = 20000;

@@ -55,7 +55,7 @@ TEST_CASE("RPDO: a frame is written only to the objects that its PDO maps") {
   CHECK(node.counters().Unclaimed == 0);
 }
 
-TEST_CASE("RPDO: neither the number nor the type of an RPDO says which slot it takes: the last works alone [D7]") {
+TEST_CASE("RPDO: its slot depends neither on number nor on type of the RPDO: the last works alone [D7]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     for (unsigned n = 0; n < fixture_rpdos; ++n) {
       if (USE_SYNC == 0 && type == 1) {

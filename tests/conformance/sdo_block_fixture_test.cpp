@@ -176,7 +176,7 @@ TEST_CASE("fixture: the block client reports a server that aborts, and one that 
   CHECK(node.block_download(0x2104, 0, counting(890)).abort == 0x05040000);
 }
 
-TEST_CASE("fixture: the block client counts frames, and loses those that it is told to lose") {
+TEST_CASE("fixture: the block client counts frames, and loses the configured ones") {
   Fixture node;
   const BlockResult result = node.block_download(0x2100, 15, counting(15));
   CHECK(result.requests == 5);

@@ -39,7 +39,7 @@ TEST_CASE("SDO channels: a second one serves at its own identifiers") {
   node.ask("690#E0AABBCC00000000", "6A0#80AABBCC01000405");
 }
 
-TEST_CASE("SDO channels: an invalid one is silent, whichever of its COB-IDs says so [D26]") {
+TEST_CASE("SDO channels: one with bit 31 set in either COB-ID is silent [D26]") {
   for (const bool rx_valid : {false, true}) {
     CAPTURE(rx_valid);
     Fixture node(Setup().before_init([=](Objects& o) {

@@ -198,7 +198,7 @@ TEST_CASE("SDO client: COB-IDs relative to the own node-ID are complete identifi
   CHECK(buffer[0] == 0x11);
 }
 
-TEST_CASE("SDO client: bit 31 of either COB-ID says that the client does not exist [301:7.5.2.34] [D26]") {
+TEST_CASE("SDO client: bit 31 of either COB-ID disables the client [301:7.5.2.34] [D26]") {
   for (const ClientEntries& entries : {first(0x80000605, 0x585, 5), first(0x605, 0x80000585, 5),
                                        first(0x80000605, 0x80000585, 5), first(0x80000600, 0x580, 5)}) {
     SdoClient node(small(), entries);

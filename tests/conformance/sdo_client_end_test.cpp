@@ -10,7 +10,8 @@ using namespace test;
 
 constexpr const char* cancelled = "605#8000200521000008";
 
-TEST_CASE("SDO client: COCSdoCancel in every state: the server is told, the callback comes before it returns") {
+TEST_CASE(
+    "SDO client: COCSdoCancel in every state: sends an abort to the server, calls the callback before it returns") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;

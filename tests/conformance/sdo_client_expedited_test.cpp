@@ -147,7 +147,7 @@ TEST_CASE("SDO client: an abort with the code 0 is not taken for success") {
   node.ends.clear();
 }
 
-TEST_CASE("SDO client: an abort of the server with a code that CiA 301 does not know is passed on") {
+TEST_CASE("SDO client: an abort of the server with a code that is not in CiA 301 is passed on") {
   SdoClient node;
   node.start_download(0x2000, 5, {1});
   node.tx("605#2F00200501000000");

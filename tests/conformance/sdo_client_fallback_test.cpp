@@ -53,7 +53,7 @@ TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are ordinary, into
 
 constexpr const char* no_block[] = {"585#8000200501000405", "585#8000200500000008"};
 
-TEST_CASE("SDO client: a block upload that the server does not know is asked for anew as an ordinary one, expedited") {
+TEST_CASE("SDO client: a block upload that the server does not support is repeated as an expedited one") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_upload(0x2000, 5, 100);
@@ -67,7 +67,7 @@ TEST_CASE("SDO client: a block upload that the server does not know is asked for
   }
 }
 
-TEST_CASE("SDO client: a block upload that the server does not know is asked for anew as an ordinary one, segmented") {
+TEST_CASE("SDO client: a block upload that the server does not support is repeated as a segmented one") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_upload(0x2000, 5, 100);
@@ -83,7 +83,7 @@ TEST_CASE("SDO client: a block upload that the server does not know is asked for
   }
 }
 
-TEST_CASE("SDO client: a block download that the server does not know is sent in segments") {
+TEST_CASE("SDO client: a block download that the server does not support is sent in segments") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_download(0x2000, 5, counted(29));

@@ -114,7 +114,7 @@ class Local : public SdoClient {
 
 using Calls = std::vector<std::string>;
 
-TEST_CASE("SDO client, own node: a CO_OBJ_TYPE_EX is told that it is read, and how that ended") {
+TEST_CASE("SDO client, own node: Begin and End of a CO_OBJ_TYPE_EX are called for a read") {
   for (const std::size_t length : {1U, 4U, 7U, 29U, 889U, 2000U}) {
     CAPTURE(length);
     Local node;
@@ -126,7 +126,7 @@ TEST_CASE("SDO client, own node: a CO_OBJ_TYPE_EX is told that it is read, and h
   }
 }
 
-TEST_CASE("SDO client, own node: a CO_OBJ_TYPE_EX is told that it is written, and how that ended") {
+TEST_CASE("SDO client, own node: Begin and End of a CO_OBJ_TYPE_EX are called for a write") {
   for (const std::size_t length : {1U, 4U, 7U, 29U, 889U, 2000U}) {
     CAPTURE(length);
     Local node;
@@ -136,7 +136,7 @@ TEST_CASE("SDO client, own node: a CO_OBJ_TYPE_EX is told that it is written, an
   }
 }
 
-TEST_CASE("SDO client, own node: a stream that does not know its size is read to its end") {
+TEST_CASE("SDO client, own node: a stream of unknown size is read to its end") {
   for (const std::size_t length : {0U, 1U, 6U, 7U, 8U, 40U, 889U, 1000U}) {
     for (const std::uint32_t more : {0U, 1U, 500U}) {
       CAPTURE(length);
@@ -154,7 +154,7 @@ TEST_CASE("SDO client, own node: a stream that does not know its size is read to
   }
 }
 
-TEST_CASE("SDO client, own node: a stream that turns out larger than the buffer: 0504 0005h, and it is told so") {
+TEST_CASE("SDO client, own node: a stream that turns out larger than the buffer: 0504 0005h, which End gets, too") {
   Local node;
   image.knows_size = false;
   CHECK(node.read(39).code == CO_SDO_ERR_MEM);
@@ -178,7 +178,7 @@ TEST_CASE("SDO client, own node: a Begin that refuses ends the transfer, End is 
   CHECK(image.data == counted(40));
 }
 
-TEST_CASE("SDO client, own node: the error of a read or write is its abort code, End is told") {
+TEST_CASE("SDO client, own node: the error of a read or write is its abort code, End is called") {
   Local node;
   image.access = CO_ERR_OBJ_NO_DATA;
   CHECK(node.read(40).code == CO_SDO_ERR_NO_DATA);

@@ -82,7 +82,7 @@ TEST_CASE(
   node.has_read({0x11, 0x22, 0x33, 0x44});
 }
 
-TEST_CASE("SDO client, own node: CONodeNextDeadline tells a sleeping loop that there is work") {
+TEST_CASE("SDO client, own node: CONodeNextDeadline is 0 while a request is pending") {
   Local node(Setup().only_small().wake(Wake::deadline));
   node.start_upload(0x2004, 0, 4);
   CHECK(CONodeNextDeadline(&node.node) <= 1);
@@ -301,7 +301,7 @@ TEST_CASE("SDO client, own node: sub 3 decides at each request whether the own n
   node.has_read({0x99});
 }
 
-TEST_CASE("SDO client, own node: bit 31 of a COB-ID says that this client does not exist, too [301:7.5.2.34]") {
+TEST_CASE("SDO client, own node: bit 31 of a COB-ID disables the client, too [301:7.5.2.34]") {
   ClientEntries entries = local_entries();
   entries.entry[0].tx = 0x80000000;
   SdoClient node(Setup().only_small(), entries);

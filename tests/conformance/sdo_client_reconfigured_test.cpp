@@ -117,7 +117,7 @@ TEST_CASE("SDO client: a request that the callback starts under new COB-IDs has 
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: the callback starts a request and then writes the COB-IDs: that transfer is told, too") {
+TEST_CASE("SDO client: the callback starts a request and then writes the COB-IDs: that transfer is reported, too") {
   Waiting node;
   node.on_end = [&](const ClientEnd&) {
     node.on_end = [&](const ClientEnd&) { node.on_end = nullptr; };
@@ -179,7 +179,7 @@ TEST_CASE("SDO client: without new COB-IDs the callback of a client that is swit
 
 #if CO_CSDO_N >= 2
 
-TEST_CASE("SDO client: the callback of one client switches another off: each transfer is aborted and told once") {
+TEST_CASE("SDO client: the callback of one client switches another off: each transfer is aborted and reported once") {
   Waiting node;
   node.may_change(0x1281, 1);
   node.start_upload(0x2001, 0, 4, 1000, 1);

@@ -315,7 +315,7 @@ TEST_CASE("SDO client: an abort of the client names the object, in the middle of
   node.ended(CO_SDO_ERR_CMD);
 }
 
-TEST_CASE("SDO client: a text shorter than the buffer: COCSdoGetNum tells its length") {
+TEST_CASE("SDO client: a text shorter than the buffer: COCSdoGetNum returns its length") {
   SdoClient node;
   node.start_upload(0x1008, 0, 28);
   node.tx("605#4008100000000000");

@@ -121,7 +121,7 @@ TEST_CASE("SDO client: a block download pauses while the controller takes no fra
   node.has_written();
 }
 
-TEST_CASE("SDO client: a paused block download goes on with the loop that sleeps as CONodeNextDeadline says [D20]") {
+TEST_CASE("SDO client: a paused block download resumes in a loop that sleeps until CONodeNextDeadline [D20]") {
   SdoClient node(Setup().only_small().wake(Wake::deadline));
   pause(node);
   node.after(5ms);

@@ -44,7 +44,8 @@ void start(SdoClient& node, unsigned client, std::uint16_t index) {
   node.frames();
 }
 
-TEST_CASE("SDO client: clients at one response COB-ID all hear a frame: each takes the answer to its request, once") {
+TEST_CASE(
+    "SDO client: clients at one response COB-ID all receive a frame: each takes the answer to its request, once") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2001);

@@ -147,7 +147,7 @@ TEST_CASE("loop without idle calls: answers to a block download that the driver 
   CHECK(node.objects.memory[890] == data);
 }
 
-TEST_CASE("loop without idle calls: a loop that sleeps as long as the node says, and runs COTmrProcess() alone") {
+TEST_CASE("loop without idle calls: a loop that sleeps until CONodeNextDeadline, and runs COTmrProcess() alone") {
   Fixture node;
   begin_upload(node);
   std::vector<std::string> all = node.frames();

@@ -85,12 +85,12 @@ void each_ends_with(const std::string& code, Function function, bool also_in_sub
 
 // Causes of the end of a transfer ------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: End after the client's abort tells its code [D6]") {
+TEST_CASE("SDO stream types: End after the client's abort gets its code [D6]") {
   each_ends_with("08000000", [](Fixture& node) { node.rx("601#8000300000000008"); });
   each_ends_with("12345678", [](Fixture& node) { node.rx("601#8000300078563412"); });
 }
 
-TEST_CASE("SDO stream types: End after an abort without a code tells that it was no success") {
+TEST_CASE("SDO stream types: End after an abort without a code gets a failure") {
   for (const State& state : states()) {
     CAPTURE(state.name);
     Stream node;
@@ -223,7 +223,7 @@ TEST_CASE("SDO stream types: End after the wrong number of bytes in blocks, and 
   CHECK(std::count_if(node.log.begin(), node.log.end(), [](const auto& call) { return call[0] == 'e'; }) == 2);
 }
 
-TEST_CASE("SDO stream types: a block upload is not complete before the client says so [D12]") {
+TEST_CASE("SDO stream types: a block upload is not complete before the client confirms its end [D12]") {
   Stream node(9);
   node.ask("601#A40030007F000000", "581#C600300009000000");
   node.rx("601#A300000000000000");
@@ -299,7 +299,7 @@ TEST_CASE("SDO stream types: a specific code in Begin without an error has no ef
   }
 }
 
-TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End tells the code") {
+TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End gets the code") {
   for (const Initiate& initiate : initiates()) {
     if (initiate.request[4] == 'C') continue;  // not before its end
     CAPTURE(initiate.request);
@@ -312,7 +312,7 @@ TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End tells the cod
   }
 }
 
-TEST_CASE("SDO stream types: a piece that cannot be written or read: End tells the code") {
+TEST_CASE("SDO stream types: a piece that cannot be written or read: End gets the code") {
   for (const bool own_code : {false, true}) {
     const std::string code = own_code ? "12345678" : "06090030";
     const std::string bytes = own_code ? "78563412" : "30000906";

@@ -357,7 +357,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO stream types: without USE_OBJ_EX an object that does not know its length is not read") {
+TEST_CASE("SDO stream types: without USE_OBJ_EX an object of unknown length is not read") {
   struct Stream : LoggedStream, Fixture {
     Stream() : Fixture(Setup().only_small().with(plain(0x3001))) {}
   } node;

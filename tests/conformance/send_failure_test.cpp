@@ -158,7 +158,7 @@ TEST_CASE("send failure: the boot-up takes the last place of a full queue and is
   }
 }
 
-TEST_CASE("send failure: the node wants to try again after a millisecond as long as frames wait") {
+TEST_CASE("send failure: the deadline is a millisecond as long as frames are queued") {
   Fixture node(Setup().rate(10000));
   CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
   node.can.refuse_all();

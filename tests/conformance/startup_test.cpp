@@ -67,7 +67,7 @@ TEST_CASE("self-start: after every reset, with the value of that moment [U1]") {
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("self-start: the application is told of a commanded reset when the node is in Operational") {
+TEST_CASE("self-start: the callback of a commanded reset comes when the node is in Operational") {
   Startup device(0);
   Fixture& node = device.node;
   CO_MODE told = CO_INVALID;

@@ -101,7 +101,7 @@ TEST_CASE("stop: when the start is announced, the boot-up message is the last fr
   check_stopped(node);
 }
 
-TEST_CASE("stop: frames that wait are read and dropped, one in each call; nothing is sent, no error is told") {
+TEST_CASE("stop: pending frames are read and dropped, one in each call; nothing is sent, no error is reported") {
   Fixture node;
   unsigned passed_on = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };

@@ -21,7 +21,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
   return a;
 }
 
-TEST_CASE("SYNC consumer: 1005h is read, and says 80h [SYNC 01]") {
+TEST_CASE("SYNC consumer: 1005h can be read, with the value 80h [SYNC 01]") {
   SyncNode node;
   node.ask("601#4005100000000000", "581#4305100080000000");
 }
@@ -78,7 +78,7 @@ TEST_CASE("SYNC consumer: 1006h, 1007h and 1019h are not needed") {
   node.tx({"181#11", "281#21"});
 }
 
-TEST_CASE("SYNC consumer: another length than 1019h says is reported: 8240h; all PDOs run without a counter [Y7]") {
+TEST_CASE("SYNC consumer: another length than that of 1019h is reported: 8240h; all PDOs run without a counter [Y7]") {
   for (std::uint8_t dlc = 1; dlc <= 8; ++dlc) {
     CAPTURE(unsigned{dlc});
     SyncNode node(with_counter());

@@ -201,7 +201,7 @@ TEST_CASE("clock: its object refuses 24:00 and other lengths, and ignores the re
 }
 
 #if CO_RPDO_N > 0 && CO_TPDO_N > 0
-TEST_CASE("clock: mapped into PDOs, which set and tell it; 24:00 is not taken") {
+TEST_CASE("clock: mapped into PDOs, which set and transmit it; 24:00 is not accepted") {
   const auto entry = [](std::uint16_t index, std::uint8_t sub, const CO_OBJ_TYPE* type, std::uint32_t value) {
     return CO_OBJ{CO_KEY(index, sub, CO_OBJ_D___R_), type, value};
   };

@@ -10,7 +10,7 @@ using namespace test;
 
 // --- Consumer
 
-TEST_CASE("TIME: a consumer sets its clock and tells the application [301:7.2.6]") {
+TEST_CASE("TIME: a consumer sets its clock and calls the application [301:7.2.6]") {
   for (const bool operational : {false, true}) {
     TimeNode node(time_consumer);
     unsigned calls = 0;
@@ -89,7 +89,7 @@ TEST_CASE("TIME: without 1012h, with bit 31 off or with an unusable CAN-ID nothi
   CHECK(none.counters().Unclaimed == 1);
 }
 
-TEST_CASE("TIME: 29-bit CAN-ID, told apart from the 11-bit one [Z1]") {
+TEST_CASE("TIME: 29-bit CAN-ID, distinguished from the 11-bit one [Z1]") {
   TimeNode node(0xA0012345);
   node.rx("345#952CB302313D");
   check_time(node, 0, 0);
@@ -141,7 +141,7 @@ TEST_CASE("TIME: midnight ends a day in what is sent, and 2163 is followed by 19
   node.tx("100#010000000000");
 }
 
-TEST_CASE("TIME: what keeps the producer from sending is told") {
+TEST_CASE("TIME: the reason why the producer does not send is returned") {
   CHECK(COTimeSend(nullptr) == CO_ERR_BAD_ARG);
   CHECK(COTimeProduce(nullptr, 10) == CO_ERR_BAD_ARG);
   TimeNode node(time_producer);
@@ -162,7 +162,7 @@ TEST_CASE("TIME: what keeps the producer from sending is told") {
   CHECK(stopped.send() == CO_ERR_NMT_MODE);
 }
 
-TEST_CASE("TIME: a message that waits for the controller is replaced by a younger one, and a full queue is told") {
+TEST_CASE("TIME: a queued message is replaced by a newer one, and a full queue is reported") {
   TimeNode node(time_producer, Setup().tx_queue(2));
   node.set(0, 0);
   node.can.refuse_all();

@@ -64,7 +64,7 @@ TEST_CASE("TPDO event: the PDO of the number, and no other") {
   }
 }
 
-TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [X15]") {
+TEST_CASE("TPDO event: COTPdoRequest returns why a PDO is not sent [X15]") {
   PdoNode node(with(255));
   CHECK(node.request(0) == CO_ERR_NMT_MODE);
   node.rx("000#0201");
@@ -84,7 +84,7 @@ TEST_CASE("TPDO event: COTPdoRequest says why a PDO is not sent [X15]") {
   node.silent();
 }
 
-TEST_CASE("TPDO event: COTPdoRequest of a type that knows no events: nothing now and nothing later [X15] [D42]") {
+TEST_CASE("TPDO event: COTPdoRequest of a type without events: nothing now and nothing later [X15] [D42]") {
   for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed || type == 0) {

@@ -20,7 +20,7 @@ void change(PdoNode& node, std::uint8_t value) {
   node.call([&] { CHECK(CODictWrByte(&node->Dict, CO_DEV(0x2211, 1), value) == CO_ERR_NONE); });
 }
 
-TEST_CASE("TPDO inhibit: an event inside the time is sent at its end, with the values of then [X6]") {
+TEST_CASE("TPDO inhibit: an event inside the time is sent at its end, with the current values [X6]") {
   PdoNode node(inhibited(1000));
   node.start();
   node.trigger(0);
@@ -102,7 +102,7 @@ TEST_CASE("TPDO inhibit: a late loop sends no two PDOs closer than the time [X6]
   node.frames();
 }
 
-TEST_CASE("TPDO inhibit: only types 254 and 255 know it [X6]") {
+TEST_CASE("TPDO inhibit: applies only to types 254 and 255 [X6]") {
   if (USE_SYNC == 0) {
     return;
   }
@@ -127,7 +127,7 @@ TEST_CASE("TPDO inhibit: only types 254 and 255 know it [X6]") {
 }
 
 #if USE_PDO_RTR
-TEST_CASE("TPDO inhibit: a PDO sent on request, type 253, knows it not; one of type 255 does [X6] [X13]") {
+TEST_CASE("TPDO inhibit: does not apply to a PDO sent on request, type 253, but to one of type 255 [X6] [X13]") {
   PdoTable table = inhibited(1000, 253);
   table.tpdo[0].cob_id = 0x181;
   PdoNode node(table);

@@ -214,7 +214,7 @@ TEST_CASE("demo lss: a node is asked and configured by its address") {
   CHECK(desk.was_sent("7E5#1700000000000000"));
 }
 
-TEST_CASE("demo lss: what goes wrong is told, with status 1, and all are switched back to waiting") {
+TEST_CASE("demo lss: a failure is printed, with status 1, and all are switched back to waiting") {
   Desk desk;
   CHECK(desk.run(LssAction::inquire, "", {"1", "2", "3", "4"}) == 1);
   CHECK(desk.err.str() == "LSS: no answer; is there such a node on this bus, with power, and at this bit rate?\n");

@@ -141,7 +141,7 @@ TEST_CASE("demo master: a value that was written is read back") {
   CHECK(desk.out.str() == "48 61 6C 74 20 37\n");
 }
 
-TEST_CASE("demo master: an abort is told in words, with status 1") {
+TEST_CASE("demo master: an abort is printed as text, with status 1") {
   Desk desk;
   CHECK(desk.run(to_write("0x2100", "1", "u8", "24")) == 1);
   CHECK(desk.err.str() == "node 5, 2100h:01: aborted with 0609 0031h value too high\n");
@@ -173,7 +173,7 @@ TEST_CASE("demo master: a node that is not there gives no answer, with status 1,
   CHECK(desk.was_sent("606#8000100000000405"));
 }
 
-TEST_CASE("demo master: what is wrong with the bus is told beside") {
+TEST_CASE("demo master: a fault of the bus is printed, too") {
   Desk desk;
   desk.host.fault = "CAN interface 'can0' is down";
   desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});

@@ -505,7 +505,7 @@ TEST_CASE("demo: identifiers of the clock follow its node-ID") {
   CHECK(bench.sdo.upload(0x1200, 2).data == Bytes{0x85, 0x05, 0, 0});
 }
 
-TEST_CASE("demo: the heartbeat comes each second, and as it is told") {
+TEST_CASE("demo: the heartbeat comes each second, and with a time that was written") {
   Bench bench;
   bench.start();
   std::vector<Micros> beats;
@@ -565,7 +565,7 @@ TEST_CASE("demo: a clock whose frames the bus does not take asks again after 1 m
   CHECK(bench.clock.node().due_in() > 10000);
 }
 
-TEST_CASE("demo: the view folds the middle of a long transfer, and says how much it left out") {
+TEST_CASE("demo: the view folds the middle of a long transfer, and prints the number of omitted frames") {
   const std::vector<std::string> shown = shown_of(10);
   REQUIRE(shown.size() == 6);
   CHECK(shown[4] == "      ...  6 more frames like these");

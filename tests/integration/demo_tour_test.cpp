@@ -76,7 +76,7 @@ TEST_CASE("demo: a tour without a clock goes wrong, and ends") {
   CHECK(elsewhere.shows("not as expected"));
 }
 
-TEST_CASE("demo: a tour whose bus is lost says so, one that is interrupted says that") {
+TEST_CASE("demo: a tour reports a lost bus, and an interruption") {
   Elsewhere lost;
   REQUIRE(lost.clock.start());
   lost.host.fault = "the adapter is gone";

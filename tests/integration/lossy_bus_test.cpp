@@ -155,7 +155,7 @@ TEST_CASE("lossy bus: a download with one frame lost, doubled, late or swapped i
   disturb_all(Direction::download);
 }
 
-TEST_CASE("lossy bus: the server gives up a transfer whose client is gone, and says so once [D18]") {
+TEST_CASE("lossy bus: the server aborts a transfer whose client is gone, once [D18]") {
   for (const char* const initiate : {"605#2110200010000000", "605#2010200000000000", "605#4010200000000000"}) {
     CAPTURE(initiate);
     World world;

@@ -259,7 +259,7 @@ TEST_CASE("machine walk: NMT, all 256 node-IDs address the right node only [N1]"
   }
 }
 
-TEST_CASE("machine walk: a node in Initialisation hears no NMT command and no SDO request [N3] [D17]") {
+TEST_CASE("machine walk: a node in Initialisation processes no NMT command and no SDO request [N3] [D17]") {
   World world;
   Line& line = world.add_line("walk");
   Device& device = world.add_device(line, {5, 1, 14, true, false, false});
@@ -360,7 +360,7 @@ TEST_CASE("machine walk: SDO, requests of another length than 8 change nothing i
   }
 }
 
-TEST_CASE("machine walk: SDO across NMT, a transfer lives on in Operational and ends with Stopped and reset [N8]") {
+TEST_CASE("machine walk: SDO across NMT, a transfer continues in Operational and ends with Stopped and reset [N8]") {
   const char* const commands[] = {"000#0105", "000#8005", "000#0205", "000#8105", "000#8205", "000#0206", "000#8106"};
   for (const Bytes& way : ways) {
     for (const char* const command : commands) {

@@ -353,7 +353,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("parameters: a read that fails or tells something else gives old, new or default values, never others") {
+TEST_CASE("parameters: a read that fails or returns other bytes gives old, new or default values, never others") {
   const Device before = device_after(shapes[0], starts[2]);
   for (std::uint64_t read = 1; read < 40; ++read) {
     for (const bool lies : {false, true}) {

@@ -72,7 +72,7 @@ TEST_CASE("demo: the thermometer with a dictionary written by hand boots, and ha
   CHECK(bench.after(200ms) == Frames{"707#7F", "707#7F"});
 }
 
-TEST_CASE("demo: the thermometer tells each new temperature in Operational, and one above its limit is an emergency") {
+TEST_CASE("demo: the thermometer sends each new temperature in Operational, and one above its limit is an emergency") {
   Bench bench;
   bench.after(1ms);
   demo::set_temperature(bench.node, 215);

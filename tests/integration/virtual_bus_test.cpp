@@ -123,7 +123,8 @@ void pass(VirtualClock& clock, std::uint32_t ms, Devices&... devices) {
 
 }  // namespace
 
-TEST_CASE("nodes on a virtual bus: each boots and answers under its own identifiers, none hears the other's SDO") {
+TEST_CASE(
+    "nodes on a virtual bus: each boots and answers under its own identifiers, without reaction to the other's SDO") {
   VirtualClock clock(0xFFFFFF00);
   Line line(clock);
   Device five(line.bus, clock, 5);
@@ -221,7 +222,7 @@ TEST_CASE("nodes on a virtual bus: nothing is lost when the controller refuses t
   }
 }
 
-TEST_CASE("nodes on a virtual bus: a driver error is told, and the frame is sent when it is over") {
+TEST_CASE("nodes on a virtual bus: a driver error is reported, and the frame is sent when it is over") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);

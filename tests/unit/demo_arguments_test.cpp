@@ -126,7 +126,7 @@ TEST_CASE("demo arguments: the master takes a node-ID that the node does not hav
   CHECK(fault_of(arguments) == "--own-id: the node to talk to has this node-ID");
 }
 
-TEST_CASE("demo arguments: a value is converted as its type says") {
+TEST_CASE("demo arguments: a value is converted according to its type") {
   CHECK(demo::prepare(to_write("u16", "1000")).request.data == Bytes{0xE8, 0x03});
   CHECK(demo::prepare(to_write("string", "abc")).request.data == Bytes{'a', 'b', 'c'});
   CHECK(fault_of(to_write("u8", "300")) == "300 is out of range, 0...255");

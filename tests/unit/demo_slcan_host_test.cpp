@@ -133,7 +133,7 @@ TEST_CASE("slcan host: all frames come through although more arrive than it has 
   CHECK(received == number);
 }
 
-TEST_CASE("slcan host: an adapter that takes nothing makes Send say so, and gets all of it later") {
+TEST_CASE("slcan host: Send returns 0 for an adapter that accepts nothing, which gets all of it later") {
   Line line;
   std::string expected = "C\rS6\rO\r";
   line.can.driver->Enable(line.can.context, 0);
@@ -153,7 +153,7 @@ TEST_CASE("slcan host: an adapter that takes nothing makes Send say so, and gets
   CHECK(line.send("080#") == taken);
 }
 
-TEST_CASE("slcan host: an adapter that goes away is told in words, and nothing waits for it") {
+TEST_CASE("slcan host: an adapter that goes away is reported as text, and no call waits for it") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   CHECK_FALSE(line.host.interrupted());
@@ -164,7 +164,7 @@ TEST_CASE("slcan host: an adapter that goes away is told in words, and nothing w
   CHECK(line.host.interrupted());
 }
 
-TEST_CASE("slcan host: a refusal of the adapter is told") {
+TEST_CASE("slcan host: a refusal of the adapter is reported") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   line.adapter->send("\a");
@@ -193,7 +193,7 @@ TEST_CASE("slcan host: a terminal carries the bytes as they are") {
   CHECK(test::notation(frame) == "701#7F");
 }
 
-TEST_CASE("slcan host: what cannot be opened is told in words") {
+TEST_CASE("slcan host: a failure to open is reported as text") {
   const Interruption interruption;
   SlcanHost host(interruption);
   CHECK(host.open("/no/such/adapter", 0) == "slcan adapter '/no/such/adapter': No such file or directory");

@@ -77,7 +77,7 @@ TEST_CASE("dictionary: 65535 entries without end mark, first and last key includ
   CHECK(CODictFind(&dict, CO_DEV(0xFFFF, 0xFF)) == nullptr);
 }
 
-TEST_CASE("dictionary: all pairs of look-ups, whatever was found before") {
+TEST_CASE("dictionary: all pairs of lookups, independent of the previous lookup") {
   std::vector<CO_OBJ> table = table_of(9);
   CO_DICT dict;
   REQUIRE(CODictInit(&dict, some_node(), table.data(), 9) == 9);
@@ -260,7 +260,7 @@ TEST_CASE("dictionary: a table in read-only memory") {
   CHECK(variable == 0x04030201);
 }
 
-TEST_CASE("dictionary: Init of every entry runs once, from the first to the last; the last error is told") {
+TEST_CASE("dictionary: Init of every entry runs once, from the first to the last; the last error is returned") {
   static std::vector<std::uint32_t> inits;
   static CO_ERR answer;
   const auto init = [](CO_OBJ* obj, CO_NODE*) -> CO_ERR {

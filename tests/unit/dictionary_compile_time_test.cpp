@@ -147,7 +147,7 @@ TEST_CASE("CO_DATA: holds the bit pattern that C code sees") {
   CHECK(seen == UINTPTR_MAX);
 }
 
-TEST_CASE("CO_DATA: gives back what firmware put in, with the casts that firmware writes") {
+TEST_CASE("CO_DATA: returns the value that firmware has stored, with the casts that firmware writes") {
   CO_OBJ obj = {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&speed)};
   speed = 0x12345678;
   CHECK(*(std::uint32_t*)obj.Data == 0x12345678);

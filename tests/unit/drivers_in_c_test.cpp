@@ -67,7 +67,7 @@ TEST_CASE("drivers in C: an interface that does not exist is refused in words") 
   COSocketCanFree(can);
 }
 
-TEST_CASE("drivers in C: the Linux timer waits as long as the node's deadline says") {
+TEST_CASE("drivers in C: the Linux timer waits until the node's deadline") {
   CO_LINUX_TIMER* const timer = COLinuxTimerNew();
   COLinuxTimerDriver.Init(timer, 1000);
   CHECK(COLinuxTimerPollTimeout(timer, UINT32_MAX) == -1);

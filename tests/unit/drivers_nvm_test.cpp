@@ -181,7 +181,7 @@ TEST_CASE("NVM in a file: a short file is filled up, a longer one keeps its rest
   CHECK(content(directory.file()) == Bytes{1, 7, 3, 0xFF, 0xFF, 0xFF});
 }
 
-TEST_CASE("NVM in a file: a file that has become shorter gives what is left of it, and says so") {
+TEST_CASE("NVM in a file: a read of a file that has become shorter returns the rest and an error") {
   const Directory directory;
   co::FileNvm nvm;
   REQUIRE(nvm.open(directory.file(), 16));

@@ -360,7 +360,7 @@ TEST_CASE("slcan: the CPU may sleep when nothing was received and nothing that w
   CHECK_FALSE(COSlcanIsDue(&line.can));
 }
 
-TEST_CASE("slcan: whenever Send has refused a frame, it has room once all text is sent, and says so") {
+TEST_CASE("slcan: whenever Send has refused a frame, COSlcanIsDue is true once all text is sent") {
   for (std::uint32_t before = 0; before < 44; ++before) {
     Line line;
     line.open();

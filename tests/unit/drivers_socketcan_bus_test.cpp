@@ -173,7 +173,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(b.code() == 0);
   }
 
-  TEST_CASE("socketcan on a bus: an interface that goes down is told once, and works on when it is up again") {
+  TEST_CASE("socketcan on a bus: an interface that goes down is reported once, and works when it is up again") {
     Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -214,7 +214,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(send(can, "701#00") == taken);
   }
 
-  TEST_CASE("socketcan on a bus: an interface that vanishes is told, and found again with its filters") {
+  TEST_CASE("socketcan on a bus: an interface that vanishes is reported, and found again with its filters") {
     Interface vcan;
     SocketCan b;
     REQUIRE(b.open(interface));
@@ -302,7 +302,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(received(a) == Texts{"705#00"});
   }
 
-  TEST_CASE("socketcan on a bus: what cannot be opened is told in words") {
+  TEST_CASE("socketcan on a bus: a failure to open is reported as text") {
     SocketCan can;
     CHECK_FALSE(can.open("lo"));
     CHECK(can.error() == "CAN interface 'lo': not a CAN interface");

@@ -150,7 +150,7 @@ TEST_CASE("socketcan: more identifiers than the kernel takes open the filter") {
   CHECK(co::socketcan_filters(ids.data(), 513).size() == 512);
 }
 
-TEST_CASE("socketcan: what prevents opening is told in words, with the interface") {
+TEST_CASE("socketcan: a failure to open is reported as text, with the interface") {
   CHECK(contains(co::socketcan_error(SocketCanStep::name, EINVAL, ""), "1 to 15 characters"));
   CHECK(
       co::socketcan_error(SocketCanStep::socket, EAFNOSUPPORT, "can0") ==
