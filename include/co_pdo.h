@@ -155,9 +155,11 @@ void COTPdoTrigObj(CO_TPDO* tpdo, CO_OBJ* obj);
 
 /// Requests the transmission of TPDO \a num, 0…CO_TPDO_N-1. [CiA 301, 7.2.2.5] The PDO is sent at once, when its
 /// inhibit time has elapsed, or with the next SYNC (type 0), with the values at the time of transmission. On any error
-/// nothing is sent, now or later. If an object cannot be read, the result is that of its type's Read function. \retval
-/// CO_ERR_NONE              the PDO is sent, or will be sent \retval CO_ERR_BAD_ARG           \a node is null \retval
-/// CO_ERR_TPDO_NUM_TRIGGER  there is no such number \retval CO_ERR_NMT_MODE          the node is not in Operational
+/// nothing is sent, now or later. If an object cannot be read, the result is that of its type's Read function.
+/// \retval CO_ERR_NONE              the PDO is sent, or will be sent
+/// \retval CO_ERR_BAD_ARG           \a node is null
+/// \retval CO_ERR_TPDO_NUM_TRIGGER  there is no such number
+/// \retval CO_ERR_NMT_MODE          the node is not in Operational
 /// \retval CO_ERR_TPDO_COM_OBJ      the PDO does not exist
 /// \retval CO_ERR_TPDO_EVENT        the transmission type (1…240, 252, 253) is not event-driven, or the PDO is sent by
 ///                                  COTPdoSendTo()

@@ -197,7 +197,7 @@ void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
   post(node, wire::emcy_message(code, usr.Emcy));
 }
 
-// Faults that may come with every frame -------------------------------------------------------------------------------
+// Faults that may occur with every frame ------------------------------------------------------------------------------
 
 // Faults that may occur with every frame. They are resolved when their timer has elapsed: they have not occurred for a
 // second.
