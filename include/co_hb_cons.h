@@ -55,7 +55,7 @@ extern const CO_OBJ_TYPE COTNmtHbCons CO_NEEDS(CO_HBCONS_N);
 
 /// Sets the time in ms and the node-ID of \a hbc, an entry of 1016h of an initialised node, like a write of the entry
 /// by the network.
-/// \retval CO_ERR_NONE              the node is monitored
+/// \retval CO_ERR_NONE              the entry is set
 /// \retval CO_ERR_BAD_ARG           \a hbc is null, or not in the dictionary
 /// \retval CO_ERR_OBJ_INCOMPATIBLE  another entry monitors the node
 /// \retval CO_ERR_OBJ_RANGE         the time is beyond the range of the timer

@@ -74,8 +74,8 @@ typedef struct CO_LSS_T {
 /// Loads the stored node-ID and bit rate. Called in CONodeInit(), after the Init functions of the drivers, and at NMT
 /// reset node (the bit rate is then ignored). \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID) hold the values
 /// of CO_NODE_SPEC or CONmtSetNodeId(): leave unchanged what was not stored. Values that an LSS master has configured
-/// but not stored are lost at reset node. [CiA 305] On an error, or with another node-ID, the node's error is
-/// CO_ERR_LSS_LOAD, and nothing is loaded. The default leaves both unchanged.
+/// but not stored are lost at reset node. [CiA 305] On an error, or if \a nodeId is none of these values, the node's
+/// error is CO_ERR_LSS_LOAD, and nothing is loaded. The default leaves both unchanged.
 CO_ERR COLssLoad(uint32_t* baud, uint8_t* nodeId);
 
 /// Stores \a baud (bit/s) and \a nodeId (1…127, CO_LSS_NO_NODE_ID). Called for the LSS service store. The default

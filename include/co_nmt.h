@@ -72,8 +72,8 @@ void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type);
 
 /// Changes the NMT state like a command of the NMT master. In CO_INVALID, and for modes other than CO_PREOP,
 /// CO_OPERATIONAL and CO_STOP, the change is refused with the node error CO_ERR_NMT_MODE. In CO_INIT, call
-/// CONodeStart() first; if the firmware changes the mode from CO_INIT directly, CONodeStart() is executed before the
-/// change.
+/// CONodeStart() first; if the firmware changes the mode from CO_INIT
+/// directly, the boot-up message is sent and Pre-operational is entered before the change.
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode);
 
 /// Returns the NMT state; CO_INVALID if \a nmt is null (after CONodeFatalError()).
