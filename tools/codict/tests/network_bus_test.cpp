@@ -71,7 +71,7 @@ TEST_CASE("network: no frame is longer than the longest one, and the mean lies b
   std::uint32_t random = 1;
   for (std::uint8_t bytes = 0; bytes <= 8; ++bytes) {
     double sum = 0;
-    constexpr unsigned count = 4000;
+    constexpr unsigned count = 2000;
     const Frame frame{0x181, false, false, bytes};
     for (unsigned n = 0; n < count; ++n) {
       std::string data;
@@ -85,7 +85,7 @@ TEST_CASE("network: no frame is longer than the longest one, and the mean lies b
       sum += length;
     }
     if (bytes >= 2) {  // the CRC of few bits is not random
-      CHECK(sum / count == doctest::Approx(mean_bits(frame)).epsilon(0.01));
+      CHECK(sum / count == doctest::Approx(mean_bits(frame)).epsilon(0.015));
     }
   }
 }
@@ -105,7 +105,7 @@ TEST_CASE("network: response times are those of a simulation of the worst case")
     return static_cast<Nanoseconds>(low + (random >> 8) % (high - low + 1));
   };
   unsigned later = 0;  // responses above the period: several instances in one busy period
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 1000; ++round) {
     std::vector<Stream> streams;
     for (Nanoseconds count = number(2, 6); count != 0; --count) {
       streams.push_back({number(1, 4) * us, number(4, 24) * us / 2, 0});
@@ -122,7 +122,7 @@ TEST_CASE("network: response times are those of a simulation of the worst case")
       }
     }
   }
-  CHECK(later > 100);
+  CHECK(later > 30);
 }
 
 TEST_CASE("network: one stream waits for nothing; two wait for one another") {

@@ -157,6 +157,7 @@ TEST_CASE("network: a node-ID that two nodes have, or that is missing, is an err
   CHECK(found({commissioned(2, ""), commissioned(2, "")}).find("net-node-id: a and b have the node-ID 2") !=
         std::string::npos);
   CHECK(found({variable(0x2000, 6, "0")}) == "net-node-id: a has no node-ID\n");
+  CHECK(found({heartbeat_100}, Severity::note).find("no node monitors a: its") != std::string::npos);
 }
 
 TEST_CASE("network: bit rates have to be the same, and supported") {
@@ -436,4 +437,18 @@ TEST_CASE("network: the report escapes names and has pictures, links and finding
   CHECK(test::has(page, "net-pdo-short"));
   CHECK_FALSE(test::has(page, "<script"));
   CHECK(page == html_report(network, links, traffic, findings));
+}
+
+TEST_CASE("network: many PDOs with one COB-ID end in bounded time and memory") {
+  std::string eds = commissioned(2, variable(0x2000, 6, "0"));
+  for (unsigned n = 0; n < 60; ++n) {
+    eds += record(0x1400 + n, {{1, "0x181"}, {2, "255"}}) + record(0x1800 + n, {{1, "0x181"}, {2, "255"}});
+  }
+  const Network network = network_of(std::vector<std::string>(12, eds));
+  NetworkFindings findings(network);
+  const Links links = links_of(network);
+  CHECK(links.pdos.size() == 1440);
+  CHECK(links.links.size() == link_limit);
+  check_all(network, links, findings);
+  CHECK(traffic_of(network, links, findings).messages.size() > 720);
 }

@@ -60,31 +60,44 @@ void check_all(const Network& network, const Links& links, NetworkFindings& find
 
 // COB-IDs ----------------------------------------------------------------------------------------------------------
 
+namespace {
+
+struct Owner {
+  std::size_t node = 0;
+  std::string service;
+};
+using Owners = std::map<std::uint64_t, Owner>;
+
+void check_cob_id(const Network& network, std::size_t at, const CobId& cob_id, Owners& owners,
+                  NetworkFindings& findings) {
+  const Node& node = network.nodes[at];
+  const std::uint64_t key = cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0);
+  const auto [place, is_new] = owners.emplace(key, Owner{at, cob_id.service});
+  if (!is_new && place->second.node != at) {
+    findings.add(rules::cob_id, at, node.device.find(cob_id.index, cob_id.sub_index),
+                 fmt::format("COB-ID {} of {}, {}, is also that of {}, {}",
+                             cob_id_text(cob_id.identifier(), cob_id.is_extended()), node.title(), cob_id.service,
+                             network.nodes[place->second.node].title(), place->second.service),
+                 "give one of them another COB-ID, or set bit 31");
+  }
+}
+
+}  // namespace
+
 void check_cob_ids(const Network& network, NetworkFindings& findings) {
-  struct Owner {
-    std::size_t node;
-    std::string service;
-  };
-  std::map<std::uint64_t, Owner> owners;
+  Owners owners;
   const int producer = sync_producer(network);
   if (producer >= 0) {
-    const Node& node = network.nodes[static_cast<std::size_t>(producer)];
-    owners[node.number_or(0x1005, 0, 0x80) & 0x7FF] = {static_cast<std::size_t>(producer), "SYNC"};
+    const auto at = static_cast<std::size_t>(producer);
+    owners[network.nodes[at].number_or(0x1005, 0, 0x80) & 0x7FF] = {at, "SYNC"};
   }
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
-    const Node& node = network.nodes[n];
-    for (const CobId& cob_id : node.cob_ids()) {
-      if (!cob_id.is_valid() || !is_owned(cob_id) || node.node_id == 0) {
-        continue;
-      }
-      const std::uint64_t key = cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0);
-      const auto [place, is_new] = owners.emplace(key, Owner{n, cob_id.service});
-      if (!is_new && place->second.node != n) {
-        findings.add(rules::cob_id, n, node.device.find(cob_id.index, cob_id.sub_index),
-                     fmt::format("COB-ID {} of {}, {}, is also that of {}, {}",
-                                 cob_id_text(cob_id.identifier(), cob_id.is_extended()), node.title(), cob_id.service,
-                                 network.nodes[place->second.node].title(), place->second.service),
-                     "give one of them another COB-ID, or set bit 31");
+    if (network.nodes[n].node_id == 0) {
+      continue;
+    }
+    for (const CobId& cob_id : network.nodes[n].cob_ids()) {
+      if (cob_id.is_valid() && is_owned(cob_id)) {
+        check_cob_id(network, n, cob_id, owners, findings);
       }
     }
   }
@@ -194,6 +207,19 @@ void check_consumer(const Network& network, std::size_t at, const codict::Sub& s
   }
 }
 
+void check_consumers(const Network& network, std::size_t at, std::vector<bool>& is_monitored,
+                     NetworkFindings& findings) {
+  const Object* const consumers = network.nodes[at].device.find(0x1016);
+  if (consumers == nullptr) {
+    return;
+  }
+  for (const codict::Sub& sub : consumers->subs) {
+    if (sub.sub_index != 0) {
+      check_consumer(network, at, sub, is_monitored, findings);
+    }
+  }
+}
+
 // In ms; 0: the master does not guard it.
 std::uint64_t guard_time(const Network& network, const Node& slave) {
   for (const Node& node : network.nodes) {
@@ -232,12 +258,7 @@ void check_guarding(const Network& network, std::size_t at, NetworkFindings& fin
 void check_error_control(const Network& network, NetworkFindings& findings) {
   std::vector<bool> is_monitored(network.nodes.size(), false);
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
-    const Object* const consumers = network.nodes[n].device.find(0x1016);
-    for (const codict::Sub& sub : consumers != nullptr ? consumers->subs : std::vector<codict::Sub>()) {
-      if (sub.sub_index != 0) {
-        check_consumer(network, n, sub, is_monitored, findings);
-      }
-    }
+    check_consumers(network, n, is_monitored, findings);
     check_guarding(network, n, findings);
   }
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {

@@ -6,6 +6,25 @@
 
 namespace lexican::codict::network {
 
+namespace {
+
+// From one TPDO to the RPDOs among those of its COB-ID.
+void add_links(std::size_t producer, const std::vector<std::size_t>& pdos, Links& result) {
+  for (const std::size_t consumer : pdos) {
+    if (result.links.size() == link_limit) {
+      return;
+    }
+    const ActivePdo& to = result.pdos[consumer];
+    if (!to.pdo.is_transmit && to.node != result.pdos[producer].node) {
+      result.links.push_back({producer, consumer});
+      result.are_connected[producer] = true;
+      result.are_connected[consumer] = true;
+    }
+  }
+}
+
+}  // namespace
+
 Links links_of(const Network& network) {
   Links result;
   result.pdos = active_pdos(network);
@@ -16,15 +35,8 @@ Links links_of(const Network& network) {
   }
   for (const auto& [cob_id, pdos] : by_cob_id) {
     for (const std::size_t producer : pdos) {
-      for (const std::size_t consumer : pdos) {
-        const ActivePdo& from = result.pdos[producer];
-        const ActivePdo& to = result.pdos[consumer];
-        const bool is_link = from.pdo.is_transmit && !to.pdo.is_transmit && from.node != to.node;
-        if (is_link && result.links.size() < link_limit) {
-          result.links.push_back({producer, consumer});
-          result.are_connected[producer] = true;
-          result.are_connected[consumer] = true;
-        }
+      if (result.pdos[producer].pdo.is_transmit) {
+        add_links(producer, pdos, result);
       }
     }
   }

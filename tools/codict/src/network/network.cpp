@@ -46,7 +46,7 @@ std::optional<std::uint64_t> Node::number(std::uint16_t index, std::uint8_t sub_
   return value_in_force(*entry).integer_for(node_id).bits();
 }
 
-std::string Node::title() const { return fmt::format("{} (node {})", name, node_id); }
+std::string Node::title() const { return node_id == 0 ? name : fmt::format("{} (node {})", name, node_id); }
 
 std::vector<CobId> Node::cob_ids() const {
   std::vector<CobId> all = cob_ids_of(device, node_id);

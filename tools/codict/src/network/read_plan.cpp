@@ -163,11 +163,10 @@ class Reader {
       std::uint64_t sub_index = 0;
       std::uint64_t value = 0;
       path_ = path + ": the sub-index of 1029h";
-      if (integer(node.name(n), 1, 254, sub_index)) {
-        path_ = fmt::format("{}.{}", path, sub_index);
-        if (integer(node.value(n), 0, 255, value)) {
-          planned.value.emplace_back(static_cast<std::uint8_t>(sub_index), static_cast<std::uint8_t>(value));
-        }
+      const bool has_sub_index = integer(node.name(n), 1, 254, sub_index);
+      path_ = fmt::format("{}.{}", path, sub_index);
+      if (has_sub_index && integer(node.value(n), 0, 255, value)) {
+        planned.value.emplace_back(static_cast<std::uint8_t>(sub_index), static_cast<std::uint8_t>(value));
       }
     }
   }
@@ -267,15 +266,15 @@ void Reader::read_pdos(const Node& node, std::vector<PlannedPdo>& pdos) {
   for (std::size_t n = 0; n < node.members(); ++n) {
     std::uint64_t number = 0;
     path_ = path + ": the number of a PDO";
-    if (integer(node.name(n), 1, 512, number)) {
-      PlannedPdo pdo;
-      pdo.number = static_cast<std::uint16_t>(number);
-      pdo.span = node.name(n).span;
-      path_ = fmt::format("{}.{}", path, number);
-      if (node.value(n).kind != Node::Kind::null) {
-        read_pdo(node.value(n), pdo);
-      }
-      pdos.push_back(std::move(pdo));
+    if (!integer(node.name(n), 1, 512, number)) {
+      continue;
+    }
+    PlannedPdo& pdo = pdos.emplace_back();
+    pdo.number = static_cast<std::uint16_t>(number);
+    pdo.span = node.name(n).span;
+    path_ = fmt::format("{}.{}", path, number);
+    if (node.value(n).kind != Node::Kind::null) {
+      read_pdo(node.value(n), pdo);
     }
   }
 }
