@@ -7,7 +7,7 @@
 
 namespace test {
 
-/// An entry over a variable, and a node with node-ID 5 to use it with.
+/// An entry for a variable, and a node with node-ID 5.
 struct Entry {
   CO_OBJ obj;
   Fixture node{Setup().only_small().node_id(5)};

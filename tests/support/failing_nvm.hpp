@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file failing_nvm.hpp
-/// A memory that loses its power, or its mind, at any step. A step is a byte that is programmed, or a byte that is
-/// erased.
+/// A memory that fails at any step: it loses power, ignores writes or returns wrong bytes. A step is a programmed byte,
+/// or an erased byte.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ struct FailingNvm {
 
   CO_NVM_SHAPE shape;
   std::vector<std::uint8_t> bytes;
-  std::uint64_t steps = 0;   ///< so far
-  std::uint64_t cut_at = 0;  ///< the step that is interrupted, from 1; 0: none. Afterwards nothing works
+  std::uint64_t steps = 0;   ///< steps executed
+  std::uint64_t cut_at = 0;  ///< step that is interrupted, from 1; 0: none. All accesses after it fail
   Torn torn = Torn::untouched;
   bool is_off = false;
-  std::uint64_t deaf_from = 0;  ///< steps deaf_from … deaf_to-1 have no effect and are reported as done
+  std::uint64_t deaf_from = 0;  ///< steps deaf_from … deaf_to-1 have no effect and are reported as successful
   std::uint64_t deaf_to = 0;
   std::uint64_t reads = 0;
   std::uint64_t lie_at = 0;       ///< this read, from 1, returns other bytes
   std::uint64_t refuse_read = 0;  ///< this read fails
-  bool misused = false;           ///< an access that the shape does not allow
+  bool misused = false;           ///< an access that the geometry does not allow
 
-  /// Power is back.
+  /// Restores the power.
   void power_up();
 
   static const CO_IF_NVM_DRV_EX driver;  ///< its context is a FailingNvm

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file od.hpp
-/// For tests of the second way into the dictionary (co_od.h).
+/// Helpers for tests of the OD access interface (co_od.h).
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline OD_IO_t variable(Fixture& node, std::uint16_t index, std::uint8_t sub = 0
   return io;
 }
 
-/// One that is nothing but memory.
+/// A variable whose object is plain memory.
 inline OD_IO_t variable(Bytes& memory) {
   OD_IO_t io{};
   io.stream.dataOrig = memory.data();
@@ -50,7 +50,7 @@ inline Given read(OD_IO_t& io, OD_size_t count) {
   return {result, buffer};
 }
 
-/// A write takes all or none, and leaves the buffer of its caller alone.
+/// Checks that a write stores all bytes or none, and does not change the caller's buffer.
 inline ODR_t write(OD_IO_t& io, const Bytes& data) {
   Bytes buffer = data;
   buffer.push_back(0xEE);  // the address of an empty one is valid, too

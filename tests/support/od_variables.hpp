@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file od_variables.hpp
-/// A variable of each kind that co_od.h knows, for tests that go through all of them.
+/// Variables of every kind that co_od.h supports, for tests that iterate over all of them.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +14,30 @@
 
 namespace test {
 
-/// A variable, and the bytes that its original read function gives.
+/// A variable, and the bytes that its original read function returns.
 struct Variable {
   std::string name;
   OD_IO_t io;
   Bytes value;
 };
 
-/// A node with variables of all kinds. Their bytes are all different from 0 but for those behind the end of a text.
+/// A node with variables of all kinds. Their bytes are not 0, except those behind the end of a text.
 class Variables {
  public:
   Variables();
 
   /// Returns the variables of known length that are readable in pieces.
   std::vector<Variable> all();
-  /// Those whose pieces stay as they are written.
+  /// Returns the variables that store pieces unchanged.
   std::vector<Variable> writable();
 
   LoggedStream plain;
   LoggedStream extended;
   LoggedStream extensible;
-  std::uint32_t number = 0x14131211;  ///< behind a type of the application
+  std::uint32_t number = 0x14131211;  ///< of an application type
   std::uint32_t other_number = 0x24232221;
   std::uint32_t relative = 0x02030405;
-  Bytes octets = {1, 2, 3, 4, 5, 6, 7, 8, 9};  ///< behind a domain
+  Bytes octets = {1, 2, 3, 4, 5, 6, 7, 8, 9};  ///< of a domain
   CO_OBJ_DOM domain{0, 9, octets.data()};
   Bytes letters = {'l', 'e', 't', 't', 'e', 'r', 's', 0, 0, 0};
   CO_OBJ_STR_RW text{0, 10, 10, letters.data()};
@@ -53,7 +53,7 @@ class Variables {
   Fixture node;
 };
 
-/// The bytes of a number in the byte order of the CPU.
+/// Returns the bytes of a number in the byte order of the CPU.
 template <class T>
 Bytes bytes_of(T number, std::size_t length = sizeof(T)) {
   Bytes all(sizeof number);

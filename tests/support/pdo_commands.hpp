@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file pdo_commands.hpp
-/// What callbacks of PDOs may ask the node for, and what must hold afterwards. For nodes with two PDOs of each kind.
+/// Requests that callbacks of PDOs may make to the node, and checks of the result. For nodes with two PDOs of each
+/// kind.
 #pragma once
 
 #include "sync_fixture.hpp"

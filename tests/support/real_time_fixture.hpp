@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file real_time_fixture.hpp
-/// The node of sync_fixture.hpp with a real-time thread and a mainline, of which the test calls one after the other.
+/// The node of sync_fixture.hpp with a real-time thread and a mainline, which the test calls alternately.
 ///
 ///     RealTimeNode node(table);
 ///     node.start();                     // Operational
-///     node.arrive("201#2A");            // the controller has it
+///     node.arrive("201#2A");            // puts a frame into the controller
 ///     node.real_time();                 // CONodeRealTime()
 ///     node.mainline();                  // CONodeProcess() for what its ring holds and once more, COTmrProcess()
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace test {
 
-/// In front of the node: a ring of 8 frames.
+/// Setup with a ring of 8 frames between real-time thread and mainline.
 struct MainlineRing {
   MainlineRing() { REQUIRE(CORingInit(&ring, memory, 8)); }
   CO_IF_FRM memory[8];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_client_model.hpp
-/// An SDO client beside that of the stack: it knows the protocol of the standard and what co_csdo.h promises, and
-/// nothing of the stack. [301:7.2.4.3] [C1]
+/// A model of an SDO client, derived from the standard and the contract of co_csdo.h, and independent of the stack.
+/// [301:7.2.4.3] [C1]
 ///
 ///     SdoClientModel model(CO_CSDO_BLOCK);
-///     model.start_upload({0x00, 0x20, 0x05}, 4);         // asks 40 00 20 05 00 00 00 00
-///     model.answer({0x4F, 0x00, 0x20, 0x05, 0x07});      // nothing more is to be asked
-///     model.end();                                       // 0: done, with these bytes: model.data()
+///     model.start_upload({0x00, 0x20, 0x05}, 4);         // returns 40 00 20 05 00 00 00 00
+///     model.answer({0x4F, 0x00, 0x20, 0x05, 0x07});      // returns nothing: the upload is complete
+///     model.end();                                       // 0: success; the bytes are in model.data()
 ///
-/// Owner: the test. When a silence ends, and with it a transfer, is the clock's to tell: remind() and close().
+/// Owner: the test. The model has no clock: the test calls remind() and close() when a time-out ends.
 #pragma once
 
 #include <cstddef>
@@ -21,27 +21,27 @@ namespace test {
 
 class SdoClientModel {
  public:
-  /// \a block: bytes from which on it asks for a block transfer; 0: never.
+  /// \a block: smallest size in bytes that is requested as block transfer; 0: never.
   explicit SdoClientModel(std::size_t block) : block_threshold_(block) {}
 
-  /// Both return the first request.
+  /// Start a transfer. Both return the first request.
   SdoBytes start_upload(const SdoKey& key, std::size_t size);
   SdoBytes start_download(const SdoKey& key, const Bytes& data);
 
-  /// A frame of the server arrives. What the client answers at once.
+  /// Processes a frame of the server. Returns the client's immediate answer.
   std::optional<SdoBytes> answer(const SdoBytes& response);
-  /// The next segment of a block download, which is thereby sent. Nothing: there is none now.
+  /// Sends and returns the next segment of a block download, nothing if there is none.
   std::optional<SdoBytes> segment();
   /// Returns true if the client may send this without a received frame, and changes the state accordingly.
   bool remind(const SdoBytes& request);
-  /// The transfer ends by something else than an answer of the server.
+  /// Ends the transfer for another reason than an answer of the server.
   void close(std::uint32_t code);
-  /// With which frame the client then tells the server.
+  /// Returns the frame that the client sends to the server then.
   SdoBytes abort(std::uint32_t code) const;
 
   bool is_open() const { return state_ != State::idle; }
-  std::uint32_t end() const { return end_; }   ///< how the last transfer has ended, as an abort code; 0: well
-  const Bytes& data() const { return data_; }  ///< of the last upload
+  std::uint32_t end() const { return end_; }   ///< abort code of the last transfer; 0: success
+  const Bytes& data() const { return data_; }  ///< data of the last upload
   bool can_remind() const { return state_ == State::block_upload || state_ == State::block_upload_end; }
 
  private:
@@ -87,15 +87,15 @@ class SdoClientModel {
   bool is_upload_ = false;
   bool by_block_ = false;
   bool has_crc_ = false;
-  std::size_t size_ = 0;              // of the buffer
-  std::optional<std::size_t> total_;  // that the server has announced
-  Bytes data_;                        // uploaded, or to be downloaded
-  std::size_t done_ = 0;  // bytes of a download that the server has, or of an upload before the present block
+  std::size_t size_ = 0;              // size of the buffer
+  std::optional<std::size_t> total_;  // size that the server has announced
+  Bytes data_;                        // uploaded bytes, or bytes to download
+  std::size_t done_ = 0;  // bytes of a download that the server has received, or of an upload before the current block
   std::uint8_t toggle_ = 0;
   std::size_t blksize_ = 0;
-  std::size_t seq_ = 0;     // last segment of the block that was taken or sent
+  std::size_t seq_ = 0;     // last segment of the block received in order, or sent
   std::size_t ackseq_ = 0;  // last one that was acknowledged
-  bool heard_ = false;      // a segment of the block has come
+  bool heard_ = false;      // a segment of the block was received
   bool last_sent_ = false;
 };
 

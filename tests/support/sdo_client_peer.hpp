@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_client_peer.hpp
-/// An SDO server of one object for tests of clients, with data too long to be typed. It believes nothing: the first
-/// frame that is not as the standard says is noted. [301:7.2.4.3]
+/// An SDO server with one object for tests of clients, with data too long to be typed. It checks every frame of the
+/// client against the standard and stores the first fault. [301:7.2.4.3]
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ namespace test {
 
 using Frames = std::vector<CO_IF_FRM>;
 
-/// CRC-16-CCITT of block transfers, bit by bit. [D14]
+/// Returns the CRC-16-CCITT of block transfers, computed bit by bit. [D14]
 std::uint16_t crc_of(const Bytes& data);
 
 struct PeerOptions {
   bool crc = true;
   bool announces = true;
-  std::vector<std::uint8_t> block_sizes = {127};  ///< of downloads, in turn
+  std::vector<std::uint8_t> block_sizes = {127};  ///< blksizes of downloads, one per block, repeated
 };
 
 /// The server of 2000h:05 at 605h/585h.
@@ -35,7 +35,7 @@ class SdoPeer {
   Frames after_silence();
 
   Bytes object;
-  std::string fault;  ///< what the client has done wrong; empty: nothing
+  std::string fault;  ///< first fault of the client; empty: none
   bool is_done = false;
   std::uint32_t abort = 0;  ///< code of the client's abort
 
@@ -56,7 +56,7 @@ class SdoPeer {
   std::uint8_t block_size_ = 0;
   std::size_t blocks_ = 0;
   std::size_t position_ = 0;  ///< acknowledged bytes of an upload
-  unsigned sent_ = 0;         ///< segments of the sub-block
+  unsigned sent_ = 0;         ///< sent segments of the sub-block
   unsigned received_ = 0;
   bool last_ = false;
   std::uint32_t announced_ = 0;
@@ -71,7 +71,7 @@ struct Disturbance {
   bool to_node = true;
 };
 
-/// Lets the transfer of client 0 run to its end against \a peer. Returns whether it has ended.
+/// Runs the transfer of client 0 with \a peer to its end. Returns false if it has not ended.
 bool serve(SdoClient& node, SdoPeer& peer, const Disturbance& disturbance = {});
 
 }  // namespace test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_observer.hpp
-/// Follows a channel of an SDO server on the bus. It knows what the client may have changed, and the order of the
-/// segments of a block upload.
+/// Observes a channel of an SDO server on the bus. It derives which objects the client may have changed, and the order
+/// of the segments of a block upload.
 #pragma once
 
 #include <array>
@@ -18,18 +18,19 @@ namespace test {
 /// Entries, as CO_DEV(), that may have changed.
 struct Changeable {
   std::set<std::uint32_t> completed;  ///< their download was confirmed
-  std::set<std::uint32_t> streaming;  ///< parts of them: their download goes on, or was aborted
+  std::set<std::uint32_t> streaming;  ///< parts of them may be written: their download is open, or was aborted
 };
 
 class SdoObserver {
  public:
-  void request(const CO_IF_FRM& frm);  ///< the client has sent it
-  /// The controller has taken it from the server. Empty if it may be sent now, else what is wrong.
+  void request(const CO_IF_FRM& frm);  ///< processes a frame sent by the client
+  /// Processes a frame that the controller has accepted from the server. Returns its fault; empty if it may be sent
+  /// now.
   std::string taken(const CO_IF_FRM& frm);
-  void waiting(const std::vector<CO_IF_FRM>& frames);  ///< of the server, in the transmit queue at this moment
-  /// The next frame of the server may be a segment of a block upload.
+  void waiting(const std::vector<CO_IF_FRM>& frames);  ///< frames of the server in the transmit queue
+  /// Returns true if the next frame of the server may be a segment of a block upload.
   bool is_sending() const { return phase_ == Phase::sending && !ending_; }
-  /// Adds what may have changed since the last call.
+  /// Adds the entries that may have changed since the last call.
   void take_changeable(Changeable& all);
   void close();  ///< the server is idle
 
@@ -59,12 +60,12 @@ class SdoObserver {
 
   Phase phase_ = Phase::closed;
   std::optional<Request> request_;
-  std::vector<CO_IF_FRM> waiting_;  // answers that are known, and not sent yet
-  std::uint32_t dev_ = 0;           // of the open transfer
-  std::uint32_t segments_ = 0;      // of a block download, taken in order
+  std::vector<CO_IF_FRM> waiting_;  // expected answers that are not sent yet
+  std::uint32_t dev_ = 0;           // object of the open transfer
+  std::uint32_t segments_ = 0;      // segments of a block download received in order
   unsigned next_ = 1;               // sequence number
   bool last_ = false;               // the last segment has been received or sent
-  bool ending_ = false;             // the client has all segments of a block upload
+  bool ending_ = false;             // the client has acknowledged all segments of a block upload
   std::uint8_t blksize_ = 0;
   std::array<std::uint8_t, 8> last_segment_{};
   Changeable changeable_;

@@ -21,7 +21,7 @@ namespace test {
 
 using Bytes = std::vector<std::uint8_t>;
 using SdoBytes = std::array<std::uint8_t, 8>;
-using SdoKey = std::array<std::uint8_t, 3>;  ///< multiplexer as in a frame
+using SdoKey = std::array<std::uint8_t, 3>;  ///< multiplexer in the byte order of a frame
 
 /// An object as seen from the network.
 struct SdoObject {
@@ -35,7 +35,7 @@ struct SdoObject {
   Bytes value;
 
   bool is_stream() const { return kind != Kind::number && kind != Kind::boolean; }
-  Bytes shown() const;  ///< what an upload gives
+  Bytes shown() const;  ///< bytes that an upload returns
   void set(const Bytes& bytes);
 };
 
@@ -44,24 +44,24 @@ class SdoServerModel {
   /// \a buffer: segments that a block download collects before the object gets them, 1…127; 0: no block transfer.
   SdoServerModel(std::vector<SdoObject> objects, unsigned buffer) : objects_(std::move(objects)), buffer_(buffer) {}
 
-  /// A request of eight bytes arrives. Nothing: it is not answered.
+  /// Processes a request of eight bytes. Returns the answer, nothing if there is none.
   std::optional<SdoBytes> answer(const SdoBytes& request);
-  /// The next segment of a block upload, which is thereby sent. Nothing: there is none now.
+  /// Sends and returns the next segment of a block upload, nothing if there is none.
   std::optional<SdoBytes> segment();
-  /// Both, while the controller takes every frame.
+  /// Calls both functions, for a controller that accepts every frame.
   std::vector<SdoBytes> answers(const SdoBytes& request);
   /// Lets an eighth of the time-out pass. Returns the frame that the server sends then.
   std::optional<SdoBytes> slice();
-  /// The NMT state ends what is open. [N8]
+  /// Ends the open transfer because of the NMT state. [N8]
   void close() { state_ = State::idle; }
 
   const std::vector<SdoObject>& objects() const { return objects_; }
   bool is_open() const { return state_ != State::idle; }
   bool is_in_block() const { return state_ == State::block_download; }  ///< all but 80h are segments
-  const SdoKey& key() const { return key_; }                            ///< of the open transfer
+  const SdoKey& key() const { return key_; }                            ///< object of the open transfer
 
-  /// A request that goes on with what is open, for inputs that get far; \a shorter: with the least that ends a step.
-  /// Segments carry no data yet.
+  /// Returns a request that continues the open transfer, for inputs that reach deep states; \a shorter: with the least
+  /// data that end a step. Segments carry no data yet.
   SdoBytes continued(bool shorter) const;
 
  private:
@@ -117,20 +117,20 @@ class SdoServerModel {
   State state_ = State::idle;
   SdoObject* object_ = nullptr;
   SdoKey key_{};
-  unsigned idle_ = 0;  // slices without a frame
+  unsigned idle_ = 0;  // eighths of the time-out without a frame
   std::uint8_t toggle_ = 0;
   bool sized_ = false;
-  std::size_t size_ = 0;  // bytes that a download will have, or may have
-  Bytes data_;            // received, or to be sent
-  std::size_t done_ = 0;  // bytes given to the client and acknowledged, or to the object
+  std::size_t size_ = 0;  // expected or maximum size of a download
+  Bytes data_;            // received bytes, or bytes to send
+  std::size_t done_ = 0;  // bytes acknowledged by the client, or passed to the object
   bool has_crc_ = false;
   std::size_t blksize_ = 0;
-  std::size_t seq_ = 0;            // last segment of the block that was taken or sent
-  std::size_t highest_ = 0;        // number of a segment of the block that has come
-  bool is_stuck_ = false;          // nothing of the block before was in order
-  bool has_acknowledged_ = false;  // a block
+  std::size_t seq_ = 0;            // last segment of the block received in order, or sent
+  std::size_t highest_ = 0;        // highest received sequence number of the block
+  bool is_stuck_ = false;          // no segment of the previous block was in order
+  bool has_acknowledged_ = false;  // a block was acknowledged
   bool last_sent_ = false;
-  std::uint32_t fault_ = 0;  // of a segment, told at the end of the block
+  std::uint32_t fault_ = 0;  // fault of a segment, reported at the end of the block
   SdoBytes last_segment_{};
   SdoBytes reminder_{};  // last answer of a block download
 };

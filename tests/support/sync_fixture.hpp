@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sync_fixture.hpp
-/// The node of pdo_fixture.hpp with SYNC in variables:
+/// The node of pdo_fixture.hpp, with variables for the SYNC objects:
 ///
 ///     SyncTable table;                  // 1005h 80h, 1006h, 1007h and 1019h 0; all PDOs off
 ///     table.counter = 10;               // 1019h

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file timers.hpp
-/// A node of which only the timers are used.
+/// A node for tests of its timers only.
 #pragma once
 
 #include "fixture.hpp"
@@ -11,12 +11,12 @@ namespace test {
 using Runs = std::vector<std::uintptr_t>;
 Runs& runs();
 
-/// The action of a timer: notes its parameter.
+/// Timer action that logs its parameter.
 void note(void* para);
 
 inline void* number(std::uintptr_t n) { return reinterpret_cast<void*>(n); }
 
-/// A tick is a millisecond unless the setup says otherwise.
+/// A tick is a millisecond unless the setup has another frequency.
 class Timers : public Fixture {
  public:
   explicit Timers(const Setup& setup = Setup());
