@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/storage.md: an EMCY for a damaged record.
+// Example of docs/storage.md: an EMCY for a damaged record.
 #include <stdbool.h>
 
 #include "bench.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: EMCY producer with a history, EMCY consumer.
+// Example of docs/cookbook.md: EMCY producer with a history, EMCY consumer.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: node guarding and life guarding.
+// Example of docs/cookbook.md: node guarding and life guarding.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: heartbeat producer and consumer, error behaviour, self-start.
+// Example of docs/cookbook.md: heartbeat producer and consumer, error behaviour, self-start.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

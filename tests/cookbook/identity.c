@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: the mandatory objects, and what a device tells of itself.
+// Example of docs/cookbook.md: the mandatory objects, and what a device tells of itself.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: PDOs whose parameters and mapping the master writes.
+// Example of docs/cookbook.md: PDOs whose parameters and mapping the master writes.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: an RPDO and a TPDO whose mapping is constant.
+// Example of docs/cookbook.md: an RPDO and a TPDO whose mapping is constant.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

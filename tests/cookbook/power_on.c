@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: power-on values without a memory.
+// Example of docs/cookbook.md: power-on values without a memory.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: an SDO client reads and writes objects of another node.
+// Example of docs/cookbook.md: an SDO client reads and writes objects of another node.
 #include <string.h>
 
 #include "bench.h"

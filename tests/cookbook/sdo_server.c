@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: SDO servers.
+// Example of docs/cookbook.md: SDO servers.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

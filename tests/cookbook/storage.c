@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: parameters that survive a loss of power.
+// Example of docs/cookbook.md: parameters that survive a loss of power.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: strings and a domain.
+// Example of docs/cookbook.md: strings and a domain.
 #include <string.h>
 
 #include "bench.h"

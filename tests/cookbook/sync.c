@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: SYNC.
+// Example of docs/cookbook.md: SYNC.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

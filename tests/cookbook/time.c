@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: TIME and the clock of the node.
+// Example of docs/cookbook.md: TIME and the clock of the node.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/cookbook.md: types of the application.
+// Example of docs/cookbook.md: types of the application.
 #include <string.h>
 
 #include "bench.h"
