@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stack does where an application defines no callbacks of LSS.
+// Tests the default LSS callbacks of the stack, for an application that defines none.
 #include "co_core.h"
 #include "unity.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the CAN controller reports: error frames with several events, and a reset of the node at bus-off.
+// Events of the CAN controller: error frames with several events, and a reset of the node at bus-off.
 #include <algorithm>
 
 #include "support/fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the resets leave of emergencies. [301:7.3.2.2.1]
+// Effects of resets on emergencies. [301:7.3.2.2.1]
 #include "support/emcy_fixture.hpp"
 
 #if USE_EMCY

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a write by co_od.h leads to is done when it returns.
+// Effects of a write by co_od.h: they are complete when it returns.
 #include <algorithm>
 
 #include "support/od.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fixture must notice in block transfers, and that its client believes nothing.
+// Faults of block transfers that the fixture has to detect, and checks of its client.
 #include "support/block_states.hpp"
 
 #if USE_SDO_BLOCK

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens when the controller does not take a frame. [T12] [Q4]
+// Behaviour of the node when the controller does not accept a frame. [T12] [Q4]
 #include "support/fixture.hpp"
 
 namespace {

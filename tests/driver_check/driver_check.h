@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the checks of the three drivers share.
+// Functions shared by the checks of the three drivers.
 #ifndef DRIVER_CHECK_H_
 #define DRIVER_CHECK_H_
 

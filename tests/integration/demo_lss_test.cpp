@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lexican-demo-master lss does, with a node without node-ID at the other end of a virtual bus.
+// Tests lexican-demo-master lss with a node without node-ID at the other end of a virtual bus.
 #include "co_cfg.h"
 
 #if USE_CSDO && USE_LSS && USE_LSS_MASTER

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lexican-demo-master does, with the demo clock at the other end of a virtual bus.
+// Tests lexican-demo-master with the demo clock at the other end of a virtual bus.
 #include "co_cfg.h"
 
 #if USE_CSDO  // which the demo's master needs

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/porting.md: the driver check on a port.
+// Example of docs/porting.md: the driver check on a port.
 #include "co_driver_check.h"
 #include "example_board.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/porting.md: the simplest loop.
+// Example of docs/porting.md: the simplest loop.
 #include "co_core.h"
 
 void RunForEver(CO_NODE* node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of docs/porting.md: a CAN controller behind SPI. The five functions of the board are the porter's.
+// Example of docs/porting.md: a CAN controller behind SPI. The port has to define the five functions of the board.
 #include <stdbool.h>
 
 #include "co_if_can.h"

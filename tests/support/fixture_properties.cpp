@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fixture checks after every call, and at its end.
+// Checks of a fixture after every call, and at its end.
 #include <algorithm>
 #include <cstring>
 #include <iterator>

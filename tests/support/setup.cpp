@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fixture is made of: settings and dictionary.
+// Settings and dictionary of a fixture.
 #include <algorithm>
 #include <iterator>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is behind the names of unity.h.
+// Functions behind the names of unity.h.
 #include "unity.h"
 
 #include <doctest/doctest.h>
