@@ -287,7 +287,7 @@
 #define USE_REAL_TIME 0
 #endif
 #if USE_REAL_TIME && CO_STORE_BUFFER % 8 != 0
-#error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be torn"
+#error "CO_STORE_BUFFER: a multiple of 8 with USE_REAL_TIME, or stored numbers may be partially written"
 #endif
 
 /// Length of the transmit queue inside the node, in frames: 1…1000. Each costs 16 bytes of RAM. CO_NODE_EXT.TxQueue can

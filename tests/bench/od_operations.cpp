@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an entry costs that can be extended (co_od.h), without an extension and with one, beside one that cannot.
+// Cost of an entry that can be extended (co_od.h), without an extension and with one, and of an entry that cannot.
 #include <algorithm>
 #include <cstring>
 #include <iterator>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page "Using Object Dictionary" shows, as it stands there but for white space: the tables of several of its
-// sections are joined, the lines that stand for "and so on" are gone, and prototypes and variables that it leaves to
-// the reader are added.
+// The examples of the page "Using Object Dictionary", unchanged but for white space. The tables of several sections are
+// joined, lines for "and so on" are removed, and prototypes and variables that the page leaves to the reader are added.
 #include <string.h>
 
 #include "co_core.h"

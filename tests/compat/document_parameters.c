@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page "Using Object Dictionary" shows of parameter groups, as it stands there but for white space, with the
-// name of the type CO_PARA moved to its place. Compiled only: there is no memory to store in.
+// The parameter groups of the page "Using Object Dictionary", unchanged but for white space and the place of the type
+// name CO_PARA. The program is only compiled: it has no memory to store in.
 #include <string.h>
 
 #include "co_core.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page "Object Dictionary" shows of access by the application: myFunc() as it stands there but for white
-// space, and the second example with the names that this stack gives to it.
+// Access by the application as in the page "Object Dictionary": myFunc() is unchanged but for white space, the second
+// example has the names of this stack.
 #include <string.h>
 
 #include "301/CO_ODinterface.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the first draft of the page "Object Dictionary" shows of access by the application: myFunc() as it stands there
-// but for white space.
+// Access by the application as in the first draft of the page "Object Dictionary": myFunc() is unchanged but for white
+// space.
 #include <string.h>
 
 #include "co_core.h"

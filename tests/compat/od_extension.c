@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What docs/od-access.md shows: an index over the table, variables read and written in pieces, an object that the
-// application has taken over, and its words for what went wrong, as the SDO client hears them.
+// The examples of docs/od-access.md: an index of the table, variables read and written in pieces, an object that the
+// application extends, and the abort codes that an SDO client receives for its errors.
 #include <string.h>
 
 #include "co_core.h"

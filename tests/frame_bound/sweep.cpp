@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets' inputs need not have: every NMT command, every identifier, every SDO command in every state of
-// the server, every LSS command, transfers of a large object in all ways, and PDOs that map as much as they can. The
-// input names the sweep.
+// Inputs that the fuzz targets' corpus need not contain: every NMT command, every identifier, every SDO command in
+// every state of the server, every LSS command, transfers of a large object in all ways, and PDOs that map as much as
+// they can. The input names the sweep.
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>

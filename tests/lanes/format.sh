@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-# What programs have made is as they make it.
-about="clang-format and the licence line of each source"
+about="clang-format, the licence line of each source, and the language of comments and test names"
 minutes=1
-packages=(clang-format-14)
+packages=(clang-format-14 python3)
 
 lane() {
   check "clang-format" formatted
   check "licence lines" licensed
+  run_tap python3 "$root/tests/lanes/language.py" "$root"
+  run_tap python3 "$root/tests/lanes/language.py" --self-test
 }
 
+# Generated files are as their generators write them.
 formatted() {
   local files
   mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp' |

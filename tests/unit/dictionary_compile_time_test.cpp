@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the compiler knows about a dictionary. Most of it is decided when this file compiles; what must not compile
-// stands in tests/failing_builds.
+// Checks of a dictionary by the compiler. Most of them are decided when this file compiles; tests/failing_builds has
+// the sources that must not compile.
 
 // Tables and casts are those that firmware writes.
 #pragma GCC diagnostic ignored "-Wold-style-cast"

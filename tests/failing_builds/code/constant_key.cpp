@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of these functions the optimised program must keep the access to the variable, or the value, and nothing else.
+// The optimised program must keep only the access to the variable, or the value, of these functions.
 #include "co/dictionary.hpp"
 
 extern std::uint32_t speed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the headers of libstdc++ need of its library, as far as the tests use it: memory, the trees of std::map and
+// The functions of the library that the headers of libstdc++ need in these tests: memory, the trees of std::map and
 // std::set, and the ends of a program that would throw an exception.
 #include <cstdint>
 #include <cstdio>
