@@ -56,22 +56,24 @@ class Page {
 
 std::string percent(double value) { return value == 0 ? "" : fmt::format("{:.2f}", value); }
 
+std::string count_pdos(const Links& links, std::size_t node, bool is_transmit) {
+  return std::to_string(std::count_if(links.pdos.begin(), links.pdos.end(), [&](const ActivePdo& pdo) {
+    return pdo.node == node && pdo.pdo.is_transmit == is_transmit;
+  }));
+}
+
 void write_nodes(const Network& network, const Links& links, Page& page) {
   page.heading("nodes", "Nodes");
   page.raw(bus_picture(network, links));
   page.begin_table({"node-ID", "name", "product", "heartbeat", "guarding", "TPDOs", "RPDOs"});
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
     const Node& node = network.nodes[n];
-    const auto count = [&](bool is_transmit) {
-      return std::to_string(std::count_if(links.pdos.begin(), links.pdos.end(), [&](const ActivePdo& pdo) {
-        return pdo.node == n && pdo.pdo.is_transmit == is_transmit;
-      }));
-    };
     const std::uint64_t heartbeat = node.number_or(0x1017, 0, 0);
     const std::uint64_t life_time = node.number_or(0x100C, 0, 0) * node.number_or(0x100D, 0, 0);
     page.row({std::to_string(node.node_id), node.name + (node.is_master ? " (NMT master)" : ""),
               node.device.identity.product_name.text, heartbeat == 0 ? "" : fmt::format("{} ms", heartbeat),
-              life_time == 0 ? "" : fmt::format("{} ms", life_time), count(true), count(false)});
+              life_time == 0 ? "" : fmt::format("{} ms", life_time), count_pdos(links, n, true),
+              count_pdos(links, n, false)});
   }
   page.end_table();
 }
