@@ -364,3 +364,38 @@ TEST_CASE("codict explain: what a rule says, or all rules") {
   CHECK(json.at("rules").at(0).at("severity") == "error");
   CHECK(Json::parse(explain("--json").out).at("rules").size() > 140);
 }
+
+TEST_CASE("codict check: findings beyond the limit hide no error, are counted, and tell the exit status") {
+  const Directory directory;
+  std::string text = "[2000]\nParameterName=x\nObjectType=7\n";
+  for (int n = 0; n < 100100; ++n) {
+    text += "Own" + std::to_string(n) + "=1\n";
+  }
+  test::write_bytes(directory / "many.eds", text);
+  const auto check_many = [&directory](const std::string& options) {
+    return test::run_codict(directory / "", "check" + quiet + unlisted + options + " many.eds");
+  };
+  const Ran error = check_many("--level error");
+  CHECK(error.status == 1);
+  CHECK(test::has(error.out, "[eds-key-missing]"));
+  const Ran notes = check_many("--level note --disable eds-key-missing");
+  CHECK(notes.status == 1);
+  CHECK(test::has(notes.err, "many.eds: more than 100000 findings: 103 notes are counted, but not shown"));
+  CHECK(test::has(notes.err, "codict: 100100 notes\n"));
+  CHECK(check_many("--level note --disable eds-key-missing --disable eds-key-unknown").status == 0);
+  const Json json = Json::parse(check_many("--level note --json").out);
+  CHECK(json.at("files").at(0).at("not_shown") == Json{{"eds-key-unknown", 103}});  // 3 others are disabled
+}
+
+TEST_CASE("codict check: errors beyond the limit are counted") {
+  const Directory directory;
+  std::string text;
+  for (int n = 0; n < 100007; ++n) {
+    text += "nonsense\n";
+  }
+  test::write_bytes(directory / "many.eds", text + "[FileInfo]\n");
+  const Ran ran = test::run_codict(directory / "", "check --level error many.eds");
+  CHECK(ran.status == 1);
+  CHECK(test::has(ran.err, "errors are counted, but not shown"));
+  CHECK(test::has(ran.err, "codict: 10001"));  // the nonsense, and objects that are missing
+}

@@ -88,13 +88,26 @@ TEST_CASE("equal findings are folded") {
   CHECK(findings.count(Severity::error) == 1);
 }
 
-TEST_CASE("findings have a limit, beyond which they are counted") {
+TEST_CASE("findings have a limit, beyond which they are counted by their rules") {
   Findings findings;
   for (std::size_t n = 0; n < Findings::most + 3; ++n) {
     findings.add(first_rule, {}, "again");
   }
   CHECK(findings.all().size() == Findings::most);
-  CHECK(findings.dropped() == 3);
+  CHECK(findings.dropped().at(&first_rule) == 3);
+  CHECK(findings.count(first_rule) == Findings::most + 3);
+  CHECK(findings.count(first_rule.severity) == Findings::most + 3);
+}
+
+TEST_CASE("notes and warnings beyond the limit displace no error") {
+  Findings findings;
+  for (std::size_t n = 0; n < Findings::most + 3; ++n) {
+    findings.add(first_rule, {}, "again");
+  }
+  findings.add(second_rule, {}, "an error");
+  CHECK(findings.count(second_rule) == 1);
+  CHECK(findings.all().back().text == "an error");
+  CHECK(findings.dropped().count(&second_rule) == 0);
 }
 
 TEST_CASE("an encoding is guessed from the bytes") {

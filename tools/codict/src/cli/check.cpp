@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -81,14 +83,44 @@ void say_what_has_gone(const Input& input, const Options& options, const Baselin
   }
 }
 
-void show(const Input& input, const std::vector<Finding>& findings, const Options& options, Report& report) {
+// Findings beyond the limit, by rule, as far as the options ask for them. Their places are not known: they are new to
+// every baseline.
+Json count_dropped(const Input& input, const Options& options, Report& report) {
+  std::map<Severity, std::size_t> counts;
+  Json by_rule = Json::object();
+  for (const auto& [rule, number] : input.findings.dropped()) {
+    if (is_wanted(*rule, options)) {
+      counts[severity_of(*rule, options)] += number;
+      by_rule[rule->id] = number;
+    }
+  }
+  if (by_rule.members().empty()) {
+    return by_rule;
+  }
+  for (const auto& [severity, number] : counts) {
+    report.counts[severity] += number;
+  }
+  complain(
+      fmt::format("{}: more than {} findings: {} are counted, but not shown; fix the first ones, or leave out "
+                  "rules with --disable",
+                  input.source().name(), Findings::most,
+                  summary(counts[Severity::error], counts[Severity::warning], counts[Severity::note])));
+  return by_rule;
+}
+
+void show(const Input& input, const std::vector<Finding>& findings, const Json& dropped, const Options& options,
+          Report& report) {
   if (options.form == Form::sarif) {
     report.sarif.add(input, findings);
     return;
   }
   const std::vector<Folded> folded = options.shows_all ? each_alone(findings) : fold(findings);
   if (options.form == Form::json) {
-    report.files.push_back({{"file", input.source().name()}, {"findings", to_json(input.source(), folded)}});
+    Json file{{"file", input.source().name()}, {"findings", to_json(input.source(), folded)}};
+    if (!dropped.members().empty()) {
+      file["not_shown"] = dropped;
+    }
+    report.files.push_back(std::move(file));
   } else if (options.form == Form::github) {
     print(to_github(input.source(), folded));
   } else {
@@ -114,9 +146,7 @@ int check_file(const std::string& path, const Options& options, Report& report) 
   check_profiles(*input, options.profile);
   check_all(*input);
   const std::vector<Finding> findings = wanted(*input, options, report);
-  if (input->findings.dropped() != 0) {
-    complain(input->source().name() + ": there are more findings than are kept");
-  }
+  const Json dropped = count_dropped(*input, options, report);
   if (!options.new_baseline.empty()) {
     for (const Finding& finding : findings) {
       report.fresh.add(*input, finding);
@@ -126,9 +156,9 @@ int check_file(const std::string& path, const Options& options, Report& report) 
   for (const Finding& finding : findings) {
     ++report.counts[finding.severity];
   }
-  show(*input, findings, options, report);
+  show(*input, findings, dropped, options, report);
   say_what_has_gone(*input, options, report.known);
-  return findings.empty() ? clean : found;
+  return findings.empty() && dropped.members().empty() ? clean : found;
 }
 
 void finish(const Options& options, Report& report, int status) {

@@ -182,9 +182,7 @@ bool show(Input& input, const Findings& findings, bool shows_notes) {
   check_all(input);
   show_findings(input, input.findings, Severity::error);
   show_findings(input, findings, shows_notes ? Severity::note : Severity::warning);
-  const std::vector<Finding>& all = input.findings.all();
-  return std::none_of(all.begin(), all.end(),
-                      [](const Finding& finding) { return finding.rule->severity == Severity::error; });
+  return input.findings.count(Severity::error) == 0;
 }
 
 bool complete(Options& options, const Input& input) {

@@ -18,14 +18,30 @@ std::string_view name_of(Severity severity) {
   return "error";
 }
 
+void Findings::add(const Rule& rule, Span span, std::string text, std::string hint) {
+  std::size_t& number = rule.severity == Severity::error ? errors_ : others_;
+  if (number == most) {
+    ++dropped_[&rule];
+    return;
+  }
+  ++number;
+  all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity, {}});
+}
+
 std::size_t Findings::count(const Rule& rule) const {
-  return static_cast<std::size_t>(
-      std::count_if(all_.begin(), all_.end(), [&rule](const Finding& finding) { return finding.rule == &rule; }));
+  const auto dropped = dropped_.find(&rule);
+  const auto kept =
+      std::count_if(all_.begin(), all_.end(), [&rule](const Finding& finding) { return finding.rule == &rule; });
+  return static_cast<std::size_t>(kept) + (dropped != dropped_.end() ? dropped->second : 0);
 }
 
 std::size_t Findings::count(Severity severity) const {
-  return static_cast<std::size_t>(std::count_if(
+  auto number = static_cast<std::size_t>(std::count_if(
       all_.begin(), all_.end(), [severity](const Finding& finding) { return finding.rule->severity == severity; }));
+  for (const auto& [rule, dropped] : dropped_) {
+    number += rule->severity == severity ? dropped : 0;
+  }
+  return number;
 }
 
 void Findings::sort() {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,19 +47,17 @@ std::string message_of(const Finding& finding);
 /// The findings of one source, in the order in which they were made until they are sorted.
 class Findings {
  public:
-  /// More of them help nobody, and would need many times the memory of the source: they are counted only.
+  /// Limit of the errors that are kept, and of the other findings: more would need many times the memory of the source.
+  /// Further ones are counted by their rules. Errors have a limit of their own, so that notes displace none.
   static constexpr std::size_t most = 100000;
 
-  void add(const Rule& rule, Span span, std::string text, std::string hint = {}) {
-    if (all_.size() == most) {
-      ++dropped_;
-    } else {
-      all_.push_back({&rule, span, std::move(text), std::move(hint), rule.severity, {}});
-    }
-  }
-  std::size_t dropped() const { return dropped_; }
+  void add(const Rule& rule, Span span, std::string text, std::string hint = {});
+  /// Number of the findings that are not kept, by rule.
+  const std::map<const Rule*, std::size_t>& dropped() const { return dropped_; }
 
+  /// The findings that are kept.
   const std::vector<Finding>& all() const { return all_; }
+  /// Numbers of all findings, also of those that are not kept.
   std::size_t count(const Rule& rule) const;
   std::size_t count(Severity severity) const;
   template <typename Predicate>
@@ -73,7 +72,9 @@ class Findings {
 
  private:
   std::vector<Finding> all_;
-  std::size_t dropped_ = 0;
+  std::map<const Rule*, std::size_t> dropped_;
+  std::size_t errors_ = 0;  ///< errors that were added to all_
+  std::size_t others_ = 0;  ///< other findings that were added to all_
 };
 
 /// Findings of one rule whose texts differ in numbers and quoted names only: the first, and how many follow. Findings
