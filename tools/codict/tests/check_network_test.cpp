@@ -89,7 +89,9 @@ TEST_CASE("check: pdo-pair: communication parameters and mapping come together, 
   CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping parameter\n");
   CHECK(found(check::check_pdo_parameters, record("1601", {"0"})) ==
         "pdo-pair: RPDO 2 has no communication parameter\n");
-  CHECK(found(check::check_pdo_parameters, "[DeviceInfo]\nCompactPDO=0x3\n" + tpdo_communication) == "");
+  // The mapping is made, and maps nothing.
+  CHECK(found(check::check_pdo_parameters, "[DeviceInfo]\nCompactPDO=0x3\n" + tpdo_communication) ==
+        "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
 TEST_CASE("check: pdo-object: what is mapped is described") {

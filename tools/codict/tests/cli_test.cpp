@@ -360,13 +360,14 @@ TEST_CASE("codict convert: what the other format has no words for is told, or ke
   const Directory directory;
   const Ran told = run("convert xdd/device10.xdd -o " + directory / "valve.eds");
   CHECK(told.status == 0);
-  CHECK(
-      told.err ==
-      "codict: xdd/device10.xdd: left out: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
-      "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 2 allowed "
-      "values (2000h 0, 2000h 1), 1 substitute values (2000h), 5 properties (2000h Own, 2000h CO_disabled, 2000h "
-      "CO_countLabel, …), 1 groups (G_1), 4 data types (Errors, Identity, Modes, …), 2 templates (TPL_RO, TPL_01), 1 "
-      "parameters without an object (P_NOBODY), 1 order codes (V1-B), 2 versions (1.2, B), 1 comments\n");
+  CHECK(told.err ==
+        "codict: xdd/device10.xdd: left out: 1 configured values (2000h), 2 denotations (2000h, 2003h), 1 "
+        "commissioning, 2 labels (2000h de, 2002h:1 en), 1 descriptions (1000h en), 2 units (2000h, 2002h:2), 2 bit "
+        "rates (auto-baudRate, defaultValue), 2 features (selfStartingDevice, flyingMaster), 4 texts of the identity "
+        "(vendorText, deviceFamily, productFamily, …), 2 numbers of dynamic channels, 2 allowed values (2000h 0, 2000h "
+        "1), 1 steps (2000h), 1 substitute values (2000h), 5 properties (2000h Own, 2000h CO_disabled, 2000h "
+        "CO_countLabel, …), 1 groups (G_1), 4 data types (Errors, Identity, Modes, …), 2 templates (TPL_RO, TPL_01), 1 "
+        "parameters without an object (P_NOBODY), 1 order codes (V1-B), 2 versions (1.2, B), 1 comments\n");
   const Ran all = run("convert --all xdd/device10.xdd -o " + directory / "valve.eds");
   CHECK(has(all.err,
             "5 properties (2000h Own, 2000h CO_disabled, 2000h CO_countLabel, 2000h CO_accessSRDO, 2001h "

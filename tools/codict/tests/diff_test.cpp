@@ -250,3 +250,46 @@ TEST_CASE("diff: what breaks networks is announced by the major revision number 
   CHECK(allowed(device_of("[DeviceInfo]\nRevisionNumber=0x10000\n" + speed),
                 device_of("[DeviceInfo]\nRevisionNumber=0x20000\n")));
 }
+
+TEST_CASE("diff: ranges and steps count: what is allowed no more breaks networks") {
+  const auto xdd = [](const std::string& ranges) {
+    return test::xdd_with(
+        "<CANopenObject index=\"2000\" name=\"x\" objectType=\"7\" dataType=\"05\" uniqueIDRef=\"p\"/>",
+        "<parameter uniqueID=\"p\" access=\"readWrite\"><USINT/><allowedValues>" + ranges +
+            "</allowedValues></parameter>");
+  };
+  const auto range = [](const std::string& low, const std::string& high, const std::string& step = "") {
+    return "<range><minValue value=\"" + low + "\"/><maxValue value=\"" + high + "\"/>" +
+           (step.empty() ? "" : "<step value=\"" + step + "\"/>") + "</range>";
+  };
+  const auto differences = [&](const std::string& before, const std::string& after) {
+    const test::XmlReading a(xdd(before));
+    const test::XmlReading b(xdd(after));
+    std::string text;
+    for (const Difference& one : compare(a.device, b.device)) {
+      text += std::string(name_of(one.kind)) + " " + one.what + ": " + one.before + " -> " + one.after + "\n";
+    }
+    return text;
+  };
+  const std::string two = range("1", "5") + range("10", "20", "2");
+  CHECK(differences(two, two) == "");
+  CHECK(differences(two, range("10", "20", "2") + range("0x1", "5")) == "");  // in any order
+  CHECK(differences(two, range("1", "5") + range("10", "20")) ==
+        "breaking range: 10..20 step 2 -> \ncompatible range:  -> 10..20\n");
+  CHECK(differences(two, "") == "compatible range: 1..5 -> \ncompatible range: 10..20 step 2 -> \n");
+  CHECK(differences(range("1", "5"), range("1", "5", "2")) == "breaking step:  -> 2\n");
+  CHECK(differences(range("1", "5", "2"), range("1", "5")) == "compatible step: 2 -> \n");
+}
+
+TEST_CASE("diff: a file version that is written in the same way is the same") {
+  const test::XmlReading xml(
+      "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\"><ISO15745Profile>"
+      "<ProfileBody fileVersion=\"1.0\"><DeviceIdentity/></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>");
+  Findings findings;
+  const lexican::codict::eds::Document document(Source("a.eds", "[FileInfo]\nFileVersion=1.0\n"), findings);
+  CHECK(compare(lexican::codict::eds::read(document, findings).devices.front(), xml.device).empty());
+  Device other = xml.device;
+  other.file.version.text = "1.1";
+  other.file.version.value = 0;
+  CHECK(compare(xml.device, other).size() == 1);
+}

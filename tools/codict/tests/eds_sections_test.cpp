@@ -2,6 +2,8 @@
 // Sections, lines and characters of an EDS: as CiA 306 has them, and as they are found.
 #include <doctest/doctest.h>
 
+#include "eds/read.hpp"
+#include "eds/rules.hpp"
 #include "reading.hpp"
 
 using namespace lexican::codict;
@@ -37,6 +39,41 @@ TEST_CASE("EDS: an unknown section is kept") {
   CHECK(eds.device.others.at(1).name == "Weather");
   CHECK(eds.device.others.at(1).children.at(0).text.text == "blue");
   CHECK(eds.found() == "24:2 eds-section-unknown\n");
+}
+
+TEST_CASE("EDS: a section with a sub-index beyond FFh is an error that suggests the decimal reading") {
+  const auto found = [](const std::string& name) {
+    Findings findings;
+    const eds::Document document(Source("large.eds", "[D000]\nObjectType=8\n[" + name + "]\nParameterName=x\n"),
+                                 findings);
+    const Description description = eds::read(document, findings);
+    CHECK(description.devices.front().find(0xD000)->subs.empty());
+    CHECK(description.devices.front().others.back().name == name);
+    std::string text;
+    for (const Finding& finding : findings.all()) {
+      text += finding.rule == &eds::rules::sub_index ? finding.text + "; " + finding.hint + "\n" : "";
+    }
+    return text;
+  };
+  CHECK(found("D000sub100") ==
+        "sub-index of D000h beyond FFh; the section is not used; sub-indexes are hexadecimal: write [D000sub64] for "
+        "decimal 100, and the others of D000h likewise\n");
+  const std::string no_decimal =
+      "sub-index of D000h beyond FFh; the section is not used; sub-indexes are 0 to FEh, and FFh for the structure of "
+      "the object\n";
+  CHECK(found("d000SUB1A0") == no_decimal);
+  CHECK(found("D000sub256") == no_decimal);
+  CHECK(found("D000sub99999999999") == no_decimal);
+  CHECK(found("D000sub99999999999999999999") == "");  // no number of 64 bits: an unknown section
+  CHECK(found("D000subject") == "");
+  CHECK(found("M1FixedD000sub255x") == "");
+}
+
+TEST_CASE("EDS: sub-indexes beyond FFh are found in the sections of modules, too") {
+  Findings findings;
+  const eds::Document document(Source("module.eds", "[M1Fixed6000sub100]\nParameterName=x\n"), findings);
+  eds::read(document, findings);
+  CHECK(findings.count(eds::rules::sub_index) == 1);
 }
 
 TEST_CASE("EDS: of two keys of a name the first one is used, and the second one kept") {

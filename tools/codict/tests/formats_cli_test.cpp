@@ -88,8 +88,10 @@ TEST_CASE("codict: JSON that is no description is refused with one message that 
   const Ran other = run("check " + path);
   CHECK(other.status == 2);
   CHECK(other.out.empty());
-  CHECK(other.err ==
-        "codict: " + path + ": line 2, column 14: another schema: \"schema\": \"codict-device-1\" is known\n");
+  CHECK(other.err == "codict: " + path +
+                         ": line 2, column 14: codict-check-1 is the output of a command, no device description, which "
+                         "has \"schema\": "
+                         "\"codict-device-1\"\n");
   test::write_bytes(path, "{\n  \"schema\"\n}\n");
   const Ran malformed = run("info " + path);
   CHECK(malformed.status == 2);
@@ -491,4 +493,63 @@ TEST_CASE("codict merge: what is new in the output is told at its place there") 
   CHECK(has(ran.out + ran.err, out + ":"));
   CHECK_FALSE(has(ran.err, "drive.eds:"));
   CHECK(has(run("merge drive.eds --set 2000.default=70000 -o -").err, "<stdout>:"));
+}
+
+TEST_CASE("codict convert: --node-id, --bit-rate and --node-name make the description of one node") {
+  const Directory directory;
+  const std::string options = " --node-id 5 --bit-rate 250 --node-name \"Inlet valve\"";
+  const std::string dcf = directory / "node.dcf";
+  CHECK(run("convert drive.eds -o " + dcf + options).status == 0);
+  CHECK(run("get " + dcf + " DeviceComissioning NodeID").out == "5\n");
+  CHECK(run("get " + dcf + " DeviceComissioning Baudrate").out == "250\n");
+  CHECK(run("get " + dcf + " DeviceComissioning NodeName").out == "Inlet valve\n");
+  const std::string xdc = directory / "node.xdc";
+  CHECK(run("convert " + dcf + " -o " + xdc + " --node-id 6 --bit-rate 0").status == 0);
+  CHECK(has(bytes_of(xdc), "nodeID=\"6\" nodeName=\"Inlet valve\" actualBaudRate=\"auto-baudRate\""));
+  // The same format: nothing else changes.
+  const std::string again = directory / "again.dcf";
+  CHECK(run("convert " + dcf + " -o " + again + " --node-id 7").status == 0);
+  std::string wanted = bytes_of(dcf);
+  wanted.replace(wanted.find("NodeID=5"), 8, "NodeID=7");
+  CHECK(bytes_of(again) == wanted);
+  const std::string other = directory / "other.xdc";
+  CHECK(run("convert " + xdc + " -o " + other + " --node-name B").status == 0);
+  CHECK(has(bytes_of(other), "nodeID=\"6\" nodeName=\"B\""));
+  CHECK(has(run("info " + other).out, "XDC 1.1"));
+}
+
+TEST_CASE("codict convert: settings of a node that no node can have, or a format without nodes, are refused") {
+  const Directory directory;
+  const std::string dcf = directory / "node.dcf";
+  for (const char* wrong :
+       {"--node-id 0", "--node-id 128", "--bit-rate 123", "--bit-rate x", "--node-name \"a\n[1000]\nObjectType=2\""}) {
+    CAPTURE(std::string(wrong));
+    CHECK(run("convert drive.eds -o " + dcf + " " + wrong).status == 2);
+    CHECK_FALSE(std::filesystem::exists(dcf));
+  }
+  const Ran eds = run("convert compact.dcf -o " + directory / "node.eds" + " --node-id 5");
+  CHECK(eds.status == 2);
+  CHECK(has(eds.err, "the output must be a DCF, XDC or JSON"));
+}
+
+TEST_CASE("codict merge: a description of another product is merged with --force only") {
+  const Directory directory;
+  const std::string device = "[DeviceInfo]\nVendorNumber=0x12\n[1000]\nParameterName=x\nDataType=7\nAccessType=ro\n";
+  test::write_bytes(directory / "a.eds", device);
+  test::write_bytes(directory / "b.eds", "[DeviceInfo]\nVendorNumber=0x13\n" + device.substr(device.find("[1000]")));
+  const std::string merge = "merge " + directory / "a.eds" + " " + directory / "b.eds" + " -o " + directory / "c.eds";
+  const Ran refused = run(merge);
+  CHECK(refused.status == 1);
+  CHECK(has(refused.err, "vendor number 0x13, the base has 0x12"));
+  CHECK_FALSE(std::filesystem::exists(directory / "c.eds"));
+  CHECK(run(merge + " --force").status == 0);
+  CHECK(has(bytes_of(directory / "c.eds"), "VendorNumber=0x13"));
+}
+
+TEST_CASE("codict convert --strict-loss: several ranges cannot become an EDS") {
+  const Directory directory;
+  const Ran ran = run("convert xdd/ranges.xdd --strict-loss -o " + directory / "a.eds");
+  CHECK(ran.status == 1);
+  CHECK(has(ran.err, "2 ranges (2000h 1..5, 2000h 10..20)"));
+  CHECK_FALSE(std::filesystem::exists(directory / "a.eds"));
 }

@@ -138,13 +138,31 @@ TEST_CASE("JSON: what is no JSON is refused with its line and column") {
   CHECK_FALSE(has(refusal("{\n  \"schema\": codict\n}"), "\n"));
 }
 
+TEST_CASE("JSON: what is no description is called what it is") {
+  const auto refusal = [](const std::string& bytes) { return JsonReading(bytes).refusal; };
+  CHECK(has(refusal(R"({"fileInfo": {}, "deviceInfo": {}, "objects": {}})"), "a project of CANopenEditor in JSON"));
+  CHECK(has(refusal(R"({"$schema": "x", "version": "2.1.0", "runs": []})"), "a SARIF log"));
+  CHECK(has(refusal(R"({"$schema": "x", "properties": {}})"), "a JSON Schema"));
+  CHECK(has(refusal(R"({"a": 1, "b": 2, "c": 3, "d": 4, "e": 5})"), "JSON with the members a, b, c, d, …: "));
+  CHECK(has(refusal("[{\"index\": 1}]"), "a JSON array"));
+  for (const char* json : {"{", "[{}]", " [ [1] ]", "[\"a\"]"}) {
+    CHECK(json::is_json(Source("a.json", json)));
+  }
+  for (const char* eds : {"", "[", "[FileInfo]", "[1000]", "[1000, 1]", "; {\n[FileInfo]"}) {
+    CHECK_FALSE(json::is_json(Source("a.eds", eds)));
+  }
+}
+
 TEST_CASE("JSON: another schema is refused, and so is a description of no device") {
   const auto refusal = [](const std::string& bytes) { return JsonReading(bytes).refusal; };
-  CHECK(refusal("{}") ==
-        "line 1, column 1: JSON without \"schema\": \"codict-device-1\": this is no device description");
-  CHECK(has(refusal("{\"schema\": 1}"), "this is no device description"));
+  const std::string wanted = "no device description, which has \"schema\": \"codict-device-1\"";
+  CHECK(refusal("{}") == "line 1, column 1: this is an empty JSON object: " + wanted);
+  CHECK(has(refusal("{\"schema\": 1}"), "this is JSON with the members schema: " + wanted));
   CHECK(refusal("{\n\"schema\": \"codict-device-2\"}") ==
-        "line 2, column 12: another schema: \"schema\": \"codict-device-1\" is known");
+        "line 2, column 12: version 2 of the schema: this codict reads \"schema\": \"codict-device-1\"");
+  CHECK(refusal("{\"schema\": \"codict-check-1\"}") ==
+        "line 1, column 13: codict-check-1 is the output of a command, " + wanted);
+  CHECK(has(refusal("{\"schema\": \"other\"}"), "another schema, other: " + wanted));
   CHECK(has(refusal(R"({"schema": "codict-device-1"})"), "there are no devices"));
   CHECK(has(refusal(R"({"schema": "codict-device-1", "devices": []})"), "there are no devices"));
   CHECK(has(refusal(R"({"schema": "codict-device-1", "devices": 1})"), "there are no devices"));

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "convert/commission.hpp"
+#include "convert/product.hpp"
+#include "eds/read.hpp"
 #include "program.hpp"
 #include "reading.hpp"
 
@@ -147,4 +150,41 @@ TEST_CASE("merge: a section of very many keys does not take for ever") {
   const Merging merging(base, overlay);
   CHECK(merging.replaced.size() == 50000);
   CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // with all checks of a build for tests; it was half an hour
+}
+
+TEST_CASE("merge: a whole description with another vendor or product number is of another product") {
+  const auto device = [](const std::string& text) {
+    Findings findings;
+    return eds::read(eds::Document(Source("a.eds", text), findings), findings).devices.front();
+  };
+  const std::string type = "[1000]\nParameterName=x\nDataType=7\nAccessType=ro\n";
+  const std::string number = "[1018]\nObjectType=9\n[1018sub2]\nDataType=7\nDefaultValue=4\n";
+  const Device base = device("[DeviceInfo]\nVendorNumber=0x12\nProductNumber=3\n" + type);
+  CHECK(convert::other_product(base, base).empty());
+  CHECK(convert::other_product(base, device("[DeviceInfo]\nVendorNumber=0x13\n" + type)) ==
+        "vendor number 0x13, the base has 0x12");
+  CHECK(convert::other_product(base, device(number + type)) == "product number 0x4, the base has 0x3");
+  CHECK(convert::other_product(base, device("[DeviceInfo]\nProductNumber=4\n")).empty());  // a value of a build
+  CHECK(convert::other_product(base, device("[DeviceInfo]\nProductNumber=0\n" + type)).empty());
+}
+
+TEST_CASE("commission: node-ID, bit rate and name of a DCF are set, and no other byte changes") {
+  Findings findings;
+  const auto commissioned = [&findings](const std::string& dcf, const convert::NodeSettings& settings) {
+    std::string bytes;
+    CHECK(convert::commission(settings, eds::Document(Source("a.dcf", dcf), findings), bytes));
+    return bytes;
+  };
+  convert::NodeSettings settings;
+  settings.node_id = std::uint8_t{5};
+  settings.bit_rate = 0U;
+  settings.node_name = "Inlet";
+  CHECK(commissioned("; Mine\n[DeviceComissioning]\nNodeID = 3\nNodeName=Old\nBaudrate=\n[1000]\n", settings) ==
+        "; Mine\n[DeviceComissioning]\nNodeID = 5\nNodeName=Inlet\nBaudrate=0\n[1000]\n");
+  settings.bit_rate = std::nullopt;
+  settings.node_name = std::nullopt;
+  CHECK(commissioned("[FileInfo]\nFileName=x\n", settings) ==
+        "[FileInfo]\nFileName=x\n\n[DeviceComissioning]\nNodeID=5\n");
+  settings.node_name = "two\n[1000]";
+  CHECK(convert::fault_of(settings).find("line end") != std::string::npos);
 }

@@ -11,12 +11,12 @@
 
 #include "cli/command.hpp"
 #include "cli/output.hpp"
+#include "convert/commission.hpp"
 #include "convert/losses.hpp"
-#include "eds/write.hpp"
+#include "convert/write.hpp"
 #include "json/texts.hpp"
 #include "json/write.hpp"
 #include "xdd/suppressions.hpp"
-#include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
 
@@ -29,6 +29,9 @@ struct Options {
   std::string file;
   std::string output;
   std::string format;
+  std::uint8_t node_id = 0;  // 0, and empty texts: not given
+  std::string bit_rate;
+  std::string node_name;
   bool is_strict = false;
   bool is_all = false;
 };
@@ -66,23 +69,48 @@ bool is_same(const Input& input, const Product& product) {
   return std::find(product.same.begin(), product.same.end(), input.device().format) != product.same.end();
 }
 
-std::string written(const Input& input, const Product& product, const std::string& path) {
+// The edition that a file is left in, unless --to names another one.
+xdd::Edition edition_of(const Device& device, const Product& product) {
+  const bool is_older = device.format == Format::xdd10 || device.format == Format::xdc10;
+  return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
+}
+
+std::string written(const Input& input, const Device& device, const Product& product, const Options& options) {
   if (product.target == Target::json) {
-    return json::write(input.description);
+    Description description = input.description;
+    description.devices.front() = device;
+    return json::write(description);
   }
-  Device device = input.device();
-  if (path != "-") {
-    device.file.file_name.text = std::filesystem::path(path).filename().string();
-    device.file.file_name.is_given = true;
+  const bool is_same_format = is_same(input, product);
+  const std::string name = options.output == "-" ? "" : std::filesystem::path(options.output).filename().string();
+  return convert::write(device, product.target, is_same_format ? edition_of(device, product) : product.edition, name);
+}
+
+convert::NodeSettings settings_of(const Options& options) {
+  convert::NodeSettings settings;
+  if (options.node_id != 0) {
+    settings.node_id = options.node_id;
   }
-  const bool is_configuration = product.target == Target::dcf || product.target == Target::xdc;
-  const Device described = is_configuration ? device : convert::without_configuration(device);
-  if (product.target == Target::xdd || product.target == Target::xdc) {
-    return xdd::write(described, product.edition);
+  if (!options.bit_rate.empty()) {
+    settings.bit_rate = static_cast<std::uint32_t>(std::stoul(options.bit_rate));
   }
-  eds::WriteOptions options;
-  options.as_dcf = is_configuration;
-  return eds::write(described, options);
+  if (!options.node_name.empty()) {
+    settings.node_name = options.node_name;
+  }
+  return settings;
+}
+
+// Only a DCF, XDC or JSON describes a single node.
+bool has_place(const convert::NodeSettings& settings, Target target) {
+  const std::string fault = convert::fault_of(settings);
+  if (!fault.empty()) {
+    complain(fault);
+  } else if (settings.is_any() && (target == Target::eds || target == Target::xdd)) {
+    complain("--node-id, --bit-rate and --node-name are for one node: the output must be a DCF, XDC or JSON");
+  } else {
+    return true;
+  }
+  return false;
 }
 
 // Those that the writers replace.
@@ -135,18 +163,29 @@ void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   complain(fmt::format("{}: left out: {}", input.source().name(), fmt::join(parts, ", ")));
 }
 
+// The same format has the same bytes, but for the settings of the node.
+int copy(const Input& input, const convert::NodeSettings& settings, const Options& options) {
+  std::string bytes(input.source().bytes());
+  if (settings.is_any() && !convert::commission(settings, *input.eds, bytes)) {
+    complain(input.source().name() + ": the encoding of the file lacks a letter of the node name");
+    return unusable;
+  }
+  return write_output(options.output, bytes);
+}
+
 int run(const Options& options) {
   const Product* const product = find_product(options.format.empty() ? ending_of(options.output) : options.format);
   if (product == nullptr) {
     complain("the output ends with .eds, .dcf, .xdd, .xdc or .json, or --to says which it is");
     return unusable;
   }
-  const std::optional<Input> input = open(options.file);
+  const convert::NodeSettings settings = settings_of(options);
+  const std::optional<Input> input = has_place(settings, product->target) ? open(options.file) : std::nullopt;
   if (!input) {
     return unusable;
   }
-  if (is_same(*input, *product)) {
-    return write_output(options.output, input->source().bytes());
+  if (is_same(*input, *product) && (!settings.is_any() || input->eds != nullptr)) {
+    return copy(*input, settings, options);
   }
   if (is_same_file(options.output, options.file)) {
     complain(options.output + ": it is the description itself");
@@ -159,7 +198,16 @@ int run(const Options& options) {
       return found;
     }
   }
-  return write_output(options.output, written(*input, *product, options.output));
+  Device device = input->device();
+  convert::commission(settings, device);
+  return write_output(options.output, written(*input, device, *product, options));
+}
+
+void add_node_options(Arguments& command, Options& options) {
+  command.add_option("--node-id", options.node_id, "Node-ID of the DCF or XDC").in_range(1, 127);
+  command.add_option("--bit-rate", options.bit_rate, "Bit rate of the DCF or XDC in kbit/s; 0: the device detects it")
+      .one_of({"0", "10", "20", "50", "100", "125", "250", "500", "800", "1000"});
+  command.add_option("--node-name", options.node_name, "Name of the node in the DCF or XDC");
 }
 
 }  // namespace
@@ -181,6 +229,7 @@ Command add_convert(CommandLine& line) {
       .add_option("--to", options->format,
                   "eds, dcf, xdd, xdc, json; xdd10, xdd11, xdc10, xdc11: of that edition of CiA 311")
       .one_of(std::move(names));
+  add_node_options(command, *options);
   command.add_flag("--all", options->is_all, "Name each place of what the format has no words for, not the first ones");
   command.add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
   return {command, [options] { return run(*options); }};

@@ -104,7 +104,10 @@ const eds::Section* find_section(const Input& input, const std::string& target, 
     }
   }
   const bool is_implied = find(input.device(), reference) != nullptr;
-  why = is_implied ? to_string(reference) + " has no section of its own: it is in compact storage"
+  const bool is_in_compact_storage =
+      cli::is_implied(input, reference) || input.device().features.compact_pdo.value == 0;
+  why = is_implied ? to_string(reference) + " has no section of its own: it is " +
+                         (is_in_compact_storage ? "in compact storage" : "made by CompactPDO")
                    : "there is no object " + to_string(reference);
   return nullptr;
 }

@@ -15,6 +15,7 @@
 #include "cli/field.hpp"
 #include "cli/output.hpp"
 #include "cli/review.hpp"
+#include "convert/product.hpp"
 #include "eds/write.hpp"
 #include "text/number.hpp"
 
@@ -105,16 +106,23 @@ std::string lines_of(Device device) {
   return lines;
 }
 
-bool add_file(Merged& merged, const std::string& path, const std::string& base) {
+Status add_file(Merged& merged, const std::string& path, const Device& base, const Options& options) {
   const std::optional<Input> input = open(path);
   if (!input) {
-    return false;
+    return unusable;
   }
-  if (input->eds != nullptr) {
-    return add(merged, *input->eds, base);
+  const std::string other = convert::other_product(base, input->device());
+  if (!other.empty() && !options.is_forced) {
+    complain(fmt::format("{}: this describes another product than {}: {}; nothing is written without --force", path,
+                         options.base, other));
+    return found;
   }
   Findings findings;
-  return add(merged, eds::Document(Source(path, lines_of(input->device())), findings), base);
+  const bool is_added =
+      input->eds != nullptr
+          ? add(merged, *input->eds, options.base)
+          : add(merged, eds::Document(Source(path, lines_of(input->device())), findings), options.base);
+  return is_added ? clean : unusable;
 }
 
 // The section of a target with one key; empty if there is no such target, and why is one line.
@@ -204,8 +212,8 @@ int run(const Options& options) {
   }
   Merged merged{std::move(*read(base->source(), why)), {}, {}};
   for (const std::string& overlay : options.overlays) {
-    if (!add_file(merged, overlay, options.base)) {
-      return unusable;
+    if (const Status status = add_file(merged, overlay, base->device(), options); status != clean) {
+      return status;
     }
   }
   if (!add_values(merged, options)) {
@@ -237,7 +245,8 @@ Command add_merge(CommandLine& line) {
                   "several times")
       .single_values();
   command.add_option("-o,--output", options->output, "File that is written, - for the standard output").required();
-  command.add_flag("--force", options->is_forced, "Write it even where it has new errors");
+  command.add_flag("--force", options->is_forced,
+                   "Write it even where it has new errors, or an overlay describes another product");
   command.add_flag("--json", options->is_json, "Replaced values, for programs");
   return {command, [options] { return run(*options); }};
 }

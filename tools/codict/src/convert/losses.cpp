@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <utility>
+
+#include "model/pdo.hpp"
 
 namespace lexican::codict::convert {
 
@@ -106,11 +110,129 @@ void count_words_for_eds(const Device& device, Counter& counter) {
   }
 }
 
+// What CiA 311 says of the device as a whole, and CiA 306 has no keys for.
+void count_headers_for_eds(const Device& device, Counter& counter) {
+  const Features& features = device.features;
+  Details rates;
+  for (const BitRate& rate : features.bit_rates) {
+    append(rates, Details(rate.kbit == 0 && rate.supported.value ? 1 : 0, "auto-baudRate"));
+  }
+  append(rates, Details(features.default_bit_rate.is_empty() ? 0 : 1, "defaultValue"));
+  counter.add("bit rates", std::move(rates));
+  const std::array<std::pair<const Field<bool>&, const char*>, 5> flags = {
+      {{features.self_starting, "selfStartingDevice"},
+       {features.sdo_requesting, "SDORequestingDevice"},
+       {features.flying_master, "flyingMaster"},
+       {features.sdo_manager, "SDOManager"},
+       {features.configuration_manager, "configurationManager"}}};
+  Details names;
+  for (const auto& [flag, name] : flags) {
+    append(names, Details(flag.value ? 1 : 0, name));
+  }
+  counter.add("features", std::move(names));
+  const Identity& identity = device.identity;
+  const std::array<std::pair<const Text&, const char*>, 7> texts = {
+      {{identity.vendor_text, "vendorText"},
+       {identity.device_family, "deviceFamily"},
+       {identity.product_text, "productText"},
+       {identity.product_family, "productFamily"},
+       {identity.build_date, "buildDate"},
+       {identity.specification_revision, "specificationRevision"},
+       {identity.instance_name, "instanceName"}}};
+  Details kept;
+  for (const auto& [text, name] : texts) {
+    append(kept, Details(text.is_empty() ? 0 : 1, name));
+  }
+  counter.add("texts of the identity", std::move(kept));
+  Details channels;
+  for (const DynamicChannel& channel : device.dynamic_channels) {
+    append(channels, one_of(channel.max_number));
+    append(channels, one_of(channel.bit_alignment));
+  }
+  counter.add("numbers of dynamic channels", std::move(channels));
+}
+
+// An EDS has no word for entries that nobody may access.
+void count_access_for_eds(Counter& counter) {
+  counter.each("access types", [](const Entry& entry) { return one_if(entry.access.value == Access::none); });
+}
+
+// An EDS gives the direction of PDOs to entries that can be read and written, as rwr and rww.
+bool loses_direction(const Entry& entry) {
+  const PdoMapping mapping = entry.pdo_mapping.value;
+  const bool is_one_way = mapping == PdoMapping::tpdo || mapping == PdoMapping::rpdo;
+  Entry plain;
+  plain.access.value = entry.access.value;
+  plain.pdo_mapping.value = PdoMapping::optional;
+  const Directions before = directions_of(entry);
+  const Directions after = directions_of(plain);
+  const bool is_same = before.send == after.send && before.receive == after.receive;
+  return is_one_way && entry.access.value != Access::rw && !is_same;
+}
+
+// In an EDS, sub-index 0 without a default value has the highest sub-index.
+Details numbers_that_become_implied(const Device& device) {
+  Details places;
+  for (const Object& object : device.objects) {
+    const bool has_zero = has_sub_objects(object.object_code.value) && !object.subs.empty();
+    if (has_zero && object.subs.front().sub_index == 0 && object.subs.front().default_value.kind == Value::Kind::none) {
+      places.push_back(fmt::format("{:04X}h:0", object.index));
+    }
+  }
+  return places;
+}
+
+// The writer joins lines with blanks.
+Details texts_of_several_lines(const Entry& entry) {
+  Details texts;
+  for (const Text* text : std::initializer_list<const Text*>{&entry.name, &entry.default_value, &entry.actual_value}) {
+    append(texts, Details(text->text.find_first_of("\r\n") != std::string::npos ? 1 : 0));
+  }
+  return texts;
+}
+
+// "09:30:15" and "09:30:00+01:00" become 09:30AM.
+Details exact_times(const FileInfo& file) {
+  Details times;
+  for (const Text* time : {&file.creation_time, &file.modification_time}) {
+    const bool is_schema = time->text.size() >= 8 && time->text[2] == ':' && time->text[5] == ':';
+    append(times, Details(is_schema && time->text.substr(5) != ":00" ? 1 : 0, time->text));
+  }
+  return times;
+}
+
+// A parameter of an XDD without an access type is read-only.
+void count_access_for_xdd(Counter& counter) {
+  counter.each("unknown access types", [](const Entry& entry) {
+    const bool is_variable = !has_sub_objects(entry.object_code.value);
+    return one_if(is_variable && entry.access.value == Access::unknown);
+  });
+}
+
 void count_for_eds(const Device& device, Counter& counter) {
+  count_access_for_eds(counter);
+  counter.each("directions of PDOs", [](const Entry& entry) { return one_if(loses_direction(entry)); });
+  counter.each("PDO mappings of unknown data types", [&device](const Entry& entry) {
+    const bool is_unknown = data_type_of(device, entry.data_type.value).kind == TypeKind::unknown;
+    return one_if(entry.pdo_mapping.value != PdoMapping::no && is_unknown);
+  });
+  counter.each("line ends in texts", texts_of_several_lines);
+  counter.add("sub-indexes 0 without a default value", numbers_that_become_implied(device));
+  counter.add("seconds of times", exact_times(device.file));
   count_words_for_eds(device, counter);
+  count_headers_for_eds(device, counter);
   counter.each("offsets", [](const Entry& entry) { return one_of(entry.offset); });
   counter.each("allowed values", [](const Entry& entry) {
     return each_of(entry.allowed.values, [](const AllowedValue& allowed) { return allowed.value.text; });
+  });
+  counter.each("ranges", [](const Entry& entry) {
+    const std::vector<Range>& ranges = entry.allowed.ranges;
+    return each_of(ranges.size() > 1 ? ranges : std::vector<Range>(),
+                   [](const Range& range) { return range.minimum.text + ".." + range.maximum.text; });
+  });
+  counter.each("steps", [](const Entry& entry) {
+    const std::vector<Range>& ranges = entry.allowed.ranges;
+    return one_if(std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return !range.step.is_empty(); }));
   });
   counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value.is_given); });
   counter.each("properties", properties_of);
@@ -127,7 +249,29 @@ void count_for_eds(const Device& device, Counter& counter) {
   counter.add("versions", each_of(device.identity.versions, [](const Version& version) { return version.text.text; }));
 }
 
+// Only a DCF names files.
+void count_files(Counter& counter) {
+  counter.each("files of domains", [](const Entry& entry) {
+    Details files = one_of(entry.upload_file);
+    append(files, one_of(entry.download_file));
+    return files;
+  });
+}
+
+// Keys of an EDS that are written into the description of the product, between vertical lines.
+Details texts_with_line(const FileInfo& file) {
+  Details keys;
+  for (const auto& [text, key] : {std::pair<const Text&, const char*>(file.description, "Description"),
+                                  std::pair<const Text&, const char*>(file.eds_version, "EDSVersion")}) {
+    append(keys, Details(text.text.find('|') != std::string::npos ? 1 : 0, key));
+  }
+  return keys;
+}
+
 void count_for_xdd(const Device& device, Counter& counter) {
+  count_access_for_xdd(counter);
+  counter.add("texts of the file", texts_with_line(device.file));
+  counter.add("name of the former EDS", one_of(device.file.last_eds));
   counter.add("lines of comment", Details(device.comments.size()));
   counter.add("modules", each_of(device.modules, [](const Module& module) { return std::to_string(module.number); }));
   counter.add("connected modules", Details(device.connected_modules.size()));
@@ -135,11 +279,6 @@ void count_for_xdd(const Device& device, Counter& counter) {
   counter.add("sections that CiA 306 does not know", each_of(device.others, name_of));
   counter.each("keys that CiA 306 does not know",
                [&name_of](const Entry& entry) { return each_of(entry.others, name_of); });
-  counter.each("files of domains", [](const Entry& entry) {
-    Details files = one_of(entry.upload_file);
-    append(files, one_of(entry.download_file));
-    return files;
-  });
   Details links;
   for (const Object& object : device.objects) {
     append(links, Details(object.links.size(), fmt::format("{:04X}h", object.index)));
@@ -169,6 +308,9 @@ std::vector<Loss> losses(const Description& description, Target target) {
   }
   if (target == Target::eds || target == Target::xdd) {
     count_configuration(device, counter);
+  }
+  if (target != Target::dcf && target != Target::json) {
+    count_files(counter);
   }
   if (target == Target::eds || target == Target::dcf) {
     count_for_eds(device, counter);

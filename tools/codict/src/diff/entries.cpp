@@ -50,10 +50,13 @@ void compare_rights(const Entry& before, const Entry& after, const Recorder& rec
   const Rights old_rights(before);
   const Rights new_rights(after);
   const bool is_more = new_rights.has_all_of(old_rights);
+  const bool is_same = is_more && old_rights.has_all_of(new_rights);
   const Kind kind = is_more ? Kind::compatible : Kind::breaking;
-  if (before.access.value != after.access.value) {
+  // rwr and rww of an EDS are rw with a direction of PDOs in an XDD.
+  const bool are_both = old_rights.read && old_rights.write && new_rights.read && new_rights.write;
+  if (before.access.value != after.access.value && !(is_same && are_both)) {
     recorder.add(kind, "access", before.access, after.access);
-  } else if (!is_more || !old_rights.has_all_of(new_rights)) {
+  } else if (!is_same) {
     recorder.add(kind, "PDO mapping", before.pdo_mapping, after.pdo_mapping);
   }
 }
@@ -100,6 +103,52 @@ void compare_limits(const Entry& before, const Entry& after, const Recorder& rec
   compare_limit("low limit", before.low_limit, after.low_limit, is_below(before.low_limit, after.low_limit), recorder);
   compare_limit("high limit", before.high_limit, after.high_limit, is_below(after.high_limit, before.high_limit),
                 recorder);
+}
+
+// "1..5 step 2"
+Text shown(const Range& range) {
+  Text text;
+  text.text = range.minimum.text + ".." + range.maximum.text;
+  text.text += range.step.is_empty() ? "" : " step " + range.step.text;
+  text.span = range.minimum.span;
+  return text;
+}
+
+bool are_equal(const Range& a, const Range& b) {
+  return are_equal(a.minimum, b.minimum) && are_equal(a.maximum, b.maximum) && are_equal(a.step, b.step);
+}
+
+// A single range is what the limits say, but for its step.
+void compare_step(const std::vector<Range>& before, const std::vector<Range>& after, const Recorder& recorder) {
+  static const Value nothing;
+  const Value& old_step = before.size() == 1 ? before.front().step : nothing;
+  const Value& new_step = after.size() == 1 ? after.front().step : nothing;
+  if (!are_equal(old_step, new_step)) {
+    recorder.add(new_step.is_empty() ? Kind::compatible : Kind::breaking, "step", old_step, new_step);
+  }
+}
+
+bool is_in(const Range& range, const std::vector<Range>& ranges) {
+  return std::any_of(ranges.begin(), ranges.end(), [&range](const Range& other) { return are_equal(range, other); });
+}
+
+// Several ranges. One that has gone forbids values, unless all values are allowed now.
+void compare_ranges(const std::vector<Range>& before, const std::vector<Range>& after, const Recorder& recorder) {
+  static const Text nothing;
+  compare_step(before, after, recorder);
+  if (before.size() < 2 && after.size() < 2) {
+    return;
+  }
+  for (const Range& range : before) {
+    if (!is_in(range, after)) {
+      recorder.add(after.empty() ? Kind::compatible : Kind::breaking, "range", shown(range), nothing);
+    }
+  }
+  for (const Range& range : after) {
+    if (!is_in(range, before)) {
+      recorder.add(before.empty() ? Kind::breaking : Kind::compatible, "range", nothing, shown(range));
+    }
+  }
 }
 
 const AllowedValue* find_value(const std::vector<AllowedValue>& values, const Value& value) {
@@ -209,6 +258,7 @@ void compare_entries(const Entry& before, const Entry& after, const Recorder& re
   compare_rights(before, after, recorder);
   compare_defaults(before, after, recorder);
   compare_limits(before, after, recorder);
+  compare_ranges(before.allowed.ranges, after.allowed.ranges, recorder);
   compare_allowed(allowed_values_of(recorder.before, before), allowed_values_of(recorder.after, after), recorder);
   recorder.text(Kind::breaking, "unit", before.unit.uri, after.unit.uri);
   recorder.text(Kind::breaking, "unit's multiplier", before.unit.multiplier, after.unit.multiplier);

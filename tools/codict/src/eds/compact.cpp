@@ -97,6 +97,17 @@ void read_links(Object& object, const Section& section, const Reader& reader) {
 
 }  // namespace
 
+bool take_implied_subs(std::size_t number, Span place, const Reader& reader) {
+  if (reader.implied_subs + number > most_implied_subs) {
+    reader.findings.add(rules::compact_limit, place,
+                        fmt::format("more than {} sub-objects without sections; left out", most_implied_subs),
+                        "describe fewer sub-objects");
+    return false;
+  }
+  reader.implied_subs += number;
+  return true;
+}
+
 void expand_compact(Object& object, const Reader& reader) {
   constexpr std::uint8_t highest_sub = 0xFE;
   const std::uint8_t number = std::min(object.compact.value, highest_sub);
@@ -107,13 +118,9 @@ void expand_compact(Object& object, const Reader& reader) {
     reader.findings.add(codict::rules::value_range, object.compact.span,
                         fmt::format("CompactSubObj is {}, 254 is used", object.compact.value), "write 254");
   }
-  if (reader.implied_subs + number > most_implied_subs) {
-    reader.findings.add(rules::compact_limit, object.compact.span,
-                        fmt::format("more than {} sub-objects of compact storage; left out", most_implied_subs),
-                        "describe fewer sub-objects");
+  if (!take_implied_subs(number, object.compact.span, reader)) {
     return;
   }
-  reader.implied_subs += number;
   std::vector<Sub> described = std::exchange(object.subs, {});
   object.subs.push_back(implied_zero(number));
   object.subs.front().span = object.span;

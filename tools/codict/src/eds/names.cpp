@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "eds/document.hpp"
 #include "text/number.hpp"
@@ -60,7 +61,12 @@ bool take_sub(std::string_view rest, SectionName& name) {
   constexpr std::string_view word = "sub";
   std::string_view digits = rest.substr(std::min(word.size(), rest.size()));
   std::uint64_t sub_index = 0;
-  if (!equal_ignoring_case(rest.substr(0, word.size()), word) || !to_number(digits, 0xFF, sub_index)) {
+  if (!equal_ignoring_case(rest.substr(0, word.size()), word) ||
+      !to_number(digits, std::numeric_limits<std::uint64_t>::max(), sub_index)) {
+    return false;
+  }
+  if (sub_index > 0xFF) {
+    name.large_sub = digits;
     return false;
   }
   name.sub_index = static_cast<std::uint8_t>(sub_index);
@@ -97,7 +103,10 @@ void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub
   } else if (alone == SectionKind::object) {
     read.kind = list_kind(text);
   }
-  if (read.kind != SectionKind::other) {
+  if (!read.large_sub.empty()) {
+    name.index = read.index;
+    name.large_sub = read.large_sub;
+  } else if (read.kind != SectionKind::other) {
     name = read;
   }
 }

@@ -26,7 +26,8 @@ struct SectionName {
   SectionKind kind = SectionKind::other;
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  bool is_sub = false;  ///< of module_fixed: with a sub-index
+  bool is_sub = false;         ///< of module_fixed: with a sub-index
+  std::string_view large_sub;  ///< digits of a sub-index beyond FFh, of the object index; kind is other
   std::uint16_t module = 0;
   std::string_view word;       ///< of header and module: as the standard writes it
   bool has_odd_zeros = false;  ///< the index not of four digits, or zeros before the sub-index

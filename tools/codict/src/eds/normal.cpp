@@ -56,6 +56,21 @@ void normalise_time(Text& time) {
   }
 }
 
+// CiA 311 has words for a bit rate that the device detects.
+void normalise_rate(Field<std::uint32_t>& rate) {
+  if (rate.value == 0 && equal_ignoring_case(rate.text, "auto-baudRate")) {
+    rate.text = "0";
+  }
+  normalise_number(rate);
+}
+
+// Whether a deviceCommissioning has only what CiA 311 requires: empty names and rates, 0 and false.
+bool is_blank_form(const Commissioning& commissioning) {
+  return commissioning.node_id.is_empty() && commissioning.node_name.is_empty() && commissioning.bit_rate.is_empty() &&
+         commissioning.network_name.is_empty() && commissioning.network_number.value == 0 &&
+         !commissioning.is_manager.value;
+}
+
 // The direction of a PDO is in the access type. [306: 4.6.3]
 Access access_of(const Entry& entry) {
   const Access access = entry.access.value;
@@ -116,9 +131,10 @@ Device normal_headers(const Device& device) {
   for (Field<std::uint32_t>* number :
        {&result.file.version, &result.file.revision, &result.identity.vendor_number, &result.identity.product_number,
         &result.identity.revision_number, &result.features.dynamic_channels, &result.features.compact_pdo,
-        &result.commissioning.bit_rate, &result.commissioning.network_number, &result.commissioning.serial_number}) {
+        &result.commissioning.network_number, &result.commissioning.serial_number}) {
     normalise_number(*number);
   }
+  normalise_rate(result.commissioning.bit_rate);
   normalise_number(result.features.granularity);
   normalise_number(result.features.rx_pdos);
   normalise_number(result.features.tx_pdos);
@@ -128,6 +144,9 @@ Device normal_headers(const Device& device) {
   if (!is_of_eds) {
     if (result.features.granularity.value == 0) {  // an XDD must have it, an EDS that has none means 0
       result.features.granularity = {};
+    }
+    if (is_blank_form(result.commissioning)) {
+      result.commissioning = {};
     }
     normalise_date(result.file.creation_date);
     normalise_date(result.file.modification_date);

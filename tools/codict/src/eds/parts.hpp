@@ -30,7 +30,12 @@ void read_key(Object& object, const Key& key, const Reader& reader);
 
 // compact.cpp: names, values, denotations and links.
 void expand_compact(Object& object, const Reader& reader);
+/// False, with a finding, if so many further sub-objects without sections are too many.
+bool take_implied_subs(std::size_t number, Span place, const Reader& reader);
 void read_addition(const NamedSection& addition, const Reader& reader);
+
+// implied_pdos.cpp: adds the objects of PDOs that CompactPDO stands for.
+void add_implied_pdos(const Reader& reader);
 
 // lists.cpp
 void read_object_list(const NamedSection& header, const Reader& reader);

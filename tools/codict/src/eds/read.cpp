@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,11 +76,26 @@ void read_headers(const std::vector<NamedSection>& headers, const Reader& reader
   check_headers(reader);
 }
 
+// Authors who write sub-indexes in decimal are noticed at the first one beyond FFh.
+void report_large_sub(const NamedSection& named, Findings& findings) {
+  const std::uint16_t index = named.name.index;
+  std::uint32_t decimal = 0;
+  const bool is_decimal = number_of(named.name.large_sub, "", decimal) && decimal <= 0xFF;
+  findings.add(rules::sub_index, named.section->name,
+               fmt::format("sub-index of {:04X}h beyond FFh; the section is not used", index),
+               is_decimal ? fmt::format("sub-indexes are hexadecimal: write [{0:04X}sub{1:X}] for decimal {1}, and the "
+                                        "others of {0:04X}h likewise",
+                                        index, decimal)
+                          : "sub-indexes are 0 to FEh, and FFh for the structure of the object");
+}
+
 // [Tools] is of CiA 405, [ToolInfos] and [PreDefines] are of CANeds.
 void keep_others(const std::vector<NamedSection>& others, const Reader& reader) {
   for (const NamedSection& named : others) {
     const std::string_view name = reader.document.raw(named.section->name);
-    if (compare_names(name, "Tools") != 0 && !named.section->is_duplicate) {
+    if (!named.name.large_sub.empty()) {
+      report_large_sub(named, reader.findings);
+    } else if (compare_names(name, "Tools") != 0 && !named.section->is_duplicate) {
       reader.findings.add(
           rules::section_unknown, named.section->name,
           fmt::format("section {} is unknown to CiA 306", in_quotes(reader.document.text(named.section->name))),
@@ -116,6 +132,7 @@ Description read(const Document& document, Findings& findings) {
   for (Object& object : device.objects) {
     interpret_values(object, reader);
   }
+  add_implied_pdos(reader);
   read_modules(sorted.modules, reader);
   check_lists(reader);
   keep_others(sorted.others, reader);

@@ -29,6 +29,7 @@ const Rule section_missing{"eds-section-missing", Severity::warning,
                            "mandatory section FileInfo, DeviceInfo or MandatoryObjects is missing"};
 const Rule section_orphan{"eds-section-orphan", Severity::error,
                           "sub-object or list without the section of its object"};
+const Rule sub_index{"eds-sub-index", Severity::error, "sub-index beyond FFh in a section name"};
 const Rule key_unknown{"eds-key-unknown", Severity::note, "key unknown to CiA 306"};
 const Rule key_missing{"eds-key-missing", Severity::error, "mandatory key is missing or empty"};
 const Rule key_misplaced{"eds-key-misplaced", Severity::warning, "key in a section where it has no effect"};
@@ -58,57 +59,36 @@ const Rule list_wrong{"eds-list-wrong", Severity::warning, "object in the wrong 
 const Rule compact_entry{"eds-compact-entry", Severity::warning,
                          "name or value for a sub-index without compact storage"};
 const Rule compact_limit{"eds-compact-limit", Severity::error, "more than 50000 sub-objects of compact storage"};
+const Rule compact_pdo{"eds-compact-pdo", Severity::note, "PDOs without sections, implied by CompactPDO"};
 
 }  // namespace rules
 
 const std::vector<const Rule*>& all_rules() {
   using namespace rules;
-  static const std::vector<const Rule*> all = {&syntax_section,
-                                               &syntax_section_tail,
-                                               &syntax_indent,
-                                               &syntax_comment,
-                                               &syntax_line,
-                                               &syntax_outside,
-                                               &syntax_length,
-                                               &syntax_line_end,
-                                               &syntax_control,
-                                               &syntax_key,
-                                               &duplicate_section,
-                                               &duplicate_key,
-                                               &encoding_utf8,
-                                               &encoding_guess,
-                                               &encoding_mark,
-                                               &section_unknown,
-                                               &section_form,
-                                               &section_zeros,
-                                               &section_missing,
-                                               &section_orphan,
-                                               &key_unknown,
-                                               &key_missing,
-                                               &key_misplaced,
-                                               &key_length,
-                                               &dialect,
-                                               &hidden_key,
-                                               &object_type,
-                                               &object_type_missing,
-                                               &access_unknown,
-                                               &access_case,
-                                               &type_own,
-                                               &type_unknown,
-                                               &file_name,
-                                               &file_date,
-                                               &file_time,
-                                               &file_version,
-                                               &commissioning_spelling,
-                                               &list_count,
-                                               &list_numbers,
-                                               &list_entry,
-                                               &list_unlisted,
-                                               &list_no_section,
-                                               &list_twice,
-                                               &list_wrong,
-                                               &compact_entry,
-                                               &compact_limit};
+  static const std::vector<const Rule*> all = {&syntax_section,      &syntax_section_tail,
+                                               &syntax_indent,       &syntax_comment,
+                                               &syntax_line,         &syntax_outside,
+                                               &syntax_length,       &syntax_line_end,
+                                               &syntax_control,      &syntax_key,
+                                               &duplicate_section,   &duplicate_key,
+                                               &encoding_utf8,       &encoding_guess,
+                                               &encoding_mark,       &section_unknown,
+                                               &section_form,        &section_zeros,
+                                               &section_missing,     &section_orphan,
+                                               &sub_index,           &key_unknown,
+                                               &key_missing,         &key_misplaced,
+                                               &key_length,          &dialect,
+                                               &hidden_key,          &object_type,
+                                               &object_type_missing, &access_unknown,
+                                               &access_case,         &type_own,
+                                               &type_unknown,        &file_name,
+                                               &file_date,           &file_time,
+                                               &file_version,        &commissioning_spelling,
+                                               &list_count,          &list_numbers,
+                                               &list_entry,          &list_unlisted,
+                                               &list_no_section,     &list_twice,
+                                               &list_wrong,          &compact_entry,
+                                               &compact_limit,       &compact_pdo};
   return all;
 }
 

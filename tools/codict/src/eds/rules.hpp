@@ -32,6 +32,7 @@ extern const Rule section_form;
 extern const Rule section_zeros;
 extern const Rule section_missing;
 extern const Rule section_orphan;
+extern const Rule sub_index;
 extern const Rule key_unknown;
 extern const Rule key_missing;
 extern const Rule key_misplaced;
@@ -61,6 +62,7 @@ extern const Rule list_wrong;
 // Sub-objects.
 extern const Rule compact_entry;
 extern const Rule compact_limit;
+extern const Rule compact_pdo;
 }  // namespace rules
 
 /// All rules of this room.

@@ -215,8 +215,9 @@ void Writer::entry(const Entry& entry) {
     slots(entry, python_slots);
   }
   kept(entry.others);
-  if (!entry.node.storage_group.is_empty()) {
-    line(";StorageLocation", entry.node.storage_group.text);  // as other tools write and read it
+  const Field<std::string>& group = entry.node.storage_group;  // its text may be the number of a group
+  if (!group.is_empty() || !group.value.empty()) {
+    line(";StorageLocation", group.value.empty() ? group.text : group.value);  // as other tools write and read it
   }
 }
 

@@ -530,11 +530,53 @@ class Reader {
 
 }  // namespace
 
+// An EDS begins with a bracket, too, but no name of a section begins like a value of JSON.
 bool is_json(const Source& source) {
+  constexpr std::string_view blanks = " \t\r\n";
   const std::string_view bytes = source.bytes();
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n", mark_size(bytes));
-  return first != std::string_view::npos && bytes[first] == '{';
+  const std::size_t first = bytes.find_first_not_of(blanks, mark_size(bytes));
+  if (first == std::string_view::npos || bytes[first] != '[') {
+    return first != std::string_view::npos && bytes[first] == '{';
+  }
+  const std::size_t second = bytes.find_first_not_of(blanks, first + 1);
+  return second != std::string_view::npos && std::string_view("{[\"").find(bytes[second]) != std::string_view::npos;
 }
+
+namespace {
+
+// "1, 2, 3" of the first names of members.
+std::string first_members(const Node& root) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> names;
+  for (const Node& member : root.children) {
+    if (names.size() == most) {
+      names.emplace_back("…");
+      break;
+    }
+    names.push_back(member.name.substr(0, 40));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// What JSON without a schema of codict is, as far as its members show.
+std::string foreign_json(const Node& root) {
+  if (root.kind != Kind::object) {
+    return "a JSON array";
+  }
+  const auto has = [&root](std::string_view name) { return root.find(name) != nullptr; };
+  if (has("fileInfo") && has("deviceInfo") && has("objects")) {
+    return "a project of CANopenEditor in JSON; export it as XDD or EDS";
+  }
+  if (has("runs") && has("version")) {
+    return "a SARIF log";
+  }
+  if (has("$schema") && has("properties")) {
+    return "a JSON Schema";
+  }
+  return root.children.empty() ? "an empty JSON object" : "JSON with the members " + first_members(root);
+}
+
+}  // namespace
 
 std::string refusal(const Document& document) {
   if (!document.fault().empty()) {
@@ -543,12 +585,19 @@ std::string refusal(const Document& document) {
   const Node* const name = document.root().find("schema");
   const std::string wanted = "\"schema\": \"" + std::string(schema) + "\"";
   if (name == nullptr || name->kind != Kind::string) {
-    return "line 1, column 1: JSON without " + wanted + ": this is no device description";
+    return fmt::format("line 1, column 1: this is {}: no device description, which has {}",
+                       foreign_json(document.root()), wanted);
   }
   const Position place = document.source().position(name->span.begin);
   const std::string where = fmt::format("line {}, column {}: ", place.line, place.column);
+  if (name->text.substr(0, 14) == "codict-device-" && name->text != schema) {
+    return where + "version " + name->text.substr(14) + " of the schema: this codict reads " + wanted;
+  }
+  if (name->text.substr(0, 7) == "codict-" && name->text != schema) {
+    return where + name->text + " is the output of a command, no device description, which has " + wanted;
+  }
   if (name->text != schema) {
-    return where + "another schema: " + wanted + " is known";
+    return where + "another schema, " + name->text.substr(0, 80) + ": no device description, which has " + wanted;
   }
   const Node* const devices = document.root().find("devices");
   const bool is_any = devices != nullptr && devices->kind == Kind::array && !devices->children.empty();

@@ -177,7 +177,7 @@ void read_file_info(pugi::xml_node body, const Reader& reader) {
     }
   }
   const ParsedInteger version = parse_integer(file.version.text);  // any text is allowed
-  if (version.is_number() && !version.value.is_negative && version.value.magnitude <= 0xFFFFFFFF) {
+  if (version.is_meant() && !version.value.is_negative && version.value.magnitude <= 0xFFFFFFFF) {
     file.version.value = static_cast<std::uint32_t>(version.value.magnitude);
   }
   keep_rest(body, std::move(rest), reader.device.others, reader);

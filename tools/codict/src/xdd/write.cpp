@@ -227,12 +227,12 @@ class DeviceWriter {
     const FileInfo& file = device_.file;
     const bool is_any = file.description.is_given || file.eds_version.is_given || file.revision.is_given ||
                         device_.identity.revision_number.is_given;
-    if (!is_any || has_sign(file.description) || has_sign(file.eds_version)) {
+    if (!is_any) {
       return {};
     }
-    std::string keys = "FileDescription=" + file.description.text + "|";
-    const auto add = [&keys](std::string_view name, const Text& text) {
-      if (text.is_given) {
+    std::string keys = "FileDescription=" + (has_sign(file.description) ? "" : file.description.text) + "|";
+    const auto add = [&keys, has_sign](std::string_view name, const Text& text) {
+      if (text.is_given && !has_sign(text)) {
         keys += std::string(name) + "=" + text.text + "|";
       }
     };

@@ -462,7 +462,7 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     out_.attribute("dataType", hex(entry.data_type.value, entry.data_type.value > 0xFF ? 4 : 2));
   }
   const bool are_in_range =
-      has_limits_of_range(entry) || (is_eds_ && is_in(entry.low_limit) && is_in(entry.high_limit));
+      has_limits_of_range(entry) || (is_eds_ && is_parameter && is_in(entry.low_limit) && is_in(entry.high_limit));
   if (!are_in_range) {
     out_.attribute("lowLimit", entry.low_limit);
     out_.attribute("highLimit", entry.high_limit);

@@ -42,8 +42,8 @@ Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) :
 void print_rates(Printer& out, const Features& features, const Kept* left) {
   Rest rest = rest_of(left);
   out.open("baudRate");
-  if (features.default_bit_rate.is_given) {
-    out.attribute("defaultValue", std::string_view(rate_text(features.default_bit_rate.value)));
+  if (const Field<std::uint32_t>& rate = features.default_bit_rate; rate.is_given) {
+    out.attribute("defaultValue", std::string_view(rate.is_empty() ? "" : text_or(rate, rate_text(rate.value))));
   }
   out.attributes_of(rest);
   for (const BitRate& rate : features.bit_rates) {
@@ -91,7 +91,9 @@ void print_master(Printer& out, const Features& f, const Kept* left) {
 
 void print_commissioning(Printer& out, const Commissioning& c, const Kept* left) {
   out.open("deviceCommissioning");
-  print_number(out, "nodeID", c.node_id);
+  if (!c.node_id.is_empty()) {
+    print_number(out, "nodeID", c.node_id);
+  }
   out.attribute("nodeName", std::string_view(c.node_name.text));
   const std::string rate = c.bit_rate.is_empty() ? "" : rate_text(c.bit_rate.value);
   out.attribute("actualBaudRate", std::string_view(text_or(c.bit_rate, rate)));
