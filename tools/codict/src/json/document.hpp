@@ -25,7 +25,7 @@ struct Node {
   Integer integer;
   double real = 0;  ///< of an integer, too
   std::string text;
-  Span span;  ///< of a string without its quotes, of arrays and objects the bracket that opens
+  Span span;              ///< of a string without its quotes, of arrays and objects the bracket that opens
   std::uint32_t end = 0;  ///< of arrays and objects, behind the bracket that closes
   std::string name;
   Span name_span;
