@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CAN controller that does not take frames for a while, at every moment of a node's life.
+// Tests a node whose CAN controller refuses frames for a while, at every point of the node's life.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -30,17 +30,17 @@ std::string joined(const Texts& texts) {
   return all;
 }
 
-// What is not a heartbeat must come once and in this order, whatever the controller does.
+// Frames other than heartbeats: each must be sent once and in this order, whatever the controller refuses.
 const Texts expected_frames = {
     "705#00",  // boot-up
     "585#4108100006000000",
-    "585#0364657669636500",  // 1008h is uploaded
+    "585#0364657669636500",  // upload of 1008h
     "585#6001200000000000",
     "585#2000000000000000",
-    "585#3000000000000000",  // 2001h is downloaded
-    "585#4302200044332211",  // 2002h, in Operational
-    "585#8003200000000206",  // an abort
-    "705#00",                // boot-up after a reset
+    "585#3000000000000000",  // download to 2001h
+    "585#4302200044332211",  // upload of 2002h, in Operational
+    "585#8003200000000206",  // abort: 2003h does not exist
+    "705#00",                // boot-up after the reset
     "585#4302200044332211",
 };
 
@@ -48,7 +48,7 @@ const Texts expected_states = {"705#7F", "705#05", "705#04", "705#7F"};
 
 struct Life {
   Texts frames;
-  Texts states;  // of heartbeats; equal ones that follow one another count once
+  Texts states;  // heartbeats; consecutive equal ones count once
   std::uint32_t offered;
   std::uint32_t dropped;
   CO_ERR error;
@@ -65,7 +65,8 @@ void sort_out(const Texts& heard, Life& life) {
   }
 }
 
-// Each frame that is offered to the controller counts, also when it is offered again.
+// Runs the node through its life while the controller refuses offers from number \a position on. A frame that is
+// offered again counts as another offer.
 Life live(Fault fault, std::uint32_t position, std::uint32_t times) {
   World world;
   Line& line = world.add_line("busy");
@@ -86,7 +87,7 @@ Life live(Fault fault, std::uint32_t position, std::uint32_t times) {
   CHECK(client.upload(0x2003, 0).code == 0x06020000);
   line.say("000#0205");
   world.pass(100ms);
-  const std::uint32_t dropped = device.counters().Dropped;  // a reset may throw away an old heartbeat
+  const std::uint32_t dropped = device.counters().Dropped;  // read before the reset, which may discard an old heartbeat
   line.say("000#8105");
   world.pass(100ms);
   CHECK(client.upload(0x2002, 0).is_done());
@@ -111,7 +112,7 @@ void check_all_positions(Fault fault, CO_ERR error) {
   }
 }
 
-// A request and its answer, told apart by the sub-index: 2000h has none of these.
+// Build a request and the answer to it. The sub-index, which 2000h does not have, is the number of the pair.
 std::string numbered(const char* head, unsigned number, const char* tail) {
   return std::string(head) + std::to_string(10 + number) + tail;
 }
@@ -208,7 +209,7 @@ TEST_CASE("busy controller: of the heartbeats that wait only the newest state go
   world.pass(2ms);
   CHECK(line.take_texts() == Texts{"705#05"});
   world.pass(3ms);
-  CHECK(line.take_texts() == Texts{"705#05"});  // the next one in its old phase, at 260 ms
+  CHECK(line.take_texts() == Texts{"705#05"});  // the next heartbeat has the original phase: 260 ms
 }
 
 TEST_CASE("busy controller: an answer that still waits when the node is stopped is withdrawn [N3] [N8]") {

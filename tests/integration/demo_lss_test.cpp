@@ -42,7 +42,7 @@ struct Desk {
   Desk(const Desk&) = delete;
   Desk& operator=(const Desk&) = delete;
 
-  /// The exit code of the program.
+  /// Runs the program and returns its exit code.
   int run(LssAction action, const char* value = "", const std::vector<std::string>& address = {}, bool store = false) {
     LssArguments arguments;
     arguments.action = action;
@@ -59,7 +59,7 @@ struct Desk {
     }
     return code;
   }
-  /// By the master.
+  /// Returns the last LSS frame of the master.
   std::string last_request() const {
     const auto is_request = [](const std::string& frame) { return frame.compare(0, 3, "7E5") == 0; };
     const auto last = std::find_if(frames.rbegin(), frames.rend(), is_request);
@@ -86,13 +86,13 @@ class OddSlave {
     };
   }
 
-  bool answers_every_scan = false;    ///< 4Fh to each request of a fastscan
-  bool scanned_always = false;        ///< a fastscan finds it in configuration, too
-  bool ignores_selection = false;     ///< switch state selective is not answered
-  bool always_configures = false;     ///< 11h is answered in the state waiting, too
-  std::uint32_t inquired_serial = 0;  ///< 5Dh answers another number than 1018h:4; 0: the same
-  unsigned node_ids = 0;              ///< 11h received in configuration
-  std::uint8_t node_id = 255;         ///< the last
+  bool answers_every_scan = false;    ///< answers each request of a fastscan with 4Fh
+  bool scanned_always = false;        ///< answers a fastscan in the state configuration, too
+  bool ignores_selection = false;     ///< does not answer switch state selective
+  bool always_configures = false;     ///< answers 11h in the state waiting, too
+  std::uint32_t inquired_serial = 0;  ///< number in the answer to 5Dh; 0: that of 1018h:4
+  unsigned node_ids = 0;              ///< number of 11h requests in the state configuration
+  std::uint8_t node_id = 255;         ///< the last one received; 255: none
 
  private:
   bool process() {

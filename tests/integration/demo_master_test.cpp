@@ -2,7 +2,7 @@
 // Tests lexican-demo-master with the demo clock at the other end of a virtual bus.
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // the demo's master needs it
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Desk {
     host.bus.set_trace([this](const VirtualBus::Traffic& traffic) { frames.push_back(test::notation(traffic.frame)); });
   }
 
-  /// The exit code of the program.
+  /// Runs the program and returns its exit code.
   int run(const Arguments& arguments) {
     out.str("");
     err.str("");
@@ -53,7 +53,7 @@ struct Desk {
   Progress::Form form = Progress::Form::none;
   std::ostringstream out;
   std::ostringstream err;
-  std::vector<std::string> frames;  // of the last run, on the bus
+  std::vector<std::string> frames;  // frames on the bus in the last run
   demo::Clock clock{5, host.device_can(), host.device_timer(), {}};
 };
 
@@ -73,7 +73,7 @@ Arguments to_write(const char* index, const char* sub, const char* type, const c
   return arguments;
 }
 
-/// A file that does not outlive the test case.
+/// A file that is removed at the end of the test case.
 class File {
  public:
   ~File() { std::remove(name.c_str()); }
@@ -111,7 +111,7 @@ TEST_CASE("demo master: name and versions of the device are shown as text, other
   Desk desk;
   CHECK(desk.run(to_read("1008", "0", "")) == 0);
   CHECK(desk.out.str() == "Lexican demo clock\n");
-  CHECK(desk.run(to_read("1009", "0", "")) == 0);  // four bytes, but no number
+  CHECK(desk.run(to_read("1009", "0", "")) == 0);  // four bytes that are not a number
   CHECK(desk.out.str() == "host\n");
   CHECK(desk.run(to_read("1008", "0", "bytes")) == 0);
   CHECK(desk.out.str() == "4C 65 78 69 63 61 6E 20 64 65 6D 6F 20 63 6C 6F 63 6B\n");
@@ -291,7 +291,7 @@ TEST_CASE("demo master: the abort of a cancelled transfer still finds its way to
   Desk desk;
   Arguments arguments = to_read("0x1000", "0", "u32");
   arguments.node = "6";
-  desk.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, 20});  // boot-up, request and abort wait
+  desk.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, 20});  // boot-up, request and abort are queued
   desk.host.interrupted_at = desk.host.now() + 2 * demo::millisecond;
   CHECK(desk.run(arguments) == 130);
   CHECK(desk.frames == std::vector<std::string>{"77F#00", "606#4000100000000000", "606#8000100021000008"});
@@ -304,12 +304,12 @@ TEST_CASE("demo master: the progress goes to standard error, in lines or as a ba
   arguments.file = file.name;
   desk.form = Progress::Form::lines;
   CHECK(desk.run(arguments) == 0);
-#if USE_SDO_BLOCK  // it counts whole sub-blocks
+#if USE_SDO_BLOCK  // progress counts whole sub-blocks
   CHECK(desk.err.str().find("]  25 %  18669 of 73728 bytes\n") != std::string::npos);
 #endif
   CHECK(desk.err.str().find("] 100 %  73728 of 73728 bytes\n") != std::string::npos);
   desk.form = Progress::Form::bar;
-  desk.host.others = [&] {  // each sub-block takes its time
+  desk.host.others = [&] {  // each sub-block takes 10 ms
     desk.clock.node().process();
     desk.host.pass(10 * demo::millisecond);
     return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file demo_simulation.hpp
-/// A virtual bus and a virtual time for the demo's device and master.
+/// Host of the demo's device and master: a virtual bus and a virtual clock.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class SimulatedHost : public demo::Host {
   demo::Timer master_timer() override { return {&co::VirtualTimerDriver, &master_timer_}; }
   std::string bus_fault() override { return fault; }
   bool bus_lost() override { return lost; }
-  demo::Micros now() override { return clock_.elapsed(); }  // the clock of the nodes ticks in microseconds
+  demo::Micros now() override { return clock_.elapsed(); }  // a tick of the nodes' clock is a microsecond
   void wait(demo::Micros time) override {
     if (!others || !others()) {
       pass(time);
@@ -33,11 +33,11 @@ class SimulatedHost : public demo::Host {
   demo::Micros interrupted_at = UINT64_MAX;
   std::string fault;
   bool lost = false;
-  /// Called while the program waits; returns false if it has done nothing. May be empty.
+  /// Function that is called while the program waits; returns false if it had nothing to do. May be empty.
   std::function<bool()> others;
 
  private:
-  co::VirtualClock clock_{0xFFFFFF00};  // wraps soon
+  co::VirtualClock clock_{0xFFFFFF00};  // wraps after 256 us
   co::VirtualTimer device_timer_{clock_};
   co::VirtualTimer master_timer_{clock_};
   co::VirtualBus::Port& device_ = bus.attach({"node"});

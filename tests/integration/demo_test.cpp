@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The demo clock and its master, on a virtual bus and with a virtual clock.
+// Tests the demo clock and its master on a virtual bus, with a virtual clock.
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // the demo's master needs it
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -39,11 +39,11 @@ constexpr std::uint8_t node_id = 5;
 constexpr unsigned storage_steps = USE_PARA != 0 ? 2 : 0;
 constexpr unsigned tour_steps = 19 + storage_steps;
 
-constexpr std::uint32_t every_frame = 3;  // is lost once; all of them would take long
+constexpr std::uint32_t every_frame = 3;  // stride of the lost frames; losing each in turn would take too long
 
 std::string number_of_steps() { return std::to_string(tour_steps); }
 
-/// Memory that outlives the programs that use it, as a file does.
+/// Simulated non-volatile memory that outlives the programs that use it.
 struct Remembered {
   Remembered() {
     CONvmRamClear(&ram);
@@ -181,7 +181,7 @@ TEST_CASE("demo: after a loss of power name and time zone are as they were saved
   bench.start();
   const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
   REQUIRE(bench.sdo.download(0x2201, 0, name).done());
-  REQUIRE(bench.sdo.download(0x2101, 0, {0x88, 0xFF}).done());  // -120 min
+  REQUIRE(bench.sdo.download(0x2101, 0, {0x88, 0xFF}).done());  // -120 minutes
   REQUIRE(bench.sdo.download(0x1010, 1, {'s', 'a', 'v', 'e'}).done());
   REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
   REQUIRE(bench.sdo.download(0x1017, 0, {0xFA, 0x00}).done());
@@ -372,7 +372,7 @@ TEST_CASE("demo: a picture that comes back with other bytes is noticed") {
 TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
   Bench bench;
   demo::take_tour(bench.clock, bench.master, bench.view);
-#if USE_SDO_BLOCK  // it counts whole sub-blocks
+#if USE_SDO_BLOCK  // progress counts whole sub-blocks
   CHECK(bench.shows("]  25 %  18669 of 73728 bytes"));
 #endif
   CHECK(bench.shows("] 100 %  73728 of 73728 bytes"));
@@ -535,7 +535,7 @@ std::vector<std::string> lines_of(const std::ostringstream& out) {
   return shown;
 }
 
-/// The lines of a trace with an upload whose middle has so many frames.
+/// Returns the lines of a trace of an upload with \a segments frames in its middle.
 std::vector<std::string> shown_of(unsigned segments, demo::View::Style style = {}) {
   std::ostringstream out;
   demo::View view(out, demo::clock_object_names(), style);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tour of the demo's master with a clock that is not in its program.
+// Tests the tour of the demo's master with a clock that another program runs.
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // the demo's master needs it
 #include <doctest/doctest.h>
 
 #include <array>
@@ -25,7 +25,8 @@ struct Elsewhere {
     host.others = [this] { return is_there && live(); };
   }
   int take_tour() { return demo::take_tour_with(5, host, {}, out); }
-  /// The clock has its own time: it does not sleep as long as the master does.
+  /// Runs the clock for one step: it is called whenever the master waits, and advances the time when it has nothing to
+  /// do.
   bool live() {
     if (!clock.node().process()) {
       host.pass(demo::millisecond);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO transfers on a bus that loses, doubles, delays and swaps frames: one fault at every position of every transfer.
+// Tests SDO transfers on a bus that loses, duplicates, delays and swaps frames: one fault at every position of every
+// transfer.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Disturbance {
   const char* name;
   Fault fault;
   std::chrono::milliseconds delay;
-  std::chrono::milliseconds client_time_out;  // the server's is 2000 ms
+  std::chrono::milliseconds client_time_out;  // the server's time-out is 2000 ms
 };
 
 constexpr Disturbance disturbances[] = {
@@ -44,7 +45,7 @@ constexpr Disturbance disturbances[] = {
 
 enum class Direction { upload, download };
 
-// Neither constant nor periodic in 7, and different for each seed.
+// Returns data without a period of 7, different for each seed.
 Bytes pattern(std::uint32_t size, std::uint32_t seed) {
   Bytes bytes(size);
   std::uint32_t state = seed * 2654435761u + 1;
@@ -59,7 +60,7 @@ class Bench {
  public:
   explicit Bench(std::uint32_t size) : size_(size) { line_.stop_recording(); }
 
-  // Returns the frames of an undisturbed transfer.
+  // Returns the number of frames of an undisturbed transfer.
   std::uint32_t measure(Direction direction) {
     const std::size_t rule = line_.bus.add_rule({Fault::none, {}, 1, VirtualBus::always});
     CHECK(transfer(direction, 0).is_done());
@@ -75,7 +76,7 @@ class Bench {
     REQUIRE(line_.bus.struck(rule) == 1);
     line_.bus.clear_rules();
     if (disturbance.fault == Fault::drop) {
-      REQUIRE_FALSE(result.is_done());  // no frame of a transfer is dispensable
+      REQUIRE_FALSE(result.is_done());  // each frame of the transfer is needed
     }
     check_next_transfers(disturbance, position);
   }
@@ -95,10 +96,10 @@ class Bench {
     return result;
   }
 
-  // At once, and again when everything that was late has arrived.
+  // Transfers again at once, and after every delayed frame has arrived.
   void check_next_transfers(const Disturbance& disturbance, std::uint32_t seed) {
     if (disturbance.fault == Fault::reorder) {
-      client_.ask({0x40, 0x00, 0x20});  // what still waits for a frame to be swapped with comes now
+      client_.ask({0x40, 0x00, 0x20});  // releases a frame that is still held to be swapped
     }
     check_transfer(static_cast<std::uint8_t>(seed));
     if (disturbance.fault == Fault::delay) {
@@ -121,7 +122,7 @@ class Bench {
   RawSdoClient client_{world_, line_, 5};
 };
 
-// Long transfers suffer one of the disturbances at each position, the others all of them.
+// Applies one of the disturbances (\a in_turn, for long transfers) or all of them at \a position.
 void disturb_at(Bench& bench, Direction direction, std::uint32_t position, bool in_turn) {
   for (std::size_t n = 0; n < std::size(disturbances); ++n) {
     if (!in_turn || position % std::size(disturbances) == n) {
@@ -166,7 +167,7 @@ TEST_CASE("lossy bus: the server aborts a transfer whose client is gone, once [D
     line.take();
     world.pass(10s);
     CHECK(line.take_texts() == test::Texts{"585#8010200000000405"});
-    line.say("605#6000000000000000");  // idle again: the abort names what the frame names
+    line.say("605#6000000000000000");  // no transfer is open: the abort has the multiplexer of the frame
     world.settle();
     CHECK(line.take_texts() == test::Texts{"585#8000000001000405"});
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LSS master and slaves on one bus: 127 nodes without node-ID get theirs. [305]
+// Tests an LSS master and slaves on one bus: 127 nodes without node-ID are assigned theirs. [305]
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ using Address = std::array<std::uint32_t, 4>;
 
 constexpr std::uint8_t no_node_id = 255;
 constexpr std::uint8_t master_id =
-    127;  // the last of 127 slaves gets the same: the master has nothing that it disturbs
+    127;  // also assigned to the last of 127 slaves: the master sends no frames that would collide with its frames
 
-/// A dictionary with an LSS address, and little else.
+/// Returns a dictionary with little more than an LSS address.
 std::vector<CO_OBJ> dictionary(const Address& address) {
   std::vector<CO_OBJ> table = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0},
                                {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0},
@@ -39,8 +39,8 @@ std::vector<CO_OBJ> dictionary(const Address& address) {
   return table;
 }
 
-/// The application of the master: as long as there are slaves without node-ID, finds one, gives it the next node-ID,
-/// and sends it to work. After losses it looks again.
+/// Application of the LSS master: finds a slave without node-ID, assigns the next node-ID to it and switches it to the
+/// state waiting, until no slave is left. Scans again after lost frames.
 class Commissioning {
  public:
   /// Ends after \a enough consecutive scans without a result, or after 200 scans. \a known: parts of \a address that
@@ -88,7 +88,7 @@ class Commissioning {
   std::uint8_t known_;
   Address address_;
   unsigned none_ = 0;   // consecutive scans without a result
-  unsigned scans_ = 0;  // that are over
+  unsigned scans_ = 0;  // completed scans
 };
 
 /// A bus with a master and slaves without node-ID.
@@ -113,7 +113,7 @@ class Network {
     REQUIRE(COLssmSetTimes(&master->node.Lssm, 5, 2) == CO_ERR_NONE);
   }
 
-  /// At most for some time.
+  /// Runs the network until the commissioning is done, at most for \a time.
   void run(Commissioning& commissioning, std::chrono::milliseconds time) {
     commissioning.start(master->node.Lssm);
     master->wake();
@@ -127,7 +127,7 @@ class Network {
   Line& line = world.add_line("bus");
   Device* master = nullptr;
   std::vector<Device*> slaves;
-  std::vector<std::uint32_t> boot_ups;  // node-IDs
+  std::vector<std::uint32_t> boot_ups;  // node-IDs whose boot-up messages were sent
 
  private:
   /// Like World::settle(), but all nodes run before frames are transferred: with many nodes this is much faster.
@@ -240,7 +240,7 @@ TEST_CASE("LSS network: when frames are lost, nothing hangs, and what is left is
     CHECK(commissioning.done);
     CHECK(network.line.bus.struck(lost) > 0);
     network.line.bus.clear_rules();
-    network.line.say("7E5#0400000000000000");  // what was selected unnoticed
+    network.line.say("7E5#0400000000000000");  // slaves whose selection the master did not notice
     network.world.settle();
     network.run(commissioning, 60s);
     CHECK(commissioning.done);

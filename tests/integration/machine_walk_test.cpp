@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machines of NMT and SDO, walked from outside: every event in every state, against models that know the tables of
-// the standard and nothing of the stack. What state the node is in afterwards, it must tell by what it does.
+// Tests the state machines of NMT and SDO by their frames: every event in every state, compared with models that are
+// written from the tables of the standard alone. The state reached is inferred from the node's reactions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -99,8 +99,8 @@ void walk_nmt(Bench& bench, State before, const CO_IF_FRM& command) {
 
 // SDO server with one object, 2010h:00, a domain of 14 bytes. [301:7.2.4.3]
 
-// Bytes 1…7 of a request: the multiplexer and a size of 14, or seven bytes of data. Blocks of an upload have one
-// segment, each is acknowledged; the CRC at the end of a download is that of two segments.
+// Builds a request. Bytes 1…7 are the multiplexer and a size of 14, or seven bytes of data. The sub-blocks of an upload
+// have one segment, and each is acknowledged; the CRC at the end of a download is that of two such segments.
 SdoBytes request(std::uint8_t command) {
   SdoBytes bytes = {command, 0x10, 0x20, 0x00, 0x0E, 0x00, 0x00, 0x00};
   if (command == 0xA0 || command == 0xA4) {
@@ -122,7 +122,7 @@ CO_IF_FRM frame_of(std::uint32_t identifier, const SdoBytes& bytes) {
   return frame;
 }
 
-// The server of the device beside the model.
+// A device's SDO server and its model, which receive the same requests.
 struct Pair {
   Texts answers_of_model(const SdoBytes& bytes) {
     Texts texts;
@@ -142,7 +142,7 @@ struct Pair {
       step(command);
     }
   }
-  // Waits for some eighths of the time-out without frames.
+  // Lets \a slices eighths of the SDO time-out pass without frames.
   void be_silent(std::size_t slices) {
     for (; slices > 0; --slices) {
       const std::optional<SdoBytes> said = model.slice();
@@ -150,7 +150,7 @@ struct Pair {
       REQUIRE(bench.line.take_texts() == (said ? Texts{test::notation(frame_of(0x585, *said))} : Texts{}));
     }
   }
-  // Checks that no transfer is open: then an unexpected segment is aborted with the multiplexer of its bytes.
+  // Checks that no transfer is open: an unexpected segment is then aborted with the multiplexer of its bytes.
   void check_idle() {
     REQUIRE(bench.ask("605#60AABBCC00000000") == Texts{"585#80AABBCC01000405"});
     REQUIRE(bench.ask("605#00AABBCC00000000") == Texts{"585#80AABBCC01000405"});
@@ -161,39 +161,39 @@ struct Pair {
                        USE_SDO_BLOCK != 0 ? CO_SDO_BUF_SEG : 0};
 };
 
-// Ways into each state of the server.
+// Request sequences that lead into each state of the server.
 const std::vector<Bytes> ways = {
     {},                        // idle
     {0x21},                    // download, size indicated: toggle 0
     {0x21, 0x00},              //   toggle 1
-    {0x21, 0x00, 0x11},        //   ended
+    {0x21, 0x00, 0x11},        //   complete
     {0x20},                    // download, no size: toggle 0
     {0x20, 0x00},              //   toggle 1
-    {0x20, 0x00, 0x10},        //   full, toggle 0
+    {0x20, 0x00, 0x10},        //   14 bytes received, toggle 0
     {0x40},                    // upload: toggle 0
     {0x40, 0x60},              //   toggle 1
-    {0x40, 0x60, 0x70},        //   ended
+    {0x40, 0x60, 0x70},        //   complete
     {0x40, 0x70},              // aborted
     {0xC6},                    // block download, size and CRC: segment 1
     {0xC6, 0x01},              //   segment 2
     {0xC6, 0x02},              //   segment 1, a gap
     {0xC6, 0x01, 0x83},        //   segment 1 of a block after the first
-    {0xC6, 0x01, 0x02, 0x03},  //   too many bytes
-    {0xC6, 0x01, 0x82},        //   wait end
-    {0xC6, 0x01, 0x82, 0x82},  //   the same
-    {0xC6, 0x01, 0x82, 0xC1},  //   ended
-    {0xC0},                    // block download, neither: segment 1
-    {0xC0, 0x81},              //   wait end
-    {0xC0, 0x01, 0x02},        //   full, segment 3
-    {0xC0, 0x01, 0x02, 0x83},  //   wait end
-    {0xA4},                    // block upload: wait start
-    {0xA4, 0xA3},              //   wait acknowledge
-    {0xA4, 0xA3, 0xA2},        //   of the last block
-    {0xA4, 0xA3, 0xA2, 0xA2},  //   wait end
-    {0xA0, 0xA3, 0xA2, 0xA2},  //   without CRC
+    {0xC6, 0x01, 0x02, 0x03},  //   more bytes than indicated
+    {0xC6, 0x01, 0x82},        //   waiting for the end request
+    {0xC6, 0x01, 0x82, 0x82},  //   the last segment is repeated
+    {0xC6, 0x01, 0x82, 0xC1},  //   complete
+    {0xC0},                    // block download, no size, no CRC: segment 1
+    {0xC0, 0x81},              //   waiting for the end request
+    {0xC0, 0x01, 0x02},        //   14 bytes received: segment 3
+    {0xC0, 0x01, 0x02, 0x83},  //   waiting for the end request
+    {0xA4},                    // block upload: waiting for the start request
+    {0xA4, 0xA3},              //   waiting for an acknowledge
+    {0xA4, 0xA3, 0xA2},        //   waiting for the acknowledge of the last block
+    {0xA4, 0xA3, 0xA2, 0xA2},  //   waiting for the end response
+    {0xA0, 0xA3, 0xA2, 0xA2},  // block upload, no CRC: waiting for the end response
 };
 
-// Requests that go on with what one of the ways has begun.
+// First bytes that are meaningful in at least one state.
 constexpr std::uint8_t usual[] = {0x00, 0x10, 0x01, 0x11, 0x0D, 0x1D, 0x20, 0x21, 0x23, 0x40, 0x60, 0x70, 0x80,
                                   0x02, 0x03, 0x81, 0x82, 0xC0, 0xC6, 0xC1, 0xDD, 0xA0, 0xA4, 0xA3, 0xA2, 0xA1};
 
@@ -209,7 +209,7 @@ class Chance {
   std::mt19937 random_;
 };
 
-// The large walk (tests/run --lane sdo_walk) goes through all bytes where otherwise the usual ones have to do.
+// Returns true in the large walk (tests/run --lane sdo_walk), which tries all first bytes instead of the usual ones.
 bool is_large() { return std::getenv("LEXICAN_SDO_WALK") != nullptr; }
 
 Bytes walked_bytes() {
@@ -290,7 +290,7 @@ TEST_CASE("machine walk: SDO, each first byte in each state has its one reaction
         pair.check_idle();
       }
       REQUIRE(pair.bench.ask("605#2B00200034120000") ==
-              Texts{"585#6000200000000000"});  // a known request ends anything
+              Texts{"585#6000200000000000"});  // a new initiate request ends any transfer
       REQUIRE(pair.bench.device.value == 0x1234);
       pair.check_idle();
     }

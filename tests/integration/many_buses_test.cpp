@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several buses in one process: nothing is shared but the code, and what the application chooses to share.
+// Tests several buses in one process: their nodes share only the code and the data that the application shares.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -69,7 +69,7 @@ const CO_OBJ shared_table[] = {
     CO_OBJ_DICT_ENDMARK,
 };
 
-// Two lines with a node 5 each, booted.
+// Two buses with a booted node 5 on each.
 struct TwoLines {
   explicit TwoLines(DeviceOptions left_options = {5, 100}, DeviceOptions right_options = {5, 100})
       : at_left(world.add_device(left, left_options)), at_right(world.add_device(right, right_options)) {
@@ -141,7 +141,7 @@ TEST_CASE("many buses: the reset of one node leaves its twin, its transfer and i
   lines.world.pass(100ms);
   const auto beats = lines.right.take();
   REQUIRE(beats.size() == 1);
-  CHECK(beats[0].time == 100ms);  // the old phase; the twin's boot-up was at 50 ms
+  CHECK(beats[0].time == 100ms);  // the phase is unchanged; the boot-up of the other bus's node was at 50 ms
   const auto twin = lines.left.take();
   REQUIRE(twin.size() == 1);
   CHECK(twin[0].time == 150ms);
@@ -176,7 +176,7 @@ TEST_CASE("many buses: a shared dictionary serves interleaved transfers, resets 
   right_options.table = shared_table;
   right_options.user = &right_variables;
   TwoLines lines(left_options, right_options);
-  lines.left.say("605#2100200002000000");  // both begin; the left one is reset in the middle
+  lines.left.say("605#2100200002000000");  // both nodes begin a transfer; only the left node is reset during it
   lines.right.say("605#2100200002000000");
   lines.world.settle();
   lines.left.say("000#8105");
@@ -201,7 +201,7 @@ TEST_CASE("many buses: a node with drivers without context runs beside extended 
   Device& neighbour = world.add_device(left, {6, 110});
   Device& twin = world.add_device(right, {5, 130});
   CHECK(left.take_texts() == Texts{"705#00", "706#00"});
-  CHECK_FALSE(old_style.port.filtered());  // these drivers know no filter
+  CHECK_FALSE(old_style.port.filtered());  // classic drivers have no receive filter
   CHECK(neighbour.port.filtered());
   left.say("605#2B00200034120000");
   left.say("606#2B00200078560000");
@@ -242,7 +242,7 @@ TEST_CASE("many buses: transfers of a plain node end by its own time-out, as tho
   world.settle();
   line.take();
   world.pass(1749ms);
-  CHECK(line.take_texts().empty());  // not before 7/8 of the time
+  CHECK(line.take_texts().empty());  // no abort before 7/8 of the time-out
   world.pass(252ms);
   CHECK(line.take_texts() == Texts{"585#8001200000000405", "586#8001200000000405"});
 }
@@ -277,5 +277,5 @@ TEST_CASE("many buses: bus-off of one controller stays its node's own matter") {
   CHECK(CONodeGetErr(&lines.at_right.node) == CO_ERR_NONE);
   lines.at_left.port.recover();
   lines.world.pass(100ms);
-  CHECK(lines.left.take_texts() == Texts{"705#7F", "705#7F"});  // the newest that waited, then on time
+  CHECK(lines.left.take_texts() == Texts{"705#7F", "705#7F"});  // the newest of the queued heartbeats, then one on time
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two and sixteen nodes on one virtual bus, which exchange synchronous and event-driven PDOs in a ring.
+// Tests two and sixteen nodes on one virtual bus that exchange synchronous and event-driven PDOs in a ring.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -20,8 +20,8 @@ using test::DeviceOptions;
 using test::Line;
 using test::World;
 
-// Node n hears node before: RPDO 1 event-driven, RPDO 2 synchronous; and sends TPDO 1 event-driven (flag A), TPDO 2
-// synchronous. Node 1 produces SYNC.
+// A node that receives the PDOs of node \a before: RPDO 1 event-driven, RPDO 2 synchronous. It sends TPDO 1
+// event-driven (flag A) and TPDO 2 synchronous. Node 1 produces SYNC.
 class Member {
  public:
   Member(World& world, Line& line, std::uint8_t id, std::uint8_t before)
@@ -113,7 +113,7 @@ struct Ring {
   Ring(const Ring&) = delete;
   Ring& operator=(const Ring&) = delete;
 
-  // The application of each node: what comes in goes out, one higher, until it is back.
+  // The application of each node: forwards a received value, incremented by one, until it reaches the first node again.
   void update(CO_RPDO* pdo) {
     for (const auto& member : members) {
       CO_NODE& node = member->device->node;
@@ -127,7 +127,7 @@ struct Ring {
     }
   }
 
-  std::vector<std::unique_ptr<Member>> members;  // whose tables outlive the nodes
+  std::vector<std::unique_ptr<Member>> members;  // declared before the nodes, which use the members' tables
   World world;
   Line& line = world.add_line("ring");
   bool pass_on = true;
@@ -148,7 +148,7 @@ void check_event_goes_round(std::uint8_t nodes) {
   }
 }
 
-// A value moves by one node with every second SYNC: it is taken with one, and sent with the next.
+// Checks that a value moves on by one node every two SYNCs: one SYNC applies the RPDO, the next one samples the TPDO.
 void check_synchronous_shift(std::uint8_t nodes) {
   Ring ring(nodes, 0xFFFFFFFF - 100);
   for (unsigned cycle = 0; cycle < 6U * nodes; ++cycle) {

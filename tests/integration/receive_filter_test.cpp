@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes with and without receive filters in their controllers must be told apart by their load only.
+// Tests that nodes with and without receive filters behave alike and differ in their load only.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ DeviceOptions options(bool filter) {
   return options;
 }
 
-// Own identifiers more often than by chance.
+// Returns a random frame; identifiers that the node consumes are more frequent.
 CO_IF_FRM any_frame(std::mt19937& random) {
   constexpr std::uint32_t near[] = {0x000, 0x605, 0x585, 0x705, 0x606, 0x085, 0x205, 0x640, 0x80000605, 0x40000605};
   constexpr std::uint8_t commands[] = {0x00, 0x01, 0x0D, 0x10, 0x1D, 0x21, 0x2B, 0x2F, 0x40, 0x60, 0x70, 0x80, 0xA0, 2};
@@ -123,7 +123,7 @@ TEST_CASE("receive filter: it follows the COB-IDs of a second SDO server that ar
     RawSdoClient first(world, line, 5);
     CHECK(device.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x705});
     CHECK(first.download(0x1201, 1, {0x81, 0x06, 0, 0}).is_done());
-    CHECK(device.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x705});  // half a channel is none [D26]
+    CHECK(device.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x705});  // 1201h:2 is not valid [D26]
     CHECK(first.download(0x1201, 2, {0x91, 0x06, 0, 0}).is_done());
     CHECK(device.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x681, 0x705});
     CHECK(RawSdoClient(world, line, 0x681u, 0x691u).upload(0x2002, 0).data == Bytes{0x44, 0x33, 0x22, 0x11});

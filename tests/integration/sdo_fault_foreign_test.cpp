@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block transfers between one of ours and one that is none, in blocks of any size: one fault at every position. [T11]
+// Tests block transfers between a Lexican node and a peer that is typed from the standard, with blocks of any size:
+// one fault at every position. [T11]
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -32,7 +33,8 @@ constexpr std::uint32_t bytes = 89;  // 13 segments
 constexpr std::uint32_t object = CO_DEV(0x2010, 0);
 constexpr Milliseconds both_time_outs{4000};
 
-// A transfer with the data of \a seed; the code it ends with, 0 only with the right data.
+// A Lexican client and a server that is typed from the standard. transfer() transfers the data of \a seed and returns
+// the abort code; it requires the right data where that is 0.
 class OurClient {
  public:
   explicit OurClient(std::uint8_t blksize) : server_(line, server_id, blksize) { client_.connect(0, server_id); }
@@ -55,7 +57,7 @@ class OurClient {
   World world;
   Line& line = world.add_line("foreign");
 
-  // Until \a is_over, or so long.
+  // Runs both nodes until \a is_over, at most for \a time.
   template <class Condition>
   void pass(Milliseconds time, const Condition& is_over) {
     constexpr Milliseconds step{10};
@@ -115,7 +117,8 @@ std::uint32_t count_frames(Pair& pair, Direction direction) {
   return frames;
 }
 
-// The next transfer is done, now and again when everything late has come and both sides have given up what it opened.
+// Applies a fault to one transfer. Requires that the next transfer succeeds, both at once and after delayed frames have
+// arrived and both sides have timed out.
 template <class Pair>
 void disturb(Pair& pair, Direction direction, const FrameFault& fault, std::uint32_t position) {
   const std::size_t rule = pair.line.bus.add_rule({fault.kind, {}, position, 1, fault.delay});
@@ -123,7 +126,7 @@ void disturb(Pair& pair, Direction direction, const FrameFault& fault, std::uint
   REQUIRE(pair.line.bus.struck(rule) == 1);
   pair.line.bus.clear_rules();
   if (fault.kind == Fault::reorder) {
-    pair.transfer(direction, position + 1000);  // what waits for the next frame of its sender comes into this one
+    pair.transfer(direction, position + 1000);  // disturbed by the frame that was held to be swapped
   }
   REQUIRE(pair.transfer(direction, position + 2000) == 0);
   pair.pass(fault.delay + both_time_outs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three clients of one node and two servers, one of them with two channels, at the same time on a bus that loses,
-// doubles, delays and swaps frames at random, always the same ones. [T11]
+// Tests three SDO clients of one node and two servers, one of them with two channels, that transfer at the same time on
+// a bus that loses, duplicates, delays and swaps frames in a fixed pseudo-random order. [T11]
 #include <doctest/doctest.h>
 
 #include <array>
@@ -46,7 +46,7 @@ class Crowd {
     transfer();
     count_faults();
     line_.bus.clear_rules();
-    world_.pass(longest_delay + Milliseconds{CO_SDO_TIMEOUT + 100});  // nothing late comes into the next round
+    world_.pass(longest_delay + Milliseconds{CO_SDO_TIMEOUT + 100});  // no delayed frame reaches the next round
     REQUIRE(first_.is_at_rest());
     REQUIRE(second_.is_at_rest());
     REQUIRE(clients_.is_at_rest());
@@ -65,7 +65,7 @@ class Crowd {
  private:
   std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(random_() % limit); }
 
-  // One frame in 250 suffers.
+  // Adds faults to one frame in 250.
   void add_faults() {
     constexpr Fault kinds[] = {Fault::drop, Fault::duplicate, Fault::reorder, Fault::delay, Fault::delay};
     for (const Fault kind : kinds) {
@@ -94,7 +94,8 @@ class Crowd {
     }
   }
 
-  // Each of the faults of a transfer costs a time-out at most; more than 20 there never are.
+  // Waits until all transfers are over. Each fault of a transfer costs at most a time-out; a transfer has no more than
+  // 20.
   void wait() {
     for (unsigned n = 0; n < 400 && !is_over(); ++n) {
       world_.pass(50ms);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO transfers between a client and a server of ours: two faults at every pair of positions, and three. [T11]
+// Tests SDO transfers between a Lexican client and server: two faults at every pair of positions, and three. [T11]
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,13 +21,13 @@ using test::FrameFault;
 using test::SdoPair;
 using test::Strikes;
 
-// Pairs of the first \a kinds faults. What the first one does to a transfer decides how many frames there are for the
-// second.
+// Transfers with two faults, each of the first \a kinds. The first fault determines how many positions there are for
+// the second.
 class Pairs {
  public:
   Pairs(std::uint32_t bytes, bool block, std::size_t kinds) : pair_({bytes, block}), kinds_(kinds) {}
 
-  // Every \a stride-th position for the first fault, and for the second one.
+  // Places both faults at every \a stride-th position.
   void run(Direction direction, std::uint32_t stride = 1) {
     const std::uint32_t frames = pair_.count_frames(direction);
     for (std::uint32_t position = 1; position <= frames; position += stride) {
@@ -56,7 +56,7 @@ class Pairs {
   std::size_t kinds_;
 };
 
-// Runs \a rounds triples of faults, in transfers of up to 300 frames.
+// Runs \a rounds transfers with three faults each within their first 300 frames.
 void run_triples(unsigned rounds, std::uint32_t seed) {
   std::mt19937 random(seed);
   const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
@@ -74,7 +74,7 @@ void run_triples(unsigned rounds, std::uint32_t seed) {
 }
 
 constexpr std::size_t all_kinds = std::size(frame_faults);
-constexpr std::size_t first_kinds = 3;  // lost, doubled, swapped
+constexpr std::size_t first_kinds = 3;  // lost, duplicated, swapped
 
 }  // namespace
 

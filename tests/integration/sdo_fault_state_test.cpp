@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One side of a block transfer changes its state in the middle, at every frame: the other side notices, and the next
-// transfer is done. [T11] [T14] [N8]
+// Tests state changes of either side during a block transfer, at every frame: the other side detects them, and the next
+// transfer succeeds. [T11] [T14] [N8]
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -23,7 +23,7 @@ using Micros = std::chrono::microseconds;
 
 constexpr std::uint32_t bit_rate = 1000000;
 constexpr std::uint32_t ticks_per_second = 1000000;
-constexpr Micros frame_time{110};  // a little less than that of 8 bytes
+constexpr Micros frame_time{110};  // a little less than the duration of a frame with 8 bytes
 constexpr Milliseconds client_time_out{1000};
 constexpr Milliseconds enough_to_transfer{100};
 
@@ -34,7 +34,7 @@ struct Blow {
   std::string name;
   std::function<void(SdoPair&)> strike;
   std::function<void(SdoPair&)> heal;
-  bool at_once = false;  ///< it is back at once
+  bool at_once = false;  ///< it can communicate again at once, without heal()
 };
 
 std::string nmt(const char* command, Side side) {
@@ -82,14 +82,14 @@ class Ring {
     pair_.line.bus.pace(bit_rate);
   }
 
-  // Frames of a whole transfer, as time.
+  // Returns the duration of an undisturbed transfer in steps of one frame.
   unsigned steps(Direction direction) {
     const std::uint64_t begin = pair_.world.clock.elapsed();
     REQUIRE(pair_.run(direction, SdoPair::object, client_time_out, enough_to_transfer) == 0);
     return static_cast<unsigned>((pair_.seat().tick - begin) / frame_time.count()) + 1;
   }
 
-  // True: the transfer has suffered. It had not ended before.
+  // Disturbs the client at \a step. Returns true if the transfer was aborted, false if it was complete by then.
   bool strike_client(Direction direction, const Blow& blow, unsigned step) {
     strike(direction, blow, step);
     const std::uint32_t code = pair_.finish(enough_to_transfer);
@@ -102,7 +102,8 @@ class Ring {
     return code != 0;
   }
 
-  // A server that is back at once takes the segments that still come for anything they look like. [D21]
+  // Disturbs the server at \a step. A server that can communicate at once may interpret the remaining segments as any
+  // request. [D21]
   bool strike_server(Direction direction, const Blow& blow, unsigned step) {
     strike(direction, blow, step);
     const std::uint32_t code = pair_.finish(enough_to_transfer + client_time_out + client_time_out / 4);
@@ -119,14 +120,14 @@ class Ring {
     blow.strike(pair_);
   }
 
-  // What is under way still comes.
+  // Lets the node recover, and the frames that are still queued arrive.
   void heal(const Blow& blow) {
     blow.heal(pair_);
     pair_.world.pass(enough_to_transfer);
   }
 
-  // In the middle of a block the server takes an initiate for a segment: it hears of the client's new life when that
-  // gives up, or after its own time-out. [301:7.2.4.3.10]
+  // Starts a transfer that may fail: in the middle of a block the server interprets its initiate request as a segment.
+  // The server detects the client's restart when that transfer is aborted, or after its own time-out. [301:7.2.4.3.10]
   void awake_server() { pair_.run(Direction::upload, SdoPair::value, 100ms, enough_to_transfer + 100ms); }
 
   void check_peace() {
@@ -138,7 +139,7 @@ class Ring {
   SdoPair pair_;
 };
 
-// Every \a stride-th step.
+// Disturbs \a side at every \a stride-th step.
 void strike_all(Ring& ring, Side side, const Blow& blow, unsigned stride) {
   CAPTURE(blow.name);
   for (const Direction direction : both_directions) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO transfers between a client and a server of ours: one fault at every position of every transfer. [T11]
+// Tests SDO transfers between a Lexican client and a Lexican server: one fault at every position of every transfer.
+// [T11]
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ using test::Milliseconds;
 using test::SdoPair;
 using Fault = VirtualBus::Fault;
 
-// A transfer, and which of its frames may be lost without harm.
+// A transfer that knows which of its frames may be lost without an abort.
 class Course {
  public:
   Course(std::uint32_t bytes, bool block)
@@ -32,7 +33,8 @@ class Course {
         blocks_(USE_SDO_BLOCK != 0 && block && bytes >= CO_CSDO_BLOCK),
         pair_({bytes, block}) {}
 
-  // Every stride-th position, and the first and last ones. \a in_turn: one disturbance for each, else all.
+  // Disturbs every \a stride-th position, the first and the last ones. \a in_turn: one kind of fault for each, else
+  // all.
   void run(Direction direction, std::uint32_t stride, bool in_turn) {
     frames_ = pair_.count_frames(direction);
     for (std::uint32_t position = 1; position <= frames_; ++position) {
@@ -76,7 +78,7 @@ class Course {
   SdoPair pair_;
 };
 
-// With a client that is more patient than the server.
+// Disturbs transfers of a client whose time-out is longer than that of the server.
 void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
   SdoPair pair({bytes, block});
   const std::uint32_t frames = pair.count_frames(direction);
@@ -90,7 +92,7 @@ void run_patiently(Direction direction, std::uint32_t bytes, bool block) {
   }
 }
 
-// The next transfer begins in the callback of the one that has suffered.
+// Starts the next transfer in the callback of the disturbed one.
 void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, std::uint32_t position) {
   std::string wrong = "no callback";
   pair.line.bus.add_rule({fault.kind, {}, position, 1, fault.delay});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO transfers between a client and a server of ours whose controllers do not take every frame: no answer is lost, and
-// nothing else that the nodes have to say. [T12] [Q4] [D20]
+// Tests SDO transfers between a Lexican client and a Lexican server whose controllers refuse some frames: no answer and
+// no other frame of the nodes is lost. [T12] [Q4] [D20]
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -32,7 +32,7 @@ constexpr bool has_second_channel = CO_SSDO_N >= 2;
 constexpr std::uint32_t heartbeat_of_client = 0x700 + SdoPair::client_id;
 constexpr std::uint32_t heartbeat_of_server = 0x700 + SdoPair::server_id;
 
-// A pair of which one side's controller gives trouble, and the frames on its bus by identifier.
+// A client and a server, one of which has a failing controller, and the number of frames on the bus by identifier.
 class Bench {
  public:
   Bench(const SdoPairOptions& options, bool client) : pair_(options), side_(client ? pair_.client : pair_.server) {
@@ -43,7 +43,7 @@ class Bench {
     pair_.line.bus.set_trace([this](const VirtualBus::Traffic& traffic) { ++on_bus_[traffic.frame.Identifier]; });
   }
 
-  // Frames that this side offers in an undisturbed transfer and the questions beside it.
+  // Returns the number of frames that this side offers in an undisturbed transfer and in answers to the other requests.
   std::uint32_t count_offers(Direction direction) {
     std::uint32_t offers = 0;
     pair_.line.bus.add_rule({Fault::refuse, [&](const VirtualBus::Traffic& traffic) {
@@ -55,7 +55,7 @@ class Bench {
     return offers;
   }
 
-  // Refuses \a times offers from number \a first on. Each may cost a millisecond.
+  // Refuses \a times offers from number \a first on. Each refusal may delay the frame by a millisecond.
   void refuse(Direction direction, Fault fault, std::uint32_t first, std::uint32_t times) {
     CAPTURE(first);
     CAPTURE(times);
@@ -67,7 +67,7 @@ class Bench {
     REQUIRE(CONodeGetErr(side_.node()) == (fault == Fault::error ? CO_ERR_IF_CAN_SEND : CO_ERR_NONE));
   }
 
-  // Refuses all offers for \a time, from number \a first on.
+  // Refuses all offers for \a time, beginning with number \a first.
   void refuse_for(Direction direction, std::uint32_t first, Milliseconds time) {
     std::uint32_t seen = 0;
     VirtualBus::Time end{0};
@@ -84,7 +84,7 @@ class Bench {
     check_others(time < Milliseconds{heartbeat_ms});
   }
 
-  // Refuses so many of the offers of both sides.
+  // Refuses \a percent of the offers of both sides.
   void refuse_at_random(Direction direction, std::uint32_t percent) {
     const auto match = [&](const VirtualBus::Traffic& traffic) {
       return traffic.sender != &pair_.line.master && random_() % 100 < percent;
@@ -95,7 +95,7 @@ class Bench {
     check_others();
   }
 
-  // Behind frame \a position the bus carries nothing for \a time. Returns the code of the transfer.
+  // Stops the bus for \a time after frame \a position. Returns the abort code of the transfer.
   std::uint32_t hold_bus(Direction direction, std::uint32_t position, Milliseconds time) {
     std::uint32_t seen = 0;
     pair_.line.bus.add_rule({Fault::none, [&](const VirtualBus::Traffic&) {
@@ -113,7 +113,7 @@ class Bench {
     return code;
   }
 
-  // The offer is the last one for \a time: the controller is in bus-off, and hears nothing either.
+  // Sets the controller to bus-off for \a time at this offer: it neither sends nor receives.
   void go_bus_off(Direction direction, std::uint32_t offer, Milliseconds time) {
     const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
     pair_.line.bus.add_rule({Fault::bus_off, match, offer});
@@ -125,7 +125,7 @@ class Bench {
     check_next();
   }
 
-  // Refuses the frames like refuse(), but frames may be lost. Returns the code of the transfer.
+  // Refuses the frames like refuse(), but permits lost frames. Returns the abort code of the transfer.
   std::uint32_t squeeze(Direction direction, std::uint32_t first, std::uint32_t times) {
     const auto match = [this](const VirtualBus::Traffic& traffic) { return is_of_side(traffic); };
     pair_.line.bus.add_rule({Fault::refuse, match, first, times});
@@ -135,8 +135,8 @@ class Bench {
     return code;
   }
 
-  // A server in the middle of a block that has not heard the client's abort takes an initiate for a segment: the client
-  // has to give up that transfer, too.
+  // Starts a transfer that may fail before the one that must succeed: a server in the middle of a block that has not
+  // received the client's abort interprets the first initiate request as a segment.
   void check_next() {
     pair_.run(Direction::upload, SdoPair::value, 1000ms, 1000ms);
     pair_.check_next();
@@ -145,7 +145,7 @@ class Bench {
  private:
   bool is_of_side(const VirtualBus::Traffic& traffic) const { return traffic.sender == &side_.port(); }
 
-  // While the transfer runs, both nodes are asked something else, too.
+  // Starts the transfer, and sends requests to the client's node and to the second SDO channel of the server.
   void begin(Direction direction) {
     on_bus_.clear();
     heartbeats_before_ = heartbeats_due();
@@ -158,7 +158,7 @@ class Bench {
   std::uint32_t run(Direction direction, Milliseconds limit) {
     begin(direction);
     const std::uint32_t code = pair_.finish(limit);
-    pair_.world.pass(limit);  // the other answers
+    pair_.world.pass(limit);  // the answers to the other requests are sent
     return code;
   }
 
@@ -166,7 +166,7 @@ class Bench {
     return static_cast<std::uint64_t>(pair_.world.clock.time() / Milliseconds{heartbeat_ms});
   }
 
-  // No answer is lost, and no heartbeat but those that a newer one replaces while they wait.
+  // Checks that no answer is lost, and of the heartbeats only queued ones that a newer one has replaced.
   void check_others(bool all_heartbeats = false) {
     REQUIRE(on_bus_[answer_of_client] == 1);
     REQUIRE(on_bus_[second_answer_of_server] == (has_second_channel ? 1 : 0));
@@ -187,10 +187,10 @@ class Bench {
   std::mt19937 random_{12};
 };
 
-// An expedited transfer, one of 8 segments, and one of a block of 32.
+// Expedited, segmented with 8 segments, and block with 32 segments.
 constexpr SdoPairOptions transfers[] = {{4, true, heartbeat_ms}, {50, false, heartbeat_ms}, {224, true, heartbeat_ms}};
 
-// Calls \a test with each transfer, either side that has trouble, and the number of its offers.
+// Calls \a test for each transfer, with the failing controller on either side, and the number of its offers.
 template <class Test>
 void with_all_benches(std::uint16_t tx_queue, const Test& test) {
   for (SdoPairOptions options : transfers) {
@@ -278,7 +278,7 @@ TEST_CASE("SDO send failure: a transfer is done or reported when a controller is
   });
 }
 
-// Own answers of client and server, one more, and a heartbeat: three frames of a node can wait at the same time.
+// A node queues at most three frames at the same time: an answer of its client or server, another answer, a heartbeat.
 TEST_CASE("SDO send failure: three places in the transmit queue are enough, nothing is lost [T12] [Q4]") {
   with_all_benches(3, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (std::uint32_t first = 1; first <= offers; ++first) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two, sixteen and 127 nodes on one virtual bus, with one clock.
+// Tests two, sixteen and 127 nodes on one virtual bus, with one clock.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -50,7 +50,8 @@ void check_boot_up(Crowd& crowd) {
   }
 }
 
-// Every server gets another value, in one go; each answers once, and only its own variable changes.
+// Writes a different value to each server without a pause; checks that each answers once and changes its own variable
+// only.
 void check_sdo(Crowd& crowd) {
   for (const Device* device : crowd.devices) {
     CO_IF_FRM write = request(device->node.NodeId, "2B00200000A50000");
@@ -95,7 +96,7 @@ void check_nmt(Crowd& crowd) {
   check_modes(crowd, CO_PREOP);
 }
 
-// The times of a node's heartbeats: after each full period since the boot-up, never early, never late, none missing.
+// Checks the times of each node's heartbeats: exactly one after each full period since the boot-up.
 void check_heartbeats(Crowd& crowd, std::chrono::microseconds time) {
   const auto begin = crowd.world.clock.time();
   crowd.world.pass(time);
@@ -220,7 +221,7 @@ TEST_CASE("several nodes: a node that is stopped or reset does not disturb the t
   CHECK(test::notation(*segment) == "582#0364657669636500");  // "device"
   const auto refused = one.ask({0x60});
   REQUIRE(refused.has_value());
-  CHECK(test::notation(*refused) == "581#8000000001000405");  // the reset has ended this one
+  CHECK(test::notation(*refused) == "581#8000000001000405");  // the reset has ended this transfer
   crowd.line.say("000#0203");
   crowd.world.settle();
   CHECK(one.upload(0x2002, 0).data == std::vector<std::uint8_t>{0x44, 0x33, 0x22, 0x11});

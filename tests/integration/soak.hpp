@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file soak.hpp
-/// What the soak tests share: how long they last, and how long a frame does.
+/// Functions shared by the soak tests: duration of a test, duration of a frame.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -13,7 +13,8 @@
 
 namespace test {
 
-/// A minute, or LEXICAN_SOAK_MINUTES (environment). Counters of 32 bits last for more than three days of a full bus.
+/// Returns the duration of a test: a minute, or LEXICAN_SOAK_MINUTES (environment). The 32-bit counters do not wrap
+/// within three days of a saturated bus.
 inline std::chrono::minutes soak_time() {
   const char* const minutes = std::getenv("LEXICAN_SOAK_MINUTES");
   const long number = minutes == nullptr ? 1 : std::strtol(minutes, nullptr, 10);
@@ -21,7 +22,7 @@ inline std::chrono::minutes soak_time() {
   return std::chrono::minutes(number);
 }
 
-/// At 1 Mbit/s, without stuff bits: SOF to interframe space. [ISO 11898-1]
+/// Returns the duration of a frame at 1 Mbit/s without stuff bits, from SOF to interframe space. [ISO 11898-1]
 inline std::chrono::microseconds time_on_bus(const CO_IF_FRM& frame) {
   const unsigned bytes = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? 0 : std::min<unsigned>(frame.DLC, 8);
   const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;

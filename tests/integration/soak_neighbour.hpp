@@ -16,7 +16,7 @@
 
 namespace test {
 
-/// Frames of one identifier that come at even intervals.
+/// Checks that one frame of an identifier comes in every period, never early.
 struct Periodic {
   using Micros = std::chrono::microseconds;
 
@@ -53,7 +53,7 @@ class Neighbour {
 
   bool sends(const co::VirtualBus::Traffic& traffic) const { return traffic.sender == &device_.port; }
 
-  /// A guard request, an NMT command or a request of the SDO client, when it is time.
+  /// Sends a guard request, an NMT command or an SDO request when one is due.
   void act() {
     const Micros now = world_.clock.time();
     if (now >= next_guarding_) {
@@ -150,9 +150,9 @@ class Neighbour {
     ++neighbour.readings_;
   }
 
-  // [301:7.2.8.3.2.1]
+  // Checks the toggle bit and the state. [301:7.2.8.3.2.1]
   void hear_guarding(const CO_IF_FRM& frame) {
-    if (frame.Data[0] != 0x00) {  // the boot-up
+    if (frame.Data[0] != 0x00) {  // not the boot-up message
       CHECK(frame.Data[0] == (answers_ % 2 == 0 ? 0x7F : 0xFF));
       ++answers_;
     }
@@ -173,7 +173,7 @@ class Neighbour {
 
 #else
 
-/// There is none.
+/// Empty replacement for configurations without the second node.
 class Neighbour {
  public:
   static constexpr bool produces_time = false;

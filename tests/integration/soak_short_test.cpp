@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A minute, or LEXICAN_SOAK_MINUTES (environment), on a bus of 1 Mbit/s that is never idle: foreign, own, malformed and
-// hostile frames, always the same ones.
+// A soak test of one minute, or of LEXICAN_SOAK_MINUTES (environment), on a saturated bus of 1 Mbit/s, with unrelated,
+// own, malformed and hostile frames in a fixed pseudo-random order.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ using Micros = std::chrono::microseconds;
 
 enum class State { pre_operational, operational, stopped };
 
-// The objects of a device that requests name.
+// Returns the objects of a device that the requests name.
 std::vector<SdoObject> objects() {
   using Kind = SdoObject::Kind;
   return {
@@ -76,7 +76,7 @@ class Ledger {
   std::uint32_t unclaimed = 0;
   std::uint32_t malformed = 0;
   std::uint32_t events = 0;
-  std::deque<SdoBytes> answers;  // that are not yet on the bus
+  std::deque<SdoBytes> answers;  // answers not yet on the bus
 
  private:
   void hear_nmt(const CO_IF_FRM& frame) {
@@ -96,7 +96,7 @@ class Ledger {
     }
   }
 
-  // DLC codes 9…15 mean eight bytes. [ISO 11898-1]
+  // Processes an SDO request. DLC codes 9…15 mean eight bytes. [ISO 11898-1]
   void hear_sdo(const CO_IF_FRM& frame) {
     if (frame.Identifier != request_ || frame.DLC < 8) {
       ++malformed;
@@ -109,13 +109,14 @@ class Ledger {
     answers.insert(answers.end(), more.begin(), more.end());
   }
 
-  // A node with a heartbeat is not guarded; no other node uses its identifier. [H5]
+  // Counts a frame with the error control identifier: a node with a heartbeat ignores guard requests, and no other node
+  // may use the identifier. [H5]
   void hear_error_control(const CO_IF_FRM& frame) {
     const bool guards = USE_GUARDING != 0 && frame.Identifier != error_control_;
     ++(guards ? claimed : malformed);
   }
 
-  // [N8]
+  // Aborts transfers without a frame, like the node in Stopped. [N8]
   void stop() {
     state = State::stopped;
     server_.close();
@@ -128,7 +129,7 @@ class Ledger {
   SdoServerModel server_{objects(), USE_SDO_BLOCK != 0 ? CO_SDO_BUF_SEG : 0};
 };
 
-// A device, what it has heard, and what it has said.
+// A device, and the counters of received and sent frames.
 struct Member {
   Member(World& world, Line& line, std::uint8_t node_id, std::uint16_t heartbeat_ms, bool filter)
       : device(world.add_device(line, options(node_id, heartbeat_ms, filter))),
@@ -173,7 +174,7 @@ struct Member {
     CHECK(counters.Dropped == 0);
     CHECK(ledger.answers.empty());
     CHECK(counters.SdoAborts == aborts);
-    CHECK(counters.Sent == 1 + heartbeats + answers);  // with the boot-up
+    CHECK(counters.Sent == 1 + heartbeats + answers);  // 1: the boot-up message
     CHECK(heartbeats == time / period);
     CHECK(earliest == Micros(0));
     CHECK(device.port.lost() == 0);
@@ -194,13 +195,13 @@ class Soak {
   explicit Soak(std::uint32_t seed) : random_(seed) {
     line_.bus.set_trace([this](const VirtualBus::Traffic& traffic) { on_bus(traffic); });
     test::callbacks().can_receive = [this](CO_IF_FRM*) { ++not_claimed_; };
-    open_.ledger.hear(test::frame("706#00"));  // the second node was started later
+    open_.ledger.hear(test::frame("706#00"));  // the first node has received the boot-up message of the second one
   }
   ~Soak() { test::callbacks() = {}; }
   Soak(const Soak&) = delete;
   Soak& operator=(const Soak&) = delete;
 
-  // \a frames_per_wake: frames between two calls of the nodes.
+  // Runs for \a time. \a frames_per_wake: frames between two calls of the nodes.
   void run(Micros time, unsigned frames_per_wake) {
     while (world_.clock.time() < time) {
       for (unsigned n = 0; n < frames_per_wake; ++n) {
@@ -223,7 +224,7 @@ class Soak {
     open_.check(world_.clock.time());
     filtered_.check(world_.clock.time());
     CHECK(not_claimed_ == open_.ledger.unclaimed + filtered_.ledger.unclaimed);
-    const std::uint32_t some = open_.ledger.received / 20;  // of every kind
+    const std::uint32_t some = open_.ledger.received / 20;  // minimum for each kind of frame
     CHECK(open_.ledger.claimed > some);
     CHECK(open_.ledger.malformed > some);
     CHECK(open_.ledger.unclaimed > some);
@@ -252,8 +253,8 @@ class Soak {
     }
   }
 
-  // Checks that a node that leaves Stopped answers a read at once, in any previous state. Within a sub-block of a
-  // download a read looks like a segment: its client has to end that first.
+  // Checks that a node that leaves Stopped answers an upload request at once, whatever its state was before. Within a
+  // sub-block of a download the request would be a segment, so the client ends that transfer first.
   void ask() {
     line_.say("000#8000");
     for (Member* member : {&open_, &filtered_}) {
@@ -297,7 +298,7 @@ class Soak {
       default: break;
     }
     const bool legal_length = frame.DLC == 8 && (frame.Identifier & ~0x0Fu) == 0x600;
-    frame.DLC = legal_length ? 7 : frame.DLC;  // a request of chance could write to 1017h
+    frame.DLC = legal_length ? 7 : frame.DLC;  // prevents a random request from writing 1017h
     return (frame.Identifier == 0) ? nmt() : frame;
   }
 
@@ -306,7 +307,7 @@ class Soak {
     return all[any(3)];
   }
 
-  // Any command byte, objects of the application and some that are not there.
+  // Returns a request with any command byte, for existing and missing objects.
   CO_IF_FRM sdo(std::uint32_t id) {
     constexpr std::uint8_t usual[] = {0x00, 0x10, 0x0D, 0x1D, 0x20, 0x21, 0x23, 0x2B, 0x40, 0x60, 0x70, 0x80, 0x80,
                                       0x01, 0x02, 0x83, 0xC0, 0xC6, 0xC1, 0xD5, 0xA0, 0xA4, 0xA3, 0xA2, 0xA1};
@@ -319,7 +320,8 @@ class Soak {
     return {id, {command, object, 0x20, sub, size, 0, 0, 0}, dlc};
   }
 
-  // Sometimes no command, sometimes an error frame instead; no resets, which would begin a new life.
+  // Returns an NMT command, sometimes an invalid one or an error frame; no reset, which would restart the node's
+  // counters.
   CO_IF_FRM nmt() {
     constexpr std::uint8_t specifiers[] = {1, 1, 128, 128, 2, 0, 3, 127, 131, 255};
     if (any(64) == 0) {
@@ -348,7 +350,7 @@ TEST_CASE("soak: a minute at full bus load, every frame accounted for, heartbeat
   soak.run(test::soak_time(), 1);
   soak.check();
   CHECK(soak.longest_queue() <= 2);
-  CHECK(soak.latest_heartbeat() <= 131us);  // the longest frame: nodes are called between two frames
+  CHECK(soak.latest_heartbeat() <= 131us);  // duration of the longest frame: the nodes run between two frames
 }
 
 TEST_CASE("soak: nodes that are called after 50 frames only keep up, and lose no phase [T16]") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A parameter group holds, whatever happens to the memory, exactly its old or exactly its new values. [T13]
+// Tests that a parameter group has exactly its old or exactly its new values after a power failure at any step. [T13]
 #include <algorithm>
 #include <cstring>
 
@@ -40,7 +40,7 @@ const CO_IF_CAN_DRV_EX no_bus = {
     [](void*) {}, [](void*, std::uint32_t) {}, no_frame, no_place, [](void*) {}, [](void*) {}, nullptr};
 const CO_IF_TIMER_DRV_EX no_timer = {[](void*, std::uint32_t) {}, no_time, nullptr};
 
-// The device, whose memory can be exchanged.
+// Variables of the device; its memory is exchangeable.
 Values ram;
 std::uint8_t error_register;
 CO_PARA group = {0, sizeof(Values), &ram, &defaults, CO_RESET_NODE, nullptr, CO_PARA___E};
@@ -52,11 +52,11 @@ CO_OBJ dictionary[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DA
 CO_NODE_EXT ext;
 CO_NODE node;
 
-// Its memory, whose power can fail.
+// Memory of the device, with power failures.
 struct Device {
   explicit Device(CO_NVM_SHAPE shape) : nvm(shape) {}
 
-  // Power comes back: what the group holds then.
+  // Restores power and starts the node. Returns the values of the group.
   Values boot(std::uint64_t cut_at = 0, Torn torn = Torn::untouched) {
     nvm.power_up();
     nvm.cut_at = cut_at;
@@ -90,14 +90,14 @@ struct Device {
   }
 
   FailingNvm nvm;
-  CO_ERR error = CO_ERR_NONE;  // of the last boot()
+  CO_ERR error = CO_ERR_NONE;  // error of the last boot()
 };
 
-// A command that the power failure interrupts, and what the group may hold afterwards.
+// A command during which the power fails, and the values of the group after it.
 struct Change {
   CO_ERR run(Device& device) const { return values == nullptr ? device.restore() : device.save(*values); }
   [[nodiscard]] const Values& after() const { return values == nullptr ? defaults : *values; }
-  const Values* values;  // null: "load"
+  const Values* values;  // null: "load" (restore defaults)
 };
 
 const Change to_first{&first};
@@ -107,8 +107,8 @@ const Change to_defaults{nullptr};
 
 constexpr Torn all_torn[] = {Torn::untouched, Torn::half, Torn::garbage, Torn::done};
 
-// Runs a change that fails at each step, until it does not fail. Calls then(device, what the group may hold besides
-// the new values).
+// Repeats a change with a power failure at each of its steps, until it is complete. Calls then(device, values found)
+// after each.
 template <class Function>
 std::uint64_t cut_everywhere(const Device& before, const Values& old, const Change& change, Torn torn, Function then) {
   std::uint64_t cuts = 0;
@@ -278,7 +278,7 @@ TEST_CASE("parameters: power off at every byte, and every pair of bytes, while o
       for (const Torn torn : all_torn) {
         cuts += cut_power_on(before, records.last(), torn, [&](const Device& device) {
           if (shape.EraseSize != 0) {
-            return;  // pairs take too long there
+            return;  // pairs of power failures take too long with flash
           }
           cuts += cut_power_on(device, records.last(), torn, [&](Device& again) {
             REQUIRE(again.boot() == records.last());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The demo whose dictionary is written by hand, seen from the bus.
+// Tests the demo with a handwritten dictionary by its frames.
 #include "co_cfg.h"
 
-#if USE_CSDO  // without which no demo is built
+#if USE_CSDO  // the demo is built with it only
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -37,7 +37,7 @@ struct Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// Returns the frames that the thermometer sends meanwhile.
+  /// Returns the frames that the thermometer sends within \a time.
   Frames after(std::chrono::milliseconds time) {
     for (auto passed = 0ms; passed <= time; passed += 1ms) {
       CONodeProcess(&node);

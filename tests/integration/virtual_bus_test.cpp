@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several nodes in one process, on several virtual buses, with drivers that carry a context.
+// Tests several nodes in one process, on several virtual buses, with drivers that have a context argument.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using Texts = std::vector<std::string>;
 
 constexpr std::uint32_t ticks_per_second = 1000;
 
-// A node with everything it needs: its own variables, dictionary, timer and port.
+// A node with its variables, dictionary, timer and port.
 class Device {
  public:
   Device(VirtualBus& bus, VirtualClock& clock, std::uint8_t node_id, std::uint16_t heartbeat_ms = 0)
@@ -85,7 +85,7 @@ class Device {
   CO_OBJ_STR name_{0, reinterpret_cast<const std::uint8_t*>("integration")};
 };
 
-// A bus with a master that hears everything.
+// A bus with a master that receives every frame.
 struct Line {
   explicit Line(VirtualClock& clock) {
     bus.set_time([&clock] { return clock.time(); });
@@ -106,7 +106,7 @@ struct Line {
 
 template <typename... Devices>
 void process(Devices&... devices) {
-  for (int rounds = 0; rounds < 3; ++rounds) {  // answers may concern devices that had their turn
+  for (int rounds = 0; rounds < 3; ++rounds) {  // repeated, as an answer may be for a device that was processed before
     (devices.process(), ...);
   }
 }
@@ -254,7 +254,7 @@ TEST_CASE("nodes on a virtual bus: whatever frame of a transfer was lost, double
       line.heard();
       line.say("605#4000200000000000");
       process(five);
-      const Texts answers = line.heard();  // with a swapped frame behind it
+      const Texts answers = line.heard();  // includes a frame that was held to be swapped
       CHECK(std::count(answers.begin(), answers.end(), "585#4B00200000000000") == 1);
     }
   }
