@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a fuzz target with its inputs and prints, for each kind of frame, the one that has cost the stack most: name,
-// tabulator, instructions, tabulator, the frame and where it was found.
+// Runs a fuzz target with its inputs and prints, for each kind of frame, the most expensive one: name, tabulator,
+// instructions, tabulator, the frame and the input that contains it.
 //
-// Counted are the instructions of CONodeProcess() alone: drivers, callbacks, types and checks are the target's, whose
-// functions tell when they begin and end. A frame during which the target has called the stack again does not count.
+// Only the instructions of CONodeProcess() count: drivers, callbacks, types and checks belong to the target, whose
+// functions are instrumented at entry and exit. A frame during which the target has called the stack again does not
+// count.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -13,7 +14,7 @@
 #include "fuzz/fuzz.hpp"
 #include "program.hpp"
 
-// The inputs, packed.
+// The inputs, packed by pack.py.
 asm(".section .rodata.inputs, \"a\"\n"
     ".balign 4\n"
     ".global inputs_begin, inputs_end\n"
@@ -33,7 +34,7 @@ void __cyg_profile_func_exit(void* function, void* caller);
 
 namespace {
 
-constexpr unsigned name_length = 12;  // of an input, as pack.py cuts it
+constexpr unsigned name_length = 12;  // characters of an input's name that pack.py keeps
 
 constexpr std::uint32_t ticks_per_10_instructions = 256;  // -icount shift=10: 1024 ns each, at 25 MHz
 
@@ -66,7 +67,7 @@ Kind kind_of(std::uint32_t identifier) {
     case 2: return Kind::emcy;
     case 11:
     case 12:
-    case 13: return Kind::sdo;  // 680h…: of another server of the target
+    case 13: return Kind::sdo;  // 680h…: another server of the target
     case 14: return Kind::error_control;
     case 15: return id == CO_LSS_RX_ID || id == CO_LSS_TX_ID ? Kind::lss : Kind::other;
     default: return Kind::pdo;
@@ -87,14 +88,14 @@ unsigned frames = 0;
 char input[name_length + 1] = "";
 
 bool counts = false;
-unsigned depth = 0;  // of the target's functions
+unsigned depth = 0;  // nesting depth of the target's functions
 std::uint32_t begin = 0;
 std::uint32_t ticks = 0;
 unsigned pauses = 0;
 std::uint32_t ticks_of_pause = 0;
 
 inline std::uint32_t clock() {
-  constexpr std::uintptr_t value = board::timer_base + 4;  // counts down
+  constexpr std::uintptr_t value = board::timer_base + 4;  // a down counter
   return board::at(value);
 }
 
@@ -104,7 +105,8 @@ void start_clock() {
   board::at(board::timer_base) = 1;
 }
 
-// Measures the cost of entering and leaving a function of the target, before and after the clock is read.
+// Measures the instructions of entering and leaving a function of the target that are counted before and after the
+// clock is read.
 void calibrate() {
   constexpr unsigned number = 64;
   counts = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inputs that the fuzz targets' corpus need not contain: every NMT command, every identifier, every SDO command in
-// every state of the server, every LSS command, transfers of a large object in all ways, and PDOs that map as much as
-// they can. The input names the sweep.
+// Systematic inputs that the corpus of the fuzz targets may lack: every NMT command, every identifier, every SDO
+// command in every state of the server, every LSS command, transfers of a large object by each protocol, and PDOs with
+// the largest possible mapping. The input is the name of the sweep.
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
@@ -15,9 +15,9 @@
 namespace {
 
 constexpr std::uint8_t node_id = 5;
-constexpr unsigned pdos = 8;                // of each direction
-constexpr unsigned mapped = 8;              // objects of each
-constexpr std::uint32_t large_size = 2000;  // more than two buffers
+constexpr unsigned pdos = 8;                // in each direction
+constexpr unsigned mapped = 8;              // objects in each PDO
+constexpr std::uint32_t large_size = 2000;  // larger than two buffers
 constexpr std::uint32_t identity[] = {0x11111111, 0x22222222, 0x33333333, 0x44444444};
 constexpr CO_MODE modes[] = {CO_PREOP, CO_OPERATIONAL, CO_STOP};
 
@@ -67,7 +67,7 @@ void add(std::uint32_t index, std::uint32_t sub, std::uint32_t flags, const CO_O
 
 constexpr std::uint32_t object_of(unsigned place) { return 0x20000008U | (place + 1U) << 8; }
 
-// An RPDO has objects of all TPDOs: each that it writes sends another one.
+// Adds PDOs. Each RPDO maps an object of every TPDO, so that an RPDO triggers all of them.
 void add_pdos() {
   const std::uint32_t constant = CO_OBJ_D___R_;
   for (unsigned n = 0; n < pdos; ++n) {
@@ -182,7 +182,7 @@ void sweep_identifiers() {
 }
 
 constexpr std::uint32_t sdo = 0x600U + node_id;
-constexpr std::uint8_t low = 0x00;  // of the index of the large object
+constexpr std::uint8_t low = 0x00;  // low byte of the large object's index
 constexpr std::uint8_t high = 0x21;
 constexpr std::uint8_t size_low = large_size & 0xFFU;
 constexpr std::uint8_t size_high = large_size >> 8;
@@ -192,7 +192,7 @@ void ask(std::uint8_t command, std::uint8_t fifth = 0, std::uint8_t sixth = 0) {
   receive(sdo, {command, low, high, 0, fifth, sixth, 0, 0});
 }
 
-// The requests that lead into each state of the server, as far as one object allows; 0: no more.
+// Request sequences that lead into each state of the server, as far as one object permits; 0 ends a sequence.
 constexpr std::uint8_t abort_request = 0x80;
 constexpr std::uint8_t last_segment = 0x81;
 constexpr std::uint8_t states[][4] = {
@@ -217,7 +217,7 @@ void sweep_sdo() {
   }
 }
 
-// Changes from one byte to the next.
+// Sends a segment whose data differ from byte to byte.
 void send_segment(std::uint8_t command, unsigned position) {
   CO_IF_FRM frame = {sdo, {command}, 8};
   for (unsigned n = 1; n < 8; ++n) {
@@ -228,7 +228,8 @@ void send_segment(std::uint8_t command, unsigned position) {
 
 constexpr unsigned segments = (large_size + 6) / 7;
 
-// The end of a download is not the right one: what costs has come before.
+// Transfers the large object by each protocol. The CRC of the block download is wrong, which does not change its cost:
+// the server computes it before it compares it.
 void sweep_transfers() {
   start();
   ask(0xC6, size_low, size_high);
@@ -260,8 +261,8 @@ void ask_lss(std::uint8_t command, std::uint32_t number, std::uint8_t sixth = 0)
   receive(CO_LSS_RX_ID, {command, byte(0), byte(1), byte(2), byte(3), sixth, 0, 0});
 }
 
-// What is asked for with each command: the parts of the address, and a few more. The node starts anew, as some commands
-// change its bit rate or node-ID.
+// Sends each LSS command with each part of the address, and a few other numbers. The node starts again for each
+// command, as some of them change its bit rate or node-ID.
 void sweep_lss() {
   constexpr std::uint8_t switch_global = 0x04;
   constexpr std::uint32_t numbers[] = {0, 1, 0x0300, identity[0], identity[1], identity[2], identity[3]};

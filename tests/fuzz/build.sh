@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What the lanes fuzz and fuzz_corpus share.
+# Functions shared by the lanes fuzz and fuzz_corpus.
 stack_fuzz_targets=(node sdo_client sdo_server)
 tool_fuzz_targets=(eds json xdd)
 fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 
-# Builds "${fuzz_targets[@]}" and what they test alone, in the largest configuration: build_fuzz NAME COMPILER C++-COMPILER SANITIZERS
+# Builds only "${fuzz_targets[@]}" and the code that they test, with the preset full: build_fuzz NAME COMPILER
+# C++-COMPILER SANITIZERS
 build_fuzz() {
   local targets=("${fuzz_targets[@]/%/_fuzz}")
   build_tree "$1" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_COMPILER="$2" -DCMAKE_CXX_COMPILER="$3" -DCMAKE_CXX_FLAGS_DEBUG="-g -O1" \

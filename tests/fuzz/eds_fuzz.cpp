@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an EDS: nothing of them is lost, values that are written as they were read change nothing, and a key
-// that is added is found.
+// Fuzzes the EDS reader with any bytes: the document keeps every byte, rewriting values as they were read changes
+// nothing, and a key that is added is found.
 #include "eds/document.hpp"
 #include "eds/format.hpp"
 #include "eds/read.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fuzz.hpp
-/// What the fuzz targets share: an input that is read like a stream, and the end of the program for a broken promise.
+/// Functions shared by the fuzz targets: reading the input as a stream, and ending the program when a property is
+/// violated.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,9 @@
 
 namespace fuzz {
 
-/// Bytes of chance. Behind the end all are 0, so that everything that depends on them comes to rest.
-/// What is asked for beside the course of things, while an Aside lives, comes from the end: the rest means the same,
-/// however often that happens.
+/// Stream of input bytes; after the end all bytes are 0, so that random decisions come to an end. While an Aside
+/// exists, bytes are read from the end of the input instead: callbacks then do not change the meaning of the bytes that
+/// follow, however often the stack calls them.
 class Input {
  public:
   Input() = default;
@@ -57,7 +58,7 @@ class Aside {
   Input& input_;
 };
 
-/// For who watches a target: the frame that the node is given, and whether nothing else acts on the node meanwhile.
+/// The frame that the target gives to the node, for tests/frame_bound. alone: nothing else acts on the node meanwhile.
 struct Given {
   std::uint32_t identifier = 0;
   std::uint8_t length = 0;
@@ -66,7 +67,7 @@ struct Given {
 };
 inline Given given;
 
-/// CONodeProcess(), as often as a block transfer wants it at once.
+/// Calls CONodeProcess() until a block transfer no longer has a segment due at once.
 inline void process(CO_NODE& node) {
   unsigned calls = 127 * (CO_SSDO_N + CO_CSDO_N);
   do {
@@ -74,7 +75,7 @@ inline void process(CO_NODE& node) {
   } while (node.Paused != 0 && CONodeNextDeadline(&node) == 0 && --calls != 0);
 }
 
-/// Ends the program, which is a finding.
+/// Ends the program, which the fuzzer reports as a finding, unless \a holds.
 inline void require(bool holds, const char* promise) {
   if (!holds) {
     std::fprintf(stderr, "BROKEN: %s\n", promise);

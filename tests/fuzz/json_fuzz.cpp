@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as JSON: the reader comes to an end, all places that it names are in the source, and what is written of a
-// device is read as the same.
+// Fuzzes the JSON reader with any bytes: it returns, all positions that it reports are within the source, and a device
+// that is written is read back unchanged.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,7 +15,7 @@ using namespace lexican::codict;
 
 using fuzz::require;
 
-// Empty if it is refused.
+// Returns the description, which is empty if the reader refuses the input.
 Description description_of(const std::string& bytes) {
   Findings findings;
   const json::Document document(Source("fuzz.json", bytes));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole node in a hostile world: frames, time and calls of chance, a controller that refuses, callbacks and type
-// functions that call the stack again, SDO clients with servers of chance, a table that changes. Whatever happens, the
-// properties of invariants.hpp and those of check() hold, and a reset brings back a node that answers.
+// Fuzzes a whole node: random frames, time and calls, a controller that refuses frames, callbacks and type functions
+// that call the stack, SDO clients with random answers, and an object dictionary that changes. The properties of
+// invariants.hpp and of check() hold after each step, and the node answers after a reset.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -29,34 +29,33 @@ constexpr std::uint8_t first_node_id = 5;
 constexpr std::uint16_t own_timers = 6;
 constexpr std::uint32_t frequency = 1000;                                // ticks per second
 constexpr std::uint32_t patience = 20 + 8 * ((CO_SDO_TIMEOUT + 7) / 8);  // ticks, longer than the time-out
-constexpr unsigned max_depth = 3;                                        // of calls out of calls
+constexpr unsigned max_depth = 3;                                        // nested calls of the stack
 
 enum class TimerDriver { clock, clock_without_alarm, cyclic, delta };
 
 class Bench;
-Bench* bench = nullptr;  // the one that the callbacks belong to
+Bench* bench = nullptr;  // current instance, for the callbacks
 
-// Drivers.
-// -------------------------------------------------------------------------------------------------------------
+// Drivers -------------------------------------------------------------
 
-// A timer of each kind that a port may have. The bench lets the time pass and serves the interrupt.
+// State of the timer under each kind of driver. The bench advances the time and calls the interrupt.
 struct Clock {
   static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
   std::uint64_t now = 0;
-  std::uint64_t alarm = never;   // of a driver with a clock, or the compare match of a delta driver
-  std::uint32_t count_down = 0;  // of a cyclic driver
+  std::uint64_t alarm = never;   // clock driver: the alarm; delta driver: the compare match
+  std::uint32_t count_down = 0;  // cyclic driver
 };
 
 struct Bus {
   std::deque<CO_IF_FRM> to_node;
   bool is_on = false;
-  unsigned refusals = 0;  // Send answers "not now" or "error" so many times
+  unsigned refusals = 0;  // number of calls for which Send returns 0 ("not now") or -1 ("error")
   std::uint64_t sent = 0;
   CO_IF_FRM last{};
 };
 
-// A request of an SDO client; its buffer is gone when the callback has come.
+// A request of an SDO client. Its buffer is released in the callback, as the stack may not use it afterwards.
 struct Request {
   bool is_open = false;
   std::uint32_t key = 0;
@@ -70,7 +69,7 @@ class Bench {
     choose_configuration(input_.byte());
     table_ = fuzz::dictionary(objects_);
     end_of_table_ = table_.size();
-    std::memset(static_cast<void*>(&node_), 0xA5, sizeof node_);  // nothing may rely on memory being zero
+    std::memset(static_cast<void*>(&node_), 0xA5, sizeof node_);  // the stack must not rely on zeroed memory
     init();
   }
   ~Bench() {
@@ -91,7 +90,7 @@ class Bench {
     recover();
   }
 
-  // From callbacks and type functions: perhaps does something with the node.
+  // Called from callbacks and type functions: may execute an action on the node.
   void meddle() {
     const fuzz::Aside aside(input_);
     const std::uint8_t byte = input_.byte();
@@ -116,13 +115,13 @@ class Bench {
 
  private:
   using Action = void (Bench::*)();
-  static constexpr std::uint8_t start_action = 3;  // in act()
+  static constexpr std::uint8_t start_action = 3;  // index of start() in act()
 
   // Set-up ---------------------------------------------------------------
 
   void choose_configuration(std::uint8_t bits) {
     timer_driver_ = static_cast<TimerDriver>(bits & 3U);
-    objects_.cob_id[2] = (bits & 4U) != 0 ? 0x605 : 0x685;  // two servers that listen to the same client
+    objects_.cob_id[2] = (bits & 4U) != 0 ? 0x605 : 0x685;  // with 605h both servers have the same request COB-ID
     ext_.Size = sizeof ext_;
     ext_.TxQueue = (bits & 8U) != 0 ? queue_ : nullptr;
     ext_.TxQueueLen = (bits & 8U) != 0 ? 3 : 0;
@@ -147,7 +146,7 @@ class Bench {
                             timers_,       own_timers, frequency,     &drivers_, sdo_buffer_.get()};
     forget_requests();
     make_index();
-    ++depth_;  // type functions call the stack
+    ++depth_;  // type functions may call the stack
     CONodeInitEx(&node_, &spec, &ext_);
     --depth_;
     for (std::int16_t& id : timer_ids_) {
@@ -170,7 +169,7 @@ class Bench {
 #endif
   }
 
-  // An initialisation forgets everything.
+  // Forgets open requests: an initialisation drops them without a callback.
   void forget_requests() {
     fuzz::source = {};
     for (Request& request : requests_) {
@@ -217,7 +216,7 @@ class Bench {
     return frame;
   }
 
-  // Chance alone would rarely find the objects.
+  // Lets a request name an existing object; random indices would rarely do so.
   static void name_object(CO_IF_FRM& frame) {
     constexpr std::uint16_t indices[] = {0x2000, 0x2100, 0x2200, 0x1008, 0x1017, 0x1200,
                                          0x1201, 0x1202, 0x1280, 0x1281, 0x2100};
@@ -225,7 +224,8 @@ class Bench {
     frame.Data[3] &= 15U;
   }
 
-  // Receives a frame. It may change the objects that it names, and the object of an open download.
+  // Receives a frame and checks which objects change: only those that it names, those of open downloads, and those of
+  // PDOs.
   void receive(const CO_IF_FRM& frame) {
     bus_.to_node.assign(1, frame);
     memory_.remember();
@@ -247,7 +247,7 @@ class Bench {
     constexpr unsigned answers = channels + CO_SDO_BLOCK_PACE + CO_TPDO_N + CO_EMCY_QUEUE_N + 2U;
     require(bus_.sent - sent <= waiting + answers, "a frame has a bounded number of answers");
     for (const std::uint32_t dev : memory_.changed()) {
-      if (dev == CO_DEV(0x1001, 0)) {  // the node itself writes it
+      if (dev == CO_DEV(0x1001, 0)) {  // the stack itself writes it
         continue;
       }
       require(!memory_.is_read_only(dev), "what is read-only does not change");
@@ -269,7 +269,7 @@ class Bench {
     return devs;
   }
 
-  // Transfers of the object have lost it.
+  // Replaces the extension of 2000h; open transfers of its sub-indices may lose their object.
   void change_extension() {
 #if USE_OD
     OD_extension_t* const extension = input_.flag() ? &fuzz::extension : nullptr;
@@ -329,7 +329,7 @@ class Bench {
     CODictWrLong(&node_.Dict, CO_DEV(index, sub), flags | 0x600U | input_.byte());
   }
   void set_heartbeat() { CODictWrWord(&node_.Dict, CO_DEV(0x1017, 0), input_.byte()); }
-  // An identifier that no server can be given.
+  // Sends an application frame with an identifier that no SDO server can have.
   void send() {
     CO_IF_FRM frame{0x101U + input_.below(64), {}, 8};
     COIfCanSend(&node_.If, &frame);
@@ -395,7 +395,7 @@ class Bench {
     require(!was_open || ends_ > before, "the callback comes before COCSdoCancel() returns");
   }
 
-  // The identifiers, or the node-ID of the server, which may be the own one.
+  // Changes a COB-ID of a client, or the node-ID of its server, which may be this node.
   void set_client() {
     const std::uint32_t index = 0x1280 + input_.below(2);
     const std::uint32_t sub = 1 + input_.below(3);
@@ -416,7 +416,7 @@ class Bench {
     bench->meddle();
   }
 
-  // A client of chance would hardly ever fill a buffer.
+  // Sends consecutive segments of a block; random frames would rarely fill a sub-block.
   void send_segments() {
     if (!is_outermost()) {
       return;
@@ -430,7 +430,7 @@ class Bench {
     }
   }
 
-  // Not allowed within type functions.
+  // Removes an entry of the table, or restores the table. Type functions must not do that.
   void change_table() {
     if (!is_outermost()) {
       return;
@@ -454,7 +454,7 @@ class Bench {
   }
   void restore_table() {
     const std::vector<CO_OBJ> all = fuzz::dictionary(objects_);
-    std::copy(all.begin(), all.end(), table_.begin());  // the table stays where it is
+    std::copy(all.begin(), all.end(), table_.begin());  // the address of the table does not change
     end_of_table_ = all.size();
   }
 
@@ -468,7 +468,7 @@ class Bench {
 
   void pass(std::uint32_t ticks) {
     const std::uint64_t end = clock_.now + ticks;
-    const unsigned turns = input_.byte();  // the loop's, among eight interrupts
+    const unsigned turns = input_.byte();  // bit n % 8: the loop runs after interrupt n
     for (unsigned n = 0; clock_.now < end; ++n) {
       to_next_interrupt(end);
       if (is_outermost() && (turns >> n % 8U & 1U) != 0) {
@@ -540,7 +540,7 @@ class Bench {
     return number;
   }
 
-  // The input is used up, so that no callback does anything any more.
+  // Checks that the node recovers. The input is used up, so that callbacks do not act any more.
   void recover() {
     bus_.refusals = 0;
     for (std::uint32_t n = 0; n < std::size(requests_); ++n) {
@@ -566,8 +566,8 @@ class Bench {
 
   void forget_transfers() {
     bus_.to_node.clear();
-    fuzz::process(node_);      // what has waited for the controller is sent
-    COTmrProcess(&node_.Tmr);  // what has elapsed must not wait for the next interrupt
+    fuzz::process(node_);      // sends frames that wait for the controller
+    COTmrProcess(&node_.Tmr);  // processes timers that elapsed before the next interrupt
     const std::uint64_t end = clock_.now + patience;
     while (clock_.now < end) {
       to_next_interrupt(end);
@@ -586,7 +586,7 @@ class Bench {
     require(std::equal(std::begin(answer), std::end(answer), bus_.last.Data), "… and answers right");
   }
 
-  // A frame that had to wait may belong to a state that is no more.
+  // Returns the NMT state to check a frame against: a queued frame may belong to a previous state.
   CO_MODE mode_of(const CO_IF_FRM& frame) const {
     if (node_.TxQueue.Num == 0) {
       return node_.Nmt.Mode;
@@ -602,7 +602,7 @@ class Bench {
                        [&](const CO_SDO& server) { return server.TxId == frame.Identifier; });
   }
 
-  // An answer to node guarding. [301:7.2.8.3.2.1]
+  // Returns the frame without the toggle bit of an answer to node guarding. [301:7.2.8.3.2.1]
   CO_IF_FRM without_toggle(const CO_IF_FRM& frame) const {
     CO_IF_FRM plain = frame;
     if (frame.Identifier == 0x700U + node_.NodeId) {
@@ -611,7 +611,7 @@ class Bench {
     return plain;
   }
 
-  // A segment of a block upload looks like anything.
+  // Returns the rule that a sent frame violates, or "". Segments of a block upload may have any content.
   std::string fault_of(const CO_IF_FRM& frame) {
     network_.look();
     if (network_.is_ours(frame)) {
@@ -656,7 +656,7 @@ class Bench {
   static std::int16_t can_read(CO_IF_FRM* frame) { return bench->give(*frame); }
   static std::int16_t can_send(CO_IF_FRM* frame) {
     const std::int16_t result = bench->take(*frame);
-    std::memset(static_cast<void*>(frame), 0xFF, sizeof *frame);  // it is the driver's
+    std::memset(static_cast<void*>(frame), 0xFF, sizeof *frame);  // the driver may change the frame
     return result;
   }
   static std::int16_t can_take(void*, const CO_IF_FRM* frame) { return bench->take(*frame); }
@@ -713,7 +713,7 @@ class Bench {
   bool has_context_ = false;
   bool locked_ = false;
   bool objects_locked_ = false;
-  bool meddled_ = false;  // since the frame: something else than the frame may have changed the node
+  bool meddled_ = false;  // an action has changed the node since the last frame
   unsigned depth_ = 0;
   Clock clock_;
   Bus bus_;
@@ -726,7 +726,7 @@ class Bench {
 #endif
   test::MemoryWatch memory_;
   Request requests_[2];
-  unsigned ends_ = 0;  // callbacks of SDO clients
+  unsigned ends_ = 0;  // callbacks of SDO clients so far
   Memory sdo_buffer_;
   std::int16_t timer_ids_[8] = {};
   CO_TMR_MEM timers_[own_timers] = {};

@@ -167,14 +167,14 @@ void Network::look() {
   }
 }
 
-// Flag N.
+// Returns the COB-ID of the EMCY producer: the object's value plus the node-ID (flag N).
 std::uint32_t Network::emcy_identifier() const {
   const bool is_extended = (objects_.emcy_id & CO_EMCY_COBID_EXT) != 0;
   const std::uint32_t id = objects_.emcy_id + node_.NodeId;
   return is_extended ? CO_IF_FRM_EXT | (id & CO_EMCY_COBID_MASK) : id & 0x7FFU;
 }
 
-// Is it certain that a TPDO sends now with this identifier, and nothing else?
+// Returns true if only a TPDO can send a frame with this identifier now.
 bool Network::is_tpdo(std::uint32_t identifier) const {
   const bool is_shared = identifier == emcy_identifier() || identifier == node_.Sync.Identifier ||
                          identifier == node_.Time.Identifier || (identifier & 0x780U) == 0x080U ||
@@ -188,7 +188,7 @@ bool Network::is_tpdo(std::uint32_t identifier) const {
   return false;
 }
 
-// Services may be given the same identifier, so that not even the length is certain.
+// Returns the rule that a sent frame violates, or "". Services may share an identifier, so the length is not checked.
 std::string Network::fault_of(const CO_IF_FRM& frame) const {
   if (node_.Nmt.Mode != CO_OPERATIONAL && is_tpdo(frame.Identifier)) {
     return "a PDO outside of Operational";
@@ -251,7 +251,7 @@ void Network::configure_pdo() {
   write(index, entry.sub, entry.size, any_value(entry.size));
 }
 
-// Maps a PDO in the order that the standard requires; some steps may be refused. [301:7.5.2.36]
+// Maps a PDO in the order that the standard requires; the stack may refuse some steps. [301:7.5.2.36]
 void Network::map_pdo() {
   const std::uint8_t which = input_.byte();
   const bool is_tpdo = (which & 4U) != 0;
@@ -320,7 +320,7 @@ void Network::ask_heartbeats() {
   CONmtLastHbState(&node_.Nmt, node_id);
 }
 
-// By the function, or by the entry.
+// Changes a heartbeat consumer by CONmtHbConsActivate() or by its entry of 1016h.
 void Network::activate_heartbeat() {
   const std::uint32_t which = input_.below(2);
   const std::uint16_t time = input_.byte();

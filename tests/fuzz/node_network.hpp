@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file node_network.hpp
-/// PDOs, SYNC, TIME, EMCY, error control and NMT of the node under test: their entries of the dictionary, and what an
-/// application and a master do with them.
+/// PDOs, SYNC, TIME, EMCY, error control and NMT of the node under test: their object dictionary entries, and the
+/// actions of an application and an NMT master.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace fuzz {
 
-inline constexpr unsigned network_pdos = 4;  ///< of each direction
+inline constexpr unsigned network_pdos = 4;  ///< in each direction
 
 struct PdoObjects {
   std::uint32_t cob_id;
@@ -59,7 +59,7 @@ struct NetworkObjects {
 
 void add_network(std::vector<CO_OBJ>& table, NetworkObjects& objects);
 
-/// The errors of the application.
+/// Error table of the application.
 inline constexpr std::uint16_t network_errors = 11;
 CO_EMCY_TBL* errors();
 
@@ -67,20 +67,20 @@ class Network {
  public:
   Network(CO_NODE& node, NetworkObjects& objects, Input& input) : node_(node), objects_(objects), input_(input) {}
 
-  /// Executes an action of the application. \a kind: bits 0…4 count.
+  /// Executes an action of the application, selected by bits 0…4 of \a kind.
   void act(std::uint8_t kind);
 
-  /// Lets an SDO request name one of the entries of these services.
+  /// Changes the multiplexer of an SDO request to one of these services' entries.
   static void name_object(CO_IF_FRM& frame);
-  /// Lengths as the services have them, so that chance need not find them.
+  /// Returns the length that the service with this identifier requires, as random lengths would rarely match.
   std::uint8_t usual_length(std::uint32_t identifier) const;
-  /// Objects that a frame of RPDOs or SYNC may write.
+  /// Returns the objects that a frame of an RPDO or SYNC may write.
   std::vector<std::uint32_t> written_by_pdos() const;
   bool may_be_pdo(const CO_IF_FRM& frame) const;
 
-  /// Remembers what identifiers the services send with: a frame that waits may have an old one.
+  /// Records the identifiers with which the services send now: a queued frame may have an earlier one.
   void look();
-  /// What is wrong with a frame; only of these services: is_ours().
+  /// Returns the rule that a sent frame violates, or "". Only for frames of these services: is_ours().
   std::string fault_of(const CO_IF_FRM& frame) const;
   bool is_ours(const CO_IF_FRM& frame) const { return frame.Identifier == 0 || identifiers_.count(frame.Identifier); }
 

@@ -30,7 +30,7 @@ std::uint32_t size_of_long(CO_OBJ*, CO_NODE*, std::uint32_t width) {
   mood();
   return width != 0 && width < long_value ? width : long_value;
 }
-// Another size each time: 1…20.
+// Returns a different random size at each call: 1…20.
 std::uint32_t size_of_chance(CO_OBJ*, CO_NODE*, std::uint32_t) {
   meddle();
   return 1 + chance(long_value);
@@ -108,7 +108,7 @@ ODR_t extension_answer(OD_stream_t* stream, OD_size_t count, OD_size_t* passed, 
   }
   return is_last ? ODR_OK : ODR_PARTIAL;
 }
-// At least count bytes are there to be filled, or taken.
+// Reads from the extension. The buffer has at least \a count bytes, or the address sanitizer reports an error.
 ODR_t read_extended(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
   meddle();
   require(count != 0, "an extension is asked for a byte, at least");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file node_objects.hpp
-/// The dictionary of the node under test: an object of each kind, and types of an application that refuses, answers any
-/// length, and calls the stack from within.
+/// The dictionary of the node under test: an object of each kind, and application types that refuse access, return any
+/// length, and call the stack.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@
 
 namespace fuzz {
 
-/// \name What the application does within its type functions is the target's to say
+///
+/// ame Actions of the application within its type functions, defined by the fuzz target
 /// \{
-void meddle();                              ///< perhaps calls the stack
-CO_ERR mood();                              ///< the same, and perhaps refuses
-std::uint32_t chance(std::uint32_t limit);  ///< a number below \a limit
+void meddle();                              ///< may call the stack
+CO_ERR mood();                              ///< may call the stack, and returns an error in some calls
+std::uint32_t chance(std::uint32_t limit);  ///< returns a random number below \a limit
 /// \}
 
-inline constexpr std::uint32_t large_domain = 2000;  ///< bytes, more than the buffer of a server
+inline constexpr std::uint32_t large_domain = 2000;  ///< bytes; larger than the buffer of an SDO server
 
-/// Memory that ends where its object ends, so that the address sanitizer sees the first byte beyond.
+/// Memory block of exactly the object's size: the address sanitizer detects an access to the byte behind it.
 using Memory = std::unique_ptr<std::uint8_t[]>;
 
 struct Objects {
@@ -40,7 +41,7 @@ struct Objects {
   std::uint64_t u40 = 5;
   std::uint64_t u56 = 6;
   std::uint64_t u64 = 7;
-  std::uint64_t direct = 7;  // of an entry that has its value in itself where a pointer has 64 bits
+  std::uint64_t direct = 7;  // value of an entry that holds it directly where pointers have 64 bits
   std::int32_t s24 = -1;
   float real32 = 1.0F;
   double real64 = 1.0;
@@ -67,18 +68,18 @@ struct Objects {
   CO_OBJ_STR name{0, reinterpret_cast<const std::uint8_t*>("hello device")};
 };
 
-/// A stream that sees the whole transfer, and does not know its length before its end was read.
+/// A stream type with Begin and End; its length is unknown until its end has been read.
 struct Source {
   static constexpr std::uint32_t bytes = 50;
   std::uint32_t position = 0;
   bool is_read = false;
-  unsigned open = 0;       ///< transfers
-  bool has_moved = false;  ///< in the table: a transfer may have lost it, and End is not called then
+  unsigned open = 0;       ///< number of open transfers
+  bool has_moved = false;  ///< the entry has moved: an open transfer may have lost it, without a call of End
 };
 extern Source source;
 
 #if USE_OD
-/// Extension of 2000h:14, a stream, and 2000h:15, a text: it keeps or breaks the contract at random.
+/// Extension of the stream 2000h:14 and the text 2000h:15: it obeys or violates the contract of extensions at random.
 extern OD_extension_t extension;
 #endif
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a fuzz target once for each file of the directories, or each file, of the command line.
+// Runs a fuzz target once for each file that the command line names, and for each file in the directories that it
+// names.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -29,7 +30,7 @@ bool run(const std::filesystem::path& path) {
   }
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::printf("%s\n", path.c_str());
-  std::fflush(stdout);  // the last line names the input that ended the program
+  std::fflush(stdout);  // the last line names the input during which the program ended
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   return true;
 }

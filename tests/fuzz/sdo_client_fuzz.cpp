@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO clients, their servers, and a bus of chance between them: frames are lost, doubled, reordered, changed and made
-// up, the controller refuses, requests are cancelled, the NMT state and the COB-IDs change. Beside each client runs a
-// model: every frame and every callback must be the same. Whatever is only lost, doubled or reordered never ends in
-// wrong data that are taken for right. [301:7.2.4.3] [C1] [T11]
+// Fuzzes SDO clients on an unreliable bus: frames are lost, duplicated, reordered, changed and invented, the controller
+// refuses frames, requests are cancelled, the NMT state and the COB-IDs change. A model of each client predicts every
+// frame and every callback. Loss, duplication and reordering alone never make a transfer with wrong data succeed.
+// [301:7.2.4.3] [C1] [T11]
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -33,14 +33,14 @@ using fuzz::SdoObject;
 
 constexpr std::uint8_t node_id = 5;
 constexpr unsigned peers = 2;                               // clients of other nodes: 1280h and 1281h
-constexpr unsigned own = 2;                                 // 1282h asks the own node
-constexpr std::uint32_t times_out[] = {0, 20, 1000, 1000};  // in ms, which are ticks
-constexpr std::uint32_t patience = 1300;                    // longer than any time-out, and a quarter
-constexpr unsigned max_depth = 3;                           // of calls out of callbacks
+constexpr unsigned own = 2;                                 // the client 1282h, whose server is this node
+constexpr std::uint32_t times_out[] = {0, 20, 1000, 1000};  // ms; a tick is 1 ms
+constexpr std::uint32_t patience = 1300;                    // ms, longer than any time-out plus a quarter
+constexpr unsigned max_depth = 3;                           // nested calls of the stack
 constexpr std::size_t largest = 1200;                       // bytes of a transfer
 
 class Bench;
-Bench* bench = nullptr;  // the one that the callbacks belong to
+Bench* bench = nullptr;  // current instance, for the callbacks
 
 SdoBytes bytes_of(const CO_IF_FRM& frame) {
   SdoBytes bytes{};
@@ -80,7 +80,7 @@ class Bench {
     transfer_at_last();
   }
 
-  // Changes the NMT state. Queued frames may then be forbidden, or discarded by a reset.
+  // Processes a change of the NMT state: the new state may forbid queued frames, or a reset discard them.
   void change_mode(CO_MODE mode) {
     if (mode != CO_PREOP && mode != CO_OPERATIONAL) {
       for (Peer& peer : peers_) {
@@ -126,7 +126,7 @@ class Bench {
     }
   }
 
-  // From callbacks: perhaps does something with the node.
+  // Called from callbacks: may execute an action on the node.
   void meddle() {
     const std::uint8_t byte = input_.byte();
     if ((byte & 0x80U) == 0 || depth_ == max_depth) {
@@ -159,7 +159,7 @@ class Bench {
     const SdoObject& object = peer.server.objects()[kind % peer.server.objects().size()];
     Request request = make_request((kind & 0x80U) != 0, object.capacity, (kind & 0x40U) != 0);
     request.key = key_of(object);
-    request.key[2] = (kind & 0x30U) == 0x30U ? std::uint8_t{0x77} : request.key[2];  // one that is not there
+    request.key[2] = (kind & 0x30U) == 0x30U ? std::uint8_t{0x77} : request.key[2];  // a sub-index that does not exist
     const bool starts = is_allowed() && peer.is_configured && !peer.request.is_open;
     const std::size_t size = size_;
     if (!starts) {
@@ -215,8 +215,9 @@ class Bench {
     require(!was_open || callbacks_ > before, "the callback comes before COCSdoCancel() returns");
   }
 
-  // Bit 31 of 1280h:1; the identifiers stay. [301:7.5.2.34] Within a callback it takes effect later. Not while frames
-  // wait: NMT stop does not find those of an identifier that is no more.
+  // Toggles bit 31 of 1280h:1; the CAN-IDs stay the same. [301:7.5.2.34] Within a callback the change takes effect
+  // later. Does nothing while frames are queued: NMT stop does not find queued frames of an identifier that is no
+  // longer valid.
   void configure(Peer& peer) {
     if (refuses_) {
       return;
@@ -256,7 +257,7 @@ class Bench {
     }
   }
 
-  // Returns the reason why a transfer may end without an answer; 0: none.
+  // Returns the abort code with which the client may end a transfer without an answer now; 0: it must not.
   std::uint32_t reason(const Peer& peer) const {
     if (cancelled_ == &peer) {
       return CO_SDO_ERR_TOS_LOCAL;
@@ -322,14 +323,15 @@ class Bench {
     deliver(peer, bytes);
   }
 
-  // The server has heard nothing for a while.
+  // Passes an eighth of the server's time-out without a request.
   void remind(Peer& peer) {
     if (const auto said = peer.server.slice(); said) {
       peer.to_client.push_back(*said);
     }
   }
 
-  // Frames of other kinds and lengths are no answers; length codes of more than 8 mean 8 bytes. [ISO 11898-1]
+  // Receives a frame that is not a response: of another kind, or shorter than 8 bytes. DLC codes above 8 mean 8 bytes.
+  // [ISO 11898-1]
   void deliver_odd_frame(Peer& peer) {
     const std::uint8_t kind = input_.byte();
     CO_IF_FRM frame{0x586U + number_of(peer), {0x80}, static_cast<std::uint8_t>(kind & 7U)};
@@ -338,7 +340,7 @@ class Bench {
     receive(frame);
   }
 
-  // Lets so many frames arrive, first those of the client.
+  // Delivers \a number frames, those to the server first.
   void carry(Peer& peer, unsigned number) {
     for (; number > 0 && !(peer.to_client.empty() && peer.to_server.empty()); --number) {
       if (!peer.to_server.empty()) {
@@ -449,8 +451,8 @@ class Bench {
 
   // Time -----------------------------------------------------------------------------
 
-  // Lets time pass. The controller accepts frames before: otherwise a time-out abort could not be distinguished from an
-  // answer.
+  // Advances the time. The controller accepts the queued frames first: otherwise the abort after a time-out could not
+  // be distinguished from an answer.
   void pass(std::uint32_t ticks) {
     accept();
     passes_ = true;
@@ -551,14 +553,14 @@ class Bench {
   std::vector<Peer> peers_;
   Request own_;
   std::size_t own_size_ = 0;
-  std::size_t size_ = 0;  // of the buffer made last
+  std::size_t size_ = 0;  // size of the last buffer
   unsigned depth_ = 0;
   unsigned callbacks_ = 0;
-  bool refuses_ = false;             // the controller takes nothing
-  bool passes_ = false;              // time goes by
-  const Peer* cancelled_ = nullptr;  // within COCSdoCancel()
+  bool refuses_ = false;             // the controller accepts no frames
+  bool passes_ = false;              // time is advancing
+  const Peer* cancelled_ = nullptr;  // client whose COCSdoCancel() is running
   std::optional<CO_IF_FRM> received_;
-  std::uint32_t now_ = 0xFFFFF800;  // wraps soon
+  std::uint32_t now_ = 0xFFFFF800;  // wraps after 2048 ms
 
   std::uint8_t error_register_ = 0;
   std::uint32_t number_of_requests_[3] = {0x606, 0x607, 0x605};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_client_peer.hpp
-/// A server on the far side of a bus of chance, and the client on this side: what the clients' target has of each.
+/// State of one SDO client of the fuzz target sdo_client: its request, its model, and its server on an unreliable bus.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using test::SdoServerModel;
 
 inline std::uint32_t dev_of(const SdoKey& key) { return CO_DEV(key[0] | (key[1] << 8), key[2]); }
 
-/// No two places of the data look alike.
+/// Returns data without repetition, so that bytes at wrong positions are detected.
 inline Bytes pattern(std::size_t size, std::uint8_t seed) {
   Bytes bytes(size);
   for (std::size_t n = 0; n < size; ++n) {
@@ -35,19 +35,19 @@ inline Bytes pattern(std::size_t size, std::uint8_t seed) {
 
 using Frames = std::deque<SdoBytes>;
 
-/// A request of the application; its buffer is gone when the callback has come.
+/// A request of the application. Its buffer is released in the callback, as the stack may not use it afterwards.
 struct Request {
   bool is_open = false;
   bool is_upload = false;
   SdoKey key{};
   std::uint32_t timeout = 0;
-  std::unique_ptr<std::uint8_t[]> buffer;  ///< ends where its memory ends, for the address sanitizer
-  Bytes data;                              ///< of a download
+  std::unique_ptr<std::uint8_t[]> buffer;  ///< has exactly the size of the data, for the address sanitizer
+  Bytes data;                              ///< data of a download
 
   bool keeps_data() const { return std::equal(data.begin(), data.end(), buffer.get()); }
 };
 
-/// The server of another node. What is under way on the bus waits in the queues.
+/// The server of another node; the queues hold the frames that are on the bus.
 struct Peer {
   explicit Peer(unsigned buffer) : server(objects(), buffer) {}
 
@@ -65,7 +65,7 @@ struct Peer {
     };
   }
 
-  /// Is what the client has got, or given, what the object holds?
+  /// Returns true if the transferred data equal the value of the object.
   bool has_right_data() const {
     const Bytes& right = request.is_upload ? model.data() : request.data;
     return std::any_of(server.objects().begin(), server.objects().end(), [&](const SdoObject& object) {
@@ -76,11 +76,11 @@ struct Peer {
   Request request;
   SdoClientModel model{CO_CSDO_BLOCK};
   SdoServerModel server;
-  Frames waiting{};  ///< requests for which the controller had no place
+  Frames waiting{};  ///< requests that the controller has not accepted yet
   Frames to_server{};
   Frames to_client{};
   bool is_configured = true;
-  bool is_tampered = false;  ///< the client has heard what its server has not said in this transfer
+  bool is_tampered = false;  ///< in this transfer the client received a frame that its server had not sent for it
 };
 
 }  // namespace fuzz

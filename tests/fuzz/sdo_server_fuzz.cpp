@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of chance to an SDO server, silences and a controller that refuses, beside a model that knows the protocol
-// of the standard and nothing of the stack: every answer and all data must be the same. [301:7.2.4.3]
+// Fuzzes an SDO server with random requests, silences and a controller that refuses frames. A model written from the
+// standard alone predicts every response and all data. [301:7.2.4.3]
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -25,8 +25,8 @@ using test::SdoObject;
 using test::SdoServerModel;
 
 constexpr std::uint8_t node_id = 5;
-constexpr std::uint32_t large_size = 2000;           // more than two buffers
-constexpr std::uint32_t slice = CO_SDO_TIMEOUT / 8;  // of the time-out, in ticks of 1 ms
+constexpr std::uint32_t large_size = 2000;           // larger than two buffers
+constexpr std::uint32_t slice = CO_SDO_TIMEOUT / 8;  // an eighth of the time-out, in ticks of 1 ms
 constexpr unsigned always = std::numeric_limits<unsigned>::max();
 
 CO_IF_FRM frame_of(std::uint32_t identifier, const SdoBytes& bytes) {
@@ -35,8 +35,7 @@ CO_IF_FRM frame_of(std::uint32_t identifier, const SdoBytes& bytes) {
   return frame;
 }
 
-// The server under test.
-// -----------------------------------------------------------------------------------------------
+// The server under test ------------------------------------------------
 
 class Device {
  public:
@@ -67,9 +66,9 @@ class Device {
   // Returns the frames sent since the last call.
   std::vector<CO_IF_FRM> take_sent() { return std::exchange(sent_, {}); }
 
-  unsigned accepts = always;  // frames that the controller still takes
+  unsigned accepts = always;  // number of frames that the controller still accepts
 
-  // The objects as they are before any download.
+  // Returns the objects before any download.
   static std::vector<SdoObject> objects() {
     using Kind = SdoObject::Kind;
     const char* const text = "a text that is long";
@@ -96,7 +95,7 @@ class Device {
     };
   }
 
-  // The bytes that the variables show now, in the order of objects(), but for the last two.
+  // Returns the present values of the variables in the order of objects(), except the last two.
   std::vector<Bytes> values() const {
     std::vector<Bytes> all = {Bytes{error_register_}, Bytes{9, 0, 0, 0}};
     all.insert(all.end(), {number(u8_, 1), number(u16_, 2), number(u24_, 3), number(u64_, 8)});
@@ -110,7 +109,7 @@ class Device {
     return all;
   }
 
-  // Variables that are wider than their value.
+  // Checks that a value is extended correctly in a variable that is wider than the value.
   bool is_extended() const {
     const bool has_sign = s24_ >= -0x800000 && s24_ <= 0x7FFFFF;
     return u24_ <= 0xFFFFFF && u40_ <= 0xFFFFFFFFFF && has_sign;
@@ -199,15 +198,14 @@ class Device {
   };
   std::optional<CO_IF_FRM> received_;
   std::vector<CO_IF_FRM> sent_;
-  std::uint32_t now_ = 0xFFFFF000;  // wraps soon
+  std::uint32_t now_ = 0xFFFFF000;  // wraps after 4096 ms
   // Allocated separately, so that the address sanitizer detects accesses beyond the end.
   std::unique_ptr<std::uint8_t[]> buffer_ = std::make_unique<std::uint8_t[]>(CO_SSDO_N * CO_SDO_BUF_BYTE);
   CO_NODE_EXT ext_{};
   CO_NODE node_{};
 };
 
-// The requests.
-// --------------------------------------------------------------------------------------------------------
+// The requests ---------------------------------------------------------
 
 class Client {
  public:
@@ -225,7 +223,7 @@ class Client {
 
  private:
   static constexpr std::size_t longest_queue = CO_TX_QUEUE_N - 2;
-  static constexpr unsigned steps_between_looks = 16;  // at all objects, which takes longer than the steps
+  static constexpr unsigned steps_between_looks = 16;  // checking all objects takes longer than a step
 
   void fill(SdoBytes& bytes, std::size_t first) {
     std::generate(bytes.begin() + static_cast<std::ptrdiff_t>(first), bytes.end(), [this] { return input_.byte(); });
@@ -286,7 +284,7 @@ class Client {
     }
   }
 
-  // Many segments of a block, all with the same bytes.
+  // Sends up to \a number segments of a block, all with the same data.
   void go_on(unsigned number) {
     const std::uint8_t data = input_.byte();
     for (; number > 0 && model_.is_in_block(); --number) {
@@ -300,7 +298,7 @@ class Client {
 
   void acknowledge() { ask({0xA2, input_.byte(), input_.byte()}); }
 
-  // Length codes of more than 8 mean 8 bytes [ISO 11898-1]; shorter frames are no requests.
+  // Sends a request. DLC codes above 8 mean 8 bytes [ISO 11898-1]; shorter frames are not requests.
   void ask(const SdoBytes& bytes, std::uint8_t length = 8) {
     latest_ = bytes;
     CO_IF_FRM request = frame_of(0x600U + node_id, bytes);
@@ -331,7 +329,7 @@ class Client {
     check_sent();
   }
 
-  // What is to be sent waits while the controller takes nothing; segments are made only when it does.
+  // Queues an expected response while the controller refuses frames. Segments are produced only when it accepts them.
   void expect(const std::optional<SdoBytes>& answer) {
     if (answer) {
       waiting_.push_back(*answer);
@@ -383,8 +381,8 @@ class Client {
   SdoServerModel model_{Device::objects(), CO_SDO_BUF_SEG};
   Device device_;
   SdoBytes latest_{};
-  unsigned accepts_ = always;       // frames that the controller still takes
-  std::deque<SdoBytes> waiting_;    // answers for which there was no place
+  unsigned accepts_ = always;       // number of frames that the controller still accepts
+  std::deque<SdoBytes> waiting_;    // responses that the controller has not accepted yet
   std::vector<SdoBytes> expected_;  // frames that the device must have sent
 };
 

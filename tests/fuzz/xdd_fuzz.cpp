@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as an XML description: the reader comes to an end with bounded memory, all places that it names are in the
-// source, and what is written of a device has all of its objects.
+// Fuzzes the XDD reader with any bytes: it returns with bounded memory, all positions that it reports are within the
+// source, and a device that is written contains all of its objects.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,7 +20,7 @@ using namespace lexican::codict;
 
 using fuzz::require;
 
-// Empty if it is refused.
+// Returns the description, which is empty if the reader refuses the input.
 Description description_of(const std::string& bytes) {
   const Source source("fuzz.xdd", bytes);
   if (!xdd::refusal(source).empty()) {
