@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file edit.hpp
-/// Changes of a text that leave every other byte where it is.
+/// Edits of a source text: splices that preserve all other bytes.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace lexican::codict {
 
-/// The bytes of a span, which may be empty, become text.
+/// A replacement of the bytes of a span by a text. With an empty span it is an insertion.
 struct Splice {
   Span span;
   std::string text;
@@ -22,10 +22,10 @@ class Edits {
  public:
   bool is_empty() const { return splices_.empty(); }
   void replace(Span span, std::string text) { splices_.push_back({span, std::move(text)}); }
-  /// Behind what was inserted at the same place before.
+  /// Inserts text at an offset, after earlier insertions at that offset.
   void insert(std::uint32_t offset, std::string text) { replace({offset, offset}, std::move(text)); }
 
-  /// The spans must not overlap.
+  /// Returns the bytes with all edits applied. The spans must not overlap.
   std::string applied_to(std::string_view bytes) const;
 
  private:

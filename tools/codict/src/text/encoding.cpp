@@ -10,9 +10,9 @@ namespace lexican::codict {
 
 namespace {
 
-using CodePage = std::array<std::uint16_t, 128>;  // of the bytes from 80h
+using CodePage = std::array<std::uint16_t, 128>;  // code points of the bytes 80h…FFh
 
-// What CP1252 leaves open is the control character of the same number.
+// Bytes that CP1252 does not define are decoded as the control character with the same number.
 constexpr CodePage cp1252 = {{
     0x20AC, 0x0081, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152,
     0x008D, 0x017D, 0x008F, 0x0090, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122,
@@ -26,7 +26,7 @@ constexpr CodePage cp1252 = {{
     0x00F5, 0x00F6, 0x00F7, 0x00F8, 0x00F9, 0x00FA, 0x00FB, 0x00FC, 0x00FD, 0x00FE, 0x00FF,
 }};
 
-// CP437 has the same letters at the same places, but for a few.
+// CP437 has the same letters at the same bytes, with few exceptions.
 constexpr CodePage cp850 = {{
     0x00C7, 0x00FC, 0x00E9, 0x00E2, 0x00E4, 0x00E0, 0x00E5, 0x00E7, 0x00EA, 0x00EB, 0x00E8, 0x00EF, 0x00EE,
     0x00EC, 0x00C4, 0x00C5, 0x00C9, 0x00E6, 0x00C6, 0x00F4, 0x00F6, 0x00F2, 0x00FB, 0x00F9, 0x00FF, 0x00D6,
@@ -64,7 +64,7 @@ void append(std::string& utf8, std::uint32_t point) {
   }
 }
 
-// Bytes of the valid sequence at the beginning, 0 if there is none.
+// Returns the size in bytes of the valid UTF-8 sequence at the beginning, or 0 if there is none.
 std::size_t sequence(std::string_view bytes) {
   const std::uint8_t first = byte_of(bytes[0]);
   if (first < 0x80) {
@@ -158,7 +158,8 @@ Encoding guess_encoding(std::string_view bytes) {
   if (is_utf8(bytes)) {
     return Encoding::utf8;
   }
-  // The letters of CP850 ä ö ü Ä Ö Ü é à ç è, against those of CP1252 and its signs ° µ ² ³.
+  // Bytes of frequent European letters: in CP850 ä ö ü Ä Ö Ü é à ç è ß, in CP1252 the same letters and the signs ° µ ²
+  // ³.
   constexpr std::string_view dos = "\x84\x94\x81\x8E\x99\x9A\x82\x85\x87\x8A\xE1";
   constexpr std::string_view windows = "\xE4\xF6\xFC\xC4\xD6\xDC\xDF\xE9\xE8\xE7\xE0\xB0\xB5\xB2\xB3";
   const auto of = [](std::string_view letters) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file encoding.hpp
-/// What bytes above 7Fh mean. The model is UTF-8; sources keep their bytes.
+/// Detection and conversion of encodings. The model holds UTF-8; sources keep their original bytes.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,22 @@ enum class Encoding : unsigned char { ascii, utf8, cp1252, cp850, utf16 };
 
 std::string_view name_of(Encoding encoding);
 
-/// UTF-8 if it can be, with or without a mark at the beginning. Else a guess from the letters of European languages:
-/// below A0h, where CP1252 has signs, the code pages of DOS have them.
+/// Returns UTF-16 if the bytes begin with its byte order mark, ASCII or UTF-8 if the bytes are valid in it, else a
+/// guess from the bytes of European letters: CP850 has letters at 80h…9Fh, where CP1252 has mostly signs.
 Encoding guess_encoding(std::string_view bytes);
 
-/// Bytes of a mark for UTF-8 at the beginning.
+/// Returns the size in bytes of the UTF-8 byte order mark at the beginning, or 0.
 std::size_t mark_size(std::string_view bytes);
 
-/// What stands for what is no character of a text: U+FFFD.
+/// Replacement character U+FFFD, written for bytes that are no text in the assumed encoding.
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 bool is_ascii(std::string_view bytes);
 
-/// UTF-8 whatever the bytes are: what is no text in the encoding becomes U+FFFD.
+/// Converts bytes to valid UTF-8. Bytes that are invalid in the encoding become U+FFFD.
 std::string to_utf8(std::string_view bytes, Encoding encoding);
 
-/// The bytes of UTF-8 text in an encoding; false if it has no letter for one of them.
+/// Converts UTF-8 text to an encoding. Returns false if the encoding lacks one of its characters.
 bool from_utf8(std::string_view utf8, Encoding encoding, std::string& bytes);
 
 }  // namespace lexican::codict

@@ -15,7 +15,7 @@ namespace lexican::codict {
 
 namespace {
 
-constexpr mode_t new_file = 0666;  // less the umask
+constexpr mode_t new_file = 0666;  // permissions of a new file, before the umask is applied
 
 class Descriptor {
  public:
@@ -49,7 +49,7 @@ bool write_all(int file, std::string_view bytes) {
   return true;
 }
 
-// Not more than one byte beyond the limit.
+// Reads at most one block beyond the size limit, enough to detect that the file is too large.
 bool read_all(int file, std::string& bytes) {
   std::array<char, 65536> block{};
   while (bytes.size() <= Source::size_limit) {
@@ -75,7 +75,7 @@ bool has_bytes(const std::string& path, std::string_view bytes) {
   return present && present->bytes() == bytes;
 }
 
-// Writes what the system has cached of a file or directory to its medium. Some file systems cannot (EINVAL).
+// Writes cached data of a file or directory to its medium. EINVAL means that the file system does not support it.
 bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL; }
 
 bool sync_directory_of(const std::string& path) {
@@ -84,7 +84,7 @@ bool sync_directory_of(const std::string& path) {
   return file.number() < 0 || sync(file.number());  // a directory without read permission cannot be synchronised
 }
 
-// A new file takes the place, the name and the permissions of the old one; what a symbolic link names is replaced.
+// Replaces a file by a new one with its name and permissions. A symbolic link is followed: its target is replaced.
 bool replace_file(const std::string& path, std::string_view bytes) {
   std::error_code error;
   const std::filesystem::path canonical = std::filesystem::canonical(path, error);
@@ -136,7 +136,7 @@ Written write_file(const std::string& path, std::string_view bytes, std::string&
   bool is_written = false;
   if (path == "-") {
     is_written = write_all(STDOUT_FILENO, bytes);
-  } else if (is_stream) {  // a device or a pipe has no other file put in its place
+  } else if (is_stream) {  // a device or a pipe is written to, not replaced by a file
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     is_written = file.number() >= 0 && write_all(file.number(), bytes) && file.close();
   } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file file.hpp
-/// Files as a whole: read at once, written at once or not at all.
+/// Reading and writing of whole files; a write either completes or leaves the old file unchanged.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,15 @@
 
 namespace lexican::codict {
 
-/// path "-" is the standard input. Without a result, why says what is wrong, in one line.
+/// Reads a file; path "-" is the standard input. On failure, returns nothing and sets `why` to one line with the
+/// reason.
 std::optional<Source> read_file(const std::string& path, std::string& why);
 
 enum class Written { no, unchanged, yes };
 
-/// path "-" is the standard output. A file that has these bytes already is left alone, with its time; else a new file
-/// takes its place when it is complete and on the medium (fsync of file and directory). On Written::no, why says what
-/// is wrong.
+/// Writes a file; path "-" is the standard output. A file that already has these bytes is not written, and keeps its
+/// modification time. Else a new file replaces it, after it is complete and on the medium (fsync of file and
+/// directory). On Written::no, `why` is set to one line with the reason.
 Written write_file(const std::string& path, std::string_view bytes, std::string& why);
 
 }  // namespace lexican::codict

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file finding.hpp
-/// What is off in an input: readers accept nearly everything, and say so here.
+/// Findings: the faults and remarks about an input. Readers accept nearly every input and report its faults here.
 #pragma once
 
 #include <algorithm>
@@ -19,11 +19,11 @@ enum class Severity : unsigned char { note, warning, error };
 
 std::string_view name_of(Severity severity);
 
-/// A kind of finding. Its id is for ever: people grep for it, suppress it and read the page that explains it.
+/// A kind of finding. Its id never changes: users search for it, suppress it, and read the page that explains it.
 struct Rule {
   std::string_view id;
   Severity severity = Severity::warning;
-  std::string_view about;  ///< one sentence: what holds, or what is done where it does not hold
+  std::string_view about;  ///< the fault in one phrase, or how the reader handles it
 };
 
 struct Finding {
@@ -31,7 +31,7 @@ struct Finding {
   Span span;
   std::string text;                       ///< the fault with its values, in lower case without a full stop
   std::string hint;                       ///< what to do; may be empty
-  Severity severity = Severity::warning;  ///< that of the rule, unless somebody takes it for worse
+  Severity severity = Severity::warning;  ///< severity of the rule, unless a caller has raised it
   std::string subject;                    ///< the object that contains the place: "2000h 'Ratio'"; may be empty
 };
 
@@ -47,8 +47,9 @@ std::string message_of(const Finding& finding);
 /// The findings of one source, in the order in which they were made until they are sorted.
 class Findings {
  public:
-  /// Limit of the errors that are kept, and of the other findings: more would need many times the memory of the source.
-  /// Further ones are counted by their rules. Errors have a limit of their own, so that notes displace none.
+  /// Limit of the errors that are stored, and of the other findings: without it, findings could need many times the
+  /// memory of the source. Further ones are only counted by rule. Errors have their own limit, so that notes displace
+  /// none.
   static constexpr std::size_t most = 100000;
 
   void add(const Rule& rule, Span span, std::string text, std::string hint = {});
@@ -68,7 +69,7 @@ class Findings {
   void for_each(Call call) {
     std::for_each(all_.begin(), all_.end(), call);
   }
-  void sort();  ///< by place; those of one place keep their order
+  void sort();  ///< sorts by span; findings with equal spans keep their order
 
  private:
   std::vector<Finding> all_;
@@ -82,10 +83,10 @@ class Findings {
 struct Folded {
   const Finding* first = nullptr;
   std::size_t more = 0;
-  std::string kind;  ///< what the texts have in common
+  std::string kind;  ///< the common text: "#" replaces each number and each quoted name
 };
 
-/// In the order of the first ones.
+/// Folds findings that are alike. The result is in the order of the first finding of each kind.
 std::vector<Folded> fold(const std::vector<Finding>& findings);
 
 }  // namespace lexican::codict

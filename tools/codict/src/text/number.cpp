@@ -41,7 +41,7 @@ bool is_suffix(std::string_view rest) {
                      [rest](std::string_view suffix) { return equal_ignoring_case(rest, suffix); });
 }
 
-// 0080h, as nobody but people write it.
+// Parses the notation 0080h, which only text for people uses: hexadecimal with the fault `suffix`.
 bool read_with_h(std::string_view text, ParsedInteger& parsed) {
   std::uint64_t value = 0;
   const bool has_form = text.size() > 1 && is_digit(text.front()) && to_lower(text.back()) == 'h';
@@ -92,7 +92,7 @@ void add(ParsedInteger& sum, const ParsedInteger& summand, std::size_t offset) {
   }
 }
 
-// Nothing is added by what may follow $NODEID.
+// Returns 0 as the summand $NODEID, with a fault if other text follows it.
 ParsedInteger behind_node_id(std::string_view rest) {
   ParsedInteger nothing;
   if (!rest.empty()) {
@@ -113,7 +113,7 @@ double from_pattern(std::uint64_t pattern, unsigned bits) {
   return value;
 }
 
-// The whole text with a decimal point; false if it is no number.
+// Parses the whole text as a number with a decimal point. Returns false if it is not one.
 bool read_decimal(std::string_view text, double& value) {
   if (!text.empty() && text.front() == '+') {
     text.remove_prefix(1);
@@ -187,7 +187,7 @@ ParsedFormula parse_formula(std::string_view text) {
     return formula;
   }
   formula.is_standard = text.substr(0, node_id.size()) == "$NODEID" && text.find(' ') == std::string_view::npos;
-  // A comment is the last summand, even if it has a plus.
+  // Text after a comment sign belongs to the last summand, even if it contains a plus.
   for (std::size_t at = 0; at <= text.size() && formula.number.fault != NumberFault::comment;) {
     const std::size_t plus = std::min(text.find('+', at), text.size());
     const std::string_view part = trimmed(text.substr(at, plus - at));

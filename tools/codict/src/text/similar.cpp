@@ -9,7 +9,7 @@ namespace lexican::codict {
 
 namespace {
 
-// Letters that have to be changed, added or left out. [Levenshtein]
+// Returns the Levenshtein distance: the least number of letters that are changed, inserted or deleted.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,7 +28,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::vector<std::string_view> similar(std::string_view word, const std::vector<std::string_view>& words) {
-  constexpr std::size_t longest = 64;  // no word is longer: what is, is like none
+  constexpr std::size_t longest = 64;  // limits the time; longer words are similar to none
   std::vector<std::string_view> nearest;
   if (word.size() > longest) {
     return nearest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file similar.hpp
-/// Which word may be meant by one that is none.
+/// Suggestions for misspelled words.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace lexican::codict {
 
-/// Those of the words that are nearest, if they are near; in their order.
+/// Returns the nearest words, if they are near enough to be meant, in the order of `words`.
 std::vector<std::string_view> similar(std::string_view word, const std::vector<std::string_view>& words);
 
 }  // namespace lexican::codict

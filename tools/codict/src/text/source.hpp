@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file source.hpp
-/// The bytes of a file, and where in it something stands.
+/// The bytes of a file, and positions in it.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lexican::codict {
 
-/// Bytes [begin, end) of a source. An empty span is a place between two bytes.
+/// Bytes [begin, end) of a source. An empty span is a position between two bytes.
 struct Span {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
@@ -21,7 +21,7 @@ struct Span {
   constexpr bool operator==(const Span& other) const { return begin == other.begin && end == other.end; }
 };
 
-/// As editors and compilers count: from 1, columns in bytes.
+/// A position as editors and compilers count it: line and column from 1, columns in bytes.
 struct Position {
   std::uint32_t line = 1;
   std::uint32_t column = 1;
@@ -30,7 +30,7 @@ struct Position {
 /// A file that has been read. Lines end with LF or CR LF.
 class Source {
  public:
-  /// Larger inputs are no device descriptions; offsets fit 32 bits.
+  /// Limit of the size in bytes. Larger inputs are not device descriptions; offsets fit in 32 bits.
   static constexpr std::size_t size_limit = std::size_t{64} * 1024 * 1024;
 
   Source() = default;
@@ -42,13 +42,13 @@ class Source {
   std::uint32_t size() const { return static_cast<std::uint32_t>(bytes_.size()); }
 
   std::uint32_t lines() const { return static_cast<std::uint32_t>(starts_.size()); }
-  Span line(std::uint32_t number) const;  ///< number: 1…lines(); without what ends the line
+  Span line(std::uint32_t number) const;  ///< number: 1…lines(); returns the line without its line end
   Position position(std::uint32_t offset) const;
 
  private:
   std::string name_;
   std::string bytes_;
-  std::vector<std::uint32_t> starts_{0};  // of the lines
+  std::vector<std::uint32_t> starts_{0};  // offsets of the first bytes of the lines
 };
 
 }  // namespace lexican::codict

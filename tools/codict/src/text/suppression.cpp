@@ -8,11 +8,11 @@ namespace lexican::codict {
 
 namespace {
 
-constexpr std::size_t most_rules = 1000;  // more than there are
+constexpr std::size_t most_rules = 1000;  // limit per comment, more than the rules that exist
 
 constexpr std::string_view separators = " \t\r\n,";
 
-// The next word of a text; its place moves behind it.
+// Returns the next word of a text, and moves the beginning of `rest` behind it.
 Span take_word(const Source& source, Span& rest) {
   const std::string_view text = source.slice(rest);
   const std::size_t begin = std::min(text.find_first_not_of(separators), text.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file suppression.hpp
-/// Comments in a description that ask for a rule to be passed over: "codict: ignore RULE… -- reason".
+/// Comments in a description that suppress rules: "codict: ignore RULE… -- reason".
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 namespace lexican::codict {
 
 struct Suppression {
-  Span rule;                  ///< its id, in the comment
-  std::optional<Span> scope;  ///< findings that begin in it are meant; none if nothing follows the comment
+  Span rule;                  ///< the rule's id in the comment
+  std::optional<Span> scope;  ///< suppresses findings that begin in it; none if nothing follows the comment
 };
 
-/// One for each rule that a comment names; none if it is about something else. The scope is up to the format.
-/// comment: without the signs around it.
+/// Returns one suppression for each rule that a comment names; none if the comment has another subject. The format's
+/// reader sets the scopes. comment: without its delimiters.
 std::vector<Suppression> suppressions_in(const Source& source, Span comment);
 
 }  // namespace lexican::codict
