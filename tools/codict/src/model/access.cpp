@@ -9,7 +9,7 @@ namespace lexican::codict {
 
 namespace {
 
-// In the order of Access.
+// Indexed by Access.
 constexpr std::array<std::string_view, 8> access_words = {"unknown", "no", "ro", "wo", "rw", "rwr", "rww", "const"};
 constexpr std::array<std::string_view, 5> mapping_words = {"no", "optional", "default", "TPDO", "RPDO"};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file access.hpp
-/// Who may read and write an object, over SDO and in PDOs.
+/// Access types and PDO mapping of objects, object codes.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@ namespace lexican::codict {
 
 enum class Access : unsigned char {
   unknown,
-  none,  ///< noAccess of CiA 311: in the dictionary, and out of reach
+  none,  ///< noAccess of CiA 311: in the dictionary, but neither readable nor writable
   ro,
   wo,
   rw,
-  rwr,       ///< rw, and process input: goes out in a TPDO
-  rww,       ///< rw, and process output: comes in an RPDO
-  constant,  ///< ro, and never changes
+  rwr,       ///< rw, process input: mappable in a TPDO
+  rww,       ///< rw, process output: mappable in an RPDO
+  constant,  ///< ro, with a value that never changes
 };
 
-/// The word of CiA 306, or its meaning there for `none` ("no"); "unknown".
+/// Returns the word of CiA 306; "no" for `none`, which CiA 306 lacks; "unknown" for `unknown`.
 std::string_view name_of(Access access);
-/// The words of CiA 306, in capitals or not; unknown for all others.
+/// Returns the access type of a word of CiA 306, in upper or lower case; unknown for all others.
 Access access_named(std::string_view word);
 
 constexpr bool is_readable(Access access) {
@@ -32,13 +32,13 @@ constexpr bool is_writable(Access access) {
   return access == Access::wo || access == Access::rw || access == Access::rwr || access == Access::rww;
 }
 
-/// PDOMapping of CiA 306 says no or optional, PDOmapping of CiA 311 also a direction.
+/// Values of PDOMapping (CiA 306: no or optional) and of PDOmapping (CiA 311: a direction as well).
 enum class PdoMapping : unsigned char { no, optional, standard, tpdo, rpdo };
 
-/// The words of CiA 311: no, optional, default, TPDO, RPDO.
+/// Returns the word of CiA 311: no, optional, default, TPDO, RPDO.
 std::string_view name_of(PdoMapping mapping);
 
-/// What an object is. [301: 7.4.3]
+/// Object code. [301: 7.4.3]
 enum class ObjectCode : unsigned char {
   null = 0,
   domain = 2,
@@ -49,7 +49,7 @@ enum class ObjectCode : unsigned char {
   record = 9,
 };
 
-/// DOMAIN, VAR and so on; empty for numbers that are none.
+/// Returns the name of an object code, such as DOMAIN or VAR; empty for undefined codes.
 std::string_view name_of(ObjectCode code);
 constexpr bool has_sub_objects(ObjectCode code) {
   return code == ObjectCode::array || code == ObjectCode::record || code == ObjectCode::defstruct;

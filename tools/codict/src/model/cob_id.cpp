@@ -38,7 +38,7 @@ class Collector {
     all_.push_back(std::move(cob_id));
   }
 
-  // Objects first…last have one service each, which sub-index 1 says, and for SDO sub-index 2.
+  // Adds the COB-IDs of objects first…last: sub-index 1, and for SDOs (`from` is not empty) sub-index 2.
   void add_range(const std::string& service, std::uint16_t first, std::uint16_t last, const char* to,
                  const char* from) {
     for (std::uint32_t index = first; index <= last; ++index) {

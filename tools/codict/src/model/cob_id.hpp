@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file cob_id.hpp
-/// The identifiers with which a device talks.
+/// The COB-IDs of a device.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace lexican::codict {
 
 struct CobId {
   std::string service;      ///< "TPDO 3", "SDO server 1, request"
-  std::uint16_t index = 0;  ///< of the object that says it; 0: fixed by CiA 301
+  std::uint16_t index = 0;  ///< index of the object that holds it; 0: fixed by CiA 301
   std::uint8_t sub_index = 0;
-  std::uint32_t value = 0;     ///< with the node-ID, and all flags
+  std::uint32_t value = 0;     ///< with the node-ID added, and with all flags
   bool is_known = false;       ///< the description has a value
-  bool can_be_invalid = true;  ///< bit 31 says that there is none: not for SYNC and TIME
+  bool can_be_invalid = true;  ///< bit 31 marks it as not valid; not so for SYNC and TIME
 
   bool is_valid() const { return is_known && !(can_be_invalid && (value & 0x80000000U) != 0); }
   bool is_extended() const { return (value & 0x20000000U) != 0; }
   std::uint32_t identifier() const { return value & (is_extended() ? 0x1FFFFFFFU : 0x7FFU); }
 };
 
-/// In the order of the objects, behind those that no object says.
+/// Returns the COB-IDs of a device: first those that CiA 301 fixes, then those of objects.
 std::vector<CobId> cob_ids_of(const Device& device, std::uint8_t node_id);
 
 }  // namespace lexican::codict

@@ -10,7 +10,7 @@ namespace lexican::codict {
 
 namespace {
 
-// Iterator to the element whose key is searched, or the end.
+// Returns the iterator of the element that has a key, or the end. The elements are sorted by key.
 template <typename Elements, typename Key, typename KeyOf>
 auto find_sorted(Elements& elements, Key key, KeyOf key_of) {
   const auto place = std::lower_bound(elements.begin(), elements.end(), key,
@@ -96,7 +96,7 @@ ListKind list_of(std::uint16_t index) {
 const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry) {
   const std::vector<AllowedValue>* values = &entry.allowed.values;
   std::string_view id = entry.type.reference.text;
-  for (std::size_t steps = 0; values->empty() && steps < device.types.size(); ++steps) {  // a type may name itself
+  for (std::size_t steps = 0; values->empty() && steps < device.types.size(); ++steps) {  // types may form a cycle
     const auto type = std::find_if(device.types.begin(), device.types.end(),
                                    [id](const TypeDefinition& candidate) { return candidate.id.text == id; });
     if (id.empty() || type == device.types.end() || type->kind == TypeDefinition::Kind::array) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file device.hpp
-/// A device as its description describes it, in any format: plain data. What only one format can say has its place
-/// here, too, and what no standard knows is kept by name: reading loses nothing.
+/// The model of a device description, as plain data for all formats. Members hold what only one format can express,
+/// too; what no standard defines is kept by name, so that reading loses nothing.
 ///
-/// Objects are sorted by index, their sub-objects by sub-index, each once.
+/// Objects are sorted by index, their sub-objects by sub-index, without duplicates.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +18,20 @@
 
 namespace lexican::codict {
 
-/// What is kept although it has no meaning here: a key, an attribute ("@name"), a section, an element.
+/// A part of a description that the model does not interpret: a key, an attribute ("@name"), a section, an element.
 struct Kept {
   std::string name;
   Text text;
   std::vector<Kept> children;
-  Span span;  ///< of all of it
+  Span span;  ///< of the whole part
 };
 
 // Words [311: 7.2: labels] -----------------------------------------------------------------------------------------
 
 struct Label {
-  std::string language;  ///< "en", "de-AT"; empty where none is given
+  std::string language;  ///< "en", "de-AT"; empty if not given
   Text text;
-  std::string dictionary;  ///< of labelRef and descriptionRef: dictID, and the textID is the text
+  std::string dictionary;  ///< dictID of a labelRef or descriptionRef, whose textID is in `text`
   std::string uri;
 };
 
@@ -40,7 +40,7 @@ struct Words {
   std::vector<Label> descriptions;
 };
 
-/// The text in a language, or the first there is; empty if there is none.
+/// Returns the text in a language, else the first text; empty if there is none.
 std::string_view text_in(const std::vector<Label>& labels, std::string_view language);
 
 struct Unit {
@@ -50,7 +50,7 @@ struct Unit {
   bool is_given = false;
 };
 
-/// A value of an enumeration, with its name.
+/// A value of an enumeration, with its name and description.
 struct AllowedValue {
   Value value;
   Words words;
@@ -67,7 +67,7 @@ struct Range {
 struct Allowed {
   std::vector<AllowedValue> values;
   std::vector<Range> ranges;
-  Text template_id;  ///< of an AllowedTemplate
+  Text template_id;  ///< id of an AllowedTemplate
 };
 
 struct AllowedTemplate {
@@ -77,11 +77,11 @@ struct AllowedTemplate {
 
 // Data types [311: dataTypeList] -----------------------------------------------------------------------------------
 
-/// The type that an element names, as it names it.
+/// A reference to a data type, as an element of the description names it.
 struct TypeUse {
   Text iec;                ///< name of an IEC type: "UINT"
   Text reference;          ///< uniqueID of a TypeDefinition
-  std::uint16_t code = 0;  ///< of CiA 301; 0 where it is not known
+  std::uint16_t code = 0;  ///< code of CiA 301; 0 if unknown
 };
 
 struct TypeDefinition {
@@ -103,7 +103,7 @@ struct TypeDefinition {
   Text name;
   Text id;
   Words words;
-  TypeUse type;  ///< of an array's elements, what an enumeration is stored as, what a type is derived from
+  TypeUse type;  ///< type of an array's elements, storage type of an enumeration, or base type of a derived type
   Text size;
   std::vector<Bounds> bounds;
   std::vector<Member> members;
@@ -116,12 +116,12 @@ struct TypeDefinition {
 
 enum class SrdoAccess : unsigned char { no, tx, rx, trx };
 
-/// What CANopenNode adds to descriptions, in both of its generations, and `;StorageLocation=` of an EDS.
+/// Properties that both generations of CANopenNode add to descriptions, and `;StorageLocation=` of an EDS.
 struct NodeProperties {
-  Field<bool> disabled;              ///< CO_disabled: kept in the description, and nowhere else
-  Text count_label;                  ///< CO_countLabel
-  Field<std::string> storage_group;  ///< CO_storageGroup; value "RAM" where nothing is stored, also for the number 0
-  Field<SrdoAccess> srdo;            ///< CO_accessSRDO
+  Field<bool> disabled;                    ///< CO_disabled: kept in the description, not generated
+  Text count_label;                        ///< CO_countLabel
+  Field<std::string> storage_group;        ///< CO_storageGroup; value "RAM": not stored (text "RAM" or "0")
+  Field<SrdoAccess> srdo;                  ///< CO_accessSRDO
   Field<std::uint32_t> string_length_min;  ///< CO_stringLengthMin, in characters
   Field<std::uint32_t> byte_length;        ///< CO_byteLength, of the older generation
   Field<bool> extension_io;                ///< CO_extensionIO, of the older generation
@@ -133,15 +133,15 @@ struct Property {
   Text value;
 };
 
-/// A value with its rules: an object without sub-objects, a sub-object, and what an ARRAY or RECORD says of itself.
+/// The attributes of an object without sub-objects, of a sub-object, or of an ARRAY or RECORD itself.
 struct Entry {
   Text name;
   Field<ObjectCode> object_code;
-  Field<std::uint16_t> data_type;  ///< index of the type; 0 where it is not known
+  Field<std::uint16_t> data_type;  ///< index of the type; 0 if unknown
   Field<Access> access;
   Field<PdoMapping> pdo_mapping;
   Value default_value;
-  Value actual_value;      ///< ParameterValue of a DCF, actualValue of an XDC: what is to be configured
+  Value actual_value;      ///< configured value: ParameterValue of a DCF, actualValue of an XDC
   Value substitute_value;  ///< [311]
   Value low_limit;
   Value high_limit;
@@ -151,10 +151,10 @@ struct Entry {
   Text download_file;        ///< of a DOMAIN [306]
   Text parameter_reference;  ///< ParamRefd of an EDS
 
-  Text parameter_id;  ///< uniqueID of the parameter that describes it [311]
+  Text parameter_id;  ///< uniqueID of the parameter that describes the object [311]
   Words words;
-  Words denotations;  ///< denotation is the first of them [311]
-  TypeUse type;       ///< what the parameter says of its type, beside data_type
+  Words denotations;  ///< `denotation` is the first of them [311]
+  TypeUse type;       ///< type that the parameter gives, in addition to data_type
   Unit unit;
   Allowed allowed;
   Text access_list;
@@ -166,41 +166,41 @@ struct Entry {
   Text template_id;
 
   NodeProperties node;
-  std::vector<Property> properties;  ///< all others
-  std::vector<Kept> others;          ///< keys, attributes and elements that no standard knows
-  Span span;                         ///< where it begins: the section's name, the element's start tag
-  Span extent;                       ///< its whole text: the section, the element
-  Span parameter_extent;             ///< of the parameter that describes it [311]
+  std::vector<Property> properties;  ///< all other properties
+  std::vector<Kept> others;          ///< keys, attributes and elements that no standard defines
+  Span span;                         ///< beginning: the section's name, or the element's start tag
+  Span extent;                       ///< the whole text: the section, or the element
+  Span parameter_extent;             ///< the whole text of the parameter that describes it [311]
 
   bool has_value() const { return default_value.is_given || actual_value.is_given; }
 };
 
-/// From which a device starts: what is configured goes before the default value.
+/// Returns the value with which a device starts: the configured value, else the default value.
 const Value& value_in_force(const Entry& entry);
 
 enum class ListKind : unsigned char { mandatory, optional, manufacturer };
 
 struct Sub : Entry {
   std::uint8_t sub_index = 0;
-  bool is_implied = false;  ///< by compact storage: no section of its own
+  bool is_implied = false;  ///< created by compact storage: has no section
 };
 
 struct Object : Entry {
   std::uint16_t index = 0;
   std::vector<Sub> subs;
-  Field<std::uint8_t> sub_number;           ///< implemented sub-objects, 0 with them and FFh without
-  Field<std::uint8_t> compact;              ///< CompactSubObj: as many like this one [306]
+  Field<std::uint8_t> sub_number;           ///< number of sub-objects; includes sub-index 0, excludes FFh
+  Field<std::uint8_t> compact;              ///< CompactSubObj: number of sub-objects that share this description [306]
   std::vector<Field<std::uint16_t>> links;  ///< ObjectLinks [306]
-  bool is_listed = false;                   ///< in one of the object lists, or the format has none
+  bool is_listed = false;                   ///< in one of the object lists; true if the format has no lists
 
   const Sub* find(std::uint8_t sub_index) const;
   Sub* find(std::uint8_t sub_index);
 };
 
-/// Below FFh, which describes the structure; 0 if there are no sub-objects.
+/// Returns the highest sub-index except FFh, which describes the structure; 0 if there are no sub-objects.
 std::uint8_t highest_sub(const Object& object);
 
-/// A list of objects beside the objects themselves. [306]
+/// A list of objects in addition to their sections. [306]
 struct ObjectList {
   Field<std::uint32_t> count;
   std::vector<Field<std::uint16_t>> indexes;
@@ -208,7 +208,7 @@ struct ObjectList {
   Span span;
 };
 
-// What belongs to the whole device ---------------------------------------------------------------------------------
+// Device -----------------------------------------------------------------------------------------------------------
 
 /// FileInfo [306], attributes of ProfileBody [311].
 struct FileInfo {
@@ -260,17 +260,17 @@ struct Identity {
   Text build_date;
   Text specification_revision;
   Text instance_name;
-  Words vendor_words;   ///< vendor_text is the first of them [311]
-  Words family_words;   ///< device_family is the first of them [311]
-  Words product_words;  ///< product_text is the first of them [311]
+  Words vendor_words;   ///< `vendor_text` is the first of them [311]
+  Words family_words;   ///< `device_family` is the first of them [311]
+  Words product_words;  ///< `product_text` is the first of them [311]
 };
 
 struct BitRate {
-  std::uint32_t kbit = 0;  ///< 0: found by the device itself
+  std::uint32_t kbit = 0;  ///< kbit/s; 0: automatic bit rate detection
   Field<bool> supported;
 };
 
-/// What the device can do in a network. [306: DeviceInfo; 311: CANopenGeneralFeatures, CANopenMasterFeatures]
+/// Communication features of a device. [306: DeviceInfo; 311: CANopenGeneralFeatures, CANopenMasterFeatures]
 struct Features {
   std::vector<BitRate> bit_rates;
   Field<std::uint32_t> default_bit_rate;  ///< kbit/s [311]
@@ -285,7 +285,7 @@ struct Features {
   Field<std::uint16_t> tx_pdos;
   Field<bool> lss_slave;
   Field<bool> lss_master;
-  Field<std::uint32_t> compact_pdo;  ///< bit n: sub-index n + 1 of the PDOs that are not described
+  Field<std::uint32_t> compact_pdo;  ///< bit n: sub-index n + 1 of the PDOs without a section
   Field<bool> node_guarding_slave;
   Field<bool> node_guarding_master;
   Field<std::uint16_t> guarded_nodes;  ///< NrOfNG_MonitoredNodes
@@ -317,7 +317,7 @@ struct Dummy {
 
 struct DynamicChannel {
   Field<std::uint16_t> data_type;
-  Field<Access> access;  ///< the direction
+  Field<Access> access;  ///< gives the direction
   Field<std::uint16_t> first_index;
   Field<std::uint16_t> last_index;
   Field<std::uint32_t> max_number;
@@ -326,11 +326,11 @@ struct DynamicChannel {
   std::vector<Kept> others;
 };
 
-/// What a module adds to an object of its coupler. [306]
+/// An object by which a module extends its coupler. [306]
 struct SubExtension {
   Object object;
-  Field<std::uint16_t> count;  ///< sub-objects of a module …
-  Field<std::uint16_t> bits;   ///< … or, "0;bits", so many bits of one
+  Field<std::uint16_t> count;  ///< number of sub-objects for each module …
+  Field<std::uint16_t> bits;   ///< … or, in the form "0;bits", bits of one sub-object
   Field<std::uint32_t> object_extension;
 };
 
@@ -349,12 +349,12 @@ struct Module {
   std::vector<Kept> others;
 };
 
-/// parameterGroup: a chapter. [311]
+/// parameterGroup: a group in a hierarchy of parameters. [311]
 struct Group {
   Text id;
   Words words;
   Text kind_of_access;
-  std::vector<Text> parameters;  ///< Entry::parameter_id of its members
+  std::vector<Text> parameters;  ///< Entry::parameter_id of the members
   std::vector<Group> groups;
   std::vector<Kept> others;
 };
@@ -365,7 +365,7 @@ std::string_view name_of(Format format);
 
 struct Device {
   Format format = Format::eds;
-  std::string dialect;  ///< name of a private dialect; empty for what the standards describe
+  std::string dialect;  ///< name of a private dialect; empty for the standards
 
   FileInfo file;
   ProfileHeader device_profile;         ///< [311]
@@ -384,40 +384,41 @@ struct Device {
 
   Field<std::uint32_t> module_count;  ///< SupportedModules
   std::vector<Module> modules;
-  std::vector<Field<std::uint16_t>> connected_modules;  ///< of a DCF: module numbers, in the order of the slots
+  std::vector<Field<std::uint16_t>> connected_modules;  ///< of a DCF: module numbers, by slot
 
   std::vector<TypeDefinition> types;
-  std::vector<Entry> parameters;  ///< those that no object refers to
-  std::vector<Entry> templates;   ///< their id is parameter_id
+  std::vector<Entry> parameters;  ///< parameters that no object refers to
+  std::vector<Entry> templates;   ///< templates, whose id is in parameter_id
   std::vector<AllowedTemplate> allowed_templates;
   std::vector<Group> groups;
 
-  std::vector<Kept> others;  ///< sections and elements with no place of their own, [Tools] and indicatorList with them
+  std::vector<Kept> others;  ///< sections and elements without a member, such as [Tools] and indicatorList
 
   const Object* find(std::uint16_t index) const;
   Object* find(std::uint16_t index);
-  /// An object without sub-objects is its own sub-index 0; null if there is none.
+  /// Returns an entry; null if there is none. An object without sub-objects is found with sub-index 0.
   const Entry* find(std::uint16_t index, std::uint8_t sub_index) const;
 };
 
-/// All that one file describes: one device, as a rule.
+/// The contents of a file; usually one device.
 struct Description {
   std::vector<Device> devices;
 };
 
-/// Every value of a device that SDO can reach: call(index, sub_index, entry), in order. An object without sub-objects
-/// has sub-index 0.
+/// Calls call(index, sub_index, entry) for each entry that SDO can access, in order. An object without sub-objects has
+/// sub-index 0.
 void for_each_variable(const Device& device,
                        const std::function<void(std::uint16_t, std::uint8_t, const Entry&)>& call);
 
-/// The list in which CiA 306 wants an object.
+/// Returns the list in which CiA 306 requires an object.
 ListKind list_of(std::uint16_t index);
 
-/// The values that an entry can have, with their names: its own, else those of its enumeration; empty: all of its type.
+/// Returns the allowed values of an entry, with their names: its own, else those of its enumeration. Empty: all values
+/// of its type are allowed.
 const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry);
 
-/// The width and form of a type of this device: one of CiA 301, or what its DEFTYPE object is; kind structure for a
-/// DEFSTRUCT object; else unknown.
+/// Returns width and form of a data type of this device: a type of CiA 301, the type that a DEFTYPE object names, kind
+/// structure for a DEFSTRUCT object, else kind unknown.
 const DataType& data_type_of(const Device& device, std::uint16_t code);
 
 }  // namespace lexican::codict

@@ -104,14 +104,14 @@ void warn_of_octal(const ParsedInteger& number, const Text& text, Findings& find
   }
 }
 
-// The numbers of an integer type: "0 to 255".
+// Returns the range of an integer type: "0 to 255".
 std::string range_of(const DataType& type) {
   const std::uint64_t all = ~std::uint64_t{0} >> (64U - type.bits);
   return type.kind == TypeKind::signed_integer ? fmt::format("-{} to {}", all / 2 + 1, all / 2)
                                                : fmt::format("0 to {}", all);
 }
 
-// Returns whether a number fits its type. A bit pattern becomes the negative number.
+// Returns whether a number fits its type. Converts the bit pattern of a negative number to that number, with a note.
 bool fit(Integer& number, const DataType& type, const Value& value, Findings& findings) {
   const bool is_signed = type.kind == TypeKind::signed_integer;
   if (is_signed ? fits_signed(number, type.bits) : fits_unsigned(number, type.bits)) {
@@ -178,7 +178,7 @@ void interpret_real(Value& value, const DataType& type, Findings& findings) {
   }
 }
 
-// Pairs of digits, with or without blanks between them.
+// Parses pairs of hexadecimal digits, with or without blanks between them.
 bool read_octets(std::string_view text, std::string& octets) {
   while (!(text = trimmed(text)).empty()) {
     std::uint64_t octet = 0;
@@ -208,7 +208,7 @@ void interpret_text(Value& value, Findings& findings) {
   }
 }
 
-// "365 43200000": days and milliseconds.
+// Interprets "365 43200000" as days and milliseconds.
 void interpret_time(Value& value, Findings& findings) {
   const std::string_view text = value.text;
   const std::size_t blank = text.find(' ');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parse.hpp
-/// What the text of a value means for a data type, which is the same in all formats.
+/// Interpretation of the text of a value according to its data type, equal for all formats.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,19 @@
 
 namespace lexican::codict {
 
-/// Gives the text of a value, which a reader has set, its meaning. Every doubt is a finding.
-/// width: bits of the type, where the type does not say it itself.
+/// Sets kind and value from the text, which a reader has set. Reports each fault of the text as a finding.
 void interpret(Value& value, const DataType& type, Findings& findings);
 
-/// The number of a field whose text a reader has set. What is none, or larger than `largest`, is a finding and leaves
-/// what field.value was.
+/// Sets the value of a field from its text, which a reader has set. Reports a text that is not a number, or a number
+/// above `largest`, and leaves field.value unchanged then.
 template <typename T>
 void interpret_number(Field<T>& field, std::uint64_t largest, Findings& findings);
 
-/// 0 or 1, in any way that numbers are written, or true and false.
+/// Sets a flag from its text: 0 or 1 in any notation of a number, or true and false (reported).
 void interpret_flag(Field<bool>& field, Findings& findings);
 
-/// Whether a number, a flag or the like is what its text says: not the 0 of a text that is none. Writers leave other
-/// texts as they are.
+/// Returns whether the value of a number, flag or the like is the meaning of its text, and not the 0 of a malformed
+/// text. Writers write a malformed text unchanged.
 template <typename T>
 bool is_understood(const Field<T>& field) {
   const ParsedInteger written = parse_integer(field.text);
@@ -52,7 +51,7 @@ extern const Rule value_time;
 extern const Rule value_quotes;
 }  // namespace rules
 
-/// All rules of this room.
+/// Returns the rules that this file reports.
 const std::vector<const Rule*>& value_rules();
 
 }  // namespace lexican::codict

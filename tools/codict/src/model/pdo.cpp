@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint16_t pdo_limit = 512;
 constexpr std::uint64_t mapped_limit = 64;
 
-// How many of the sub-objects are in force; all that are described if nothing says.
+// Returns the number of mapped objects: the value of sub-index 0, else the highest described sub-index.
 std::uint64_t mapped_count(const Object& mapping) {
   const Sub* const number = mapping.find(0);
   const bool is_said = number != nullptr && value_in_force(*number).is_integer();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file pdo.hpp
-/// The PDOs of a device, as its description has them before anybody configures it, or as a DCF configures them.
-/// [301: 7.5.2.35 ff.]
+/// The PDOs of a device with their values in force: the defaults, or the configured values of a DCF. [301: 7.5.2.35
+/// ff.]
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace lexican::codict {
 
-/// In which PDOs an entry can be mapped.
+/// Directions of PDOs in which an entry can be mapped.
 struct Directions {
-  bool send = false;     ///< TPDOs
-  bool receive = false;  ///< RPDOs
+  bool send = false;     ///< in TPDOs
+  bool receive = false;  ///< in RPDOs
 };
 
 Directions directions_of(const Entry& entry);
 
-/// A part of a PDO.
+/// An object that is mapped in a PDO.
 struct MappedObject {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
   std::uint8_t bits = 0;
-  const Entry* entry = nullptr;    ///< null for what is not described: a dummy, or a mistake
-  const Entry* mapping = nullptr;  ///< the sub-object that maps it
+  const Entry* entry = nullptr;    ///< null if the device does not describe it: a dummy, or a fault of the mapping
+  const Entry* mapping = nullptr;  ///< the sub-object of the mapping parameter
 
   bool is_dummy() const { return index != 0 && index < 8 && sub_index == 0; }
 };
@@ -34,16 +34,16 @@ struct Pdo {
   bool is_transmit = false;
   std::uint16_t number = 1;  ///< 1…512
   const Object* communication = nullptr;
-  const Object* mapping = nullptr;  ///< null if only one of both is described
+  const Object* mapping = nullptr;  ///< null if only the communication parameter is described
   bool is_multiplexed = false;      ///< sub-index 0 of the mapping is FEh or FFh
   std::vector<MappedObject> mapped;
 
-  unsigned bits() const;  ///< of all that is mapped; 64 fit
-  /// A sub-object of the communication parameters; null if there is none.
+  unsigned bits() const;  ///< length in bits of all mapped objects; the limit is 64
+  /// Returns a sub-object of the communication parameter; null if there is none.
   const Entry* parameter(std::uint8_t sub_index) const;
 };
 
-/// RPDOs, then TPDOs, by number.
+/// Returns the RPDOs, then the TPDOs, each sorted by number.
 std::vector<Pdo> pdos_of(const Device& device);
 
 }  // namespace lexican::codict

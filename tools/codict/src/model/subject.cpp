@@ -19,7 +19,7 @@ std::string subject_of_sub(std::uint16_t index, const Sub& sub) {
   return with_name(fmt::format("{:04X}h:{:02X}", index, sub.sub_index), sub.name);
 }
 
-// The text of an entry. Extents of one kind do not overlap.
+// The span of an entry in the source. Spans of one kind do not overlap.
 struct Extent {
   Span span;
   const Entry* entry;
@@ -56,7 +56,7 @@ class Extents {
     }
   }
 
-  // Null if the place belongs to no object.
+  // Returns the innermost extent that contains a place; null if it is in no object.
   const Extent* find(std::uint32_t place) const {
     const Extent* const sub = find(subs_, place);
     const Extent* const parameter = sub == nullptr ? find(parameters_, place) : sub;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file subject.hpp
-/// Objects as messages name them: "2000h 'Ratio'", "2000h:01 'Gain'".
+/// Names of objects in messages: "2000h 'Ratio'", "2000h:01 'Gain'".
 #pragma once
 
 #include <cstdint>

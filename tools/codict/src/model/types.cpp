@@ -52,7 +52,7 @@ struct OtherName {
   std::uint16_t code;
 };
 
-// CiA 311 takes these for the same types.
+// Names that CiA 311 defines for types that have another name in CiA 301.
 constexpr std::array<OtherName, 5> other_names = {
     {{"CHAR", 0x02}, {"BYTE", 0x05}, {"WORD", 0x06}, {"DWORD", 0x07}, {"LWORD", 0x1B}}};
 

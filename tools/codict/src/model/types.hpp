@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file types.hpp
-/// The data types of CiA 301, table 44, and what they are called elsewhere.
+/// The data types of CiA 301, table 44, and their names in CiA 311 and C.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum class TypeKind : unsigned char {
   visible_string,
   octet_string,
   unicode_string,
-  time,  ///< of day, or a difference
+  time,  ///< TIME_OF_DAY or TIME_DIFFERENCE
   domain,
   structure,  ///< one of the records of CiA 301, 20h…25h
 };
@@ -26,14 +26,15 @@ struct DataType {
   std::uint16_t code = 0;  ///< index of the type in the dictionary
   TypeKind kind = TypeKind::unknown;
   std::uint16_t bits = 0;  ///< 0: the length is not fixed
-  std::string_view name;   ///< CiA 301
-  std::string_view iec;    ///< CiA 311, from IEC 61131-3; empty where it has no name for it
-  std::string_view c;      ///< empty where C has no such type
+  std::string_view name;   ///< name in CiA 301
+  std::string_view iec;    ///< name in CiA 311, from IEC 61131-3; empty if there is none
+  std::string_view c;      ///< type in C; empty if there is none
 };
 
-/// Types of a device of its own (40h…9Fh, or any other code) are found as its objects. Never null: kind unknown.
+/// Returns a data type of CiA 301, else a type of kind unknown. Types that a device defines are in its dictionary: see
+/// data_type_of().
 const DataType& data_type(std::uint16_t code);
-/// By the name of CiA 301 or of CiA 311; null if it is neither.
+/// Returns the type with a name of CiA 301 or CiA 311, in any case; null if there is none.
 const DataType* data_type_named(std::string_view name);
 
 constexpr bool is_integer(TypeKind kind) {
