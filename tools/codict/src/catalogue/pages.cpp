@@ -29,7 +29,7 @@ This file is generated: `codict explain --all >tools/codict/docs/rules.md`. The 
 )";
 
 struct Chapter {
-  std::string_view prefix;  // of its rules; empty: all others
+  std::string_view prefix;  // of the rules' ids; empty: all rules without a chapter of their own
   std::string_view title;
 };
 

@@ -11,9 +11,9 @@
 
 namespace lexican::codict::catalogue {
 
-/// A file of catalogue/pages, built in.
+/// A file of catalogue/pages, compiled into the program.
 struct Page {
-  std::string_view id;    ///< of the rule
+  std::string_view id;    ///< id of the rule
   std::string_view text;  ///< Markdown without title and severity
 };
 

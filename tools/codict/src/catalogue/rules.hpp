@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file rules.hpp
-/// All rules there are.
+/// The list of all rules.
 #pragma once
 
 #include <string_view>
@@ -10,19 +10,19 @@
 
 namespace lexican::codict::catalogue {
 
-/// In the order of the reference, tools/codict/docs/rules.md.
+/// Returns all rules in the order of the reference, tools/codict/docs/rules.md.
 const std::vector<const Rule*>& all_rules();
 
-/// Null if there is none of this id.
+/// Returns the rule with an id; null if there is none.
 const Rule* find_rule(std::string_view id);
 
-/// In the same order.
+/// Returns the ids of all rules, in the order of all_rules().
 std::vector<std::string_view> all_ids();
 
-/// Whether a rule is about what cannot be generated: no check ever breaks it.
+/// Returns whether only the generator reports a rule (`gen-…`); checks never do.
 bool is_of_generator(const Rule& rule);
 
-/// Whether a rule is looked for only where that is asked for: to have no effect is no fault of a suppression then.
+/// Returns whether a rule is checked only on request. An unused suppression of such a rule is not reported.
 bool is_optional(const Rule& rule);
 
 }  // namespace lexican::codict::catalogue

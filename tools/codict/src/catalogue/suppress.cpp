@@ -29,12 +29,12 @@ const std::vector<const Rule*>& suppression_rules() {
 
 namespace {
 
-// The suppressions of one rule, and where its findings are. Each is looked up by halving: a file may have many of both.
+// The suppressions of one rule, and the places of its findings, sorted for binary search: a file may have many of both.
 struct Wanted {
-  std::vector<Suppression> suppressions;  // with a scope, by its begin
-  std::vector<std::uint32_t> reach;       // the last place that one of them covers, up to each
+  std::vector<Suppression> suppressions;  // those with a scope, sorted by its beginning
+  std::vector<std::uint32_t> reach;       // reach[n]: highest end of the scopes 0…n
   std::vector<std::uint32_t> places;
-  std::vector<Span> nowhere;  // comments that nothing follows
+  std::vector<Span> nowhere;  // ids in comments that nothing follows
 
   bool covers(std::uint32_t place) const {
     const auto behind =
@@ -77,10 +77,10 @@ void add_unused(const Wanted& wanted, Findings& findings) {
   }
 }
 
-// By rule; what is off in them is a finding.
+// Groups suppressions by rule, and reports those of unknown rules.
 ByRule by_rule(const Source& source, const std::vector<Suppression>& suppressions, bool is_generator,
                Findings& findings) {
-  constexpr std::size_t most_hints = 100;  // to look for one takes long
+  constexpr std::size_t most_hints = 100;  // a hint compares the id with all rules, which takes long
   ByRule all;
   std::size_t unknown = 0;
   for (const Suppression& suppression : suppressions) {

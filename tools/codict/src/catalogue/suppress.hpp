@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file suppress.hpp
-/// Comments of a description that ask for rules to be passed over, and what they ask for.
+/// Suppression of findings by comments of a description.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@
 
 namespace lexican::codict::catalogue {
 
-/// Who has made the findings: each has rules of its own.
+/// Origin of the findings: checks and generator report different rules.
 enum class Origin : unsigned char { checks, generator };
 
-/// Takes away what is not to be told, and adds what is off in the suppressions themselves. What keeps the generator
-/// from writing anything is always told.
+/// Removes suppressed findings, and adds findings about the suppressions themselves. Errors of the generator are never
+/// suppressed, because they prevent its output.
 void suppress(const Source& source, const std::vector<Suppression>& suppressions, Origin origin, Findings& findings);
 
 namespace rules {
