@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compact storage: one section for all sub-objects of an ARRAY, and lists of their names and values. [306: 4.6.4]
+// Reads compact storage: a section for all sub-objects of an ARRAY, and lists of their names and values. [306: 4.6.4]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace lexican::codict::eds {
 
 namespace {
 
-// Ten times as many as any device has: a small file must not fill the memory.
+// Limit per file, about ten times the number of any known device, so that a small file cannot exhaust the memory.
 constexpr std::size_t most_implied_subs = 50000;
 
 Sub implied_zero(std::uint8_t number) {
@@ -45,7 +45,7 @@ Sub implied_sub(const Object& object, std::uint8_t sub_index) {
   return sub;
 }
 
-// Where a section of names, values or denotations puts its text.
+// Returns the member that an entry in a list of names, values or denotations sets.
 Text& member_of(Sub& sub, SectionKind kind) {
   return kind == SectionKind::names ? sub.name : kind == SectionKind::values ? sub.actual_value : sub.denotation;
 }
@@ -127,11 +127,11 @@ void expand_compact(Object& object, const Reader& reader) {
   for (unsigned sub_index = 1; sub_index <= number; ++sub_index) {
     object.subs.push_back(implied_sub(object, static_cast<std::uint8_t>(sub_index)));
   }
-  for (Sub& sub : described) {  // a section of its own decides
+  for (Sub& sub : described) {  // a section of a sub-object takes precedence
     if (Sub* const implied = object.find(sub.sub_index); implied != nullptr) {
       *implied = std::move(sub);
     } else {
-      object.subs.push_back(std::move(sub));  // behind the last one: they are sorted
+      object.subs.push_back(std::move(sub));  // keeps the order: its sub-index is above all implied ones
     }
   }
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint32_t standard_line = 255;
 
-// Of text that is part of the source: without blanks at its ends.
+// Returns a span of the source without leading and trailing blanks.
 Span trimmed_span(const Source& source, Span span) {
   while (!span.is_empty() && is_blank(source.bytes()[span.begin])) {
     ++span.begin;
@@ -36,7 +36,7 @@ bool is_comment(std::string_view line) {
   return line.front() == ';' || line.front() == '#' || line.substr(0, 2) == "//";
 }
 
-// ";Key=" without a blank.
+// Returns whether a comment holds a key of a tool: ";Key=" without a blank.
 bool is_hidden_key(std::string_view line) {
   const std::size_t end = line.find_first_of("= \t");
   return end != std::string_view::npos && end > 1 && line[end] == '=';
@@ -90,7 +90,7 @@ std::size_t pass_blanks(std::string_view text, std::size_t at) {
   return at;
 }
 
-// Places of sections, or of keys: by name, and those of a name by place.
+// Returns the indexes of sections or keys, sorted by name, and by position for equal names.
 template <typename Named>
 std::vector<std::uint32_t> sorted(const Source& source, const std::vector<Named>& all) {
   std::vector<std::uint32_t> places(all.size());
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> sorted(const Source& source, const std::vector<Named>
   return places;
 }
 
-// text: returns the message about a name.
+// Marks and reports each section or key whose name an earlier one has. text: returns the message about a name.
 template <typename Named, typename Text>
 void mark_duplicates(const Source& source, const std::vector<std::uint32_t>& by_name, std::vector<Named>& all,
                      const Rule& rule, Text text, Findings& findings) {
@@ -115,7 +115,7 @@ void mark_duplicates(const Source& source, const std::vector<std::uint32_t>& by_
   }
 }
 
-// The first of a name; null if there is none.
+// Returns the first section or key that has a name; null if there is none.
 template <typename Named>
 const Named* find_named(const Source& source, const std::vector<std::uint32_t>& by_name, const std::vector<Named>& all,
                         std::string_view name) {
@@ -309,7 +309,7 @@ bool Document::add_key(const Section& section, std::string_view name, std::strin
   }
   const std::uint32_t neighbour = section.keys.empty() ? section.line : section.keys.back().line;
   std::string_view end = line_end_of(source_, neighbour);
-  if (end.find('\n') == std::string_view::npos) {  // the last line
+  if (end.find('\n') == std::string_view::npos) {  // the line is the last one of the file, without a line end
     end = line_end();
   }
   std::string between = "=";
@@ -317,7 +317,7 @@ bool Document::add_key(const Section& section, std::string_view name, std::strin
     const Key& last = section.keys.back();
     between = raw({last.name.end, last.value.begin});
   }
-  // In front of what ends the neighbour, which now ends the new line.
+  // Inserted before the line end of the preceding line, so that this line end now ends the new line.
   edits.insert(source_.line(neighbour).end, std::string(end) + std::string(name) + between + bytes);
   return true;
 }

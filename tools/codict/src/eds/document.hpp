@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file document.hpp
-/// The text of an EDS or DCF, with nothing lost: sections, keys and values are spans of the source, and changes of it
-/// are splices. Without a change, what is written is what was read, byte for byte. [CiA 306: 4]
+/// The text of an EDS or DCF without loss: sections, keys and values are spans of the source, and edits are splices. An
+/// unedited document is written byte for byte as it was read. [CiA 306: 4]
 #pragma once
 
 #include <cstddef>
@@ -17,26 +17,26 @@
 
 namespace lexican::codict::eds {
 
-/// A line "key=value". Both without blanks around them.
+/// A line "key=value". Name and value exclude surrounding blanks.
 struct Key {
   Span name;
   Span value;
   std::uint32_t line = 0;
-  bool is_duplicate = false;  ///< of an earlier one in its section
+  bool is_duplicate = false;  ///< an earlier key in its section has the same name
 };
 
 struct Section {
   Span name;               ///< inside the brackets
-  std::uint32_t line = 0;  ///< of the brackets
-  std::uint32_t end = 0;   ///< the line behind its last one
+  std::uint32_t line = 0;  ///< line of its header
+  std::uint32_t end = 0;   ///< number of the line behind its last one
   bool is_duplicate = false;
   std::vector<Key> keys;
-  std::vector<std::uint32_t> by_name;  ///< their places, sorted by name and place
+  std::vector<std::uint32_t> by_name;  ///< indexes in `keys`, sorted by name and position
 };
 
 class Document {
  public:
-  /// Takes any bytes; findings get what is not as the standard has it.
+  /// Parses any bytes. Adds a finding for each deviation from the standard.
   Document(Source source, Findings& findings);
 
   const Source& source() const { return source_; }
@@ -44,28 +44,29 @@ class Document {
   const std::vector<Section>& sections() const { return sections_; }
   const std::vector<Key>& keys_outside() const { return keys_outside_; }  ///< before the first section
 
-  /// The first of a name; null if there is none. Neither has capitals and small letters of its own.
+  /// Return the first section or key that has a name by compare_names(); null if there is none.
   const Section* find(std::string_view section) const;
   const Key* find(const Section& section, std::string_view key) const;
 
   std::string_view raw(Span span) const { return source_.slice(span); }
   std::string text(Span span) const { return to_utf8(raw(span), encoding_); }
 
-  /// The comments of a section, each without the sign that begins it: offsets are those of the source.
+  /// Returns the comments of a section that begin with a semicolon, without the semicolon, as spans of the source.
   std::vector<Span> comments(const Section& section) const;
 
-  /// The last line that says something. Comments behind it precede the next section, but for keys that tools hide in
-  /// them (";StorageLocation=RAM").
+  /// Returns the number of the section's last line that is neither empty nor a comment. Comments behind it belong to
+  /// the next section. A key that a tool has hidden in a comment (";StorageLocation=RAM") counts as a key.
   std::uint32_t last_line(const Section& section) const;
 
-  /// What replaces a value, or adds a key as the last of a section, in the manner of the lines around it. Text is
-  /// UTF-8; false if the encoding of the source lacks a letter of it, or if it has a line end.
+  /// Replace the value of a key, or add a key at the end of a section, with the line end and the blanks around "=" of
+  /// the preceding key. Text is UTF-8; return false if the encoding of the source lacks a character of it, or if it
+  /// contains a line end or NUL.
   bool set_value(const Key& key, std::string_view text, Edits& edits) const;
   bool add_key(const Section& section, std::string_view name, std::string_view text, Edits& edits) const;
 
-  /// What ends its lines.
+  /// Returns the line end of the source.
   std::string_view line_end() const;
-  /// One line of UTF-8 in the encoding of the source; false as above.
+  /// Converts a line of UTF-8 to the encoding of the source. Returns false in the cases of set_value().
   bool to_source(std::string_view text, std::string& bytes) const;
 
  private:
@@ -78,10 +79,11 @@ class Document {
   Encoding encoding_ = Encoding::ascii;
   std::vector<Section> sections_;
   std::vector<Key> keys_outside_;
-  std::vector<std::uint32_t> by_name_;  // sections, sorted by name and place
+  std::vector<std::uint32_t> by_name_;  // indexes in `sections_`, sorted by name and position
 };
 
-/// Of names: ASCII letters are the same in both cases, blanks count nothing.
+/// Compares names of sections or keys: ASCII letters in any case are equal, blanks are ignored. Returns a number below,
+/// equal to or above 0.
 int compare_names(std::string_view a, std::string_view b);
 
 }  // namespace lexican::codict::eds

@@ -55,7 +55,7 @@ void report_length(const Text& text, std::size_t longest, Findings& findings) {
 
 void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader) {
   others.push_back(kept(reader.document, key));
-  if (!key.is_duplicate && !key.value.is_empty()) {  // an empty value is as good as no key
+  if (!key.is_duplicate && !key.value.is_empty()) {  // an empty value counts as a missing key
     reader.findings.add(rules::key_unknown, key.name,
                         fmt::format("key {} is unknown to CiA 306", in_quotes(reader.document.text(key.name))),
                         "check the spelling");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fields.hpp
-/// Keys of a section become members of the model, by tables.
+/// Assignment of the keys of a section to members of the model, by tables.
 #pragma once
 
 #include <array>
@@ -17,35 +17,35 @@
 
 namespace lexican::codict::eds {
 
-/// What the parts of the reader share.
+/// Context of a read, shared by all parts of the reader.
 struct Reader {
   const Document& document;
   Device& device;
   Findings& findings;
-  std::size_t& implied_subs;  ///< that compact storage has made up so far
+  std::size_t& implied_subs;  ///< number of sub-objects that compact storage has created so far
 };
 
 Text text_of(const Document& document, const Key& key);
 Kept kept(const Document& document, const Key& key);
 Kept kept(const Document& document, const Section& section);
 
-/// The key of a section, and the member that it becomes.
+/// A key of CiA 306 and the member of the model that holds its value.
 template <typename T>
 struct Slot {
   std::string_view key;
   Text& (*member)(T&);
-  std::size_t longest = 0;  ///< characters that CiA 306 allows; 0: any number
+  std::size_t longest = 0;  ///< limit of CiA 306 in characters; 0: no limit
 };
 
 void report_length(const Text& text, std::size_t longest, Findings& findings);
 
-/// Returns the text of a section from its header to its last line.
+/// Returns the span of a section from its header to its last line.
 Span extent_of(const Document& document, const Section& section);
 
-/// ";StorageLocation=PERSIST", a key that libEDSsharp hides in a comment; none if there is none.
+/// Returns ";StorageLocation=PERSIST", which libEDSsharp stores in a comment, as a key; none if there is none.
 std::optional<Key> storage_location(const Document& document, const Section& section);
 
-/// False if no slot is that of the key.
+/// Sets the member of a key. Returns false if no slot has this key.
 template <typename T, std::size_t size>
 bool read_into(T& target, const Key& key, const std::array<Slot<T>, size>& slots, const Reader& reader) {
   for (const Slot<T>& slot : slots) {
@@ -59,7 +59,7 @@ bool read_into(T& target, const Key& key, const std::array<Slot<T>, size>& slots
   return false;
 }
 
-/// All keys of a section; what is no slot's, or there twice, is kept in others, and reported if it is unknown.
+/// Reads all keys of a section. Duplicates and keys without a slot are added to `others`; unknown ones are reported.
 template <typename T, std::size_t size>
 void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
                   const Reader& reader);
@@ -76,7 +76,7 @@ void read_section(T& target, const Section& section, const std::array<Slot<T>, s
   }
 }
 
-/// Keys that are a word and a decimal number, or a number alone, by number.
+/// A key that consists of a word and a decimal number, or of a number alone.
 struct NumberedKey {
   std::uint32_t number = 0;
   const Key* key = nullptr;
@@ -84,17 +84,18 @@ struct NumberedKey {
 
 struct NumberedList {
   Field<std::uint32_t> count;
-  std::vector<NumberedKey> entries;  ///< with a value
+  std::vector<NumberedKey> entries;  ///< sorted by number
   std::vector<const Key*> others;
 };
 
 enum class Gaps : bool { are_wrong, are_right };
 
-/// count_key: "NrOfEntries". What does not fit together is reported.
+/// Reads a section that is a list with a count (count_key: "NrOfEntries"). Reports a wrong count, entries without a
+/// value, and gaps in the numbers if they are wrong.
 NumberedList read_list(const Section& section, std::string_view count_key, std::string_view word, Gaps gaps,
                        const Reader& reader);
 
-/// The number at the end of a key; false if the key is not the word and a number.
+/// Reads the number at the end of a key. Returns false if the key is not `word` and a number.
 bool number_of(std::string_view key, std::string_view word, std::uint32_t& number);
 
 }  // namespace lexican::codict::eds

@@ -25,7 +25,7 @@ namespace lexican::codict::eds {
 
 namespace {
 
-// A section with the comments in front of it.
+// A section with the lines of comments in front of it.
 struct Block {
   const Section* section = nullptr;
   SectionName name;
@@ -33,7 +33,7 @@ struct Block {
   std::vector<std::string> lines;
 };
 
-// Places in the file. [306: 4.3]
+// Ranks in the order of the file. [306: 4.3]
 enum Rank : unsigned char { header, mandatory = 10, optional = 20, manufacturer = 30, module = 40, last = 50 };
 
 Rank rank_of(ListKind kind) {
@@ -58,7 +58,7 @@ unsigned rank_of_header(std::string_view word) {
   return ranks.at(word);
 }
 
-// By it, sections are sorted; those that have the same stay in their order.
+// Returns the sort key of a section. Sections with equal keys keep their order.
 auto order_of(const SectionName& name) {
   using Order = std::tuple<unsigned, std::uint16_t, SectionKind, std::uint8_t>;
   if (has_index(name)) {
@@ -97,7 +97,7 @@ std::string_view key_in(const std::array<Slot<T>, size>& slots, std::string_view
   return slot != slots.end() ? slot->key : std::string_view();
 }
 
-// As the standard writes it; empty if it knows none of this name in such a section.
+// Returns the spelling of a key in CiA 306; empty if such a section has no key of this name.
 std::string_view standard_key(const SectionName& section, std::string_view key) {
   if (section.kind == SectionKind::object || section.kind == SectionKind::sub) {
     const std::string_view of_entry = key_in(entry_slots, key);
@@ -115,7 +115,7 @@ std::string hexadecimal(std::string_view text, int digits) {
   return fits ? fmt::format("0x{:0{}X}", number.value.magnitude, digits) : std::string(text);
 }
 
-// 0X10 of a number is 0x10.
+// Replaces the prefix 0X of a number by 0x.
 std::string with_small_x(std::string text) {
   if (text.substr(0, 2) == "0X" && parse_integer(text).is_number()) {
     text[1] = 'x';
@@ -157,7 +157,7 @@ class Formatter {
     }
     std::stable_sort(blocks.begin(), blocks.end(),
                      [](const Block& a, const Block& b) { return order_of(a.name) < order_of(b.name); });
-    // Above the first section, a comment that suppresses rules would be for the whole file.
+    // Above the first section, a comment that suppresses rules would apply to the whole file.
     const auto plain =
         std::find_if_not(blocks.begin(), blocks.end(), [this](const Block& block) { return has_suppression(block); });
     if (plain != blocks.end()) {
@@ -188,7 +188,7 @@ class Formatter {
     });
   }
 
-  // Lines behind one another, none of them empty, with an empty one in front of them.
+  // Writes lines without the empty ones, after an empty line that separates them from the preceding text.
   void paragraph(const std::vector<std::string_view>& lines, const std::vector<std::string>& more = {}) {
     bool is_first = true;
     const auto put = [&](std::string_view line) {
@@ -206,7 +206,8 @@ class Formatter {
     std::for_each(more.begin(), more.end(), put);
   }
 
-  // What stands behind its last key is the next section's, but for keys that tools hide in comments.
+  // Reads the lines of a section into its block. Lines behind its last key are returned in `behind`, for the next
+  // section.
   void read(Block& block, std::vector<std::string_view>& behind) const {
     const Section& section = *block.section;
     const std::uint32_t last = document_.last_line(section);
@@ -270,7 +271,7 @@ class Formatter {
     return is_value && is_of_numbers(section) ? with_node_id(with_small_x(text)) : text;
   }
 
-  // Whether values may depend on the node-ID: $NODEID in a string is a part of it.
+  // Returns whether values may depend on the node-ID. $NODEID in a string is a part of the string.
   bool is_of_numbers(const Section& section) const {
     const Key* const key = document_.find(section, "DataType");
     const ParsedInteger code = parse_integer(key != nullptr ? document_.raw(key->value) : std::string_view());
@@ -283,7 +284,7 @@ class Formatter {
     return key != nullptr && !key->value.is_empty();
   }
 
-  // The text of a count that is right stays.
+  // Returns a count; the text of a correct one is unchanged.
   std::string counted(const Key& key, std::size_t number) const {
     const ParsedInteger given = parse_integer(document_.raw(key.value));
     const bool is_right = given.is_number() && given.value == Integer(number);

@@ -9,9 +9,9 @@
 
 namespace lexican::codict::eds {
 
-/// The same device and all comments: sections in the order of CiA 306, one empty line between them, names and numbers
-/// as the standard writes them, counts that are right. Comments stay with the section, or the key, in front of which
-/// they stand; line ends and encoding are those of the source. The normal form of it is itself.
+/// Returns the normal form of a document, which describes the same device and has all comments: sections in the order
+/// of CiA 306, separated by one empty line, names and numbers in the notation of the standard, correct counts. Comments
+/// stay in front of their section or key; line ends and encoding are those of the source. Idempotent.
 std::string formatted(const Document& document);
 
 }  // namespace lexican::codict::eds

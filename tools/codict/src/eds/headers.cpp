@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FileInfo, DeviceInfo and the other sections that belong to the whole device. [306: 4.4, 4.5]
+// Reads FileInfo, DeviceInfo and the other sections about the whole device. [306: 4.4, 4.5]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,11 +21,11 @@ constexpr std::uint64_t u8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::uint64_t u16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t u32 = std::numeric_limits<std::uint32_t>::max();
 
-// Of former versions of the standard: kept without a remark.
+// Keys of former versions of the standard: kept without a finding.
 constexpr std::array<std::string_view, 4> former_keys = {"ProductVersion", "ProductRevision", "LMT_ManufacturerName",
                                                          "LMT_ProductName"};
 
-// Where the keys of a section are kept that have no place in the model.
+// Keeps the keys of a section that have no member in the model.
 void keep_section(std::string_view name, std::vector<Kept> children, const Section& section, Device& device) {
   if (!children.empty()) {
     device.others.push_back({std::string(name), {}, std::move(children), section.name});
@@ -41,7 +41,7 @@ void read_file_info(const Section& section, const Reader& reader) {
   keep_section("FileInfo", std::move(others), section, reader.device);
 }
 
-// BaudRate_500, and BaudRate_500.0 as python-canopen writes it.
+// Reads BaudRate_500, and the form BaudRate_500.0 that python-canopen writes.
 bool read_bit_rate(const Key& key, const Reader& reader) {
   std::string_view name = reader.document.raw(key.name);
   if (name.size() > 2 && name.substr(name.size() - 2) == ".0") {
@@ -130,7 +130,7 @@ void read_commissioning(const NamedSection& header, const Reader& reader) {
                         "write [DeviceComissioning], with one m");
   }
   Commissioning& commissioning = reader.device.commissioning;
-  if (commissioning.is_given) {  // in the other spelling
+  if (commissioning.is_given) {  // already read from a section in the other spelling
     reader.findings.add(rules::duplicate_section, header.section->name,
                         "duplicate section [DeviceComissioning]; the first is used", "remove one of them");
     reader.device.others.push_back(kept(reader.document, *header.section));
@@ -149,7 +149,7 @@ void read_commissioning(const NamedSection& header, const Reader& reader) {
   keep_section("DeviceComissioning", std::move(others), *header.section, reader.device);
 }
 
-// "0xA000-0xA03F"
+// Interprets "0xA000-0xA03F".
 void interpret_range(DynamicChannel& channel, Findings& findings) {
   const std::size_t dash = channel.first_index.text.find('-');
   if (dash == std::string::npos) {
@@ -188,7 +188,7 @@ void read_dynamic_channels(const Section& section, const Reader& reader) {
       {"Range", [](DynamicChannel& c) -> Text& { return c.first_index; }},
       {"PPOffset", [](DynamicChannel& c) -> Text& { return c.offset; }},
   }};
-  const std::size_t most = section.keys.size();  // segments that there can be
+  const std::size_t most = section.keys.size();  // limit of the segment numbers
   std::vector<DynamicChannel>& channels = reader.device.dynamic_channels;
   std::vector<Kept> others;
   Field<std::uint32_t> count;
@@ -240,7 +240,8 @@ void read_connected_modules(const Section& section, const Reader& reader) {
   keep_section("ConnectedModules", std::move(others), section, reader.device);
 }
 
-// In a pattern, 0 stands for a digit, ~ for A or P, and others for themselves.
+// Returns whether a text matches a pattern, in which 0 stands for a digit, ~ for A or P, and other characters for
+// themselves.
 bool has_form(std::string_view text, std::string_view pattern) {
   return text.size() == pattern.size() && std::equal(text.begin(), text.end(), pattern.begin(), [](char c, char p) {
            return p == '0' ? is_digit(c) : p == '~' ? c == 'A' || c == 'P' : c == p;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs that an EDS counts and does not describe. [306: 4.5, CompactPDO]
+// Adds the objects of PDOs that an EDS counts but does not describe. [306: 4.5, CompactPDO]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace lexican::codict::eds {
 namespace {
 
 constexpr std::uint16_t most_pdos = 512;
-constexpr std::uint16_t to_mapping = 0x200;  // from the index of the communication parameters
+constexpr std::uint16_t to_mapping = 0x200;  // offset of a mapping parameter from its communication parameter
 
 struct Direction {
   const char* name;
-  std::uint16_t first;   // index of the communication parameters
-  std::uint16_t cob_id;  // of the first PDO in the predefined connection set
+  std::uint16_t first;   // index of the first communication parameter
+  std::uint16_t cob_id;  // COB-ID of the first PDO in the pre-defined connection set
 };
 
 struct Parameter {
@@ -63,7 +63,7 @@ Object record(std::uint16_t index, const std::string& name) {
   return object;
 }
 
-// A PDO that maps nothing is disabled: bit 31 of its COB-ID is set.
+// Returns the COB-ID of a PDO, which is disabled (bit 31 is set) because it maps no object.
 Sub cob_id(const Direction& direction, std::uint16_t number) {
   constexpr std::uint32_t is_off = 0x80000000U;
   constexpr std::uint16_t predefined = 4;
@@ -77,7 +77,7 @@ Sub cob_id(const Direction& direction, std::uint16_t number) {
   return sub;
 }
 
-// CiA 301 demands sub-indexes 1 and 2, whatever the mask says.
+// Returns a communication parameter. CiA 301 requires sub-indexes 1 and 2, even if the mask excludes them.
 Object communication(const Direction& direction, std::uint16_t number, std::uint32_t mask) {
   constexpr std::uint32_t mandatory = 0x3;
   Object object = record(static_cast<std::uint16_t>(direction.first + number),
@@ -96,7 +96,7 @@ Object communication(const Direction& direction, std::uint16_t number, std::uint
   return object;
 }
 
-// A PDO has entries for 64 bits in parts of the device's granularity; in bytes where the device gives none.
+// Returns the number of objects that a PDO can map: 64 bits in units of the granularity, or of 8 bits without one.
 unsigned entries_of(const Device& device) {
   constexpr unsigned frame_bits = 64;
   const unsigned granularity = device.features.granularity.value;
@@ -114,7 +114,7 @@ Object mapping(const Direction& direction, std::uint16_t number, unsigned entrie
   return object;
 }
 
-// Numbers of the PDOs, from 0, that lack an object.
+// Numbers of the PDOs, from 0, whose communication or mapping parameter has no section.
 struct Gaps {
   std::vector<std::uint16_t> communication;
   std::vector<std::uint16_t> mapping;
@@ -122,7 +122,7 @@ struct Gaps {
   std::size_t objects() const { return communication.size() + mapping.size(); }
 };
 
-// PDOs without any object take the lowest numbers that are free.
+// Returns the missing parameters of `count` PDOs. PDOs without any parameter get the lowest free numbers.
 Gaps gaps_of(const Direction& direction, std::uint16_t count, const Device& device) {
   const auto has = [&](std::uint16_t number, std::uint16_t offset) {
     return device.find(static_cast<std::uint16_t>(direction.first + offset + number)) != nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three lists of objects. The sections are the truth, the lists are checked against them. [306: 4.6.2]
+// Reads the three object lists, and compares them with the sections, which take precedence. [306: 4.6.2]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::array<List, 3> lists = {{{&Device::mandatory, ListKind::mandatory
 
 void check_entry(const Field<std::uint16_t>& entry, ListKind kind, const Reader& reader) {
   if (entry.value == 0) {
-    return;  // it is no number, which has been said
+    return;  // not a number, already reported
   }
   Object* const object = reader.device.find(entry.value);
   if (object == nullptr) {
@@ -89,7 +89,7 @@ void check_lists(const Reader& reader) {
     }
   }
   for (Object& object : reader.device.objects) {
-    const bool is_type = object.index < 0x1000;  // the lists begin with 1000h
+    const bool is_type = object.index < 0x1000;  // the lists begin at 1000h
     if (!object.is_listed && !is_type) {
       reader.findings.add(rules::list_unlisted, object.span,
                           has_lists ? "object is in no list" : "object lists are missing; all objects are read",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modules of a bus coupler: what each adds to the dictionary. [306: 4.7]
+// Reads the modules of a bus coupler, which extend its dictionary. [306: 4.7]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace lexican::codict::eds {
 
 namespace {
 
-// "3" sub-objects, or "0;2": two bits.
+// Interprets Count: "3" sub-objects, or "0;2" for two bits.
 void interpret_count(SubExtension& extension, Findings& findings) {
   const std::size_t semicolon = extension.count.text.find(';');
   if (semicolon != std::string::npos) {

@@ -40,7 +40,8 @@ constexpr std::array<Suffix, 4> suffixes = {{{"Name", SectionKind::names},
 bool is_hex(char c) { return is_digit(c) || (to_lower(c) >= 'a' && to_lower(c) <= 'f'); }
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 
-// At most four digits (1A00Denotation goes on with letters that might be more); fewer begin with a figure.
+// Removes and returns the index at the beginning: at most four digits, because hexadecimal letters may follow it
+// (1A00Denotation). An index of fewer digits must begin with 0 to 9.
 std::string_view take_index(std::string_view& text) {
   const std::string_view start = text.substr(0, 4);
   const auto end = std::find_if_not(start.begin(), start.end(), is_hex);
@@ -56,7 +57,7 @@ bool to_number(std::string_view digits, std::uint64_t largest, std::uint64_t& nu
   return !digits.empty() && parse_hex(digits, number) && number <= largest;
 }
 
-// Behind an index: a sub-index, if anything; false if it is something else.
+// Reads "sub" and a sub-index behind an index. Returns false for any other text.
 bool take_sub(std::string_view rest, SectionName& name) {
   constexpr std::string_view word = "sub";
   std::string_view digits = rest.substr(std::min(word.size(), rest.size()));
@@ -77,7 +78,7 @@ bool take_sub(std::string_view rest, SectionName& name) {
   return true;
 }
 
-// Behind the index of an object: the word of a list; other if it is something else.
+// Returns the kind of list that the word behind an index names; other if it names none.
 SectionKind list_kind(std::string_view rest) {
   const auto* const found = std::find_if(suffixes.begin(), suffixes.end(), [rest](const Suffix& suffix) {
     return equal_ignoring_case(rest, suffix.word);
@@ -85,7 +86,7 @@ SectionKind list_kind(std::string_view rest) {
   return found != suffixes.end() ? found->kind : SectionKind::other;
 }
 
-// An index and what follows it; kind stays what it is if this is something else.
+// Reads an index and the text behind it. Leaves name.kind unchanged if the text has another form.
 void read_indexed(std::string_view text, SectionKind alone, SectionKind with_sub, SectionName& name) {
   const std::string_view digits = take_index(text);
   std::uint64_t index = 0;

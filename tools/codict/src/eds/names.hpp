@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file names.hpp
-/// What the name of a section says.
+/// Interpretation of section names.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace lexican::codict::eds {
 
 enum class SectionKind : unsigned char {
   other,
-  header,            ///< of the whole file: FileInfo and so on
+  header,            ///< about the whole file: FileInfo, DeviceInfo and others
   object,            ///< 1A00
   sub,               ///< 1A00sub1
   names,             ///< 1A00Name
@@ -26,17 +26,17 @@ struct SectionName {
   SectionKind kind = SectionKind::other;
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  bool is_sub = false;         ///< of module_fixed: with a sub-index
-  std::string_view large_sub;  ///< digits of a sub-index beyond FFh, of the object index; kind is other
+  bool is_sub = false;         ///< for module_fixed: the name has a sub-index
+  std::string_view large_sub;  ///< digits of a sub-index above FFh of `index`; kind is `other`
   std::uint16_t module = 0;
-  std::string_view word;       ///< of header and module: as the standard writes it
-  bool has_odd_zeros = false;  ///< the index not of four digits, or zeros before the sub-index
-  bool has_odd_case = false;   ///< digits in small letters, or Sub
+  std::string_view word;       ///< for header and module: the word as CiA 306 spells it
+  bool has_odd_zeros = false;  ///< the index has other than four digits, or the sub-index has leading zeros
+  bool has_odd_case = false;   ///< lower-case digits, or upper-case letters in "sub"
 };
 
 SectionName section_name(std::string_view name);
 
-/// Of an object, or of what belongs to one.
+/// Returns whether a section describes an object or a part of one.
 inline bool has_index(const SectionName& name) {
   return name.kind >= SectionKind::object && name.kind <= SectionKind::links;
 }

@@ -39,7 +39,7 @@ void normalise(Value& value) {
   }
 }
 
-// 2020-12-31 of XML Schema is 12-31-2020, 09:30:00 is 09:30AM. What is neither stays.
+// Converts a date of XML Schema, 2020-12-31, to 12-31-2020. Leaves other texts unchanged.
 void normalise_date(Text& date) {
   const std::string& t = date.text;
   if (t.size() >= 10 && t[4] == '-' && t[7] == '-') {
@@ -56,7 +56,7 @@ void normalise_time(Text& time) {
   }
 }
 
-// CiA 311 has words for a bit rate that the device detects.
+// Normalises a bit rate. CiA 311 writes automatic detection as a word, CiA 306 as 0.
 void normalise_rate(Field<std::uint32_t>& rate) {
   if (rate.value == 0 && equal_ignoring_case(rate.text, "auto-baudRate")) {
     rate.text = "0";
@@ -64,14 +64,15 @@ void normalise_rate(Field<std::uint32_t>& rate) {
   normalise_number(rate);
 }
 
-// Whether a deviceCommissioning has only what CiA 311 requires: empty names and rates, 0 and false.
+// Returns whether a deviceCommissioning has only the attributes that CiA 311 requires: empty names and rates, 0 and
+// false.
 bool is_blank_form(const Commissioning& commissioning) {
   return commissioning.node_id.is_empty() && commissioning.node_name.is_empty() && commissioning.bit_rate.is_empty() &&
          commissioning.network_name.is_empty() && commissioning.network_number.value == 0 &&
          !commissioning.is_manager.value;
 }
 
-// The direction of a PDO is in the access type. [306: 4.6.3]
+// Returns the access type. In CiA 306 it includes the direction of PDOs. [306: 4.6.3]
 Access access_of(const Entry& entry) {
   const Access access = entry.access.value;
   if (access != Access::rw) {
@@ -142,7 +143,7 @@ Device normal_headers(const Device& device) {
   for_each_flag(result.features, normalise_flag);
   const bool is_of_eds = device.format == Format::eds || device.format == Format::dcf;
   if (!is_of_eds) {
-    if (result.features.granularity.value == 0) {  // an XDD must have it, an EDS that has none means 0
+    if (result.features.granularity.value == 0) {  // mandatory in an XDD; 0 is the default of an EDS
       result.features.granularity = {};
     }
     if (is_blank_form(result.commissioning)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file normal.hpp
-/// Values in the words of CiA 306, whichever format they come from.
+/// Values in the notation of CiA 306, for devices of any format.
 #pragma once
 
 #include <string>
@@ -10,18 +10,18 @@
 
 namespace lexican::codict::eds {
 
-/// The text of a value: as it is written if that is how CiA 306 writes it, or else what it means.
+/// Returns the text of a value: the original text if CiA 306 allows it, else its meaning in the notation of CiA 306.
 std::string text_of(const Value& value);
 
-/// 0 or 1; what is neither true nor false stays as it is written.
+/// Returns 0 or 1; the original text if it is not a flag.
 template <typename T>
 std::string flag_text(const Field<T>& flag) {
   return flag.value != T{} ? "1" : flag.is_empty() || is_understood(flag) ? "0" : flag.text;
 }
 
-/// The same with all texts of fields as CiA 306 writes them.
+/// Returns a copy of an entry whose texts are in the notation of CiA 306.
 Entry normal(const Device& device, const Entry& entry);
-/// Without its objects.
+/// Returns a copy of a device whose texts are in the notation of CiA 306, without its objects.
 Device normal_headers(const Device& device);
 
 }  // namespace lexican::codict::eds

@@ -13,20 +13,20 @@
 
 namespace lexican::codict::eds {
 
-/// "MandatoryObjects"
+/// Returns the section name of an object list: "MandatoryObjects".
 std::string_view list_name(ListKind kind);
 
 struct ListForm {
-  std::string_view count;  ///< key of the number of entries; empty: the section is no list
-  std::string_view word;   ///< in front of the numbers
+  std::string_view count;  ///< key with the number of entries; empty: the section is not a list
+  std::string_view word;   ///< prefix of the entries' numbers; may be empty
   bool has_indexes = false;
 };
 
 ListForm list_form(const SectionName& name);
 
-/// Entries that say something, each number once. A comment may be empty.
+/// Returns the number of entries without duplicates. Entries without a value count only in comments.
 std::size_t entries_of(const Document& document, const Section& section, const ListForm& list);
-/// The largest number of an entry; 0 if there is none.
+/// Returns the highest number of an entry; 0 if there is none.
 std::uint32_t last_number(const Document& document, const Section& section, const ListForm& list);
 
 }  // namespace lexican::codict::eds

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects and sub-objects, each a section. [306: 4.6]
+// Reads objects and sub-objects, each of which has a section. [306: 4.6]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,7 +87,7 @@ void interpret_access(Entry& entry, Findings& findings) {
   }
 }
 
-// False keeps what the standard says where nothing is given.
+// Returns whether DataType and AccessType are mandatory. For other object codes, the standard defines their values.
 bool is_type_needed(const Entry& entry) {
   const ObjectCode code = entry.object_code.value;
   return code == ObjectCode::variable || code == ObjectCode::deftype;
@@ -129,7 +129,7 @@ void report_misplaced(const Text& field, std::string_view key, Findings& finding
   }
 }
 
-// What an ARRAY or RECORD says of its values, without compact storage.
+// Reports keys about values in an ARRAY or RECORD without compact storage.
 void report_misplaced_keys(const Object& object, Findings& findings) {
   if (object.compact.value == 0) {
     report_misplaced(object.data_type, "DataType", findings);
@@ -141,7 +141,7 @@ void report_misplaced_keys(const Object& object, Findings& findings) {
   report_misplaced(object.high_limit, "HighLimit", findings);
 }
 
-// There is one if it begins elsewhere than the first sub-object.
+// Returns whether the object itself has a section. Without one, its span is that of its first sub-object.
 bool has_section(const Object& object) { return object.subs.empty() || !(object.span == object.subs.front().span); }
 
 void interpret_object(Object& object, Findings& findings) {
@@ -169,7 +169,7 @@ void interpret_object(Object& object, Findings& findings) {
   }
 }
 
-// A key that is the object's, not the sub-object's.
+// Keeps and reports a key that CiA 306 defines for objects only. Returns false for other keys.
 bool keep_object_key(Sub& sub, const Key& key, const Reader& reader) {
   const bool is_known = std::any_of(object_slots.begin(), object_slots.end(), [&](const Slot<Object>& slot) {
     return compare_names(reader.document.raw(key.name), slot.key) == 0;
@@ -195,7 +195,7 @@ void read_sub(Sub& sub, const Section& section, const Reader& reader) {
   read_storage_group(sub, section, reader);
 }
 
-// The default of sub-index 0 that is not given is the highest sub-index. [306: 4.6.3]
+// Completes a missing default value of sub-index 0 with the highest sub-index. [306: 4.6.3]
 void complete_sub_zero(Object& object) {
   if (!has_sub_objects(object.object_code.value) || object.subs.empty() || object.subs.front().sub_index != 0) {
     return;
@@ -254,7 +254,8 @@ std::size_t number_of_objects(const std::vector<NamedSection>& sorted) {
   return number;
 }
 
-// Parts come sorted: each belongs to the last object, or begins a new one.
+// Reads a section of an object or sub-object. Sections are sorted, so it belongs to the last object or begins a new
+// one.
 void read_part(const NamedSection& part, std::vector<Object>& objects, const Reader& reader) {
   const bool is_new = objects.empty() || objects.back().index != part.name.index;
   Object& object = is_new ? objects.emplace_back() : objects.back();
@@ -274,7 +275,7 @@ void read_part(const NamedSection& part, std::vector<Object>& objects, const Rea
 }
 
 void keep_second(const NamedSection& part, std::vector<Kept>& others, const Reader& reader) {
-  if (!part.section->is_duplicate) {  // else that has been said
+  if (!part.section->is_duplicate) {  // a duplicate name is already reported
     reader.findings.add(
         rules::duplicate_section, part.section->name,
         fmt::format("duplicate section [{}]; the first is used", shortened(reader.document.text(part.section->name))),

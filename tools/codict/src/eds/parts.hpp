@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parts.hpp
-/// The parts of the reader, a file for each.
+/// Functions of the reader, grouped by the files that define them.
 #pragma once
 
 #include <vector>
@@ -17,24 +17,24 @@ struct NamedSection {
 
 // headers.cpp
 void read_header(const NamedSection& header, const Reader& reader);
-/// What is checked when all headers have been read.
+/// Checks the headers after all of them have been read.
 void check_headers(const Reader& reader);
 
-// objects.cpp: sections of kind object and sub, or module_fixed, in any order. What belongs to none is kept in others.
+// objects.cpp: reads sections of kind object, sub or module_fixed, in any order. Duplicates are added to `others`.
 std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Kept>& others, const Reader& reader);
-/// Values get their meaning; all types must be known.
+/// Interpret the values. All objects must have been read, because they may define data types.
 void interpret_values(Object& object, const Reader& reader);
 void interpret_values(Entry& entry, const Reader& reader);
 void interpret_entry(Entry& entry, bool has_subs, Findings& findings);
 void read_key(Object& object, const Key& key, const Reader& reader);
 
-// compact.cpp: names, values, denotations and links.
+// compact.cpp: reads lists of names, values and denotations, and object links.
 void expand_compact(Object& object, const Reader& reader);
-/// False, with a finding, if so many further sub-objects without sections are too many.
+/// Returns false, with a finding, if `number` further sub-objects without sections would exceed the limit.
 bool take_implied_subs(std::size_t number, Span place, const Reader& reader);
 void read_addition(const NamedSection& addition, const Reader& reader);
 
-// implied_pdos.cpp: adds the objects of PDOs that CompactPDO stands for.
+// implied_pdos.cpp: adds the parameters of PDOs that only CompactPDO describes.
 void add_implied_pdos(const Reader& reader);
 
 // lists.cpp

@@ -76,7 +76,7 @@ void read_headers(const std::vector<NamedSection>& headers, const Reader& reader
   check_headers(reader);
 }
 
-// Authors who write sub-indexes in decimal are noticed at the first one beyond FFh.
+// Reports a sub-index above FFh, by which sub-indexes in decimal are detected.
 void report_large_sub(const NamedSection& named, Findings& findings) {
   const std::uint16_t index = named.name.index;
   std::uint32_t decimal = 0;
@@ -89,7 +89,7 @@ void report_large_sub(const NamedSection& named, Findings& findings) {
                           : "sub-indexes are 0 to FEh, and FFh for the structure of the object");
 }
 
-// [Tools] is of CiA 405, [ToolInfos] and [PreDefines] are of CANeds.
+// Keeps and reports unknown sections. [Tools] is a section of CiA 405; CANeds writes [ToolInfos] and [PreDefines].
 void keep_others(const std::vector<NamedSection>& others, const Reader& reader) {
   for (const NamedSection& named : others) {
     const std::string_view name = reader.document.raw(named.section->name);

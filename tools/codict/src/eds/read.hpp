@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file read.hpp
-/// EDS and DCF of CiA 306, as the standard has them and as they are found.
+/// Reader of EDS and DCF of CiA 306, tolerant of deviations from the standard.
 #pragma once
 
 #include "eds/document.hpp"
@@ -9,7 +9,7 @@
 
 namespace lexican::codict::eds {
 
-/// Everything that a document says; findings get what is off. Whether it is an EDS at all, refusal() says.
+/// Reads a document, and adds a finding for each fault. refusal() checks beforehand whether it is an EDS or DCF at all.
 Description read(const Document& document, Findings& findings);
 
 }  // namespace lexican::codict::eds

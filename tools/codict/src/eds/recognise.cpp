@@ -12,13 +12,13 @@ namespace lexican::codict::eds {
 
 namespace {
 
-// The largest known files have 0.5 MB and 5000 sections.
+// Limits. The largest known files have 0.5 MB and 5000 sections.
 constexpr std::size_t most_bytes = std::size_t{16} * 1024 * 1024;
 constexpr std::size_t most_sections = 100000;
 
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-// A checkout without symbolic links has a file in the place of each, with the name of what it links to.
+// Returns whether a file is a symbolic link that a checkout without links has written as a file with its target.
 bool is_link(std::string_view bytes) {
   return bytes.size() < 4096 && contains(bytes, "/") && bytes.find_first_of("[=\n ;") == std::string_view::npos;
 }
@@ -39,7 +39,7 @@ bool is_word(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return to_lower(c) >= 'a' && to_lower(c) <= 'z'; });
 }
 
-// ObjectType=VAR, DataType=UNSIGNED32: another language with the same sections.
+// Returns whether types are words (ObjectType=VAR, DataType=UNSIGNED32), as in a dialect with the same section names.
 bool has_words_for_types(const Document& document) {
   for (const Section& section : document.sections()) {
     const Key* const type = document.find(section, "ObjectType");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file recognise.hpp
-/// Whether a file is an EDS or DCF at all. Its ending says nothing: others use the same.
+/// Recognition of EDS and DCF by their contents. The file name extension is ambiguous: other networks use it, too.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace lexican::codict::eds {
 
-/// Empty if the bytes may be an EDS or DCF; else what they are instead, as far as that shows before they are read.
+/// Returns an empty text if the bytes may be an EDS or DCF; else a message that says what they are.
 std::string refusal(const Source& source);
-/// The same for what its sections show.
+/// Returns an empty text if the sections are those of an EDS or DCF; else a message that says what the file is.
 std::string refusal(const Document& document);
 
 }  // namespace lexican::codict::eds

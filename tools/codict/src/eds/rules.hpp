@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file rules.hpp
-/// What the reader of EDS and DCF has to say.
+/// Rules that the reader of EDS and DCF reports.
 #pragma once
 
 #include <vector>
@@ -39,7 +39,7 @@ extern const Rule key_misplaced;
 extern const Rule key_length;
 extern const Rule dialect;
 extern const Rule hidden_key;
-// Values with words of their own.
+// Values with a notation of their own.
 extern const Rule object_type;
 extern const Rule object_type_missing;
 extern const Rule access_unknown;
@@ -59,13 +59,13 @@ extern const Rule list_unlisted;
 extern const Rule list_no_section;
 extern const Rule list_twice;
 extern const Rule list_wrong;
-// Sub-objects.
+// Compact storage of sub-objects and PDOs.
 extern const Rule compact_entry;
 extern const Rule compact_limit;
 extern const Rule compact_pdo;
 }  // namespace rules
 
-/// All rules of this room.
+/// Returns the rules of this file.
 const std::vector<const Rule*>& all_rules();
 
 }  // namespace lexican::codict::eds

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file slots.hpp
-/// The keys of CiA 306, in the order in which they are written, and where they are in the model.
+/// Tables of the keys of CiA 306, in the order in which they are written, with their members in the model.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace lexican::codict::eds {
 
-/// An EDS has one.
+/// Returns the first order code, which is the only one of an EDS.
 inline Text& order_code(Device& device) {
   std::vector<Text>& codes = device.identity.order_codes;
   return codes.empty() ? codes.emplace_back() : codes.front();
@@ -107,7 +107,7 @@ inline Text& first_of(std::vector<Label>& labels) {
   return labels.empty() ? labels.emplace_back().text : labels.front().text;
 }
 
-/// What python-canopen adds to CiA 306.
+/// Keys that python-canopen adds to CiA 306.
 inline constexpr std::array<Slot<Entry>, 3> python_slots = {{
     {"Unit", [](Entry& e) -> Text& { return first_of(e.unit.words.labels); }},
     {"Factor", [](Entry& e) -> Text& { return e.multiplier; }},
@@ -115,7 +115,7 @@ inline constexpr std::array<Slot<Entry>, 3> python_slots = {{
 }};
 inline constexpr std::string_view python_dialect = "python-canopen";
 
-/// Flags that are 0 or 1 in an EDS, and true or false elsewhere.
+/// Calls `call` for each flag that is 0 or 1 in an EDS and may be true or false in other formats.
 template <typename Features, typename Call>
 void for_each_flag(Features& features, Call call) {
   for (auto* flag : {&features.boot_up_master, &features.boot_up_slave, &features.extended_boot_up_master,

@@ -10,7 +10,7 @@ namespace lexican::codict::eds {
 
 namespace {
 
-// Of what is meant by a comment above this line.
+// Returns the scope of a comment that precedes a line.
 Span scope_of(const Document& document, std::uint32_t line) {
   const Source& source = document.source();
   const std::vector<Section>& sections = document.sections();
@@ -23,7 +23,7 @@ Span scope_of(const Document& document, std::uint32_t line) {
   return {source.line(line).begin, source.line(is_header ? section->end - 1 : line).end};
 }
 
-// None if the line is no comment.
+// Returns the suppressions of a line; none if it is not a comment.
 std::vector<Suppression> suppressions_in_line(const Source& source, Span line, std::string_view text) {
   if (text.substr(0, 1) != ";") {
     return {};
@@ -37,7 +37,7 @@ std::vector<Suppression> suppressions_in_line(const Source& source, Span line, s
 std::vector<Suppression> suppressions(const Document& document) {
   const Source& source = document.source();
   std::vector<Suppression> all;
-  std::size_t waiting = 0;  // from here on, they have no scope yet
+  std::size_t waiting = 0;  // index of the first suppression whose scope is not yet set
   for (std::uint32_t number = 1; number <= source.lines(); ++number) {
     const Span line = source.line(number);
     const std::string_view text = trimmed(source.slice(line));

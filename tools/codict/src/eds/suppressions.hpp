@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file suppressions.hpp
-/// What comments of an EDS or DCF ask to be passed over.
+/// Comments of an EDS or DCF that suppress rules.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace lexican::codict::eds {
 
-/// Above the first section, for the whole file; above a section, for that section; else for the next line.
+/// Returns the suppressions of a document. Above the first section, a comment applies to the whole file; above another
+/// section, to that section; else to the next line.
 std::vector<Suppression> suppressions(const Document& document);
 
 }  // namespace lexican::codict::eds

@@ -58,7 +58,8 @@ class Writer {
     text_ += options_.line_end;
   }
 
-  // A line end would end it, and with a NUL the file would be no text.
+  // Appends a text. A line end becomes a blank, because it would end the line; NUL becomes U+FFFD, because a file with
+  // NUL is not accepted as text.
   void part(std::string_view text) {
     for (const char c : text) {
       text_ += c == '\0' ? replacement : c == '\n' || c == '\r' ? std::string_view(" ") : std::string_view(&c, 1);
@@ -83,7 +84,7 @@ class Writer {
     }
   }
 
-  // What was found in a section and has no place in the model goes back into it.
+  // Writes the kept keys of a section, which have no member in the model, back to that section.
   void kept_of(std::string_view name) {
     const auto place = others_.find(name);
     if (place == others_.end()) {
@@ -118,11 +119,11 @@ class Writer {
 
   const Device& device_;
   const WriteOptions& options_;
-  std::map<std::string_view, std::vector<const Kept*>, NameLess> others_;  // sections that are still to be written
+  std::map<std::string_view, std::vector<const Kept*>, NameLess> others_;  // sections not yet written
   std::string text_;
 };
 
-// What nobody understands stays as it is written.
+// Returns a number in a format; a malformed text is returned unchanged.
 template <typename T>
 std::string written(const Field<T>& number, std::string_view format) {
   return number.is_empty() || is_understood(number) ? fmt::format(fmt::runtime(format), number.value) : number.text;
@@ -137,7 +138,7 @@ void Writer::device_info(const Device& normal) {
   section("DeviceInfo");
   slots(normal, device_slots);
   for (const BitRate& rate : device_.features.bit_rates) {
-    if (rate.kbit != 0) {  // CiA 306 has no word for devices that find it by themselves
+    if (rate.kbit != 0) {  // CiA 306 has no key for automatic bit rate detection
       line(fmt::format("BaudRate_{}", rate.kbit), flag_text(rate.supported));
     }
   }
@@ -217,7 +218,7 @@ void Writer::entry(const Entry& entry) {
   kept(entry.others);
   const Field<std::string>& group = entry.node.storage_group;  // its text may be the number of a group
   if (!group.is_empty() || !group.value.empty()) {
-    line(";StorageLocation", group.value.empty() ? group.text : group.value);  // as other tools write and read it
+    line(";StorageLocation", group.value.empty() ? group.text : group.value);  // the form that other tools read
   }
 }
 
@@ -284,7 +285,7 @@ void Writer::object(const Object& object, const std::string& prefix) {
 void Writer::object_list(ListKind kind) {
   const std::string_view name = list_name(kind);
   std::vector<const Object*> objects;
-  std::vector<const Object*> types;  // below 1000h, where lists do not reach
+  std::vector<const Object*> types;  // objects below 1000h, which no list contains
   for (const Object& object : device_.objects) {
     if (object.index < 0x1000 && kind == ListKind::optional) {
       types.push_back(&object);
@@ -348,7 +349,7 @@ void Writer::modules() {
   }
 }
 
-// Sections that no standard knows, and those of CiA 405; not the second ones of a name.
+// Writes unknown sections and those of CiA 405, without duplicates.
 void Writer::rest() {
   for (const Kept& other : device_.others) {
     const bool is_unwritten = others_.count(other.name) != 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file write.hpp
-/// A device as a fresh EDS or DCF. Whoever changes one that is there edits its Document instead, which keeps the rest.
+/// Writer of a device as a new EDS or DCF. To change an existing file, edit its Document, which preserves the rest of
+/// it.
 #pragma once
 
 #include <string>
@@ -11,12 +12,12 @@
 namespace lexican::codict::eds {
 
 struct WriteOptions {
-  bool as_dcf = false;  ///< with what is configured: ParameterValue, Denotation, DeviceComissioning
+  bool as_dcf = false;  ///< writes the configuration, too: ParameterValue, Denotation, DeviceComissioning
   std::string_view line_end = "\r\n";
 };
 
-/// In the order of CiA 306, objects by their lists and indexes, UTF-8. What CiA 306 has no words for is left out;
-/// numbers stay as the description wrote them where that is a number of CiA 306.
+/// Returns the text in UTF-8: sections in the order of CiA 306, objects by list and index. Omits parts that CiA 306
+/// cannot express. A number keeps its original text if CiA 306 allows it.
 std::string write(const Device& device, const WriteOptions& options);
 
 }  // namespace lexican::codict::eds
