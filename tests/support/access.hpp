@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file access.hpp
-/// An access hook that records what it is asked and answers what a test plans.
+/// Access hooks that record their calls and return the results that a test sets.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct SeenSdo {
   }
 };
 
-/// Must outlive the fixture. There is one at a time.
+/// Record of the calls of the access hooks. Must outlive the fixture; only one may exist at a time.
 class AccessLog {
  public:
   AccessLog() { self_ = this; }
@@ -38,7 +38,7 @@ class AccessLog {
 
   std::vector<SeenSdo> sdo;
   std::vector<std::pair<std::uint8_t, std::uint8_t>> nmt;  ///< command specifier, node-ID
-  std::vector<CO_ACCESS_LSS> lss;                          ///< as they were given
+  std::vector<CO_ACCESS_LSS> lss;                          ///< before the hook changes them
   std::function<std::uint32_t(CO_NODE&, const CO_ACCESS_SDO&)> on_sdo;
   std::function<std::uint8_t(CO_NODE&, const CO_ACCESS_NMT&)> on_nmt;
   std::function<std::uint8_t(CO_NODE&, CO_ACCESS_LSS&)> on_lss;

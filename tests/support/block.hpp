@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file block.hpp
-/// What both ends of a block transfer know, written down from the standard.
+/// CRC and range of blksize of block transfers, for simulated clients and servers. Derived from the standard.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace test {
 
-/// CRC-16-CCITT from 0, bit by bit. [301:7.2.4.3.16] [D14]
+/// Returns the CRC-16-CCITT with initial value 0, computed bit by bit. [301:7.2.4.3.16] [D14]
 inline std::uint16_t crc_16(const std::vector<std::uint8_t>& data) {
   unsigned crc = 0;
   for (const std::uint8_t byte : data) {

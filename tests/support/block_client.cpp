@@ -15,7 +15,7 @@ constexpr std::uint32_t wrong_sequence = 0x05040003;
 constexpr std::uint32_t wrong_crc = 0x05040004;
 constexpr std::uint32_t wrong_length = 0x06070010;
 
-constexpr unsigned patience = 3;  // times that the client asks again in a silence
+constexpr unsigned patience = 3;  // repetitions of a request that is not answered
 
 CO_IF_FRM request(std::uint8_t command) {
   CO_IF_FRM frm{};
@@ -60,7 +60,7 @@ void BlockClient::deliver(const CO_IF_FRM& frm) {
   collect();
 }
 
-// Frames of other services are not for the client.
+// Moves the answers of the server on channel 1 to the inbox, without those that are to be lost; discards other frames.
 void BlockClient::collect() {
   for (const Sent& sent : node_.can.sent) {
     if (sent.frm.Identifier == 0x581 && options_.lost_answers.count(result_.answers++) == 0) {
@@ -70,7 +70,7 @@ void BlockClient::collect() {
   node_.can.sent.clear();
 }
 
-// Waits for a frame of the server, at most so many eighths of the server's time-out.
+// Waits for a frame of the server, at most \a slices eighths of the server's time-out. Returns false if none arrives.
 bool BlockClient::wait(unsigned slices) {
   for (; inbox_.empty() && !held_.empty(); held_.pop_front()) {
     deliver(held_.front());
@@ -91,7 +91,7 @@ bool BlockClient::wait(unsigned slices) {
   return true;
 }
 
-// False: there is no answer, or an abort.
+// Waits for an answer. Returns false if none arrives or it is an abort.
 bool BlockClient::next(unsigned slices) {
   if (!wait(slices)) {
     give_up(timed_out);
@@ -150,7 +150,7 @@ bool BlockClient::send_blocks(const Bytes& data) {
       return false;
     }
     if (is(0xA4)) {
-      continue;  // repeated: the server has seen no segment
+      continue;  // The server has received no segment and repeats its first response.
     }
     if (!is(0xA2)) {
       return give_up(unknown_command);
@@ -167,7 +167,7 @@ bool BlockClient::send_blocks(const Bytes& data) {
   return true;
 }
 
-// Segments first...end - 1 of the data.
+// Sends the segments first … end - 1 (from 0) of the data as a sub-block.
 void BlockClient::send_block(const Bytes& data, std::size_t first, std::size_t end) {
   for (std::size_t n = first; n < end && inbox_.empty(); ++n) {
     const std::size_t length = std::min<std::size_t>(7, data.size() - 7 * n);
@@ -190,7 +190,7 @@ bool BlockClient::end_download(const Bytes& data) {
     if (is(0xA1)) {
       return true;
     }
-    if (!is(0xA2)) {  // else repeated: the server has not seen the end
+    if (!is(0xA2)) {  // A repeated A2h means that the end was lost; it is sent again.
       return give_up(unknown_command);
     }
   }
@@ -235,7 +235,8 @@ bool BlockClient::upload_blocks() {
   return end_upload();
 }
 
-// A silence ends the block as its last segment does. Where nothing has come the last acknowledge was lost.
+// Receives segments until the last of the block, or until a time without frames, and acknowledges them. If no segment
+// was received, the last acknowledge was lost and is repeated.
 bool BlockClient::receive_block() {
   std::uint8_t good = 0;
   bool heard = false;
@@ -260,7 +261,8 @@ bool BlockClient::receive_block() {
   return true;
 }
 
-// True: the last one of its block. good: last one in order.
+// Stores a segment if it is in order, and updates \a good, the sequence number of the last segment in order. Returns
+// true for the last segment of the block.
 bool BlockClient::take_segment(std::uint8_t& good) {
   const unsigned seqno = answer_.Data[0] & 0x7FU;
   const bool last = (answer_.Data[0] & 0x80U) != 0;
@@ -298,7 +300,7 @@ bool BlockClient::end_upload() {
   return true;
 }
 
-// The server has switched to the protocol of ordinary uploads. [301:7.2.4.3.12]
+// Continues with an expedited or segmented upload, to which the server has switched. [301:7.2.4.3.12]
 bool BlockClient::upload_ordinarily() {
   if ((answer_.Data[0] & 0xF3U) == 0x43) {
     result_.data.assign(answer_.Data + 4, answer_.Data + 8 - ((answer_.Data[0] >> 2) & 3U));

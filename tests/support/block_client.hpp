@@ -27,19 +27,19 @@ struct Where {
 /// Settings and faults. Frames are numbered from 0, separately for client and server.
 struct BlockOptions {
   bool crc = true;                          ///< the client supports the CRC
-  bool sized = true;                        ///< it announces the size of a download
+  bool sized = true;                        ///< the client announces the size of a download
   std::vector<std::uint8_t> blksizes{127};  ///< requested blksizes of an upload, one per block, repeated
   std::uint8_t pst = 0;                     ///< protocol switch threshold of an upload
-  std::set<unsigned> lost_requests{};       ///< frames of the client that do not arrive
-  std::set<unsigned> doubled_requests{};    ///< frames that arrive twice
-  std::set<unsigned> late_requests{};       ///< frames that arrive after the next one
-  std::set<unsigned> lost_answers{};        ///< frames of the server that do not arrive
-  std::uint32_t announced_more = 0;         ///< announced bytes that are not sent, modulo 2^32
+  std::set<unsigned> lost_requests{};       ///< numbers of the client's frames that are lost
+  std::set<unsigned> doubled_requests{};    ///< numbers of the client's frames that are received twice
+  std::set<unsigned> late_requests{};       ///< numbers of the client's frames that are received after the next one
+  std::set<unsigned> lost_answers{};        ///< numbers of the server's frames that are lost
+  std::uint32_t announced_more = 0;         ///< bytes that the announced size exceeds the data by, modulo 2^32
   std::uint16_t crc_error = 0;              ///< bits of the CRC that are inverted
 };
 
 struct BlockResult {
-  /// 0: success. Else the abort code of either side; a client without an answer aborts with 0504 0000h.
+  /// 0: success; otherwise the abort code of either side. A client that receives no answer aborts with 0504 0000h.
   std::uint32_t abort = 0;
   Bytes data{};
   unsigned requests = 0;  ///< frames of the client

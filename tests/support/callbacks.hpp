@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file callbacks.hpp
-/// The stack's callbacks have fixed names; a test can set a function for each of them here. All are cleared when a
-/// Fixture ends.
+/// Functions that a test sets for the callbacks of the stack, which have fixed names. The destructor of a Fixture
+/// clears them all.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct Callbacks {
   std::function<void()> od_unlock;  ///< CO_NODE_EXT.OdUnlock
   std::function<void()> enter;      ///< CO_NODE_EXT.Enter
   std::function<void()> leave;      ///< CO_NODE_EXT.Leave
-  unsigned fatal_errors = 0;        ///< calls of CONodeFatalError(), which returns
+  unsigned fatal_errors = 0;        ///< calls of CONodeFatalError(), which returns to its caller in tests
 };
 
 Callbacks& callbacks();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file emcy_fixture.hpp
-/// A node with errors of an application, and what EMCY keeps in the dictionary.
+/// A node with a table of application errors and the EMCY objects 1003h, 1014h and 1015h.
 #pragma once
 
 #include "core/events.hpp"
@@ -38,7 +38,7 @@ class EmcyNode : private EmcyObjects, public Fixture {
   void clr(std::uint8_t err, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { COEmcyClr(&node.Emcy, err); }, at);
   }
-  // Not raise(): that is what doctest calls in CHECK() where there is no debugger instruction.
+  // Not named raise(), because CHECK() of doctest calls raise() on CPUs without a debugger instruction.
   void raise_fault(co::event::Fault fault, std::uint8_t detail = 0, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     call([&] { co::event::raise(node, fault, detail); }, at);
   }
@@ -51,7 +51,7 @@ class EmcyNode : private EmcyObjects, public Fixture {
 
   unsigned error_register() const { return objects.error_register; }
 
-  /// The entries of 1003h, as the application reads them.
+  /// Returns the entries of 1003h as the application reads them, newest first.
   std::vector<std::uint32_t> errors() {
     std::vector<std::uint32_t> all;
     std::uint32_t entry = 0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file entry.hpp
-/// A single entry of the dictionary, for tests of object types.
+/// A single dictionary entry, for tests of object types.
 #pragma once
 
 #include "fixture.hpp"
 
 namespace test {
 
-/// An entry for a variable, and a node with node-ID 5.
+/// Entry 2000h of any type, outside the dictionary of a node with node-ID 5.
 struct Entry {
   CO_OBJ obj;
   Fixture node{Setup().only_small().node_id(5)};

@@ -3,7 +3,7 @@
 
 namespace test {
 
-// What is interrupted stays interrupted. False: the power is gone.
+// Executes one step. Returns false if the power is off, or is lost in this step.
 bool FailingNvm::step(std::uint8_t& byte, std::uint8_t to) {
   if (is_off) {
     return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file failing_nvm.hpp
-/// A memory that fails at any step: it loses power, ignores writes or returns wrong bytes. A step is a programmed byte,
-/// or an erased byte.
+/// A non-volatile memory with faults: loss of power, ignored writes, wrong bytes. A step is one programmed or erased
+/// byte.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +20,15 @@ struct FailingNvm {
   CO_NVM_SHAPE shape;
   std::vector<std::uint8_t> bytes;
   std::uint64_t steps = 0;   ///< steps executed
-  std::uint64_t cut_at = 0;  ///< step that is interrupted, from 1; 0: none. All accesses after it fail
+  std::uint64_t cut_at = 0;  ///< step that is interrupted, from 1; 0: none. All later accesses fail
   Torn torn = Torn::untouched;
   bool is_off = false;
   std::uint64_t deaf_from = 0;  ///< steps deaf_from … deaf_to-1 have no effect and are reported as successful
   std::uint64_t deaf_to = 0;
   std::uint64_t reads = 0;
-  std::uint64_t lie_at = 0;       ///< this read, from 1, returns other bytes
-  std::uint64_t refuse_read = 0;  ///< this read fails
-  bool misused = false;           ///< an access that the geometry does not allow
+  std::uint64_t lie_at = 0;       ///< number of the read that returns wrong bytes, from 1; 0: none
+  std::uint64_t refuse_read = 0;  ///< number of the read that fails, from 1; 0: none
+  bool misused = false;           ///< an access has violated the geometry
 
   /// Restores the power.
   void power_up();

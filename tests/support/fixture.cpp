@@ -26,7 +26,7 @@ void FakeCan::accept_next(std::uint64_t number) {
   refuse_to = std::numeric_limits<std::uint64_t>::max();
 }
 
-// The stack's side of the fixture: what it calls.
+// Drivers and callbacks of the fixture, which the stack calls.
 struct Fixture::Drivers {
   static Fixture& of(void* ctx) { return *static_cast<Fixture*>(ctx); }
 
@@ -142,7 +142,7 @@ struct Fixture::Drivers {
     self.segments_ += sending ? 1 : 0;
   }
 
-  // Answers to node guarding have a toggle bit, heartbeats have none.
+  // Clears the toggle bit of a node guarding response. Heartbeats have none.
   static CO_IF_FRM without_toggle(const Fixture& self, CO_IF_FRM frm) {
     if (self.guarded_ && self.objects.heartbeat == 0 && frm.Identifier == 0x700U + self.node.NodeId) {
       frm.Data[0] &= 0x7F;
@@ -150,7 +150,7 @@ struct Fixture::Drivers {
     return frm;
   }
 
-  // Heartbeats that had to wait may tell a state that is no more.
+  // Error control frames that were queued may contain a previous NMT state and are not checked.
   static std::string fault_of_frame(const Fixture& self, const CO_IF_FRM& frm, bool sending) {
     if (!self.can.on_bus) {
       return "sent while off the bus";
@@ -180,7 +180,7 @@ Fixture::Fixture(Setup setup)
       timers_(setup_.timers_),
       tx_queue_(setup_.tx_queue_),
       sdo_buffer_(CO_SSDO_N * CO_SDO_BUF_BYTE) {
-  std::memset(static_cast<void*>(&node), 0xA5, sizeof node);  // nothing may rely on memory being zero
+  std::memset(static_cast<void*>(&node), 0xA5, sizeof node);  // The stack must not rely on zeroed memory.
   if (!timers_.empty()) {
     std::memset(static_cast<void*>(timers_.data()), 0x5A, timers_.size() * sizeof timers_[0]);
   }
@@ -194,7 +194,7 @@ Fixture::Fixture(Setup setup)
     may_change(index, sub);
   }
   index();
-  (void)callbacks();  // what is made at its first use must not be counted as the stack's
+  (void)callbacks();  // Its first call may allocate memory, which must not be counted as a request of the stack.
   call([this] { init(); });
   if (setup_.start_) {
     call([this] { CONodeStart(&node); });
@@ -202,7 +202,7 @@ Fixture::Fixture(Setup setup)
   }
 }
 
-// For co_od.h.
+// Creates the index of the OD access interface (co_od.h).
 void Fixture::index() {
 #if USE_OD
   od_list_.resize(OD_LIST_N(dictionary_.size()));
@@ -248,7 +248,7 @@ void Fixture::init() {
 }
 
 Fixture::~Fixture() {
-  callbacks() = Callbacks{};  // what they refer to is younger than the fixture, and gone
+  callbacks() = Callbacks{};  // They may refer to variables of the test that are already destroyed.
   if (std::uncaught_exceptions() == 0) {
     check_back_to_idle();
     const std::vector<std::string> left = frames();
@@ -290,7 +290,7 @@ void Fixture::loop(Where at) {
   call([this] { process_frames(); }, at);
 }
 
-// One call for each received frame, and more while frames wait for the driver, or for the next call.
+// Calls CONodeProcess() for each received frame, and as long as it sends queued frames or has paused work that is due.
 void Fixture::process_frames() {
   for (unsigned calls = 0; calls < calls_; ++calls) {
     const std::size_t sent = can.sent.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The SDO client of a fixture.
+// SDO client functions of a fixture.
 #include <algorithm>
 
 #include "fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of a fixture after every call, and at its end.
+// Checks that a fixture performs after every call and in its destructor.
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -41,7 +41,8 @@ void Fixture::check_properties(Where at) {
   }
 }
 
-// Null while the node does not serve it.
+// Returns the observer of the server whose COB-ID \a id is \a identifier; null if there is none or the NMT state
+// forbids SDO.
 SdoObserver* Fixture::channel(std::uint32_t CO_SDO::*id, std::uint32_t identifier) {
   const bool served = node.Nmt.Mode == CO_PREOP || node.Nmt.Mode == CO_OPERATIONAL;
   const auto is_it = [&](const CO_SDO& one) { return one.*id == identifier; };
@@ -79,7 +80,7 @@ void Fixture::check_memory(Where at) {
 
 namespace {
 
-// Timers of a list; one that does not end within \a bound is broken and gives bound + 1 of them.
+// Returns the timers of a list, at most bound + 1. More than \a bound timers mean that the list is cyclic.
 std::vector<const CO_TMR_MEM*> members(const CO_TMR_MEM* list, std::size_t bound) {
   std::vector<const CO_TMR_MEM*> all;
   for (; list != nullptr && all.size() <= bound; list = list->Next) {
@@ -88,7 +89,7 @@ std::vector<const CO_TMR_MEM*> members(const CO_TMR_MEM* list, std::size_t bound
   return all;
 }
 
-// Timers of SDO clients that are armed, each at most once.
+// Returns the number of SDO clients whose timer is armed.
 template <class Count>
 std::ptrdiff_t armed_of_clients([[maybe_unused]] const CO_NODE& node, [[maybe_unused]] const Count& number_of) {
   std::ptrdiff_t armed = 0;
@@ -107,16 +108,17 @@ bool is_open(const CO_NODE& node) {
 }  // namespace
 
 std::vector<const CO_TMR_MEM*> Fixture::armed() const {
-  return members(node.Tmr.First, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));  // those of the stack are in it
+  // The timers of the stack are members of the node.
+  return members(node.Tmr.First, setup_.timers_ + sizeof node / sizeof(CO_TMR_MEM));
 }
 
 unsigned Fixture::armed_timers() const { return static_cast<unsigned>(armed().size()); }
 
-// Each timer of the application's pool is armed or free; those of the stack belong to their owners, and are armed while
-// these have a use for them.
+// Returns the faults of the timers. Each timer of the application's pool is armed or free, none is armed twice, and a
+// timer of the stack is armed only while its service needs it.
 std::vector<std::string> Fixture::timer_faults() const {
   if (node.Dict.Node == nullptr) {
-    return {};  // the initialisation has failed before there were services
+    return {};  // The initialisation has failed before the services were initialised.
   }
   std::vector<std::string> faults;
   const auto expect = [&](bool right, const char* fault) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time of a fixture: the clock, the alarm and the loop that sleeps in between.
+// The clock and the alarm of a fixture, and its loop, which sleeps until the next wake-up.
 #include <algorithm>
 
 #include "fixture.hpp"
@@ -7,7 +7,7 @@
 namespace test {
 namespace {
 
-constexpr unsigned patience = 200;  // wake-ups at one tick: more is a hang
+constexpr unsigned patience = 200;  // maximum number of wake-ups at one tick; more mean an endless loop
 
 std::uint64_t divided_up(std::uint64_t dividend, std::uint64_t divisor) { return (dividend + divisor - 1) / divisor; }
 

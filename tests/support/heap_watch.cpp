@@ -16,11 +16,11 @@ namespace test {
 namespace {
 
 #ifdef __NEWLIB__
-// No threads; variables of threads would come from malloc() there.
+// Not thread_local: newlib would allocate such variables with malloc(). The targets have no threads.
 int depth = 0;
 std::uint64_t requests = 0;
 #else
-// No initialisation at run time: malloc() may run before anything else of a thread does.
+// Without initialisation at run time, because malloc() may be the first function that a thread calls.
 thread_local int depth __attribute__((tls_model("initial-exec"))) = 0;
 thread_local std::uint64_t requests __attribute__((tls_model("initial-exec"))) = 0;
 #endif
@@ -45,7 +45,7 @@ std::uint64_t heap_requests() { return requests; }
 
 #ifdef LEXICAN_SANITIZER
 
-// The sanitizers own malloc() and offer a hook instead.
+// The sanitizers replace malloc(), and call this hook for each allocation.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*)(const volatile void*, std::size_t),
                                                          void (*)(const volatile void*));
 namespace {
@@ -79,7 +79,7 @@ void free(void* old) { __libc_free(old); }
 
 #elif defined(__PICOLIBC__)
 
-// Linked with --wrap for each of them.
+// The linker option --wrap redirects malloc(), calloc() and realloc() to these functions.
 extern "C" {
 void* __real_malloc(std::size_t size);
 void* __real_calloc(std::size_t count, std::size_t size);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file heap_watch.hpp
-/// Counts the memory requests that are made while the stack runs. It must make none.
+/// Counts heap allocations that are made while the stack runs. The stack must make none.
 #pragma once
 
 #include <cstdint>
 
 namespace test {
 
-/// While one of these lives, requests of this thread count.
+/// Enables counting for this thread as long as the object exists.
 class InsideStack {
  public:
   InsideStack();
@@ -16,7 +16,8 @@ class InsideStack {
   InsideStack& operator=(const InsideStack&) = delete;
 };
 
-/// While one of these lives, they do not: the stack has called a driver or a callback of the test.
+/// Suspends counting for this thread as long as the object exists: for drivers and callbacks of the test, which the
+/// stack calls.
 class OutsideStack {
  public:
   OutsideStack();
@@ -28,7 +29,7 @@ class OutsideStack {
   int depth_;
 };
 
-/// Requests counted in this thread.
+/// Returns the number of allocations counted in this thread.
 std::uint64_t heap_requests();
 
 }  // namespace test

@@ -18,7 +18,7 @@ std::uint32_t little_endian(const std::uint8_t* bytes) {
   return bytes[0] | (std::uint32_t{bytes[1]} << 8) | (std::uint32_t{bytes[2]} << 16) | (std::uint32_t{bytes[3]} << 24);
 }
 
-// [301:7.2.4.3.3] Bytes without data are 0.
+// Checks an answer of an upload. Bytes without data are 0. [301:7.2.4.3.3]
 std::string fault_of_upload_answer(const CO_IF_FRM& frm) {
   switch (frm.Data[0]) {
     case 0x40: return zero_from(frm, 4) ? "" : "reserved bytes not 0";
@@ -39,7 +39,7 @@ std::string fault_of_segment(const CO_IF_FRM& frm) {
   return zero_from(frm, 1 + length) ? "" : "bytes beyond the data not 0";
 }
 
-// [301:7.2.4.3.9, 7.2.4.3.10, 7.2.4.3.11] The CRC is always offered.
+// Checks an answer of a block download. The server always supports the CRC. [301:7.2.4.3.9, 7.2.4.3.10, 7.2.4.3.11]
 std::string fault_of_block_download(const CO_IF_FRM& frm) {
   const std::uint8_t blksize = frm.Data[frm.Data[0] == 0xA2 ? 2 : 4];
   const bool is_blksize = blksize >= 1 && blksize <= 127;
@@ -135,11 +135,11 @@ void MemoryWatch::add(std::uint32_t key, const void* memory, std::size_t size, b
 
 namespace {
 
-constexpr std::size_t largest_watched = 100000 / stride(20);  // more would take too long after every frame
+constexpr std::size_t largest_watched = 100000 / stride(20);  // bytes; limits the time of the check after each frame
 
 struct Width {
   const CO_OBJ_TYPE* type;
-  std::size_t bytes;  // of the variable
+  std::size_t bytes;  // size of the variable
 };
 
 const Width* width_of(const CO_OBJ_TYPE* type) {

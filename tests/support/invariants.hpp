@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file invariants.hpp
-/// Properties that are checked after every frame of every test: forms of frames, NMT states in which they may be sent,
-/// and dictionary memory that must not change.
+/// Invariants that are checked after every frame of every test: the format of frames, the NMT states in which they may
+/// be sent, and dictionary memory that must not change.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace test {
 
-/// Returns the fault of a frame; empty if a node with \a node_id may send \a frm in \a mode. \a sdo: the frame is one
-/// of an SDO server, \a sending: in a block upload, after its start.
+/// Returns the fault of a frame; empty if a node with \a node_id may send \a frm in \a mode. \a sdo: the frame is sent
+/// by an SDO server; \a sending: within a block upload, after its start.
 std::string fault_of(const CO_IF_FRM& frm, std::uint8_t node_id, CO_MODE mode, bool sdo, bool sending = false);
 
 /// Copy of the memory of a dictionary's entries.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file logged_extension.hpp
-/// Extensions of objects (co_od.h) that keep bytes of their own and write down how they are called: "read 7 at 0 of 9",
-/// "write 2 at 7 of 9"; of 0: the length is not known.
+/// Object extensions (co_od.h) that store bytes and log their calls: "read 7 at 0 of 9", "write 2 at 7 of 9" (bytes,
+/// offset, length; length 0: unknown).
 ///
 ///     LoggedExtension extension;
-///     extension.put_at(node, 0x3000);            // OD_extension_init() has said ODR_OK
+///     extension.put_at(node, 0x3000);            // calls OD_extension_init(), which must return ODR_OK
 ///     extension.data = {1, 2, 3};
 #pragma once
 
@@ -21,7 +21,7 @@ namespace test {
 
 using Log = std::vector<std::string>;
 
-/// The bytes of a number, the lowest first as on the bus, in the order of the CPU; and back.
+/// Converts the bytes of a number from the byte order of the bus (lowest first) to that of the CPU, or back.
 inline Bytes number_of(Bytes bytes) {
   if constexpr (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) {
     std::reverse(bytes.begin(), bytes.end());
@@ -51,11 +51,11 @@ class LoggedExtension {
 
   OD_extension_t extension{};
   Log log;
-  Bytes data;                   ///< what is read, and what was written, once it is complete
-  Bytes arrived;                ///< pieces of what is being written
-  std::uint32_t at_once = ~0U;  ///< bytes that a read gives at most: the contract would have all that fit
-  ODR_t answer = ODR_OK;        ///< anything else: every call is refused
-  /// Called before anything else; what they return, unless it is ODR_OK, is the answer.
+  Bytes data;                   ///< value that is read; replaced when a write is complete
+  Bytes arrived;                ///< bytes of an incomplete write
+  std::uint32_t at_once = ~0U;  ///< limit of the bytes that a read returns; the contract requires as many as fit
+  ODR_t answer = ODR_OK;        ///< result of all calls, unless it is ODR_OK
+  /// Called first in each read or write. A result other than ODR_OK is returned to the caller.
   std::function<ODR_t(OD_stream_t*)> on_read;
   std::function<ODR_t(OD_stream_t*)> on_write;
 

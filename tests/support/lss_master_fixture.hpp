@@ -3,7 +3,7 @@
 /// A node that is LSS master, and the results of its services:
 ///
 ///     LssMaster node;
-///     node.run("7E5#5E00000000000000", COLssmInquireNodeId);      // starts it and expects the request
+///     node.run("7E5#5E00000000000000", COLssmInquireNodeId);      // starts the service and expects the request
 ///     node.rx("7E4#5E05000000000000");
 ///     CHECK(node.end(CO_LSSM_OK).value == 5);                     // result of the service
 #pragma once

@@ -19,7 +19,7 @@ inline constexpr const char* lss_to_configuration = "7E5#0401000000000000";
 inline constexpr const char* lss_to_waiting = "7E5#0400000000000000";
 inline constexpr const char* lss_inquire_node_id = "7E5#5E00000000000000";
 
-/// Switch state selective: the four frames.
+/// Sends the four frames of switch state selective.
 inline void select_lss_slave(Fixture& node) {
   for (const char* part :
        {"7E5#4019030000000000", "7E5#4178563412000000", "7E5#4202000100000000", "7E5#4344000000000000"}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file monitor.hpp
-/// A node that monitors others, with a record of its callbacks:
+/// A heartbeat consumer with a record of its callbacks:
 ///
 ///     Monitor node({{5, 100}, {6, 250}});     // 1016h:1 node 5, 100 ms; 1016h:2 node 6, 250 ms
 ///     node.rx("705#7F");                      node.told("5 PREOP");

@@ -13,9 +13,9 @@ namespace test {
 namespace {
 
 constexpr std::uint32_t baud = 250000;
-constexpr unsigned patience = 100000;  // rounds without rest: more is a storm of frames
+constexpr unsigned patience = 100000;  // maximum number of rounds until the network is idle
 
-// Drivers without context know their controller by a variable.
+// Controller of the classic drivers, which have no context argument.
 co::VirtualBus::Port* plain_port = nullptr;
 
 void plain_init() { plain_port->close(); }
@@ -162,7 +162,7 @@ void Device::add_application() {
   table_.push_back(entry(0x2010, 0, CO_OBJ_____RW, CO_TDOMAIN, &domain_));
 }
 
-// The alarm of a plain device is its periodic interrupt.
+// Handles the alarm. For a device with classic drivers it is the periodic timer interrupt.
 void Device::on_alarm() {
   if (plain_) {
     timer_.set_alarm(1);
@@ -220,7 +220,7 @@ void World::settle() {
 void World::pass(std::chrono::microseconds time) {
   const std::uint64_t end = clock.elapsed() + clock.ticks(time);
   for (const auto& device : devices_) {
-    device->wake();  // a test may have called the node since
+    device->wake();  // A call of the test may have changed the deadline.
   }
   settle();
   while (clock.elapsed() < end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file notation.hpp
-/// CAN frames as can-utils write them: 123#1122 (11 bit), 00000123#1122 (29 bit), 123#R (remote frame),
+/// CAN frames in the notation of can-utils: 123#1122 (11 bit), 00000123#1122 (29 bit), 123#R (remote frame),
 /// 20000040#… (error frame, as in SocketCAN), 123#1122334455667788_9 (8 bytes with DLC code 9…F).
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace test {
 
-/// Reads the notation. A text that is none ends the test case.
+/// Parses the notation. An invalid text ends the test case.
 CO_IF_FRM frame(std::string_view text);
 
-/// Writes the notation, in capitals.
+/// Returns the notation of a frame, in capitals.
 std::string notation(const CO_IF_FRM& frm);
 
 }  // namespace test

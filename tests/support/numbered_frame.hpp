@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file numbered_frame.hpp
-/// Frames in which a mixture of two can be seen.
+/// Frames whose identifier and data contain the same number, so that a frame mixed from two others is detected.
 #pragma once
 
 #include <cstdint>

@@ -12,14 +12,14 @@
 
 namespace test {
 
-/// A variable of the fixture's dictionary, to be read and written.
+/// Returns the access to a variable of the fixture's dictionary. \a original: without an extension.
 inline OD_IO_t variable(Fixture& node, std::uint16_t index, std::uint8_t sub = 0, bool original = false) {
   OD_IO_t io{};
   REQUIRE(OD_getSub(OD_find(&node.od, index), sub, &io, original) == ODR_OK);
   return io;
 }
 
-/// A variable whose object is plain memory.
+/// Returns the access to a variable in \a memory.
 inline OD_IO_t variable(Bytes& memory) {
   OD_IO_t io{};
   io.stream.dataOrig = memory.data();
@@ -29,7 +29,7 @@ inline OD_IO_t variable(Bytes& memory) {
   return io;
 }
 
-/// Result of a read. Bytes behind the end of the data must not have changed.
+/// Result of a read, and the bytes that were read.
 struct Given {
   ODR_t result;
   Bytes data;
@@ -37,6 +37,7 @@ struct Given {
   friend bool operator==(const Given& a, const Given& b) { return a.result == b.result && a.data == b.data; }
 };
 
+/// Reads at most \a count bytes. Checks that the buffer behind them does not change.
 inline Given read(OD_IO_t& io, OD_size_t count) {
   Bytes buffer(count + 4U, 0xEE);
   OD_size_t given = 0xEEEEEEEE;
@@ -50,10 +51,10 @@ inline Given read(OD_IO_t& io, OD_size_t count) {
   return {result, buffer};
 }
 
-/// Checks that a write stores all bytes or none, and does not change the caller's buffer.
+/// Writes \a data. Checks that all bytes are accepted or none, and that the caller's buffer does not change.
 inline ODR_t write(OD_IO_t& io, const Bytes& data) {
   Bytes buffer = data;
-  buffer.push_back(0xEE);  // the address of an empty one is valid, too
+  buffer.push_back(0xEE);  // The pointer must be valid even if there are no data.
   const Bytes before = buffer;
   OD_size_t taken = 0xEEEEEEEE;
   const ODR_t result = io.write(&io.stream, buffer.data(), static_cast<OD_size_t>(data.size()), &taken);

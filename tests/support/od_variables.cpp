@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Tables and casts are those that firmware writes.
+// The dictionary macros contain C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include "od_variables.hpp"

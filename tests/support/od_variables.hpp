@@ -21,7 +21,7 @@ struct Variable {
   Bytes value;
 };
 
-/// A node with variables of all kinds. Their bytes are not 0, except those behind the end of a text.
+/// A node with variables of all kinds. Their bytes are not 0, except behind the end of a text.
 class Variables {
  public:
   Variables();

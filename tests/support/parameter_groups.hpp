@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parameter_groups.hpp
-/// A device with two parameter groups of equal size, 1010h:2 and 1010h:3, whose numbers are 2300h:1 and 2300h:2, and
-/// its memory, which outlives each of its nodes.
+/// A device with two parameter groups of equal size, 1010h:2 (with 2300h:1) and 1010h:3 (with 2300h:2), and its
+/// non-volatile memory, which outlives each of its nodes.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct GroupDevice {
     return setup;
   }
 
-  /// Bytes that a memory already holds.
+  /// Writes bytes into the non-volatile memory, as the content before the start of a node.
   template <std::size_t size>
   void put(std::uint32_t start, const std::array<std::uint8_t, size>& bytes) {
     std::copy(bytes.begin(), bytes.end(), nvm.bytes.begin() + start);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file pdo_commands.hpp
-/// Requests that callbacks of PDOs may make to the node, and checks of the result. For nodes with two PDOs of each
-/// kind.
+/// NMT requests that PDO callbacks send to the node, and checks of their results. For nodes with two RPDOs and two
+/// TPDOs at least.
 #pragma once
 
 #include "sync_fixture.hpp"
@@ -46,7 +46,7 @@ inline unsigned pdos(const std::vector<std::string>& sent) {
   return static_cast<unsigned>(std::count_if(sent.begin(), sent.end(), is_pdo));
 }
 
-// Checks that no PDO follows a callback's request, no timer is left, and the node works again after a start.
+// Checks that the node sends no PDO after a callback's request and has no armed timer, and that it works after a start.
 inline void check_left(PdoNode& node) {
   node.after(2000ms);
   CHECK(pdos(node.frames()) == 0);

@@ -23,7 +23,7 @@ PdoTable::PdoTable() {
 
 namespace {
 
-/// Byte k of sub-index s: 16 s + k + 1.
+/// Returns the initial value of sub-index \a sub: byte k is 16 sub + k + 1.
 std::uint64_t pattern(unsigned sub, unsigned bytes) {
   std::uint64_t value = 0;
   for (unsigned k = 0; k < bytes; ++k) {
@@ -57,7 +57,7 @@ void add_array(Setup& setup, std::uint16_t index, std::uint32_t flags, const CO_
   }
 }
 
-/// 1, 2, 4 and 8 bytes at \a index + width, sub-index 1.
+/// Adds entries of 1, 2, 4 and 8 bytes at \a index + width, sub-index 1.
 template <class T8, class T16, class T32, class T64>
 void add_widths(Setup& setup, std::uint16_t index, std::uint32_t flags, T8& v8, T16& v16, T32& v32, T64& v64) {
   const auto at = [&](unsigned width) { return static_cast<std::uint16_t>(index + width); };
@@ -147,11 +147,11 @@ Setup PdoNode::setup(const std::function<void(Setup&)>& change) {
 
 PdoNode::PdoNode(const PdoTable& table, const std::function<void(Setup&)>& change)
     : PdoTable(table), Fixture(setup(change)) {
-  frames_per_call(1 + fixture_tpdos);  // a SYNC
+  frames_per_call(1 + fixture_tpdos);  // A SYNC transmits all TPDOs.
   for (unsigned index = 0x2201; index <= 0x2258; ++index) {
     const bool is_read_only = index >= 0x2220 && index <= 0x222F;
     for (unsigned sub = 1; sub <= 8 && !is_read_only; ++sub) {
-      may_change(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub));  // by RPDOs
+      may_change(static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub));  // RPDOs may write it
     }
   }
   for (const std::uint16_t index : {std::uint16_t{0x2001}, std::uint16_t{0x2002}, std::uint16_t{0x2004}}) {
@@ -160,7 +160,7 @@ PdoNode::PdoNode(const PdoTable& table, const std::function<void(Setup&)>& chang
   watch_parameters();
 }
 
-// Sub 0 of the mapping is not among them: a refused number leaves 0.
+// Adds the PDO parameters to the invariants, without sub-index 0 of the mapping: a refused number sets it to 0.
 void PdoNode::watch_parameters() {
   const auto watch_pdo = [this](std::uint16_t communication, std::uint16_t mapping, const PdoEntries& pdo) {
     watch(communication, 1, &pdo.cob_id, sizeof pdo.cob_id);
@@ -201,7 +201,7 @@ std::uint32_t PdoNode::set(std::uint16_t index, std::uint8_t sub, unsigned bytes
   std::copy(data.begin(), data.end(), frm.Data + 4);
   rx(frm, at);
   const auto is_answer = [](const Sent& sent) { return sent.frm.Identifier == 0x581; };
-  const auto found = std::find_if(can.sent.begin(), can.sent.end(), is_answer);  // a PDO may have been sent, too
+  const auto found = std::find_if(can.sent.begin(), can.sent.end(), is_answer);  // skips PDOs
   if (found == can.sent.end() || (found->frm.Data[0] != 0x60 && found->frm.Data[0] != 0x80)) {
     ADD_FAIL_CHECK_AT(at.file, at.line, "no answer to a download");
     return 0xFFFFFFFF;

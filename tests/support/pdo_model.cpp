@@ -82,7 +82,7 @@ std::uint32_t PdoModel::check_cob_id(std::uint32_t value) const {
     return invalid_value;
   }
   if (exists()) {
-    return ((value ^ pdo_.cob_id) & ~no_remote) == 0 ? 0 : invalid_value;  // bits 0 to 29 stay
+    return ((value ^ pdo_.cob_id) & ~no_remote) == 0 ? 0 : invalid_value;  // a valid PDO keeps bits 0 to 29
   }
   const bool fits = (value & wide) != 0 || (value & 0x1FFFF800U) == 0;
   const bool is_free = !is_forbidden(value & 0x1FFFFFFFU);

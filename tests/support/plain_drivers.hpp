@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file plain_drivers.hpp
-/// A node on drivers without context, whose timer is a periodic interrupt or a compare match. One at a time.
+/// A node on classic drivers, whose timer is a periodic interrupt or a compare match. Only one may exist at a time.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace test {
 struct PlainTimer {
   bool cyclic;
   std::uint64_t now;
-  std::uint64_t left;  ///< cyclic: count-down; tickless: ticks until the compare match
+  std::uint64_t left;  ///< ticks until the count-down ends (cyclic) or until the compare match
   bool running;
-  bool update_always;  ///< Update answers 1 whatever happens
+  bool update_always;  ///< Update always returns 1
   unsigned inits;
 };
 PlainTimer& plain_timer();
 
-/// 1000 ticks/s, a dictionary of one entry (or none), eight timers of the application.
+/// A node with 1000 ticks/s, a dictionary of at most one entry, and a pool of 8 timers.
 struct PlainNode {
   CO_OBJ dictionary[2];
   CO_TMR_MEM memory[8];
@@ -30,7 +30,7 @@ struct PlainNode {
   PlainNode(const PlainNode&) = delete;
   PlainNode& operator=(const PlainNode&) = delete;
 
-  /// A tick of the hardware: the interrupt, then the loop if it is in time.
+  /// Simulates a tick of the hardware: the timer interrupt, then COTmrProcess() if \a loop is true.
   void tick(bool loop = true);
   void ticks(unsigned number, bool loop = true);
 };

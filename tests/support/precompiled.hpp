@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file precompiled.hpp
-/// What most tests include, compiled once.
+/// Precompiled header with the headers that most tests include.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -72,7 +72,8 @@ std::optional<CO_IF_FRM> RawSdoClient::wait() {
   return port.read();
 }
 
-// A result ends the transfer; without one there is an answer to go on with.
+// Sends a request and receives the answer. Returns the result of the transfer if it has ended; otherwise the transfer
+// continues with \a answer.
 std::optional<SdoResult> RawSdoClient::exchange(const Request& request, CO_IF_FRM& answer) {
   send(request);
   const std::optional<CO_IF_FRM> frame = (port.waiting() != 0) ? port.read() : wait();

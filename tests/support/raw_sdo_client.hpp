@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file raw_sdo_client.hpp
-/// An SDO client that believes nothing: it checks every bit of every answer, aborts at the first that is wrong, and
-/// gives up after a time-out. Expedited uploads as the server likes, downloads always segmented. [301:7.2.4.3]
+/// An SDO client that checks every answer, and aborts after the first wrong one or after a time-out. Uploads are
+/// expedited or segmented, as the server decides; downloads are always segmented. [301:7.2.4.3]
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct SdoResult {
   enum class End {
     done,
     aborted,    ///< by the server
-    cancelled,  ///< by the client, because an answer was wrong
-    timed_out,  ///< the client has got no answer and aborted
+    cancelled,  ///< aborted by the client, because an answer was wrong
+    timed_out,  ///< aborted by the client, because it received no answer
   };
   End end;
   std::uint32_t code = 0;  ///< abort code of the server
@@ -31,7 +31,7 @@ struct SdoResult {
 class RawSdoClient {
  public:
   RawSdoClient(World& world, Line& line, std::uint8_t node_id);
-  /// At other COB-IDs.
+  /// Uses other COB-IDs than those of the predefined connection set.
   RawSdoClient(World& world, Line& line, std::uint32_t request_id, std::uint32_t response_id);
   RawSdoClient(const RawSdoClient&) = delete;
   RawSdoClient& operator=(const RawSdoClient&) = delete;
@@ -41,9 +41,9 @@ class RawSdoClient {
   SdoResult upload(std::uint16_t index, std::uint8_t sub);
   SdoResult download(std::uint16_t index, std::uint8_t sub, const std::vector<std::uint8_t>& data);
 
-  /// Sends a frame of 8 bytes; returns the answer, if one comes without time going by.
+  /// Sends a frame of 8 bytes. Returns the answer if the server sends it at once, without time passing.
   std::optional<CO_IF_FRM> ask(const std::array<std::uint8_t, 8>& request);
-  /// Frames that have come unasked since the last transfer or ask() began; forgets them.
+  /// Discards the received frames that belong to no transfer and no ask(). Returns their number.
   unsigned drain();
 
   co::VirtualBus::Port& port;

@@ -6,7 +6,7 @@
 ///     node.start();                     // Operational
 ///     node.arrive("201#2A");            // puts a frame into the controller
 ///     node.real_time();                 // CONodeRealTime()
-///     node.mainline();                  // CONodeProcess() for what its ring holds and once more, COTmrProcess()
+///     node.mainline();                  // CONodeProcess() for each frame in the ring and once more, COTmrProcess()
 #pragma once
 
 #include "sync_fixture.hpp"

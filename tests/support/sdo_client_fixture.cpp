@@ -53,11 +53,11 @@ SdoClient::~SdoClient() {
     finish();
   }
   if (node.Nmt.Mode != CO_INVALID) {
-    CONodeStop(&node);  // no callback once the rest of this is gone
+    CONodeStop(&node);  // No callback may be called after the members of this class are destroyed.
   }
 }
 
-// What is still open can be cancelled, and then every request has had its callback.
+// Checks that all frames and callbacks were checked, and that each open transfer can be cancelled with a callback.
 void SdoClient::finish() {
   const std::vector<std::string> left = frames();
   CHECK_MESSAGE(left.empty(), "left unread: ", left.size(), " frames, the first is ", left.empty() ? "" : left[0]);
@@ -83,7 +83,7 @@ void SdoClient::run(const std::function<void()>& api, Where at) {
 }
 
 CO_ERR SdoClient::begin(Request request, unsigned client, const std::function<CO_ERR(std::uint8_t*)>& api, Where at) {
-  Request before = std::move(requests_[client]);  // moved: its buffer stays where it is
+  Request before = std::move(requests_[client]);  // a move keeps the address of the buffer
   requests_[client] = std::move(request);
   requests_[client].open = true;
   CO_ERR err = CO_ERR_NONE;
@@ -169,7 +169,7 @@ void SdoClient::note(unsigned client, std::uint16_t index, std::uint8_t sub, std
   const Bytes data(first, first + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes, size)));
   const ClientEnd end{client, index, sub, code, bytes, total(client), data};
   ends.push_back(end);
-  if (const auto hook = on_end) {  // which may replace itself
+  if (const auto hook = on_end) {  // a copy: the function may replace on_end
     ++in_callback_;
     hook(end);
     --in_callback_;

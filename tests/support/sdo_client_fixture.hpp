@@ -8,7 +8,7 @@
 ///     node.rx("585#4F00200511000000");
 ///     node.has_read({0x11});                     // the callback was called once, with code 0
 ///
-/// Buffers have guards around them, and are released after the callback.
+/// Guard bytes around the buffers detect wrong accesses. The buffers are released after the callback.
 #pragma once
 
 #include "fixture.hpp"
@@ -33,7 +33,7 @@ inline ClientEntries local_entries() { return {{{0x601, 0x581, 1}, {0x606, 0x586
 /// Returns the bytes 1, 2, 3, … (modulo 256) from \a first on.
 Bytes counted(std::size_t size, unsigned first = 1);
 
-/// Arguments of a callback, and the client's values at that time.
+/// Arguments of a callback, and values of the client at that time.
 struct ClientEnd {
   unsigned client;
   std::uint16_t index;
@@ -61,7 +61,7 @@ class SdoClient : public ClientEntries, public Fixture {
                       unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   CO_ERR cancel(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
 
-  /// Checks that no callback was called and the transfer is open.
+  /// Checks that no callback was called and the transfer is still open.
   void goes_on(unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
   /// Checks that one callback was called since the last check, with \a code, and the client is idle.
   ClientEnd ended(std::uint32_t code, unsigned client = 0, Where at = {__builtin_FILE(), __builtin_LINE()});
@@ -74,11 +74,11 @@ class SdoClient : public ClientEntries, public Fixture {
   std::uint32_t num(unsigned client = 0) const { return COCSdoGetNum(&node.CSdo[client]); }
   std::uint32_t total(unsigned client = 0) const { return COCSdoGetTotal(&node.CSdo[client]); }
   bool is_busy(unsigned client = 0) const { return node.CSdo[client].State == CO_CSDO_STATE_BUSY; }
-  bool is_watched(unsigned client = 0) const;  ///< its timer is armed
+  bool is_watched(unsigned client = 0) const;  ///< returns true if the client's timer is armed
 
   /// Called in each callback, after its data are stored.
   std::function<void(const ClientEnd&)> on_end;
-  /// Callbacks that the test has not checked yet.
+  /// Callbacks that the test has not yet checked.
   std::deque<ClientEnd> ends;
 
  private:
@@ -100,7 +100,7 @@ class SdoClient : public ClientEntries, public Fixture {
   unsigned in_callback_ = 0;
 };
 
-/// Checks that the client works: it reads 2001h.
+/// Checks that client 0 works, by an upload of 2001h.
 inline void check_asks(SdoClient& node) {
   node.start_upload(0x2001, 0, 4);
   node.tx("605#4001200000000000");
@@ -108,7 +108,7 @@ inline void check_asks(SdoClient& node) {
   node.has_read({0x11});
 }
 
-/// Checks that the client uses these COB-IDs for an upload from 2000h:05.
+/// Checks that client 0 uses these COB-IDs, by an upload of 2000h:05.
 inline void check_asks(SdoClient& node, const std::string& tx, const std::string& rx) {
   node.start_upload(0x2000, 5, 4);
   node.tx(tx + "#4000200500000000");

@@ -107,7 +107,8 @@ SdoClientModel::Answer SdoClientModel::finish(std::uint32_t code) {
   return std::nullopt;
 }
 
-// Block transfer is optional for a server; an abort without a code is no success.
+// Processes an abort of the server. A server without block transfer aborts its initiate: the transfer is then repeated
+// as a segmented or expedited one. An abort with code 0 is reported as a general error, not as success.
 SdoClientModel::Answer SdoClientModel::aborted(const SdoBytes& response) {
   const std::uint32_t code = number_in(response);
   if (state_ == State::initiated && by_block_ && (code == unknown_command || code == general_error)) {
@@ -144,7 +145,7 @@ SdoClientModel::Answer SdoClientModel::answer_in_state(const SdoBytes& response)
     case State::block_upload_end:
       return (command & 0xE3U) == 0xC1 ? end_block_upload(response) : give_up(unknown_command);
     case State::block_download:
-      if ((command & 0xFBU) == 0xA0) {  // repeated by a server that has waited for the segments
+      if ((command & 0xFBU) == 0xA0) {  // repeated by a server that was waiting for segments
         return std::nullopt;
       }
       return command == 0xA2 ? block_taken(response) : give_up(unknown_command);
@@ -174,7 +175,8 @@ SdoClientModel::Answer SdoClientModel::upload_initiated(const SdoBytes& response
   return give_up(unknown_command);
 }
 
-// Without a size it has as many of the four bytes as the caller wants.
+// Completes an expedited upload. If the server indicates no size, the data have the size of the buffer, at most 4
+// bytes.
 SdoClientModel::Answer SdoClientModel::take_expedited(const SdoBytes& response) {
   const bool has_size = (response[0] & 0x01U) != 0;
   const std::size_t n = has_size ? 4U - ((response[0] >> 2) & 3U) : std::min<std::size_t>(size_, 4);
@@ -256,7 +258,7 @@ SdoClientModel::Answer SdoClientModel::segment_taken(const SdoBytes& response) {
   return done_ == size_ ? finish(0) : next_segment();
 }
 
-// Block upload. data_ has done_ bytes of the blocks before, and those of the present one. ----------------------------
+// Block upload. data_ contains done_ bytes of previous blocks, and the bytes of the current one. ---------------------
 
 SdoClientModel::Answer SdoClientModel::take_in_block(const SdoBytes& response) {
   const std::size_t number = response[0] & 0x7FU;
@@ -280,7 +282,8 @@ SdoClientModel::Answer SdoClientModel::take_in_block(const SdoBytes& response) {
   return ends ? Answer(acknowledge(in_order && last)) : std::nullopt;
 }
 
-// How many bytes of the last segment are data is not known yet.
+// Stores a segment. All 7 bytes of the last one are stored, because the end request indicates how many of them are
+// data.
 std::uint32_t SdoClientModel::collect(const SdoBytes& response) {
   if ((response[0] & 0x80U) == 0) {
     if (total_ && data_.size() + segment_bytes > *total_) {
@@ -303,7 +306,7 @@ SdoBytes SdoClientModel::acknowledge(bool all) {
   return {0xA2, byte(ackseq_), byte(largest_block)};
 }
 
-// Compares with the bytes that the client has stored of the last segment (those that fit its buffer).
+// Returns true if the frame repeats the last segment. Compares only the bytes that fit into the client's buffer.
 bool SdoClientModel::is_last_again(const SdoBytes& response) const {
   const std::size_t first = data_.size() - segment_bytes;
   const std::size_t kept = std::min(segment_bytes, size_ - first);
@@ -312,7 +315,7 @@ bool SdoClientModel::is_last_again(const SdoBytes& response) const {
                     data_.begin() + static_cast<std::ptrdiff_t>(first + kept), response.begin() + 1);
 }
 
-// The last segment of some objects looks like their end.
+// Returns true for a correct end request. A last segment may have the same command byte.
 bool SdoClientModel::is_right_end(const SdoBytes& response) const {
   const Bytes data(data_.begin(), data_.end() - ((response[0] >> 2) & 7));
   const bool is_end = (response[0] & 0xE3U) == 0xC1;
@@ -364,7 +367,7 @@ std::optional<SdoBytes> SdoClientModel::segment() {
 
 SdoClientModel::Answer SdoClientModel::block_taken(const SdoBytes& response) {
   const std::size_t ackseq = response[1];
-  if (ackseq > seq_) {  // a server that has waited for the segments acknowledges those of the block before again
+  if (ackseq > seq_) {  // A server that was waiting for segments repeats the acknowledge of the previous block.
     const bool is_whole = seq_ == blksize_ || last_sent_;
     return done_ != 0 && !is_whole ? std::nullopt : give_up(wrong_sequence);
   }

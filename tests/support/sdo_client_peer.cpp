@@ -195,7 +195,7 @@ Frames SdoPeer::after_silence() {
 
 namespace {
 
-// Frames on their way in one direction.
+// Transmits the frames of one direction, with the fault if it is in this direction.
 class Way {
  public:
   Way(const Disturbance& disturbance, bool to_node) : kind_(disturbance.kind), at_(disturbance.at) {

@@ -63,7 +63,7 @@ class SdoPeer {
   Frames repeat_;
 };
 
-/// Fault of a frame of one direction, by number from 0.
+/// Fault of the bus for one frame of one direction. Frames are numbered from 0.
 struct Disturbance {
   enum class Kind { none, lose, repeat, swap_with_next, change_bit };
   Kind kind = Kind::none;

@@ -15,7 +15,8 @@ using States = std::vector<ClientState>;
 
 constexpr std::uint32_t done = 0;
 
-// The client gives up: it says so to the server and to its caller. Codes are sent low byte first.
+// Returns the reaction that the client aborts: it sends the code to the server, low byte first, and passes it to its
+// callback.
 ClientReaction abort(const std::string& commands, std::uint32_t code) {
   char text[24];
   const auto bytes = static_cast<unsigned>(code);
@@ -132,7 +133,7 @@ std::string acknowledge(unsigned sequence) {
   return text;
 }
 
-// The segment of the server with this command byte; it holds the bytes that belong there.
+// Returns the server's segment with this command byte, with the bytes of the object at its position.
 std::string segment(unsigned command) {
   CO_IF_FRM frm = frame("585#0000000000000000");
   const Bytes data = counted(7, 7 * ((command & 0x7FU) - 1) + 1);
@@ -179,8 +180,8 @@ void add_block_upload_initiate(States& all) {
                   unknown}});
 }
 
-// A sub-block ends with segment 127 or with bit 7, after a gap, too. [D22] Other segments out of order are ignored;
-// there is no number 0. [5.2]
+// Adds the states of a block upload. A sub-block ends with segment 127 or with bit 7, even after a gap. [D22] Other
+// segments out of order are ignored. Sequence number 0 is invalid. [5.2]
 void add_block_upload(States& all) {
   const std::string request = "605#A40020057F1C0000";
   all.push_back({"block upload: started",
@@ -230,7 +231,7 @@ void add_block_upload(States& all) {
                   unknown}});
 }
 
-// 40 bytes: 5 segments and one of 5 bytes.
+// Adds the states of a block download of 40 bytes: 5 segments of 7 bytes and one of 5.
 void add_block_download(States& all) {
   const std::string request = "605#C600200528000000";
   const std::vector<std::string> four = {"605#0101020304050607", "605#0208090A0B0C0D0E", "605#030F101112131415",

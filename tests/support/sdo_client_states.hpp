@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_client_states.hpp
-/// Every state of an SDO client, how to get there, and what it does with each command byte of its server.
-/// [301:7.2.4.3] Typed from the standard. The object is 2000h:05 of node-ID 5, its bytes are 1, 2, 3, …
+/// All states of an SDO client, the frames that lead to each of them, and the reactions to each command byte of the
+/// server. Copied from the standard [301:7.2.4.3]. The object is 2000h:05 of node-ID 5, its bytes are 1, 2, 3, …
 #pragma once
 
 #include <string>
@@ -15,34 +15,34 @@ namespace test {
 
 /// Reaction of the client to a frame of the server.
 struct ClientReaction {
-  std::string commands;           ///< bytes and ranges of bytes; "rest": all that no other reaction of the state names
-  std::vector<std::string> sent;  ///< by the client
-  std::uint32_t code;             ///< with which the transfer ends; 0: all is done, goes_on_code: it does not end
+  std::string commands;  ///< bytes and ranges of bytes; "rest": all not listed by another reaction of the state
+  std::vector<std::string> sent;  ///< frames of the client
+  std::uint32_t code;             ///< abort code of the transfer; 0: success, goes_on_code: the transfer does not end
 };
 
 inline constexpr std::uint32_t goes_on_code = 0xFFFFFFFF;
 
 struct ClientState {
   struct Step {
-    std::string answer;             ///< of the server
-    std::vector<std::string> sent;  ///< by the client
+    std::string answer;             ///< frame of the server
+    std::vector<std::string> sent;  ///< frames of the client
   };
   std::string name;
   bool is_upload;
-  std::uint32_t size;      ///< of the buffer
-  std::string request;     ///< that is sent at once
-  std::vector<Step> path;  ///< into the state
-  std::string payload;     ///< bytes 1…7 of the frame that comes then
+  std::uint32_t size;      ///< bytes of the buffer
+  std::string request;     ///< first frame of the client
+  std::vector<Step> path;  ///< steps that lead to the state
+  std::string payload;     ///< bytes 1…7 of the server's frame in the state
   std::vector<ClientReaction> reactions;
 };
 
-/// All states; those of block transfers only if they are configured.
+/// Returns all states; those of block transfers only if USE_SDO_BLOCK is set.
 const std::vector<ClientState>& client_states();
 
-/// The reactions of \a state to a command byte: exactly one in a right table.
+/// Returns the reactions of \a state to a command byte: exactly one if the table is correct.
 std::vector<const ClientReaction*> reactions_to(const ClientState& state, unsigned command);
 
-/// Starts the transfer of \a state and leads it there.
+/// Starts the transfer of \a state and leads the client to the state.
 void enter(SdoClient& node, const ClientState& state, std::uint32_t timeout = 1000);
 
 }  // namespace test

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t abort_command = 0x80;
 
-// 110x xxx0 and 101x xx00
+// Commands 110x xxx0b (block download) and 101x xx00b (block upload).
 bool initiates_block_download(std::uint8_t command) { return (command & 0xE1U) == 0xC0; }
 bool initiates_block_upload(std::uint8_t command) { return (command & 0xE3U) == 0xA0; }
 bool ends_block_download(std::uint8_t command) { return (command & 0xE3U) == 0xC1; }
@@ -121,7 +121,7 @@ void SdoObserver::open(Phase phase, std::uint32_t dev) {
   ending_ = false;
 }
 
-// [301:7.2.4.3.10] [D22]
+// Processes a segment of a block download. [301:7.2.4.3.10] [D22]
 void SdoObserver::receive(const CO_IF_FRM& frm) {
   if ((frm.Data[0] & 0x7FU) == next_ && !last_) {
     ++next_;
@@ -131,7 +131,8 @@ void SdoObserver::receive(const CO_IF_FRM& frm) {
   }
 }
 
-// Data that fit into the buffer are written only at the end.
+// Returns true if the server may have written a part of the object. Block downloads that fit into the buffer are
+// written only at their end.
 bool SdoObserver::may_have_written() const {
   const bool block = phase_ == Phase::receiving || phase_ == Phase::received;
   const bool was_full = segments_ > CO_SDO_BUF_SEG || (segments_ == CO_SDO_BUF_SEG && !last_);
@@ -152,7 +153,7 @@ void SdoObserver::close() {
   request_.reset();
 }
 
-// [301:7.2.4.3.14]
+// Processes the client's acknowledge of a sub-block of an upload. [301:7.2.4.3.14]
 void SdoObserver::acknowledge(std::uint8_t ackseq, std::uint8_t blksize) {
   if (last_ && ackseq + 1U == next_) {
     ending_ = true;
@@ -179,7 +180,7 @@ std::string SdoObserver::fault_of_segment(const CO_IF_FRM& frm) {
   return "";
 }
 
-// [301:7.2.4.3.15] Bytes without data are 0.
+// Checks the end of a block upload. Bytes without data are 0. [301:7.2.4.3.15]
 std::string SdoObserver::fault_of_end(const CO_IF_FRM& frm) {
   phase_ = Phase::closed;
   if ((frm.Data[0] & 0xE3U) != 0xC1) {

@@ -18,7 +18,7 @@ namespace test {
 /// Entries, as CO_DEV(), that may have changed.
 struct Changeable {
   std::set<std::uint32_t> completed;  ///< their download was confirmed
-  std::set<std::uint32_t> streaming;  ///< parts of them may be written: their download is open, or was aborted
+  std::set<std::uint32_t> streaming;  ///< may be partially written: their download is open or was aborted
 };
 
 class SdoObserver {
@@ -37,11 +37,11 @@ class SdoObserver {
  private:
   enum class Phase {
     closed,
-    downloading,  // in segments
-    receiving,    // a sub-block of a download
-    received,     // all sub-blocks, but not the end
-    offered,      // a block upload
-    sending,      // a block upload, until its end is sent
+    downloading,  // segmented download
+    receiving,    // block download: within a sub-block
+    received,     // block download: all sub-blocks received, but not the end
+    offered,      // block upload: initiated
+    sending,      // block upload: started, until its end is sent
   };
   struct Request {
     std::uint8_t command;
@@ -63,7 +63,7 @@ class SdoObserver {
   std::vector<CO_IF_FRM> waiting_;  // expected answers that are not sent yet
   std::uint32_t dev_ = 0;           // object of the open transfer
   std::uint32_t segments_ = 0;      // segments of a block download received in order
-  unsigned next_ = 1;               // sequence number
+  unsigned next_ = 1;               // next sequence number
   bool last_ = false;               // the last segment has been received or sent
   bool ending_ = false;             // the client has acknowledged all segments of a block upload
   std::uint8_t blksize_ = 0;

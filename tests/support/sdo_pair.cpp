@@ -19,7 +19,7 @@ constexpr std::uint32_t first_domain = 0x2010;
 
 bool is_guard(std::uint8_t byte) { return byte == guard_byte; }
 
-// Success, or a code that CiA 301 names: not data that were read as one. [301:7.2.4.3.17]
+// Returns true for success or an abort code of CiA 301. Other codes are data that were read as a code. [301:7.2.4.3.17]
 bool is_result(std::uint32_t code) {
   static const std::set<std::uint32_t> groups = {0x0503, 0x0504, 0x0601, 0x0602, 0x0604,
                                                  0x0606, 0x0607, 0x0609, 0x060A, 0x0800};
@@ -32,7 +32,7 @@ CO_OBJ entry(std::uint32_t index, std::uint8_t sub, std::uint32_t flags, const C
 
 std::size_t domain_of(std::uint32_t key) { return CO_GET_IDX(key) - first_domain; }
 
-constexpr std::uint32_t request_base[] = {0x600, 0x240};  // of the default channel, of 1201h
+constexpr std::uint32_t request_base[] = {0x600, 0x240};  // request COB-IDs of 1200h and 1201h, without node-ID
 constexpr std::uint32_t response_base[] = {0x580, 0x1C0};
 
 }  // namespace
@@ -96,7 +96,7 @@ void Seat::end(std::uint32_t key, std::uint32_t abort_code) {
   CHECK(std::all_of(memory_.begin(), memory_.begin() + guard, is_guard));
   CHECK(std::all_of(memory_.end() - guard, memory_.end(), is_guard));
   CHECK(std::equal(sent_.begin(), sent_.end(), memory_.begin() + guard));
-  if (const auto hook = on_end) {  // which may replace itself
+  if (const auto hook = on_end) {  // a copy: the function may replace on_end
     hook();
   }
 }
@@ -119,7 +119,7 @@ SdoDevice::SdoDevice(World& world, Line& line, const SdoDeviceOptions& options)
   power_up();
 }
 
-// No callback once the seats are gone.
+// Stops the node, so that no callback is called after the clients are destroyed.
 SdoDevice::~SdoDevice() { CONodeStop(node()); }
 
 Device& SdoDevice::make_device(Line& line) {
@@ -248,7 +248,7 @@ std::string Exchange::wrong() const {
          (server_.read(key_) != data_ ? " data of the server" : "");
 }
 
-// Two of them --------------------------------------------------------------------------------------------------------
+// A client and a server ----------------------------------------------------------------------------------------------
 
 namespace {
 

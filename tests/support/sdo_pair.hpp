@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_pair.hpp
-/// SDO transfers between Lexican nodes on a virtual bus: devices with clients, and a pair of them that checks the
-/// invariants of every transfer, with any fault on the bus.
+/// SDO transfers between Lexican nodes on a virtual bus: devices with SDO clients, and a pair of a client and a server
+/// that checks the invariants of every transfer, also with faults on the bus.
 ///
 ///     test::SdoPair pair({2000});
 ///     pair.line.bus.add_rule({co::VirtualBus::Fault::drop, {}, 7});
-///     pair.run(test::Direction::upload, pair.object, 1000ms, 3000ms);  // right data, or an abort code, within 3 s
+///     pair.run(test::Direction::upload, pair.object, 1000ms, 3000ms);  // correct data, or an abort code, within 3 s
 ///
 /// Context: one thread.
 #pragma once
@@ -31,7 +31,7 @@ Bytes noise(std::uint32_t size, std::uint32_t seed);
 
 class SdoDevice;
 
-/// An SDO client of a device, and the memory of its current or last request, between guards.
+/// An SDO client of a device, with the buffer of its current or last request between guard bytes.
 class Seat {
  public:
   Seat(SdoDevice& device, unsigned number) : device_(device), number_(number) {}
@@ -44,7 +44,7 @@ class Seat {
   unsigned callbacks = 1;        ///< calls since the request
   std::uint32_t code = 0;        ///< argument of the callback
   std::uint32_t num = 0;         ///< COCSdoGetNum() in the callback
-  std::uint64_t tick = 0;        ///< of the clock in the callback
+  std::uint64_t tick = 0;        ///< clock value in the callback
   std::function<void()> on_end;  ///< called in the callback
 
  private:
@@ -62,9 +62,9 @@ class Seat {
 struct SdoDeviceOptions {
   std::uint8_t node_id;
   std::array<std::uint32_t, 3> bytes = {16, 16, 16};  ///< of 2010h, 2011h, 2012h
-  bool block = true;                                  ///< CO_NODE_SPEC.SdoBuf is given
+  bool block = true;                                  ///< CO_NODE_SPEC.SdoBuf is not null
   std::uint16_t heartbeat_ms = 0;
-  std::uint16_t tx_queue = 0;  ///< frames in separate memory; 0: those in the node
+  std::uint16_t tx_queue = 0;  ///< frames of the transmit queue in separate memory; 0: the queue in the node
 };
 
 /// A node with 1000h, 1001h, 1017h, 1018h, 1200h, 1201h and 1280h, 1281h, 1282h (rw, not valid; if configured), 2001h
@@ -128,9 +128,9 @@ class Exchange {
  public:
   Exchange(SdoDevice& client, unsigned seat, SdoDevice& server) : client_(client), number_(seat), server_(server) {}
 
-  /// Starts a transfer with data that differ from the previous ones. \a time_out: of the client, for each answer.
+  /// Starts a transfer with other data than the previous one. \a time_out: of the client, for each answer.
   void start(Direction direction, std::uint32_t key, Milliseconds time_out);
-  /// Returns the fault of a finished transfer. Empty: both sides have the right data, or an abort code.
+  /// Returns the fault of a finished transfer; empty: both sides have the correct data, or an abort code.
   std::string wrong() const;
   Seat& seat() const { return client_.seats[number_]; }
 
@@ -158,8 +158,8 @@ class SdoPair {
   static constexpr std::uint8_t client_id = 1;
   static constexpr std::uint8_t server_id = 5;
   static constexpr std::uint32_t object = CO_DEV(0x2010, 0);        ///< of SdoPairOptions::bytes
-  static constexpr std::uint32_t short_object = CO_DEV(0x2011, 0);  ///< 36 bytes: a block
-  static constexpr std::uint32_t value = CO_DEV(0x2001, 0);         ///< 8 bytes: segments
+  static constexpr std::uint32_t short_object = CO_DEV(0x2011, 0);  ///< 36 bytes: block transfer
+  static constexpr std::uint32_t value = CO_DEV(0x2001, 0);         ///< 8 bytes: segmented transfer
 
   explicit SdoPair(const SdoPairOptions& options);
 

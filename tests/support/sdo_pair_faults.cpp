@@ -16,7 +16,7 @@ using co::VirtualBus;
 using Fault = VirtualBus::Fault;
 
 constexpr std::uint32_t client_request = 0x600 + SdoPair::server_id;
-constexpr Milliseconds server_time_out{CO_SDO_TIMEOUT + 8};  // counted in eighths, rounded up to ticks of 1 ms
+constexpr Milliseconds server_time_out{CO_SDO_TIMEOUT + 8};  // counted in eighths, each rounded up to ticks of 1 ms
 
 Milliseconds longest_delay(const Strikes& strikes) {
   Milliseconds longest{0};
@@ -26,12 +26,13 @@ Milliseconds longest_delay(const Strikes& strikes) {
   return longest;
 }
 
-// A client listens to a block in quarters of its time-out, and the first may begin a little before the silence.
+// Returns the longest duration of a transfer. A client counts its time-out during a block upload in quarters; the first
+// quarter may begin before the last frame, so that the time-out is up to a quarter longer.
 Milliseconds limit_of(const Strikes& strikes, Milliseconds time_out) {
   return static_cast<int>(strikes.size()) * (time_out + time_out / 4 + Milliseconds{10});
 }
 
-// The bus of a transfer that suffers.
+// Adds the rules for the faults to the bus as long as the object exists.
 class Suffering {
  public:
   Suffering(SdoPair& pair, const Strikes& strikes) : bus_(pair.line.bus), strikes_(strikes), seen_(strikes.size()) {
@@ -78,9 +79,10 @@ bool any_waits_for_next(const Strikes& strikes) {
 
 }  // namespace
 
-// A frame that waits for the next of its sender, to be swapped with it, comes into the next transfer. And a server in
-// the middle of a block that has not heard the client's abort takes the next initiate for a segment; the client has to
-// give up that transfer, too, before the server hears it. [301:7.2.4.3.10]
+// An additional transfer is necessary before the next one succeeds
+// - after a reordered frame, which is held until the next frame of its sender and may arrive in the next transfer;
+// - if the client's abort was disturbed: within a block, the server receives the next initiate as a segment, and leaves
+//   the block only when the client aborts that transfer, too. [301:7.2.4.3.10]
 FaultyTransfer disturb(SdoPair& pair, Direction direction, const Strikes& strikes, Milliseconds time_out) {
   FaultyTransfer result{};
   bool needs_more = any_waits_for_next(strikes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_pair_faults.hpp
-/// What a bus can do to the frames of a transfer, and a transfer to which it happens.
+/// Faults of a bus for the frames of an SDO transfer, and a transfer with such faults.
 #pragma once
 
 #include "sdo_pair.hpp"
@@ -14,18 +14,18 @@ struct FrameFault {
   Milliseconds delay{0};
 };
 
-/// In a block download the server tells after 500, 1000 and 1500 ms of silence what has arrived; after 2000 ms it gives
-/// up.
+/// Faults that are tested. The delays match the time-outs: in a block download the server repeats its acknowledge after
+/// 500, 1000 and 1500 ms without a frame, and aborts after 2000 ms.
 inline constexpr FrameFault frame_faults[] = {
     {co::VirtualBus::Fault::drop},
     {co::VirtualBus::Fault::duplicate},
     {co::VirtualBus::Fault::reorder},
     {co::VirtualBus::Fault::delay, Milliseconds{700}},
-    {co::VirtualBus::Fault::delay, Milliseconds{1500}},  // later than the time-out of a client
-    {co::VirtualBus::Fault::delay, Milliseconds{3000}},  // and of the server
+    {co::VirtualBus::Fault::delay, Milliseconds{1500}},  // longer than the time-out of a client
+    {co::VirtualBus::Fault::delay, Milliseconds{3000}},  // longer than the time-out of the server
 };
 
-/// A fault, and the frame on the bus that suffers from it, from 1 on.
+/// A fault, and the number of the frame on the bus that it applies to, from 1.
 struct Strike {
   FrameFault what;
   std::uint32_t position;
@@ -33,17 +33,17 @@ struct Strike {
 using Strikes = std::vector<Strike>;
 
 struct FaultyTransfer {
-  std::uint32_t code;    ///< of the transfer
-  std::uint32_t frames;  ///< on the bus
-  bool all_struck;
+  std::uint32_t code;    ///< abort code of the transfer; 0: success
+  std::uint32_t frames;  ///< number of frames on the bus
+  bool all_struck;       ///< every fault was applied
 };
 
-/// Runs a transfer of the object with these faults. It ends, with the right data or an abort code, within a time-out
-/// for each fault; then the next transfers are done, now and again when both sides have come to rest.
+/// Runs a transfer of the object with these faults. Checks that it ends with the correct data or an abort code within a
+/// time-out for each fault, and that later transfers succeed: at once, and again when both sides are idle.
 FaultyTransfer disturb(SdoPair& pair, Direction direction, const Strikes& strikes,
                        Milliseconds time_out = Milliseconds{1000});
 
-/// The exhaustive variants, for the lane sdo_faults: LEXICAN_SDO_FAULTS (environment) is "all".
+/// Returns true if the environment variable LEXICAN_SDO_FAULTS is "all": exhaustive tests, for the lane sdo_faults.
 bool all_faults();
 
 }  // namespace test

@@ -79,7 +79,7 @@ void ForeignServer::serve(const CO_IF_FRM& request) {
   } else if (state_ == State::receiving) {
     take_segment(request);
   } else if (state_ == State::received && command == last_) {
-    return;  // repeated
+    return;  // duplicate of the last segment
   } else if ((command & 0xF9U) == 0xC0) {
     start_download(request);
   } else if ((command & 0xFBU) == 0xA0) {
@@ -104,7 +104,7 @@ void ForeignServer::serve_command(const CO_IF_FRM& request) {
   }
 }
 
-// With the multiplexer of the request.
+// Sends a response with the multiplexer of the request.
 void ForeignServer::answer(std::uint8_t command, const CO_IF_FRM& initiate, std::uint32_t value) {
   CO_IF_FRM frm = initiate;
   frm.Identifier = answer_id_;
@@ -228,7 +228,7 @@ std::uint32_t ForeignClient::give_up(std::uint32_t code) {
   return code;
 }
 
-// Discards frames of a previous transfer first.
+// Uploads an object, after discarding the frames of previous transfers.
 std::uint32_t ForeignClient::upload(std::uint16_t index) {
   while (port_.read()) {
   }
@@ -254,7 +254,8 @@ std::uint32_t ForeignClient::upload(std::uint16_t index) {
   return end_upload(size);
 }
 
-// A block ends with its last segment or with silence. Returns a code if the transfer is over.
+// Receives a block, which ends with its last segment or after a time without frames, and acknowledges it. Returns the
+// abort code if the transfer has ended.
 std::optional<std::uint32_t> ForeignClient::receive_block(bool& last) {
   std::uint8_t good = 0;
   for (bool ended = false; !ended;) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file sdo_pair_foreign.hpp
-/// Peers of block transfers that are none of ours, on a virtual bus, typed from the standard: blocks of any size, and
-/// no more cleverness than the standard asks for. [301:7.2.4.3.9-16]
+/// An SDO server and an SDO client for block transfers on a virtual bus that do not use the stack. They are derived
+/// from the standard, support any blksize, and do only what the standard requires. [301:7.2.4.3.9-16]
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace test {
 
-/// A server of one object, whatever its index. Its answers have to be fetched by work() and pass().
+/// A server with one object, which it provides at every index. It responds in work() and pass().
 class ForeignServer {
  public:
   ForeignServer(Line& line, std::uint8_t node_id, std::uint8_t blksize);
 
-  /// Serves the frames that have come. False: none.
+  /// Processes the received frames. Returns false if there was none.
   bool work();
-  /// Time has passed. In the middle of a block, silence is answered with the last good segment. After two seconds of
-  /// it the server gives up.
+  /// Lets time pass. Within a block download, the server acknowledges the last segment in order after 250 ms without a
+  /// frame; after 2 s it aborts any transfer.
   void pass(Milliseconds time);
 
   Bytes object;
@@ -42,29 +42,29 @@ class ForeignServer {
 
   co::VirtualBus::Port& port_;
   std::uint32_t answer_id_;
-  std::uint8_t blksize_;  // of downloads
+  std::uint8_t blksize_;  // blksize of downloads
   State state_ = State::idle;
   Milliseconds silence_{0};
   unsigned reminders_ = 0;
-  Bytes data_;                  // so far
-  std::uint32_t size_ = 0;      // announced
-  std::uint8_t good_ = 0;       // segments of the block
-  std::uint8_t last_ = 0;       // command of the last segment of all
-  std::size_t position_ = 0;    // of an upload, acknowledged
-  unsigned sent_ = 0;           // segments of the block
+  Bytes data_;                  // received bytes of a download
+  std::uint32_t size_ = 0;      // announced size of a download
+  std::uint8_t good_ = 0;       // segments of the block received in order
+  std::uint8_t last_ = 0;       // command byte of the last segment of a download
+  std::size_t position_ = 0;    // acknowledged bytes of an upload
+  unsigned sent_ = 0;           // sent segments of the block
   std::uint8_t asked_for_ = 0;  // blksize of uploads
 };
 
-/// A client that asks for blocks of a certain size. It gives up after a second without an answer.
+/// A client that requests blocks of \a blksize segments. It aborts after 1 s without an answer.
 class ForeignClient {
  public:
   ForeignClient(World& world, Line& line, std::uint8_t node_id, std::uint8_t blksize);
 
-  /// Return the abort code of either side, or 0.
+  /// Run a transfer. Return the abort code of either side; 0: success.
   std::uint32_t upload(std::uint16_t index);
   std::uint32_t download(std::uint16_t index, const Bytes& data);
 
-  Bytes data;  ///< uploaded
+  Bytes data;  ///< data of the last upload
 
  private:
   void send(std::uint8_t command, std::uint32_t first = 0, std::uint32_t second = 0);

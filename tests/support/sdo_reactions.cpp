@@ -14,14 +14,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A row of the table: what it says of each object's multiplexers is filled in later.
+// A line of the table, in which the letters T and R are not yet replaced by the multiplexers of an object.
 struct Row {
   Words commands;
   std::string answer;
   Words afterwards;
 };
 
-// "21" or "20-2F"
+// Parses a command byte or a range of them: "21" or "20-2F".
 std::pair<unsigned, unsigned> range_of(const std::string& text) {
   const unsigned long first = std::stoul(text, nullptr, 16);
   const unsigned long last = text.size() > 2 ? std::stoul(text.substr(3), nullptr, 16) : first;
@@ -87,7 +87,7 @@ class Reader {
     }
   }
 
-  // The last of several requests is answered.
+  // Adds requests to the path into the state. The answers are those to the last request.
   void add_exchange(const Words& requests, const Words& answers) {
     for (const std::string& request : requests) {
       states.back().enter.push_back({request, {}});
@@ -125,7 +125,7 @@ class Reader {
     return letter == "T" ? object_->transfer : object_->request;
   }
 
-  // Codes are written as people read them, and sent low byte first.
+  // Converts an abort code from the order of the table (high byte first) to that of the bus.
   static std::string little_endian(const std::string& code) {
     REQUIRE(code.size() == 8);
     return code.substr(6, 2) + code.substr(4, 2) + code.substr(2, 2) + code.substr(0, 2);

@@ -17,7 +17,7 @@ constexpr std::size_t segment_bytes = 7;
 constexpr unsigned slices = 8;
 constexpr unsigned reminder_slices = 2;
 
-// 110x xcs0 and 101x xc00: the data are sent by the client, or received by it.
+// Commands 110x xcs0b (block download) and 101x xc00b (block upload).
 constexpr bool initiates_block_download(std::uint8_t command) { return (command & 0xF9U) == 0xC0; }
 constexpr bool initiates_block_upload(std::uint8_t command) { return (command & 0xFBU) == 0xA0; }
 
@@ -28,7 +28,7 @@ std::uint32_t number_in(const SdoBytes& frame, std::size_t first) {
 
 }  // namespace
 
-// A text ends at its first NUL. A transfer that was cut off within a character leaves only whole ones.
+// Returns a text up to its first NUL, and only whole characters after a transfer that was aborted within one.
 Bytes SdoObject::shown() const {
   auto end = kind == Kind::text ? std::find(value.begin(), value.end(), 0) : value.end();
   end -= kind == Kind::characters ? static_cast<std::ptrdiff_t>(value.size() % 2) : 0;
@@ -105,7 +105,7 @@ SdoServerModel::Answer SdoServerModel::answer_to_sender(const SdoBytes& request)
   return ends ? end_block_download(request) : refuse(request, unknown_command);
 }
 
-// Ends what is open; the abort names that, or else what the request names.
+// Aborts with the multiplexer of the open transfer, or with that of the request if the server is idle. [D25]
 SdoBytes SdoServerModel::refuse(const SdoBytes& request, std::uint32_t code) {
   if (state_ == State::idle) {
     std::copy_n(request.begin() + 1, 3, key_.begin());
@@ -185,7 +185,7 @@ bool SdoServerModel::has_index(const SdoBytes& request) const {
                      [&](const SdoObject& object) { return object.index == (request[1] | (request[2] << 8)); });
 }
 
-// A new initiate ends what was open. [D8] 0: the object may be accessed.
+// Ends the open transfer [D8] and looks up the object. Returns the abort code; 0: the object may be accessed.
 std::uint32_t SdoServerModel::fault_of_access(const SdoBytes& request, bool upload) {
   state_ = State::idle;
   std::copy_n(request.begin() + 1, 3, key_.begin());
@@ -204,7 +204,7 @@ std::uint32_t SdoServerModel::fault_of_access(const SdoBytes& request, bool uplo
   return none ? 0x06010000 : upload ? 0x06010001 : 0x06010002;
 }
 
-// 0: a download may have this length.
+// Returns the abort code of a download of this length; 0: the length is valid.
 std::uint32_t SdoServerModel::fault_of_length(std::size_t length) const {
   const bool half_character = object_->kind == SdoObject::Kind::characters && length % 2 != 0;
   if (length > object_->capacity || half_character) {
@@ -213,7 +213,7 @@ std::uint32_t SdoServerModel::fault_of_length(std::size_t length) const {
   return length < object_->capacity && !object_->is_stream() ? too_short : 0;
 }
 
-// 0: these can be all bytes of the download.
+// Returns the abort code of a complete download of this length; 0: the length is valid.
 std::uint32_t SdoServerModel::fault_of_total(std::size_t length) const {
   if (!sized_) {
     return fault_of_length(length);

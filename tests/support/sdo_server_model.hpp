@@ -41,16 +41,17 @@ struct SdoObject {
 
 class SdoServerModel {
  public:
-  /// \a buffer: segments that a block download collects before the object gets them, 1…127; 0: no block transfer.
+  /// \a buffer: segments of a block download that are buffered before they are written to the object, 1…127; 0: the
+  /// server has no block transfer.
   SdoServerModel(std::vector<SdoObject> objects, unsigned buffer) : objects_(std::move(objects)), buffer_(buffer) {}
 
-  /// Processes a request of eight bytes. Returns the answer, nothing if there is none.
+  /// Processes a request of 8 bytes. Returns the answer, or no value if there is none.
   std::optional<SdoBytes> answer(const SdoBytes& request);
-  /// Sends and returns the next segment of a block upload, nothing if there is none.
+  /// Sends and returns the next segment of a block upload, or no value if there is none.
   std::optional<SdoBytes> segment();
   /// Calls both functions, for a controller that accepts every frame.
   std::vector<SdoBytes> answers(const SdoBytes& request);
-  /// Lets an eighth of the time-out pass. Returns the frame that the server sends then.
+  /// Lets an eighth of the time-out pass. Returns the frame that the server sends at its end, or no value.
   std::optional<SdoBytes> slice();
   /// Ends the open transfer because of the NMT state. [N8]
   void close() { state_ = State::idle; }
@@ -60,8 +61,9 @@ class SdoServerModel {
   bool is_in_block() const { return state_ == State::block_download; }  ///< all but 80h are segments
   const SdoKey& key() const { return key_; }                            ///< object of the open transfer
 
-  /// Returns a request that continues the open transfer, for inputs that reach deep states; \a shorter: with the least
-  /// data that end a step. Segments carry no data yet.
+  /// Returns a request that continues the open transfer, so that random inputs reach all states. \a shorter: the
+  /// download ends before all its data are sent, or the last segment of a block upload is not acknowledged. The data
+  /// bytes of segments are 0.
   SdoBytes continued(bool shorter) const;
 
  private:

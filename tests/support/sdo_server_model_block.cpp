@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block transfer of the model. [301:7.2.4.3.9-16]
+// Block transfer of the SDO server model. [301:7.2.4.3.9-16]
 #include <algorithm>
 
 #include "sdo_server_model.hpp"
@@ -17,7 +17,7 @@ constexpr std::size_t segment_bytes = 7;
 
 }  // namespace
 
-// Block download. data_ are all bytes so far, of which the object has got done_. -------------------------------------
+// Block download. data_ contains all received bytes, of which done_ are written to the object. -----------------------
 
 SdoServerModel::Answer SdoServerModel::initiate_block_download(const SdoBytes& request) {
   if (buffer_ == 0) {
@@ -42,8 +42,9 @@ SdoServerModel::Answer SdoServerModel::initiate_block_download(const SdoBytes& r
   return reminder_;
 }
 
-// [D21] [D22] [D23] The end of a block that comes before anything else of it may be that of the block before, once
-// more. A new segment keeps the transfer open, one behind a gap not if the block before brought nothing. [D18]
+// Processes a segment. [D21] [D22] [D23] A last segment that is the first frame of a block may be a duplicate from the
+// previous block and is not acknowledged. A segment in order restarts the time-out; a segment behind a gap does so only
+// if the previous block had a segment in order. [D18]
 SdoServerModel::Answer SdoServerModel::take_in_block(const SdoBytes& request) {
   const std::size_t number = request[0] & 0x7FU;
   const bool last = (request[0] & 0x80U) != 0;
@@ -94,7 +95,7 @@ SdoServerModel::Answer SdoServerModel::end_block(bool all) {
   return reminder_;
 }
 
-// The last segment of some objects looks like their end.
+// Returns true for a correct end request. A last segment may have the same command byte.
 bool SdoServerModel::is_right_end(const SdoBytes& request) const {
   const Bytes data(data_.begin(), data_.end() - ((request[0] >> 2) & 7));
   const bool is_end = (request[0] & 0xE3U) == 0xC1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings and dictionary of a fixture.
+// Settings and object dictionary of a fixture.
 #include <algorithm>
 #include <iterator>
 
@@ -61,7 +61,7 @@ void add_communication(Table& table, Objects& o) {
       entry(0x100A, 0, CO_OBJ_____R_, CO_TSTRING, &o.version),
       entry(0x1014, 0, CO_OBJ_DN__R_, CO_TUNSIGNED32, 0x80),
       entry(0x1017, 0, CO_OBJ_____RW, CO_THB_PROD, &o.heartbeat),
-      entry(0x1018, 0, CO_OBJ_D___R_, CO_TUNSIGNED8, 3),  // no serial number: no LSS
+      entry(0x1018, 0, CO_OBJ_D___R_, CO_TUNSIGNED8, 3),  // without serial number, so that the node has no LSS address
       entry(0x1018, 1, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x11111111),
       entry(0x1018, 2, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x22222222),
       entry(0x1018, 3, CO_OBJ_D___R_, CO_TUNSIGNED32, 0x33333333),

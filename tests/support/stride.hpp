@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file stride.hpp
-/// Sweeps try everything. On an emulated CPU, and where other lanes make them whole (LEXICAN_THIN_SWEEPS), the long
-/// ones try a part of it, always the same: each n-th, or so many times less.
+/// Sweeps test all values. With LEXICAN_THIN_SWEEPS (on an emulated CPU, and in lanes whose sweeps run completely in
+/// other lanes) long sweeps test every n-th value only.
 #pragma once
 
 namespace test {
 
-/// The step of such a sweep: 1, or \a n.
+/// Returns the step of a sweep: 1, or \a n with LEXICAN_THIN_SWEEPS.
 constexpr unsigned stride([[maybe_unused]] unsigned n) {
 #ifdef LEXICAN_THIN_SWEEPS
   return n;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file time_fixture.hpp
-/// A node with TIME: 1012h, writable, and its clock.
+/// A node with the TIME service: 1012h, writable, and the clock of the node.
 #pragma once
 
 #include "fixture.hpp"
@@ -43,7 +43,7 @@ class TimeNode : public TimeId, public Fixture {
   }
 };
 
-/// The clock tells \a ms of day \a days.
+/// Checks the clock of the node: \a ms after midnight, \a days since 1984-01-01.
 inline void check_time(TimeNode& node, std::uint32_t ms, std::uint16_t days,
                        Where at = {__builtin_FILE(), __builtin_LINE()}) {
   const CO_TIME_OF_DAY now = node.time();

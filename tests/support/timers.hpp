@@ -16,7 +16,7 @@ void note(void* para);
 
 inline void* number(std::uintptr_t n) { return reinterpret_cast<void*>(n); }
 
-/// A tick is a millisecond unless the setup has another frequency.
+/// A node for tests of timers. A tick is 1 ms unless the setup has another frequency.
 class Timers : public Fixture {
  public:
   explicit Timers(const Setup& setup = Setup());

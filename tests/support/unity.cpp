@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions behind the names of unity.h.
+// Implements the functions of unity.h.
 #include "unity.h"
 
 #include <doctest/doctest.h>
@@ -16,9 +16,9 @@
 
 namespace {
 
-struct Left {};  // thrown by an assertion that ends its test
+struct Left {};  // exception of an assertion that ends its test
 
-struct Run {  // the RUN_TEST in progress
+struct Run {  // current RUN_TEST
   std::jmp_buf start;
   UNITY_KIND outcome;
 };
@@ -33,7 +33,7 @@ Run* run = nullptr;
 Total total = {};
 UNITY_SINK sink = nullptr;
 const char* current_name = "";
-std::string reason;  // why the last comparison did not pass
+std::string reason;  // reason why the last comparison failed
 
 bool in_doctest() {
   const auto* options = doctest::getContextOptions();
@@ -82,7 +82,7 @@ bool wanted(const char* name) {
   return only == nullptr || std::strcmp(only, name) == 0;
 }
 
-/// Runs one of setUp, test, tearDown to its end, or to the assertion that left it. Returns false if it was left.
+/// Runs setUp, the test or tearDown. Returns false if an assertion or an exception ended it early.
 bool run_part(void (*part)(), const char* file, int line) {
   try {
     if (setjmp(run->start) != 0) {
@@ -213,7 +213,8 @@ int compare_string(std::size_t element, const char* expected, const char* actual
              : refuse_at(element, expected_was(quoted(expected), quoted(actual)));
 }
 
-/// \a step: distance of the expected blocks, 0 to compare each block with the same one.
+/// Compares \a num blocks of \a len bytes. \a step: distance of the expected blocks in bytes; 0: all blocks are
+/// compared with the first one.
 int compare_memory(const void* expected, const void* actual, std::size_t len, std::size_t num, std::size_t step) {
   if (!comparable(expected, actual, len * num)) {
     return 0;

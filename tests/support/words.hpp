@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file words.hpp
-/// Cuts a text.
+/// Splits texts.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace test {
 
-/// Returns the texts between separators; none after the last one.
+/// Returns the parts of a text between separators. A separator at the end adds no empty part.
 inline std::vector<std::string> parts_of(std::string_view text, char separator) {
   std::vector<std::string> parts;
   while (!text.empty()) {

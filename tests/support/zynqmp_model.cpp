@@ -172,7 +172,7 @@ void ZynqmpModel::soft_reset() {
   filtering_ = 0;
 }
 
-// Keeps the queued frames.
+// Enters configuration mode, as after switching the controller off. Queued frames are kept.
 void ZynqmpModel::enter_configuration() {
   on_ = false;
   wire_.reset();
@@ -199,7 +199,7 @@ void ZynqmpModel::raise_lasting() {
 
 namespace co::zynqmp {
 
-// In the place of the driver's own.
+// Register accesses that replace those of the driver.
 std::uint32_t read(const volatile std::uint32_t* registers, Register which) {
   return test::model_at(registers).read(which);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file zynqmp_model.hpp
-/// The registers of a ZynqMP CAN controller as the manual tells them (UG1085), for what QEMU's model does not show:
-/// frames that take their time and lose the arbitration, error states, and what a software reset empties.
+/// A model of the registers of a ZynqMP CAN controller (UG1085), for behaviour that QEMU does not model: the duration
+/// of frames, lost arbitration, error states, and queues that a software reset clears.
 #pragma once
 
 #include <array>
@@ -26,21 +26,21 @@ class ZynqmpModel {
   ZynqmpModel(const ZynqmpModel&) = delete;
   ZynqmpModel& operator=(const ZynqmpModel&) = delete;
 
-  /// For CO_CAN_ZYNQMP.Registers.
+  /// Returns the value for CO_CAN_ZYNQMP.Registers.
   volatile std::uint32_t* address() { return memory_.data(); }
 
-  // The processor's side.
+  // Functions for the processor.
   std::uint32_t read(Register which);
   void write(Register which, std::uint32_t value);
   bool interrupt() const { return (isr_ & ier_) != 0; }
   std::uint32_t enabled() const { return ier_; }
   std::uint32_t value(Register which) const { return memory_[static_cast<unsigned>(which) / 4]; }
 
-  // The bus's side.
-  /// A frame begins where the bus is free and one waits: the high priority buffer's first.
+  // Functions for the bus.
+  /// Starts a frame if the bus is free and a frame is waiting; the high priority buffer has precedence.
   void begin();
-  void win();   ///< the frame on the wire has been sent
-  void lose();  ///< it has lost the arbitration, and waits again
+  void win();   ///< completes the transmission of the started frame
+  void lose();  ///< makes the started frame lose the arbitration; it waits again
   void receive(const Words& words);
   void receive(std::uint32_t identifier);  ///< 11 bits, no data
   void set_state(std::uint32_t state) { state_ = state; }
@@ -51,13 +51,13 @@ class ZynqmpModel {
   std::size_t waiting() const { return fifo_.size() + (first_ ? 1 : 0); }
   bool on_bus() const { return on_; }
 
-  /// Do interrupts whose reason lasts come again at once when they are cleared?
+  /// Level-triggered: an interrupt whose cause persists is raised again at once when it is cleared.
   bool level = true;
-  /// Readings of the status until a reset, or filters that are switched off, are so. What is written before is lost.
+  /// Reads of the status register until a reset, or switching the filters off, is complete. Earlier writes are ignored.
   unsigned latency = 0;
-  /// The frame is sent between its last word and the next access.
+  /// A frame is sent as soon as its last word is written, before the next access.
   bool instant = false;
-  /// Called in each access: an interrupt may come.
+  /// Called in each access, to simulate an interrupt.
   std::function<void()> between;
 
  private:
