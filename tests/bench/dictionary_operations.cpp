@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The look-up of an object by index and sub-index.
+// Cost of the lookup of an object by index and sub-index.
 #include "device.hpp"
 #include "measure.hpp"
 #include "operations.hpp"
@@ -9,7 +9,7 @@ namespace bench {
 namespace {
 
 constexpr unsigned most_entries = 8192;
-constexpr unsigned subs = 4;  // of each index
+constexpr unsigned subs = 4;  // sub-indices of each index
 
 CO_OBJ table[most_entries];
 CO_NODE owner;

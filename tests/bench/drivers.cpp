@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drivers without context that keep frames and times in memory. Their instructions are counted, too.
+// Classic drivers that store frames and times in memory. Their instructions are counted, too.
 #include "drivers.hpp"
 
 #include "device.hpp"
@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-constexpr std::size_t places = 256;  // a block and its answer fit
+constexpr std::size_t places = 256;  // enough for a block and its response
 
 CO_IF_FRM received_frames[places];
 std::size_t received_num = 0;

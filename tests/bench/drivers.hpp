@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file drivers.hpp
-/// What device.hpp tells of the bus and the timer, as drivers.
+/// Drivers for the bus and the timer of device.hpp.
 #pragma once
 
 #include "co_if.h"

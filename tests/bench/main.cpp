@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints, for each operation of a configuration, how many instructions it takes.
+// Prints the number of instructions of each operation that the configuration has.
 #include "co_cfg.h"
 #include "machine.hpp"
 #include "operations.hpp"
@@ -19,7 +19,7 @@ void measure_usual_node() {
 
 }  // namespace
 
-// The configuration decides.
+// Measures the operations of the configuration that the program is compiled with.
 void run_all() {
   start_clock();
   check_clock();

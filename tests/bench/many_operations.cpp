@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node with hundreds of PDOs, all of which exist: what they cost those that do not want them.
+// Cost of hundreds of PDOs, all of which exist, for operations that do not use them, and of these PDOs.
 #include "measure.hpp"
 #include "node_operations.hpp"
 #include "operations.hpp"

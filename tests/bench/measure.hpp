@@ -2,13 +2,13 @@
 /// \file measure.hpp
 /// Counts the instructions of an operation, which is a class:
 ///
-///     void set_up();          what it needs, once
-///     void arrange(unsigned); before each; not counted, no more than what follows
-///     void run();             what is counted: calls and their returns, drivers included
-///     bool is_done(unsigned); has the operation had its effect?
-///     void end();             after the last
+///     void set_up();          called once, before all operations
+///     void arrange(unsigned); called before each operation; not counted
+///     void run();             the operation: calls and returns are counted, drivers included
+///     bool is_done(unsigned); called after each operation: returns true if it had its effect; not counted
+///     void end();             called once, after all operations
 ///
-/// The first half of the operations is only checked, so that nothing of the set-up is in the count; the second half is
+/// The first half of the operations is checked but not counted, so that set-up costs are excluded; the second half is
 /// checked and counted.
 #pragma once
 
@@ -26,10 +26,10 @@ struct Operation {
   void end() {}
 };
 
-/// Half of the operations.
+/// Number of counted operations; as many run before, uncounted.
 constexpr unsigned usual_number = 512;
 
-/// Ticks of \a number operations, and of reading the clock so often.
+/// Returns the ticks of \a number operations and as many readings of the clock.
 template <class What>
 std::uint64_t ticks_of(const char* name, What& what, unsigned number) {
   std::uint64_t ticks = 0;
@@ -51,13 +51,13 @@ std::uint64_t ticks_of(const char* name, What& what, unsigned number) {
   return ticks;
 }
 
-/// Tells how many instructions an operation takes.
+/// Prints the number of instructions of an operation.
 template <class What>
 void measure(const char* name, What what, unsigned number = usual_number) {
   report(name, ticks_of(name, what, number), number, number);
 }
 
-/// Measures like measure(), per byte of an operation that transfers several bytes.
+/// Prints the number of instructions per byte of an operation that transfers \a size bytes.
 template <class What>
 void measure_byte(const char* name, What what, unsigned number, unsigned size) {
   report(name, ticks_of(name, what, number), number, number * size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations: the main loop, unrelated frames, heartbeats, emergencies.
+// Cost of the main loop, unrelated frames, heartbeats and emergencies.
 #include <iterator>
 
 #include "device.hpp"
@@ -48,7 +48,7 @@ class HeartbeatProduced : public Operation {
   bool is_done(unsigned) { return has_sent(frame(0x700 + node_id, {0x05})); }
 };
 
-// Each consumer hears its node after nine tenths of its time.
+// A heartbeat of a monitored node, each after nine tenths of the consumer's time.
 class HeartbeatConsumed : public Operation {
  public:
   void set_up() { set_up_usual_node(0); }
@@ -61,7 +61,7 @@ class HeartbeatConsumed : public Operation {
   bool is_done(unsigned) {
     return CONmtLastHbState(&node.Nmt, producer_) == CO_OPERATIONAL && CONmtGetHbEvents(&node.Nmt, producer_) == 0;
   }
-  // Silence is noticed: the heartbeats were needed.
+  // Checks that the consumers were active: without heartbeats they report an event.
   void end() {
     advance(heard_period * ticks_per_second / 1000);
     if (CONmtGetHbEvents(&node.Nmt, producer_) != 1) {

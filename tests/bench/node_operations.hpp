@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file node_operations.hpp
-/// Operations that are measured on several nodes.
+/// Operations that are measured on nodes with different numbers of PDOs.
 #pragma once
 
 #include "device.hpp"
@@ -33,7 +33,7 @@ class ForeignFrame : public Operation {
   std::uint32_t unclaimed_ = 0;
 };
 
-/// An RPDO, which is written at once.
+/// An event-driven RPDO, which is applied at once.
 class ReceivedPdo : public Operation {
  public:
   ReceivedPdo(void (*set_up_node)(const Layout&), const Layout& layout) : set_up_node_(set_up_node), layout_(layout) {}
@@ -50,7 +50,7 @@ class ReceivedPdo : public Operation {
   CO_IF_FRM frame_{};
 };
 
-/// A TPDO, which is sent by number.
+/// A TPDO that is triggered by its number.
 class TriggeredPdo : public Operation {
  public:
   TriggeredPdo(void (*set_up_node)(const Layout&), const Layout& layout) : set_up_node_(set_up_node), layout_(layout) {}
@@ -66,7 +66,7 @@ class TriggeredPdo : public Operation {
   std::uint16_t number_ = 0;
 };
 
-/// An UNSIGNED8 that is written by index and sub-index, and whose TPDO of eight of them is sent with it.
+/// An UNSIGNED8 that is written by index and sub-index, which triggers its TPDO of eight such objects.
 class WrittenObject : public Operation {
  public:
   explicit WrittenObject(void (*set_up_node)(const Layout&)) : set_up_node_(set_up_node) {}
@@ -84,16 +84,17 @@ class WrittenObject : public Operation {
   std::uint8_t value_ = 0;
 };
 
-/// Bytes that were not there before.
+/// Changes a byte to a different random value.
 void change(std::uint8_t* memory, Random& random);
 
-/// A frame of RPDO \a number with such bytes.
+/// Returns a frame of RPDO \a number with random bytes.
 CO_IF_FRM random_rpdo(std::uint16_t number, const Layout& layout, Random& random);
 
-/// A SYNC, with synchronous PDOs that are written and sent. Their frames have come before, and do not count.
+/// A SYNC that applies synchronous RPDOs and sends synchronous TPDOs. The reception of the RPDOs' frames is not
+/// counted.
 class Sync : public Operation {
  public:
-  /// \a rpdos and \a tpdos of the first ones are synchronous.
+  /// The first \a rpdos and \a tpdos are synchronous.
   Sync(void (*set_up_node)(const Layout&, unsigned rpdos, unsigned tpdos), const Layout& layout, unsigned rpdos,
        unsigned tpdos)
       : set_up_node_(set_up_node), layout_(layout), rpdos_(rpdos), tpdos_(tpdos) {}
@@ -111,7 +112,7 @@ class Sync : public Operation {
   CO_IF_FRM received_[4] = {};
 };
 
-/// A device whose PDOs are all event-driven, and one whose first PDOs are synchronous.
+/// Start a device whose PDOs are all event-driven, and one whose first PDOs are synchronous.
 void set_up_event_driven(const Layout& layout);
 void set_up_synchronous(const Layout& layout, unsigned rpdos, unsigned tpdos);
 

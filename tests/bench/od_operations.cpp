@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t request_id = 0x600 + node_id;
 constexpr std::uint32_t response_id = 0x580 + node_id;
-constexpr std::uint16_t objects = 100;  // in the index
+constexpr std::uint16_t objects = 100;  // objects of the index
 constexpr std::uint16_t index_of_value = 0x2050;
 constexpr std::uint16_t index_of_stream = 0x2051;
 constexpr unsigned segment_bytes = 7;

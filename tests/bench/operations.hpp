@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file operations.hpp
-/// What is measured. Each prints a line for each operation.
+/// Functions that measure operations. Each prints a line for each operation.
 #pragma once
 
 namespace bench {
 
-/// All that the configuration has.
+/// Measures all operations that the configuration has.
 void run_all();
 
-/// With a usual configuration: 4 PDOs in each direction.
+/// \name Operations of the default configuration: 4 PDOs in each direction
 /// \{
 void measure_dictionary();
 void measure_network();
@@ -19,10 +19,10 @@ void measure_sync();
 void measure_timers();
 /// \}
 
-/// With 512 PDOs in each direction.
+/// Measures operations with 512 PDOs in each direction.
 void measure_many_pdos();
 
-/// With USE_OD.
+/// Measures operations that exist with USE_OD only.
 void measure_index();
 
 }  // namespace bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs, each with several layouts of their objects in memory.
+// Cost of PDOs, with several layouts of their objects in memory.
 #include "measure.hpp"
 #include "node_operations.hpp"
 #include "operations.hpp"
@@ -7,13 +7,13 @@
 namespace bench {
 namespace {
 
-// A synchronous RPDO, which is only kept.
+// A synchronous RPDO, which is stored until the next SYNC.
 class KeptPdo : public Operation {
  public:
   void set_up() { set_up_synchronous(bytes, 1, 0); }
   void arrange(unsigned) {
     if (received_.DLC != 0) {
-      receive(frame(0x80, {}));  // the one before is written, so that the list of those that wait is empty
+      receive(frame(0x80, {}));  // applies the previous RPDO, so that the list of stored RPDOs is empty
       CONodeProcess(&node);
     }
     received_ = random_rpdo(0, bytes, random_);
@@ -32,7 +32,7 @@ class KeptPdo : public Operation {
   CO_IF_FRM received_{};
 };
 
-// A remote request for a TPDO, which is answered at once.
+// A remote request for a TPDO, which is sent at once.
 class RemoteRequest : public Operation {
  public:
   void set_up() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file random.hpp
-/// Numbers without a pattern, the same in each run.
+/// Pseudo-random numbers, the same in each run.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class Random {
     state_ ^= state_ << 5;
     return state_;
   }
-  /// 0…\a end - 1
+  /// Returns a number from 0 to \a end - 1.
   std::uint32_t below(std::uint32_t end) { return next() % end; }
   std::uint8_t byte() { return static_cast<std::uint8_t>(next() >> 11); }
 

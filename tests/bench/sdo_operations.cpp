@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The SDO server, from a request to its answer. Bytes as CiA 301 prints them.
+// Cost of the SDO server, from a request to its response. Frames have the bytes that CiA 301 specifies.
 #include <algorithm>
 #include <iterator>
 
@@ -20,8 +20,8 @@ constexpr unsigned block_bytes = block_segments * segment_bytes;
 constexpr std::uint8_t values = 16;
 std::uint32_t value[values];
 
-std::uint8_t data[20 * block_bytes];    // of the client
-std::uint8_t object[20 * block_bytes];  // of the server, at 2010h
+std::uint8_t data[20 * block_bytes];    // data of the client
+std::uint8_t object[20 * block_bytes];  // object 2010h of the server
 CO_OBJ_DOM domain;
 
 void set_up_server(std::uint32_t size) {
@@ -63,7 +63,7 @@ void process_all() {
   } while (CONodeNextDeadline(&node) == 0);
 }
 
-// Frames that only prepare.
+// Processes a frame that prepares an operation.
 void process(const CO_IF_FRM& frame) {
   forget_sent();
   receive(frame);
@@ -76,7 +76,7 @@ void expect(const CO_IF_FRM& answer) {
   }
 }
 
-// CRC-16-CCITT, start value 0. [301:7.2.4.3.16]
+// Returns the CRC-16-CCITT with start value 0. [301:7.2.4.3.16]
 std::uint16_t crc_of(const std::uint8_t* bytes, std::size_t number) {
   std::uint32_t crc = 0;
   for (std::size_t n = 0; n < number; ++n) {
@@ -88,7 +88,7 @@ std::uint16_t crc_of(const std::uint8_t* bytes, std::size_t number) {
   return static_cast<std::uint16_t>(crc);
 }
 
-// A frame is received and answered.
+// A request and its response.
 class Exchange : public Operation {
  public:
   void run() { CONodeProcess(&node); }
@@ -171,7 +171,7 @@ class SegmentedDownload : public Exchange {
 constexpr unsigned blocks = 8;
 constexpr std::uint32_t block_upload_bytes = (2 * blocks + 1) * block_bytes;
 
-// A block, from the confirmation of the one before, in as many calls as it takes.
+// A sub-block of an upload: from the acknowledge of the previous one, in as many calls of CONodeProcess() as it needs.
 class BlockUpload : public Operation {
  public:
   void set_up() {
@@ -210,7 +210,7 @@ class BlockUpload : public Operation {
 constexpr unsigned downloaded_blocks = 4;
 constexpr std::uint32_t block_download_bytes = (2 * downloaded_blocks + 1) * block_bytes;
 
-// A segment; each 127th is confirmed.
+// A segment of a block download; each 127th is acknowledged.
 class BlockDownload : public Operation {
  public:
   void set_up() {
@@ -230,7 +230,7 @@ class BlockDownload : public Operation {
     return has_sent(frame(response_id, {0xA2, block_segments, block_segments, 0, 0, 0, 0, 0})) &&
            std::equal(data, data + (n + 1) * segment_bytes, object);
   }
-  // A wrong CRC would be refused.
+  // Checks the transfer: the server would refuse a wrong CRC.
   void end() {
     const std::uint16_t crc = crc_of(data, block_download_bytes);
     for (unsigned k = 0; k < block_segments; ++k) {

@@ -11,7 +11,7 @@ constexpr std::uint32_t spacing = 10;  // ticks
 std::uint32_t calls = 0;
 void count_call(void*) { ++calls; }
 
-// Cyclic timers of one period, which elapse one after the other.
+// Starts cyclic timers of one period, which elapse one after the other.
 void set_up_timers(unsigned number) {
   clear_dictionary();
   add_usual_objects();
@@ -23,7 +23,7 @@ void set_up_timers(unsigned number) {
   }
 }
 
-// One that elapses between the eighth and the ninth of sixteen.
+// A timer that is inserted between the eighth and the ninth of sixteen.
 class CreateAndDelete : public Operation {
  public:
   void set_up() { set_up_timers(16); }
@@ -38,7 +38,7 @@ class CreateAndDelete : public Operation {
   std::int16_t deleted_ = 0;
 };
 
-// Behind all others, as their periods are the same.
+// An expiry of a cyclic timer, which is then inserted behind all others, as all periods are the same.
 class Expire : public Operation {
  public:
   explicit Expire(unsigned timers) : timers_(timers) {}

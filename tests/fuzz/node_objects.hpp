@@ -13,8 +13,7 @@
 
 namespace fuzz {
 
-///
-/// ame Actions of the application within its type functions, defined by the fuzz target
+/// \name Actions of the application within its type functions, defined by the fuzz target
 /// \{
 void meddle();                              ///< may call the stack
 CO_ERR mood();                              ///< may call the stack, and returns an error in some calls

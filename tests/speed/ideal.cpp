@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes as CiA 301 prints them; nothing of the stack is used.
+// Computes the frames of SDO transfers with the bytes that CiA 301 specifies, without the stack.
 #include "ideal.hpp"
 
 #include <algorithm>
@@ -37,13 +37,13 @@ std::uint8_t byte_of(std::size_t value, unsigned position) {
   return static_cast<std::uint8_t>(value >> (8 * position));
 }
 
-// Command, multiplexer, and four bytes: data, a length, a block size.
+// Returns an initiate frame: command, multiplexer, and four bytes (data, a length or a block size).
 Payload initiate(std::uint8_t command, std::size_t last = 0) {
   return {command,          byte_of(object_index, 0), byte_of(object_index, 1), object_sub,
           byte_of(last, 0), byte_of(last, 1),         byte_of(last, 2),         byte_of(last, 3)};
 }
 
-// Command and up to 7 bytes of data, from a position on.
+// Returns a segment: command and up to 7 bytes of \a data from position \a from on.
 Payload segment(unsigned command, const Bytes& data, std::size_t from) {
   Payload payload{static_cast<std::uint8_t>(command)};
   std::copy_n(data.begin() + static_cast<std::ptrdiff_t>(from), std::min(segment_bytes, data.size() - from),
@@ -53,7 +53,7 @@ Payload segment(unsigned command, const Bytes& data, std::size_t from) {
 
 std::size_t segments_of(const Bytes& data) { return (data.size() + segment_bytes - 1) / segment_bytes; }
 
-// Bytes of the last segment that hold no data.
+// Returns the number of bytes of the last segment that hold no data.
 unsigned unused(const Bytes& data) { return static_cast<unsigned>(segments_of(data) * segment_bytes - data.size()); }
 
 std::size_t number_of(const Bytes& data) {
@@ -100,7 +100,7 @@ void add_block(Wire& wire, bool upload, const Bytes& data) {
   const auto from_source = [&](const Payload& payload) { upload ? wire.response(payload) : wire.request(payload); };
   const auto from_sink = [&](const Payload& payload) { upload ? wire.request(payload) : wire.response(payload); };
   if (upload) {
-    // The protocol switch threshold is the client's; it may be any.
+    // the client may choose any protocol switch threshold; this is Lexican's
     wire.request(initiate(0xA4, block_segments | std::size_t{CO_CSDO_BLOCK - 1} << 8));
     wire.response(initiate(0xC6, data.size()));
     wire.request({0xA3});

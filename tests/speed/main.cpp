@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast SDO transfers are with both ends ours, in the time of a simulated bus.
+// Measures the speed of SDO transfers between a Lexican client and server, in the time of a simulated bus.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <fstream>
@@ -29,7 +29,7 @@ void write(const std::string& path, const std::string& text) {
   }
 }
 
-// 0: as expected
+// Measures all rows, updates or checks the page, and returns the exit status: 0 if the results are as expected.
 int report(const std::string& to_update, const std::string& to_check) {
   const std::vector<speed::Row> rows = speed::measure_rows();
   if (!to_update.empty()) {

@@ -53,13 +53,13 @@ class Pair {
   const Transfers& transfers_;
   co::VirtualClock clock_;
   co::VirtualBus bus_;
-  Bytes buffer_;  // of the client
-  Bytes object_;  // of the server
+  Bytes buffer_;  // client's data
+  Bytes object_;  // server's object
   CO_OBJ_DOM domain_{};
   std::array<std::uint8_t, CO_SSDO_N * CO_SDO_BUF_BYTE> sdo_memory_{};
   std::optional<Station> client_;
   std::optional<Station> server_;
-  Time next_round_[2];  // of client and server
+  Time next_round_[2];  // next iteration of the main loop of client and server
   std::size_t done_ = 0;
   std::string failure_ = "does not end";
   Time last_end_{0};
@@ -71,7 +71,7 @@ Pair::Pair(const Hardware& hardware, const Transfers& transfers)
       transfers_(transfers),
       object_(transfers.data.front().size()),
       domain_{0, static_cast<std::uint32_t>(object_.size()), object_.data()},
-      next_round_{Time{0}, hardware.loop / 2} {  // loops of two devices never run in step
+      next_round_{Time{0}, hardware.loop / 2} {  // the loops of two devices are not synchronous
   bus_.set_time([this] { return clock_.time(); });
   bus_.set_trace([this](const co::VirtualBus::Traffic& traffic) {
     last_end_ = traffic.time;
@@ -81,7 +81,7 @@ Pair::Pair(const Hardware& hardware, const Transfers& transfers)
   std::uint8_t* const block_memory = (transfers.way == Way::block) ? sdo_memory_.data() : nullptr;
   client_.emplace(bus_, clock_, hardware.transmit, client_id, client_dictionary(), nullptr, this);
   server_.emplace(bus_, clock_, hardware.transmit, server_id, server_dictionary(), block_memory, nullptr);
-  run_until_rest();  // boot-up messages
+  run_until_rest();  // transmits the boot-up messages
 }
 
 std::vector<CO_OBJ> Pair::server_dictionary() {
@@ -152,7 +152,7 @@ Time Pair::next_event() const {
   if (hardware_.loop != Time{0}) {
     return std::min({bus_.next_due(), next_round_[0], next_round_[1]});
   }
-  const Time alarm = clock_.time() + Time{clock_.next_alarm()};  // ticks are microseconds
+  const Time alarm = clock_.time() + Time{clock_.next_alarm()};  // a tick is a microsecond
   return std::min(bus_.next_due(), alarm);
 }
 

@@ -19,7 +19,7 @@ std::string number(double value, int decimals) {
 
 std::string percent(double part) { return number(100 * part, 1) + " %"; }
 
-// Transfers per second, or milliseconds for one.
+// Returns the transfers per second, or the milliseconds of a single transfer.
 std::string speed_of(const Row& row, double micros) {
   if (row.number > 1) {
     return number(static_cast<double>(row.number) * 1e6 / micros, 0) + " /s";
@@ -42,7 +42,7 @@ std::string line_of(const Row& row) {
   return line + "\n";
 }
 
-// Who is faster than the limit has not found the limit.
+// Returns true if the row reaches its budget. A transfer that is faster than the limit proves that the limit is wrong.
 bool keeps_budget(const Row& row) {
   const bool known = row.known_micros > 0;
   return row.of_limit() >= row.budget && row.of_limit() <= 1 && (!known || row.of_known_limit() >= row.budget);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which transfers are measured on which hardware, and what is expected of them.
+// Defines the measured transfers, the hardware, and the budgets.
 #include <algorithm>
 #include <random>
 
@@ -19,9 +19,9 @@ struct Case {
   bool upload;
   std::size_t number;
   std::size_t bytes;
-  double budget;        // part of the limit
-  double known_micros;  // the limit of one transfer at the highest bit rate with random data
-  const char* peers;    // at the highest bit rate
+  double budget;        // least share of the limit
+  double known_micros;  // published limit of one transfer at the highest bit rate, with random data
+  const char* peers;    // published results of other stacks at the highest bit rate
 };
 
 constexpr Case cases[] = {
@@ -59,12 +59,13 @@ Transfers transfers_of(const Case& what) {
   return transfers;
 }
 
-// The time excludes the intermission after the last frame.
+// Returns the duration of \a bits, without the intermission after the last frame.
 double micros_of(std::uint64_t bits, const Hardware& hardware) {
   return static_cast<double>(bits - co::intermission_bits) * 1e6 / hardware.bit_rate;
 }
 
-// Where every frame waits for an answer, it also waits for the loop: the stack has no part in that.
+// Returns true if a row has a budget. Where each frame waits for a response, the period of the main loop determines the
+// speed, not the stack.
 bool has_budget(const Setup& setup, const Case& what) {
   return setup.hardware.loop == Time{0} || what.way == Way::block;
 }

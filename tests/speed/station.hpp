@@ -15,19 +15,19 @@ namespace speed {
 
 class Station {
  public:
-  /// \a transmit: buffers of the controller. \a sdo_memory: CO_NODE_SPEC.SdoBuf, may be null; \a user:
-  /// CO_NODE_EXT.User.
+  /// \a transmit: number of transmit buffers of the controller. \a sdo_memory: CO_NODE_SPEC.SdoBuf, may be null; \a
+  /// user: CO_NODE_EXT.User.
   Station(co::VirtualBus& bus, co::VirtualClock& clock, std::size_t transmit, std::uint8_t node_id,
           std::vector<CO_OBJ> dictionary, std::uint8_t* sdo_memory, void* user);
   ~Station();
   Station(const Station&) = delete;
   Station& operator=(const Station&) = delete;
 
-  /// Once round the loop of an application.
+  /// Executes one iteration of an application's main loop.
   void go_round();
-  /// Until all that was received is processed.
+  /// Executes iterations until all received frames are processed.
   void work_off();
-  /// Returns true if the station has nothing to process, send or wait for.
+  /// Returns true if the station has no frame to process or send, and no timer runs.
   bool is_at_rest();
 
   CO_NODE node{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file transfer.hpp
-/// What is measured: SDO transfers of given data, one after the other.
+/// SDO transfers to measure, one after the other, with given data.
 #pragma once
 
 #include <chrono>
@@ -17,10 +17,10 @@ enum class Way { expedited, segmented, block };
 struct Transfers {
   Way way;
   bool upload;
-  std::vector<Bytes> data;  ///< of each transfer; 4 bytes if expedited; all of the same size
+  std::vector<Bytes> data;  ///< data of each transfer, all of the same size: 4 bytes if expedited
 };
 
-/// Where the server has the object.
+/// Address of the object of the server.
 constexpr std::uint16_t object_index = 0x2000;
 constexpr std::uint8_t object_sub = 0;
 /// Node-ID of the server.

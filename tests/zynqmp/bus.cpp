@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto& rates = co::zynqmp_rates<24000000, 10000, 20000, 50000, 125000, 250000, 500000, 800000, 1000000>;
 
-// A block, as no bit rate slows it down.
+// Holds a whole block: the simulated bus has no bit rate that would slow its segments down.
 constexpr std::uint16_t queue_frames = 256;
 CO_IF_FRM device_frames[queue_frames];
 CO_IF_FRM peer_frames[queue_frames];
@@ -21,7 +21,7 @@ bool device_runs = false;
 bool master_runs = false;
 bool test_listens = false;
 
-// Frame that was received, but not expected yet.
+// Frame that the test's controller has received and no test has expected yet.
 CO_IF_FRM pending;
 bool is_pending = false;
 std::uint64_t pending_time = 0;

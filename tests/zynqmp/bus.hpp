@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file bus.hpp
-/// The two controllers, wired together: the first one is the device's, the second one the master's or the hand of a
-/// test, which sends and expects frames in the notation of can-utils. All functions let the nodes run meanwhile.
+/// The two controllers, connected to each other. The first one is the device's; the second one is the master's, or
+/// sends and expects frames for a test, in the notation of can-utils. All functions run the nodes while they wait.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +14,40 @@ namespace zynqmp {
 extern CO_CAN_ZYNQMP device_can;
 extern CO_CAN_ZYNQMP peer_can;
 
-/// Gives both controllers to the driver, with their interrupts.
+/// Connects both controllers to their drivers and interrupts.
 void serve_controllers();
 
-/// The device in Pre-operational, its boot-up message received, and the test at the second controller.
+/// Starts the device and receives its boot-up message: the device is in Pre-operational, the test at the second
+/// controller.
 void start_device();
-/// Like start_device(), with a function to be called between initialisation and start, and without the boot-up message.
+/// Starts the device like start_device(), but calls \a prepare between initialisation and start, and does not receive
+/// the boot-up message.
 void start_device(void (*prepare)());
 /// Starts the device and switches it to Operational.
 void start_operational();
-/// The device and the master in Pre-operational: the second controller is the master's.
+/// Starts the device and, at the second controller, the master: both are in Pre-operational.
 void start_nodes();
-/// Stops both nodes and the test's controller; received frames that were not expected are a failure.
+/// Stops both nodes and the test's controller. A received frame that no test has expected is a failure.
 void leave_bus();
 
 void run(std::uint32_t microseconds);
 inline void run_ms(std::uint32_t milliseconds) { run(1000 * milliseconds); }
-/// Lets the nodes run until it is true, but not longer than that many ms. Returns whether it is.
+/// Runs the nodes until \a condition is true, at most for \a milliseconds. Returns whether it is true.
 bool run_until(bool (*condition)(), std::uint32_t milliseconds);
 
-/// \name The test's hand
+/// \name Frames that the test sends and receives at the second controller
 /// \{
 void send(const char* text);
-/// When the frame came, in µs.
+/// Receives a frame that must be the given one. Returns its time of reception in µs.
 std::uint64_t expect_frame(const char* file, int line, const char* text, std::uint32_t milliseconds = 20);
 void expect_silence(const char* file, int line, std::uint32_t milliseconds = 20);
-/// Frames that have come until then, thrown away.
+/// Receives and discards frames for \a milliseconds. Returns the number of those with \a identifier.
 unsigned count_frames(std::uint32_t milliseconds, std::uint32_t identifier);
 /// \}
 
-/// \name The controllers, past the driver
+/// \name Registers of the controllers, accessed without the driver
 /// \{
-/// Keeps a controller off the bus, and lets it go on: what it has to send waits meanwhile.
+/// Takes a controller off the bus, and puts it on the bus again; it keeps its frames meanwhile.
 void hold(const CO_CAN_ZYNQMP& can);
 void release(const CO_CAN_ZYNQMP& can);
 std::uint32_t control_register(const CO_CAN_ZYNQMP& can, std::uint32_t offset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file cases.hpp
-/// All cases, a table for each file.
+/// Tables of cases, one for each source file.
 #pragma once
 
 #include "check.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file check.hpp
-/// A test runner for a machine without a library: cases in tables, checks, and a report in the Test Anything Protocol.
+/// A test runner for a machine without C library: tables of cases, checks, and a report in the Test Anything Protocol.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Case {
   void (*run)();
 };
 
-/// A file's cases.
+/// The cases of one source file.
 struct Cases {
   const Case* first;
   unsigned number;
@@ -23,14 +23,14 @@ constexpr Cases all_of(const Case (&cases)[number]) {
   return {cases, number};
 }
 
-/// Runs them all and prints "1..N", and "ok" or "not ok" for each. Returns how many have failed.
+/// Runs all cases and prints "1..N", and "ok" or "not ok" for each. Returns the number of failed cases.
 unsigned run_all(const Cases* groups, unsigned number);
 
-/// Returns true after a failure of the running case; then it skips its actions on the bus to end soon.
+/// Returns true if the running case has failed; it then skips the rest of its actions on the bus.
 bool has_failed();
-/// Three texts in a row, of which any may be null.
+/// Reports a failure with a text of up to three parts, each of which may be null.
 void fail(const char* file, int line, const char* what, const char* more = nullptr, const char* still_more = nullptr);
-/// Prints a number with a failure, so that one sees what it was.
+/// Reports a failure with both numbers unless they are equal.
 void expect(const char* file, int line, const char* what, std::uint64_t value, std::uint64_t expected);
 
 }  // namespace zynqmp

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver of the controllers itself.
-// Not shown by the model, which knows no arbitration, no errors and no bit rates: bus-off, error passive, and a frame
-// that overtakes one that has lost the arbitration; see tests/unit.
+// Tests the driver of the CAN controllers. QEMU's model has no arbitration, errors or bit rates: bus-off, error
+// passive, and a frame that overtakes one that has lost the arbitration are tested in tests/unit.
 #include "bus.hpp"
 #include "cases.hpp"
 #include "machine.hpp"
@@ -76,7 +75,7 @@ void no_loss_in_bursts() {
   CHECK_EQUAL(COCanZynqmpLost(&device_can), 0);
 }
 
-// All 11-bit identifiers but those that change the device, once. How many came through?
+// Sends a frame with each 11-bit identifier except 000h. Returns how many of them passed the device's filters.
 unsigned receive_all_identifiers() {
   const std::uint32_t before = CONodeGetCounters(&device).Received;
   for (std::uint32_t id = 1; id < 0x800; ++id) {
@@ -90,15 +89,15 @@ unsigned receive_all_identifiers() {
 
 void filters() {
   start_operational();
-  ASK("605#2300180185010080", "585#6000180100000000");  // no TPDOs, which would be heard on remote frames
+  ASK("605#2300180185010080", "585#6000180100000000");  // no TPDOs: remote requests would be received
   ASK("605#2301180185020080", "585#6001180100000000");
   const std::uint32_t foreign = CONodeGetCounters(&device).Unclaimed;
   const unsigned passed = receive_all_identifiers();
   CHECK_EQUAL(control_register(device_can, filters_register), 0xF);
-  CHECK(passed >= 6 && passed <= 24);  // of 2047
+  CHECK(passed >= 6 && passed <= 24);  // of 2047 identifiers
   CHECK(CONodeGetCounters(&device).Unclaimed - foreign < passed);
   send("205#01000000");
-  count_frames(1200, 0);  // errors that come and go
+  count_frames(1200, 0);  // receives EMCY messages
   run_ms(1);
   CHECK_EQUAL(objects.received[0], 1);
 }
@@ -148,7 +147,7 @@ void priority() {
   }
   SILENT(2);
   release(device_can);
-  RX("6AA#");  // on its way before the others came
+  RX("6AA#");  // already in the controller when the others were queued
   RX("00000001#");
   RX("0AA#");
   RX("1AA#");
@@ -195,7 +194,7 @@ void sends_at_once() {
     const CO_IF_FRM frm = with_number("6AA#00", n);
     end = RX(notation(frm).characters);
   }
-  CHECK(end - begin < 500);  // by the interrupt, not by the node's retry every ms
+  CHECK(end - begin < 500);  // sent from the interrupt, not by the node's retry each ms
 }
 
 void reset_drops_frames() {
@@ -268,7 +267,7 @@ void loopback() {
 void bit_rates() {
   struct Row {
     std::uint32_t baud;
-    std::uint32_t prescaler;  // of 24 MHz
+    std::uint32_t prescaler;  // prescaler of the 24 MHz clock
     std::uint32_t timing;
   };
   constexpr Row rows[] = {
@@ -292,7 +291,7 @@ void lss_bit_rate() {
   start_device();
   send("7E5#0401000000000000");
   ASK("7E5#1300040000000000", "7E4#1300000000000000");  // 125 kbit/s
-  send("7E5#1514000000000000");                         // in 20 ms
+  send("7E5#1514000000000000");                         // switch after 20 ms
   SILENT(60);
   CHECK_EQUAL(control_register(device_can, prescaler_register), 11);
   send("7E5#0400000000000000");

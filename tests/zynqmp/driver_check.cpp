@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver check that a port runs (tests/driver_check), on this one: the CAN driver with a second controller as peer,
+// Runs the driver check for ports (tests/driver_check) on this port: the CAN driver with the second controller as peer,
 // the timer driver, and a memory.
 #include "co_driver_check.h"
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uintptr_t distributor = 0xF9010000;
 constexpr std::uintptr_t cpu_interface = 0xF9020000;
 constexpr unsigned interrupts = 96;
-constexpr std::uint64_t first_tick = 0xFFF00000;  // the clock of the nodes soon begins anew
+constexpr std::uint64_t first_tick = 0xFFF00000;  // the nodes' clock wraps after about a second
 
 struct Handler {
   void (*call)(void* ctx);
@@ -50,7 +50,7 @@ std::uint64_t earliest() {
   return first;
 }
 
-// Behind each change of an alarm.
+// Sets the compare register to the earliest alarm. Must be called after each change of an alarm.
 void set_compare() {
   const std::uint64_t first = earliest();
   const std::uint64_t frequency = clock_frequency();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file machine.hpp
-/// QEMU's xlnx-zcu102 without an operating system: a Cortex-A53, a GICv2, the generic timer, and the host that is asked
-/// for text and exit by semihosting.
+/// QEMU's xlnx-zcu102 without an operating system: a Cortex-A53, a GICv2 and the generic timer. Text and exit status
+/// are passed to the host by semihosting.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace zynqmp {
 
-/// Numbers of interrupts. [UG1085]
+/// Interrupt numbers. [UG1085]
 constexpr unsigned can0_interrupt = 55;
 constexpr unsigned can1_interrupt = 56;
 
-/// Lets \a handler be called with \a ctx whenever the interrupt \a number comes.
+/// Registers \a handler, which is called with \a ctx at each interrupt \a number.
 void serve(unsigned number, void (*handler)(void* ctx), void* ctx);
 
-/// While one lives, no interrupt is served.
+/// Disables interrupts during its lifetime.
 class Quiet {
  public:
   Quiet();
@@ -29,23 +29,23 @@ class Quiet {
   std::uint64_t before_;
 };
 
-/// Sleeps until an interrupt comes, also while there is a Quiet: it is served behind that.
+/// Sleeps until an interrupt is pending, also while a Quiet exists: then its handler runs after the Quiet's end.
 void wait_for_interrupt();
 
-/// Microseconds since the start.
+/// Returns the microseconds since the start.
 std::uint64_t micros();
 
-/// An alarm, of as many as are needed, on the one clock: the context of GenericTimerDriver.
+/// Alarm of a node: the context argument of GenericTimerDriver. All alarms share one clock.
 struct GenericTimer {
-  void (*on_alarm)(void* ctx);  ///< in the interrupt
+  void (*on_alarm)(void* ctx);  ///< called in the interrupt
   void* ctx;
-  std::uint64_t due;  ///< in micros(); 0: none
+  std::uint64_t due;  ///< time in micros(); 0: none
   GenericTimer* next;
 };
-/// A driver for the timers of a node, tickless: 1 tick is 1 µs.
+/// Tickless timer driver: 1 tick is 1 µs.
 extern const CO_IF_TIMER_DRV_EX GenericTimerDriver;
 constexpr std::uint32_t ticks_per_second = 1000000;
-/// Makes the alarm known to the interrupt, once.
+/// Adds an alarm to the list of the interrupt. Must be called once for each alarm.
 void add(GenericTimer& timer);
 
 void print(const char* text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node and its master, one at each controller of QEMU's xlnx-zcu102: the usual services, and the driver's own cases.
+// Runs the cases of the services, with a node and its master at the two controllers of QEMU's xlnx-zcu102, and the
+// cases of the driver.
 #include "bus.hpp"
 #include "cases.hpp"
 #include "check.hpp"

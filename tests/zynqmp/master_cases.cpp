@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device and a master of the same stack, each interrupted by its own controller.
+// Tests the device with a Lexican master; each has its own controller and interrupt.
 #include "bus.hpp"
 #include "cases.hpp"
 #include "nodes.hpp"
@@ -111,7 +111,7 @@ void exchange_pdos(std::uint32_t milliseconds) {
   run_ms(1);
 }
 
-// Expects the PDOs of 1000 cycles, except those at both ends.
+// Requires the PDOs of 1000 cycles, except up to four at the beginning and the end.
 void expect_all(unsigned pdos) {
   if (pdos < 996) {
     CHECK_EQUAL(pdos, 1000);

@@ -34,7 +34,7 @@ void commands() {
 void not_for_this_node() {
   start_device();
   send("000#0106");    // another node
-  send("000#0305");    // no such command
+  send("000#0305");    // invalid command specifier
   send("000#01");      // too short
   send("000#010500");  // too long
   run_ms(1);

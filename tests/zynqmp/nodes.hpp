@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file nodes.hpp
-/// The two nodes: a device at the first controller, and a master at the second one, in whose place a test may be.
+/// The two nodes: a device at the first controller, and a master at the second one, which a test may use instead.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ constexpr std::uint8_t master_id = 1;
 extern CO_NODE device;
 extern CO_NODE master;
 
-/// Variables of the device's entries, and their defaults.
+/// Variables of the device's object dictionary, and their defaults.
 struct DeviceObjects {
   std::uint8_t error_register = 0;
   std::uint8_t history_number = 0;
@@ -48,19 +48,20 @@ struct MasterObjects {
 };
 extern MasterObjects master_objects;
 
-/// Arguments of the callbacks of the device and of the master since the nodes were started.
+/// Number of callbacks of a node, and their last arguments, since its initialisation.
 struct Told {
   unsigned can_events[CO_CAN_EVENT_NUM];
   unsigned heartbeat_events;
-  CO_MODE heard;  ///< last mode of a monitored node
+  CO_MODE heard;  ///< last NMT state of a monitored node
   unsigned resets[CO_RESET_NUM];
   unsigned pdos;
   unsigned emergencies;
-  std::uint16_t emergency;  ///< error code of the last one
+  std::uint16_t emergency;  ///< error code of the last EMCY
 };
 Told& told_of(const CO_NODE& node);
 
-/// Initialises a node at its controller, in CO_INIT: defaults, nothing told.
+/// Initialise a node at its controller: its variables have their defaults, its Told is empty. The node stays in
+/// CO_INIT.
 void init_device();
 void init_master();
 

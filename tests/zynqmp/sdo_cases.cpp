@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: expedited, segmented and block transfers, byte by byte. [301:7.2.4]
+// SDO server: bytes of expedited, segmented and block transfers. [301:7.2.4]
 #include "bus.hpp"
 #include "cases.hpp"
 #include "nodes.hpp"
@@ -7,7 +7,7 @@
 namespace zynqmp {
 namespace {
 
-// 1008h, and the data of the downloads: 31C3h is its CRC. [301:7.2.4.3.16]
+// Value of 1008h and data of the downloads; its CRC is 31C3h. [301:7.2.4.3.16]
 constexpr char digits[] = "123456789";
 
 bool memory_has_digits() {
@@ -62,7 +62,7 @@ void block_upload_repeated() {
   ASK("605#A40810007F000000", "585#C608100009000000");
   ASK("605#A300000000000000", "585#0131323334353637");
   RX("585#8238390000000000");
-  ASK("605#A2017F0000000000", "585#8138390000000000");  // the second one was lost
+  ASK("605#A2017F0000000000", "585#8138390000000000");  // segment 2 was lost
   ASK("605#A2017F0000000000", "585#D5C3310000000000");
   send("605#A100000000000000");
 }
@@ -90,7 +90,7 @@ void aborts() {
   ASK("605#4000200900000000", "585#8000200911000906");  // no such sub-index
   ASK("605#2300100000000000", "585#8000100002000106");  // read-only
   ASK("605#2300200155000000", "585#8000200112000706");  // too long
-  ASK("605#E000200000000000", "585#8000200001000405");  // no such command
+  ASK("605#E000200000000000", "585#8000200001000405");  // invalid command specifier
 }
 
 void wrong_toggle() {

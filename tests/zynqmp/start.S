@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start-up of a Cortex-A53 at EL3, EL2 or EL1, without MMU: memory is Device memory, accesses must be aligned, and the
-// alignment check makes sure of it. Interrupts do not nest.
+// Start-up code of a Cortex-A53 at EL3, EL2 or EL1, without MMU. Memory is then Device memory, where accesses must be
+// aligned; the alignment check detects others. Interrupts do not nest.
     .section .text.start, "ax"
     .global start
 start:

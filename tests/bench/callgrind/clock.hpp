@@ -8,13 +8,13 @@
 
 namespace bench {
 
-/// Begins to count, or ends it.
+/// Begins or ends counting instructions; the value has no meaning.
 inline std::uint32_t clock_of_machine() {
   CALLGRIND_TOGGLE_COLLECT;
   return 0;
 }
 
-/// Callgrind knows how many.
+/// Returns 0: callgrind counts the instructions.
 inline std::uint32_t ticks_between(std::uint32_t, std::uint32_t) { return 0; }
 
 /// Resets the count.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callgrind writes a file with what it has counted for each report, which names it; instructions.py reads them.
+// Counts instructions by callgrind, which writes a file for each report with the report's name; read.py evaluates the
+// files.
 #include "machine.hpp"
 
 #include <cstdio>
@@ -12,7 +13,7 @@ namespace bench {
 
 void start_clock() {}
 
-// The first report: what it takes to begin and to end.
+// Makes the first report: the instructions of beginning and ending a count.
 void check_clock() {
   if (RUNNING_ON_VALGRIND == 0) {
     fail("clock", "nobody counts: valgrind --tool=callgrind --collect-atstart=no");

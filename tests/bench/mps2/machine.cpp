@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Start-up, clock, and what QEMU is asked for by semihosting.
+// Start-up code, clock, and semihosting of QEMU's mps2-an385.
 #include "machine.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ extern void (*initialisers_end[])();
 namespace bench {
 namespace {
 
-// Operations of semihosting.
+// Semihosting operations.
 constexpr std::uint32_t write_text = 0x04;
 constexpr std::uint32_t exit_extended = 0x20;
 constexpr std::uint32_t application_exit = 0x20026;
@@ -48,7 +48,7 @@ void print(std::uint32_t number) {
 }
 
 constexpr std::uint32_t probe_instructions = 1000;
-constexpr std::uint32_t probe_ticks = 25600;  // 2^10 ns each, 40 ns a tick
+constexpr std::uint32_t probe_ticks = 25600;  // 2^10 ns for each instruction, 40 ns for each tick
 
 template <unsigned instructions>
 __attribute__((noinline)) void run_probe() {
@@ -62,7 +62,7 @@ std::uint32_t ticks_of_probe() {
   return ticks_between(begin, clock_of_machine());
 }
 
-// Ticks as tenths of an instruction, for each of the units.
+// Converts ticks of \a units to tenths of an instruction per unit.
 std::uint32_t tenths_of(std::uint64_t ticks, std::uint32_t units) {
   const std::uint64_t all = std::uint64_t{probe_ticks} * units;
   return static_cast<std::uint32_t>((ticks * probe_instructions * 10 + all / 2) / all);
@@ -75,7 +75,7 @@ std::uint32_t ticks_of_clock() {
   return static_cast<std::uint32_t>(ticks_of("clock", nothing, number) / number);
 }
 
-// Where a Cortex-M0+ faults, so does this machine then.
+// Traps unaligned accesses where the code is for a Cortex-M0+, which faults on them.
 void trap_unaligned_access() {
 #if __ARM_ARCH == 6
   at(0xE000ED14u) = at(0xE000ED14u) | 1u << 3;
@@ -87,12 +87,12 @@ void trap_unaligned_access() {
 void start_clock() {
   at(0xE000E014u) = 0x00FFFFFFu;
   at(0xE000E018u) = 0;
-  at(0xE000E010u) = 5;  // enabled, clock of the CPU
+  at(0xE000E010u) = 5;  // enabled, clocked by the CPU
 }
 
 void check_clock() {
   const std::uint32_t ticks = ticks_of_probe<probe_instructions>() - ticks_of_probe<0>();
-  constexpr std::uint32_t tolerance = probe_ticks / 200;  // what the compiler has moved between two readings
+  constexpr std::uint32_t tolerance = probe_ticks / 200;  // instructions that the compiler may move
   if (ticks + tolerance < probe_ticks || ticks > probe_ticks + tolerance) {
     fail("clock", "1000 instructions do not take 25600 ticks: qemu-system-arm -icount shift=10");
   }
