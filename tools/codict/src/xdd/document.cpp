@@ -14,7 +14,7 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// Values stay as they are in the source: what their references mean is found out where it is wanted.
+// Leaves values as they are in the source; references are resolved by text().
 constexpr unsigned parse_options = pugi::parse_cdata | pugi::parse_doctype;
 
 constexpr std::string_view white = " \t\r\n";
@@ -46,7 +46,7 @@ void append_utf8(std::uint32_t code, std::string& text) {
 
 bool is_character(std::uint32_t code) { return code != 0 && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF); }
 
-// "#10" and "#xA"; false if it is anything else.
+// Appends the character of a reference such as "#10" or "#xA". Returns false for any other text.
 bool append_number_reference(std::string_view name, std::string& text) {
   if (name.size() < 2 || name.front() != '#') {
     return false;
@@ -80,7 +80,7 @@ bool append_reference(std::string_view name, std::string& text) {
   return append_number_reference(name, text);
 }
 
-// What is no reference that XML itself knows stays as it is: so do those of a DTD.
+// Resolves the references of XML itself. Other references, such as those of a DTD, are unchanged.
 std::string without_references(std::string_view text) {
   std::string plain;
   while (!text.empty()) {
@@ -98,7 +98,7 @@ std::string without_references(std::string_view text) {
   return plain;
 }
 
-// Ends of lines become LF; in attributes, all white space becomes blanks. [XML 1.0: 2.11, 3.3.3]
+// Normalises line ends to LF and, in attributes, all white space to blanks. [XML 1.0: 2.11, 3.3.3]
 std::string with_plain_white(std::string_view text, bool is_attribute) {
   std::string plain;
   for (std::size_t n = 0; n < text.size(); ++n) {
@@ -112,7 +112,7 @@ std::string with_plain_white(std::string_view text, bool is_attribute) {
   return plain;
 }
 
-// Of <?xml encoding="…"?>; UTF-8 where it says nothing.
+// Returns the encoding of <?xml encoding="…"?>; UTF-8 if it is missing or unknown.
 Encoding declared_encoding(std::string_view bytes) {
   const std::size_t begin = mark_size(bytes);
   const std::string_view declaration = bytes.substr(begin, bytes.find("?>", begin) - begin);
@@ -143,7 +143,7 @@ Encoding encoding_of(const Source& source, Findings& findings) {
   return declared == Encoding::utf8 ? guess : declared;
 }
 
-// XML has no others. [XML 1.0: 2.2]
+// Returns whether XML forbids a control character. [XML 1.0: 2.2]
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }
 
 bool is_deeper_than(pugi::xml_node root, std::size_t most) {
@@ -240,7 +240,7 @@ Span Document::whole(pugi::xml_node element) const {
 
 Span Document::span(pugi::xml_attribute attribute) const {
   const std::string_view value = attribute.value();
-  // Of an attribute at which the parser has given up, there is no value.
+  // The value of an attribute at which the parser stopped is not in the buffer.
   const bool is_here = value.data() >= buffer_.data() && value.data() <= buffer_.data() + buffer_.size();
   const std::uint32_t begin = offset(is_here ? value.data() : attribute.name());
   return {begin, begin + static_cast<std::uint32_t>(value.size())};
@@ -294,7 +294,7 @@ bool Document::encoded(std::string_view text, bool is_attribute, std::string& by
 bool Document::set_text(Span span, std::string_view text, Edits& edits) const {
   const bool is_attribute = tag_end(tag_begin(span.begin)) > span.begin;
   if (decoded(span, is_attribute) == text) {
-    return true;  // in other words, perhaps
+    return true;  // equal text, possibly written with other references
   }
   std::string bytes;
   if (!encoded(text, is_attribute, bytes)) {
@@ -326,7 +326,7 @@ bool Document::add_element(std::uint32_t at, std::string_view name, std::string_
   if (!encoded(text, true, bytes) || end < 2 || raw({end - 2, end}) == "/>") {
     return false;
   }
-  // The indent of what follows, and the prefix of the element it is put into.
+  // Copies the white space behind the start tag as indent, and the prefix of the parent element.
   const std::string_view behind = source_.bytes().substr(end);
   const std::string_view indent = behind.substr(0, std::min(behind.find_first_not_of(white), behind.size()));
   const std::string_view opened = raw({begin, end}).substr(1);

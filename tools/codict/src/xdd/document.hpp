@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file document.hpp
-/// The text of an XML description, with nothing lost: elements, attributes and texts are spans of the source, and
-/// changes of it are splices. Without a change, what is written is what was read, byte for byte.
+/// The text of an XML description without loss: elements, attributes and texts are spans of the source, and edits are
+/// splices. An unedited document is written byte for byte as it was read.
 ///
-/// Nothing outside the source is ever read, and entities of a DTD are not expanded.
+/// Reads nothing outside the source, and expands no entities of a DTD.
 #pragma once
 
 #include <cstddef>
@@ -19,17 +19,17 @@
 
 namespace lexican::codict::xdd {
 
-/// The name without its prefix: namespaces decide nothing, since too many files have wrong ones.
+/// Returns a name without its prefix. Namespaces are not compared, because too many files declare wrong ones.
 std::string_view local_name(std::string_view name);
 inline std::string_view local_name(pugi::xml_node node) { return local_name(node.name()); }
 inline std::string_view local_name(pugi::xml_attribute attribute) { return local_name(attribute.name()); }
 
 class Document {
  public:
-  /// Deeper descriptions are none, and would need much of the stack.
+  /// Limit of nested elements. Deeper documents are not descriptions, and would need too much stack.
   static constexpr std::size_t most_levels = 64;
 
-  /// Takes any bytes; findings get what is not well-formed. What can be read of such a text, is.
+  /// Parses any bytes. Adds findings for text that is not well-formed, and reads the part before the fault.
   Document(Source source, Findings& findings);
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
@@ -37,21 +37,22 @@ class Document {
   const Source& source() const { return source_; }
   Encoding encoding() const { return encoding_; }
   pugi::xml_node root() const { return root_; }      ///< null if there is none
-  bool is_too_deep() const { return is_too_deep_; }  ///< then root() is null
+  bool is_too_deep() const { return is_too_deep_; }  ///< root() is null then
 
   std::string_view raw(Span span) const { return source_.slice(span); }
-  Span tag(pugi::xml_node element) const;          ///< its start tag, brackets with it
-  Span whole(pugi::xml_node element) const;        ///< from its start tag to the end of its content
-  Span span(pugi::xml_attribute attribute) const;  ///< of the value, without the quotes
+  Span tag(pugi::xml_node element) const;          ///< span of the start tag with its brackets
+  Span whole(pugi::xml_node element) const;        ///< span from the start tag to the end of the content
+  Span span(pugi::xml_attribute attribute) const;  ///< span of the value, without the quotes
   Text text(pugi::xml_attribute attribute) const;
-  /// Of what stands in an element outside other elements; the span is that of an empty place, or of all of it.
+  /// Returns the text in an element outside its child elements. Its span is that of all text, or an empty place behind
+  /// the start tag.
   Text text(pugi::xml_node element) const;
 
-  /// What replaces a text that the source has: the value of an attribute, the content of an element. Text is UTF-8;
-  /// false if the encoding of the source lacks a letter of it, or XML has no way to write it.
+  /// Replaces a text of the source: the value of an attribute, or the content of an element. Text is UTF-8. Returns
+  /// false if the encoding of the source lacks a character of it, or if XML cannot represent it.
   bool set_text(Span span, std::string_view text, Edits& edits) const;
-  /// A new attribute as the last one of a start tag, a new element as the first one behind a start tag on a line of its
-  /// own. `at` is any place in the start tag.
+  /// Add an attribute at the end of a start tag, or an element on a new line directly behind a start tag. `at` is any
+  /// offset in the start tag.
   bool add_attribute(std::uint32_t at, std::string_view name, std::string_view text, Edits& edits) const;
   bool add_element(std::uint32_t at, std::string_view name, std::string_view attribute, std::string_view text,
                    Edits& edits) const;
@@ -62,18 +63,18 @@ class Document {
   std::string decoded(Span span, bool is_attribute) const;
   bool encoded(std::string_view text, bool is_attribute, std::string& bytes) const;
   std::uint32_t tag_begin(std::uint32_t at) const;
-  std::uint32_t tag_end(std::uint32_t at) const;  ///< at: outside of values
+  std::uint32_t tag_end(std::uint32_t at) const;  ///< `at` is an offset outside of quoted values
 
   Source source_;
-  std::string buffer_;  // the source again: the parser puts ends of strings into it
+  std::string buffer_;  // copy of the source, into which the parser writes terminators
   pugi::xml_document tree_;
   pugi::xml_node root_;
   Encoding encoding_ = Encoding::utf8;
   bool is_too_deep_ = false;
 };
 
-/// Signs of markup become references; in attributes, quotes of both kinds and line ends, too.
-/// What XML has no character for becomes U+FFFD.
+/// Replace signs of markup by references; in attributes, both kinds of quotes and line ends, too. Characters that XML
+/// does not allow become U+FFFD.
 std::string escaped(std::string_view text);
 std::string escaped_attribute(std::string_view text);
 

@@ -12,7 +12,7 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// What CiA 311 knows, and nothing here makes use of.
+// Names that CiA 311 defines and the model does not use.
 constexpr std::array<std::string_view, 32> unused_names = {"DeviceManager",
                                                            "DeviceFunction",
                                                            "functionTypeList",
@@ -73,7 +73,7 @@ bool is_leaf(pugi::xml_node element) {
 }
 
 void report_duplicate(Span place, const Reader& reader) {
-  if (reader.shared.dialect == Dialect::container) {  // others have conditions for them
+  if (reader.shared.dialect == Dialect::container) {  // other dialects repeat elements with conditions
     reader.findings.add(rules::duplicate, place, "given more than once; the first is used", "remove it");
   }
 }

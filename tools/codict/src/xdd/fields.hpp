@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fields.hpp
-/// Attributes and elements become members of the model, by tables. What no table has is kept.
+/// Assignment of attributes and elements to members of the model, by tables. The rest is kept.
 #pragma once
 
 #include <array>
@@ -23,19 +23,19 @@ namespace lexican::codict::xdd {
 
 using Ids = std::unordered_map<std::string_view, pugi::xml_node>;
 
-/// What the parts of the reader share about one device.
+/// State of the read of one device, shared by all parts of the reader.
 struct Shared {
   Dialect dialect = Dialect::container;
   Ids types;
   Ids parameters;
   Ids templates;
-  Ids flags;                                                  ///< of maxon: what can be done with a parameter
-  Ids enum_entries;                                           ///< of maxon
+  Ids flags;                                                  ///< not used: flags of maxon are in `templates`
+  Ids enum_entries;                                           ///< of maxon: entries of enumerations
   std::unordered_map<std::string_view, bool> used;            ///< parameters that an object refers to
-  std::unordered_map<std::string_view, std::uint16_t> codes;  ///< of the types that have been asked for
-  std::vector<pugi::xml_node> indexed;                        ///< parameters of maxon, each with an index of its own
-  std::vector<bool> objects = std::vector<bool>(0x10000);     ///< by index: which ones are there
-  /// Bytes that may be read again because something refers to them: what a fuzzer nests must not grow.
+  std::unordered_map<std::string_view, std::uint16_t> codes;  ///< codes of the types that have been looked up
+  std::vector<pugi::xml_node> indexed;                        ///< parameters of maxon that have an index
+  std::vector<bool> objects = std::vector<bool>(0x10000);     ///< by index: true for those that exist
+  /// Bytes that may still be read again for references. The limit prevents exponential growth by nested references.
   std::size_t copies_left = 0;
 };
 
@@ -49,29 +49,29 @@ struct Reader {
 Kept kept(const Document& document, pugi::xml_attribute attribute);
 Kept kept(const Document& document, pugi::xml_node element);
 
-/// Declarations of namespaces and the like, which belong to XML.
+/// Returns whether an attribute belongs to XML, such as the declaration of a namespace.
 bool is_syntax(pugi::xml_attribute attribute);
-bool is_leaf(pugi::xml_node element);  ///< without elements and attributes
+bool is_leaf(pugi::xml_node element);  ///< has neither child elements nor attributes
 
-/// Whether a name is meant; in other capitals, with a finding.
+/// Returns whether a name equals `wanted`. Adds a finding if it differs in capitals.
 bool is_named(std::string_view name, std::string_view wanted, Span span, const Reader& reader);
 
-/// Keeps what no table knows, with a finding if CiA 311 does not know it either.
+/// Keep an attribute or element without a slot. Add a finding if CiA 311 does not define it.
 void keep(pugi::xml_attribute attribute, std::vector<Kept>& others, const Reader& reader);
 void keep(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-/// What is left of an element, if anything is.
+/// Keeps the unread parts of an element, if there are any.
 void keep_rest(pugi::xml_node element, std::vector<Kept> rest, std::vector<Kept>& others, const Reader& reader);
 
 void report_duplicate(Span place, const Reader& reader);
 
-/// The name of an attribute or element, and the member that it becomes.
+/// A name of an attribute or element, and the member of the model that holds its text.
 template <typename T>
 struct Slot {
   std::string_view name;
   Text& (*member)(T&);
 };
 
-/// False if no slot is that of the name, or its member has a text already.
+/// Sets the member of a name. Returns false if no slot has this name, or if its member is already set.
 template <typename T, std::size_t size>
 bool read_into(T& target, std::string_view name, Text text, Span place, const std::array<Slot<T>, size>& slots,
                const Reader& reader) {
@@ -91,7 +91,7 @@ bool read_into(T& target, std::string_view name, Text text, Span place, const st
   return false;
 }
 
-/// Attributes by slots; what is no slot's is kept.
+/// Reads all attributes of an element. Those without a slot are kept.
 template <typename T, std::size_t size>
 void read_attributes(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots,
                      std::vector<Kept>& others, const Reader& reader) {
@@ -106,14 +106,15 @@ void read_attributes(T& target, pugi::xml_node element, const std::array<Slot<T>
   }
 }
 
-/// A child that has only text may stand for an attribute.
+/// Reads a child that has only text like an attribute of its name.
 template <typename T, std::size_t size>
 bool read_leaf(T& target, pugi::xml_node child, const std::array<Slot<T>, size>& slots, const Reader& reader) {
   return is_leaf(child) &&
          read_into(target, local_name(child), reader.document.text(child), reader.document.tag(child), slots, reader);
 }
 
-/// Attributes and children; call(child) is asked about each child first, and says whether it has taken it.
+/// Reads attributes and children. call(child) is called first for each child, and returns whether it has read the
+/// child.
 template <typename T, std::size_t size, typename Call>
 void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
                   const Reader& reader, const Call& call) {
@@ -132,7 +133,7 @@ void read_element(T& target, pugi::xml_node element, const std::array<Slot<T>, s
   }
 }
 
-/// Children of an element without attributes of its own.
+/// Reads the children of an element, and keeps its attributes.
 template <typename Call>
 void read_children(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader, const Call& call) {
   constexpr std::array<Slot<Kept>, 0> none = {};
@@ -140,23 +141,23 @@ void read_children(pugi::xml_node element, std::vector<Kept>& others, const Read
   read_element(nothing, element, none, others, reader, call);
 }
 
-/// A text with nothing around it, or the value of an attribute of this name; the rest is kept.
+/// Returns the text of an element, or the value of its attribute with this name. Keeps the rest.
 Text text_of(pugi::xml_node element, std::string_view attribute, std::vector<Kept>& others, const Reader& reader);
 
-/// The text of an attribute, without a remark; not given if there is none.
+/// Returns the text of an attribute, without findings; not given if there is none.
 Text attribute_text(pugi::xml_node element, std::string_view name, const Reader& reader);
-/// As it stands in the source: for what is looked up.
+/// Returns the value of an attribute as it is in the source, for lookups.
 std::string_view raw_attribute(pugi::xml_node element, std::string_view name);
 
 pugi::xml_node find(const Ids& ids, std::string_view id);
-/// Whether an element may be read once more.
+/// Returns whether the limit allows an element to be read again, and reduces the limit.
 bool may_copy(pugi::xml_node element, const Reader& reader);
 
 // Numbers --------------------------------------------------------------------------------------------------------
 
-/// Hexadecimal digits, with or without 0x; digits: how many CiA 311 wants, 0: any number.
+/// Reads hexadecimal digits, with or without 0x. digits: number that CiA 311 requires, 0 for any number.
 bool read_hex(const Text& text, std::size_t digits, std::uint64_t largest, std::uint64_t& value, Findings& findings);
-/// Words of XML Schema.
+/// Interprets true, false, 1 or 0 of XML Schema.
 void interpret_boolean(Field<bool>& field, Findings& findings);
 
 }  // namespace lexican::codict::xdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device is in a network. [311: ApplicationLayers, TransportLayers, NetworkManagement]
+// Reads the communication features of a device. [311: ApplicationLayers, TransportLayers, NetworkManagement]
 #include <fmt/format.h>
 
 #include <limits>
@@ -17,7 +17,7 @@ constexpr std::uint64_t u8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::uint64_t u16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::uint64_t u32 = std::numeric_limits<std::uint32_t>::max();
 
-// The last three are of CANopenEditor.
+// The last three are attributes of CANopenEditor.
 constexpr std::array<Slot<Features>, 12> general_slots = {{
     {"groupMessaging", [](Features& f) -> Text& { return f.group_messaging; }},
     {"dynamicChannels", [](Features& f) -> Text& { return f.dynamic_channels; }},
@@ -62,7 +62,7 @@ constexpr std::array<Slot<DynamicChannel>, 7> channel_slots = {{
 
 constexpr auto no_child = [](pugi::xml_node) { return false; };
 
-// kbit/s of "125 Kbps", and of the 125 and 125000 that are found instead. False if it is no bit rate.
+// Reads a bit rate in kbit/s: "125 Kbps", and the deviations 125 and 125000. Returns false if it is not a bit rate.
 bool read_bit_rate(const Text& text, std::uint32_t& kbit, const Reader& reader) {
   constexpr std::string_view unit = " Kbps";
   if (equal_ignoring_case(text.text, "auto-baudRate")) {
@@ -164,7 +164,7 @@ bool read_management_part(pugi::xml_node child, std::vector<Kept>& others, const
   return true;
 }
 
-// entry="Dummy0001=0"
+// Reads entry="Dummy0001=0".
 bool read_dummy(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   constexpr std::string_view word = "Dummy";
   const Text entry = attribute_text(element, "entry", reader);

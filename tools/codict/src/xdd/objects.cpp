@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CANopenObjectList, and objects of private dialects. [311]
+// Reads CANopenObjectList, and objects of private dialects. [311]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// What an object or sub-object says before it is known what it means.
+// The attributes of an object or sub-object, before they are interpreted.
 struct Part : Entry {
   Text number;  // index or subIndex
   Field<std::uint8_t> sub_number;
@@ -37,7 +37,7 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
     {"objFlags", [](Part& p) -> Text& { return p.flags; }},
     {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id; }},
     {"subNumber", [](Part& p) -> Text& { return p.sub_number; }},
-    // _project.xml of CANopenNode.
+    // Elements of _project.xml of CANopenNode.
     {"memoryType", [](Part& p) -> Text& { return p.node.storage_group; }},
     {"disabled", [](Part& p) -> Text& { return p.node.disabled; }},
     {"TPDOdetectCOS", [](Part& p) -> Text& { return p.node.flags_pdo; }},
@@ -46,7 +46,7 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
 bool is_object(std::string_view name) { return name == "CANopenObject" || name == "Object"; }
 bool is_sub(std::string_view name) { return name == "CANopenSubObject" || name == "SubObject"; }
 
-// Sub-objects, or a list of them.
+// Collects a sub-object, or the sub-objects of a SubObjectList. Returns false for other elements.
 bool take_subs(pugi::xml_node child, std::vector<pugi::xml_node>& subs) {
   if (is_sub(local_name(child))) {
     subs.push_back(child);
@@ -76,7 +76,7 @@ Part read_part(pugi::xml_node element, const Reader& reader) {
   return part;
 }
 
-// Of 1.1: those of 1.0 may be as long as they want.
+// Returns the number of digits that CiA 311 1.1 requires. CiA 311 1.0 allows any number: 0.
 std::size_t digits(std::size_t wanted, const Reader& reader) {
   return reader.device.format == Format::xdd11 ? wanted : 0;
 }
@@ -116,7 +116,8 @@ void interpret_data_type(Entry& entry, const Reader& reader) {
   }
 }
 
-// Whether the element of a parameter can stand for the type: BITSTRING for all that have no element of their own.
+// Returns whether the type element of a parameter can represent the type of its object. CiA 311 writes BITSTRING for
+// all types that have no element of their own.
 bool is_same_type(std::uint16_t of_object, std::uint16_t of_parameter) {
   return of_object == of_parameter || (of_parameter == type_code::octet_string && (data_type(of_object).iec.empty()));
 }
@@ -148,8 +149,8 @@ bool is_same_value(Value a, Value b, const DataType& type) {
          a.adds_node_id == b.adds_node_id && a.octets == b.octets && (a.kind != Value::Kind::text || a.text == b.text);
 }
 
-// What the object says beside its parameter is kept where it has other words, and reported where it means something
-// else.
+// Chooses between the values of a parameter (`chosen`) and of its object (`own`), which is used if the parameter has
+// none. The object's value is kept if its text differs, and reported if its meaning differs.
 template <typename T>
 void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, Entry& entry, const Reader& reader) {
   if (!own.is_given) {
@@ -186,7 +187,7 @@ void append(std::vector<Kept>& to, std::vector<Kept>& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-// A parameter is what its object is, and becomes the object's. [311: uniqueIDRef]
+// Merges the attributes of an object (`own`) into an entry that was read from its parameter. [311: uniqueIDRef]
 void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.span = own.span;
   entry.extent = own.extent;
@@ -210,7 +211,7 @@ void merge(Entry& entry, Entry& own, const Reader& reader) {
   choose_type(entry, reader);
 }
 
-// Null if there is none that may be read.
+// Returns the parameter that an object refers to; null if there is none, or if it exceeds the limit of copies.
 pugi::xml_node parameter_of(const Entry& own, const Reader& reader) {
   if (own.parameter_id.is_empty()) {
     return {};
@@ -238,7 +239,7 @@ void complete(Entry& entry, Entry& own, const Reader& reader) {
   merge(entry, own, reader);
 }
 
-// What stands for a name where there is none.
+// Uses a label, preferably in English, as the name of an entry without one.
 void complete_name(Entry& entry) {
   if (!entry.name.is_given) {
     entry.name.text = text_in(entry.words.labels, "en");
@@ -250,7 +251,7 @@ void complete_access(Entry& entry, bool is_variable, const Reader& reader) {
     return;
   }
   if (!entry.parameter_id.is_empty()) {
-    entry.access.value = Access::ro;  // the schema's default
+    entry.access.value = Access::ro;  // default of the schema
   } else if (entry.object_code.value == ObjectCode::domain) {
     entry.access.value = Access::rw;
   } else {
@@ -267,7 +268,7 @@ void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
   }
 }
 
-// Into an entry that says nothing yet: they are large.
+// Interprets an object or sub-object into an empty entry, which is a parameter because entries are large.
 void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reader) {
   interpret_object_code(part, has_subs, reader);
   interpret_access(part.access, false, reader);
@@ -281,7 +282,7 @@ void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reade
   complete_name(entry);
 }
 
-// Elements of an ARRAY that say nothing of themselves are as the ARRAY says.
+// Completes missing attributes of an element of an ARRAY, which has no parameter, with those of the ARRAY.
 void inherit_from_array(Sub& sub, const Object& object) {
   const bool is_element = object.object_code.value == ObjectCode::array && sub.sub_index != 0;
   if (!is_element || !sub.parameter_id.is_empty()) {
@@ -310,7 +311,7 @@ bool read_number(const Text& number, std::size_t wanted, std::uint64_t largest, 
   return false;
 }
 
-// False for what is there a second time.
+// Returns false, with a finding, for a duplicate number.
 bool is_first(std::vector<bool>& seen, std::uint64_t number, Span place, const Reader& reader) {
   if (seen[number]) {
     const bool is_sub = seen.size() == 0x100;
@@ -346,7 +347,7 @@ void read_subs(Object& object, const std::vector<pugi::xml_node>& elements, cons
 template <typename T, typename Key>
 void sort_by(std::vector<T>& all, Key key) {
   const auto is_before = [key](const T& a, const T& b) { return key(a) < key(b); };
-  if (!std::is_sorted(all.begin(), all.end(), is_before)) {  // else they would all be moved
+  if (!std::is_sorted(all.begin(), all.end(), is_before)) {  // a sort moves all elements, even sorted ones
     std::sort(all.begin(), all.end(), is_before);
   }
 }
@@ -383,7 +384,7 @@ void interpret_values(Entry& entry, const Reader& reader) {
     interpret_value(*value, type, reader);
   }
   interpret_allowed(entry.allowed, type, reader);
-  if (entry.allowed.ranges.size() == 1) {  // where the limits come from
+  if (entry.allowed.ranges.size() == 1) {  // the limits are copies of the range, whose faults are already reported
     Findings said_already;
     interpret(entry.low_limit, type, said_already);
     interpret(entry.high_limit, type, said_already);
@@ -446,7 +447,7 @@ struct Indexed {
   Entry entry;
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  bool is_whole = false;  // structuredParameter
+  bool is_whole = false;  // from a structuredParameter
 };
 
 bool read_leaf_number(pugi::xml_node element, const char* name, std::uint64_t largest, std::uint64_t& value,
@@ -474,7 +475,7 @@ bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader
   return true;
 }
 
-// An object without sub-objects is its own sub-index 0.
+// Converts an object that has only sub-index 0 to an object without sub-objects.
 void simplify(Object& object) {
   if (object.subs.size() == 1 && object.subs.front().sub_index == 0 && object.span.is_empty()) {
     static_cast<Entry&>(object) = std::move(static_cast<Entry&>(object.subs.front()));
@@ -484,7 +485,7 @@ void simplify(Object& object) {
   }
 }
 
-// False if there is one of the same numbers.
+// Adds an entry to its object. Returns false if the object already has such an entry.
 bool add_indexed(std::map<std::uint16_t, Object>& objects, Indexed& indexed) {
   const auto [place, is_new] = objects.try_emplace(indexed.index);
   Object& object = place->second;
@@ -539,7 +540,7 @@ void read_indexed_parameters(const Reader& reader) {
 }  // namespace
 
 void interpret_value(Value& value, const DataType& type, const Reader& reader) {
-  // IEC has words for them, which CiA 306 has not.
+  // The words true and false of IEC 61131-3, which CiA 306 does not have.
   if (type.kind == TypeKind::boolean && (value.text == "true" || value.text == "false")) {
     value.kind = Value::Kind::integer;
     value.integer = value.text == "true" ? 1U : 0U;
@@ -566,7 +567,7 @@ void finish_parameter(Entry& entry, const Reader& reader) {
 }
 
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader) {
-  // In the order of Access.
+  // Indexed by Access.
   constexpr std::array<std::string_view, 8> parameter_words = {
       "", "noAccess", "read", "write", "readWrite", "readWriteInput", "readWriteOutput", "const"};
   if (access.is_empty()) {
@@ -641,7 +642,7 @@ void finish_objects(const Reader& reader) {
   sort_by(device.objects, [](const Object& object) { return object.index; });
   for (Object& object : device.objects) {
     const ObjectCode code = object.object_code.value;
-    if (!has_sub_objects(code) || code == ObjectCode::array) {  // which speaks for its elements
+    if (!has_sub_objects(code) || code == ObjectCode::array) {  // an ARRAY describes its elements
       interpret_values(object, reader);
     }
     for (Sub& sub : object.subs) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ApplicationProcess: types, templates, parameters and groups. [311]
+// Reads ApplicationProcess: types, templates, parameters and groups. [311]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr std::array<Slot<Entry>, 8> parameter_slots = {{
     {"templateIDRef", [](Entry& e) -> Text& { return e.template_id; }},
 }};
 
-// The order that the schema has for the children: words, a type, and these. What it has not there is the last.
+// Order of the children in the schema: words, a type, then these. Elements that the schema lacks rank last.
 constexpr std::array<std::string_view, 4> word_names = {"label", "description", "labelRef", "descriptionRef"};
 constexpr std::array<std::string_view, 8> order = {"conditionalSupport", "denotation",    "actualValue", "defaultValue",
                                                    "substituteValue",    "allowedValues", "unit",        "property"};
@@ -76,7 +76,7 @@ void interpret_storage_group(Field<std::string>& group) {
 }
 
 void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
-  constexpr std::array<std::string_view, 4> words = {"no", "tx", "rx", "trx"};  // in the order of SrdoAccess
+  constexpr std::array<std::string_view, 4> words = {"no", "tx", "rx", "trx"};  // indexed by SrdoAccess
   const auto* const word = std::find_if(words.begin(), words.end(), [&srdo](std::string_view candidate) {
     return equal_ignoring_case(candidate, srdo.text);
   });
@@ -112,7 +112,7 @@ constexpr std::array<Slot<NodeProperties>, 8> property_slots = {{
     {"CO_flagsPDO", [](NodeProperties& n) -> Text& { return n.flags_pdo; }},
 }};
 
-// Names that begin so are those of CANopenNode: another one is a slip, which would have no effect.
+// Reports an unknown name with the prefix of CANopenNode, because a misspelled property has no effect.
 void check_property_name(const Text& name, Findings& findings) {
   if (name.text.substr(0, 3) != "CO_") {
     return;
@@ -192,7 +192,7 @@ void interpret_node(NodeProperties& node, Findings& findings) {
   interpret_length(node.byte_length, findings);
 }
 
-// What a parameter leaves open, its template says.
+// Completes type and access of a parameter from its template.
 void inherit(Entry& entry, const Reader& reader) {
   const pugi::xml_node element = find(reader.shared.templates, entry.template_id.text);
   if (!element) {
@@ -326,7 +326,8 @@ void read_types(pugi::xml_node list, std::vector<Kept>& others, const Reader& re
   keep_rest(list, std::move(rest), others, reader);
 }
 
-// Parameters are read when objects refer to them, or at the end; those of maxon are objects.
+// Collects the parameters of maxon, which are objects. Other parameters are read when an object refers to them, or at
+// the end.
 void read_parameters(pugi::xml_node list, std::vector<Kept>& others, const Reader& reader) {
   std::vector<Kept> rest;
   read_children(list, rest, reader, [&](pugi::xml_node child) {

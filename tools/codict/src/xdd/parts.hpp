@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parts.hpp
-/// The parts of the reader, a file for each.
+/// Functions of the reader, grouped by the files that define them.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace lexican::codict::xdd {
 
 // words.cpp
 bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
-/// The label of a text in a language, or its description.
+/// Returns the text of the first label, else of the first description.
 Text first_of(const Words& words);
 void read_unit(Unit& unit, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
 bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-/// Gives the id that a template has.
+/// Reads allowedValues. Returns the id of a template; not given for others.
 Text read_allowed(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
 
 // types.cpp
@@ -26,18 +26,18 @@ bool is_definition(pugi::xml_node element);
 // parameters.cpp
 void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader);
 void read_process(pugi::xml_node element, const Reader& reader);
-/// Parameters that no object has used.
+/// Reads the parameters that no object refers to, and reports them.
 void read_unused_parameters(pugi::xml_node list, const Reader& reader);
 
 // objects.cpp
 void read_object_list(pugi::xml_node element, const Reader& reader);
-/// When all of them are there.
+/// Interprets the values and checks the counts, after all objects have been read.
 void finish_objects(const Reader& reader);
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader);
 void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader);
 void interpret_value(Value& value, const DataType& type, const Reader& reader);
 void interpret_allowed(Allowed& allowed, const DataType& type, const Reader& reader);
-/// Of a parameter or template that is no object's.
+/// Interprets a parameter or template that does not belong to an object.
 void finish_parameter(Entry& entry, const Reader& reader);
 
 // profile.cpp

@@ -11,7 +11,7 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// What the schema of 1.1 declares inside other elements: in no namespace. Sorted.
+// Elements that the schema of 1.1 declares locally, and which are therefore in no namespace. Sorted.
 constexpr std::array<std::string_view, 56> local_elements = {"ApplicationLayers",
                                                              "BITSTRING",
                                                              "BOOL",
@@ -73,7 +73,7 @@ static_assert(!local_elements.back().empty());
 
 bool is_local(std::string_view name) { return std::binary_search(local_elements.begin(), local_elements.end(), name); }
 
-// Names come from elsewhere, too: what cannot stand in one becomes an underscore.
+// Returns a valid XML name. Kept names of other formats may be invalid: each invalid character becomes an underscore.
 std::string written_name(std::string_view name) {
   std::string result(name);
   std::replace_if(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file printer.hpp
-/// XML, element by element, in one of the two manners of CiA 311.
+/// Output of XML elements, with the namespaces of one edition of CiA 311.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@
 
 namespace lexican::codict::xdd {
 
-/// What was kept of an element and waits to be written with it.
+/// Kept parts of an element that are not yet written.
 class Rest {
  public:
   Rest() = default;
   explicit Rest(const std::vector<Kept>& others);
 
-  /// The first of a name, or what is left of an element that is written anew. Null if there is none.
+  /// Remove and return the first part with a name, or the unread part of an element that has been read; null if there
+  /// is none.
   const Kept* take(std::string_view name);
   const Kept* take_left(std::string_view name, std::string_view attribute);
   const std::vector<const Kept*>& all() const { return all_; }
@@ -34,7 +35,7 @@ class Printer {
   bool is_qualified() const { return edition_ == Edition::v10; }
   void open(std::string_view name);
   void attribute(std::string_view name, std::string_view text);
-  void attribute(std::string_view name, const Text& text);  ///< nothing where it is not given
+  void attribute(std::string_view name, const Text& text);  ///< writes nothing if the text is not given
   void text(std::string_view text);
   void close();
 

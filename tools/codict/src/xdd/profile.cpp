@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a profile says of the file and of the device as a whole. [311: ProfileHeader, ProfileBody, DeviceIdentity]
+// Reads the parts of a profile about the file and the whole device. [311: ProfileHeader, ProfileBody, DeviceIdentity]
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -60,8 +60,8 @@ constexpr std::array<WordsSlot, 3> identity_words = {{
      [](Identity& i) -> Text& { return i.product_text; }},
 }};
 
-// Keys of an EDS that CiA 311 has no place for: CANeds and others put them into a description of the product, with
-// this spelling.
+// Keys of an EDS that CiA 311 lacks. CANeds and other tools write them into a description of the product, in this
+// spelling.
 constexpr std::array<Slot<Device>, 4> eds_slots = {{
     {"FileDescription", [](Device& d) -> Text& { return d.file.description; }},
     {"EdsVersion", [](Device& d) -> Text& { return d.file.eds_version; }},
@@ -69,7 +69,7 @@ constexpr std::array<Slot<Device>, 4> eds_slots = {{
     {"RevisionNum", [](Device& d) -> Text& { return d.identity.revision_number; }},
 }};
 
-// "FileDescription=x|EdsVersion=4.0|"; false leaves all as it was.
+// Reads "FileDescription=x|EdsVersion=4.0|". Returns false, and changes nothing, for other texts.
 bool read_eds_keys(const Text& description, const Reader& reader) {
   if (description.text.substr(0, 16) != "FileDescription=") {
     return false;
@@ -136,7 +136,7 @@ void read_version(pugi::xml_node child, std::vector<Kept>& others, const Reader&
   Version& version = reader.device.identity.versions.emplace_back();
   version.type = attribute_text(child, "versionType", reader);
   version.text = text_of(child, {}, others, reader);
-  // What has been read is not left.
+  // Removes the attribute, which has been read, from the kept parts.
   if (version.type.is_given && !others.empty() && others.back().name == "version") {
     auto& rest = others.back().children;
     rest.erase(std::remove_if(rest.begin(), rest.end(), [](const Kept& k) { return k.name == "@versionType"; }),
@@ -153,7 +153,7 @@ void read_header(pugi::xml_node element, ProfileHeader& header, const Reader& re
   read_element(header, element, header_slots, header.others, reader, [](pugi::xml_node) { return false; });
 }
 
-// Both bodies of a file say the same of it: what the second says else is kept.
+// Reads the attributes of a body. Both bodies of a file usually have the same; different ones of the second are kept.
 void read_file_info(pugi::xml_node body, const Reader& reader) {
   std::vector<Kept> rest;
   FileInfo& file = reader.device.file;

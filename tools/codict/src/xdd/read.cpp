@@ -19,7 +19,7 @@ bool has_ending(std::string_view path, std::string_view ending) {
   return path.size() > ending.size() && equal_ignoring_case(path.substr(path.size() - ending.size()), ending);
 }
 
-// Of the element itself: xmlns, or xmlns:prefix of its own prefix. None where an element above says it.
+// Returns the declaration of an element's namespace, in the element or above: xmlns, or xmlns:prefix. Null if missing.
 pugi::xml_attribute namespace_of(pugi::xml_node element) {
   const std::string_view name = element.name();
   const std::size_t colon = name.find(':');
@@ -67,7 +67,7 @@ void set_dialect(std::string_view name, std::string_view about, pugi::xml_node r
                       "convert it to XDD for other tools");
 }
 
-// ApplicationProcess has been read before. What belongs to a body is found at other places of other dialects, too.
+// Reads a part of a body; dialects have such parts at other places, too. ApplicationProcess has already been read.
 bool read_part(pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
 
 void read_parts(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
@@ -167,8 +167,8 @@ std::vector<pugi::xml_node> processes_of(const std::vector<pugi::xml_node>& prof
   return processes;
 }
 
-// A container, or a profile that has none around it. Objects refer to what ApplicationProcess has, wherever that
-// stands.
+// Reads a container, or a profile without a container. Reads ApplicationProcess of all profiles first, because objects
+// refer to its parameters.
 void read_container(pugi::xml_node container, const Reader& reader) {
   const std::vector<pugi::xml_node> profiles = profiles_of(container, reader);
   const std::vector<pugi::xml_node> processes = processes_of(profiles);
@@ -230,7 +230,7 @@ void read_device(pugi::xml_node element, Dialect dialect, const Document& docume
   device.format = final_format(device, document.source().name());
 }
 
-// .nxdd: containers at any level near the root.
+// Reads the containers of an .nxdd, which are some levels below the root.
 void read_project(pugi::xml_node element, const Document& document, Description& description, Findings& findings,
                   unsigned levels) {
   for (const pugi::xml_node child : element.children()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file read.hpp
-/// XDD, XDC and XPD of CiA 311, 1.0 and 1.1, as the standard has them and as they are found.
+/// Reader of XDD, XDC and XPD of CiA 311 1.0 and 1.1, tolerant of deviations from the standard.
 #pragma once
 
 #include "model/device.hpp"
@@ -9,7 +9,7 @@
 
 namespace lexican::codict::xdd {
 
-/// Everything that a document says; findings get what is off. Whether it is such a description at all, refusal() says.
+/// Reads a document, and adds a finding for each fault. refusal() checks beforehand whether it is such a description.
 Description read(const Document& document, Findings& findings);
 
 }  // namespace lexican::codict::xdd

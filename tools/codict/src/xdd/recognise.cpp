@@ -33,7 +33,7 @@ bool is_powerlink(const Document& document) {
       return true;
     }
   }
-  // In the head of the first profile, where the technology is named.
+  // The head of the file, in which the first profile names its technology.
   const std::string_view head = document.source().bytes().substr(0, 4096);
   return contains(head, "ProfileTechnology>Powerlink<") || contains(head, "ProfileTechnology>POWERLINK<") ||
          contains(head, "_Powerlink\"");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file recognise.hpp
-/// Whether a file is an XML description of a CANopen device at all. Its ending says nothing: others use the same.
+/// Recognition of XML descriptions by their contents. The file name extension is ambiguous: other formats use it, too.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace lexican::codict::xdd {
 
-/// What the root element shows.
+/// Kind of a description, by its root element.
 enum class Dialect : unsigned char {
-  none,            ///< no description of a device
-  container,       ///< ISO15745ProfileContainer, of any namespace, and the parts of one
+  none,            ///< not a description of a device
+  container,       ///< ISO15745ProfileContainer of any namespace, or a part of one
   maxon,           ///< ProfileContainer of maxon and eltra: parameters with an index
-  device_profile,  ///< DeviceProfile: objects with elements for attributes
+  device_profile,  ///< DeviceProfile: objects with elements instead of attributes
   project,         ///< CanOpenProject_1_1, .nxdd and .nxdc: several containers
   canopennode,     ///< _project.xml of CANopenNode before its version 2
 };
 
 Dialect dialect_of(pugi::xml_node root);
 
-/// Empty if the bytes may be such a description; else what they are instead, as far as that shows before they are read.
+/// Returns an empty text if the bytes may be such a description; else a message that says what they are.
 std::string refusal(const Source& source);
-/// The same for what its elements show.
+/// Returns an empty text if the elements are those of such a description; else a message that says what the file is.
 std::string refusal(const Document& document);
 
 }  // namespace lexican::codict::xdd

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file rules.hpp
-/// What the reader of XML descriptions has to say.
+/// Rules that the reader of XML descriptions reports.
 #pragma once
 
 #include <vector>
@@ -41,14 +41,14 @@ extern const Rule access_case;
 extern const Rule pdo_mapping;
 extern const Rule property;
 extern const Rule list_count;
-// The device.
+// Features of the device and file.
 extern const Rule boolean;
 extern const Rule bit_rate;
 extern const Rule dummy;
 extern const Rule file_name;
 }  // namespace rules
 
-/// All rules of this room.
+/// Returns the rules of this file.
 const std::vector<const Rule*>& all_rules();
 
 }  // namespace lexican::codict::xdd

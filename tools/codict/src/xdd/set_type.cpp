@@ -12,7 +12,7 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-// Null if it is none of CiA 301.
+// Returns the data type with a code or name; null if CiA 301 does not define it.
 const DataType* type_of(std::string_view text) {
   std::uint64_t code = 0;
   const std::string_view digits = equal_ignoring_case(text.substr(0, 2), "0x") ? text.substr(2) : text;
@@ -21,12 +21,13 @@ const DataType* type_of(std::string_view text) {
   return type != nullptr && type->kind != TypeKind::unknown ? type : nullptr;
 }
 
-// What has no name of its own in CiA 311 is a BITSTRING there, and the object says what it is.
+// Returns the type element of CiA 311. BITSTRING is used for types without an element; the object gives their code
+// then.
 std::string_view element_of(const DataType& type) { return type.iec.empty() ? "BITSTRING" : type.iec; }
 
 bool needs_attribute(const DataType& type) { return element_of(type) == "BITSTRING"; }
 
-// <USINT/>, <p:USINT></p:USINT>; the start tag is known.
+// Renames an element such as <USINT/> or <p:USINT></p:USINT>. tag: its start tag.
 bool rename_element(const Document& document, Span tag, std::string_view name, Edits& edits) {
   const std::string_view text = document.raw(tag);
   const std::string_view full = text.substr(1, text.find_first_of(" \t\r\n/>") - 1);
@@ -46,7 +47,7 @@ bool rename_element(const Document& document, Span tag, std::string_view name, E
   return end != std::string_view::npos;
 }
 
-// The element is its type, or (maxon) has its name as text.
+// Sets the type of a parameter, which is an element's name or, in the dialect of maxon, an element's text.
 bool set_parameter_type(const Document& document, const Entry& entry, const DataType& type, Edits& edits) {
   const Span place = entry.type.iec.span;
   return document.raw(place).substr(0, 1) == "<" ? rename_element(document, place, element_of(type), edits)
@@ -55,7 +56,7 @@ bool set_parameter_type(const Document& document, const Entry& entry, const Data
 
 bool set_object_type(const Document& document, const Entry& entry, const DataType& type, Edits& edits) {
   const std::string digits =
-      fmt::format("{:0{}X}", type.code, entry.data_type.text.size() == 4 ? 4 : 2);  // as many as were there
+      fmt::format("{:0{}X}", type.code, entry.data_type.text.size() == 4 ? 4 : 2);  // as many as before
   if (entry.data_type.is_given) {
     return document.set_text(entry.data_type.span, digits, edits);
   }

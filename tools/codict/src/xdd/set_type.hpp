@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file set_type.hpp
-/// Another data type for an object whose parameter says which one it has.
+/// Change of the data type of an object whose type is given by its parameter.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace lexican::codict::xdd {
 
-/// Whether a parameter names the type, and not the object alone.
+/// Returns whether the parameter of an object gives its type.
 bool has_parameter_type(const Entry& entry);
 
-/// The element of the parameter, and the attribute of the object where one is there, or is needed to tell types apart.
-/// type: a name of CiA 301 or CiA 311, or hexadecimal digits. False leaves why not.
+/// Changes the element of the parameter, and the object's attribute if it exists or is necessary to distinguish types.
+/// type: a name of CiA 301 or CiA 311, or hexadecimal digits. On failure, returns false and sets `why` to the reason.
 bool set_type(const Document& document, const Entry& entry, std::string_view type, Edits& edits, std::string& why);
 
 }  // namespace lexican::codict::xdd

@@ -12,23 +12,23 @@ bool begins(std::string_view bytes, std::size_t at, std::string_view word) {
   return bytes.substr(at, word.size()) == word;
 }
 
-// Behind the next occurrence of a word, or at the end.
+// Returns the offset behind the next occurrence of a word, or the size if there is none.
 std::size_t behind(std::string_view bytes, std::size_t at, std::string_view word) {
   const std::size_t found = bytes.find(word, at);
   return found == std::string_view::npos ? bytes.size() : found + word.size();
 }
 
-// In the order of their start tags.
+// Collects the spans of an element and all elements in it, in the order of their start tags.
 void collect(const Document& document, pugi::xml_node element, std::vector<Span>& elements) {
   elements.push_back(document.whole(element));
   for (const pugi::xml_node child : element.children()) {
     if (child.type() == pugi::node_element) {
-      collect(document, child, elements);  // as deep as most_levels at most
+      collect(document, child, elements);  // recursion is limited by most_levels
     }
   }
 }
 
-// Of the element that begins at a place, if one does.
+// Returns the span of the element that begins at an offset (the whole file for the root); none if there is no element.
 std::optional<Span> scope_at(std::size_t at, const std::vector<Span>& elements, std::uint32_t size) {
   const auto element = std::lower_bound(elements.begin(), elements.end(), at,
                                         [](const Span& each, std::size_t begin) { return each.begin < begin; });
@@ -38,7 +38,7 @@ std::optional<Span> scope_at(std::size_t at, const std::vector<Span>& elements, 
   return element == elements.begin() ? Span{0, size} : *element;
 }
 
-// Where the next tag is, behind comments and instructions; as far as `end`, where one that is known begins.
+// Returns the offset of the next tag before `end`, except comments and processing instructions; `end` if there is none.
 std::size_t tag_behind(std::string_view bytes, std::size_t at, std::size_t end) {
   for (at = bytes.find('<', at); at < end; at = bytes.find('<', at)) {
     if (begins(bytes, at, "<!--")) {
@@ -52,7 +52,7 @@ std::size_t tag_behind(std::string_view bytes, std::size_t at, std::size_t end) 
   return end;
 }
 
-// Between the signs of the next comment, from a place on; empty at the end if there is none.
+// Returns the content of the next comment; an empty span at the end if there is none.
 Span next_comment(std::string_view bytes, std::size_t at) {
   for (at = bytes.find("<!", at); at != std::string_view::npos; at = bytes.find("<!", at)) {
     if (begins(bytes, at, "<!--")) {
@@ -88,7 +88,7 @@ std::vector<Suppression> suppressions(const Document& document) {
   if (!all.empty() && document.root()) {
     collect(document, document.root(), elements);
   }
-  // From the last one on: what is behind a comment that another one follows is behind that, too.
+  // Iterates backwards, so that consecutive comments are scanned once: `tag` and `end` describe the later comment.
   std::size_t tag = bytes.size();
   std::size_t end = bytes.size();
   for (auto each = all.rbegin(); each != all.rend(); ++each) {

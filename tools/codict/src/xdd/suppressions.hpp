@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file suppressions.hpp
-/// What comments of an XML description ask to be passed over.
+/// Comments of an XML description that suppress rules.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,11 @@
 
 namespace lexican::codict::xdd {
 
-/// In front of the root, for the whole file; else for the element that follows, and all that is in it.
+/// Returns the suppressions of a document. In front of the root, a comment applies to the whole file; else to the next
+/// element with its content.
 std::vector<Suppression> suppressions(const Document& document);
 
-/// Of any kind.
+/// Returns the number of all comments.
 std::size_t number_of_comments(const Document& document);
 
 }  // namespace lexican::codict::xdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has which data type. [311: g_simple, dataTypeList]
+// Reads data types and references to them. [311: g_simple, dataTypeList]
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -10,14 +10,14 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-constexpr std::size_t most_references = 8;  // from a type to the one behind it
+constexpr std::size_t most_references = 8;  // limit of a chain of references between types
 
 struct OtherName {
   std::string_view name;
   std::uint16_t code;
 };
 
-// eltra: words of programming languages.
+// Names of types in programming languages, which eltra uses.
 constexpr std::array<OtherName, 9> other_names = {{{"DOUBLE", 0x11},
                                                    {"FLOAT", 0x08},
                                                    {"STRING", 0x09},
@@ -38,7 +38,7 @@ std::uint16_t code_named(std::string_view name) {
   return found != other_names.end() ? found->code : std::uint16_t{0};
 }
 
-// Elements of maxon: <dataType><type>UNSIGNED8</type><size unit="bit">4</size></dataType>
+// Reads a type of maxon: <dataType><type>UNSIGNED8</type><size unit="bit">4</size></dataType>
 void read_named_type(TypeUse& type, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   std::vector<Kept> rest;
   read_children(element, rest, reader, [&](pugi::xml_node child) {
@@ -87,7 +87,7 @@ void read_member(TypeDefinition& definition, pugi::xml_node element, const Reade
   });
 }
 
-// enumValue of CiA 311; enumEntry of maxon, which has a name and an id of its own.
+// Reads an enumValue of CiA 311, or an enumEntry of maxon, which has a name and an id in addition.
 bool read_enum_value(TypeDefinition& definition, pugi::xml_node child, const Reader& reader) {
   const std::string_view name = local_name(child);
   if (name != "enumValue" && name != "enumEntry") {
@@ -112,7 +112,7 @@ TypeDefinition::Kind kind_of(pugi::xml_node element) {
 
 std::uint16_t code_of_reference(std::string_view id, const Reader& reader, std::size_t references);
 
-// Of the first type that an element names.
+// Returns the code of the first type that a definition names; 0 for a structure.
 std::uint16_t code_of_definition(pugi::xml_node element, const Reader& reader, std::size_t references) {
   if (kind_of(element) == TypeDefinition::Kind::structure) {
     return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Labels, units and values. [311: t_label, unit, allowedValues]
+// Reads labels, units and values. [311: t_label, unit, allowedValues]
 #include <utility>
 
 #include "xdd/parts.hpp"
@@ -66,7 +66,7 @@ AllowedValue read_allowed_value(pugi::xml_node element, std::vector<Kept>& other
   return value;
 }
 
-// An entry of an enumeration of maxon stands for its value. [maxon: enumEntryIDRef]
+// Adds the value of an entry of an enumeration to which maxon refers. [maxon: enumEntryIDRef]
 bool read_entry_reference(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(element, "uniqueIDRef"));
   if (!entry || !may_copy(entry, reader)) {
@@ -148,8 +148,8 @@ void read_unit(Unit& unit, pugi::xml_node element, std::vector<Kept>& others, co
   keep_rest(element, std::move(rest), others, reader);
 }
 
-// CiA 311 has an attribute for it, maxon the text of the element, or of an element inside, or an entry of an
-// enumeration. False if it has been read before.
+// Reads a value: an attribute in CiA 311; in the dialect of maxon the text of the element or of a child, or an entry of
+// an enumeration. Returns false, with a finding, for a duplicate.
 bool read_value(Value& value, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   if (value.is_given) {
     report_duplicate(reader.document.tag(element), reader);

@@ -33,8 +33,8 @@ void drop_types_parts(std::vector<TypeDefinition>& types) {
   }
 }
 
-// What other formats say in elements and sections of their own has no place in a schema; keys of an EDS become
-// properties.
+// Returns a copy of a device without the kept parts of other formats, which no schema allows. Keys of an EDS are
+// preserved: they become properties.
 Device without_private_parts(const Device& device) {
   Device plain = device;
   plain.others.clear();
@@ -59,7 +59,7 @@ Device without_private_parts(const Device& device) {
   return plain;
 }
 
-// Named by their schema, in its order. What is not given is left out.
+// Writes an attribute if it is given.
 void print_attribute(Printer& out, std::string_view name, const std::string& text, bool is_given) {
   if (is_given) {
     out.attribute(name, std::string_view(text));
@@ -115,7 +115,7 @@ class DeviceWriter {
     out_.close();
   }
 
-  // What the second body says else than the first stands in front.
+  // Opens a body and writes its attributes. `own`: attributes by which the second body differs from the first.
   void body(std::string_view type, const Rest& own) {
     const FileInfo& file = device_.file;
     out_.open("ProfileBody");
@@ -143,7 +143,7 @@ class DeviceWriter {
   }
 
   void device_profile() {
-    const Kept* const of_body = rest_.take("ProfileBody");  // the second one's
+    const Kept* const of_body = rest_.take("ProfileBody");  // kept attributes of the second body
     second_body_ = of_body;
     out_.open("ISO15745Profile");
     header(device_.device_profile, "CANopen device profile", "Device");
@@ -166,7 +166,7 @@ class DeviceWriter {
     return found != nullptr;
   }
 
-  // The schema wants at least one characteristic.
+  // Writes a DeviceFunction with one characteristic, because the schema requires at least one.
   void device_function() {
     const std::array<std::string_view, 4> names = {"DeviceFunction", "capabilities", "characteristicsList",
                                                    "characteristic"};
@@ -221,7 +221,7 @@ class DeviceWriter {
     out_.close();
   }
 
-  // As CANeds does it: CiA 311 has no place for them.
+  // Returns the keys of an EDS that CiA 311 lacks, in the form of CANeds.
   std::string eds_keys() const {
     const auto has_sign = [](const Text& text) { return text.text.find('|') != std::string::npos; };
     const FileInfo& file = device_.file;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file write.hpp
-/// A device as a new XML description.
+/// Writer of a device as a new XML description.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@
 namespace lexican::codict::xdd {
 
 enum class Edition : unsigned char {
-  v10,  ///< CiA 311 1.0: all elements in the namespace
-  v11,  ///< CiA 311 1.1: those that the schema declares globally in the namespace, the others in none
+  v10,  ///< CiA 311 1.0: all elements are in the namespace
+  v11,  ///< CiA 311 1.1: elements that the schema declares globally are in the namespace, others in none
 };
 
-/// In the order of the schema, with both the type element of CiA 311 and the data type of CiA 301, which says more.
-/// What was kept of another description of CiA 311 is written where it was; what other formats say in ways of their own
-/// is left out: comments and modules of an EDS, elements of private dialects. Nothing but the device decides a byte.
+/// Returns the text in the order of the schema, with the type element of CiA 311 and the more precise data type of CiA
+/// 301. Kept parts of a description of CiA 311 are written at their places. Private parts of other formats are omitted:
+/// comments and modules of an EDS, elements of private dialects. The output depends on nothing but the device and the
+/// edition.
 std::string write(const Device& device, Edition edition);
 
 }  // namespace lexican::codict::xdd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types, parameters, groups and objects. [311: ApplicationProcess, CANopenObjectList]
+// Writes types, parameters, groups and objects. [311: ApplicationProcess, CANopenObjectList]
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace {
 
 Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
 
-// Attributes that an object has and a parameter has not: those that it says beside its parameter.
+// Returns whether an object has a kept part in addition to its parameter, which cannot have it.
 bool is_of_object(const Kept& kept) {
   constexpr std::array<std::string_view, 7> names = {"@lowLimit",    "@highLimit",  "@accessType",     "@defaultValue",
                                                      "@actualValue", "@denotation", "CANopenSubObject"};
@@ -43,7 +43,7 @@ bool has_node_properties(const NodeProperties& node) {
          node.flags_pdo.is_given;
 }
 
-// What an attribute of the object cannot say.
+// Returns whether an entry has parts that the attributes of an object cannot express.
 bool needs_parameter(const Entry& entry) {
   const auto is_of_parameter = [](const Kept& kept) { return !is_of_object(kept); };
   return entry.parameter_id.is_given || !entry.words.labels.empty() || !entry.words.descriptions.empty() ||
@@ -58,7 +58,7 @@ bool has_limits_of_range(const Entry& entry) {
          ranges[0].maximum.text == entry.high_limit.text;
 }
 
-// CiA 306 implies the value of a sub-index 0 that says nothing; here, all that holds is said.
+// Returns whether a value is written: also the implied value of sub-index 0, which CiA 306 does not require.
 bool is_said(const Value& value) { return value.is_given || value.is_integer(); }
 std::string text_of(const Value& value) {
   return value.is_empty() && value.is_integer() ? value.written_integer() : value.text;
@@ -135,7 +135,7 @@ void EntryWriter::type_use(const TypeUse& use, std::uint16_t code) {
     out_.close();
     return;
   }
-  // Private names of types are none of IEC 61131-3.
+  // Private type names are replaced by the element for the code: they are not names of IEC 61131-3.
   const DataType* const named = data_type_named(use.iec.text);
   const bool is_iec = named != nullptr && !equal_ignoring_case(named->name, use.iec.text);
   const DataType& type = data_type(code != 0 ? code : use.code);
@@ -259,7 +259,7 @@ void EntryWriter::properties(const Entry& entry) {
   }
 }
 
-// An EDS has a name and no label.
+// Writes the name of an entry of an EDS, which has no labels, as a label.
 void EntryWriter::label_of_name(const Entry& entry) {
   if (entry.words.labels.empty() && is_eds_) {
     out_.open("label");
@@ -294,7 +294,7 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   const bool is_default = entry.access.value == Access::ro && !entry.access.is_given;
   if (entry.access.value != Access::unknown && !is_default) {
     out_.attribute("access", word_of(entry.access.value));
-  } else if (is_in(entry.access)) {  // without one, it would be ro
+  } else if (is_in(entry.access)) {  // because the default would be ro
     out_.attribute("access", entry.access);
   }
   out_.attribute("accessList", entry.access_list);
@@ -379,7 +379,7 @@ void EntryWriter::enumeration(const TypeDefinition& definition) {
 }
 
 void EntryWriter::definition(const TypeDefinition& definition) {
-  constexpr std::array<std::string_view, 4> names = {"array", "struct", "enum", "derived"};  // in the order of Kind
+  constexpr std::array<std::string_view, 4> names = {"array", "struct", "enum", "derived"};  // indexed by Kind
   const Rest rest(definition.others);
   out_.open(names[static_cast<std::size_t>(definition.kind)]);
   out_.attribute("name", definition.name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ApplicationLayers beside the objects, TransportLayers, NetworkManagement. [311]
+// Writes ApplicationLayers without the objects, TransportLayers and NetworkManagement. [311]
 #include <algorithm>
 
 #include "model/parse.hpp"
@@ -13,7 +13,7 @@ std::string_view word(bool value) { return value ? "true" : "false"; }
 
 std::string rate_text(std::uint32_t kbit) { return kbit == 0 ? "auto-baudRate" : std::to_string(kbit) + " Kbps"; }
 
-// What nobody understands stays as it is written.
+// Returns the text `meant`, or the original text of a field if that is malformed.
 template <typename T>
 std::string text_or(const Field<T>& field, std::string_view meant) {
   return std::string(field.is_empty() || is_understood(field) ? meant : field.text);
@@ -47,7 +47,7 @@ void print_rates(Printer& out, const Features& features, const Kept* left) {
   }
   out.attributes_of(rest);
   for (const BitRate& rate : features.bit_rates) {
-    // What is no bit rate has only its text.
+    // A malformed bit rate has only a text.
     if (rate.supported.value || rate.kbit == 0) {
       out.open("supportedBaudRate");
       out.attribute("value", std::string_view(rate.supported.value ? rate_text(rate.kbit) : rate.supported.text));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file writer.hpp
-/// The parts of the writer.
+/// Functions of the writer, grouped by the files that define them.
 #pragma once
 
 #include <set>
@@ -20,10 +20,10 @@ void print_management(Printer& out, const Device& device, const Kept* left);
 void print_dummies(Printer& out, const Device& device, const Kept* left);
 void print_channels(Printer& out, const Device& device, const Kept* left);
 
-/// Digits for an attribute, capital letters, at least so many.
+/// Returns at least `digits` hexadecimal digits in capital letters.
 std::string hex(std::uint64_t value, std::size_t digits);
 
-/// Parameters, and the objects that refer to them.
+/// Writer of parameters, and of the objects that refer to them.
 class EntryWriter {
  public:
   EntryWriter(Printer& out, const Device& device);
