@@ -13,7 +13,7 @@ namespace lexican::codict::json {
 
 namespace {
 
-// Tells how far the parser has read, which knows no places of values.
+// Iterator that records how far the parser has read, because the parser reports no positions of values.
 class Cursor {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -39,7 +39,8 @@ class Cursor {
 
 bool is_of_number(char c) { return is_digit(c) || c == '-' || c == '+' || c == '.' || to_lower(c) == 'e'; }
 
-// What the parser calls: each value is behind it when it is told. False ends it.
+// SAX handler. The parser has completely read a value when it calls the function of its kind. Returning false stops the
+// parser.
 class Builder {
  public:
   Builder(std::string_view bytes, const char*& read) : bytes_(bytes), read_(read) {}
@@ -88,7 +89,7 @@ class Builder {
   std::uint32_t at() const { return static_cast<std::uint32_t>(read_ - bytes_.data()); }
   Span before(std::uint32_t size) const { return {at() - size, at()}; }
 
-  // Numbers are known when what follows them has been read.
+  // Returns the span of a number. The parser has usually read one character behind it, too.
   Span number() const {
     std::uint32_t end = at();
     end -= end != 0 && !is_of_number(bytes_[end - 1]) ? 1U : 0U;
@@ -99,7 +100,8 @@ class Builder {
     return {begin, end};
   }
 
-  // Back to the quote in front of which there is no odd number of backslashes.
+  // Returns the span of a string. It begins behind the last quote that is not escaped: preceded by an even number of
+  // backslashes.
   Span quoted() const {
     const std::uint32_t end = at() - 1;
     for (std::size_t quote = bytes_.rfind('"', end - 1); quote != std::string_view::npos && quote != 0;
@@ -153,7 +155,7 @@ class Builder {
 
   std::string_view bytes_;
   const char*& read_;
-  Node node_;  // its name is known before it is
+  Node node_;  // the next value; its name is set before the value is read
   std::vector<Node> open_;
   std::size_t number_ = 0;
 };
@@ -181,7 +183,7 @@ bool is_flat(const Node& node) {
 }
 
 std::string real_text(double value) {
-  std::string text = fmt::format("{}", value);  // what reads as the same
+  std::string text = fmt::format("{}", value);  // shortest text that is read as the same number
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file document.hpp
-/// JSON as a tree of values that know their places. Depth and number of the values are bounded.
+/// JSON as a tree of values with their positions in the source. Limits the depth and the number of values.
 #pragma once
 
 #include <cstddef>
@@ -17,21 +17,21 @@ namespace lexican::codict::json {
 
 enum class Kind : unsigned char { null, boolean, integer, real, string, array, object };
 
-std::string_view name_of(Kind kind);  ///< "a string"
+std::string_view name_of(Kind kind);  ///< for messages: "a string"
 
 struct Node {
   Kind kind = Kind::null;
   bool boolean = false;
   Integer integer;
-  double real = 0;  ///< of an integer, too
+  double real = 0;  ///< also set for an integer
   std::string text;
-  Span span;              ///< of a string without its quotes, of arrays and objects the bracket that opens
-  std::uint32_t end = 0;  ///< of arrays and objects, behind the bracket that closes
+  Span span;              ///< of a string: without its quotes; of an array or object: its opening bracket
+  std::uint32_t end = 0;  ///< of an array or object: offset behind its closing bracket
   std::string name;
   Span name_span;
   std::vector<Node> children;
 
-  /// The first member of a name; null if there is none.
+  /// Returns the first member with a name; null if there is none.
   const Node* find(std::string_view member) const;
 };
 
@@ -40,13 +40,13 @@ class Document {
   static constexpr std::size_t most_levels = 200;
   static constexpr std::size_t most_values = 1000000;
 
-  /// Takes any bytes.
+  /// Parses any bytes; fault() returns whether they are JSON.
   explicit Document(Source source);
 
   const Source& source() const { return source_; }
   Encoding encoding() const { return Encoding::utf8; }
   const Node& root() const { return root_; }
-  const std::string& fault() const { return fault_; }  ///< empty if all of it is JSON; else one line
+  const std::string& fault() const { return fault_; }  ///< one line; empty if the whole text is JSON
 
  private:
   Source source_;
@@ -54,7 +54,8 @@ class Document {
   std::string fault_;
 };
 
-/// Two blanks for each level; what has no arrays and objects in it is one line.
+/// Returns JSON text, indented by two blanks per level. A value without arrays and objects in it is written in one
+/// line.
 std::string print(const Node& node);
 
 }  // namespace lexican::codict::json

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file members.hpp
-/// The schema codict-device-1: one list of members for each part of the model, which the reader and the writer walk.
-/// A name here is for ever.
+/// Schema codict-device-1: for each part of the model, a list of its members, which both reader and writer use. Names
+/// of members never change.
 #pragma once
 
 #include <string_view>
@@ -13,11 +13,11 @@ namespace lexican::codict::json {
 
 constexpr std::string_view schema = "codict-device-1";
 
-/// A part of the model as a visitor may use it: the writer changes nothing.
+/// A part of the model: constant for the writer, which changes nothing.
 template <typename Visit, typename T>
 using Part = std::conditional_t<Visit::is_reading, T, const T>;
 
-// A visitor is called as visit(name, member), or visit.required(name, number) for what names a part.
+// The functions call visit(name, member), or visit.required(name, number) for a member that identifies the part.
 
 template <typename Visit>
 void members(Visit& visit, Part<Visit, Kept>& kept) {
@@ -196,7 +196,7 @@ void members(Visit& visit, Part<Visit, ObjectList>& list) {
   visit("indexes", list.indexes);
 }
 
-// What belongs to the whole device ---------------------------------------------------------------------------------
+// Device -----------------------------------------------------------------------------------------------------------
 
 template <typename Visit>
 void members(Visit& visit, Part<Visit, FileInfo>& file) {

@@ -39,24 +39,24 @@ const std::vector<const Rule*>& all_rules() {
 
 namespace {
 
-// A value whose text gets its meaning when all types are known.
+// A value whose text is interpreted after all data types of the device have been read.
 struct Untyped {
   Value* value;
-  const Entry* entry;  // null: no data type is known
-  bool has_meaning;    // has been said, too
-  bool has_kind;       // … and what it is: so it stays, if the text does not say something else
+  const Entry* entry;  // null: without a data type
+  bool has_meaning;    // the meaning is given as well ("value")
+  bool has_kind;       // the kind is given as well, and remains unless the text contradicts the value
 };
 
 struct Context {
   Findings& findings;
   std::vector<Untyped> untyped;
-  Format format = Format::eds;  // of the device that is being read
+  Format format = Format::eds;  // of the device that is read
 };
 
 bool is_of_eds(Format format) { return format == Format::eds || format == Format::dcf; }
 
-// What the text of a field says; none if that takes a reader of its format, or nobody knows it. In XML, some numbers
-// are hexadecimal, and bit rates may have been bit/s.
+// Returns the meaning of a field's text; none if it is unknown, or if only the reader of its format could interpret it.
+// In XML, some numbers are hexadecimal, and bit rates may be in bit/s.
 std::optional<std::uint64_t> number_in(const Text& text, std::uint64_t value, Format format) {
   const ParsedInteger number = parse_integer(text.text);
   if (is_of_eds(format)) {
@@ -126,7 +126,7 @@ class Reader {
   void end_of(const Device& device) {
     for (const Untyped& untyped : context_.untyped) {
       const bool is_typed = untyped.entry != nullptr;
-      const bool is_implied = untyped.has_meaning && untyped.value->is_empty();  // by a standard
+      const bool is_implied = untyped.has_meaning && untyped.value->is_empty();  // defined by a standard
       if (!is_implied) {
         settle(untyped, data_type_of(device, is_typed ? untyped.entry->data_type.value : std::uint16_t{0}));
       }
@@ -134,7 +134,7 @@ class Reader {
     context_.untyped.clear();
   }
 
-  // What nobody has asked for.
+  // Reports members that no read has requested, and duplicates.
   void report_others() const {
     for (const Node& child : node_.children) {
       const bool is_known = std::find(names_.begin(), names_.end(), child.name) != names_.end();
@@ -225,7 +225,7 @@ class Reader {
     }
   }
 
-  // "text" and "given".
+  // Reads "text" and "given".
   void read_object(const Node& node, Text& text) {
     Reader parts(node, context_);
     text.is_given = true;
@@ -265,7 +265,7 @@ class Reader {
     }
   }
 
-  // A value with its text. What is wrong about a number of an EDS is said here, too.
+  // Compares a value with its text, and reports a contradiction. Reports faults in the text of a number of an EDS, too.
   template <typename T>
   void compare(Field<T>& field) {
     if constexpr (std::is_unsigned_v<T>) {
@@ -275,7 +275,7 @@ class Reader {
       }
     }
     if constexpr (std::is_unsigned_v<T> || std::is_same_v<T, Access> || std::is_same_v<T, PdoMapping>) {
-      // The data type of an object in XML is its parameter's, whatever the object says.
+      // In XML, the data type of an object is that of its parameter, even if the object has another.
       const bool is_another = std::is_same_v<T, std::uint16_t> && !is_of_eds(context_.format);
       const std::optional<T> meaning = is_another ? std::nullopt : meaning_of(field, context_.format);
       if (meaning && *meaning != field.value && !is_refused(*meaning, field)) {
@@ -287,7 +287,7 @@ class Reader {
     }
   }
 
-  // FileVersion=300 of an EDS leaves 0: it is larger than CiA 306 allows.
+  // Returns whether CiA 306 does not allow the number of the text, so that the value is 0: FileVersion=300 of an EDS.
   template <typename T>
   bool is_refused(const T& meaning, const Field<T>& field) {
     if constexpr (std::is_same_v<T, std::uint32_t>) {
@@ -352,7 +352,7 @@ class Reader {
     context_.untyped.push_back({&value, nullptr, has_meaning, has_kind});
   }
 
-  // A number alone.
+  // Reads a number without a text.
   void read_meaning(const Node& node, Value& value) {
     if (node.kind == Kind::real) {
       value.kind = Value::Kind::real;
@@ -363,7 +363,7 @@ class Reader {
     }
   }
 
-  // False if only its text is there.
+  // Returns false if only the text is given.
   bool read_value(const Node& node, Value& value) {
     Reader parts(node, context_);
     parts("kind", value.kind);
@@ -396,11 +396,13 @@ class Reader {
     }
   }
 
-  // Where no type is known, what has been said of the meaning stays.
+  // Sets a value to the meaning of its text for a data type, unless its meaning is given and consistent with the text.
+  // Without a known data type, the given meaning remains.
   void settle(const Untyped& untyped, const DataType& type) {
     const Value& said = *untyped.value;
     const bool is_typed = type.kind != TypeKind::unknown && type.kind != TypeKind::structure;
-    const bool is_of_text = said.kind == Value::Kind::real || said.kind == Value::Kind::malformed;  // where alone
+    // These kinds do not replace a meaning: without a "value", the text is interpreted.
+    const bool is_of_text = said.kind == Value::Kind::real || said.kind == Value::Kind::malformed;
     const bool is_settled = untyped.has_meaning ? untyped.has_kind || !is_typed : untyped.has_kind && !is_of_text;
     Findings ignored;
     Value value;
@@ -419,7 +421,8 @@ class Reader {
     }
   }
 
-  // Of values of one kind, or an integer that is meant as a real; all others have other types.
+  // Returns whether two values of one kind differ. An integer may represent a real; other kinds result from other
+  // types.
   static bool contradicts(const Value& said, const Value& value) {
     if (said.kind == Value::Kind::integer && value.kind == Value::Kind::integer) {
       return said.adds_node_id != value.adds_node_id || !are_alike(value.integer, said.integer);
@@ -432,7 +435,7 @@ class Reader {
     }
     return said.kind == Value::Kind::integer && value.kind == Value::Kind::malformed;
   }
-  // The bit pattern of a negative number is that number, in some width.
+  // Returns whether two integers are equal, or one is the bit pattern of the other, a negative number, in some width.
   static bool are_alike(const Integer& text, const Integer& value) {
     const std::uint64_t difference = text.bits() - value.bits();
     constexpr std::array<std::uint64_t, 8> widths = {0,
@@ -476,7 +479,7 @@ class Reader {
       return;
     }
     const std::vector<const Node*> elements = elements_of<T>(node);
-    list.resize(elements.size());  // values keep their places while others follow
+    list.resize(elements.size());  // not resized later: `untyped` holds pointers to the elements
     for (std::size_t n = 0; n < elements.size(); ++n) {
       read(*elements[n], list[n]);
     }
@@ -494,7 +497,7 @@ class Reader {
     return elements;
   }
 
-  // By a number that each has once.
+  // Sorts elements by a number that identifies them. Reports and removes duplicates.
   void sort(std::vector<const Node*>& elements, std::string_view name) {
     const auto key = [name](const Node* element) {
       const Node* const number = element->find(name);
@@ -530,7 +533,7 @@ class Reader {
 
 }  // namespace
 
-// An EDS begins with a bracket, too, but no name of a section begins like a value of JSON.
+// An EDS may begin with a bracket as well, but its section names do not begin like a value of JSON.
 bool is_json(const Source& source) {
   constexpr std::string_view blanks = " \t\r\n";
   const std::string_view bytes = source.bytes();
@@ -544,7 +547,7 @@ bool is_json(const Source& source) {
 
 namespace {
 
-// "1, 2, 3" of the first names of members.
+// Returns the names of the first members for a message: "a, b, c, d, …".
 std::string first_members(const Node& root) {
   constexpr std::size_t most = 4;
   std::vector<std::string> names;
@@ -558,7 +561,7 @@ std::string first_members(const Node& root) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// What JSON without a schema of codict is, as far as its members show.
+// Returns what JSON without a schema of codict is, derived from its members.
 std::string foreign_json(const Node& root) {
   if (root.kind != Kind::object) {
     return "a JSON array";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file read.hpp
-/// JSON of the schema codict-device-1, as our writer, other programs and people write it.
+/// Reader of JSON of the schema codict-device-1, written by codict, by other programs or by hand.
 ///
-/// A value may be given as it is meant, as text, or both: "access": "rw", {"value": "rw"}, {"text": "rw"}. What is
-/// missing is made of the other; where both say something, the value holds.
+/// A field may be given by its value, its text, or both: "access": "rw", {"value": "rw"}, {"text": "rw"}. A missing one
+/// is derived from the other. A contradiction is an error, and the text is used.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@
 
 namespace lexican::codict::json {
 
-/// Whether the bytes begin as JSON does, and no other description.
+/// Returns whether the bytes begin like JSON, and not like another description.
 bool is_json(const Source& source);
 
-/// All that it may be shows when it has been read.
+/// Never refuses bytes: only the parsed document shows whether it is a description.
 inline std::string refusal(const Source& /*source*/) { return {}; }
-/// Empty if the document may be a description; else what it is instead.
+/// Returns an empty text if the document is a description; else a message that says what it is.
 std::string refusal(const Document& document);
 
-/// Members of a wrong type are findings, and left out.
+/// Reads a document. Members of a wrong type are reported and ignored.
 Description read(const Document& document, Findings& findings);
 
 namespace rules {
@@ -36,7 +36,7 @@ extern const Rule missing;
 extern const Rule contradiction;
 }  // namespace rules
 
-/// All rules of this room.
+/// Returns the rules of this file.
 const std::vector<const Rule*>& all_rules();
 
 }  // namespace lexican::codict::json

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file texts.hpp
-/// The texts of a device, wherever in it they are.
+/// Iteration over all texts of a device.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace lexican::codict::json {
 
-/// In the order of the schema.
+/// Calls `call` for each text, in the order of the schema.
 void for_each_text(const Device& device, const std::function<void(const std::string&)>& call);
 
 }  // namespace lexican::codict::json

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file words.hpp
-/// Enumerations as words. They are a part of the schema: those that other formats use may change.
+/// Words of enumerations. They belong to the schema, and are independent of the words of other formats.
 #pragma once
 
 #include <array>

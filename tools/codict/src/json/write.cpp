@@ -68,7 +68,7 @@ Node object() {
   return node;
 }
 
-// What says something although it is not given: a standard says it.
+// Adds the text of a field. "given" is false if the description does not have it, but a standard defines its value.
 void add_text(Node& node, const Text& text) {
   if (text.is_given || !text.is_empty()) {
     add(node, "text", node_of(text.text));
@@ -105,7 +105,7 @@ Node node_of(const Value& value) {
     }
   } else if (value.kind == Value::Kind::octets) {
     add(node, "value", node_of(hexadecimal_octets(value.octets)));
-  } else if (value.kind == Value::Kind::real && std::isfinite(value.real)) {  // JSON has no other numbers
+  } else if (value.kind == Value::Kind::real && std::isfinite(value.real)) {  // JSON has no infinity and NaN
     add(node, "value", node_of(value.real));
   }
   add_text(node, value);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file write.hpp
-/// A description as JSON, schema codict-device-1: all of the model but the places in its source, in an order that
-/// stays.
+/// Writer of a description as JSON, schema codict-device-1: the whole model except the positions in its source, in a
+/// constant order.
 #pragma once
 
 #include <string>
