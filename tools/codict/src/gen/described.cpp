@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device that a plan makes, as a description: what a master is to know of it.
+// Description of the device that a plan implements, for the configuration of a master.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool is_same(const Value& a, const Value& b) {
   return a.kind == b.kind && a.adds_node_id == b.adds_node_id && a.integer == b.integer;
 }
 
-// What the compiler puts into a variable of which nothing is said.
+// Returns the initial value of a variable without a default value.
 Value zero_of(const Form& form) {
   Value zero;
   const bool is_real = data_type(form.code).kind == TypeKind::real;
@@ -28,7 +28,7 @@ Value zero_of(const Form& form) {
   return zero;
 }
 
-// An error that has not happened is no value: reading it is aborted. [301:7.5.2.6]
+// Entries of 1003h have no value until an error occurs: until then the stack aborts their upload. [301:7.5.2.6]
 bool is_error_field(const Item& item) { return item.index == 0x1003 && item.sub_index != 0; }
 
 Value value_of(const Entry& entry, const Item& item) {
@@ -88,7 +88,7 @@ void set_subs(Object& object, const Plan& plan) {
   }
   const auto has_no_entry = [&](const Sub& sub) { return plan.find(object.index, sub.sub_index) == nullptr; };
   object.subs.erase(std::remove_if(object.subs.begin(), object.subs.end(), has_no_entry), object.subs.end());
-  // Compact storage has no place for default values.
+  // Compact storage (CompactSubObj) cannot express default values of single sub-objects.
   const bool has_values = std::any_of(object.subs.begin(), object.subs.end(),
                                       [](const Sub& sub) { return sub.is_implied && sub.actual_value.is_given; });
   object.compact = has_values ? Field<std::uint8_t>() : object.compact;

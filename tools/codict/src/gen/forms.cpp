@@ -77,13 +77,13 @@ constexpr Place places[] = {
     {0x1FD0, 0x1FFF, 1, 254, "CO_TPDO_DISPATCH", 8, Service::value, false, "USE_MPDO"},
 };
 
-// A bit pattern as the shortest number that a compiler takes for it.
+// Returns an unsigned C literal: decimal below 10000h, else hexadecimal.
 std::string unsigned_literal(std::uint64_t number, std::uint8_t size) {
   const char* const suffix = size == 8 ? "ull" : "u";
   return number < 0x10000 ? fmt::format("{}{}", number, suffix) : fmt::format("0x{:X}{}", number, suffix);
 }
 
-// The smallest number of a width is no literal of C: its sign is an operator.
+// Writes the lowest number of a width as an expression: C has no negative literals.
 std::string signed_literal(const Integer& number, std::uint8_t size) {
   const char* const suffix = size == 8 ? "ll" : "";
   if (!number.is_negative) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file forms.hpp
-/// What a data type, and a place in the communication profile, is in this stack.
+/// Object types of the stack for data types and for objects of the communication profile.
 #pragma once
 
 #include <cstdint>
@@ -12,27 +12,27 @@
 
 namespace lexican::codict::gen {
 
-/// A data type as an object type of the stack, and as a variable.
+/// Object type of the stack and C variable for a data type.
 struct Form {
-  std::string_view type;       ///< "CO_TUNSIGNED16"; empty: the stack has none
+  std::string_view type;       ///< "CO_TUNSIGNED16"; empty: the stack has no such type
   std::string_view variable;   ///< "uint16_t"; empty: memory of any length
-  std::uint16_t code = 0;      ///< of CiA 301
-  std::uint8_t size = 0;       ///< bytes of the variable, on every CPU
-  std::uint8_t alignment = 0;  ///< of the variable, at most
-  std::uint8_t bytes = 0;      ///< on the bus; 0: any number
+  std::uint16_t code = 0;      ///< data type code of CiA 301
+  std::uint8_t size = 0;       ///< size of the variable in bytes, on every CPU
+  std::uint8_t alignment = 0;  ///< largest alignment of the variable on any CPU
+  std::uint8_t bytes = 0;      ///< length in bytes on the bus; 0: variable
 };
 
-/// Null: no such type.
+/// Returns the form of a data type code, null if the code is unknown.
 const Form* form_of(std::uint16_t code);
-/// UNSIGNED8, 16, 32 or 64.
+/// Returns the form of UNSIGNED8, 16, 32 or 64.
 const Form& unsigned_form(std::uint8_t bytes);
 
-/// What the stack does with an entry of the communication profile.
+/// Use of an entry of the communication profile by the stack.
 enum class Service : std::uint8_t {
-  value,     ///< it reads and writes the variable
-  fixed,     ///< … which must not lie in the entry
-  group,     ///< a parameter group
-  consumer,  ///< a heartbeat consumer
+  value,     ///< the stack reads and writes the variable
+  fixed,     ///< like value, but the value must not be stored in the entry (flag D)
+  group,     ///< the entry is a parameter group (CO_PARA)
+  consumer,  ///< the entry is a heartbeat consumer (CO_HBCONS)
 };
 
 struct Place {
@@ -41,20 +41,20 @@ struct Place {
   std::uint8_t first_sub;
   std::uint8_t last_sub;
   std::string_view type;  ///< "CO_THB_PROD"
-  std::uint8_t bytes;     ///< of the value
+  std::uint8_t bytes;     ///< length of the value in bytes
   Service service;
   bool node_id_relative;
   std::string_view needs;  ///< macro of co_cfg.h that must not be 0; may be empty
 };
 
-/// Null: an object like any other.
+/// Returns the place of an entry in the communication profile, null for objects that no service uses.
 const Place* place_of(std::uint16_t index, std::uint8_t sub_index, bool has_subs);
 
-/// A number of C, of the width of a form; what is added for $NODEID is left out.
+/// Returns a number as a C literal of the width of a form; the node-ID of $NODEID is not added.
 std::string literal(const Value& value, const Form& form);
 std::string literal(const Integer& number, const Form& form);
 
-/// Characters of a UNICODE_STRING.
+/// Converts UTF-8 to the characters of a UNICODE_STRING.
 std::u16string utf16(std::string_view utf8);
 
 }  // namespace lexican::codict::gen

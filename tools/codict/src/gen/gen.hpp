@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file gen.hpp
-/// From a device to the source of its dictionary: sorted table, variables, storage groups, limits, and what the
-/// compiler is to prove about them. The same device and options give the same bytes, always.
+/// Generates the source of a device's object dictionary: sorted table, variables, storage groups, limits, and
+/// compile-time checks. Equal devices and options give equal bytes.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 namespace lexican::codict::gen {
 
 struct File {
-  std::string name;  ///< without directory
+  std::string name;  ///< file name without directory
   std::string bytes;
 };
 
@@ -22,16 +22,17 @@ struct Output {
   std::vector<File> files;
   std::vector<Cost> costs;
   std::vector<StoredGroup> groups;  ///< the storage groups
-  std::vector<External> externals;  ///< what the application has to define
+  std::vector<External> externals;  ///< symbols that the application has to define
   std::string verify;               ///< source of the program that starts a node with the dictionary
-  std::string stubs;                ///< source that defines the externals; empty if there are none
-  Device device;                    ///< as it is made: for an EDS or XDD that matches it
+  std::string stubs;                ///< source that defines the externals; empty if there are no externals
+  Device device;                    ///< the device as generated, for an EDS or XDD that matches the dictionary
 };
 
-/// A C identifier from the name of a file: "Clock (2).eds" gives "clock_2"; "device" if nothing is left.
+/// Returns a C identifier from the name of a file: "clock_2" from "Clock (2).eds"; "device" if no character can be
+/// used.
 std::string default_name(std::string_view path);
 
-/// Files are empty if there were errors, which findings name.
+/// Generates the files of a dictionary. They are empty if the findings contain errors.
 Output generate(const Device& device, const Options& options, Findings& findings);
 
 }  // namespace lexican::codict::gen

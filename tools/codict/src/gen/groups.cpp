@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variables lie together, and in which order.
+// Members of the structs, and their order in memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint8_t address_size = 4;
 
-// Strings have a NUL behind them, whatever their length.
+// Returns the number of array elements of a string or domain. Byte strings have an additional NUL.
 std::uint32_t array_length(const Item& item) {
   const bool is_wide = item.form->alignment == 2;
   return is_wide ? item.capacity / 2 : item.capacity + (item.storage == Storage::string ? 1 : 0);
@@ -60,7 +60,7 @@ Member variable_of(const Item& item) {
   return member;
 }
 
-// What an entry needs in a group that is stored: no addresses.
+// Returns the members of an entry in a storage group, which contains no addresses.
 std::vector<Member> stored_members(const Item& item) {
   if (item.storage != Storage::string && item.storage != Storage::domain) {
     return {variable_of(item)};
@@ -86,7 +86,7 @@ std::vector<Member> plain_members(const Item& item) {
     case Storage::consumer: return {descriptor_of(item)};
     case Storage::string:
     case Storage::domain:
-      // A constant one has its memory beside the structs.
+      // The memory of a constant string or domain is a variable outside the structs.
       if (item.access == Access::constant) {
         return {descriptor_of(item)};
       }
@@ -102,7 +102,7 @@ void add(std::vector<Member>& members, std::vector<Member> more, std::size_t ite
   }
 }
 
-// FNV-1a, folded to the 24 bits that CO_PARA_VERSION() takes.
+// Returns the FNV-1a hash of a group's layout, folded to the 24 bits of CO_PARA_VERSION().
 std::uint32_t hash(const Plan& plan, const Group& group) {
   std::uint32_t state = 0x811C9DC5;
   const auto take = [&state](std::uint32_t number) {
@@ -123,13 +123,15 @@ bool is_communication(const Item& item) { return item.index >= 0x1000 && item.in
 
 constexpr std::uint32_t rounded_up(std::uint32_t size, std::uint32_t unit) { return (size + unit - 1) / unit * unit; }
 
-// Numbers of 64 bits, then addresses, which have 32 or 64 bits, then all others: no padding is between them on any CPU.
+// Returns the sort key of a member: 64-bit numbers, then addresses (32 or 64 bits), then all others by alignment, so
+// that no CPU needs padding between them.
 unsigned rank_of(const Member& member) {
   return member.role == Role::descriptor ? address_size + 1U : member.alignment;
 }
 
-// First what the network only reads, then what reset node sets, last what both resets set: a reset copies all from a
-// member on. The middle part ascends in alignment, so that there is little padding between the parts.
+// Orders the RAM by reset: members that the network cannot write, then those of "reset node", then those of both
+// resets, so that a reset copies everything from its first member on. The second part ascends in alignment, which
+// minimises the padding between the parts.
 void lay_out_ram(const Plan& plan, Group& group) {
   std::stable_sort(group.members.begin(), group.members.end(), [&](const Member& a, const Member& b) {
     const Reset first = reset_of(plan.items[a.item]);
@@ -147,8 +149,8 @@ void lay_out_ram(const Plan& plan, Group& group) {
   group.size = rounded_up(group.size, alignment);
 }
 
-// Objects of the communication profile first, as reset communication loads these and no others; within both parts the
-// larger alignment first. Nothing lies between two members but bytes that have a name.
+// Orders a storage group: objects of the communication profile first, because "reset communication" loads only these;
+// within both parts by descending alignment. All padding consists of named members.
 void lay_out_stored(const Plan& plan, Group& group) {
   const auto is_first = [&](const Member& member) { return is_communication(plan.items[member.item]); };
   std::stable_sort(group.members.begin(), group.members.end(), [&](const Member& a, const Member& b) {
@@ -171,7 +173,7 @@ void lay_out_stored(const Plan& plan, Group& group) {
 
 }  // namespace
 
-// The stack writes 1003h: it empties it at reset node.
+// 1003h is excluded because the stack writes it, and clears it at "reset node".
 Reset reset_of(const Item& item) {
   if (!is_writable(item.access) || item.index == 0x1003) {
     return Reset::none;

@@ -10,12 +10,12 @@ namespace lexican::codict::gen {
 
 namespace {
 
-// Services that exist as often as their objects: how often co_cfg.h must have them.
+// Services with several instances: objects of each, and the setting of co_cfg.h for their number.
 struct Instances {
   std::uint16_t first;
   std::uint16_t last;
   const char* macro;
-  const char* needs;  // may be empty
+  const char* needs;  // setting that must not be 0; may be empty
 };
 
 constexpr Instances instances[] = {
@@ -23,7 +23,7 @@ constexpr Instances instances[] = {
     {0x1600, 0x17FF, "CO_RPDO_N", ""}, {0x1800, 0x19FF, "CO_TPDO_N", ""},         {0x1A00, 0x1BFF, "CO_TPDO_N", ""},
 };
 
-// What a setting counts: "the description has TPDO 12".
+// Returns the service that a setting counts: "TPDO" in "the description has TPDO 12".
 const char* service_of(const std::string& macro) {
   static const std::map<std::string, const char*> services = {
       {"CO_SSDO_N", "SDO server"}, {"CO_CSDO_N", "SDO client"},           {"CO_RPDO_N", "RPDO"},
@@ -31,7 +31,7 @@ const char* service_of(const std::string& macro) {
   return services.at(macro);
 }
 
-// The smallest configuration in which all entries work.
+// Smallest configuration of co_cfg.h in which all entries work.
 class Configuration {
  public:
   explicit Configuration(const Plan& plan) {
@@ -61,7 +61,7 @@ class Configuration {
     out.blank();
   }
 
-  // The compiler names what the configuration has: #error cannot.
+  // Uses #pragma message, as #error cannot show the value of a macro.
   void write_messages(Lines& out) const {
     const char* const form =
         "#if {0}\n#pragma message(\"verify: the description has {1}, the configuration has {2} = \" "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the values of a description to the entries of the table.
+// Entries of the table, from the objects of a description.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,8 +28,8 @@ constexpr bool is_between(std::uint16_t index, std::uint16_t first, std::uint16_
   return index >= first && index <= last;
 }
 
-// What neither the network nor the application changes, although it says "ro" and not "const". The serial number is
-// not among it: it is another one in each device.
+// Returns true for values that are constant although their access is "ro". The serial number is excluded because it
+// differs between devices.
 bool is_fixed(const Item& item, bool has_subs) {
   if (item.sub_index == 0 && has_subs) {
     return item.index != 0x1003;
@@ -41,7 +41,7 @@ bool is_fixed(const Item& item, bool has_subs) {
          is_between(item.index, 0x1200, 0x1BFF);
 }
 
-// RAM and constants are not stored.
+// Returns false for names of RAM and of constants, which are not stored.
 bool is_storage_group(std::string_view name) {
   const std::string id = identifier(name);
   return !name.empty() && id != "ram" && id != "rom" && id != "const_" && id != "constant" && id != "constants";
@@ -172,7 +172,7 @@ class Items {
     item.value = value_in_force(entry);
     take_none_for_octets(item);
     const bool is_number = item.form->bytes != 0 && data_type(item.form->code).kind != TypeKind::real;
-    const bool is_text = is_number && item.value.kind == Value::Kind::text;  // of another type, or a time
+    const bool is_text = is_number && item.value.kind == Value::Kind::text;  // text of another data type, or a time
     if (item.value.kind == Value::Kind::malformed || is_text) {
       findings_.add(rules::value, item.value.span,
                     fmt::format("{} does not fit {}", in_quotes(item.value.text), data_type(item.form->code).name),
@@ -204,7 +204,7 @@ class Items {
     item.value.integer = number;
   }
 
-  // What nobody has said. A PDO without COB-ID does not exist.
+  // Sets the value of an entry that has no default value. A PDO without COB-ID is disabled.
   void set_standard_value(Item& item, const Object& object, bool has_subs) {
     const std::string_view type = item.place == nullptr ? "" : item.place->type;
     if (type == "CO_TPDO_ID" || (type == "CO_TSDO_ID" && item.index != 0x1200)) {
@@ -233,7 +233,7 @@ class Items {
     return number;
   }
 
-  // The default SDO has no identifiers but its own. [301:7.3.3]
+  // The default SDO server's COB-IDs are fixed: 600h and 580h + node-ID. [301:7.3.3]
   void correct_cob_id(Item& item) {
     const bool is_default_sdo = item.index == 0x1200 && (item.sub_index == 1 || item.sub_index == 2);
     if (!is_default_sdo || item.value.adds_node_id) {
@@ -277,7 +277,7 @@ class Items {
       constexpr Storage of_service[] = {Storage::variable, Storage::variable, Storage::group, Storage::consumer};
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
     } else if (item.place != nullptr || item.index == error_register) {
-      set_variable(item, has_subs);  // the stack reads and writes it
+      set_variable(item, has_subs);  // the stack reads and writes the value
     } else if (item.has_own_type || entry.node.extension_io.value) {
       set_own_type(item);
     } else if (is_external(item, entry)) {
@@ -289,7 +289,7 @@ class Items {
     }
   }
 
-  // A number with a value has a variable, whatever its type does with it.
+  // An object type of the application gets a variable if the entry is a number with a default value.
   void set_own_type(Item& item) {
     const bool has_variable = item.form->bytes != 0 && item.value.is_given;
     item.has_own_type = true;
@@ -310,7 +310,8 @@ class Items {
     return item.form->code == type_code::visible_string && !is_writable(item.access);
   }
 
-  // In a description of CANopenNode nothing means that there is no memory; so it is with a domain anywhere.
+  // In descriptions of CANopenNode an empty default value means that the application provides the memory. Domains
+  // without value are external in all descriptions.
   bool is_external(const Item& item, const Entry& entry) const {
     const bool is_empty = item.value.kind == Value::Kind::none;
     const bool has_length = entry.node.byte_length.value != 0 || entry.node.string_length_min.value != 0;
@@ -331,7 +332,7 @@ class Items {
     }
   }
 
-  // Strings and domains.
+  // Sets the capacity and the location of a string or domain.
   void set_memory(Item& item, const Entry& entry) {
     const TypeKind kind = data_type(item.form->code).kind;
     const std::uint32_t unit = kind == TypeKind::unicode_string ? 2 : 1;
@@ -388,7 +389,8 @@ class Items {
     item.limits.holds_default = item.limits.holds_default && !item.value.adds_node_id;
   }
 
-  // As the variable has them. All bits of a real are what is no number, below zero.
+  // Sets the limits as bit patterns of the variable. Missing limits of a real are the NaN patterns at both ends of the
+  // order.
   static void set_bits(Item& item, const Entry& entry) {
     const unsigned unused = item.form->size > 4 ? 0 : 32;
     const TypeKind kind = data_type(item.form->code).kind;
@@ -420,7 +422,7 @@ class Items {
     return limit.text.empty() ? other : shortened(limit.text);
   }
 
-  // Neither less nor greater than what is no number.
+  // Returns false if either value is no number.
   static bool is_less(const Item& item, const Value& a, const Value& b) {
     if (!has_number(a) || !has_number(b)) {
       return false;
@@ -443,7 +445,7 @@ class Items {
     return true;
   }
 
-  // No value of the type is below it.
+  // Returns true if the limit is the lowest value of the type, so that it has no effect.
   static bool is_lowest(const Item& item, const Value& limit) {
     const std::uint64_t sign = std::uint64_t{1} << (8U * item.form->bytes - 1U);
     switch (data_type(item.form->code).kind) {
@@ -453,7 +455,7 @@ class Items {
     }
   }
 
-  // No value of the type is above it.
+  // Returns true if the limit is the highest value of the type, so that it has no effect.
   static bool is_highest(const Item& item, const Value& limit) {
     const unsigned unused = 64U - 8U * item.form->bytes;
     switch (data_type(item.form->code).kind) {

@@ -11,7 +11,7 @@ namespace lexican::codict::gen {
 
 namespace {
 
-// Besides the keywords, what headers of C define as macros.
+// Keywords of C and C++, and macros of C headers.
 constexpr std::string_view reserved[] = {
     "alignas",   "alignof", "and",      "and_eq",       "asm",       "assert",   "auto",          "bitand",
     "bitor",     "bool",    "break",    "case",         "catch",     "char",     "class",         "compl",

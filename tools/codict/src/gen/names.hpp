@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file names.hpp
-/// Identifiers of C and C++ from the words of a description.
+/// Identifiers of C and C++ from names in descriptions.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 
 namespace lexican::codict::gen {
 
-/// "Time of day (UTC)" becomes "time_of_day_utc"; empty if nothing is left. No keyword of C or C++.
+/// Returns a name as an identifier that is no keyword of C or C++: "time_of_day_utc" from "Time of day (UTC)"; empty if
+/// no character can be used.
 std::string identifier(std::string_view words);
 std::string upper(std::string_view identifier);
-/// Printable ASCII that may stand in a comment.
+/// Returns the text with printable ASCII characters only, safe within a C comment.
 std::string comment_text(std::string_view words);
-/// A string literal of C, with its quotes.
+/// Returns a C string literal, with its quotes.
 std::string string_literal(std::string_view bytes);
 
 }  // namespace lexican::codict::gen

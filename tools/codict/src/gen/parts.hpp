@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file parts.hpp
-/// The steps of make_plan(), each with the result of those before it.
+/// Steps of make_plan(), in the order in which it calls them; each uses the results of the steps before it.
 #pragma once
 
 #include "gen/plan.hpp"

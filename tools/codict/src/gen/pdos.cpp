@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the PDOs of the description map.
+// Checks of the PDO mappings in a description.
 #include <fmt/format.h>
 
 #include "gen/parts.hpp"
@@ -12,31 +12,31 @@ namespace {
 constexpr unsigned most_bits = 64;
 constexpr std::uint32_t flag_pdo = 0x04;
 constexpr std::uint32_t flag_direct = 0x80;
-constexpr std::uint64_t multiplexed = 0xFE;  // and FFh: no number of objects [301:7.5.2.36]
+constexpr std::uint64_t multiplexed = 0xFE;  // value of sub-index 0 for a multiplex PDO, like FFh [301:7.5.2.36]
 
-constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID
+constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID: the PDO is disabled
 constexpr std::uint32_t identifier_bits = 0x1FFFFFFF;
-constexpr std::uint16_t from_mapping = 0x200;  // to the communication parameter
+constexpr std::uint16_t from_mapping = 0x200;  // distance from a communication parameter to its mapping parameter
 
 constexpr bool is_receive(std::uint16_t index) { return (index & 0x1800U) == 0x1000; }
 
-// "TPDO 3" of 1802h and 1A02h.
+// Returns "TPDO 3" for 1802h and 1A02h.
 std::string title_of(std::uint16_t index) {
   return fmt::format("{} {}", is_receive(index) ? "RPDO" : "TPDO", (index & 0x1FFU) + 1);
 }
 
-// 0001h…0007h, sub 0: bits that an RPDO skips. [301:7.4.1]
+// Returns true for a dummy object (0001h…0007h sub 0), whose bits an RPDO ignores. [301:7.4.1]
 bool is_skipped(const Item& mapping, std::uint16_t index, std::uint8_t sub_index, unsigned bits) {
   return is_receive(mapping.index) && sub_index == 0 && index >= 1 && index <= 7 && data_type(index).bits == bits;
 }
 
-// 0: the length is not known here.
+// Returns the length of an entry in bits, 0 if it is unknown.
 unsigned bits_of(const Item& item) {
   const bool is_bit = item.form->code == type_code::boolean;
   return is_bit ? 1U : 8U * (item.form->bytes != 0 ? item.form->bytes : item.capacity);
 }
 
-// A value of a mapping entry.
+// Decoded value of a mapping entry.
 struct Link {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
@@ -52,7 +52,7 @@ struct Link {
 
 std::string name_of_object(const Item& object) { return fmt::format("{} ({})", place_name(object), object.name); }
 
-// Why the stack refuses what an entry maps; empty: it does not.
+// Returns the reason why the stack rejects a mapping entry, empty if it accepts the entry.
 std::string fault_of(const Plan& plan, const Item& mapping) {
   const Link link(mapping);
   if (is_skipped(mapping, link.index, link.sub_index, link.bits)) {
@@ -79,7 +79,7 @@ std::string fault_of(const Plan& plan, const Item& mapping) {
   return {};
 }
 
-// What works, and may be a mistake.
+// Reports mappings that work but may be mistakes.
 void check_object(const Plan& plan, const Item& mapping, Span span, Findings& findings) {
   const Link link(mapping);
   const Item* const object = plan.find(link.index, link.sub_index);
@@ -134,7 +134,7 @@ void check_pdo(Plan& plan, const Item& number, Findings& findings) {
   plan.pdos.push_back(std::move(sum));
 }
 
-// Why the stack does not create a PDO with this mapping parameter; empty: it does.
+// Returns the reason why the stack does not create a PDO with this mapping parameter, empty if it creates the PDO.
 std::string fault_of_mapping(const Plan& plan, std::uint16_t index) {
   const Item* const number = plan.find(index, 0);
   if (number == nullptr) {
@@ -159,7 +159,7 @@ std::string fault_of_mapping(const Plan& plan, std::uint16_t index) {
   return {};
 }
 
-// Switches off the PDOs that the stack does not create: nothing else would tell a master that they do not exist.
+// Disables the PDOs that the stack does not create, so that a master can see it in their COB-IDs.
 void switch_off(Plan& plan, Findings& findings) {
   for (Item& item : plan.items) {
     Value& value = item.value;
@@ -182,7 +182,8 @@ void switch_off(Plan& plan, Findings& findings) {
   }
 }
 
-// Whether a mapping is a constant of the table and can be in use: CO_OD_CHECK() knows it.
+// Returns true if a mapping entry is a constant of the table and below the number of mapped objects, so that
+// CO_OD_CHECK() checks it.
 bool is_constant_mapping(const Plan& plan, const Item& item) {
   const Item* const number = plan.find(item.index, 0);
   const bool is_beyond =
@@ -191,8 +192,8 @@ bool is_constant_mapping(const Plan& plan, const Item& item) {
   return item.type == "CO_TPDO_MAP" && (item.flags & flag_direct) != 0 && !is_beyond;
 }
 
-// The mapping of the description is its author's decision: the PDO works. CO_OD_CHECK() refuses a constant mapping of
-// an object without flag P, so the object gets it.
+// Makes objects mappable (flag P) that a constant mapping contains. Such a PDO works, but CO_OD_CHECK() rejects a
+// constant mapping of an object without flag P.
 void make_mappable(Plan& plan) {
   for (const Item& mapping : plan.items) {
     const std::uint64_t link = mapping.value.integer.magnitude;

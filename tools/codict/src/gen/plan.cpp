@@ -20,7 +20,7 @@ bool begins_with(const std::string& text, const std::string& beginning) {
   return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-// Whether a name could be one of those that are made for the whole dictionary, or for a group.
+// Returns true if an alias could equal a generated name of the dictionary or of a group.
 bool could_be_made(const Plan& plan, const std::string& alias) {
   const auto is_of_group = [&](const Group& group) { return begins_with(alias, group.id + "_"); };
   return begins_with(alias, "od_") || begins_with(alias, "para_") || alias == "unused" ||
@@ -90,7 +90,7 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
   plan.groups.front().name = "RAM";
   plan.groups.front().id = "ram";
   plan_items(device, options, plan, findings);
-  constexpr std::size_t most_items = 0xFFFE;  // and the end mark
+  constexpr std::size_t most_items = 0xFFFE;  // one less than the largest table, for the end mark
   const bool has_reason = findings.count(Severity::error) != 0;
   if ((plan.items.empty() && !has_reason) || plan.items.size() > most_items) {
     findings.add(rules::count, {}, fmt::format("dictionary has {} entries, not 1 to {}", plan.items.size(), most_items),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file plan.hpp
-/// A dictionary as it is going to be written: every decision has been made, and every name is given.
+/// Plan of a dictionary: all decisions and names, before any text is written.
 #pragma once
 
 #include <cstdint>
@@ -18,104 +18,104 @@ namespace lexican::codict::gen {
 enum class Language : unsigned char { c, cpp };
 
 struct Options {
-  std::string name;    ///< of everything that is written: a C identifier
+  std::string name;    ///< prefix of all generated names: a C identifier
   std::string source;  ///< file name of the description, for the comment at the top
   Language language = Language::c;
-  std::uint8_t node_id = 1;                   ///< of the node that the program of --verify starts
-  std::uint32_t string_capacity = 32;         ///< bytes of a string that can be written and whose length nobody says
-  bool unique_names = false;                  ///< two entries with one name are an error
-  bool trigger_tpdos = false;                 ///< flag A for all that a TPDO may map
+  std::uint8_t node_id = 1;                   ///< node-ID of the node that --verify starts
+  std::uint32_t string_capacity = 32;         ///< bytes of a writable string whose length is not described
+  bool unique_names = false;                  ///< equal names of two entries are an error
+  bool trigger_tpdos = false;                 ///< set flag A for all objects that a TPDO may map
   std::map<std::string, std::uint8_t> store;  ///< sub-indexes of 1010h by storage group; 0: the group is not stored
 };
 
-/// Where the value of an entry is.
+/// Location of an entry's value.
 enum class Storage : unsigned char {
-  direct,       ///< in the entry
-  constant,     ///< in a constant
-  variable,     ///< in a struct
+  direct,       ///< in the entry (flag D)
+  constant,     ///< in a constant variable
+  variable,     ///< in a member of a struct
   text,         ///< a CO_OBJ_STR and a constant text
   string,       ///< a CO_OBJ_STR_RW and its memory
   domain,       ///< a CO_OBJ_DOM and its memory
   consumer,     ///< a CO_HBCONS
   group,        ///< a CO_PARA
-  external,     ///< a variable, CO_OBJ_STR, CO_OBJ_STR_RW or CO_OBJ_DOM of the application
-  application,  ///< nothing: its type is the application's, and knows it
+  external,     ///< in a variable, CO_OBJ_STR, CO_OBJ_STR_RW or CO_OBJ_DOM that the application defines
+  application,  ///< known only to the object type, which the application defines
 };
 
 struct Limits {
-  std::string low;             ///< literal; empty: none
-  std::string high;            ///< literal; empty: none
-  std::uint64_t low_bits = 0;  ///< what has no limit has the lowest and highest of its width
+  std::string low;             ///< literal; empty: no limit
+  std::string high;            ///< literal; empty: no limit
+  std::uint64_t low_bits = 0;  ///< limits as bit patterns; without a limit, the lowest and highest of the width
   std::uint64_t high_bits = 0;
   bool holds_default = true;
 };
 
-/// An entry of the table.
+/// Entry of the table.
 struct Item {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  std::string name;      ///< of the description, for comments
-  std::string own_name;  ///< the same without the name of the object around it
+  std::string name;      ///< name in the description, for comments
+  std::string own_name;  ///< name without that of the object that contains the sub-object
   Span span;
   Access access = Access::ro;
   PdoMapping pdo = PdoMapping::no;
   const Form* form = nullptr;
   const Place* place = nullptr;
   std::string type;           ///< "CO_TUNSIGNED16"
-  bool has_own_type = false;  ///< the application's
-  std::uint32_t flags = 0;    ///< of CO_KEY()
+  bool has_own_type = false;  ///< the application defines the type
+  std::uint32_t flags = 0;    ///< flags of CO_KEY()
   Storage storage = Storage::variable;
   Value value;
-  std::uint32_t capacity = 0;  ///< bytes of a string or domain
-  std::size_t group = 0;       ///< in Plan::groups
+  std::uint32_t capacity = 0;  ///< size of a string or domain in bytes
+  std::size_t group = 0;       ///< index in Plan::groups
   std::string member;          ///< "od_2100_1"
-  std::string alias;           ///< "hour"; empty: none
+  std::string alias;           ///< "hour"; empty: no alias
   Limits limits;
-  std::size_t limited = 0;  ///< number of the limited type, from 1; 0: none
+  std::size_t limited = 0;  ///< number of the limited type, from 1; 0: no limits
 
   std::uint32_t key() const { return std::uint32_t{index} << 16 | std::uint32_t{sub_index} << 8; }
   bool is_limited() const { return !limits.low.empty() || !limits.high.empty(); }
 };
 
-/// What a member of a group is to its entry.
+/// Purpose of a group's member for its entry.
 enum class Role : unsigned char {
-  value,       ///< the variable
+  value,       ///< variable of the entry
   descriptor,  ///< a CO_OBJ_STR, CO_OBJ_STR_RW, CO_OBJ_DOM or CO_HBCONS
-  length,      ///< of a stored string, in bytes
-  memory,      ///< of a string or domain
+  length,      ///< length of a stored string, in bytes
+  memory,      ///< bytes of a string or domain
 };
 
 struct Member {
-  std::size_t item = 0;  ///< in Plan::items
+  std::size_t item = 0;  ///< index in Plan::items
   Role role = Role::value;
-  std::string type;                 ///< of C
+  std::string type;                 ///< C type
   std::string name;                 ///< "od_2201_0_length"
-  std::uint32_t count = 0;          ///< of an array; 0: it is none
-  std::uint32_t size = 0;           ///< bytes, where addresses have 32 bits
-  std::uint8_t alignment = 1;       ///< where addresses have 32 bits
-  std::uint32_t unused_before = 0;  ///< bytes without use in front of it
+  std::uint32_t count = 0;          ///< number of array elements; 0: no array
+  std::uint32_t size = 0;           ///< size in bytes, on a CPU with 32-bit addresses
+  std::uint8_t alignment = 1;       ///< alignment in bytes, on a CPU with 32-bit addresses
+  std::uint32_t unused_before = 0;  ///< unused bytes in front of the member
   bool has_alias = false;
 };
 
-/// Which NMT reset gives a variable its power-on value.
+/// NMT reset that sets a variable to its power-on value.
 enum class Reset : unsigned char {
-  none,           ///< the network cannot write it: it gets its default value once, at power-on
+  none,           ///< not writable by the network: set to its default value once, at power-on
   node,           ///< reset node
   communication,  ///< both resets: an object of the communication profile
 };
 
-/// Variables in one struct. The first group is the RAM, which is not stored.
+/// Struct of variables. The first group of a plan is the RAM, which is not stored.
 struct Group {
-  std::string name;               ///< of the description: "PERSIST_COMM"
-  std::string id;                 ///< "persist_comm"
-  std::uint8_t sub_index = 0;     ///< of 1010h; 0: none
-  std::uint8_t restore_sub = 0;   ///< of 1011h; 0: none
-  bool is_communication = false;  ///< all of it is loaded by "reset communication"
-  std::uint32_t com_size = 0;     ///< otherwise: bytes at the beginning that are
-  std::vector<Member> members;    ///< in the order of their memory
-  std::uint32_t layout = 0;       ///< hash over all of them, 24 bits
-  std::uint32_t size = 0;         ///< bytes, with padding, where addresses have 32 bits
-  std::uint32_t unused = 0;       ///< bytes at the end of a storage group: a multiple of its alignment on every CPU
+  std::string name;               ///< name in the description: "PERSIST_COMM"
+  std::string id;                 ///< name as an identifier: "persist_comm"
+  std::uint8_t sub_index = 0;     ///< sub-index of 1010h; 0: none
+  std::uint8_t restore_sub = 0;   ///< sub-index of 1011h; 0: none
+  bool is_communication = false;  ///< "reset communication" loads the whole group
+  std::uint32_t com_size = 0;     ///< otherwise: number of bytes at the beginning that "reset communication" loads
+  std::vector<Member> members;    ///< members in the order of their addresses
+  std::uint32_t layout = 0;       ///< 24-bit hash of the layout of all members
+  std::uint32_t size = 0;         ///< size in bytes with padding, on a CPU with 32-bit addresses
+  std::uint32_t unused = 0;       ///< padding bytes at the end, so that the size is aligned on every CPU
 };
 
 struct PdoSum {
@@ -124,34 +124,34 @@ struct PdoSum {
 };
 
 struct Plan {
-  std::vector<Item> items;  ///< ascending
+  std::vector<Item> items;  ///< entries in ascending order of their keys
   std::vector<Group> groups;
   std::vector<PdoSum> pdos;
-  std::map<std::string, unsigned> labels;  ///< CO_countLabel, and how many objects have it
-  std::set<std::string> unstored;          ///< storage groups that the options leave in the RAM
-  bool stores_all = false;                 ///< sub 1 of 1010h stands for the others
-  bool restores_all = false;               ///< sub 1 of 1011h stands for the others
+  std::map<std::string, unsigned> labels;  ///< number of objects for each CO_countLabel
+  std::set<std::string> unstored;          ///< storage groups that the options keep in RAM
+  bool stores_all = false;                 ///< sub-index 1 of 1010h stores all groups
+  bool restores_all = false;               ///< sub-index 1 of 1011h restores all groups
 
   const Item* find(std::uint16_t index, std::uint8_t sub_index) const;
 };
 
-/// Errors are findings; what they are about is missing in the plan.
+/// Plans a dictionary. Errors are added to the findings; the objects that they concern are missing in the plan.
 Plan make_plan(const Device& device, const Options& options, Findings& findings);
 
-/// The device that a plan makes: without what has no entry, with the values that it has from the beginning.
+/// Returns the device that a plan implements: without objects that have no entry, with all default values.
 Device described(const Device& device, const Plan& plan);
 
-/// The reset of an entry that is not stored.
+/// Returns the NMT reset that sets an entry which is not stored to its power-on value.
 Reset reset_of(const Item& item);
 
-/// The first member of the RAM that a reset sets: all behind it are set, too. Null: there is none.
+/// Returns the first RAM member that a reset sets; the reset sets all members behind it, too. Null: there is none.
 const Member* first_reset(const Plan& plan, Reset reset);
 
-/// Whether there are variables that resets set and no 1010h loads: the end mark of the table gives all variables that
-/// are not stored their default values then. Otherwise the compiler does.
+/// Returns true if there are variables that resets set and that no sub-index of 1010h stores. The end mark of the table
+/// then sets all variables that are not stored to their default values; otherwise their initialisers do.
 bool has_defaults(const Plan& plan);
 
-/// "2100h sub 1"
+/// Returns the object of an entry for messages: "2100h sub 1".
 std::string place_name(const Item& item);
 
 }  // namespace lexican::codict::gen

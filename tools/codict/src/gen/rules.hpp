@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file rules.hpp
-/// What keeps a description from becoming a dictionary, and what its author should know about the dictionary.
+/// Rules of the generator: faults that prevent generation, and remarks on the generated dictionary.
 #pragma once
 
 #include <vector>
@@ -40,7 +40,7 @@ extern const Rule capacity;
 
 namespace lexican::codict::gen {
 
-/// All rules of this room.
+/// Returns all rules of this module.
 const std::vector<const Rule*>& all_rules();
 
 }  // namespace lexican::codict::gen

@@ -10,7 +10,7 @@ namespace lexican::codict::gen {
 
 namespace {
 
-// Flags that co_obj.h has a name for, the most of them first.
+// Names in co_obj.h for sets of flags, the largest sets first.
 constexpr struct {
   std::uint32_t flags;
   const char* name;
@@ -210,10 +210,10 @@ class SourceText {
 
   const Group& group_of(const Item& item) const { return plan_.groups[item.group]; }
   std::string struct_name(const Item& item) const { return struct_of(group_of(item), options_); }
-  // "od_2201_0" with another beginning, for what belongs to an entry.
+  // Returns a name for an entry's further variable: "od_2201_0" with another prefix.
   static std::string named(const char* what, const Item& item) { return what + item.member.substr(2); }
 
-  // Entries for which a predicate holds.
+  // Returns the entries for which the predicate is true.
   template <typename Predicate>
   std::vector<const Item*> those(Predicate predicate) const {
     std::vector<const Item*> items;
@@ -242,7 +242,7 @@ class SourceText {
 
   // Limits -----------------------------------------------------------------------------------------------------------
 
-  // Words or double words; both are compared as unsigned numbers of that width.
+  // Writes the functions for 32 or 64 bits; all values are compared as unsigned numbers of this width.
   void write_limited_functions(unsigned bits) { out_.raw(fmt::format(limited_functions, bits, bits - 1)); }
 
   void write_limits() {
@@ -278,8 +278,7 @@ class SourceText {
     return bits == 64 ? fmt::format("0x{:X}ull", number) : fmt::format("0x{:X}u", static_cast<std::uint32_t>(number));
   }
 
-  // What is stored as it cannot be used
-  // --------------------------------------------------------------------------------
+  // Types of stored strings and consumers -----------------------------------------------------------------------------
 
   bool has_stored(Storage storage) const {
     return !those([storage](const Item& item) { return item.group != 0 && item.storage == storage; }).empty();
@@ -316,7 +315,7 @@ class SourceText {
     return item.access == Access::constant && (item.storage == Storage::string || item.storage == Storage::domain);
   }
 
-  // The initialiser of the memory of a string or domain.
+  // Returns the initialiser for the memory of a string or domain.
   static std::string memory_text(const Item& item) {
     const TypeKind kind = data_type(item.form->code).kind;
     if (kind == TypeKind::visible_string) {
@@ -391,7 +390,7 @@ class SourceText {
     }
   }
 
-  // Whether CONodeInit() gives a struct its values.
+  // Returns true if CONodeInit() sets the members of a struct.
   bool is_set_by_node(const Group& group) const {
     return !group.members.empty() && (&group != &plan_.groups.front() || has_defaults(plan_));
   }
@@ -462,8 +461,7 @@ class SourceText {
     return item.sub_index == 1 && is_all ? "all_groups" : "no_group";
   }
 
-  // Power-on values
-  // ----------------------------------------------------------------------------------------------------
+  // Power-on values ---------------------------------------------------------------------------------------------------
 
   void write_defaults() {
     const bool has_type = has_defaults(plan_);
@@ -482,7 +480,7 @@ class SourceText {
     }
   }
 
-  // Where the part of the RAM begins that a reset sets.
+  // Returns the offset of the first RAM member that a reset sets.
   std::string begin_of(Reset reset) const {
     const std::string name = struct_of(plan_.groups.front(), options_);
     const Member* const first = first_reset(plan_, reset);
@@ -621,7 +619,8 @@ class SourceText {
     out_.add("{0}(sizeof({1}_t) == {2}, \"{1}\");", proof(), name, group.size);
   }
 
-  // C has no constant expressions of reals, and an unsigned number is at least 0 anyway.
+  // Writes compile-time checks of a default value against its limits. Omitted for reals in C, whose constant
+  // expressions cannot contain them, and for the unsigned value 0, the lowest of its type.
   void prove_limits(const Item& item) {
     const TypeKind kind = data_type(item.form->code).kind;
     if (kind == TypeKind::real && !is_cpp()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sub-index of 1010h stores a storage group, and which one of 1011h restores it.
+// Assignment of sub-indexes of 1010h (store) and 1011h (restore) to storage groups.
 #include "gen/stores.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::set<std::string>;
 
-// Words that say nothing about which group a sub-index stores.
+// Words that do not distinguish storage groups.
 const Words common_words = {"all",        "and",    "block",   "config",     "configuration", "configurations",
                             "constant",   "data",   "default", "defaults",   "defined",       "eeprom",
                             "entry",      "flash",  "group",   "in",         "index",         "load",
@@ -49,7 +49,7 @@ bool is_upper(char character) { return character >= 'A' && character <= 'Z'; }
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 char lower(char character) { return is_upper(character) ? static_cast<char>(character - 'A' + 'a') : character; }
 
-// Bytes of other alphabets are letters.
+// Bytes outside ASCII count as letters of other alphabets.
 bool is_word_character(char character) {
   const char small = lower(character);
   return is_digit(character) || (small >= 'a' && small <= 'z') || static_cast<unsigned char>(character) >= 0x80;
@@ -64,7 +64,7 @@ void add_word(Words& words, const std::string& word) {
   words.insert(abbreviation == abbreviations.end() ? word : abbreviation->second);
 }
 
-// The distinguishing words of a name: "Save PERSIST_APP parameters" and "persistApp" have "application".
+// Returns the distinguishing words of a name: "application" for "Save PERSIST_APP parameters" and "persistApp".
 Words words_of(std::string_view name) {
   Words words;
   std::string word;
@@ -84,7 +84,7 @@ Words words_of(std::string_view name) {
   return words;
 }
 
-// Whether a text contains a name, in any case, with no letter, digit or underscore beside it.
+// Returns true if a text contains a name as a whole word, in any case.
 bool has_whole_name(std::string_view text, std::string_view name) {
   const auto is_same = [](char a, char b) { return lower(a) == lower(b); };
   const auto is_outside = [](char character) { return !is_word_character(character) && character != '_'; };
@@ -108,13 +108,13 @@ bool has_whole_name(std::string_view text, std::string_view name) {
 constexpr std::uint16_t store_index = 0x1010;
 constexpr std::uint16_t restore_index = 0x1011;
 
-// A sub-index of 1010h or 1011h.
+// Sub-object of 1010h or 1011h.
 struct StoreSub {
   std::uint8_t sub_index = 0;
   std::string name;
   Words words;
 
-  // Whether the name allows this purpose: it says the same, or nothing.
+  // Returns true if the name has no distinguishing words, or only this purpose.
   bool allows(const char* purpose) const { return words.empty() || words == Words{purpose}; }
 };
 
@@ -132,7 +132,7 @@ bool is_for_communication(const Group& group, const Words& words) {
   return words.count(communication) != 0 || group.is_communication;
 }
 
-// The purpose of a group by CiA 301: that of sub-index 2, 3 or 4. [301:7.5.2.13]
+// Returns the purpose of a group in CiA 301, which defines sub-indexes 2, 3 and 4. [301:7.5.2.13]
 const char* purpose_of(const Group& group, const Words& words) {
   return is_for_communication(group, words) ? communication
          : words.count(application) != 0    ? application
@@ -163,11 +163,11 @@ class Assignment {
     failures_.resize(plan.groups.size());
   }
 
-  bool has_all() const { return has_all_; }  ///< sub-index 1 stands for all groups
+  bool has_all() const { return has_all_; }  ///< sub-index 1 is assigned to all groups
   bool has_only_all() const { return !has_all_ && places_.size() == 1 && places_.front().sub_index == 1; }
   bool has_any() const { return !places_.empty(); }
   std::uint8_t sub_of(std::size_t group) const { return subs_[group]; }
-  const std::string& failure_of(std::size_t group) const { return failures_[group]; }  ///< empty: none
+  const std::string& failure_of(std::size_t group) const { return failures_[group]; }  ///< reason; empty: none
 
   bool set(std::size_t group, std::uint8_t sub_index) {
     const auto place = place_at(sub_index);
@@ -186,7 +186,7 @@ class Assignment {
     set_where([this](std::size_t n, const StoreSub& place) { return !words_[n].empty() && words_[n] == place.words; });
   }
 
-  // Groups that are called like their purpose come before those that have other words, too.
+  // Assigns by purpose: first the groups whose names contain only words of their purpose, then the others.
   void set_by_purpose() {
     for (const bool has_other_words : {false, true}) {
       set_where([&](std::size_t n, const StoreSub& place) {
@@ -199,7 +199,7 @@ class Assignment {
     });
   }
 
-  // 1011h has the sub-indexes of 1010h.
+  // Assigns the sub-indexes of 1010h to 1011h.
   void set_like(const Assignment& other) {
     set_where([&](std::size_t n, const StoreSub& place) {
       const char* const purpose = purpose_of(plan_.groups[n], words_[n]);
@@ -207,7 +207,7 @@ class Assignment {
     });
   }
 
-  // "2 "Save communication parameters", 4 "Save drive""
+  // Returns the sub-indexes without group: "2 "Save communication parameters", 4 "Save drive"".
   std::string free_places() const {
     std::string list;
     for (const StoreSub& place : places_) {
@@ -224,7 +224,7 @@ class Assignment {
 
   bool is_open(std::size_t group) const { return subs_[group] == 0 && failures_[group].empty(); }
 
-  // Assigns where exactly one place fits a group and fits no other group.
+  // Assigns a place to a group if it is the only place that fits the group, and fits no other group.
   template <typename Fits>
   void set_where(Fits fits) {
     std::map<std::size_t, std::vector<std::uint8_t>> places;
@@ -256,15 +256,14 @@ class Assignment {
   }
 
   const Plan& plan_;
-  std::vector<StoreSub> places_;    // that no group has
-  std::vector<Words> words_;        // of each group
-  std::vector<std::uint8_t> subs_;  // of each group; 0: none
+  std::vector<StoreSub> places_;    // sub-indexes without group
+  std::vector<Words> words_;        // words of each group's name
+  std::vector<std::uint8_t> subs_;  // sub-index of each group; 0: none
   std::vector<std::string> failures_;
   bool has_all_ = false;
 };
 
-// What the user has said
-// -----------------------------------------------------------------------------------------------
+// Options --store -----------------------------------------------------------------------------------------------------
 
 std::size_t find_group(const Plan& plan, const std::string& name) {
   const auto group =
@@ -298,8 +297,7 @@ void set_by_option(const Plan& plan, const Options& options, Assignment& stores,
   }
 }
 
-// Where something is missing
-// -------------------------------------------------------------------------------------------
+// Missing sub-indexes -------------------------------------------------------------------------------------------------
 
 void report_unstored(const Plan& plan, const Assignment& stores, Findings& findings) {
   for (std::size_t n = 1; n < plan.groups.size(); ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// First versions of the symbols that the application has to define: they compile, and the node starts with them.
+// Stubs for the symbols that the application has to define: they compile, and the node starts with them.
 #include <algorithm>
 
 #include "gen/names.hpp"
@@ -42,7 +42,7 @@ void write_memory(const Item& item, const std::string& symbol, Lines& out) {
   }
 }
 
-// The variable has the value: the type does what the type of the stack does.
+// Functions of an object type with a variable: they call the functions of the stack's type.
 constexpr const char* forwarding_functions = R"(static uint32_t {0}_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {{
   return {1}->Size(obj, node, width);
 }}
@@ -55,7 +55,7 @@ static CO_ERR {0}_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size)
 }}
 )";
 
-// There is no variable: the stub has one.
+// Functions of an object type without a variable: the stub defines the memory.
 constexpr const char* own_functions = R"(static uint8_t {0}_value[{1}];
 static uint32_t {0}_size(CO_OBJ *obj, CO_NODE *node, uint32_t width) {{
   (void)obj;

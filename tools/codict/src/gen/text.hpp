@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file text.hpp
-/// Lines of generated source.
+/// Buffer for lines of generated source.
 #pragma once
 
 #include <fmt/format.h>

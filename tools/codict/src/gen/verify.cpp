@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program that starts a node with the generated dictionary, and prints what the stack says of it.
+// Program that starts a node with the generated dictionary and prints the errors that the stack reports.
 #include "gen/names.hpp"
 #include "gen/text.hpp"
 #include "gen/write.hpp"
@@ -67,7 +67,7 @@ static CO_NVM_SHAPE shape(void *ctx) {
 static const CO_IF_NVM_DRV_EX nvm = {init_memory, read_memory, write_memory, NULL, shape};
 )";
 
-// Braces are doubled for fmt.
+// Format text for fmt, in which braces are doubled.
 constexpr const char* start = R"(
 static CO_NODE node;
 static CO_NODE_EXT ext;

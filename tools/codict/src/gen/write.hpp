@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file write.hpp
-/// The text of the files that are generated, and what they cost.
+/// Texts and costs of the generated files.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace lexican::codict::gen {
 std::string write_header(const Plan& plan, const Options& options);
 std::string write_source(const Plan& plan, const Options& options);
 
-/// A part of the dictionary, in bytes on a CPU whose addresses have 32 bits.
+/// Cost of a part of the dictionary, in bytes on a CPU with 32-bit addresses.
 struct Cost {
   std::string part;  ///< "RAM", "PERSIST_COMM", "table", …
   std::size_t items = 0;
@@ -24,7 +24,7 @@ struct Cost {
 
 std::vector<Cost> costs_of(const Plan& plan);
 
-/// A symbol that the application has to define.
+/// Symbol that the application has to define.
 struct External {
   std::string name;         ///< "clock_2002_0"
   std::string declaration;  ///< "extern CO_OBJ_DOM clock_2002_0;"
@@ -33,16 +33,18 @@ struct External {
 
 std::vector<External> externals_of(const Plan& plan, const Options& options);
 
-/// The source of a file, C and C++ alike, which defines these symbols.
+/// Returns the source of a file, valid C and C++, that defines the externals.
 std::string write_stubs(const Plan& plan, const Options& options);
 
-/// Directives that name each setting of co_cfg.h that is too small for the plan, with its value.
+/// Returns preprocessor directives that report each setting of co_cfg.h that is too small for the plan, with its value.
 std::string write_requirements(const Plan& plan);
 
-/// The source of a program, C and C++ alike, that starts a node with the dictionary and prints what the stack says.
+/// Returns the source of a program, valid C and C++, that starts a node with the dictionary and prints the errors that
+/// the stack reports.
 std::string write_verify(const Plan& plan, const Options& options);
 
-/// \name Names that header and source share
+///
+/// ame Names used in header and source
 /// \{
 std::string macro_of(const Item& item, const Options& options);     ///< "CLOCK_2100_1"
 std::string external_of(const Item& item, const Options& options);  ///< "clock_2200_0"
