@@ -16,7 +16,7 @@ struct Grammar {
 
 namespace {
 
-// Positions of the given words; all of them are in the list, as one_of() has checked.
+// Returns the positions of the given words in the list; one_of() has checked that it contains them.
 std::vector<std::size_t> positions(const std::vector<std::string>& words, const std::vector<std::string>& given) {
   std::vector<std::size_t> result;
   result.reserve(given.size());
@@ -26,7 +26,7 @@ std::vector<std::size_t> positions(const std::vector<std::string>& words, const 
   return result;
 }
 
-// Returns the first word if there is no command and it is no option, else nothing.
+// Returns the first word if it is neither a command nor an option, else nothing.
 std::string unknown_command(const CLI::App& app) {
   const std::vector<std::string> words = app.remaining();
   const bool has_none = app.get_subcommands().empty() && !words.empty();

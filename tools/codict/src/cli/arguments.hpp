@@ -18,7 +18,7 @@ class Option;
 
 namespace lexican::codict::cli {
 
-struct Grammar;  // the objects of CLI11
+struct Grammar;  // defined in arguments.cpp, contains the objects of CLI11
 
 /// Handle of an option ("-o,--output") or positional argument ("file"). Copies refer to the same option.
 class Option {

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* schema = "codict-baseline-1";
 constexpr std::size_t longest_place = 200;
 
-// Not in the middle of a letter of UTF-8.
+// Limits a span to longest_place bytes, without splitting a UTF-8 character.
 Span shortened(const Source& source, Span span) {
   const std::string_view bytes = source.slice(span);
   std::size_t size = std::min(bytes.size(), longest_place);
@@ -26,7 +26,7 @@ Span shortened(const Source& source, Span span) {
   return {span.begin, span.begin + static_cast<std::uint32_t>(size)};
 }
 
-// "[2000] DefaultValue=5".
+// Returns the section and line of a finding: "[2000] DefaultValue=5".
 std::string place_in_eds(const eds::Document& document, Span span) {
   const Source& source = document.source();
   const std::uint32_t line = source.position(span.begin).line;
@@ -38,7 +38,7 @@ std::string place_in_eds(const eds::Document& document, Span span) {
   return "[" + section + "] " + document.text(shortened(source, source.line(line)));
 }
 
-// The tag in which it is, or the one before it.
+// Returns the tag that contains the place, or the one before it.
 std::string place_in_xml(const xdd::Document& document, Span span) {
   const Source& source = document.source();
   const std::size_t begin = source.bytes().rfind('<', span.begin);
@@ -50,7 +50,7 @@ std::string place_in_xml(const xdd::Document& document, Span span) {
 
 std::string place_of(const Input& input, Span span) {
   if (span == Span{}) {
-    return {};  // something is missing in the whole file
+    return {};  // the finding concerns the whole file
   }
   if (input.eds != nullptr) {
     return place_in_eds(*input.eds, span);
@@ -59,7 +59,7 @@ std::string place_of(const Input& input, Span span) {
   return input.xdd != nullptr ? place_in_xml(*input.xdd, span) : std::string(source.slice(shortened(source, span)));
 }
 
-// Blanks and ends of lines may change, too.
+// Replaces each sequence of white space by one blank, so that changed indentation does not matter.
 std::string with_single_blanks(std::string_view text) {
   std::string single;
   for (const char c : trimmed(text)) {

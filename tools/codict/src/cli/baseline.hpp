@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file baseline.hpp
-/// Findings that are known already, so that only new ones are told. Lines may move: a finding is known by its rule and
-/// text, and by the line or element in which it is.
+/// Baseline of known findings, so that only new ones are reported. A finding is identified by its rule and text and by
+/// the content of its line or element, so that it stays known when lines move.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +19,13 @@ namespace lexican::codict::cli {
 
 class Baseline {
  public:
-  /// Without a result, why is one line.
+  /// Reads a baseline from a file. On failure, why is the reason in one line.
   static std::optional<Baseline> read(const std::string& path, std::string& why);
 
   void add(const Input& input, const Finding& finding);
-  /// Whether the finding is known: each of those that are equal once.
+  /// Returns true if the baseline contains the finding, and removes one occurrence of it.
   bool take(const Input& input, const Finding& finding);
-  /// Those of a file that have not been taken; is_asked: of which rules.
+  /// Returns the number of a file's findings that take() has not removed, for the rules that is_asked selects.
   std::size_t left(const Input& input, const std::function<bool(const std::string&)>& is_asked) const;
 
   Json to_json() const;

@@ -35,7 +35,7 @@ struct Options {
   bool is_strict = false;
 };
 
-// What is made of all files.
+// Output for all files.
 struct Report {
   std::map<Severity, std::size_t> counts;
   Json files = Json::array();
@@ -83,8 +83,8 @@ void say_what_has_gone(const Input& input, const Options& options, const Baselin
   }
 }
 
-// Findings beyond the limit, by rule, as far as the options ask for them. Their places are not known: they are new to
-// every baseline.
+// Counts the findings beyond the limit, by rule, that the options select. They count as new to every baseline because
+// their places are not stored.
 Json count_dropped(const Input& input, const Options& options, Report& report) {
   std::map<Severity, std::size_t> counts;
   Json by_rule = Json::object();
@@ -173,7 +173,7 @@ void finish(const Options& options, Report& report, int status) {
   }
 }
 
-// False if something is wrong with them, which has been said.
+// Checks the options and reads the baseline. Returns false after a message if either is faulty.
 bool prepare(const Options& options, Report& report) {
   for (const std::string& id : options.disabled) {
     if (catalogue::find_rule(id) == nullptr) {

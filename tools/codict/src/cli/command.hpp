@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file command.hpp
-/// What the commands share: a file each, and a row in main.cpp.
+/// Declarations that all commands share. Each command is a file and an entry of the table in main.cpp.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@
 
 namespace lexican::codict::cli {
 
-/// What the program's exit status says.
+/// Exit status of the program.
 enum Status : int {
   clean = 0,
-  found = 1,       ///< findings, or differences
+  found = 1,       ///< findings or differences were found
   unusable = 2,    ///< wrong use, or input that cannot be read
-  unexpected = 3,  ///< a fault of the program
+  unexpected = 3,  ///< internal error of the program
 };
 
 struct Command {
@@ -55,9 +55,9 @@ Command add_pdo(CommandLine& line);
 Command add_set(CommandLine& line);
 Command add_size(CommandLine& line);
 
-/// A description that has been read, with what its reader found.
+/// Description that has been read, with the findings of its reader.
 struct Input {
-  std::unique_ptr<const eds::Document> eds;  ///< one of them is not null
+  std::unique_ptr<const eds::Document> eds;  ///< exactly one of these three pointers is not null
   std::unique_ptr<const xdd::Document> xdd;
   std::unique_ptr<const json::Document> json;
   Findings findings;
@@ -68,55 +68,55 @@ struct Input {
   const Device& device() const { return description.devices.front(); }
 };
 
-/// Why not is said on the standard error output.
+/// Reads a description. Prints the reason on the standard error output if that fails.
 std::optional<Input> load(const std::string& path);
-/// The same for commands that do not show what the reader has found: they say at least where it could read no further.
+/// Like load(), for commands that do not show the findings of the reader: prints only where it stopped reading.
 std::optional<Input> open(const std::string& path);
-/// The same for what is in memory already; without a result, why is one line.
+/// Like load(), for a description in memory. On failure, why is the reason in one line.
 std::optional<Input> read(Source source, std::string& why);
 
-/// Adds what the checks find to what the reader has found, by place; without what comments suppress.
+/// Adds the findings of the checks, sorted by place, without those that comments in the description suppress.
 void check_all(Input& input);
 
-/// Leaves out what comments of the description suppress; findings end up sorted.
+/// Removes the findings that comments in the description suppress, and sorts the others.
 void suppress(const Input& input, catalogue::Origin origin, Findings& findings);
 
-/// That there is no such thing, and which ones may be meant, or what names them all.
+/// Returns the message for an unknown word, with similar words of the list, else with the command that lists all words.
 std::string not_there(std::string_view what, std::string_view word, const std::vector<std::string_view>& words,
                       std::string_view catalogue);
-/// The same of a rule.
+/// Returns the message for an unknown rule.
 std::string unknown_rule(const std::string& id);
 
-/// "codict: text", on the standard error output; control characters are question marks.
+/// Prints "codict: text" on the standard error output, control characters as question marks.
 void complain(std::string_view text);
-/// Whether the standard output is one.
+/// Returns true if the standard output is a terminal.
 bool is_terminal();
-/// To the standard output.
+/// Prints on the standard output.
 void print(std::string_view text);
 std::string to_text(const Json& json);
 void print_json(const Json& json);
 
-/// "0x2000:1", "2000:1", "2000sub1", or without a sub-index; false if it is none of them.
+/// Object or sub-object in an argument: "0x2000:1", "2000:1", "2000sub1", "0x2000".
 struct Reference {
   std::uint16_t index = 0;
   std::optional<std::uint8_t> sub_index;
 };
 bool parse_reference(std::string_view text, Reference& reference);
-/// "2000:01", "2000".
+/// Returns "2000:01" or "2000".
 std::string to_string(const Reference& reference);
 
-/// Null if there is none; an object without a sub-index is itself.
+/// Returns the entry of a sub-object, or of the object if there is no sub-index; null if it is missing.
 const Entry* find(const Device& device, const Reference& reference);
 
-/// What the commands that read a description say of it in their help.
+/// Help text for the argument FILE of all commands that read a description.
 constexpr const char* file_help = "EDS, DCF, XDD, XDC, XPD or JSON, - for the standard input";
 
-/// --node-id: 0 until the user says one.
+/// Adds the option --node-id; node_id is 0 if it is not given.
 void add_node_id(Arguments& command, std::uint8_t& node_id);
-/// What the user says, else what the device is configured to, else 1.
+/// Returns the node-ID of the option, else that of the commissioning, else 1.
 std::uint8_t node_id_of(const Device& device, std::uint8_t asked);
 
-/// What a data type is called: by CiA 301, or by its number.
+/// Returns the name of a data type in CiA 301, else its number.
 std::string type_name(const Entry& entry);
 
 }  // namespace lexican::codict::cli

@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// "--level --disable …"
+// Returns the long names of a command's options: "--level --disable …".
 std::string long_names(const CommandText& command) {
   std::string names;
   for (const OptionText& option : command.options) {
@@ -23,7 +23,7 @@ std::string long_names(const CommandText& command) {
   return names;
 }
 
-// The first word is a command; later ones are options or, where bash completes them, files.
+// Completes a command as first word, then options, else files as bash does by default.
 constexpr std::string_view bash_head = R"(# Completion of codict in bash.
 _codict() {
   local word=${COMP_WORDS[COMP_CWORD]} words=
@@ -54,7 +54,7 @@ complete -o bashdefault -o default -F _codict codict
                               names, long_names(line.describe()));
 }
 
-// Puts a backslash before each of the marks.
+// Puts a backslash before each character in marks.
 std::string escaped(std::string_view text, std::string_view marks) {
   std::string result;
   for (const char c : text) {
@@ -63,7 +63,7 @@ std::string escaped(std::string_view text, std::string_view marks) {
   return result;
 }
 
-// 'text', as one word of zsh.
+// Returns 'text', quoted as one word of zsh.
 std::string zsh_word(std::string_view text) {
   std::string word;
   for (const char c : text) {
@@ -72,7 +72,7 @@ std::string zsh_word(std::string_view text) {
   return "'" + word + "'";
 }
 
-// Completes values: the words of the option, nothing for numbers, else files.
+// Returns the completion of an option's values: its words, nothing for numbers, else files.
 std::string zsh_values(const OptionText& option) {
   if (!option.words.empty()) {
     return fmt::format(":{}:({})", option.type, fmt::join(option.words, " "));
@@ -80,7 +80,7 @@ std::string zsh_values(const OptionText& option) {
   return fmt::format(":{}:{}", option.type, option.type == "UINT" ? " " : "_files");
 }
 
-// "        '*--level[Least severity …]:ENUM:(note warning error)' \", a line for each name.
+// Returns a line "        '*--level[Least severity …]:ENUM:(note warning error)' \" for each name of an option.
 std::string zsh_option(const OptionText& option) {
   if (!option.name.empty()) {
     return "";
@@ -131,7 +131,7 @@ std::string zsh_completion(const CommandLine& line) {
   return script + std::string(zsh_tail);
 }
 
-// 'text', as one word of fish.
+// Returns 'text', quoted as one word of fish.
 std::string fish_word(std::string_view text) { return "'" + escaped(text, "\\'") + "'"; }
 
 std::string fish_option(const OptionText& option, const std::string& condition) {

@@ -29,14 +29,14 @@ struct Options {
   std::string file;
   std::string output;
   std::string format;
-  std::uint8_t node_id = 0;  // 0, and empty texts: not given
+  std::uint8_t node_id = 0;  // 0, like empty texts: not given
   std::string bit_rate;
   std::string node_name;
   bool is_strict = false;
   bool is_all = false;
 };
 
-// A name for --to or an ending, and the formats whose bytes it leaves as they are.
+// Format for --to or a file extension, and the formats whose files it copies unchanged.
 struct Product {
   std::string_view name;
   Target target;
@@ -69,7 +69,7 @@ bool is_same(const Input& input, const Product& product) {
   return std::find(product.same.begin(), product.same.end(), input.device().format) != product.same.end();
 }
 
-// The edition that a file is left in, unless --to names another one.
+// Returns the XML edition of the output: that of the input, unless --to names another one.
 xdd::Edition edition_of(const Device& device, const Product& product) {
   const bool is_older = device.format == Format::xdd10 || device.format == Format::xdc10;
   return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
@@ -100,7 +100,7 @@ convert::NodeSettings settings_of(const Options& options) {
   return settings;
 }
 
-// Only a DCF, XDC or JSON describes a single node.
+// Returns true if the format can hold the settings of a node: DCF, XDC and JSON describe a single node.
 bool has_place(const convert::NodeSettings& settings, Target target) {
   const std::string fault = convert::fault_of(settings);
   if (!fault.empty()) {
@@ -113,7 +113,7 @@ bool has_place(const convert::NodeSettings& settings, Target target) {
   return false;
 }
 
-// Those that the writers replace.
+// Returns the number of characters that the output format cannot represent; the writers replace them.
 std::size_t impossible_characters(const Device& device, Target target) {
   std::size_t number = 0;
   json::for_each_text(device, [&](const std::string& text) {
@@ -139,7 +139,7 @@ std::vector<Loss> losses_of(const Input& input, Target target) {
   return losses;
 }
 
-// " (2000h en, 2000h de, 2001h, …)": the first ones, each once; empty where there are no places.
+// Returns the first places, each once: " (2000h en, 2000h de, 2001h, …)"; empty if there are none.
 std::string places_of(const Loss& loss, bool is_all) {
   constexpr std::size_t most = 3;
   std::vector<std::string> places;
@@ -153,7 +153,7 @@ std::string places_of(const Loss& loss, bool is_all) {
   return places.empty() ? "" : fmt::format(" ({})", fmt::join(places, ", "));
 }
 
-// "codict: drive.xdd: left out: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de, 2001h en, …)"
+// Prints "codict: drive.xdd: left out: 3 units (2000h, 2001h, 2002h), 40 descriptions (2000h en, 2000h de, …)".
 void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   std::vector<std::string> parts;
   parts.reserve(losses.size());
@@ -163,7 +163,7 @@ void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
   complain(fmt::format("{}: left out: {}", input.source().name(), fmt::join(parts, ", ")));
 }
 
-// The same format has the same bytes, but for the settings of the node.
+// Copies a file without change of format: only the settings of the node change, all other bytes are equal.
 int copy(const Input& input, const convert::NodeSettings& settings, const Options& options) {
   std::string bytes(input.source().bytes());
   if (settings.is_any() && !convert::commission(settings, *input.eds, bytes)) {

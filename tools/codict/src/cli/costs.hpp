@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file costs.hpp
-/// What gen and size say of a dictionary.
+/// RAM and flash of a dictionary, as gen and size print them.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace lexican::codict::cli {
 
-/// A line for each part, and their sum.
+/// Returns a table with a line for each part, and the sum.
 std::string costs_text(const std::vector<gen::Cost>& costs);
 Json costs_json(const std::vector<gen::Cost>& costs);
 

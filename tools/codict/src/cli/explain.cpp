@@ -28,7 +28,7 @@ Json to_json(const Rule& rule) {
           {"page", catalogue::link_to(rule)}};
 }
 
-// Rules of networks have no page: no single description breaks them.
+// Returns a rule of networks, null for an unknown id. These rules have no page, as no single description breaks them.
 const Rule* find_network_rule(const std::string& id) {
   const std::vector<const Rule*>& rules = network::all_rules();
   const auto place = std::find_if(rules.begin(), rules.end(), [&id](const Rule* rule) { return rule->id == id; });

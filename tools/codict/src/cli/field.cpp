@@ -13,14 +13,14 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// Of an XML description, the parameter may say it alone.
+// Returns the data type as written. In XML it may be given by the parameter only.
 const Text& type_of(const Entry& entry) {
   return entry.data_type.is_given || !entry.type.iec.is_given ? entry.data_type : entry.type.iec;
 }
 
 struct Word {
   std::string_view field;
-  std::string_view key;  // of CiA 306
+  std::string_view key;  // key of CiA 306
   const Text& (*text)(const Entry&);
 };
 
@@ -44,7 +44,8 @@ const Word* find_word(std::string_view field) {
   return word != words.end() ? word : nullptr;
 }
 
-// An object without sub-objects is its own sub-index 0, and its section has no sub-index.
+// Returns true if the section describes the referenced entry. An object without sub-objects has a section without
+// sub-index, which is its sub-index 0.
 bool is_section_of(const eds::SectionName& name, const Reference& reference, bool is_variable) {
   if (name.index != reference.index) {
     return false;
@@ -55,7 +56,7 @@ bool is_section_of(const eds::SectionName& name, const Reference& reference, boo
   return name.kind == eds::SectionKind::sub && name.sub_index == *reference.sub_index;
 }
 
-// The list of compact storage that has a field of its sub-objects; empty if there is none. [306: 4.6.4]
+// Returns the list of compact storage that contains a field of sub-objects; empty if there is none. [306: 4.6.4]
 std::string_view list_of(std::string_view key) {
   return key == "ParameterName"    ? "Name"
          : key == "ParameterValue" ? "Value"

@@ -43,7 +43,7 @@ struct Options {
   bool is_forced = false;
 };
 
-// For --check: says what would be written.
+// Prints what --check finds: a missing file, or one that differs from the generated text.
 Status compare(const std::string& path, const std::string& bytes) {
   if (!std::filesystem::exists(path)) {
     complain(path + " is missing");
@@ -61,7 +61,7 @@ Status compare(const std::string& path, const std::string& bytes) {
   return present->bytes() == bytes ? clean : found;
 }
 
-// "1010h sub 5 (Save PERSIST_APP)"
+// Returns "1010h sub 5 (Save PERSIST_APP)".
 std::string sub_text(const char* object, std::uint8_t sub_index, const std::string& name) {
   return sub_index == 0 ? fmt::format("no sub-index of {}", object)
                         : fmt::format("{} sub {:X} ({})", object, sub_index, name);
@@ -111,7 +111,7 @@ Json report_json(const std::vector<gen::File>& files, const gen::Output& output)
   return json;
 }
 
-// With the name that the file has inside.
+// Returns the description of the generated device, with the file name of the path in it.
 template <typename Write>
 gen::File description(const gen::Output& output, const std::string& path, Write write) {
   Device device = output.device;
@@ -120,7 +120,7 @@ gen::File description(const gen::Output& output, const std::string& path, Write 
   return {path, write(device)};
 }
 
-// Sources, and the descriptions that match them, by their paths.
+// Returns all files with their paths: the sources, and the descriptions that match them.
 std::vector<gen::File> files_of(const Options& options, const gen::Output& output) {
   std::vector<gen::File> files = output.files;
   for (gen::File& file : files) {
@@ -140,7 +140,7 @@ std::vector<gen::File> files_of(const Options& options, const gen::Output& outpu
   return files;
 }
 
-// What would be written over the description, or over another one of them, has been said.
+// Returns false after a message if a file would overwrite the description, or if two files have the same path.
 bool have_places(const Options& options, const std::vector<gen::File>& files) {
   for (std::size_t n = 0; n < files.size(); ++n) {
     const std::string& path = files[n].name;
@@ -154,7 +154,7 @@ bool have_places(const Options& options, const std::vector<gen::File>& files) {
   return true;
 }
 
-// A file of the application is never overwritten; what it does not name is listed.
+// Writes the stubs unless the file exists, which then belongs to the application; prints the symbols that it lacks.
 Status write_stubs(const Options& options, const gen::Output& output) {
   if (options.stubs.empty() || options.is_check || output.externals.empty()) {
     return clean;
@@ -177,7 +177,7 @@ Status write_stubs(const Options& options, const gen::Output& output) {
   return clean;
 }
 
-// What the generator has found, and the errors of the description. True if there are none of these.
+// Shows the generator's findings and the errors of the description. Returns true if the description has no errors.
 bool show(Input& input, const Findings& findings, bool shows_notes) {
   check_all(input);
   show_findings(input, input.findings, Severity::error);
@@ -239,7 +239,7 @@ int run(Options options) {
 
 }  // namespace
 
-// A file of another format under this name would be taken for what it is not.
+// Checks the extension of a path: a file of another format under this name would be misread by other tools.
 std::function<std::string(const std::string&)> ends_with(const char* ending) {
   return [ending](const std::string& path) {
     const std::string given = ending_of(path);

@@ -19,7 +19,7 @@ struct Options {
   bool is_json = false;
 };
 
-// As it is written, to the byte; but a terminal must not obey it.
+// Returns the exact text; on a terminal, with question marks for control characters.
 std::string value(const std::string& text) { return is_terminal() ? visible(text) : text; }
 
 Json to_json(const Input& input, const eds::Key& key) {
@@ -76,7 +76,7 @@ Json to_json(const Input& input, std::string_view field, const Text& text) {
   return {{"key", field}, {"text", text.text}, {"line", position.line}, {"column", position.column}};
 }
 
-// XML has no sections: an object is what the reader has made of its elements.
+// Prints an object of an XML description, which has no sections: the fields that the reader found in its elements.
 int get_from_elements(const Input& input, const Options& options) {
   std::string why;
   const Entry* const entry = find_entry(input, options.target, why);

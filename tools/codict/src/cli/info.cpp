@@ -77,7 +77,7 @@ Json describe(const Input& input) {
   return json;
 }
 
-// "receive_pdos" is "Receive PDOs" for people.
+// Returns a title for the output as text: "Receive PDOs" for "receive_pdos".
 std::string title(const std::string& name) {
   constexpr std::array<std::string_view, 3> abbreviations = {"pdo", "sdo", "id"};
   std::string result;

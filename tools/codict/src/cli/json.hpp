@@ -35,7 +35,7 @@ class Json {
       push_back(element);
     }
   }
-  /// Object: Json{{"name", 1}, {"other", "text"}}.
+  /// Constructs an object: Json{{"name", 1}, {"other", "text"}}.
   Json(std::initializer_list<Member> members);
 
   static Json array(std::initializer_list<Json> elements = {});
@@ -48,9 +48,9 @@ class Json {
   bool boolean() const { return number_ != 0; }
   bool is_signed() const { return is_signed_; }
   std::uint64_t number() const { return number_; }
-  /// Elements of an array.
+  /// Returns the elements of an array.
   const std::vector<Json>& elements() const { return elements_; }
-  /// Members of an object.
+  /// Returns the members of an object.
   const std::vector<Member>& members() const { return members_; }
 
   /// Appends to an array; null becomes one.
@@ -58,7 +58,7 @@ class Json {
   /// Returns the member of this name and adds it if there is none; null becomes an object.
   Json& operator[](std::string_view name);
 
-  /// indentation: blanks per level, -1 for one line. Invalid UTF-8 is replaced.
+  /// Serialises the value. indentation: blanks per level, -1 for one line. Invalid UTF-8 is replaced.
   std::string dump(int indentation = -1) const;
 
  private:

@@ -7,7 +7,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// U+0080 to U+009F are C2h and one of these.
+// Returns true for U+0080 to U+009F: in UTF-8, C2h and a byte below A0h.
 bool is_c1(std::string_view letter) {
   return letter.size() > 1 && letter[0] == '\xC2' && static_cast<unsigned char>(letter[1]) < 0xA0;
 }

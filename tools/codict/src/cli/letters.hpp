@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file letters.hpp
-/// Texts of descriptions as people see them. All are UTF-8.
+/// Texts of descriptions for the terminal. All are UTF-8.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace lexican::codict::cli {
 
-/// Whether a byte is behind the first one of its letter.
+/// Returns true for a continuation byte of UTF-8.
 constexpr bool continues_letter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; }
 
 std::size_t letters(std::string_view text);
 
-/// One line with nothing that a terminal would obey: control characters are question marks, but for those of `kept`.
+/// Returns the text in one line, with question marks for control characters, except for those in `kept`.
 std::string visible(std::string_view text, std::string_view kept = {});
 
 }  // namespace lexican::codict::cli

@@ -34,7 +34,7 @@ struct Options {
   bool is_json = false;
 };
 
-// What a build knows of the device, and where it stands.
+// Word of --set that a build supplies, and the field that it sets.
 struct Word {
   std::string_view name;
   std::string_view target;
@@ -52,8 +52,8 @@ constexpr std::string_view software_version = "100A:0";
 
 struct Merged {
   Input input;
-  std::map<std::pair<std::string, std::string>, std::string> sources;  // who has said a value last
-  std::vector<std::pair<Replaced, std::string>> replaced;              // and by whom
+  std::map<std::pair<std::string, std::string>, std::string> sources;  // by section and key: last overlay
+  std::vector<std::pair<Replaced, std::string>> replaced;              // with the overlay that replaced it
 };
 
 void tell(Merged& merged, const std::string& base, const std::string& overlay, std::vector<Replaced> replaced) {
@@ -68,7 +68,7 @@ void tell(Merged& merged, const std::string& base, const std::string& overlay, s
   }
 }
 
-// False has been said.
+// Merges an overlay. Returns false after a message if that fails.
 bool add(Merged& merged, const eds::Document& overlay, const std::string& base) {
   std::vector<Replaced> replaced;
   std::string bytes;
@@ -88,7 +88,8 @@ bool add(Merged& merged, const eds::Document& overlay, const std::string& base) 
   return true;
 }
 
-// What a device of another format says, as lines of a DCF. What it does not say replaces nothing, nor does its name.
+// Returns a device of another format as lines of a DCF, without its file information and without empty values, which
+// would replace values of the base.
 std::string lines_of(Device device) {
   device.file = {};
   eds::WriteOptions options;
@@ -125,7 +126,7 @@ Status add_file(Merged& merged, const std::string& path, const Device& base, con
   return is_added ? clean : unusable;
 }
 
-// The section of a target with one key; empty if there is no such target, and why is one line.
+// Returns the section of a target with one key; empty if there is no such target. why is then the reason in one line.
 std::string lines_for(const Input& input, const std::string& target, std::string_view field, std::string_view value,
                       std::string& why) {
   Reference reference;
@@ -139,7 +140,7 @@ std::string lines_for(const Input& input, const std::string& target, std::string
                             : fmt::format("[{}]\n{}={}\n", input.eds->text(section->name), key_of(field), value);
 }
 
-// "serial=5" and "1018:4.default=5" as lines of an EDS.
+// Returns the EDS lines for "serial=5" or "1018:4.default=5".
 std::string lines_for(const Input& input, std::string_view assignment, std::string& why) {
   Assignment parsed;
   if (!parse_assignment(assignment, parsed, why)) {

@@ -36,13 +36,13 @@ struct Options {
   bool shows_notes = false;
 };
 
-// A network with the files that it comes from.
+// Network with the files from which it was read.
 struct Project {
   network::Network network;
-  Findings findings;  // of the plan
+  Findings findings;  // findings of the plan
   std::optional<Source> plan;
-  std::vector<Input> inputs;       // by node, of a network without a plan
-  std::vector<std::string> paths;  // all that was read
+  std::vector<Input> inputs;       // descriptions by node, for a network without a plan
+  std::vector<std::string> paths;  // paths of all files that were read
 };
 
 bool is_plan(const std::string& path) {
@@ -54,7 +54,7 @@ std::string beside(const std::string& plan, const std::string& path) {
   return (std::filesystem::path(plan).parent_path() / path).string();
 }
 
-// False, with a message, if a description cannot be read.
+// Reads the descriptions of a plan. Returns false after a message if one of them cannot be read.
 bool read_devices(const network::Plan& plan, Project& project, std::vector<Device>& devices) {
   std::map<std::string, Device> known;
   for (const network::PlannedSlave& slave : plan.slaves) {
@@ -88,7 +88,7 @@ std::optional<Project> planned_project(const Options& options) {
   }
   std::vector<Device> devices;
   if (project.findings.count(Severity::error) != 0) {
-    project.network.is_planned = true;  // it has no nodes
+    project.network.is_planned = true;  // the network has no nodes
   } else if (!read_devices(plan, project, devices)) {
     return std::nullopt;
   } else {
@@ -118,7 +118,7 @@ std::optional<Project> described_project(const Options& options) {
   return project;
 }
 
-// Findings of each source, rendered; as JSON beside it.
+// Returns the findings of each source as text, and appends them to json.
 std::string shown(const Project& project, const network::NetworkFindings& findings, bool shows_notes, Json& json) {
   std::string text;
   const auto show = [&](const Source& source, Encoding encoding, const Findings& all) {

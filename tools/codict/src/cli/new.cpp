@@ -31,7 +31,7 @@ struct Options {
   bool is_forced = false;
 };
 
-// Returns the name of the project, from that of its directory.
+// Returns the name of the project, derived from that of its directory.
 std::string project_name(const std::string& directory) {
   std::error_code ignored;
   const std::filesystem::path path = std::filesystem::weakly_canonical(directory, ignored);
@@ -56,8 +56,8 @@ std::optional<Input> description_of(const Options& options) {
               why);
 }
 
-// Selects the TPDO that the program sends: it has a COB-ID, its mapping is complete, and events or every few SYNCs
-// trigger it.
+// Returns true if the program can trigger a TPDO: its mapping is complete, and it is event-driven or transmitted at
+// least every 20 SYNCs.
 bool can_be_sent(const Pdo& pdo) {
   constexpr std::uint64_t most_syncs = 20;
   constexpr std::uint64_t first_event_driven = 254;
@@ -126,7 +126,7 @@ std::vector<project::File> files_of(const Options& options, const Input& input, 
   return files;
 }
 
-// Writes all files, or none if one of them exists.
+// Writes all files, or no file if one of them exists.
 int write_new(const std::string& directory, const std::vector<project::File>& files) {
   std::error_code error;
   for (const project::File& file : files) {
@@ -151,7 +151,7 @@ int write_new(const std::string& directory, const std::vector<project::File>& fi
   return clean;
 }
 
-// Returns true if the description has no errors; shows them, and what the generator has found.
+// Shows the findings of the description and of the generator. Returns true if the description has no errors.
 bool review_description(Input& input, Findings& findings) {
   suppress(input, catalogue::Origin::generator, findings);
   check_all(input);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file output.hpp
-/// Files that commands make.
+/// Files that commands write.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace lexican::codict::cli {
 
-/// Whole or not at all, and not touched if it has these bytes already; "-" is the standard output.
+/// Writes a file atomically, or leaves it unchanged if it already contains these bytes; "-" is the standard output.
 Status write_output(const std::string& path, std::string_view bytes);
 
-/// Creates a directory and those above it. False, with a message, if that fails.
+/// Creates a directory and its parents. Returns false after a message if that fails.
 bool make_directory(const std::string& path);
 
-/// Whether two paths lead to one file, "-" to none.
+/// Returns true if both paths refer to the same file; "-" refers to no file.
 bool is_same_file(const std::string& a, const std::string& b);
 
-/// "html" of "docs/drive.HTML"; empty if there is none.
+/// Returns the file extension in lower case: "html" for "docs/drive.HTML"; empty if there is none.
 std::string ending_of(std::string_view path);
 
 }  // namespace lexican::codict::cli

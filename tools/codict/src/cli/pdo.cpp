@@ -23,7 +23,7 @@ struct Options {
   bool is_json = false;
 };
 
-// A PDO, in words, and its COB-ID; null if it has none.
+// PDO with its contents and its COB-ID, which is null if it has none.
 struct Row {
   const Pdo& pdo;
   const doc::PdoItem& item;
@@ -40,10 +40,10 @@ const Value* value_of(const Pdo& pdo, std::uint8_t sub_index) {
   return is_number ? &value_in_force(*entry) : nullptr;
 }
 
-// Signs for the parts of a picture: a PDO has 64 bits.
+// Letters for the mapped objects in a picture: a PDO has up to 64 bits.
 constexpr std::string_view signs = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+*";
 
-// A line for each byte, bit 7 on the left.
+// Returns a picture with a line for each byte, bit 7 on the left.
 std::string picture_of(const doc::PdoItem& item) {
   std::string bits(std::size_t{8} * ((std::min(item.bits, 64U) + 7) / 8), '.');
   for (std::size_t n = 0; n < std::min(item.parts.size(), signs.size()); ++n) {

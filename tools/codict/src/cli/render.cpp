@@ -14,8 +14,8 @@ namespace lexican::codict::cli {
 
 namespace {
 
-constexpr std::uint32_t widest = 160;  // bytes of a line that are shown
-constexpr std::uint32_t ahead = 60;    // of them in front of the place, in longer lines
+constexpr std::uint32_t widest = 160;  // largest number of bytes of a line that are shown
+constexpr std::uint32_t ahead = 60;    // number of these bytes in front of the place, in longer lines
 
 constexpr std::string_view bold = "\x1B[1m";
 constexpr std::string_view plain = "\x1B[0m";
@@ -33,7 +33,7 @@ std::string shown(const Source& source, Encoding encoding, Span span) {
   return visible(to_utf8(source.slice(span), encoding), "\t");
 }
 
-// What is as wide as the text: tabs are as wide as tabs.
+// Returns blanks of the same width as the text; tabs are kept.
 std::string blanks_for(const std::string& text) {
   std::string blanks;
   for (const char c : text) {

@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// Returns the first finding of each kind that is more frequent than before.
+// Returns the first finding of each kind that occurs more often than before.
 std::vector<Finding> added(const Findings& before, const Findings& after) {
   std::vector<Finding> result;
   const std::vector<Folded> old = fold(before.all());

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file review.hpp
-/// A description before and after a change.
+/// Comparison of the findings before and after a change.
 #pragma once
 
 #include "cli/command.hpp"
 
 namespace lexican::codict::cli {
 
-/// True if what would be written has no errors that were not there before. All that is new is shown, in its place of
-/// the output.
+/// Shows all new findings, with their places in the output. Returns true if the changed description has no new errors.
 bool review(Input& before, Input& after, const std::string& output);
 
 }  // namespace lexican::codict::cli

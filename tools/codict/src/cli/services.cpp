@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// What stands for itself in a workflow command; colons and commas do in messages only.
+// Escapes characters of a workflow command as % and two digits; colons and commas are escaped in properties only.
 std::string escaped(std::string_view text, std::string_view signs) {
   std::string result;
   for (const char c : text) {
@@ -28,7 +28,7 @@ std::string escaped_property(std::string_view text) { return escaped(text, "%\r\
 
 std::string_view github_word(Severity severity) { return severity == Severity::note ? "notice" : name_of(severity); }
 
-// A relative reference: what is no plain letter is a % and two digits. [RFC 3986]
+// Returns a path as relative reference: all characters but the unreserved ones and "/" are percent-encoded. [RFC 3986]
 std::string to_uri(std::string_view path) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   std::string uri;
@@ -44,7 +44,7 @@ std::string message_with_hint(const Finding& finding) {
   return message_of(finding) + (finding.hint.empty() ? "" : "\nfix: " + finding.hint);
 }
 
-// Columns are characters there, not bytes.
+// Returns the column in characters, not bytes, as SARIF counts them.
 std::size_t column_of(const Input& input, std::uint32_t offset) {
   const Source& source = input.source();
   const Position position = source.position(offset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file services.hpp
-/// Findings for services that show them beside the source.
+/// Output of findings for services that show them beside the source.
 #pragma once
 
 #include <map>
@@ -13,14 +13,14 @@
 
 namespace lexican::codict::cli {
 
-/// Workflow commands of GitHub: a line for each.
+/// Returns workflow commands of GitHub, a line for each finding.
 std::string to_github(const Source& source, const std::vector<Folded>& findings);
 
-/// One run of SARIF 2.1.0 over all files.
+/// SARIF 2.1.0 document with one run for all files.
 class Sarif {
  public:
   void add(const Input& input, const std::vector<Finding>& findings);
-  /// is_complete: every file could be read.
+  /// Returns the document. is_complete: all files could be read.
   Json document(bool is_complete) const;
 
  private:

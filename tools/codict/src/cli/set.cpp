@@ -30,7 +30,7 @@ struct Options {
   bool is_json = false;
 };
 
-// Why nothing is changed.
+// Reason why nothing is changed, and the exit status for it.
 struct Refusal {
   std::string why;
   Status status = unusable;
@@ -43,7 +43,7 @@ bool assign(const eds::Document& document, const eds::Section& section, const As
                         : document.add_key(section, name, assignment.text, edits);
 }
 
-// What an object says of itself. [311: CANopenObject]
+// Returns the XML attribute of a field, empty if it has none. [311: CANopenObject]
 std::string_view attribute_of(std::string_view field) {
   struct Word {
     std::string_view field;
@@ -76,7 +76,7 @@ bool assign(const xdd::Document& document, const Entry& entry, const Assignment&
   return !attribute.empty() && document.add_attribute(entry.span.begin, attribute, assignment.text, edits);
 }
 
-// False leaves why not.
+// Sets fields in lists of compact storage. On failure, why is the reason.
 bool assign_to_lists(const Input& input, const Reference& reference, const Options& options, std::string& bytes,
                      std::string& why) {
   std::string lines;
@@ -95,7 +95,7 @@ bool assign_to_lists(const Input& input, const Reference& reference, const Optio
   return true;
 }
 
-// False leaves why not.
+// Adds the edits for all assignments. On failure, refusal has the reason.
 bool assign_all(const Input& input, const Options& options, Edits& edits, Refusal& refusal) {
   if (input.json != nullptr) {
     refusal.why = "values of JSON are changed by programs for JSON";
@@ -118,7 +118,7 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, Refusa
   });
 }
 
-// A second value for one field is a mistake.
+// Returns false if a field is given twice, which is a mistake of the user.
 bool has_fields_once(const Options& options, std::string& why) {
   std::vector<std::string_view> fields;
   for (const std::string& each : options.assignments) {
@@ -161,7 +161,7 @@ int write(const Options& options, const Input& input, const std::string& bytes) 
   return status;
 }
 
-// Whether a file of this name has the bytes of another format in it: set converts nothing.
+// Returns true if the extension of the output contradicts the format of the input, which set does not convert.
 bool is_of_another_format(const Input& input, const std::string& path) {
   const std::string ending = ending_of(path);
   const bool is_sections = ending == "eds" || ending == "dcf";

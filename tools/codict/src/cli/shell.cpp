@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// What roff would take for a hyphen, an escape or a request.
+// Escapes characters that roff would interpret as a hyphen, an escape or a request.
 std::string roff(std::string_view text) {
   std::string result = text.substr(0, 1) == "." || text.substr(0, 1) == "'" ? "\\&" : "";
   for (const char c : text) {
@@ -21,7 +21,7 @@ std::string roff(std::string_view text) {
   return result;
 }
 
-// "-o, --output TEXT"
+// Returns "-o, --output TEXT", marked up for roff.
 std::string roff_of(const OptionText& option) {
   if (!option.name.empty()) {
     return "\\fI" + roff(option.name) + "\\fR";

@@ -9,7 +9,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// Hexadecimal, with or without 0x, as all sub-indexes of the command line; "none" is 0.
+// Parses a sub-index: hexadecimal with or without 0x, like all sub-indexes in arguments; "none" is 0.
 bool parse_sub(std::string_view text, std::uint8_t& sub_index) {
   constexpr std::uint8_t most = 0x7F;
   sub_index = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file stores.hpp
-/// --store GROUP=SUB, the sub-index of 1010h for a storage group.
+/// Option --store GROUP=SUB: sub-index of 1010h for a storage group.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace lexican::codict::cli {
 
 void add_stores(Arguments& command, std::vector<std::string>& stores);
 
-/// Returns false after a message if one of them is malformed.
+/// Parses the values of --store. Returns false after a message if one of them is malformed.
 bool parse_stores(const std::vector<std::string>& stores, gen::Options& options);
 
 }  // namespace lexican::codict::cli

@@ -19,7 +19,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// A directory of the user, or a temporary one, which is removed.
+// Build directory: that of the user, or a temporary one, which the destructor removes.
 class BuildDirectory {
  public:
   explicit BuildDirectory(const std::string& given) : path_(given), is_temporary_(given.empty()) {
@@ -49,7 +49,7 @@ class BuildDirectory {
   bool is_temporary_ = false;
 };
 
-// One word of a shell.
+// Quotes a text as one word of a shell.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) {
@@ -58,7 +58,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// A bracket argument of CMake, in which nothing is special.
+// Returns a bracket argument of CMake, in which no character is special.
 std::string bracketed(const std::string& text) { return "[==[" + text + "]==]"; }
 
 std::string project_text(const gen::Output& output, const gen::Options& gen, const VerifyOptions& options) {
@@ -75,7 +75,7 @@ std::string project_text(const gen::Output& output, const gen::Options& gen, con
   text += fmt::format("set(LEXICAN_PRESET {} CACHE STRING \"\" FORCE)\n", bracketed(options.preset));
   text += fmt::format("add_subdirectory({} lexican EXCLUDE_FROM_ALL)\n",
                       bracketed(std::filesystem::absolute(options.stack)));
-  // The program alone is compiled first: it refuses a configuration that is too small before the stack is compiled.
+  // Compiles the program before the stack, so that too small a configuration is reported early.
   text += fmt::format("add_library(requirements OBJECT EXCLUDE_FROM_ALL verify.{})\n", ending);
   text += "target_link_libraries(requirements PRIVATE lexican)\n";
   text += fmt::format("add_executable(verify $<TARGET_OBJECTS:requirements> {})\n", output.files.at(1).name);
@@ -107,7 +107,7 @@ void for_lines(const std::string& text, Function function) {
   }
 }
 
-// What the compiler was made to say about the configuration; else its errors; else all.
+// Prints the settings that the #pragma messages of the compiler report; else its errors; else the complete log.
 void complain_of_build(const std::string& log) {
   constexpr const char* mark = "verify: the description has ";
   std::vector<std::string> refusals;
@@ -141,7 +141,7 @@ void complain_of_build(const std::string& log) {
   }
 }
 
-// Runs a command of the shell; what it says goes into a log.
+// Runs a command of the shell and writes its output to a log file.
 bool run_logged(const std::string& command, const std::string& log) {
   return std::system(fmt::format("{} >{} 2>&1", command, quoted(log)).c_str()) == 0;
 }

@@ -15,17 +15,17 @@ namespace lexican::codict::cli {
 struct VerifyOptions {
   bool is_wanted = false;
   std::string stack;                     ///< directory with the sources of the stack
-  std::string preset = "slave";          ///< of config/presets
+  std::string preset = "slave";          ///< name of a file in config/presets
   std::vector<std::string> definitions;  ///< "CO_RPDO_N=8"
-  std::string build_directory;           ///< empty: a temporary one
+  std::string build_directory;           ///< directory for the compiled stack; empty: a temporary one
 };
 
 void add_verify(Arguments& command, VerifyOptions& options);
 
-/// Returns false after a message if the options cannot be used.
+/// Checks the options. Returns false after a message if they cannot be used.
 bool check_verify(const VerifyOptions& options);
 
-/// Prints what the stack says. Returns clean if it says nothing.
+/// Builds and runs the program. Prints the errors that the stack reports; returns clean if there are none.
 Status verify(const gen::Output& output, const gen::Options& gen, const VerifyOptions& options);
 
 }  // namespace lexican::codict::cli
