@@ -32,15 +32,15 @@ bool is_synchronous(const Network& network, const ActivePdo& pdo) {
   return type <= last_synchronous || (type == remote_synchronous && pdo.pdo.is_transmit);
 }
 
-// "TPDO 1 of drive (node 2)"
+// Returns "TPDO 1 of drive (node 2)".
 std::string title_of(const Network& network, const ActivePdo& pdo) {
   return fmt::format("{} of {}", pdo.title(), network.nodes[pdo.node].title());
 }
 
 std::string cob_id_of(const ActivePdo& pdo) { return cob_id_text(pdo.identifier, pdo.is_extended); }
 
-// Whether frames of a service come from this node. A request to an SDO server is the server's own, too: two servers
-// with one request identifier answer both.
+// Returns true if a COB-ID may be used by one service only. The request of an SDO server is included although the
+// client transmits it: two servers with the same request COB-ID would both respond.
 bool is_owned(const CobId& cob_id) {
   const std::string_view service = cob_id.service;
   const auto begins = [service](std::string_view word) { return service.substr(0, word.size()) == word; };
@@ -122,7 +122,7 @@ void check_unconnected(const Network& network, const Links& links, std::size_t a
                            is_transmit ? 't' : 'r', pdo.pdo.number));
 }
 
-// In ms; 0: unknown.
+// Returns the longest period of a PDO in ms, 0 if it is unknown.
 std::uint64_t longest_period_ms(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = transmission_of(network, pdo);
   if (type == 0 || type > last_synchronous) {
@@ -220,7 +220,7 @@ void check_consumers(const Network& network, std::size_t at, std::vector<bool>& 
   }
 }
 
-// In ms; 0: the master does not guard it.
+// Returns the guard time in ms, 0 if the master does not guard the node.
 std::uint64_t guard_time(const Network& network, const Node& slave) {
   for (const Node& node : network.nodes) {
     const std::uint64_t assignment = node.is_master ? node.number_or(0x1F81, slave.node_id, 0) : 0;
@@ -350,7 +350,7 @@ void check_sync(const Network& network, const Links& links, NetworkFindings& fin
   if (found < 0) {
     const auto pdo = std::find_if(links.pdos.begin(), links.pdos.end(),
                                   [&network](const ActivePdo& each) { return is_synchronous(network, each); });
-    if (pdo != links.pdos.end()) {  // one finding for all of them
+    if (pdo != links.pdos.end()) {  // one finding for all synchronous PDOs
       findings.add(rules::sync_missing, pdo->node, pdo->pdo.parameter(2),
                    fmt::format("{} is synchronous (transmission type {}), and no node produces SYNC",
                                title_of(network, *pdo), transmission_of(network, *pdo)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file check.hpp
-/// What is wrong between the nodes of a network.
+/// Checks between the nodes of a network.
 #pragma once
 
 #include "network/links.hpp"
@@ -8,19 +8,19 @@
 
 namespace lexican::codict::network {
 
-/// All checks below, and check_nodes().
+/// Runs all checks below, and check_nodes().
 void check_all(const Network& network, const Links& links, NetworkFindings& findings);
 
-/// Identifiers that two services transmit. [301: 7.3.5]
+/// Reports COB-IDs that two services transmit. [301: 7.3.5]
 void check_cob_ids(const Network& network, NetworkFindings& findings);
 
-/// TPDOs without consumer, RPDOs without producer, lengths and deadlines.
+/// Reports TPDOs without consumer, RPDOs without producer, different lengths, and deadlines that are too short.
 void check_links(const Network& network, const Links& links, NetworkFindings& findings);
 
-/// Heartbeat consumers against producers, node guarding against life guarding. [301: 7.2.8.3]
+/// Checks heartbeat consumers against producers, and node guarding against life guarding. [301: 7.2.8.3]
 void check_error_control(const Network& network, NetworkFindings& findings);
 
-/// SYNC producers and consumers, counters, synchronous PDOs. [301: 7.2.5]
+/// Checks SYNC producers and consumers, counters and synchronous PDOs. [301: 7.2.5]
 void check_sync(const Network& network, const Links& links, NetworkFindings& findings);
 
 /// Returns the node that produces SYNC: the first one with bit 30 of 1005h; -1 if there is none.

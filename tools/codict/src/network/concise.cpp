@@ -104,7 +104,7 @@ void Writer::add_communication(const Object& object) {
   }
 }
 
-// The number of mapped objects is 0 while they change. [301: 7.5.2.36]
+// Sets the number of mapped objects to 0 while the mapping changes. [301: 7.5.2.36]
 void Writer::add_mapping(const Object& object) {
   const codict::Sub* const count = object.find(0);
   const bool has_entries = std::any_of(object.subs.begin(), object.subs.end(), [this](const codict::Sub& sub) {

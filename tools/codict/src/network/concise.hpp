@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file concise.hpp
-/// The concise DCF of a node: what a configuration manager writes over SDO. [CiA 302-3, object 1F22h]
+/// Concise DCF of a node: the values that a configuration manager writes by SDO. [CiA 302-3, object 1F22h]
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace lexican::codict::network {
 struct Download {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  std::string bytes;  ///< as SDO transfers them
+  std::string bytes;  ///< value as SDO transfers it
 };
 
 /// Returns a value as SDO transfers it; nothing if its data type has no fixed coding.
@@ -27,7 +27,8 @@ std::optional<std::string> sdo_bytes(const Device& device, const Entry& entry, c
 /// PDO is disabled before its parameters and mapping change, and enabled at the end. 1010h and 1011h are left out.
 std::vector<Download> downloads_of(const Network& network, std::size_t node, NetworkFindings& findings);
 
-/// Number of entries in 32 bits; for each index, sub-index, length in 32 bits, and the value: all little-endian.
+/// Encodes downloads as concise DCF: number of entries in 32 bits; for each entry index, sub-index, length in 32 bits,
+/// value; all little-endian.
 std::string concise_dcf(const std::vector<Download>& downloads);
 
 }  // namespace lexican::codict::network

@@ -39,7 +39,7 @@ void set_field(Field<T>& field, T value) {
   field.is_given = true;
 }
 
-// Rounded up: a consumer must not be shorter than planned.
+// Returns the consumer time in ms, rounded up so that it is not shorter than planned.
 std::uint64_t consumer_time(std::uint64_t producer_time, double multiplier) {
   constexpr double longest = 65535;
   return static_cast<std::uint64_t>(std::min(std::ceil(static_cast<double>(producer_time) * multiplier), longest));
@@ -86,7 +86,7 @@ bool Configurator::set(std::uint16_t index, std::uint8_t sub_index, std::uint64_
 
 void Configurator::apply(const PlannedSlave& plan) {
   const auto set_planned = [this](const auto& planned, std::uint16_t index, std::string_view what) {
-    // A device without the object behaves as if it were 0.
+    // A missing object has the same effect as the value 0.
     if (planned.is_given && (planned.value != 0 || node_.device.find(index) != nullptr)) {
       set(index, 0, planned.value, planned.span, what);
     }
@@ -142,7 +142,7 @@ void Configurator::apply(const PlannedPdo& plan, bool is_transmit) {
   if (plan.transmission.is_given) {
     set(index, 2, plan.transmission.value, plan.transmission.span, what + " transmission");
   }
-  // In an RPDO, sub-index 5 is the deadline. Its inhibit time and event timer are those of the master's TPDO.
+  // Sub-index 5 of an RPDO is its deadline. Its inhibit time and event timer configure the TPDO of the master.
   const auto set_time = [&](const auto& planned, std::uint8_t sub_index, std::string_view key) {
     if (planned.is_given) {
       set(index, sub_index, planned.value, planned.span, fmt::format("{} {}", what, key));
@@ -176,7 +176,7 @@ void Configurator::apply_cob_id(const PlannedPdo& plan, std::uint16_t index, con
   if (!plan.is_enabled.value) {
     cob_id |= cob_id_invalid;
   }
-  // A fixed COB-ID that is the wanted one needs no configuration.
+  // A constant COB-ID that already has the planned value needs no configuration.
   const Entry* const entry = node_.device.find(index, 1);
   if (described != cob_id || (entry != nullptr && is_writable(entry->access.value))) {
     set(index, 1, cob_id, span, what + " cob_id");
@@ -189,7 +189,7 @@ unsigned Configurator::mapped_bits(const PlannedMapping& mapped, bool is_transmi
     findings_.add(rules::mapping, mapped.span, fmt::format("{}: {} maps {}, {}", node_.name, what, object, why));
     return 0U;
   };
-  if (mapped.index < 0x20 && mapped.sub_index == 0) {  // a dummy
+  if (mapped.index < 0x20 && mapped.sub_index == 0) {  // dummy object
     const unsigned bits = data_type(mapped.index).bits;
     return is_transmit ? refuse("a dummy, which only RPDOs may map") : bits != 0 ? bits : refuse("which is no dummy");
   }

@@ -20,10 +20,10 @@ class Configurator {
   /// messages.
   bool set(std::uint16_t index, std::uint8_t sub_index, std::uint64_t value, Span span, std::string_view what);
 
-  /// Configures all that the plan says of a node but its heartbeat consumer.
+  /// Configures everything that the plan contains for a node, except for its heartbeat consumer.
   void apply(const PlannedSlave& plan);
 
-  /// Configures an entry of 1016h: that of the producer, else the first one that is free.
+  /// Configures an entry of 1016h: the one of this producer, else the first free one.
   void consume_heartbeat(std::uint8_t producer, std::uint64_t time_ms, Span span);
 
  private:

@@ -10,7 +10,7 @@ namespace lexican::codict::network {
 namespace {
 
 constexpr unsigned crc_bits = 15;
-// CRC delimiter, ACK slot and delimiter, 7 bits end of frame, 3 bits interframe space: never stuffed.
+// CRC delimiter, ACK slot and delimiter, 7 bits end of frame, 3 bits interframe space: these are never stuffed.
 constexpr unsigned tail_bits = 13;
 constexpr unsigned longest_run = 5;
 
@@ -27,7 +27,7 @@ class Bits {
   std::vector<bool> bits_;
 };
 
-// Start of frame to DLC.
+// Returns the bits from start of frame to DLC.
 Bits header_of(const Frame& frame) {
   Bits bits;
   const std::uint32_t remote = frame.is_remote ? 1 : 0;
@@ -60,12 +60,12 @@ std::uint32_t crc_of(const std::vector<bool>& bits) {
   return crc;
 }
 
-// The last bit that was transmitted, and how many equal ones end with it: 1…5.
+// Last transmitted bit, and the number of equal bits that end with it: 1…5.
 struct Run {
   bool bit = true;
   unsigned length = 0;
 
-  // Returns whether a stuff bit follows. It begins a run of its own.
+  // Appends a bit. Returns true if a stuff bit follows, which begins the next run.
   bool append(bool next) {
     length = next == bit ? length + 1 : 1;
     bit = next;
@@ -81,7 +81,7 @@ struct Run {
 }  // namespace
 
 unsigned longest_bits(const Frame& frame) {
-  const unsigned header = frame.is_extended ? 54 : 34;  // with the CRC
+  const unsigned header = frame.is_extended ? 54 : 34;  // including the CRC
   const unsigned stuffed = header + 8 * data_bytes(frame);
   return stuffed + tail_bits + (stuffed - 1) / 4;
 }
@@ -107,7 +107,7 @@ double mean_bits(const Frame& frame) {
   for (const bool bit : header.all()) {
     length += run.append(bit) ? 2U : 1U;
   }
-  // Of random bits, only the length of the run matters: the probability of each.
+  // Probability of each run length. For random bits, no other property of the preceding bits matters.
   std::array<double, longest_run> runs{};
   runs[run.length] = 1;
   for (unsigned left = 8 * data_bytes(frame) + crc_bits; left != 0; --left) {

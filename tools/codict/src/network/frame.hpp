@@ -10,7 +10,7 @@ namespace lexican::codict::network {
 
 struct Frame {
   std::uint32_t identifier = 0;
-  bool is_extended = false;  ///< identifier of 29 bits
+  bool is_extended = false;  ///< 29-bit identifier
   bool is_remote = false;
   std::uint8_t bytes = 0;  ///< 0…8: the DLC; a remote frame has no data field
 };

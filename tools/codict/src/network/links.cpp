@@ -8,7 +8,7 @@ namespace lexican::codict::network {
 
 namespace {
 
-// From one TPDO to the RPDOs among those of its COB-ID.
+// Adds the links from one TPDO to all RPDOs with its COB-ID.
 void add_links(std::size_t producer, const std::vector<std::size_t>& pdos, Links& result) {
   for (const std::size_t consumer : pdos) {
     if (result.links.size() == link_limit) {

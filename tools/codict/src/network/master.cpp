@@ -25,7 +25,7 @@ constexpr std::size_t most_pdos = 512;
 constexpr std::uint16_t received_objects = 0x2000;
 constexpr std::uint16_t transmitted_objects = 0x2200;
 
-// A name of a description in one line.
+// Returns a name in one line of at most 200 bytes, for use in a description.
 std::string one_line(std::string_view text) {
   constexpr std::size_t longest = 200;
   std::string line(text.substr(0, longest));
@@ -43,7 +43,7 @@ struct Sub {
   bool is_mappable = false;
 };
 
-// The dictionary as a DCF: the reader of descriptions makes a device of it.
+// Text of the dictionary as a DCF, from which the reader of descriptions builds a device.
 class Dictionary {
  public:
   void section(std::string_view name) { text_ += fmt::format("\n[{}]\n", name); }
@@ -73,7 +73,7 @@ class Dictionary {
       entry(sub);
     }
   }
-  // Sub-indexes 1…length with values of some of them.
+  // Adds an ARRAY with sub-indexes 1…length, some of which have values.
   void array(std::uint16_t index, std::string_view name, std::uint16_t type, unsigned length,
              const std::map<unsigned, std::uint64_t>& values) {
     section(fmt::format("{:04X}", index));
@@ -116,7 +116,7 @@ class Master {
  private:
   using Values = std::map<unsigned, std::uint64_t>;
 
-  // Values by node-ID of those nodes for which there is one.
+  // Returns values by node-ID, without nodes whose value is 0.
   Values by_node(const std::function<std::uint64_t(const Node&, const PlannedSlave&)>& value) const {
     Values values;
     for (std::size_t n = 0; n < network_.nodes.size(); ++n) {
@@ -242,7 +242,7 @@ bool Master::is_wanted(const ActivePdo& active) const {
          (connect == Connect::all || (connect == Connect::planned && planned(active) != nullptr));
 }
 
-// PDOs of this direction that are not connected: of each COB-ID the longest.
+// Returns the PDOs of one direction without link: the longest one for each COB-ID.
 std::vector<const ActivePdo*> Master::unconnected(const Links& links, bool is_transmit) const {
   std::vector<const ActivePdo*> result;
   std::map<std::uint64_t, std::size_t> seen;
@@ -285,7 +285,7 @@ void Master::communication_of(const ActivePdo& partner, std::uint16_t index) {
   dictionary_.record(index, "TPDO communication parameter", subs);
 }
 
-// The type of the mapped object, or an unsigned one of as many bits; 0 if there is none.
+// Returns the data type of the mapped object, else an unsigned type of the same length; 0 if there is none.
 std::uint16_t Master::mirror_type(const ActivePdo& partner, const MappedObject& mapped) const {
   const Device& device = network_.nodes[partner.node].device;
   const std::uint16_t code = mapped.is_dummy()         ? mapped.index
@@ -364,7 +364,7 @@ void Master::sdo_clients() {
   }
 }
 
-// Domains whose contents are files, by node-ID.
+// Adds an array of domains by node-ID, whose contents are files.
 void Master::files(std::uint16_t index, const std::string& name,
                    const std::function<std::string(const Node&, const PlannedSlave&)>& file) {
   std::map<std::uint8_t, std::string> files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file master.hpp
-/// The device of the NMT master that a plan describes. [CiA 302-2, CiA 302-3]
+/// Generates the device of the NMT master that a plan describes. [CiA 302-2, CiA 302-3]
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ constexpr std::size_t box_gap = 24;
 constexpr std::size_t row_height = 110;
 constexpr std::size_t left = 20;
 
-// ASCII letters of a name: what does not fit is in the title.
+// Shortens a name; the complete name is in the title element.
 std::string shortened(const std::string& text, std::size_t letters) {
   std::size_t seen = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
@@ -52,7 +52,7 @@ constexpr std::size_t line_height = 22;
 constexpr std::size_t column_width = 250;
 constexpr std::size_t picture_width = 900;
 
-// Rows of the PDOs of one direction by COB-ID; the keys are indexes in Links::pdos.
+// Returns the row of each PDO of one direction, sorted by COB-ID; the keys are indexes in Links::pdos.
 std::map<std::size_t, std::size_t> column_of(const Links& links, bool is_transmit) {
   std::vector<std::size_t> order;
   for (std::size_t n = 0; n < links.pdos.size(); ++n) {

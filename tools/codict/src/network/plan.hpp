@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file plan.hpp
-/// A plan of a network: nodes, their descriptions and what is configured. docs/network.md lists its keys.
+/// Plan of a network: nodes, their descriptions and their configuration. docs/network.md lists its keys.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace lexican::codict::network {
 
-/// A value of the plan, with its place.
+/// Value of the plan with its place.
 template <typename T>
 struct Planned {
   T value{};
@@ -41,7 +41,7 @@ struct PlannedPdo {
   Planned<std::vector<PlannedMapping>> mapping;
 };
 
-/// An entry that is configured: its text is interpreted by its data type.
+/// Configured entry; its text is interpreted by its data type.
 struct PlannedValue {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
@@ -51,10 +51,10 @@ struct PlannedValue {
 
 using ErrorBehavior = std::vector<std::pair<std::uint8_t, std::uint8_t>>;  // sub-index of 1029h, value
 
-/// What master and nodes have in common.
+/// Members that master and slaves have in common.
 struct PlannedNode {
   std::string name;
-  Span span;  ///< of the name
+  Span span;  ///< place of the name
   Planned<std::uint8_t> node_id;
   Planned<std::uint32_t> vendor_id;
   Planned<std::uint32_t> product_code;
@@ -83,10 +83,10 @@ struct PlannedSlave : PlannedNode {
   std::vector<PlannedValue> values;
 };
 
-/// Which PDOs the master gets beside those of the nodes.
+/// PDOs that the master receives and transmits beside those of the nodes' links.
 enum class Connect : unsigned char {
-  all,      ///< receives each TPDO that no node receives, transmits each RPDO that no node transmits
-  planned,  ///< of them, those that the plan names
+  all,      ///< receives each TPDO that no node receives, and transmits each RPDO that no node transmits
+  planned,  ///< like all, but only the PDOs that the plan contains
   none,
 };
 
@@ -110,13 +110,13 @@ struct Plan {
   Planned<std::string> dcf_path;
   Planned<double> heartbeat_multiplier{3.0, {}, false};
   Planned<double> load_limit{70.0, {}, false};  ///< in percent
-  Planned<std::uint32_t> event_interval;        ///< in ms: shortest time between events that nothing else bounds
+  Planned<std::uint32_t> event_interval;        ///< in ms: assumed shortest time between events without another bound
   Planned<std::string> network_name;
   PlannedMaster master;
   std::vector<PlannedSlave> slaves;
 };
 
-/// Reads a plan. What it cannot read is a finding, each with its place; the plan has the rest.
+/// Reads a plan. Each part that cannot be read is a finding with its place, and is missing in the plan.
 Plan read_plan(const Source& source, Findings& findings);
 
 }  // namespace lexican::codict::network

@@ -31,7 +31,7 @@ using Keys = std::vector<Key>;
 constexpr std::size_t longest_shown = 40;
 constexpr std::size_t most_slaves = 126;
 
-// Text of a value for a message.
+// Returns the text of a value for a message.
 std::string shown(const Node& node) {
   if (node.kind != Node::Kind::scalar) {
     return std::string(yaml::name_of(node.kind));
@@ -57,7 +57,7 @@ class Reader {
     return node.kind == Node::Kind::map;
   }
 
-  // Calls the reader of each key; `path_` names it for messages meanwhile.
+  // Calls the reader of each key; `path_` is the path of that key for its messages.
   void map(const Node& node, std::string_view path, const Keys& keys) {
     path_ = path;
     if (!is_map(node)) {
@@ -293,7 +293,7 @@ void Reader::read_pdo(const Node& node, PlannedPdo& pdo) {
 }
 
 void Reader::read_cob_id(const Node& node, PlannedPdo& pdo) {
-  if (node.kind != Node::Kind::scalar || node.text != "auto") {  // auto: that of the description
+  if (node.kind != Node::Kind::scalar || node.text != "auto") {  // auto: the COB-ID of the description
     number(node, pdo.cob_id, 1, 0x1FFFFFFF);
   }
 }
@@ -342,7 +342,7 @@ void Reader::read_values(const Node& node, std::vector<PlannedValue>& values) {
   }
 }
 
-// Files are named after it.
+// Checks the name of a node, after which its files are named.
 bool Reader::has_name(const Node& name) {
   constexpr std::size_t longest = 64;
   const bool is_name =
@@ -371,7 +371,7 @@ Plan Reader::read(const Node& root) {
     } else if (name.text == "master") {
       has_master = true;
       read_master(name, root.value(n), plan.master);
-    } else if (name.text.substr(0, 1) != "." && has_name(name)) {  // .name: a section that is left out
+    } else if (name.text.substr(0, 1) != "." && has_name(name)) {  // .name: a disabled section
       read_slave(name, root.value(n), plan.slaves.emplace_back());
     }
   }

@@ -10,9 +10,9 @@ namespace {
 
 // Busy periods beyond this are treated as endless: 10 minutes.
 constexpr Nanoseconds longest_busy_period = Nanoseconds{600} * 1000 * 1000 * 1000;
-// A busy period of this load, or a higher one, does not end.
+// Busy periods are treated as endless from this load on.
 constexpr double full_load = 1.0 - 1e-9;
-// Steps of all iterations of all streams: bounds the time for hostile input.
+// Limit of the iteration steps for all streams, which bounds the time for hostile input.
 constexpr std::size_t most_steps = 200000000;
 
 Nanoseconds ceiling(Nanoseconds dividend, Nanoseconds divisor) { return (dividend + divisor - 1) / divisor; }
@@ -44,7 +44,7 @@ class Analysis {
   }
 
  private:
-  // Frames of the streams in front of `end` that arrive within `time`, transmitted.
+  // Returns the transmission time of all frames of the first `end` streams that arrive within `time`.
   Nanoseconds interference(std::size_t end, Nanoseconds time) const {
     Nanoseconds sum = 0;
     for (std::size_t n = 0; n < end; ++n) {
@@ -56,7 +56,7 @@ class Analysis {
     return sum;
   }
 
-  // Repeats time = start + interference(…) until it stays.
+  // Iterates time = start + interference(…) until it no longer changes.
   std::optional<Nanoseconds> fixed_point(Nanoseconds start, Nanoseconds first, std::size_t end, Nanoseconds offset) {
     Nanoseconds time = first;
     for (;;) {
@@ -72,10 +72,10 @@ class Analysis {
     }
   }
 
-  // t: from a moment without queued frames of this priority or a higher one to the next such moment.
+  // Returns t: the time between two moments without queued frames of this or a higher priority.
   std::optional<Nanoseconds> busy_period() { return fixed_point(blocking_, streams_[at_].transmission, at_ + 1, 0); }
 
-  // w(q): from the begin of the busy period until an instance wins the arbitration.
+  // Returns w(q): the time from the begin of the busy period until an instance wins arbitration.
   std::optional<Nanoseconds> queuing_delay(Nanoseconds instance, Nanoseconds first) {
     const Nanoseconds start = blocking_ + instance * streams_[at_].transmission;
     return fixed_point(start, std::max(start, first), at_, bit_time_);
@@ -85,7 +85,7 @@ class Analysis {
   std::size_t at_;
   Nanoseconds bit_time_;
   Nanoseconds blocking_;  // B: the longest frame of lower priority
-  std::size_t& steps_;    // of the analyses of all streams
+  std::size_t& steps_;    // steps of all streams
 };
 
 }  // namespace

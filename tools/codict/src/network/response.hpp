@@ -13,7 +13,7 @@ namespace lexican::codict::network {
 
 using Nanoseconds = std::int64_t;
 
-/// One stream of frames, sorted by priority in the vector that holds it.
+/// Stream of frames. Vectors of streams are sorted by priority, highest first.
 struct Stream {
   Nanoseconds transmission = 0;  ///< C: longest time on the bus
   Nanoseconds period = 0;        ///< T: shortest time between two frames; 0: unknown, the stream can only block others

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file rules.hpp
-/// What codict network reports. The ids begin with net-.
+/// Rules of codict network. Their ids begin with net-.
 #pragma once
 
 #include <vector>

@@ -43,7 +43,7 @@ class Collector {
     message.deadline = shortest;
     return messages_.emplace_back(std::move(message));
   }
-  // With data that is known, or without data.
+  // Adds frames whose data is known, or that have no data.
   void add_exact(std::string service, std::size_t node, const Frame& frame, std::string_view data, Nanoseconds period) {
     Message& message = add(std::move(service), node, frame, period, period);
     message.longest = exact_bits(frame, data);
@@ -113,7 +113,7 @@ void Collector::add_pdo(const ActivePdo& pdo) {
     Message& message = add(pdo.title(), pdo.node, frame, period, type == 0 ? 0 : period);
     message.deadline = sync_window_ != 0 ? sync_window_ : sync_period_;
   } else {
-    add(pdo.title(), pdo.node, frame, 0, 0);  // on remote requests
+    add(pdo.title(), pdo.node, frame, 0, 0);  // on remote requests only
   }
 }
 
@@ -137,7 +137,7 @@ void Collector::add_error_control(std::size_t at) {
   }
 }
 
-// EMCY with its inhibit time; SDO, NMT and TIME, which are rare.
+// Adds EMCY with its inhibit time, and SDO, NMT and TIME, which are transmitted rarely.
 void Collector::add_others(std::size_t at) {
   const Node& node = network_.nodes[at];
   for (const CobId& cob_id : node.cob_ids()) {
@@ -158,7 +158,7 @@ void Collector::add_others(std::size_t at) {
   }
 }
 
-// Arbitration: the base identifier decides, then a frame of 11 bits wins. A remote frame loses against data.
+// Returns the arbitration order: the base identifier, then 11-bit before 29-bit frames, then data before remote frames.
 std::tuple<std::uint32_t, bool, std::uint32_t, bool> priority_of(const Message& message) {
   const Frame& frame = message.frame;
   return {frame.is_extended ? frame.identifier >> 18 : frame.identifier, frame.is_extended,
@@ -184,7 +184,7 @@ std::vector<Message> Collector::collect() {
 }
 
 double load_of(double bits, Nanoseconds period, std::uint32_t bit_rate) {
-  // kbit/s are bits per ms.
+  // kbit/s equals bits per ms
   return period == 0 ? 0 : 100.0 * bits * static_cast<double>(ms) / (static_cast<double>(period) * bit_rate);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file traffic.hpp
-/// Frames of a network in normal operation: bus load and response times.
+/// Traffic of a network in normal operation: bus load and response times.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@
 
 namespace lexican::codict::network {
 
-/// Frames of one identifier and service.
+/// Frames with one identifier and service.
 struct Message {
   std::string service;   ///< "TPDO 1", "SYNC", "heartbeat"
-  std::size_t node = 0;  ///< that transmits it
+  std::size_t node = 0;  ///< index of the transmitting node
   Frame frame;
-  unsigned longest = 0;             ///< in bits
-  double mean = 0;                  ///< in bits
-  Nanoseconds shortest_period = 0;  ///< 0: no bound is known
-  Nanoseconds usual_period = 0;     ///< 0: only on events
+  unsigned longest = 0;             ///< largest length in bits
+  double mean = 0;                  ///< mean length in bits
+  Nanoseconds shortest_period = 0;  ///< 0: unknown
+  Nanoseconds usual_period = 0;     ///< 0: transmitted on events only
   Nanoseconds deadline = 0;         ///< 0: none
   std::optional<Nanoseconds> response;
 
-  double worst_load(std::uint32_t bit_rate) const;  ///< in percent; bit_rate in kbit/s
+  double worst_load(std::uint32_t bit_rate) const;  ///< Returns the bus load in percent; bit_rate in kbit/s.
   double average_load(std::uint32_t bit_rate) const;
 };
 

@@ -19,7 +19,7 @@ namespace lexican::codict::network::yaml {
 
 namespace {
 
-// Ends the parser from within its events. It never leaves this file.
+// Exception that aborts the parser from its event handlers. It is caught in this file.
 struct Refusal {
   Span span;
   std::string text;
@@ -139,7 +139,7 @@ bool refuse(Findings& findings, Span span, std::string text, std::string hint = 
   return false;
 }
 
-// yaml-cpp would decode UTF-16 and UTF-32: places would not fit.
+// Returns true for UTF-16, UTF-32 and NUL bytes: yaml-cpp would convert the text, so that offsets were wrong.
 bool is_binary(std::string_view bytes) {
   return bytes.find('\0') != std::string_view::npos || bytes.substr(0, 2) == "\xFE\xFF" ||
          bytes.substr(0, 2) == "\xFF\xFE";
