@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file check.hpp
-/// What is off in a device, whatever the format of its description: it is the model that is looked at.
+/// Checks of a device model, independent of the format of its description.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,19 @@
 
 namespace lexican::codict::check {
 
-/// All checks of this room.
+/// Runs all checks of this module.
 void check_all(const Device& device, Findings& findings);
 
-/// Objects, sub-objects, and their values. [301: 7.4]
+/// Checks objects, sub-objects and their values. [301: 7.4]
 void check_objects(const Device& device, Findings& findings);
 
-/// What the description says of the whole device, against its objects.
+/// Checks the device-wide entries of the description against the objects.
 void check_device(const Device& device, Findings& findings);
 
-/// How objects hang together: types, links, modules, pairs.
+/// Checks relations between objects: types, links, modules, pairs.
 void check_structure(const Device& device, Findings& findings);
 
-/// Objects of the communication profile against CiA 301.
+/// Checks the objects of the communication profile against CiA 301.
 void check_standard(const Device& device, Findings& findings);
 
 namespace rules {

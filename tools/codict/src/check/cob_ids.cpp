@@ -21,7 +21,7 @@ struct Range {
   const char* use;
 };
 
-// Identifiers that no configurable service may have. [301: table 40]
+// Restricted COB-IDs, which no configurable service may use. [301: table 40]
 constexpr std::array<Range, 7> restricted = {{{0x000, 0x000, "NMT"},
                                               {0x001, 0x07F, "reserved"},
                                               {0x101, 0x180, "reserved"},
@@ -30,7 +30,7 @@ constexpr std::array<Range, 7> restricted = {{{0x000, 0x000, "NMT"},
                                               {0x6E0, 0x6FF, "reserved"},
                                               {0x701, 0x7FF, "NMT error control"}}};
 
-// Null if the identifier is free.
+// Returns the restricted range of a COB-ID, null if it is free.
 const Range* restriction_of(const CobId& cob_id) {
   const std::uint32_t identifier = cob_id.identifier();
   const auto* const range = std::find_if(restricted.begin(), restricted.end(), [identifier](const Range& each) {
@@ -39,7 +39,7 @@ const Range* restriction_of(const CobId& cob_id) {
   return cob_id.is_extended() || range == restricted.end() ? nullptr : range;
 }
 
-// "COB-ID 181h", "COB-ID 181h with node-ID 1".
+// Returns "COB-ID 181h" or "COB-ID 181h with node-ID 1".
 std::string title_of(const Device& device, const CobId& cob_id) {
   const bool adds_node_id = value_in_force(*device.find(cob_id.index, cob_id.sub_index)).adds_node_id;
   return fmt::format("COB-ID {:03X}h{}", cob_id.identifier(), adds_node_id ? " with node-ID 1" : "");
@@ -61,7 +61,7 @@ void check_one(const Device& device, const CobId& cob_id, Findings& findings) {
                  fmt::format("COB-ID {:X}h has more than 11 bits, but bit 29 is 0", cob_id.value),
                  "set bit 29, or use an 11-bit identifier");
   } else if (range != nullptr && !is_default_sdo(cob_id) && !is_sdo_client(cob_id)) {
-    // An SDO client may use the identifiers of a default SDO server, and 0 is not configured yet.
+    // SDO clients are excluded because they may use the COB-IDs of a default SDO server, or 0 while unconfigured.
     findings.add(rules::cob_id_restricted, span_of(device, cob_id),
                  fmt::format("{} is restricted by CiA 301 ({})", title_of(device, cob_id), range->use),
                  "choose another COB-ID, or disable the service by bit 31");
@@ -70,7 +70,7 @@ void check_one(const Device& device, const CobId& cob_id, Findings& findings) {
 
 }  // namespace
 
-// With node-ID 1: what is free of it and what is not may meet by chance only.
+// Compares all COB-IDs for node-ID 1. COB-IDs with and without $NODEID can be equal for one node-ID only by chance.
 void check_cob_ids(const Device& device, Findings& findings) {
   std::map<std::uint64_t, std::string> seen;
   for (const CobId& cob_id : cob_ids_of(device, 1)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplexed PDOs, whose frames name the object that they carry. [301: 7.2.2.6, 7.5.2.36]
+// Multiplex PDOs, whose frames contain the multiplexer of the object. [301: 7.2.2.6, 7.5.2.36]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool has_object(const Device& device, std::uint16_t first, std::uint16_t last) {
                      [first, last](const Object& object) { return object.index >= first && object.index <= last; });
 }
 
-// What names the objects of frames in source address mode.
+// Returns true if the device has an object scanner list (TPDO) or object dispatching list (RPDO).
 bool has_list(const Device& device, bool is_transmit) {
   return is_transmit ? has_object(device, 0x1FA0, 0x1FCF) : has_object(device, 0x1FD0, 0x1FFF);
 }

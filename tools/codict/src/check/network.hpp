@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file network.hpp
-/// What is off in the way in which a device talks: PDOs, identifiers, and the objects that configure services.
+/// Checks of the communication of a device: PDOs, COB-IDs, and objects that configure services.
 #pragma once
 
 #include <vector>
@@ -10,16 +10,16 @@
 
 namespace lexican::codict::check {
 
-/// Mapping and communication parameters. [301: 7.5.2.35 ff.]
+/// Checks mapping and communication parameters of PDOs. [301: 7.5.2.35 ff.]
 void check_pdo_parameters(const Device& device, Findings& findings);
 
-/// PDOs whose frames name their object. [301: 7.2.2.6]
+/// Checks multiplex PDOs. [301: 7.2.2.6]
 void check_multiplexed(const Device& device, Findings& findings);
 
-/// COB-IDs against one another and against those that CiA 301 keeps for itself. [301: 7.3.5]
+/// Checks that COB-IDs are unique and not restricted by CiA 301. [301: 7.3.5]
 void check_cob_ids(const Device& device, Findings& findings);
 
-/// Objects that must be there, and fields of those that configure services.
+/// Checks that mandatory objects exist, and the fields of objects that configure services.
 void check_services(const Device& device, Findings& findings);
 
 namespace rules {

@@ -11,7 +11,7 @@ namespace lexican::codict::check {
 
 namespace {
 
-// Without sub-index FFh and compact storage. [306: 4.6.3]
+// Checks SubNumber, which does not count sub-index FFh, for objects without compact storage. [306: 4.6.3]
 void check_sub_number(const Object& object, Findings& findings) {
   const auto number =
       std::count_if(object.subs.begin(), object.subs.end(), [](const Sub& sub) { return sub.sub_index != 0xFF; });
@@ -23,7 +23,7 @@ void check_sub_number(const Object& object, Findings& findings) {
                fmt::format("SubNumber={}", number));
 }
 
-// Those whose sub-index 0 counts what is in use, and not what is there. [301: 7.5.2.5, 7.5.2.36]
+// Returns true if sub-index 0 is the number of entries in use, not the highest sub-index. [301: 7.5.2.5, 7.5.2.36]
 bool counts_entries(const Object& object, const Sub& zero) {
   const bool is_mapping =
       (object.index >= 0x1600 && object.index < 0x1800) || (object.index >= 0x1A00 && object.index < 0x1C00);
@@ -56,7 +56,7 @@ void check_sub_zero(const Object& object, Findings& findings) {
 
 bool is_number(const Value& value) { return value.is_integer() || value.kind == Value::Kind::real; }
 
-// With the same node-ID in both, which is added to one alone at the most where that makes no difference.
+// Compares values. False if only one of them contains $NODEID, as the result then depends on the node-ID.
 bool is_less(const Value& a, const Value& b) {
   if (a.kind == Value::Kind::real || b.kind == Value::Kind::real) {
     return a.kind == b.kind && a.real < b.real;

@@ -50,7 +50,7 @@ void check_number(const Pdo& pdo, Findings& findings) {
   }
 }
 
-// A PDO that exists without content: some devices send empty frames, others refuse the configuration.
+// Reports an enabled PDO without mapped objects: some devices transmit empty frames, others reject the configuration.
 void check_empty(const Pdo& pdo, Findings& findings) {
   constexpr std::uint64_t off = 0x80000000U;
   const Entry* const cob_id = pdo.parameter(1);
@@ -88,11 +88,11 @@ std::string name_of(const Device& device, const MappedObject& mapped) {
 void check_bits(const Device& device, const MappedObject& mapped, Span span, Findings& findings) {
   const unsigned bits = data_type_of(device, mapped.entry->data_type.value).bits;
   if (bits == 0) {
-    return;  // a string's length is not in its type
+    return;  // the data type of a string has no length
   }
   const std::string text = fmt::format("mapping of {} bits, but {} has {}", mapped.bits, name_of(device, mapped), bits);
   const std::string hint = fmt::format("write {:04X}{:02X}{:02X}h", mapped.index, mapped.sub_index, bits);
-  // BOOLEAN may be mapped as a byte. [301: 7.4.7.1]
+  // A BOOLEAN may be mapped with 8 bits. [301: 7.4.7.1]
   if (mapped.bits > std::max(bits, 8U)) {
     findings.add(rules::pdo_bits, span, text, hint);
   } else if (mapped.bits < bits) {
@@ -179,7 +179,7 @@ void check_communication(const Pdo& pdo, Findings& findings) {
   }
 }
 
-// Whether it goes with SYNC as it is, before anybody configures it.
+// Returns true if the PDO is enabled and synchronous in the described configuration.
 bool is_synchronous(const Pdo& pdo) {
   constexpr std::uint64_t is_off = 0x80000000U;
   const Entry* const cob_id = pdo.parameter(1);
@@ -193,7 +193,7 @@ bool is_synchronous(const Pdo& pdo) {
   return has_type && (value_in_force(*cob_id).integer.bits() & is_off) == 0;
 }
 
-// The first one tells for all: one object is missing.
+// Reports the first PDO only, because one missing object is the cause for all.
 void check_sync(const Device& device, const std::vector<Pdo>& pdos, Findings& findings) {
   const auto pdo = std::find_if(pdos.begin(), pdos.end(), is_synchronous);
   if (pdo != pdos.end() && device.find(0x1005) == nullptr) {

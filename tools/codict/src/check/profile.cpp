@@ -42,10 +42,10 @@ constexpr std::uint16_t flag = type_code::boolean;
 constexpr ObjectCode var = ObjectCode::variable;
 constexpr ObjectCode array = ObjectCode::array;
 
-// What a master does with the object; `set` is a parameter, which a device may also fix.
+// Access of a master to an object. `set` is a parameter, which may also be constant.
 enum class Use : unsigned char { read, write, set };
 
-// The type of an ARRAY is that of its elements.
+// Objects of a device profile. The data type of an ARRAY is that of its elements.
 struct Fact {
   std::uint16_t first;
   std::uint16_t last;
@@ -54,7 +54,7 @@ struct Fact {
   Use use;
 };
 
-// Inputs and outputs. [401]
+// Objects of CiA 401 (inputs and outputs). [401]
 constexpr std::array<Fact, 26> io_facts = {{
     {0x6000, 0x6000, array, u8, Use::read},   {0x6002, 0x6003, array, u8, Use::set},
     {0x6005, 0x6005, var, flag, Use::set},    {0x6006, 0x6008, array, u8, Use::set},
@@ -71,7 +71,7 @@ constexpr std::array<Fact, 26> io_facts = {{
     {0x6443, 0x6443, array, u8, Use::set},    {0x6444, 0x6444, array, i32, Use::set},
 }};
 
-// Drives. [402]
+// Objects of CiA 402 (drives). [402]
 constexpr std::array<Fact, 45> drive_facts = {{
     {0x603F, 0x603F, var, u16, Use::read},  {0x6040, 0x6040, var, u16, Use::write},
     {0x6041, 0x6041, var, u16, Use::read},  {0x6042, 0x6042, var, i16, Use::write},
@@ -109,7 +109,7 @@ constexpr std::array<Profile, 2> profiles = {{{401, io_facts.data(), io_facts.da
 
 std::string named(const Profile& profile) { return "CiA " + std::to_string(profile.number); }
 
-// 0 where it is not said, or not one number.
+// Returns the value of 1000h, 0 if it is missing or no number.
 std::uint32_t device_type(const Device& device) {
   const Entry* const entry = device.find(0x1000, 0);
   const bool is_known = entry != nullptr && value_in_force(*entry).is_integer();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file profile.hpp
-/// Objects of device profiles, against what everybody who knows the profile takes for granted.
+/// Checks of objects against device profiles.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace lexican::codict::check {
 
-/// The number in the lower half of object 1000h; 0 where there is none.
+/// Returns the profile number in the lower half of 1000h, 0 if there is none.
 std::uint16_t profile_of(const Device& device);
 
-/// Of a profile that is not known (401 and 402 are), nothing is found. Of a drive, the first axis is looked at.
+/// Checks the objects of CiA 401 and 402; other profiles have no findings. Of a drive, only the first axis is checked.
 void check_profile(const Device& device, std::uint16_t profile, Findings& findings);
 
 namespace rules {

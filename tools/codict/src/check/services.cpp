@@ -28,7 +28,7 @@ void check_mandatory(const Device& device, Findings& findings) {
   }
 }
 
-// [301: 7.5.2.33]
+// Checks the COB-IDs of the default SDO server. [301: 7.5.2.33]
 void check_default_sdo(const Device& device, Findings& findings) {
   struct Identifier {
     std::uint8_t sub_index;
@@ -41,7 +41,7 @@ void check_default_sdo(const Device& device, Findings& findings) {
       continue;
     }
     const Value& value = value_in_force(*entry);
-    // A device that says the base alone adds the node-ID by itself; a DCF may have it in.
+    // The base alone is valid because the device adds its node-ID; in a DCF the value may include the node-ID.
     const Integer with_node = wanted.base + device.commissioning.node_id.value;
     const bool is_of_node = !value.adds_node_id && value.integer == with_node;
     if (value.integer != Integer(wanted.base) && !is_of_node) {
@@ -52,7 +52,7 @@ void check_default_sdo(const Device& device, Findings& findings) {
   }
 }
 
-// [301: 7.5.2.19]
+// Checks the consumer heartbeat times. [301: 7.5.2.19]
 void check_consumers(const Device& device, Findings& findings) {
   constexpr unsigned node_shift = 16;
   constexpr std::uint64_t last_node = 127;
@@ -79,7 +79,7 @@ void check_consumers(const Device& device, Findings& findings) {
   }
 }
 
-// [301: 7.5.2.7]
+// Checks the communication cycle period and the synchronous window length. [301: 7.5.2.7]
 void check_sync(const Device& device, Findings& findings) {
   const Entry* const cycle = device.find(0x1006, 0);
   const Entry* const window = device.find(0x1007, 0);

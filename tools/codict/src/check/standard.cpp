@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of the communication profile, against what CiA 301 says of them. [301: 7.5.2]
+// Checks of communication profile objects against CiA 301. [301: 7.5.2]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,7 +57,7 @@ struct Type {
   std::uint16_t code;
 };
 
-// Sub-index 0 of a VAR is the VAR. That of others has 8 bits, everywhere.
+// Data types by sub-index. A VAR has sub-index 0 only; sub-index 0 of all other objects is UNSIGNED8 and not listed.
 constexpr std::array<Type, 33> types = {{
     {{0x1000, 0x1000}, 0, 0, u32},        {{0x1001, 0x1001}, 0, 0, u8},        {{0x1002, 0x1002}, 0, 0, u32},
     {{0x1003, 0x1003}, 1, last_sub, u32}, {{0x1005, 0x1007}, 0, 0, u32},       {{0x1008, 0x100A}, 0, 0, text},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How objects hang together: types, links, modules of bus couplers, objects that come in pairs.
+// Checks of relations between objects: types, links, modules of bus couplers, objects that exist in pairs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void check_type(const Device& device, const Entry& entry, Findings& findings) {
   }
 }
 
-// Sub-index 0 is a number of its own, FFh describes the structure.
+// Returns true for elements of an ARRAY: sub-index 0 is their number, FFh describes the structure.
 bool is_element(const Sub& sub) { return sub.sub_index != 0 && sub.sub_index != 0xFF && sub.data_type.value != 0; }
 
 void check_elements(const Object& array, Findings& findings) {
@@ -55,7 +55,7 @@ void check_capacity(const Entry& entry, Findings& findings) {
   }
 }
 
-// Objects that other things name -----------------------------------------------------------------------------------
+// Objects that other parts of the description refer to ----------------------------------------------------------------
 
 bool is_of_module(const Device& device, std::uint16_t index) {
   return std::any_of(device.modules.begin(), device.modules.end(), [index](const Module& module) {
@@ -106,7 +106,7 @@ void check_modules(const Device& device, Findings& findings) {
   check_connected_modules(device, findings);
 }
 
-// What CiA 301 had, and keeps free since.
+// Objects of former editions of CiA 301, which are now reserved.
 constexpr std::array<std::uint16_t, 4> former_objects = {0x1004, 0x100B, 0x100E, 0x100F};
 
 void check_former(const Device& device, Findings& findings) {
