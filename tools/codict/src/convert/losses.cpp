@@ -16,7 +16,7 @@ namespace lexican::codict::convert {
 
 namespace {
 
-// What is lost at one place, or by its name: a detail for each, which may be empty.
+// Details of what is lost at one place, one element for each loss; a detail may be empty.
 using Details = std::vector<std::string>;
 
 Details one_if(bool is_there) { return Details(is_there ? 1 : 0); }
@@ -49,7 +49,7 @@ class Counter {
       losses_.push_back({what, std::move(places)});
     }
   }
-  // Of each object and sub-object.
+  // Adds the losses of all objects and sub-objects.
   void each(std::string_view what, const std::function<Details(const Entry&)>& details_of) {
     Details places;
     for (const auto& [place, entry] : entries_) {
@@ -93,7 +93,7 @@ Details properties_of(const Entry& entry) {
   return names;
 }
 
-// An EDS has one name for each object, and nothing else to say of it in words.
+// Counts labels, descriptions and units, for which an EDS has no keys: an object has one name only.
 void count_words_for_eds(const Device& device, Counter& counter) {
   counter.each("labels", [](const Entry& entry) {
     Details languages;
@@ -110,7 +110,7 @@ void count_words_for_eds(const Device& device, Counter& counter) {
   }
 }
 
-// What CiA 311 says of the device as a whole, and CiA 306 has no keys for.
+// Counts device-wide data of CiA 311 for which CiA 306 has no keys.
 void count_headers_for_eds(const Device& device, Counter& counter) {
   const Features& features = device.features;
   Details rates;
@@ -152,12 +152,12 @@ void count_headers_for_eds(const Device& device, Counter& counter) {
   counter.add("numbers of dynamic channels", std::move(channels));
 }
 
-// An EDS has no word for entries that nobody may access.
+// Counts entries without any access, for which an EDS has no access type.
 void count_access_for_eds(Counter& counter) {
   counter.each("access types", [](const Entry& entry) { return one_if(entry.access.value == Access::none); });
 }
 
-// An EDS gives the direction of PDOs to entries that can be read and written, as rwr and rww.
+// Returns true if the direction of PDO mapping is lost: an EDS expresses it by rwr and rww only.
 bool loses_direction(const Entry& entry) {
   const PdoMapping mapping = entry.pdo_mapping.value;
   const bool is_one_way = mapping == PdoMapping::tpdo || mapping == PdoMapping::rpdo;
@@ -170,7 +170,7 @@ bool loses_direction(const Entry& entry) {
   return is_one_way && entry.access.value != Access::rw && !is_same;
 }
 
-// In an EDS, sub-index 0 without a default value has the highest sub-index.
+// Returns the sub-indexes 0 without default value: readers of an EDS take the highest sub-index instead.
 Details numbers_that_become_implied(const Device& device) {
   Details places;
   for (const Object& object : device.objects) {
@@ -182,7 +182,7 @@ Details numbers_that_become_implied(const Device& device) {
   return places;
 }
 
-// The writer joins lines with blanks.
+// Returns texts of several lines, which the EDS writer joins with blanks.
 Details texts_of_several_lines(const Entry& entry) {
   Details texts;
   for (const Text* text : std::initializer_list<const Text*>{&entry.name, &entry.default_value, &entry.actual_value}) {
@@ -191,7 +191,7 @@ Details texts_of_several_lines(const Entry& entry) {
   return texts;
 }
 
-// "09:30:15" and "09:30:00+01:00" become 09:30AM.
+// Returns times whose seconds or time zone are lost: "09:30:15" and "09:30:00+01:00" become 09:30AM.
 Details exact_times(const FileInfo& file) {
   Details times;
   for (const Text* time : {&file.creation_time, &file.modification_time}) {
@@ -201,7 +201,7 @@ Details exact_times(const FileInfo& file) {
   return times;
 }
 
-// A parameter of an XDD without an access type is read-only.
+// Counts unknown access types: readers take a parameter of an XDD without access type as read-only.
 void count_access_for_xdd(Counter& counter) {
   counter.each("unknown access types", [](const Entry& entry) {
     const bool is_variable = !has_sub_objects(entry.object_code.value);
@@ -249,7 +249,7 @@ void count_for_eds(const Device& device, Counter& counter) {
   counter.add("versions", each_of(device.identity.versions, [](const Version& version) { return version.text.text; }));
 }
 
-// Only a DCF names files.
+// Counts file names of domains, which only a DCF can contain.
 void count_files(Counter& counter) {
   counter.each("files of domains", [](const Entry& entry) {
     Details files = one_of(entry.upload_file);
@@ -258,7 +258,7 @@ void count_files(Counter& counter) {
   });
 }
 
-// Keys of an EDS that are written into the description of the product, between vertical lines.
+// Returns keys of an EDS whose text contains a vertical line, the separator in the product description of an XDD.
 Details texts_with_line(const FileInfo& file) {
   Details keys;
   for (const auto& [text, key] : {std::pair<const Text&, const char*>(file.description, "Description"),
@@ -286,7 +286,7 @@ void count_for_xdd(const Device& device, Counter& counter) {
   counter.add("object links", std::move(links));
 }
 
-// Of the commissioning of one device.
+// Counts commissioning data of one device for which an XDC has no element.
 void count_for_xdc(const Commissioning& commissioning, Counter& counter) {
   counter.add("serial numbers", one_of(commissioning.serial_number));
   Details references = one_of(commissioning.node_reference);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file losses.hpp
-/// What a device says that another format has no words for.
+/// Losses of a conversion: data that the other format cannot express.
 #pragma once
 
 #include <string>
@@ -16,18 +16,18 @@ enum class Target : unsigned char {
   dcf,
   xdd,
   xdc,
-  json,  ///< has words for everything
+  json,  ///< can express everything
 };
 
 struct Loss {
-  std::string_view what;            ///< "descriptions"
-  std::vector<std::string> places;  ///< "2000h:1 en", one for each; empty where it has none
+  std::string_view what;            ///< kind of the lost data: "descriptions"
+  std::vector<std::string> places;  ///< "2000h:1 en", one for each loss; empty for data without a place
 };
 
-/// Those that there are. What is written is the first device, but for JSON.
+/// Returns the losses of a conversion. All formats but JSON contain the first device only.
 std::vector<Loss> losses(const Description& description, Target target);
 
-/// The same without what is configured: an EDS or XDD describes all devices of a kind.
+/// Returns the device without its configuration, as EDS and XDD describe all devices of a type.
 Device without_configuration(Device device);
 
 }  // namespace lexican::codict::convert

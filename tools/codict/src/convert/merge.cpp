@@ -27,7 +27,7 @@ using eds::SectionName;
 
 bool is_of_object(const SectionName& name) { return name.kind == SectionKind::object || name.kind == SectionKind::sub; }
 
-// Sections of one object stand together: its own one, its sub-objects, and lists.
+// Sort order of sections, which groups those of an object: its own section, its sub-objects, its lists.
 using Order = std::tuple<bool, std::uint16_t, SectionKind, std::uint8_t>;
 Order order_of(const SectionName& name) { return {!eds::has_index(name), name.index, name.kind, name.sub_index}; }
 
@@ -43,7 +43,7 @@ bool is_one_of(std::string_view key, std::initializer_list<std::string_view> wor
                      [key](std::string_view word) { return eds::compare_names(key, word) == 0; });
 }
 
-// In other words, perhaps.
+// Returns true if two values of a key are equal, even if they are written differently.
 bool have_same_meaning(std::string_view key, std::string_view a, std::string_view b) {
   if (is_one_of(key, {"ObjectType", "DataType", "PDOMapping", "ObjFlags", "CompactSubObj"})) {
     const ParsedInteger left = parse_integer(a);
@@ -93,7 +93,7 @@ class Merger {
     for (const auto& [name, section] : fresh) {
       note(name);
     }
-    // What sections get more goes in front of new ones, which stand behind them.
+    // Counts and lists are edited before new sections are inserted, so that additions to a section precede them.
     count_subs();
     list_objects();
     for (const auto& [name, section] : fresh) {
@@ -104,7 +104,7 @@ class Merger {
   }
 
  private:
-  // Module sections and headers have their words; all others are of an index.
+  // Key of a section: the word identifies headers and module sections, the index all others.
   using SectionKey = std::tuple<SectionKind, std::uint16_t, std::uint8_t, std::uint16_t, std::string_view, bool>;
   static SectionKey key_of(const SectionName& name) {
     const bool is_other_spelling = name.word == "DeviceCommissioning";
@@ -123,7 +123,7 @@ class Merger {
   void change(const eds::Section& section, const eds::Section& by, const SectionName& name) {
     const eds::ListForm list = eds::list_form(name);
     const std::string_view count_word = is_of_object(name) ? "SubNumber" : list.count;
-    std::vector<const eds::Key*> fresh;  // behind the last key, whose value may change
+    std::vector<const eds::Key*> fresh;  // inserted behind the last key, whose value may change
     std::size_t added = 0;
     for (const eds::Key& key : by.keys) {
       const std::string_view word = overlay_.raw(key.name);
@@ -179,7 +179,7 @@ class Merger {
         is_possible_;
   }
 
-  // The lines of a section, behind the one that it follows.
+  // Inserts the lines of a section behind its predecessor in the sort order.
   void add(const eds::Section& section, const SectionName& name) {
     std::uint32_t last = section.end - 1;
     while (last > section.line && trimmed(overlay_.raw(overlay_.source().line(last))).empty()) {
@@ -196,9 +196,9 @@ class Merger {
     edits_.insert(at, lines);
   }
 
-  // For lists and numbers.
+  // Records a new section for the update of lists and counts.
   void note(const SectionName& name) {
-    if (name.kind == SectionKind::object && name.index >= 0x1000) {  // lists do not reach types
+    if (name.kind == SectionKind::object && name.index >= 0x1000) {  // type definitions are in no list
       added_[list_of(name.index)].push_back(name.index);
     } else if (name.kind == SectionKind::sub && name.sub_index != 0xFF &&
                find(object_name(name.index), {}) != nullptr) {
@@ -221,7 +221,7 @@ class Merger {
 
   void count_subs() {
     for (const auto& [index, added] : added_subs_) {
-      // FFh is none of them.
+      // SubNumber does not count sub-index FFh.
       const auto first = sections_.lower_bound({SectionKind::sub, index, 0, 0, {}, false});
       const auto subs = std::distance(first, sections_.lower_bound({SectionKind::sub, index, 0xFF, 0, {}, false}));
       count(*find(object_name(index), {}), "SubNumber", static_cast<std::size_t>(subs) + added);

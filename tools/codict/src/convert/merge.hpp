@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file merge.hpp
-/// An EDS with what others say beside it: what they say replaces what it says, or is added to it.
+/// Merges overlays into an EDS or DCF: their values replace existing values, or are added.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@
 
 namespace lexican::codict::convert {
 
-/// A value that has been replaced by another one.
+/// Value that an overlay has replaced.
 struct Replaced {
   std::string section;
   std::string key;
   std::string before;
   std::string after;
 
-  /// What an object is, not which value it has: there the overlay contradicts.
+  /// Returns true if the key defines the object, so that the overlay contradicts the base; false if it is a value.
   bool is_definition() const;
 };
 
-/// The bytes of base with all sections and keys of overlay; all other bytes stay. New objects are put into their lists,
-/// and the counts of lists and sub-objects are made right. False if the encoding of base lacks a letter.
+/// Returns in bytes the base with all sections and keys of the overlay; all other bytes are unchanged. Adds new objects
+/// to the lists and corrects all counts. Returns false if the encoding of base lacks a character.
 bool merge(const eds::Document& base, const eds::Document& overlay, std::string& bytes,
            std::vector<Replaced>& replaced);
 

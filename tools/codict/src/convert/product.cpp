@@ -9,7 +9,7 @@ namespace lexican::codict::convert {
 
 namespace {
 
-// The number in [DeviceInfo] or DeviceIdentity, else that of object 1018h; 0 if neither has one.
+// Returns the number in [DeviceInfo] or DeviceIdentity, else that in 1018h; 0 if both are missing.
 std::uint64_t number_of(const Device& device, const Field<std::uint32_t>& number, std::uint8_t sub_index) {
   const Entry* const entry = device.find(0x1018, sub_index);
   const bool has_default = entry != nullptr && entry->default_value.is_integer();

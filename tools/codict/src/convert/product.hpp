@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file product.hpp
-/// Whether two descriptions are of one product.
+/// Comparison of the products that two descriptions identify.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace lexican::codict::convert {
 
-/// Empty if the overlay may be of the product that the base describes; else what differs: "vendor number 0x12, the base
-/// has 0x13". An overlay that does not describe object 1000h is a part of a description, which may change the numbers.
+/// Returns the difference of the products ("vendor number 0x12, the base has 0x13"), empty if there is none. An overlay
+/// without object 1000h is a part of a description, which may change the numbers.
 std::string other_product(const Device& base, const Device& overlay);
 
 }  // namespace lexican::codict::convert

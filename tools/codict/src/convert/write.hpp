@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file write.hpp
-/// A device in another format.
+/// Writes a device in another format.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace lexican::codict::convert {
 
-/// The text of a device in any format but JSON; of an EDS or XDD, without what is configured. The file name in it is
-/// file_name, or stays if that is empty.
+/// Returns the text of a device in any format but JSON, for EDS and XDD without configuration. file_name: name to write
+/// into the file; empty: unchanged.
 std::string write(Device device, Target target, xdd::Edition edition, const std::string& file_name);
 
 }  // namespace lexican::codict::convert
