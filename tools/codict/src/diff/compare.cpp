@@ -29,7 +29,7 @@ void add(std::string_view what, const Entry& entry, const Recorder& recorder) {
   recorder.add(Kind::compatible, what, Text(), shown(entry.name.text, entry.span));
 }
 
-// Walks two sorted lists: those that only one has, and pairs.
+// Compares two sorted lists: calls gone() or come() for elements of one list only, both() for pairs.
 template <typename Element, typename KeyOf, typename Gone, typename Come, typename Both>
 void merge(const std::vector<Element>& before, const std::vector<Element>& after, KeyOf key_of, Gone gone, Come come,
            Both both) {
@@ -80,7 +80,7 @@ void compare_objects(const std::vector<Object>& before, const std::vector<Object
       });
 }
 
-// The objects that the modules of a bus coupler bring with them.
+// Compares the modules of a bus coupler and their objects.
 void compare_modules(const Device& before, const Device& after, const Recorder& recorder) {
   const auto at = [&](const Module& module) {
     Recorder of_module = recorder;

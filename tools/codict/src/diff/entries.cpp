@@ -32,7 +32,7 @@ bool are_equal(const Value& a, const Value& b) {
 
 // Access ---------------------------------------------------------------------------------------------------------
 
-// What the network may do with an entry.
+// Access rights of the network to an entry.
 struct Rights {
   explicit Rights(const Entry& entry)
       : read(is_readable(entry.access.value)), write(is_writable(entry.access.value)), map(directions_of(entry)) {}
@@ -52,7 +52,7 @@ void compare_rights(const Entry& before, const Entry& after, const Recorder& rec
   const bool is_more = new_rights.has_all_of(old_rights);
   const bool is_same = is_more && old_rights.has_all_of(new_rights);
   const Kind kind = is_more ? Kind::compatible : Kind::breaking;
-  // rwr and rww of an EDS are rw with a direction of PDOs in an XDD.
+  // Access rwr and rww of an EDS equals rw with a mapping direction in an XDD.
   const bool are_both = old_rights.read && old_rights.write && new_rights.read && new_rights.write;
   if (before.access.value != after.access.value && !(is_same && are_both)) {
     recorder.add(kind, "access", before.access, after.access);
@@ -63,14 +63,14 @@ void compare_rights(const Entry& before, const Entry& after, const Recorder& rec
 
 // Values ---------------------------------------------------------------------------------------------------------
 
-// How a device talks on its bus before anybody configures it.
+// Returns true for objects whose default values configure the communication of the device.
 bool is_connection_set(std::uint16_t index) {
   constexpr std::array<std::uint16_t, 3> cob_ids = {0x1005, 0x1012, 0x1014};
   return (index >= 0x1200 && index < 0x1300) || (index >= 0x1400 && index < 0x1C00) ||
          std::find(cob_ids.begin(), cob_ids.end(), index) != cob_ids.end();
 }
 
-// Whom the device says that it is: 1000h, and 1018h without revision and serial number.
+// Returns true for entries that identify the product: 1000h, and 1018h without revision and serial number.
 bool is_identity(const Place& place) {
   return place.index == 0x1000 || (place.index == 0x1018 && (place.sub_index == 1 || place.sub_index == 2));
 }
@@ -85,7 +85,7 @@ void compare_defaults(const Entry& before, const Entry& after, const Recorder& r
   }
 }
 
-// Is a below b? Only numbers tell.
+// Returns true if both values are numbers and a is less than b.
 bool is_below(const Value& a, const Value& b) {
   return (a.is_integer() && b.is_integer() && a.integer < b.integer) ||
          (a.kind == Value::Kind::real && b.kind == Value::Kind::real && a.real < b.real);
@@ -105,7 +105,7 @@ void compare_limits(const Entry& before, const Entry& after, const Recorder& rec
                 recorder);
 }
 
-// "1..5 step 2"
+// Returns "1..5 step 2".
 Text shown(const Range& range) {
   Text text;
   text.text = range.minimum.text + ".." + range.maximum.text;
@@ -118,7 +118,7 @@ bool are_equal(const Range& a, const Range& b) {
   return are_equal(a.minimum, b.minimum) && are_equal(a.maximum, b.maximum) && are_equal(a.step, b.step);
 }
 
-// A single range is what the limits say, but for its step.
+// Compares the steps of single ranges; their bounds equal the limits, which are compared elsewhere.
 void compare_step(const std::vector<Range>& before, const std::vector<Range>& after, const Recorder& recorder) {
   static const Value nothing;
   const Value& old_step = before.size() == 1 ? before.front().step : nothing;
@@ -132,7 +132,7 @@ bool is_in(const Range& range, const std::vector<Range>& ranges) {
   return std::any_of(ranges.begin(), ranges.end(), [&range](const Range& other) { return are_equal(range, other); });
 }
 
-// Several ranges. One that has gone forbids values, unless all values are allowed now.
+// Compares lists of ranges. A removed range forbids values, unless all values are now allowed.
 void compare_ranges(const std::vector<Range>& before, const std::vector<Range>& after, const Recorder& recorder) {
   static const Text nothing;
   compare_step(before, after, recorder);
@@ -164,7 +164,7 @@ Text label_of(const AllowedValue& value) {
   return label;
 }
 
-// An enumeration without values allows all.
+// Compares enumerations. One without values allows all values.
 void compare_allowed(const std::vector<AllowedValue>& before, const std::vector<AllowedValue>& after,
                      const Recorder& recorder) {
   static const Text nothing;
@@ -200,7 +200,7 @@ void compare_labels(std::string_view what, const std::vector<Label>& before, con
   }
 }
 
-// A label that repeats the name says nothing more: an EDS has the name alone.
+// Returns the labels that differ from the name; an EDS has no others.
 std::vector<Label> own_labels(const Entry& entry) {
   std::vector<Label> labels;
   std::copy_if(entry.words.labels.begin(), entry.words.labels.end(), std::back_inserter(labels),
@@ -226,7 +226,7 @@ void compare_properties(const NodeProperties& before, const NodeProperties& afte
   recorder.field(Kind::compatible, "TPDO on change", before.flags_pdo, after.flags_pdo);
 }
 
-// A property that has no meaning here; of an EDS, a key that nobody knows is the same.
+// Returns a property without meaning for codict; in an EDS, this is an unknown key.
 const Text* find_other(const Entry& entry, const std::string& name) {
   const auto has_name = [&name](const auto& other) { return other.name == name; };
   const auto property = std::find_if(entry.properties.begin(), entry.properties.end(), has_name);

@@ -48,7 +48,7 @@ void compare_rates(const std::vector<BitRate>& before, const std::vector<BitRate
   }
 }
 
-// 0 means that nothing can be mapped; of what can, smaller parts are better.
+// Compares the PDO granularity: 0 means no mapping, otherwise smaller is better.
 void compare_granularity(const Field<std::uint8_t>& before, const Field<std::uint8_t>& after,
                          const Recorder& recorder) {
   const bool is_coarser = before.value != 0 && (after.value == 0 || after.value > before.value);
@@ -103,7 +103,7 @@ void compare_commissioning(const Commissioning& before, const Commissioning& aft
   recorder.field(Kind::configuration, "serial number", before.serial_number, after.serial_number);
 }
 
-// Channels have no names: the first is compared with the first.
+// Compares channels in pairs by position, as they have no names.
 void compare_channels(const std::vector<DynamicChannel>& before, const std::vector<DynamicChannel>& after,
                       const Recorder& recorder) {
   static const DynamicChannel nothing;
@@ -119,7 +119,7 @@ void compare_channels(const std::vector<DynamicChannel>& before, const std::vect
   }
 }
 
-// 12-31-2020 of an EDS and 2020-12-31 of an XDD are one day.
+// Compares dates or times of different notations: 12-31-2020 in an EDS equals 2020-12-31 in an XDD.
 void compare_moment(std::string_view what, const Text& before, const Text& after,
                     std::string (*as_schema)(const std::string&), const Recorder& recorder) {
   if (as_schema(before.text) != as_schema(after.text)) {
@@ -129,7 +129,7 @@ void compare_moment(std::string_view what, const Text& before, const Text& after
 
 void compare_files(const FileInfo& before, const FileInfo& after, const Recorder& recorder) {
   recorder.text(Kind::file, "file name", before.file_name, after.file_name);
-  if (before.version.text != after.version.text) {  // XML allows any text, an EDS numbers only
+  if (before.version.text != after.version.text) {  // compares the text first: in XML, the version may be any text
     recorder.field(Kind::file, "file version", before.version, after.version);
   }
   recorder.field(Kind::file, "file revision", before.revision, after.revision);

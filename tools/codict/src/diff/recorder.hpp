@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file recorder.hpp
-/// What the parts of a comparison share.
+/// Declarations that the parts of a comparison share.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace lexican::codict::diff {
 
-/// Writes down the differences of one place.
+/// Appends the differences of one place to a list.
 struct Recorder {
   std::vector<Difference>& differences;
   const Device& before;
@@ -28,14 +28,14 @@ struct Recorder {
     differences.push_back({kind, place, std::string(what), old_text.text, new_text.text, old_text.span, new_text.span});
   }
 
-  /// Texts that mean what they say.
+  /// Compares texts literally.
   void text(Kind kind, std::string_view what, const Text& old_text, const Text& new_text) const {
     if (old_text.text != new_text.text) {
       add(kind, what, old_text, new_text);
     }
   }
 
-  /// Fields, by what they mean. What is not given is shown as it is written: not at all.
+  /// Compares fields by their values. A field that is not given is shown as empty text.
   template <typename T>
   void field(Kind kind, std::string_view what, const Field<T>& old_field, const Field<T>& new_field) const {
     if (old_field.value != new_field.value) {
@@ -43,17 +43,17 @@ struct Recorder {
     }
   }
 
-  /// A number of which more is better, or something that is there or is not.
+  /// Compares numbers or flags that describe a capability: a decrease is breaking.
   template <typename T>
   void ability(std::string_view what, const Field<T>& old_field, const Field<T>& new_field) const {
     field(new_field.value < old_field.value ? Kind::breaking : Kind::compatible, what, old_field, new_field);
   }
 };
 
-/// Everything beside the objects: identity, features, the file.
+/// Compares everything but the objects: identity, features, file information.
 void compare_headers(const Recorder& recorder);
 
-/// An object without its sub-objects, or a sub-object.
+/// Compares an object without its sub-objects, or a sub-object.
 void compare_entries(const Entry& before, const Entry& after, const Recorder& recorder);
 
 }  // namespace lexican::codict::diff
