@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file assets.hpp
-/// What every HTML page has in it.
+/// Styles and script of all HTML pages.
 #pragma once
 
 #include <string_view>
@@ -31,8 +31,8 @@ svg.pdo rect { fill: var(--part); stroke: CanvasText; stroke-width: 1; } svg.pdo
 @media print { header { position: static; } input { display: none; } }
 )css";
 
-// Shows the objects in which all words of the search occur; rows without them are hidden unless the object itself has
-// them. An address that ends with ?q=WORDS searches when it is opened.
+// Search: shows the objects that contain all words. Rows without them are hidden, unless the object itself contains
+// them. The query ?q=WORDS in the address starts a search when the page is opened.
 constexpr std::string_view script = R"js(
 'use strict';
 const search = document.getElementById('search');

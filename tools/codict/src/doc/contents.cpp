@@ -174,7 +174,7 @@ struct Area {
   std::uint16_t last;
 };
 
-// [301: 7.4.1]
+// Areas of the object dictionary. [301: 7.4.1]
 constexpr std::array<Area, 5> areas = {{{"Data types", "data-types", 0x0FFF},
                                         {"Communication profile", "communication", 0x1FFF},
                                         {"Manufacturer-specific objects", "manufacturer", 0x5FFF},
@@ -189,7 +189,7 @@ class Chapters {
  public:
   Chapters(const Device& device, const Options& options) : device_(device), options_(options) {}
 
-  // The groups of the description, with the objects whose own parameters they name.
+  // Adds a chapter for each group of the description, with the objects whose own parameters the group refers to.
   void add_groups(const std::vector<Group>& groups, unsigned level) {
     for (const Group& group : groups) {
       chapters_.push_back(chapter_of(group, level));
@@ -197,7 +197,7 @@ class Chapters {
     }
   }
 
-  // All others, by the areas of the dictionary.
+  // Adds all other objects, in a chapter for each area of the dictionary.
   void add_areas() {
     const Area* current = nullptr;
     for (const Object& object : device_.objects) {

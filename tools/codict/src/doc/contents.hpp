@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file contents.hpp
-/// What documentation says, before it has a form.
+/// Contents of the documentation, independent of the output format.
 #pragma once
 
 #include <string>
@@ -18,25 +18,25 @@ struct Fact {
   std::string value;
 };
 
-/// An object or a sub-object.
+/// Object or sub-object.
 struct Item {
-  std::string number;  ///< "2000h", "2000h:1F"
-  std::string anchor;  ///< "o-2000", "o-2000-1F": the same for ever
+  std::string number;  ///< "2000h" or "2000h:1F"
+  std::string anchor;  ///< "o-2000" or "o-2000-1F"; must never change, because links refer to it
   std::string name;
   std::string type;
   std::string access;
-  std::string mapping;  ///< "TPDO", "RPDO, TPDO"; empty if it cannot be mapped
+  std::string mapping;  ///< "TPDO" or "RPDO, TPDO"; empty if it cannot be mapped
   std::string default_value;
-  std::string value;  ///< what a DCF or XDC configures
+  std::string value;  ///< value that a DCF or XDC configures
   std::string range;
   std::string unit;
   std::string group;               ///< storage group
   std::vector<Fact> allowed;       ///< values with their names
-  std::vector<std::string> words;  ///< descriptions, and what is special
+  std::vector<std::string> words;  ///< descriptions and remarks
 };
 
 struct ObjectItem {
-  Item object;  ///< without columns of its own where it has sub-objects
+  Item object;  ///< only name, type, group and words if it has sub-objects
   bool has_subs = false;
   std::vector<Item> subs;
 };
@@ -45,11 +45,11 @@ struct Chapter {
   std::string title;
   std::string anchor;
   std::string words;
-  unsigned level = 0;  ///< of chapters within chapters
+  unsigned level = 0;  ///< nesting depth of the chapter
   std::vector<ObjectItem> objects;
 };
 
-/// Which COB-ID has which service, and what to say of it.
+/// Table row for a COB-ID.
 struct CobIdRow {
   std::string service;
   std::string identifier;  ///< "181h", "off", "?"
@@ -58,7 +58,7 @@ struct CobIdRow {
 
 struct PdoPart {
   std::string number;  ///< "2000h:1"
-  std::string anchor;  ///< of the object; empty if it is not described
+  std::string anchor;  ///< anchor of the object; empty if the object is not described
   std::string name;
   unsigned first_bit = 0;
   unsigned bits = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file doc.hpp
-/// A device's documentation for people, from its description.
+/// Writes the documentation of a device from its description.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 namespace lexican::codict::doc {
 
 struct Options {
-  std::string language = "en";  ///< of labels and descriptions, where the description has several
-  std::uint8_t node_id = 1;     ///< with which COB-IDs are shown
+  std::string language = "en";  ///< language of labels and descriptions, if the description has several
+  std::uint8_t node_id = 1;     ///< node-ID for which COB-IDs are shown
 };
 
-/// One Markdown document (CommonMark with tables).
+/// Returns one Markdown document (CommonMark with tables).
 std::string markdown(const Device& device, const Options& options);
 
-/// One HTML page which needs nothing else: styles, pictures and search are in it.
+/// Returns one self-contained HTML page with styles, pictures and search.
 std::string html(const Device& device, const Options& options);
 
 }  // namespace lexican::codict::doc

@@ -18,7 +18,7 @@ namespace {
 
 class Page {
  public:
-  // All arguments are escaped: they are texts of the description, or harmless.
+  // Appends formatted HTML. All arguments are escaped, because they may be texts of the description.
   template <typename... Arguments>
   void write(fmt::format_string<decltype(std::string(std::declval<Arguments>()))...> form,
              const Arguments&... arguments) {
@@ -85,7 +85,7 @@ void write_remarks(const Item& item, Page& page) {
   }
 }
 
-// An object without sub-objects has its anchor at its section.
+// Writes a table row. The anchor of an object without sub-objects is at its section, not at its row.
 void write_row(const Item& item, bool is_sub, Page& page) {
   page.raw("<tr");
   if (is_sub) {

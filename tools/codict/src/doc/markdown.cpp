@@ -12,7 +12,8 @@ namespace lexican::codict::doc {
 
 namespace {
 
-// What would have a meaning in Markdown, or in the HTML that it may contain; a line end would end a table's row.
+// Escapes characters with a meaning in Markdown or embedded HTML. Line ends become blanks, as they would end a table
+// row.
 std::string escaped(std::string_view text) {
   constexpr std::string_view special = "\\`*_{}[]<>#|&~!";
   std::string result;
@@ -44,7 +45,7 @@ class Page {
     }
   }
 
-  // Cells are escaped by who makes them.
+  // Begins a table. Callers of row() escape the cells.
   void table(const std::vector<std::string_view>& header) {
     gap();
     fmt::format_to(out(), "| {} |\n|", fmt::join(header, " | "));

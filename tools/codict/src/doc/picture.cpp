@@ -18,14 +18,14 @@ constexpr unsigned row_height = 30;
 constexpr unsigned left = 56;
 constexpr unsigned top = 20;
 
-// A row's part of an object: `low` … `low + count - 1` are bits of byte `row`.
+// Box for the bits `low` … `low + count - 1` of byte `row`.
 struct Box {
   unsigned row;
   unsigned low;
   unsigned count;
 };
 
-// At most so many letters of UTF-8, the last one an ellipsis if some are missing.
+// Shortens a text to a number of UTF-8 characters; the last one is then an ellipsis.
 std::string shortened(std::string_view text, std::size_t letters) {
   std::size_t seen = 0;
   std::size_t keep = 0;
@@ -53,7 +53,7 @@ void draw(const Box& box, const PdoPart& part, bool is_first, std::string& svg) 
                  "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>",
                  part.number, name, x, y, box.count * bit_width, row_height);
   if (is_first) {
-    // A letter is about 7 wide; what does not fit is told by the title.
+    // A character is about 7 wide. The title element has the complete text.
     const std::size_t letters = box.count * bit_width / 7;
     const std::string label = box.count * bit_width >= 2 * bit_width ? part.number + " " + part.name : part.number;
     fmt::format_to(std::back_inserter(svg), "<text x=\"{}\" y=\"{}\">{}</text>", x + 5, y + 20,

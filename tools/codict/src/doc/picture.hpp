@@ -9,11 +9,11 @@
 
 namespace lexican::codict::doc {
 
-/// Text as HTML and XML have it, between tags and in attributes.
+/// Escapes a text for HTML and XML, for use between tags and in attributes.
 std::string escaped_html(std::string_view text);
 
-/// What lies where in a PDO, as SVG: a box for each part of each byte's row, bit 7 on the left. Boxes have the class
-/// "part"; those of one object have its number as data-object.
+/// Draws the mapping of a PDO as SVG: a row for each byte, bit 7 on the left, with a box for each part of an object.
+/// Boxes have the class "part" and the object's number as data-object.
 std::string picture_of(const PdoItem& pdo);
 
 }  // namespace lexican::codict::doc

@@ -30,7 +30,7 @@ struct Value {
   bool is_mappable = false;
 };
 
-// Sub-index 0 is the first value of an array or a record.
+// Object. The first value of an array or record is sub-index 0.
 struct Row {
   std::uint16_t index;
   int code;
@@ -68,7 +68,7 @@ Row pdo_mapping(std::uint16_t index, std::initializer_list<const char*> mapped) 
   return row;
 }
 
-// Objects of every device. [301: 7.5.2]
+// Returns the objects that every device has. [301: 7.5.2]
 Rows communication_rows(const char* device_type, const char* name) {
   return {
       {0x1000, var, "Device type", {{"", u32, "ro", device_type}}},
@@ -118,7 +118,7 @@ Rows plain_rows() {
           {0x2001, var, "Setpoint", {{"", u16, "rww", "0", true}}}};
 }
 
-// One byte of digital inputs and one of digital outputs. [401]
+// Returns the objects of a device with 8 digital inputs and 8 digital outputs. [401]
 Rows io_rows() {
   return {pdo_mapping(0x1600, {"0x62000108"}),
           pdo_mapping(0x1A00, {"0x60000108"}),
@@ -132,7 +132,7 @@ Rows io_rows() {
            {{count_name, u8, "const", "1"}, {"Digital outputs 1 to 8", u8, "rww", "0", true}}}};
 }
 
-// A drive with profile velocity mode. [402]
+// Returns the objects of a drive with profile velocity mode. [402]
 Rows drive_rows() {
   return {pdo_mapping(0x1600, {"0x60400010", "0x60FF0020"}),
           pdo_mapping(0x1A00, {"0x60410010", "0x606C0020"}),

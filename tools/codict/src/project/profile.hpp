@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file profile.hpp
-/// Descriptions of new devices.
+/// Descriptions of new devices from device profiles.
 #pragma once
 
 #include <cstdint>

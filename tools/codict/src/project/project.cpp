@@ -165,7 +165,7 @@ replace the drivers of the simulated bus by those of the hardware (`docs/porting
 
 using Words = std::vector<std::pair<std::string_view, std::string>>;
 
-// Replaces @NAME@ and the like; each word once per place.
+// Replaces @WORD@ by its value, for each word in the list. Replacements are not searched for the same word again.
 std::string filled(std::string text, const Words& words) {
   for (const auto& [word, value] : words) {
     const std::string mark = fmt::format("@{}@", word);
@@ -183,7 +183,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-// Escapes what CMake would interpret in a quoted argument.
+// Escapes characters that CMake would interpret in a quoted argument.
 std::string cmake_quoted(const std::string& text) {
   std::string quoted;
   for (const char c : text) {
