@@ -80,7 +80,7 @@ void add_unused(const Wanted& wanted, Findings& findings) {
 // Groups suppressions by rule, and reports those of unknown rules.
 ByRule by_rule(const Source& source, const std::vector<Suppression>& suppressions, bool is_generator,
                Findings& findings) {
-  constexpr std::size_t most_hints = 100;  // a hint compares the id with all rules, which takes long
+  constexpr std::size_t most_hints = 100;  // limits the time: each hint compares an id with all rules
   ByRule all;
   std::size_t unknown = 0;
   for (const Suppression& suppression : suppressions) {

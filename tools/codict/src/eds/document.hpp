@@ -44,7 +44,7 @@ class Document {
   const std::vector<Section>& sections() const { return sections_; }
   const std::vector<Key>& keys_outside() const { return keys_outside_; }  ///< before the first section
 
-  /// Return the first section or key that has a name by compare_names(); null if there is none.
+  /// Return the first section or key whose name is equal by compare_names(); null if there is none.
   const Section* find(std::string_view section) const;
   const Key* find(const Section& section, std::string_view key) const;
 

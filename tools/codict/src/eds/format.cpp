@@ -284,7 +284,7 @@ class Formatter {
     return key != nullptr && !key->value.is_empty();
   }
 
-  // Returns a count; the text of a correct one is unchanged.
+  // Returns the text of a count: unchanged if it is correct, else the number of entries.
   std::string counted(const Key& key, std::size_t number) const {
     const ParsedInteger given = parse_integer(document_.raw(key.value));
     const bool is_right = given.is_number() && given.value == Integer(number);

@@ -28,7 +28,8 @@ void interpret_values(Entry& entry, const Reader& reader);
 void interpret_entry(Entry& entry, bool has_subs, Findings& findings);
 void read_key(Object& object, const Key& key, const Reader& reader);
 
-// compact.cpp: reads lists of names, values and denotations, and object links.
+// compact.cpp: creates the sub-objects of compact storage; reads lists of names, values and denotations, and object
+// links.
 void expand_compact(Object& object, const Reader& reader);
 /// Returns false, with a finding, if `number` further sub-objects without sections would exceed the limit.
 bool take_implied_subs(std::size_t number, Span place, const Reader& reader);

@@ -12,7 +12,7 @@
 
 namespace lexican::codict::eds {
 
-/// Returns the first order code, which is the only one of an EDS.
+/// Returns the first order code, which is the only one of an EDS. Adds an empty one if there is none.
 inline Text& order_code(Device& device) {
   std::vector<Text>& codes = device.identity.order_codes;
   return codes.empty() ? codes.emplace_back() : codes.front();

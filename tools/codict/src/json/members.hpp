@@ -13,7 +13,7 @@ namespace lexican::codict::json {
 
 constexpr std::string_view schema = "codict-device-1";
 
-/// A part of the model: constant for the writer, which changes nothing.
+/// A part of the model as a visitor accesses it: const, except for the reader.
 template <typename Visit, typename T>
 using Part = std::conditional_t<Visit::is_reading, T, const T>;
 

@@ -396,12 +396,12 @@ class Reader {
     }
   }
 
-  // Sets a value to the meaning of its text for a data type, unless its meaning is given and consistent with the text.
-  // Without a known data type, the given meaning remains.
+  // Sets a value to the meaning of its text for a data type. A given kind remains if it is consistent with the text;
+  // without a known data type, the given meaning remains.
   void settle(const Untyped& untyped, const DataType& type) {
     const Value& said = *untyped.value;
     const bool is_typed = type.kind != TypeKind::unknown && type.kind != TypeKind::structure;
-    // These kinds do not replace a meaning: without a "value", the text is interpreted.
+    // Without a "value", texts of these kinds are interpreted, and other given kinds remain.
     const bool is_of_text = said.kind == Value::Kind::real || said.kind == Value::Kind::malformed;
     const bool is_settled = untyped.has_meaning ? untyped.has_kind || !is_typed : untyped.has_kind && !is_of_text;
     Findings ignored;
@@ -421,8 +421,8 @@ class Reader {
     }
   }
 
-  // Returns whether two values of one kind differ. An integer may represent a real; other kinds result from other
-  // types.
+  // Returns whether a given value contradicts its text: values of one kind differ, or the text of an integer is
+  // malformed. An integer may stand for a real.
   static bool contradicts(const Value& said, const Value& value) {
     if (said.kind == Value::Kind::integer && value.kind == Value::Kind::integer) {
       return said.adds_node_id != value.adds_node_id || !are_alike(value.integer, said.integer);

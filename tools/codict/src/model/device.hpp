@@ -405,8 +405,8 @@ struct Description {
   std::vector<Device> devices;
 };
 
-/// Calls call(index, sub_index, entry) for each entry that SDO can access, in order. An object without sub-objects has
-/// sub-index 0.
+/// Calls call(index, sub_index, entry) for each variable, in order: a sub-object, or an object without sub-objects,
+/// whose sub-index is 0.
 void for_each_variable(const Device& device,
                        const std::function<void(std::uint16_t, std::uint8_t, const Entry&)>& call);
 

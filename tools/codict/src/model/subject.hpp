@@ -20,7 +20,7 @@ std::string subject_of(const Device& device, std::uint16_t index, std::uint8_t s
 /// Returns a value as it is written, shortened.
 std::string text_of(const Value& value);
 
-/// Returns the name of a data type: "UNSIGNED8", its index "0099h" if CiA 301 does not define it.
+/// Returns the name of a data type, "UNSIGNED8", or its index, "0099h", if CiA 301 does not define it.
 std::string type_text(std::uint16_t code);
 
 /// Sets the subject of each finding that is located in the text of an object, a sub-object or a parameter.

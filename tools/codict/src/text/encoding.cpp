@@ -158,8 +158,7 @@ Encoding guess_encoding(std::string_view bytes) {
   if (is_utf8(bytes)) {
     return Encoding::utf8;
   }
-  // Bytes of frequent European letters: in CP850 ä ö ü Ä Ö Ü é à ç è ß, in CP1252 the same letters and the signs ° µ ²
-  // ³.
+  // Bytes of frequent letters: ä ö ü Ä Ö Ü é à ç è ß in CP850; in CP1252 the same, and the signs ° µ ² ³.
   constexpr std::string_view dos = "\x84\x94\x81\x8E\x99\x9A\x82\x85\x87\x8A\xE1";
   constexpr std::string_view windows = "\xE4\xF6\xFC\xC4\xD6\xDC\xDF\xE9\xE8\xE7\xE0\xB0\xB5\xB2\xB3";
   const auto of = [](std::string_view letters) {

@@ -20,7 +20,7 @@ Encoding guess_encoding(std::string_view bytes);
 /// Returns the size in bytes of the UTF-8 byte order mark at the beginning, or 0.
 std::size_t mark_size(std::string_view bytes);
 
-/// Replacement character U+FFFD, written for bytes that are no text in the assumed encoding.
+/// Replacement character U+FFFD, written for bytes or characters that cannot be represented.
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 
 bool is_ascii(std::string_view bytes);

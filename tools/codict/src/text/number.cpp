@@ -41,7 +41,7 @@ bool is_suffix(std::string_view rest) {
                      [rest](std::string_view suffix) { return equal_ignoring_case(rest, suffix); });
 }
 
-// Parses the notation 0080h, which only text for people uses: hexadecimal with the fault `suffix`.
+// Parses the notation 0080h of manuals as hexadecimal, with the fault `suffix`. Returns false for other texts.
 bool read_with_h(std::string_view text, ParsedInteger& parsed) {
   std::uint64_t value = 0;
   const bool has_form = text.size() > 1 && is_digit(text.front()) && to_lower(text.back()) == 'h';

@@ -45,7 +45,7 @@ enum class Base : unsigned char { decimal, hexadecimal, octal };
 enum class NumberFault : unsigned char {
   none,
   empty,
-  no_number,      ///< does not begin with a number
+  no_number,      ///< not a number, or followed by other text
   octal_digit,    ///< 08 and 09: a leading zero means octal
   too_large,      ///< exceeds 64 bits
   suffix,         ///< number with a suffix of C (10u, 0x1FLL) or the suffix h (80h)
@@ -55,8 +55,8 @@ enum class NumberFault : unsigned char {
   word,           ///< true, false
 };
 
-/// Result of parse_integer(). From the fault `suffix` on, `value` is the meant number; for `fraction`, the part before
-/// the point.
+/// Result of parse_integer(). From the fault `suffix` on, `value` is the number that is probably meant; for `fraction`,
+/// it is the part before the point.
 struct ParsedInteger {
   Integer value;
   Base base = Base::decimal;
@@ -99,7 +99,7 @@ constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 std::string_view trimmed(std::string_view text);
-/// Returns the text before a comment: before a blank that is followed by ; # or //.
+/// Returns the text before a comment, which begins with a blank and one of ; # //; the whole text without a comment.
 std::string_view without_comment(std::string_view text);
 /// Returns bytes as pairs of hexadecimal digits: "0AFF".
 std::string hexadecimal_octets(std::string_view octets);

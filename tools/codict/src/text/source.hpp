@@ -34,7 +34,7 @@ class Source {
   static constexpr std::size_t size_limit = std::size_t{64} * 1024 * 1024;
 
   Source() = default;
-  Source(std::string name, std::string bytes);  ///< at most size_limit bytes
+  Source(std::string name, std::string bytes);  ///< bytes: at most size_limit
 
   const std::string& name() const { return name_; }
   std::string_view bytes() const { return bytes_; }

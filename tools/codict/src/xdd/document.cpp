@@ -143,7 +143,7 @@ Encoding encoding_of(const Source& source, Findings& findings) {
   return declared == Encoding::utf8 ? guess : declared;
 }
 
-// Returns whether XML forbids a control character. [XML 1.0: 2.2]
+// Returns whether XML forbids a control character; CR is escaped before. [XML 1.0: 2.2]
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t'; }
 
 bool is_deeper_than(pugi::xml_node root, std::size_t most) {

@@ -37,7 +37,7 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
     {"objFlags", [](Part& p) -> Text& { return p.flags; }},
     {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id; }},
     {"subNumber", [](Part& p) -> Text& { return p.sub_number; }},
-    // Elements of _project.xml of CANopenNode.
+    // Names in _project.xml of CANopenNode.
     {"memoryType", [](Part& p) -> Text& { return p.node.storage_group; }},
     {"disabled", [](Part& p) -> Text& { return p.node.disabled; }},
     {"TPDOdetectCOS", [](Part& p) -> Text& { return p.node.flags_pdo; }},
@@ -282,7 +282,7 @@ void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reade
   complete_name(entry);
 }
 
-// Completes missing attributes of an element of an ARRAY, which has no parameter, with those of the ARRAY.
+// Completes missing attributes of an ARRAY's element with those of the ARRAY, unless a parameter describes the element.
 void inherit_from_array(Sub& sub, const Object& object) {
   const bool is_element = object.object_code.value == ObjectCode::array && sub.sub_index != 0;
   if (!is_element || !sub.parameter_id.is_empty()) {
@@ -475,7 +475,7 @@ bool read_indexed(pugi::xml_node element, Indexed& indexed, const Reader& reader
   return true;
 }
 
-// Converts an object that has only sub-index 0 to an object without sub-objects.
+// Converts an object that has only sub-index 0, and no structuredParameter, to an object without sub-objects.
 void simplify(Object& object) {
   if (object.subs.size() == 1 && object.subs.front().sub_index == 0 && object.span.is_empty()) {
     static_cast<Entry&>(object) = std::move(static_cast<Entry&>(object.subs.front()));

@@ -18,8 +18,8 @@ class Rest {
   Rest() = default;
   explicit Rest(const std::vector<Kept>& others);
 
-  /// Remove and return the first part with a name, or the unread part of an element that has been read; null if there
-  /// is none.
+  /// Remove and return the first kept part with a name (take), or the first that is the unread rest of an element whose
+  /// text or attribute has been read (take_left); null if there is none.
   const Kept* take(std::string_view name);
   const Kept* take_left(std::string_view name, std::string_view attribute);
   const std::vector<const Kept*>& all() const { return all_; }

@@ -66,7 +66,8 @@ AllowedValue read_allowed_value(pugi::xml_node element, std::vector<Kept>& other
   return value;
 }
 
-// Adds the value of an entry of an enumeration to which maxon refers. [maxon: enumEntryIDRef]
+// Adds the value of the enumeration entry that an element of maxon refers to. Returns false if there is none, or if it
+// exceeds the limit of copies. [maxon: enumEntryIDRef]
 bool read_entry_reference(Allowed& allowed, pugi::xml_node element, std::vector<Kept>& others, const Reader& reader) {
   const pugi::xml_node entry = find(reader.shared.enum_entries, raw_attribute(element, "uniqueIDRef"));
   if (!entry || !may_copy(entry, reader)) {

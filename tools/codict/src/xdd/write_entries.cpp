@@ -12,7 +12,7 @@ namespace {
 
 Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
 
-// Returns whether an object has a kept part in addition to its parameter, which cannot have it.
+// Returns whether a kept part belongs to the object, and not to its parameter, which has no such attribute.
 bool is_of_object(const Kept& kept) {
   constexpr std::array<std::string_view, 7> names = {"@lowLimit",    "@highLimit",  "@accessType",     "@defaultValue",
                                                      "@actualValue", "@denotation", "CANopenSubObject"};
@@ -58,7 +58,7 @@ bool has_limits_of_range(const Entry& entry) {
          ranges[0].maximum.text == entry.high_limit.text;
 }
 
-// Returns whether a value is written: also the implied value of sub-index 0, which CiA 306 does not require.
+// Returns whether a value is written. CiA 306 need not give the value of sub-index 0; here it is always written.
 bool is_said(const Value& value) { return value.is_given || value.is_integer(); }
 std::string text_of(const Value& value) {
   return value.is_empty() && value.is_integer() ? value.written_integer() : value.text;
