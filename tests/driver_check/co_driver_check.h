@@ -4,9 +4,9 @@
 /// can be observed from outside has a name; the check prints its verdict and the reason in one line. docs/porting.md
 /// describes how to run it.
 ///
-///     static CO_DRIVER_CHECK Check = { &MyDrivers, NULL, MyPrint };    // the rest: see the members
+///     static CO_DRIVER_CHECK Check = { &MyDrivers, NULL, MyPrint };    // other members: see below
 ///     void TIMER_IRQHandler(void) { MyTimerInterrupt(); CODriverCheckService(&Check); }   // for COTmrService()
-///     int main(void) { ... return CODriverCheck(&Check); }             // 0: no promise was found broken
+///     int main(void) { ... return CODriverCheck(&Check); }             // 0: no check has failed
 ///
 /// Add the files driver_check*.c to the firmware, with the drivers and the library. They use only string.h of the C
 /// library, and allocate no memory.
@@ -69,12 +69,12 @@ typedef struct CO_DRIVER_CHECK_T {
 
   /// \cond internal
   volatile uint32_t Interrupts;
-  volatile uint32_t Elapsed;    // expiries
-  volatile uint32_t ElapsedAt;  // time of the last one, by the clock
+  volatile uint32_t Elapsed;    // number of expiries
+  volatile uint32_t ElapsedAt;  // time of the last expiry, by the clock
   volatile uint32_t Chain;      // number of expiries after which the timer is loaded again in the interrupt
   uint32_t ChainTicks;
   volatile uint32_t LongFrom;   // begin of the wait of a driver with a clock that may interrupt meanwhile
-  volatile uint32_t LongTicks;  // 0: none
+  volatile uint32_t LongTicks;  // ticks of that wait; 0: there is none
   uint32_t Refused;             // frames refused by Send in the current check
   bool Running;                 // the classic timer was loaded and not stopped
   bool OddResult;               // Read or Send has returned an invalid result
@@ -91,7 +91,7 @@ void CODriverCheckTimer(CO_DRIVER_CHECK* check);
 void CODriverCheckNvm(CO_DRIVER_CHECK* check);
 /// \}
 
-/// Call it where the firmware calls COTmrService().
+/// Processes an interrupt of the timer. To be called where the firmware calls COTmrService().
 void CODriverCheckService(CO_DRIVER_CHECK* check);
 
 #ifdef __cplusplus

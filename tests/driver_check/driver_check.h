@@ -11,7 +11,8 @@ extern "C" {
 
 typedef enum CHECK_VERDICT_T { CHECK_OK = 0, CHECK_FAILED, CHECK_SKIPPED } CHECK_VERDICT;
 
-// Prints the verdict on what name promises. In reason each # stands for the next number, decimal, each $ hexadecimal.
+// Prints the verdict of the check name, with the reason. The first # or $ in reason stands for first, the others for
+// second: # in decimal, $ in hexadecimal.
 void CheckSay(CO_DRIVER_CHECK* c, CHECK_VERDICT verdict, const char* name, const char* reason, uint32_t first,
               uint32_t second);
 
@@ -27,7 +28,7 @@ static inline void CheckSkip(CO_DRIVER_CHECK* c, const char* name, const char* r
   CheckSay(c, CHECK_SKIPPED, name, reason, 0, 0);
 }
 
-// Another turn of waiting.
+// Calls CO_DRIVER_CHECK.Idle; must be called in each iteration of a wait.
 void CheckIdle(const CO_DRIVER_CHECK* c);
 
 uint32_t CheckPatience(const CO_DRIVER_CHECK* c);

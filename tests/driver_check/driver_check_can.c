@@ -3,7 +3,7 @@
 
 #include "driver_check.h"
 
-// The end of a bus: a driver of either kind.
+// One controller on the bus, with its driver: a classic driver or one with a context argument.
 typedef struct END_T {
   CO_DRIVER_CHECK* Check;
   const CO_IF_CAN_DRV* Plain;
@@ -11,29 +11,29 @@ typedef struct END_T {
   void* Ctx;
 } END;
 
-// A way of frames over the bus.
+// A direction in which frames are transferred.
 typedef struct WAY_T {
   const END* From;
   const END* To;
-  uint32_t Echo;  // bit that is set in the identifier on its way
+  uint32_t Echo;  // bit that the PC sets in the identifier of its answer
 } WAY;
 
-// Participants of a check.
+// Controllers of a check, and the directions that can be checked.
 typedef struct BUS_T {
   END Own;
   END Peer;
   WAY Way[2];
-  uint8_t Ways;  // 0: nothing can be received
+  uint8_t Ways;  // 0: no frame can be received
 } BUS;
 
-// A frame is requested from the PC by this identifier, and comes with the next one.
+// Identifier of the frame that requests frames from the PC; these have the next identifier.
 #define FEED_REQUEST 0x7F0u
 
-// Even, as a PC answers with odd ones: each bit alone, none, all.
+// Identifiers with one, no, or all bits set; even ones, as the PC answers with the next odd one.
 static const uint16_t BaseIds[] = {0x000, 0x002, 0x004, 0x008, 0x010, 0x020, 0x040, 0x080, 0x100, 0x200, 0x400, 0x7FE};
 #define BASE_IDS (sizeof(BaseIds) / sizeof(BaseIds[0]))
 
-// The driver, whichever kind it is.
+// Calls of the driver of either kind.
 
 static int16_t Checked(const END* end, int16_t result) {
   end->Check->OddResult = end->Check->OddResult || (result > 0 && result != (int16_t)sizeof(CO_IF_FRM));
@@ -69,7 +69,7 @@ static void Fill(CO_IF_FRM* frm, uint32_t identifier, uint8_t dlc, uint8_t first
   }
 }
 
-// Error frames are no traffic.
+// Reads a frame; error frames are ignored.
 static bool ReadFrame(const END* end, CO_IF_FRM* frm) {
   return Read(end, frm) > 0 && (frm->Identifier & CO_IF_FRM_ERROR) == 0;
 }
@@ -111,7 +111,7 @@ static bool IsSame(const WAY* way, const CO_IF_FRM* sent, const CO_IF_FRM* got) 
          (remote || memcmp(got->Data, sent->Data, sent->DLC) == 0);
 }
 
-// Sends one frame. Returns what is wrong, or null.
+// Sends one frame and receives it. Returns the fault, or null.
 static const char* Pass(const WAY* way, const CO_IF_FRM* frm) {
   CO_IF_FRM got;
   if (!Offer(way->From, frm)) {
@@ -123,7 +123,7 @@ static const char* Pass(const WAY* way, const CO_IF_FRM* frm) {
   return IsSame(way, frm, &got) ? NULL : "frame $ with # bytes arrives as another";
 }
 
-// Passes a frame on all ways; prints the verdict if it is negative.
+// Transfers a frame in all directions; prints the verdict if it is negative.
 static bool PassAll(const BUS* bus, const char* name, const CO_IF_FRM* frm) {
   for (uint8_t way = 0; way < bus->Ways; ++way) {
     const char* const wrong = Pass(&bus->Way[way], frm);
@@ -146,7 +146,7 @@ static void CheckLengths(const BUS* bus) {
   CheckPass(bus->Own.Check, "can.dlc", "lengths 0 to 8 arrive");
 }
 
-// Every bit of every byte, 0 and 1.
+// Transfers frames in which each bit of the data is 0 and 1.
 static void CheckData(const BUS* bus) {
   CO_IF_FRM frm;
   for (uint8_t bit = 0; bit < 64; ++bit) {
@@ -203,13 +203,13 @@ static void CheckRemote(const BUS* bus) {
   }
 }
 
-// Many frames.
+// Streams of frames.
 
 typedef struct STREAM_T {
   uint32_t Num;
-  uint32_t Window;  // frames on their way at most
-  bool Together;    // read only when a whole window was sent
-  bool Descending;  // identifiers: each frame has a higher priority than the one before
+  uint32_t Window;  // greatest number of frames that are sent and not yet received
+  bool Together;    // frames are received only after a whole window was sent
+  bool Descending;  // the identifiers descend within a window: each frame has a higher priority than the one before
 } STREAM;
 
 static void FillNumbered(CO_IF_FRM* frm, const STREAM* stream, uint32_t number) {
@@ -235,7 +235,7 @@ static bool MayRead(const STREAM* stream, uint32_t sent, uint32_t read) {
   return !stream->Together || sent >= until || sent == stream->Num;
 }
 
-// Returns what is wrong, or null; the number of the frame in number.
+// Transfers a stream. Returns the fault, or null; number is the number of the faulty frame.
 static const char* Stream(const WAY* way, const STREAM* stream, uint32_t* number) {
   CO_DRIVER_CHECK* const c = way->From->Check;
   CO_IF_FRM want;
@@ -285,21 +285,22 @@ static void CheckOrder(const BUS* bus) {
   CheckStream(bus, "can.order", &stream, "# frames, each of a higher priority, arrive as they were sent");
 }
 
-// A controller that was never full has not shown that it says so.
+// Sends more frames than the controller can hold, so that Send must refuse some.
 static void CheckBusy(const BUS* bus) {
   const STREAM stream = {8 * Burst(bus->Own.Check), Burst(bus->Own.Check), false, false};
   CheckStream(bus, "can.busy", &stream,
               "# frames, refused # times: what was taken arrives once, what was not does not");
 }
 
-// The PC sends numbered frames as fast as it can; their first byte counts.
+// Checks that received frames are queued until they are read. The PC sends numbered frames as fast as it can; their
+// first byte is the number.
 static void CheckFedBurst(const BUS* bus) {
   CO_DRIVER_CHECK* const c = bus->Own.Check;
   CO_IF_FRM frm;
   uint8_t first = 0;
   Fill(&frm, FEED_REQUEST, 1, (uint8_t)Burst(c));
   (void)Offer(&bus->Own, &frm);
-  for (uint32_t turn = CheckQuiet(c); turn != 0; --turn) {  // all of them are there, and have not been read
+  for (uint32_t turn = CheckQuiet(c); turn != 0; --turn) {  // all frames arrive before the first one is read
     CheckIdle(c);
   }
   for (uint32_t n = 0; n < Burst(c); ++n) {
@@ -322,7 +323,7 @@ static void CheckBurst(const BUS* bus) {
   CheckStream(bus, "can.burst", &stream, "# frames wait until they are read");
 }
 
-// On and off the bus.
+// Controllers that go on and off the bus.
 
 static void CheckInit(const BUS* bus) {
   CO_IF_FRM frm;
@@ -374,7 +375,7 @@ static void CheckOff(const BUS* bus, const char* name) {
   CheckPass(bus->Own.Check, name, "off the bus, nothing is sent and nothing received");
 }
 
-// Frames that were received before are gone; then all goes on as before.
+// Checks that Reset discards the frames received before it, and that frames are transferred afterwards.
 static void CheckReset(const BUS* bus) {
   const WAY* const way = &bus->Way[bus->Ways - 1];
   CO_IF_FRM frm;

@@ -6,7 +6,7 @@
 #define BUFFER_BYTES 256u
 #define ERASED 0xFFu
 
-// The memory with its driver. What is written is a pattern of its address, so that bytes in wrong places are seen.
+// The memory and its driver. Written data are a pattern of the address, so that bytes at wrong addresses are detected.
 typedef struct NVM_T {
   CO_DRIVER_CHECK* Check;
   const CO_IF_NVM_DRV* Plain;
@@ -31,7 +31,7 @@ static uint8_t Pattern(uint32_t address, uint8_t seed) {
   return (uint8_t)(seed ^ address * 7u ^ address >> 8 ^ address >> 16 ^ address >> 24);
 }
 
-// Whole units of programming that fit the buffer.
+// Returns the largest number of bytes that the buffer holds in whole units of programming.
 static uint32_t Piece(const NVM* nvm) { return BUFFER_BYTES - BUFFER_BYTES % nvm->Shape.ProgramSize; }
 
 static bool MakeWritable(const NVM* nvm) {
@@ -46,7 +46,8 @@ static bool WritePattern(const NVM* nvm, uint32_t start, uint32_t size, uint8_t 
   return Write(nvm, start, Buffer, size) == size;
 }
 
-// Reads size bytes, and looks that nothing beside them is written. Returns the first wrong byte, or size.
+// Reads size bytes, and checks that the bytes beside them in the buffer do not change. Returns the index of the first
+// wrong byte, or size.
 static uint32_t FirstWrong(const NVM* nvm, uint32_t start, uint32_t size, uint8_t seed) {
   memset(Buffer, 0xC3, sizeof(Buffer));
   if (Read(nvm, start, Buffer + 1, size) != size || Buffer[0] != 0xC3 || Buffer[size + 1] != 0xC3) {
@@ -75,7 +76,7 @@ static bool WriteAll(const NVM* nvm, uint8_t seed) {
   return true;
 }
 
-// Returns the first wrong address, or the capacity.
+// Returns the first address with wrong data, or the capacity.
 static uint32_t FindWrong(const NVM* nvm, uint8_t seed) {
   for (uint32_t at = 0; at < nvm->Shape.Capacity;) {
     const uint32_t left = nvm->Shape.Capacity - at;
@@ -119,7 +120,7 @@ static void CheckWhole(const NVM* nvm) {
   CheckSay(nvm->Check, CHECK_OK, "nvm.whole", "# bytes were written twice and are there", nvm->Shape.Capacity, 0);
 }
 
-// After nvm.whole: everything holds the pattern.
+// Reads at unaligned addresses and of any size. Must be called after nvm.whole: the memory then holds the pattern.
 static void CheckReads(const NVM* nvm) {
   const uint32_t top = nvm->Shape.Capacity < BUFFER_BYTES ? nvm->Shape.Capacity : BUFFER_BYTES;
   for (uint32_t start = 0; start < 9 && start < top; ++start) {
@@ -145,7 +146,7 @@ static void CheckKept(const NVM* nvm) {
   CheckPass(nvm->Check, "nvm.kept", "Init leaves what is stored");
 }
 
-// Flash alone: from the beginning on, whole units.
+// Erases whole units from address 0 on that contain at least size bytes. For flash only.
 static bool EraseFront(const NVM* nvm, uint32_t size) {
   const uint32_t unit = nvm->Shape.EraseSize;
   return nvm->Ex->Erase(nvm->Ctx, 0, (size + unit - 1) / unit * unit);
@@ -209,7 +210,7 @@ static void CheckBuffer(const NVM* nvm) {
   CheckPass(nvm->Check, "nvm.buffer", "Write leaves the bytes of its caller");
 }
 
-// Returns what is wrong with an access that does not end in the memory, or null.
+// Accesses addresses beyond the end of the memory. Returns the fault, or null.
 static const char* Overflow(const NVM* nvm, uint32_t start, uint32_t size) {
   memset(Buffer, 0, sizeof(Buffer));
   if (Read(nvm, start, Buffer, size) >= size) {

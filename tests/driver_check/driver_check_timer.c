@@ -20,11 +20,11 @@ static void Unlock(const CO_DRIVER_CHECK* c) {
   c->Ext != NULL && c->Ext->Unlock != NULL ? c->Ext->Unlock(c->Ext->User) : COTmrUnlock();
 }
 
-// The stack asks a clock, so that a call that comes before the alarm, or without one, does no harm: drivers may need
-// some for long waits. One such call is let pass where there is no alarm.
+// Returns the number of additional interrupts that a check permits where no alarm is set. The stack compares the clock,
+// so that an interrupt before the alarm or without one does no harm; a driver may need such interrupts for long waits.
 static uint32_t Spare(const CO_DRIVER_CHECK* c) { return HasClock(c) ? 1 : 0; }
 
-// Starts a timer with the calls of the stack: Start only after a Stop.
+// Starts or stops the timer in the order of the stack's calls: Start only after Init or Stop.
 static void Load(CO_DRIVER_CHECK* c, uint32_t ticks) {
   if (HasClock(c)) {
     c->Ext->Timer->Alarm(c->Ext->TimerCtx, ticks);
@@ -58,7 +58,7 @@ void CODriverCheckService(CO_DRIVER_CHECK* check) {
   Load(check, more ? check->ChainTicks : 0);
 }
 
-// The result of the interrupt, as it was at the last look.
+// Returns the number of expiries so far, which the interrupt counts.
 static uint32_t Count(const CO_DRIVER_CHECK* c) { return c->Elapsed; }
 
 static uint32_t Arm(CO_DRIVER_CHECK* c, uint32_t ticks) {
@@ -70,7 +70,7 @@ static uint32_t Arm(CO_DRIVER_CHECK* c, uint32_t ticks) {
   return now;
 }
 
-// Waits until the time has passed since a moment, or the clock stands still.
+// Waits until ticks have passed since from, or the clock stands still.
 static void WaitUntil(const CO_DRIVER_CHECK* c, uint32_t from, uint32_t ticks) {
   uint32_t last = Now(c);
   for (uint32_t turn = CheckPatience(c); turn != 0 && last - from < ticks; --turn) {
@@ -83,7 +83,7 @@ static void WaitUntil(const CO_DRIVER_CHECK* c, uint32_t from, uint32_t ticks) {
 
 static void WaitTicks(const CO_DRIVER_CHECK* c, uint32_t ticks) { WaitUntil(c, Now(c), ticks); }
 
-// Waits for the expiry behind a number of them; a tick more than it may be late.
+// Waits for an expiry after the first before ones, at most a tick longer than it may be late.
 static bool AwaitElapsed(const CO_DRIVER_CHECK* c, uint32_t before, uint32_t from, uint32_t ticks) {
   uint32_t last = Now(c);
   for (uint32_t turn = CheckPatience(c); turn != 0 && Count(c) == before && last - from <= ticks + c->Late + 1;
@@ -127,7 +127,8 @@ static void CheckClock(CO_DRIVER_CHECK* c) {
   CheckPass(c, "timer.clock", "the clock goes on and never back");
 }
 
-// Two clocks of one frequency; 2 % are more than any crystal is wrong.
+// Compares the driver's clock with the other clock of the same frequency. Tolerance: 2 %, more than any crystal
+// deviates.
 static void CheckRate(CO_DRIVER_CHECK* c) {
   if (c->Clock == NULL) {
     CheckSkip(c, "timer.rate", "there is no other clock to compare with");
@@ -143,7 +144,7 @@ static void CheckRate(CO_DRIVER_CHECK* c) {
            passed, expected);
 }
 
-// 0: in time. 1: early, 2: late, 3: not at all.
+// Waits for an expiry after ticks. Returns 0: in time, 1: early, 2: late, 3: not at all; the time of it in after.
 static uint8_t Elapses(CO_DRIVER_CHECK* c, uint32_t ticks, uint32_t* after) {
   const uint32_t before = Count(c);
   const uint32_t start = Arm(c, ticks);
@@ -170,7 +171,7 @@ static void CheckElapses(CO_DRIVER_CHECK* c) {
   CheckPass(c, "timer.elapse", "1 to 1000 ticks are over neither early nor late");
 }
 
-// A driver with a clock may interrupt on its way.
+// Checks a long wait; a driver with a clock may interrupt before its end.
 static void CheckLong(CO_DRIVER_CHECK* c) {
   const uint32_t ticks = c->Longest == 0 ? 2 * c->TmrFreq : c->Longest;
   uint32_t after = 0;
@@ -272,7 +273,7 @@ static void CheckDelay(CO_DRIVER_CHECK* c) {
   CheckSay(c, left == 0 ? CHECK_OK : CHECK_FAILED, "timer.delay", "Delay falls to #", left, 0);
 }
 
-// Elapses while interrupts are kept away: the expiry waits, and is discarded by what comes then.
+// Lets the timer elapse while interrupts are disabled: the pending expiry must be discarded by Reload and Stop.
 static void CheckPending(CO_DRIVER_CHECK* c) {
   if (c->Clock == NULL) {
     CheckSkip(c, "timer.pending", "there is no other clock to wait by while interrupts are off");

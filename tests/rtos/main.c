@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device and a master, each in a task with interrupts beside it: the master's other tasks read and write the device.
-// Prints "1..N" and N lines "ok …" or "not ok …".
+// Runs a device and a master, each in a task, with interrupts; other tasks of the master read and write the device's
+// objects. Prints "1..N" and N lines "ok …" or "not ok …".
 #include <stdio.h>
 #include <string.h>
 
@@ -63,7 +63,7 @@ static CO_ERR Begin(NODE_TASK* node, CONTROLLER* can, uint8_t id, CO_OBJ* object
   return NodeTaskStart(node, &spec);
 }
 
-// Waits with patience: no verdict depends on how fast the machine is.
+// Waits up to 20 s for an event, so that the verdict does not depend on the speed of the machine.
 static bool Comes(bool (*happened)(void)) {
   for (unsigned ms = 0; ms < 20000; ++ms) {
     if (happened()) {
@@ -112,7 +112,7 @@ static void TestSdo(SDO_REQUEST* sdo) {
   Say(read && num == LARGE && memcmp(buffer, sent, LARGE) == 0, "and are read back");
 }
 
-// Another task of the device changes objects while the network reads them.
+// Changes objects in another task of the device, while the network reads them.
 static void ChangeObjects(void* parameter) {
   CO_UNUSED(parameter);
   for (uint32_t n = 1;; ++n) {
@@ -136,7 +136,8 @@ static void TestTasks(SDO_REQUEST* sdo) {
   Say(good == 50, "objects are read while a task changes them");
 }
 
-// The device has nothing planned: its task waits for ever, unless it is told.
+// Checks that the node's task is notified of a timer that another task has started: without it, the task would sleep
+// for ever.
 static void TestTimer(SDO_REQUEST* sdo) {
   const uint8_t off[2] = {0, 0};
   const bool silent = SdoWrite(sdo, CO_DEV(0x1017, 0), off, 2) == 0;

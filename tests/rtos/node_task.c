@@ -3,7 +3,7 @@
 
 static NODE_TASK* TaskOf(void* ctx) { return (NODE_TASK*)ctx; }
 
-// The CAN driver. The ring is the only thing that interrupt and task share.
+// The CAN driver. Interrupt and task share only the ring.
 static void Init(void* ctx) {
   NODE_TASK* const self = TaskOf(ctx);
   self->Can->Stop(self->CanCtx);
@@ -21,7 +21,7 @@ static int16_t Send(void* ctx, const CO_IF_FRM* frame) {
   return TaskOf(ctx)->Can->Write(TaskOf(ctx)->CanCtx, frame) ? (int16_t)sizeof(CO_IF_FRM) : 0;
 }
 
-// Empties the ring as its consumer: the interrupt may put frames meanwhile.
+// Restarts the controller and empties the ring as its consumer: the interrupt may put frames meanwhile.
 static void Reset(void* ctx) {
   TaskOf(ctx)->Can->Restart(TaskOf(ctx)->CanCtx);
   CORingClear(&TaskOf(ctx)->Received);
@@ -31,7 +31,7 @@ static void Close(void* ctx) { TaskOf(ctx)->Can->Stop(TaskOf(ctx)->CanCtx); }
 
 static const CO_IF_CAN_DRV_EX CanDriver = {Init, Enable, Read, Send, Reset, Close, NULL};
 
-// The timer driver: the tick of the RTOS is the clock. It has no alarm, because the task computes its waiting time.
+// The timer driver: its clock is the tick of the RTOS. It has no alarm, because the task computes its waiting time.
 static void InitClock(void* ctx, uint32_t freq) {
   CO_UNUSED(ctx);
   CO_UNUSED(freq);
@@ -44,8 +44,8 @@ static uint32_t Now(void* ctx) {
 
 static const CO_IF_TIMER_DRV_EX TimerDriver = {InitClock, Now, NULL};
 
-// Mapped objects change together: see CO_NODE_EXT.OdLock. The critical section excludes other tasks, and the interrupts
-// that may use objects.
+// Locks the objects that are mapped together: see CO_NODE_EXT.OdLock. The critical section excludes other tasks and the
+// interrupts that may use objects.
 static void LockObjects(void* user) {
   CO_UNUSED(user);
   taskENTER_CRITICAL();
@@ -58,7 +58,8 @@ static void UnlockObjects(void* user) {
 
 void NodeTaskLock(NODE_TASK* self) { (void)xSemaphoreTake(self->Mutex, portMAX_DELAY); }
 
-// Notifies the task: the calls before may have started a timer or queued frames, so its waiting time may have changed.
+// Unlocks the node, and notifies its task: the calls before may have started a timer or queued frames, which changes
+// its waiting time.
 void NodeTaskUnlock(NODE_TASK* self) {
   (void)xSemaphoreGive(self->Mutex);
   (void)xTaskNotifyGive(self->Task);
@@ -72,7 +73,7 @@ static void ReportLostFrames(NODE_TASK* self) {
   }
 }
 
-// Returns the ticks until the next deadline; portMAX_DELAY: none.
+// Processes the node. Returns the ticks until its next deadline; portMAX_DELAY: none.
 static TickType_t Process(NODE_TASK* self) {
   CONodeProcess(&self->Node);
   (void)COTmrService(&self->Node.Tmr);
@@ -81,7 +82,7 @@ static TickType_t Process(NODE_TASK* self) {
   return CORingCount(&self->Received) != 0 ? 0 : (TickType_t)CONodeNextDeadline(&self->Node);
 }
 
-// A notification between Process() and the wait stays pending: the wait then ends at once.
+// Runs the node. A notification between Process() and the wait is not lost: the wait then ends at once.
 static void Run(void* parameter) {
   NODE_TASK* const self = TaskOf(parameter);
   for (;;) {
@@ -102,7 +103,8 @@ static void NameDrivers(NODE_TASK* self) {
   self->Ext.User = self;
 }
 
-// Creates the task before the node, so that the first interrupt can notify it; it waits for the lock meanwhile.
+// Creates the task before the node, so that the first interrupt can notify it; until the node is started, the task
+// waits for the lock.
 CO_ERR NodeTaskStart(NODE_TASK* self, const CO_NODE_SPEC* spec) {
   CO_NODE_SPEC complete = *spec;
   complete.TmrFreq = configTICK_RATE_HZ;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sdo_request.h"
 
-#define TIME_OUT 5000u  // ms, for each answer
+#define TIME_OUT 5000u  // ms for each response
 
-// State of each client: the waiting task, and the result. Accessed with the lock of the node held.
+// State of each client: the waiting task, and the result. To be accessed with the lock of the node held.
 static struct {
   TaskHandle_t Waits;
   uint32_t Code;
   bool Over;
 } Requests[CO_CSDO_N];
 
-// Called in the task of the node, with the lock held.
+// Ends the wait of the task. Called in the task of the node, with the lock held.
 static void Done(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
   CO_UNUSED(index);
   CO_UNUSED(sub);
@@ -30,7 +30,7 @@ static CO_ERR Start(SDO_REQUEST* self, CO_CSDO* client, uint32_t key, uint8_t* b
                : COCSdoRequestDownload(client, key, buffer, size, Done, TIME_OUT);
 }
 
-// A notification may have another cause: only Over ends the wait.
+// Transfers the data and waits for the end. The task may be notified for another reason, so Over is checked.
 static uint32_t Transfer(SDO_REQUEST* self, uint32_t key, uint8_t* buffer, uint32_t size, uint32_t* num, bool reads) {
   NodeTaskLock(self->Node);
   CO_CSDO* const client = COCSdoFind(&self->Node->Node, self->Client);

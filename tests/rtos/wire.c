@@ -58,8 +58,8 @@ static CO_IF_FRM TakeFirst(CONTROLLER* c) {
   return frame;
 }
 
-// False: the task of the peer is slow. Unlike a real one this wire then waits, so that nothing depends on how fast the
-// machine is.
+// Delivers a frame in the peer's receive interrupt. Returns false if the peer's ring is full: unlike real hardware the
+// wire then repeats the frame, so that the result does not depend on the speed of the machine.
 static bool Deliver(CONTROLLER* peer, const CO_IF_FRM* frame) {
   (void)pthread_mutex_lock(&peer->Mutex);
   const bool full = peer->On && CORingCount(&peer->Node->Received) == NODE_TASK_FRAMES;
@@ -70,7 +70,8 @@ static bool Deliver(CONTROLLER* peer, const CO_IF_FRM* frame) {
   return !full;
 }
 
-// Received by the peer in its interrupt, sent in one of this controller.
+// Transmits the first queued frame: calls the receive interrupt of the peer, and the transmit interrupt of this
+// controller.
 static bool Forward(CONTROLLER* c) {
   const struct timespec frame_time = {0, 50000};
   const CO_IF_FRM frame = TakeFirst(c);

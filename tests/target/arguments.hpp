@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file arguments.hpp
-/// The command line that the host gives to a program on a board, cut at its spaces. For QEMU:
+/// Command line that the host passes to a program on a board, split at its spaces. For QEMU:
 /// -semihosting-config …,arg=PROGRAM,arg=ARGUMENT…
 #pragma once
 

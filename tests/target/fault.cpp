@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a word that is not aligned, which must end the program by a fault where the tests rely on that.
+// Reads an unaligned word, to check that unaligned accesses cause a fault on the boards where the tests rely on that.
 #include <cstdint>
 
 #include "board.hpp"

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The heap of the test programs on boards: the tests request memory so often that the one of the C library, which
-// searches its lists, would be what is measured. And for ARMv7-M, whose C library copies by words that are not aligned
-// and faults where these are trapped: copies that do not.
+// Heap of the test programs on boards. The tests allocate so often that the C library's heap, which searches lists,
+// would take most of the time. For ARMv7-M the file also defines copy functions: those of the C library access
+// unaligned words, which faults where unaligned accesses are trapped.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 #include "program.hpp"
 
-extern "C" char board_bss_end[], board_heap_end[];  // of sections.ld
+extern "C" char board_bss_end[], board_heap_end[];  // defined in sections.ld
 
 namespace {
 
-/// Blocks of 16 bytes, 32, 64, …, each behind a header. Those that are free hang in a list for each size.
+/// Header of a block of 16 << order bytes. Unused blocks are in a list for each order.
 struct Header {
   union {
     std::size_t order;
@@ -54,7 +54,7 @@ T* as(void* memory) {
 
 Header* header_of(void* memory) { return as<Header>(as<char>(memory) - header_size); }
 
-// At least of that order, which the block has noted.
+// Returns an unused block of at least that order, or null. The header contains its order.
 Header* take_unused(std::size_t order) {
   while (order < orders && unused[order] == nullptr) {
     ++order;
@@ -76,7 +76,7 @@ Header* make(std::size_t order) {
   return header;
 }
 
-// One of the right size if there is one, else a new one, else a larger one.
+// Allocates an unused block of the right order, else a new block, else a larger unused one.
 void* allocate(std::size_t size) {
   const std::size_t order = order_for(size);
   const bool fits = order < orders && unused[order] != nullptr;
@@ -129,7 +129,7 @@ void* calloc(std::size_t count, std::size_t size) { return allocate_zeros(count,
 void* realloc(void* old, std::size_t size) { return resize(old, size); }
 void free(void* old) { release(old); }
 #else
-// newlib's own functions, and tests/support/heap_watch.cpp, go by these.
+// Functions that newlib and tests/support/heap_watch.cpp call.
 void* _malloc_r(struct _reent*, std::size_t size) { return allocate(size); }
 void* _calloc_r(struct _reent*, std::size_t count, std::size_t size) { return allocate_zeros(count, size); }
 void* _realloc_r(struct _reent*, void* old, std::size_t size) { return resize(old, size); }

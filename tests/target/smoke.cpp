@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node on a board, without heap and C++ library: it fits the smallest of them. Prints a line for each case, and how
-// many there are.
+// Tests a node on a board without heap and C++ library, so that the program fits the smallest board. Prints a line for
+// each case, and the number of cases.
 #include <cstddef>
 #include <cstdint>
 
@@ -12,7 +12,7 @@ namespace {
 
 using smoke::Node;
 
-/// Reads a script (smoke_cases.hpp).
+/// Reads the words of a script (smoke_cases.hpp).
 class Script {
  public:
   explicit Script(const char* text) : next_(text) {}
@@ -98,7 +98,7 @@ bool step(Node& node, Script& script) {
   if (action == '<') {
     return is_next(node, script.frame());
   }
-  const bool silent = is_silent(node);  // all that was sent before has been looked at
+  const bool silent = is_silent(node);  // no frame was sent that the script does not expect
   switch (action) {
     case '>': node.receive(script.frame()); break;
     case '+': node.pass(script.number(10)); break;
@@ -119,7 +119,7 @@ bool passes(Node& node, const char* text) {
   return good && is_silent(node);
 }
 
-// Too large for the stack.
+// Static, as it is too large for the stack.
 Node node;
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file smoke_cases.hpp
-/// What the node has to do, a little of each service. A script has words:
+/// Scripts that test a little of each service. A script consists of words:
 ///
-///   >ID#DATA  the node receives a frame         +10  ms pass
-///   <ID#DATA  this is the next that it has sent  !0 ?0  error 0 of its table comes, goes
+///   >ID#DATA  the node receives a frame         +10    10 ms pass
+///   <ID#DATA  the next frame that it has sent   !0 ?0  error 0 of its table is set, cleared
 ///
-/// Each case starts with CONodeInit() and CONodeStart() of node 1; at its end, and before each word but <, all that the
-/// node has sent has been looked at.
+/// Each case starts with CONodeInit() and CONodeStart() of node 1. At its end, and before each word except <, the
+/// script must have named all frames that the node has sent.
 #pragma once
 
 namespace smoke {

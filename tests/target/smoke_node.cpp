@@ -149,7 +149,7 @@ void Node::clear_error(std::uint8_t error) {
   process();
 }
 
-// Frames that a call has left, as block transfers do, go with the next ones.
+// Processes the node, and frames that one call leaves to the next, like those of a block transfer.
 void Node::process() {
   for (std::size_t calls = 0; calls < places; ++calls) {
     COTmrService(&node_.Tmr);

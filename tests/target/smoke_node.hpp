@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file smoke_node.hpp
-/// A node with its dictionary, and drivers that keep frames and time in memory.
+/// A node with its dictionary, and drivers that store frames and time in memory.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@ namespace smoke {
 
 class Node {
  public:
-  void start();  ///< from the beginning, with node-ID 1
+  void start();  ///< initialises and starts the node with node-ID 1
 
   void receive(const CO_IF_FRM& frm);
   void pass(std::uint32_t ms);
-  bool take(CO_IF_FRM& frm);  ///< the next frame that it has sent
+  bool take(CO_IF_FRM& frm);  ///< returns the next frame that the node has sent; false: none
   void set_error(std::uint8_t error);
   void clear_error(std::uint8_t error);
 

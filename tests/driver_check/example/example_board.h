@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file example_board.h
-/// An imaginary microcontroller with what is typical of real ones: the drivers beside this file are the templates
-/// (drivers/template), filled in for it. docs/porting.md goes through them.
+/// An imaginary microcontroller with typical peripherals. The drivers in this directory are the templates of
+/// drivers/template, filled in for it; docs/porting.md explains them.
 #ifndef EXAMPLE_BOARD_H_
 #define EXAMPLE_BOARD_H_
 
@@ -33,9 +33,9 @@ typedef struct EXAMPLE_CAN_T {
 
 #define EXAMPLE_CAN_ON 1u          ///< on the bus
 #define EXAMPLE_CAN_INTERRUPTS 2u  ///< an interrupt while Status is not 0
-#define EXAMPLE_CAN_RECEIVED 1u    ///< a frame is in the FIFO; the rest is cleared by Clear
+#define EXAMPLE_CAN_RECEIVED 1u    ///< a frame is in the FIFO; the other bits are cleared by Clear
 #define EXAMPLE_CAN_SENT 2u        ///< the mailbox has become free
-#define EXAMPLE_CAN_LOST 4u        ///< a frame found the FIFO full
+#define EXAMPLE_CAN_LOST 4u        ///< a received frame was lost because the FIFO was full
 #define EXAMPLE_CAN_BUS_OFF 8u     ///< the controller has gone into bus-off
 
 /// A free running counter of 16 bits with a compare match.
@@ -47,7 +47,7 @@ typedef struct EXAMPLE_TIMER_T {
   volatile uint32_t Match;      ///< 1: Counter has been Compare; write 0: cleared, 1: raised by software
 } EXAMPLE_TIMER;
 
-/// A free running counter of 32 bits with a compare match; otherwise the same.
+/// A free running counter of 32 bits with a compare match; its registers are those of EXAMPLE_TIMER.
 typedef struct EXAMPLE_COUNTER_T {
   volatile uint32_t Prescaler;
   volatile uint32_t Counter;
@@ -58,15 +58,15 @@ typedef struct EXAMPLE_COUNTER_T {
 
 #define EXAMPLE_CLOCK 48000000u  ///< Hz
 
-/// Where the registers are.
+/// Register blocks, at their addresses.
 extern EXAMPLE_CAN ExampleCan;
 extern EXAMPLE_TIMER ExampleTimer;
 
-/// An EEPROM on a bus, with pages of 32 bytes: what does not fit into a page is written at its beginning.
+/// An EEPROM on a bus, with pages of 32 bytes: a write beyond the end of a page continues at its beginning.
 #define EXAMPLE_EEPROM_SIZE 2048u
 #define EXAMPLE_EEPROM_PAGE 32u
 bool ExampleEepromRead(uint32_t address, uint8_t* to, uint32_t size);
-bool ExampleEepromWrite(uint32_t address, const uint8_t* from, uint32_t size);  ///< waits until it is stored
+bool ExampleEepromWrite(uint32_t address, const uint8_t* from, uint32_t size);  ///< returns when the data are stored
 
 /// The drivers.
 extern const CO_IF_CAN_DRV ExampleCanDriver;
@@ -75,14 +75,14 @@ extern const CO_IF_NVM_DRV ExampleNvmDriver;
 
 extern const CO_IF_TIMER_DRV_EX ExampleClockDriver;  ///< its context is an EXAMPLE_COUNTER
 
-/// Their interrupts: those of the timers come before COTmrService().
+/// Interrupt functions of the drivers. The timers' functions must be called before COTmrService().
 void ExampleCanInterrupt(void);
 void ExampleTimerInterrupt(void);
 void ExampleClockInterrupt(EXAMPLE_COUNTER* counter);
 
-/// For the loop: reports to the node what the interrupt has seen of the controller.
+/// Reports the events that the interrupt has stored to the node. To be called in the loop.
 void ExampleCanReport(CO_NODE* node);
-/// For the loop: is there something to read or to report?
+/// Returns true if there is a frame to read or an event to report. To be called in the loop.
 bool ExampleCanHasWork(void);
 
 #ifdef __cplusplus

@@ -29,7 +29,7 @@ static uint32_t Word(const uint8_t* bytes) {
   return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-// The flags of the identifier have the positions of CO_IF_FRM.
+// Sends a frame. The flags of the hardware's identifier have the same positions as in CO_IF_FRM.
 static int16_t Send(CO_IF_FRM* frm) {
   const bool on = (ExampleCan.Control & EXAMPLE_CAN_ON) != 0;
   if (!on || ExampleCan.Transmit.Request != 0) {
@@ -74,7 +74,7 @@ static void TakeFrame(void) {
   (void)CORingPut(&ReceiveQueue, &frm);
 }
 
-// The only producer of the queue. Events are only stored: the node may be used by the loop only.
+// Fills the queue as its only producer, and stores events: only the loop may use the node.
 void ExampleCanInterrupt(void) {
   const uint32_t status = ExampleCan.Status;
   if ((status & EXAMPLE_CAN_RECEIVED) != 0) {

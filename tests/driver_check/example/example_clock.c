@@ -10,7 +10,7 @@ static void Init(void* ctx, uint32_t freq) {
 
 static uint32_t Now(void* ctx) { return CounterOf(ctx)->Counter; }
 
-// The last line is for an alarm that was over before the compare register was written.
+// Sets the alarm. An alarm whose time had passed before the compare register was written is raised by software.
 static void Alarm(void* ctx, uint32_t ticks) {
   EXAMPLE_COUNTER* const counter = CounterOf(ctx);
   counter->Enable = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file example_cpu.h
-/// What the example needs of its CPU: on Cortex-M instructions, elsewhere functions that a simulation supplies.
+/// CPU instructions that the example uses: instructions on Cortex-M, functions of a simulation elsewhere.
 #ifndef EXAMPLE_CPU_H_
 #define EXAMPLE_CPU_H_
 

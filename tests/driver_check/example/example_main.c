@@ -6,7 +6,7 @@
 CO_NODE Node;
 
 static CO_IF_DRV Drivers = {&ExampleCanDriver, &ExampleTimerDriver, &ExampleNvmDriver};
-static volatile bool Happened;  // an interrupt, since the loop has begun its turn
+static volatile bool Happened;  // an interrupt has occurred since the current iteration of the loop began
 
 void CAN_IRQHandler(void) {
   ExampleCanInterrupt();
@@ -19,7 +19,7 @@ void TIMER_IRQHandler(void) {
   Happened = true;
 }
 
-// Keep TIMER_IRQHandler() away while the timer lists change. They do not nest.
+// Prevent TIMER_IRQHandler() while the timer lists change. The calls do not nest.
 void COTmrLock(void) { CpuDisableInterrupts(); }
 void COTmrUnlock(void) { CpuEnableInterrupts(); }
 
@@ -33,8 +33,8 @@ bool NodeStart(CO_NODE_SPEC* spec) {
   return true;
 }
 
-// WFI ends with an interrupt that is pending, also where interrupts are disabled; it is taken when they are enabled
-// again. So none can come between the question and the sleep and be slept through.
+// Sleeps unless an interrupt has occurred. WFI returns when an interrupt is pending, even if interrupts are disabled;
+// the interrupt is served when they are enabled again. So no interrupt can be missed between the check and WFI.
 static void SleepUntilInterrupt(void) {
   CpuDisableInterrupts();
   if (!Happened) {

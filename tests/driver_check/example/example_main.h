@@ -12,9 +12,9 @@ extern "C" {
 
 extern CO_NODE Node;
 
-/// False: the node's error tells why, and nothing is sent.
+/// Initialises and starts the node. Returns false if CONodeGetErr() is set; the node then sends nothing.
 bool NodeStart(CO_NODE_SPEC* spec);
-/// To be called for ever: one turn of the loop.
+/// Executes one iteration of the main loop. To be called for ever.
 void NodeTurn(void);
 
 void CAN_IRQHandler(void);

@@ -5,7 +5,7 @@
 
 static bool ReadMemory(uint32_t start, uint8_t* to, uint32_t size) { return ExampleEepromRead(start, to, size); }
 
-// What is reported as written has been read back.
+// Writes within a page. Returns true if the data, read back, are equal.
 static bool WritePage(uint32_t start, const uint8_t* from, uint32_t size) {
   uint8_t stored[EXAMPLE_EEPROM_PAGE];
   return ExampleEepromWrite(start, from, size) && ExampleEepromRead(start, stored, size) &&

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "example_board.h"
 
-#define LONGEST_STEP 0x4000u  // ticks: far below the range of the counter, so that a late interrupt does no harm
+#define LONGEST_STEP 0x4000u  // ticks: much less than the counter's range, so that a late interrupt does no harm
 
-// Data shared by interrupt and loop; the loop accesses them with the interrupt disabled (COTmrLock()).
-static bool Waits;         // a match is awaited
+// Data shared by interrupt and loop. The loop accesses them with the interrupt disabled (COTmrLock()).
+static bool Waits;         // a match is pending
 static bool Matched;       // the whole time has elapsed, and Update has not reported it yet
 static bool FollowsMatch;  // the next Reload counts from the match that Update has just reported
 static uint32_t Left;      // ticks to count after the next match

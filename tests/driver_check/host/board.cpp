@@ -86,7 +86,7 @@ void init_can() { the_board->port.close(); }
 void enable_can(std::uint32_t baud) { the_board->port.enable(baud); }
 std::int16_t read_can(CO_IF_FRM* frm) { return co::VirtualBusDriver.Read(&the_board->port, frm); }
 
-// Uses the frame of the caller, which classic drivers may do.
+// Sends the frame, and changes the caller's frame, as a classic driver may do.
 std::int16_t send_can(CO_IF_FRM* frm) {
   const std::int16_t result = the_board->port.send(*frm);
   *frm = {};
@@ -95,7 +95,7 @@ std::int16_t send_can(CO_IF_FRM* frm) {
 void reset_can() { the_board->port.reset(); }
 void close_can() { the_board->port.close(); }
 
-// A free running counter and a compare match, as drivers/template has it.
+// The timer of drivers/template: a free running counter and a compare match.
 bool follows_match = false;
 
 void init_timer(std::uint32_t /*freq*/) {
@@ -158,7 +158,7 @@ std::uint32_t read_flash(void* ctx, std::uint32_t start, std::uint8_t* buffer, s
   return size;
 }
 
-// Whole units, and only into erased ones.
+// Programs whole units that are erased.
 std::uint32_t write_flash(void* ctx, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {
   Flash& memory = flash(ctx);
   const std::uint32_t unit = memory.shape.ProgramSize;

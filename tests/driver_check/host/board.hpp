@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board that is simulated: a clock of ticks, a timer with a compare match, interrupts that can be kept away, a paced
-// bus with two controllers, memories. Its drivers are those that a port would have; mutants.hpp spoils them.
+// A simulated board: a clock that counts ticks, a timer with a compare match, interrupts that can be disabled, a paced
+// bus with two controllers, memories. Its drivers are correct; mutants.hpp has faulty variants of them.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@
 namespace check {
 
 constexpr std::uint32_t frequency = 100000;  // ticks per second: a tick is 10 us
-constexpr std::uint32_t late = 3;            // ticks that an interrupt may take
+constexpr std::uint32_t late = 3;            // permitted latency of an interrupt in ticks
 
-// The compare match of a free running counter, and when its interrupt comes.
+// The compare match of a free running counter, and the time of its interrupt.
 struct Compare {
   std::uint64_t at = 0;
   bool armed = false;
@@ -30,27 +30,27 @@ class Board {
   Board();
 
   std::uint64_t time = 0xFFFF0000;  // ticks
-  std::uint32_t latency = 1;        // of the interrupt, ticks
+  std::uint32_t latency = 1;        // ticks until the interrupt is served
   bool locked = false;
   bool cyclic = false;  // an interrupt with every tick
   Compare compare;
-  std::function<void()> interrupt;  // of the timer
+  std::function<void()> interrupt;  // timer interrupt
 
   co::VirtualBus bus;
   co::VirtualBus::Port& port;
   co::VirtualBus::Port& peer;
-  std::function<void()> each_turn;  // what else goes on
+  std::function<void()> each_turn;  // called in each step, for the rest of the simulation
 
   void step();
 };
 
-// Output of the checks.
+// Lines printed by the checks.
 struct Report {
   std::vector<std::string> lines;
-  [[nodiscard]] std::map<std::string, std::string> verdicts() const;  // ok, not ok or skipped, by name
+  [[nodiscard]] std::map<std::string, std::string> verdicts() const;  // verdict by name of the check
 };
 
-// Everything that a check needs, ready to be changed by a case.
+// Settings of a check that succeeds; a case changes some of them.
 struct Setting {
   Setting();
   Board board;
@@ -61,16 +61,16 @@ struct Setting {
   CO_DRIVER_CHECK check = {};
 };
 
-// Drivers without context work on the board that was made last.
+// Classic drivers, which use the board that was constructed last.
 extern const CO_IF_CAN_DRV PlainCanDriver;
-extern const CO_IF_TIMER_DRV PlainTimerDriver;  // delta
+extern const CO_IF_TIMER_DRV PlainTimerDriver;  // delta driver
 extern const CO_IF_NVM_DRV PlainNvmDriver;
 constexpr std::uint32_t plain_nvm_size = 1000;
 
-// A driver with a clock; its context is a Board.
+// A driver with a clock; its context argument is a Board.
 extern const CO_IF_TIMER_DRV_EX ClockDriver;
 
-// Flash; its context is a Flash.
+// Simulated flash: the context argument of its driver.
 struct Flash {
   std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(4096, 0);
   CO_NVM_SHAPE shape = {4096, 8, 512};

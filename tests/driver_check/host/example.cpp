@@ -19,7 +19,7 @@ constexpr std::size_t fifo_size = 3;
 
 Board* the_board = nullptr;
 std::deque<CO_IF_FRM> fifo;
-bool awake = true;  // an interrupt has come since the CPU sleeps
+bool awake = true;  // an interrupt has woken the CPU
 std::array<std::uint8_t, EXAMPLE_EEPROM_SIZE> eeprom;
 
 std::uint32_t word(const std::uint8_t* bytes) {
@@ -142,7 +142,8 @@ unsigned count_answers(Board& board) {
   return answers;
 }
 
-// Two requests, the second some ticks after the first: it comes at any moment of the loop's turn.
+// Sends two requests, the second \a delay ticks after the first, so that it arrives at any point of the loop. Returns
+// true if both are answered.
 bool answers(Board& board, unsigned delay, bool careful) {
   const std::uint64_t begin = board.time;
   const std::function<void()> registers = board.each_turn;
@@ -186,7 +187,7 @@ unsigned answered_by_loop(unsigned num, bool careful) {
 
 extern "C" {
 
-// An interrupt comes at the worst moment: when the loop has done its work, and before it sleeps.
+// Lets an interrupt occur at the worst moment: after the work of the loop, before it sleeps.
 void CpuDisableInterrupts(void) {
   if (check::the_board != nullptr) {
     check::the_board->step();
@@ -200,7 +201,7 @@ void CpuEnableInterrupts(void) {
   }
 }
 
-// 10 ms without an interrupt: the CPU sleeps for ever, as far as the test is concerned.
+// Sleeps until an interrupt, at most 10 ms: after that time the test assumes that the CPU sleeps for ever.
 void CpuWaitForInterrupt(void) {
   check::awake = false;
   for (unsigned tick = 0; tick < 1000 && !check::awake; ++tick) {

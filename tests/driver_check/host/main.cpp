@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// driver_check DIRECTORY: runs the checks on all drivers that this machine can run, and on drivers that break a
-// promise, each of which has to be found by the check of that name. Prints "1..N" and N lines "ok …" or "not ok …".
+// driver_check DIRECTORY: runs the checks on all drivers that this machine can run, and on drivers with one fault each,
+// which the check that is named with the fault must detect. Prints "1..N" and N lines "ok …" or "not ok …".
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -33,7 +33,7 @@ class Results {
   unsigned failed_ = 0;
 };
 
-// Each line of a good driver is a case; what does not apply is known.
+// Reports each verdict on a correct driver as a case, and compares the number of skipped checks with the expected one.
 void judge_good(const Case& each, Run run, Results& results, std::set<std::string>& names) {
   const auto setting = std::make_unique<Setting>();
   each.prepare(*setting);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drivers that break one promise each, and the check that has to find it.
+// Drivers that violate one requirement each, and the check that must detect it.
 #pragma once
 
 #include <vector>

@@ -9,7 +9,7 @@ namespace {
 using Port = co::VirtualBus::Port;
 constexpr std::int16_t done = sizeof(CO_IF_FRM);
 
-// The functions of a driver, any of which may be replaced; their default is the virtual bus.
+// Functions of a driver, each of which a mutant may replace; by default they use the virtual bus.
 struct Can {
   explicit Can(Port& p) : port(p) {}
   Port& port;
@@ -39,7 +39,7 @@ const CO_IF_CAN_DRV_EX spoilt_driver = {
 
 std::function<void(Setting&)> with(const std::function<void(Can&)>& spoil) {
   return [spoil](Setting& s) {
-    static std::vector<std::unique_ptr<Can>> cans;  // live as long as the program, as drivers do
+    static std::vector<std::unique_ptr<Can>> cans;  // not released before the program ends, like real drivers
     cans.push_back(std::make_unique<Can>(s.board.port));
     spoil(*cans.back());
     s.ext.Can = &spoilt_driver;
@@ -69,7 +69,7 @@ std::function<void(Setting&)> sent(const std::function<void(CO_IF_FRM&)>& change
   });
 }
 
-// Three mailboxes: that with the highest priority goes first.
+// Sends the frame with the highest priority of three mailboxes first.
 void send_by_priority(Can& c) {
   auto boxes = std::make_shared<std::vector<CO_IF_FRM>>();
   const auto pump = [&c, boxes] {
@@ -93,7 +93,7 @@ void send_by_priority(Can& c) {
   };
 }
 
-// Two frames that wait are read in the wrong order.
+// Returns the newest of the received frames first.
 void read_newest_first(Can& c) {
   auto kept = std::make_shared<std::vector<CO_IF_FRM>>();
   c.read = [&c, kept](CO_IF_FRM& frame) {

@@ -22,7 +22,7 @@ std::uint32_t write(std::uint32_t start, std::uint8_t* from, std::uint32_t size)
   return PlainNvmDriver.Write(start, from, size);
 }
 
-// An EEPROM whose page is full goes on at the beginning of the page.
+// Writes to an EEPROM without regard to pages: a write beyond the end of a page continues at its beginning.
 std::uint32_t write_in_page(std::uint32_t start, std::uint8_t* from, std::uint32_t size) {
   for (std::uint32_t n = 0; n < size; ++n) {
     write(start / page * page + (start + n) % page, from + n, 1);

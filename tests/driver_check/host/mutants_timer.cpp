@@ -4,7 +4,7 @@
 namespace check {
 namespace {
 
-// The functions that a mutant replaces; drivers without context have but one state.
+// Functions that a mutant replaces. Global, as classic drivers have no context argument.
 CO_IF_TIMER_DRV spoilt = {};
 Board* the_board = nullptr;
 std::uint32_t last_reload = 0;
@@ -118,7 +118,7 @@ std::vector<Mutant> plain_mutants() {
   };
 }
 
-// A clock of which now() and alarm() may be replaced.
+// A driver with a clock, whose now() and alarm() a mutant may replace.
 CO_IF_TIMER_DRV_EX spoilt_clock = {};
 
 std::function<void(Setting&)> with_clock(const std::function<void(CO_IF_TIMER_DRV_EX&)>& spoil) {

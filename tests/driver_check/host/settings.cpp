@@ -20,14 +20,14 @@ using std::chrono::microseconds;
 constexpr std::uint16_t feed_request = 0x7F0;
 constexpr std::int16_t done = sizeof(CO_IF_FRM);
 
-// Keeps what a case needs until the program ends.
+// Constructs an object that exists until the program ends.
 template <class T, class... Arguments>
 T& keep(Arguments&&... arguments) {
   static std::deque<T> kept;
   return kept.emplace_back(std::forward<Arguments>(arguments)...);
 }
 
-// A controller in loopback mode: three mailboxes, a frame takes its time.
+// A controller in loopback mode, with three mailboxes and a duration for each frame.
 struct Loopback {
   std::deque<CO_IF_FRM> boxes;
   std::deque<CO_IF_FRM> received;
@@ -81,7 +81,7 @@ void in_loopback(Setting& s) {
   s.board.each_turn = [&can] { can.step(); };
 }
 
-// Configures the setting for the script feed.
+// Configures the setting for a PC that runs the script feed.
 void be_fed(Setting& s) {
   s.ext.Can = &co::VirtualBusDriver;
   s.ext.CanCtx = &s.board.port;
@@ -103,7 +103,7 @@ void be_fed(Setting& s) {
   };
 }
 
-// A clock of ns for the timer of Linux, and a loop that waits for its alarm.
+// Configures the setting for the timer of Linux: a clock in ns, and a loop that waits for its alarm.
 Board* polled_board = nullptr;
 std::uint64_t board_ns() { return polled_board->time * (1000000000 / frequency); }
 
@@ -152,7 +152,7 @@ void on_example_clock(Setting& s) {
   };
 }
 
-// The machine timer of RISC-V, at 100 times the frequency of the board.
+// Configures the setting for the machine timer of RISC-V, which counts at 100 times the frequency of the board.
 void on_mtime(Setting& s) {
   static std::array<volatile std::uint32_t, 2> time;
   static std::array<volatile std::uint32_t, 2> compare;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drivers of this project, and those of the simulated board, as they are.
+// The drivers of this project and those of the simulated board, without faults.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace check {
 struct Case {
   const char* name;
   std::function<void(Setting&)> prepare;
-  std::uint16_t skipped;  // checks that do not apply
+  std::uint16_t skipped;  // number of checks that do not apply
 };
 
-// Files are made in directory.
+// Cases for the drivers of each kind. Files are created in \a directory.
 std::vector<Case> can_cases();
 std::vector<Case> timer_cases();
 std::vector<Case> nvm_cases(const std::string& directory);

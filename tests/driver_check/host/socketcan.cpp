@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// driver_check_socketcan INTERFACE peer|feed: the check of the SocketCAN driver on an unused interface, with a second
-// socket or with the script feed as the other end. Status 0: every check was run, and none has failed.
+// driver_check_socketcan INTERFACE peer|feed: runs the driver check for SocketCAN on an otherwise unused interface,
+// with a second socket or the script feed as peer. Status 0: every check was run, and none has failed.
 #include <unistd.h>
 
 #include <cstdio>
@@ -17,7 +17,7 @@ constexpr useconds_t turn = 1000;  // us
 void print(void* /*user*/, const char* line) { std::puts(line); }
 void idle(void* /*user*/) { ::usleep(turn); }
 
-// Opened to know the interface; the check goes on the bus by Enable.
+// Opens the interface to check that it exists, and closes it: the driver check opens it by Enable.
 bool prepare(co::SocketCan& can, const char* interface) {
   const bool opened = can.open(interface);
   can.close();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few declarations of FreeRTOS that the example uses, so that it can be compiled and run without FreeRTOS. Written
-// from the documentation of the interface; nothing of FreeRTOS is in here.
+// Declarations of the FreeRTOS functions that the example uses, to compile and run it without FreeRTOS. Written from
+// the documentation of the API; contains no code of FreeRTOS.
 #ifndef FREERTOS_STUB_H_
 #define FREERTOS_STUB_H_
 
@@ -22,7 +22,7 @@ typedef uintptr_t StackType_t;
 #define configTICK_RATE_HZ ((TickType_t)1000)
 #define portYIELD_FROM_ISR(woken) ((void)(woken))
 
-// Memory for what an implementation needs.
+// Memory for the data of a task or mutex.
 typedef struct StaticTask {
   uintptr_t Memory[32];
 } StaticTask_t;

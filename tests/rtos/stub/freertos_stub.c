@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tasks are threads, a tick is a millisecond.
+// Implements the declarations of FreeRTOS.h with POSIX threads: a task is a thread, a tick is a millisecond.
 #define _POSIX_C_SOURCE 200809L
 
 #include <assert.h>
@@ -73,7 +73,7 @@ TaskHandle_t xTaskCreateStatic(TaskFunction_t code, const char* name, uint32_t s
   return task;
 }
 
-// The first thread is a task, too.
+// Returns the current task; the main thread also becomes one.
 TaskHandle_t xTaskGetCurrentTaskHandle(void) {
   static StaticTask_t first;
   if (Current == NULL) {
@@ -139,7 +139,8 @@ SemaphoreHandle_t xSemaphoreCreateMutexStatic(StaticSemaphore_t* memory) {
   return memory;
 }
 
-// Only ever without a time-out. RTOS_STUB_WITHOUT_MUTEX: for a program whose races have to be found.
+// Takes the mutex; a time-out is not supported. RTOS_STUB_WITHOUT_MUTEX: takes nothing, so that the thread sanitizer
+// must detect data races.
 BaseType_t xSemaphoreTake(SemaphoreHandle_t mutex, TickType_t ticks) {
   Check(ticks == portMAX_DELAY ? 0 : 1);
 #ifndef RTOS_STUB_WITHOUT_MUTEX

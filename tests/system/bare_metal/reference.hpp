@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file reference.hpp
-/// Another clock of the board, to hold the one of the driver against.
+/// Second clock of a board, to check the clock of the timer driver.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace test {
 constexpr std::uint32_t drift_allowed = 100;  // ticks
 
 void start_reference();
-/// To be called at least once in a second.
+/// Accumulates the counter's progress. To be called at least once a second.
 void look_at_reference();
-/// Microseconds since its start.
+/// Returns the microseconds since start_reference().
 std::uint32_t reference_ticks();
 
 }  // namespace test

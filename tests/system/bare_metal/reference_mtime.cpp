@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register that the driver makes its ticks of, as it is.
+// Reference for the machine timer of RISC-V: the mtime register itself, from which the driver derives its ticks.
 #include "board.hpp"
 #include "reference.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beside TIMER0: SysTick, which QEMU's nRF51 has; its 2^24 cycles of 16 MHz are over after a second.
+// Reference for TIMER0 of the nRF51: SysTick, which QEMU's model has. Its 2^24 cycles of 16 MHz wrap after a second.
 #include "board.hpp"
 #include "reference.hpp"
 

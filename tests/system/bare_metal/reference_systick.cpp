@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beside SysTick: a CMSDK timer, which counts 32 bits down.
+// Reference for SysTick: a CMSDK timer, a 32-bit down counter.
 #include "board.hpp"
 #include "reference.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timer driver of a board on the board: alarms of all lengths, one after the other, and its clock beside another
-// one. Time is that of the emulator's instructions (-icount), so every run is the same; it does not sleep, as QEMU may
-// let time go on before it wakes a CPU.
+// Tests the timer driver of a board on the emulated board: alarms of random length, one after the other, and the
+// driver's clock compared with a second one. The time is that of the emulated instructions (-icount), so every run is
+// the same. The program does not sleep, because QEMU may let time pass before it wakes a CPU.
 #include "bare_metal/parts.hpp"
 #include "board.hpp"
 #include "reference.hpp"
@@ -11,12 +11,12 @@ namespace {
 using demo::BoardTimer;
 
 constexpr std::uint32_t ticks_per_second = 1000000;
-constexpr std::uint32_t latest = 50;  // ticks: what interrupt and driver take, with a margin
+constexpr std::uint32_t latest = 50;  // ticks that interrupt and driver may take, with a margin
 constexpr std::uint32_t duration = 5 * ticks_per_second;
 
 BoardTimer timer;
 volatile std::uint32_t due;
-volatile std::uint32_t came;  // when
+volatile std::uint32_t came;  // time of the alarm
 volatile bool waiting;
 
 std::uint32_t now() { return timer.driver->Now(timer.context); }
@@ -28,7 +28,8 @@ std::uint32_t random_number() {
   return state >> 8;
 }
 
-// Mostly short: 200 us, 20 ms; now and then beyond the steps of a driver: 2 s.
+// Returns a random delay: mostly up to 200 us or 20 ms, sometimes up to 2 s, which is longer than a driver's longest
+// step.
 std::uint32_t random_delay() {
   switch (random_number() % 32) {
     case 0: return random_number() % 2000000u + 1;
@@ -67,7 +68,7 @@ namespace board {
 
 void on_uart() {}
 
-// Like COTmrService(): an interrupt before the alarm is only a step of the driver.
+// Processes a timer interrupt like COTmrService(): one before the alarm is an intermediate step of the driver.
 void on_timer() {
   demo::timer_interrupt();
   const std::uint32_t time = now();

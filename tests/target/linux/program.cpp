@@ -30,7 +30,7 @@ std::uint32_t read_command_line(const Line& line) {
 
 }  // namespace
 
-// Executes the requests of the tests, by the operation numbers of semihosting.
+// Executes a semihosting operation of the tests, given by its number.
 std::uint32_t ask_host(std::uint32_t operation, const void* argument) {
   constexpr std::uint32_t clock = 0x10;
   constexpr std::uint32_t get_command_line = 0x15;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file program.hpp
-/// Linux as a board, for the runner of the boards.
+/// Implements the functions of a board on Linux, for the test runner of the boards.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of the library that the headers of libstdc++ need in these tests: memory, the trees of std::map and
-// std::set, and the ends of a program that would throw an exception.
+// Functions of the C++ library that the headers of libstdc++ need in these tests: memory allocation, the trees of
+// std::map and std::set, and functions that end the program instead of throwing an exception.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -36,7 +36,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-// Members of strings lie in the library otherwise.
+// Instantiates the string members, which are otherwise in the library.
 template class std::basic_string<char>;
 
 namespace std {
@@ -58,7 +58,7 @@ using Node = _Rb_tree_node_base;
 
 bool is_red(const Node* node) { return node != nullptr && node->_M_color == _S_red; }
 
-// The place from which a node hangs: the pointer of its parent, or of the header.
+// Returns the pointer that refers to \a node: in its parent, or in the header.
 Node*& hold_of(Node* node, Node& header) {
   if (node == header._M_parent) {
     return header._M_parent;
@@ -66,7 +66,7 @@ Node*& hold_of(Node* node, Node& header) {
   return node == node->_M_parent->_M_left ? node->_M_parent->_M_left : node->_M_parent->_M_right;
 }
 
-// A child takes the place of its parent, which becomes its child.
+// Rotates \a child to the position of its parent, which becomes its child.
 void rotate_up(Node* child, Node& header) {
   Node* const parent = child->_M_parent;
   const bool left = child == parent->_M_left;
@@ -104,7 +104,7 @@ void hang(Node* node, bool left, Node* parent, Node& header) {
   }
 }
 
-// The node goes, and another one of its sub-tree, which may be none, hangs in its place.
+// Replaces \a node by \a by, a node of its sub-tree or null.
 void replace(Node* node, Node* by, Node& header) {
   hold_of(node, header) = by;
   if (by != nullptr) {
@@ -121,7 +121,7 @@ const Node* next_of(const Node* node, Node* Node::*towards, Node* Node::*away) {
     node = parent;
     parent = parent->_M_parent;
   }
-  return node->*towards == parent ? node : parent;  // the header, from a root without a sub-tree on that side
+  return node->*towards == parent ? node : parent;  // the header, if the root has no sub-tree on that side
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ void _Rb_tree_insert_and_rebalance(const bool left, Node* node, Node* parent, No
   header._M_parent->_M_color = _S_black;
 }
 
-// Without balancing: the trees of tests grow, and seldom shrink.
+// Removes a node without balancing: the trees of the tests grow and rarely shrink.
 Node* _Rb_tree_rebalance_for_erase(Node* const node, Node& header) throw() {
   const Node* const next = node == header._M_right ? &header : _Rb_tree_increment(node);
   const Node* const before = node == header._M_left ? &header : _Rb_tree_decrement(node);

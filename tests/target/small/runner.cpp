@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the cases of doctest/doctest.h, and ends with the two lines that doctest ends with. Its arguments:
-//   -part=N/M   only every M-th case, from the N-th on
-//   -d          tells the time that each took
+// Runs the cases of doctest/doctest.h, and prints doctest's two lines of summary. Arguments:
+//   -part=N/M   runs only every M-th case, beginning with the N-th
+//   -d          prints the duration of each case
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 namespace doctest::detail {
 namespace {
 
-using Way = std::vector<std::pair<const char*, int>>;  // into sub-cases: name and line
+using Way = std::vector<std::pair<const char*, int>>;  // entered sub-cases: name and line
 
 Case* first = nullptr;
 Case** last = &first;
 
-struct Run {  // of the case that is running
+struct Run {  // state of the running case
   std::jmp_buf start;
   const Case* one = nullptr;
   unsigned failures = 0;
@@ -103,7 +103,7 @@ void end(const char* file, int line, const char* text) {
 }
 
 Subcase::Subcase(const char* name, int line) {
-  if (run.way.size() < run.deepest) {  // behind another one that was entered on this level
+  if (run.way.size() < run.deepest) {  // another sub-case was entered on this level
     run.again = true;
     return;
   }

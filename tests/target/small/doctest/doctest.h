@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file doctest.h
-/// As much of doctest as the tests use, for a target whose C++ library is made of headers alone: no streams, no
-/// exceptions. A failed assertion tells its text and not its values. A failed REQUIRE ends the case by longjmp(), and
-/// what the case holds is lost.
+/// The subset of doctest that the tests use, for a target with the headers of a C++ library only: no streams, no
+/// exceptions. A failed assertion prints its expression, without values. A failed REQUIRE ends the case by longjmp(),
+/// so that destructors do not run.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,7 @@ struct skip {
 
 namespace detail {
 
-/// A test case: a static object, known by a list.
+/// A test case: a static object in a list of all cases.
 struct Case {
   void (*function)();
   const char* file;
@@ -92,12 +92,12 @@ class Message {
   std::string text_;
 };
 
-/// Results of an assertion: it passes, it fails, or it fails and ends the case.
+/// Report an assertion: it passed, it failed, or it failed and the case ends.
 void pass();
 void fail(const char* file, int line, const char* text);
 void end(const char* file, int line, const char* text);
 
-/// Entered once in all runs of the case for each way through the sub-cases.
+/// Sub-case of a test case, which runs repeatedly: each combination of nested sub-cases is entered in exactly one run.
 class Subcase {
  public:
   Subcase(const char* name, int line);
@@ -125,7 +125,7 @@ class Subcase {
 #define TEST_CASE(...) DOCTEST_CASE_(DOCTEST_JOIN(doctest_case_, __COUNTER__), __VA_ARGS__)
 #define SUBCASE(name) if (const doctest::detail::Subcase doctest_subcase{name, __LINE__})
 
-// A message is put together only for an assertion that fails.
+// The text of a message is composed only if the assertion fails.
 #define DOCTEST_ASSERT(how, good, text) \
   (static_cast<bool>(good) ? doctest::detail::pass() : doctest::detail::how(__FILE__, __LINE__, text))
 #define CHECK(...) DOCTEST_ASSERT(fail, (__VA_ARGS__), #__VA_ARGS__)
