@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file bench.cpp
-/// How long the readers take: of the files that are named, or of an EDS of 500 KB and an XDD of 4 MB made here. Prints
-/// the best of some runs, in milliseconds of the processor. Time is no test's verdict.
+/// Measures the readers with the given files, or with a generated EDS of 500 KB and XDD of 4 MB. Prints the best of
+/// several runs in milliseconds of CPU time. The times are no criterion of the tests.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// codict check in forms for programs, with rules suppressed, and against a baseline; codict explain.
+// codict check with output for programs, suppressed rules and a baseline; codict explain.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,12 +16,12 @@ using Json = nlohmann::json;
 using test::Directory;
 using test::Ran;
 
-// What is missing in a device that is not whole is of no interest here.
+// Disables rules about missing objects and sections, as the fixtures are parts of devices.
 const std::string quiet = " --disable od-mandatory --disable od-error-control --disable eds-section-missing ";
 
 Ran check(const std::string& arguments) { return test::run_codict(test::fixture(""), "check" + quiet + arguments); }
 
-// A file of this text is checked at the level of notes.
+// Runs codict check at level note on a file with this text.
 Ran check_text(const char* name, const std::string& text, const std::string& options = "") {
   const Directory directory;
   test::write_bytes(directory / name, text);
@@ -60,7 +60,7 @@ TEST_CASE("codict check --error-format sarif: one run over all files, with the r
   CHECK(run.at("invocations").at(0).at("executionSuccessful") == true);
   CHECK(rules.size() == 3);
   const Json& results = run.at("results");
-  CHECK(results.size() == 5);  // equal ones are not folded
+  CHECK(results.size() == 5);  // equal findings are not folded
   const Json& first = results.at(0);
   CHECK(first.at("ruleId") == "od-value-octal");
   CHECK(rules.at(first.at("ruleIndex").get<std::size_t>()).at("id") == "od-value-octal");
@@ -101,7 +101,7 @@ TEST_CASE("codict check --werror: warnings are errors") {
   CHECK(ran.out.find("octal.eds:30:14: error: 2000h 'Ten': '012' is octal, read as 10 [od-value-octal]") !=
         std::string::npos);
   CHECK(ran.err == "codict: 2 errors\n");
-  CHECK(check("--level error --werror bit_pattern.eds").status == 0);  // notes stay what they are
+  CHECK(check("--level error --werror bit_pattern.eds").status == 0);  // notes do not become errors
 }
 
 TEST_CASE("codict check --disable: every rule can be named, and a wrong one has its neighbours told") {
@@ -272,7 +272,7 @@ TEST_CASE("codict check --baseline: what is known is not told, wherever it stand
   CHECK(written.status == 0);
   CHECK(written.out.empty());
   CHECK(run("--baseline base.json a.eds").status == 0);
-  CHECK(run("--baseline base.json b.eds").status == 1);  // another file
+  CHECK(run("--baseline base.json b.eds").status == 1);  // baselines are per file
   const std::string fresh = "DefaultValue= 012\nLowLimit=010";
   test::write_bytes(directory / "a.eds", "; moved\n\n" + variable("2001", fresh.c_str()));
   const Ran moved = run("--all --baseline base.json a.eds");
@@ -384,7 +384,7 @@ TEST_CASE("codict check: findings beyond the limit hide no error, are counted, a
   CHECK(test::has(notes.err, "codict: 100100 notes\n"));
   CHECK(check_many("--level note --disable eds-key-missing --disable eds-key-unknown").status == 0);
   const Json json = Json::parse(check_many("--level note --json").out);
-  CHECK(json.at("files").at(0).at("not_shown") == Json{{"eds-key-unknown", 103}});  // 3 others are disabled
+  CHECK(json.at("files").at(0).at("not_shown") == Json{{"eds-key-unknown", 103}});  // the other 3 are disabled
 }
 
 TEST_CASE("codict check: errors beyond the limit are counted") {
@@ -397,5 +397,5 @@ TEST_CASE("codict check: errors beyond the limit are counted") {
   const Ran ran = test::run_codict(directory / "", "check --level error many.eds");
   CHECK(ran.status == 1);
   CHECK(test::has(ran.err, "errors are counted, but not shown"));
-  CHECK(test::has(ran.err, "codict: 10001"));  // the nonsense, and objects that are missing
+  CHECK(test::has(ran.err, "codict: 10001"));  // the faulty lines, and missing objects
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is off in PDOs, identifiers and services, and in the way in which objects hang together, whatever the format.
+// Checks of PDOs, COB-IDs, services, and relations between objects, independent of the format.
 #include "check/network.hpp"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ Device device_of(const std::string& eds) {
   return eds::read(document, findings).devices.front();
 }
 
-// "rule: text" of each finding, a line for each.
+// Returns "rule: text" of each finding, one per line.
 std::string found(void (*check)(const Device&, Findings&), const std::string& eds) {
   Findings findings;
   check(device_of(eds), findings);
@@ -89,7 +89,7 @@ TEST_CASE("check: pdo-pair: communication parameters and mapping come together, 
   CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping parameter\n");
   CHECK(found(check::check_pdo_parameters, record("1601", {"0"})) ==
         "pdo-pair: RPDO 2 has no communication parameter\n");
-  // The mapping is made, and maps nothing.
+  // CompactPDO implies the mapping parameter, with nothing mapped.
   CHECK(found(check::check_pdo_parameters, "[DeviceInfo]\nCompactPDO=0x3\n" + tpdo_communication) ==
         "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
@@ -101,7 +101,7 @@ TEST_CASE("check: pdo-object: what is mapped is described") {
 
 namespace {
 
-// The finding about a PDO that maps 2000h with this access and PDO mapping.
+// Returns the finding for a PDO that maps 2000h with this access and PDO mapping.
 std::string refused(const char* pdo, const std::string& access, const char* mapping, const char* object = "2000h 'x'") {
   return std::string("pdo-access: ") + pdo + " maps " + object + " (access " + access + ", PDO mapping " + mapping +
          ")\n";
@@ -140,10 +140,10 @@ TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the de
   CHECK(of_tpdo({"1", "0x20000110"}, of_array) == refused("TPDO 1", "rw", "no", "2000h:01 'x'"));
   CHECK(of_tpdo({"1", "0x20000210"}, compact) == refused("TPDO 1", "rw", "no", "2000h:02 'x2'"));
   CHECK(of_tpdo({"2", "0x20010010", "0x20000010"}, unsaid + variable("2001", "6", "ro")) == no_tpdo);
-  // A PDO that is off has a mapping, too.
+  // The mapping of a disabled PDO is checked, too.
   CHECK(found(check::check_pdo_parameters,
               record("1800", {"2", "0x80000180", "255"}) + record("1A00", {"1", "0x20000010"}) + unsaid) == no_tpdo);
-  // Beyond the number of mapped objects nothing is mapped.
+  // Mapping entries above the number of mapped objects are ignored.
   CHECK(of_tpdo({"0", "0x20000010"}, unsaid) == "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
@@ -438,7 +438,7 @@ TEST_CASE("check: od-standard-…: objects of the communication profile are what
   CHECK(check(variable("1017", "7", "rw")) == other_type("UNSIGNED32", "UNSIGNED16"));
   CHECK(check(record("1018", {"4", "1", "1", "1", "1"})) == "");
   CHECK(check(record("1800", {"2", "$NODEID+0x180", "255"})) ==
-        other_type("UNSIGNED32", "UNSIGNED8"));  // of 32 bits, the transmission type, too
+        other_type("UNSIGNED32", "UNSIGNED8"));  // the transmission type has 32 bits here
   CHECK(check(record("1A00", {"1", "0x20000010"})) == "");
   CHECK(check(record("1003", {"1", "0"})) == "od-standard-kind: object type RECORD, but CiA 301 defines ARRAY\n");
   CHECK(check("[1010]\nParameterName=x\n[1010sub1]\nParameterName=x\nDataType=7\nAccessType=rw\n") == "");
@@ -463,7 +463,7 @@ TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 are what these pro
         "profile-access: access ro, but masters write this object of CiA 402\n");
   CHECK(found(drive, words + variable("6064", "4", "rw")) ==
         "profile-access: access rw, but masters only read this object of CiA 402\n");
-  CHECK(found(drive, words + variable("6081", "7", "ro")) == "");  // a parameter may be fixed
+  CHECK(found(drive, words + variable("6081", "7", "ro")) == "");  // a parameter may be constant
   CHECK(found(drive, words + array("6064", "4", "ro")) == "profile-kind: object type ARRAY, but CiA 402 defines VAR\n");
   CHECK(found(io, array("6000", "5", "ro") + array("6411", "3", "rww") + variable("6423", "1", "rw")) == "");
   CHECK(found(io, array("6401", "6", "ro")) == "profile-type: data type UNSIGNED16, but CiA 401 defines INTEGER16\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program codict as its user sees it: what it prints, where, and with which status it ends.
+// The program codict: standard output, standard error output and exit status.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ TEST_CASE("codict: no help has control characters, and all formats are named") {
 
 namespace {
 
-// What bash offers when the tabulator key is pressed behind these words.
+// Returns the words that bash offers as completion.
 std::string completed(const std::string& words) {
   return test::run_shell("bash -c 'source /dev/stdin; COMP_WORDS=(" + words +
                          "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _codict; echo \"${COMPREPLY[*]}\"' <<END\n$('" +
@@ -73,14 +73,14 @@ TEST_CASE("codict completion: bash completes commands, and the options of a comm
   CHECK(completed("codict che") == "check\n");
   CHECK(completed("codict check --er") == "--error-format\n");
   CHECK(completed("codict --ver") == "--version\n");
-  CHECK(completed("codict check dri") == "\n");  // bash knows the files
+  CHECK(completed("codict check dri") == "\n");  // bash completes files itself
   CHECK(completed("codict pdo --lev") == "\n");
   CHECK(run("completion").err.empty());
 }
 
 TEST_CASE("codict: a file that is written is on the medium before it gets its name, and the name before codict ends") {
   if (test::run_shell("ldd '" LEXICAN_CODICT_PROGRAM "'").status != 0) {
-    return;  // a static program preloads nothing
+    return;  // LD_PRELOAD has no effect on a static program
   }
   const Directory directory;
   test::copy_to(directory, "drive.eds");
@@ -164,7 +164,7 @@ TEST_CASE("codict: what cannot be read is said in one line, with status 2") {
 
 namespace {
 
-// Most fixtures are not whole devices: what is missing in them is of no interest.
+// Disables rules about missing objects, as most fixtures are parts of devices.
 Ran check(const std::string& arguments) {
   return run("check --disable od-mandatory --disable od-error-control " + arguments);
 }
@@ -486,7 +486,7 @@ TEST_CASE("codict get: one value as it is written, or all of an object or sectio
 
 namespace {
 
-// What a terminal gets.
+// Runs codict with a terminal as standard output.
 Ran run_at_terminal(const std::string& arguments) {
   return test::run_shell("script -qec \"'" LEXICAN_CODICT_PROGRAM "' " + arguments + "\" /dev/null </dev/null");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Descriptions from the field, which are not ours to publish: the directory that LEXICAN_CORPUS names.
+// Tests with descriptions of real devices in the directory LEXICAN_CORPUS, which cannot be published.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Source source_of(const std::string& path) {
   return *source;
 }
 
-// Places of everything that the model has from a source.
+// Places of all texts that the model has read from a source.
 class Places {
  public:
   explicit Places(const Device& device) {
@@ -79,7 +79,7 @@ bool is_object_section(eds::SectionKind kind) {
   return kind == eds::SectionKind::object || kind == eds::SectionKind::sub;
 }
 
-// The text of the first key that the model has lost; empty if it has all.
+// Returns the first key that is missing in the model, empty if all are present.
 std::string lost_key(const eds::Document& document, const Device& device) {
   const Places places(device);
   for (const eds::Section& section : document.sections()) {
@@ -95,7 +95,7 @@ std::string lost_key(const eds::Document& document, const Device& device) {
   return {};
 }
 
-// Each value that there is, set to what it is already, all at once.
+// Sets all values to their present texts and returns the resulting bytes.
 std::string rewritten(const eds::Document& document) {
   Edits edits;
   for (const eds::Section& section : document.sections()) {

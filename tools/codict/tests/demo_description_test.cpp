@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The description of the demo's clock, and what is committed of what is made of it.
+// Description of the demo's clock, and the committed files that are generated from it.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -18,7 +18,7 @@ using test::run_shell;
 
 const std::string root = LEXICAN_SOURCE_DIR;
 
-/// demo/generate with the codict of this build, in a copy of what it reads and writes.
+/// Runs demo/generate with the codict of this build in a copy of its input and output files.
 struct Copy {
   Copy() {
     fs::create_directories(directory / "demo/clock/generated");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What differs between two descriptions, and whom that concerns.
+// Differences between two descriptions, and their kinds.
 #include "diff/diff.hpp"
 
 #include <doctest/doctest.h>
@@ -33,7 +33,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text.replace(text.find(what), what.size(), by);
 }
 
-// One line a difference: "breaking 2000h access: rw -> ro".
+// Returns a line for each difference: "breaking 2000h access: rw -> ro".
 std::vector<std::string> lines(const std::string& before, const std::string& after) {
   std::vector<std::string> result;
   for (const Difference& difference : compare(device_of(before), device_of(after))) {

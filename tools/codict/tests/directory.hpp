@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file directory.hpp
-/// A place for files, which is gone afterwards.
+/// Temporary directory, which the destructor removes.
 #pragma once
 
 #include <stdlib.h>

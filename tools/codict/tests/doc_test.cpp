@@ -114,7 +114,7 @@ TEST_CASE("doc: a PDO tells its parts with their bits, as far as its mapping is 
 
 TEST_CASE("doc: a PDO's picture has a box for each byte's share of each part") {
   const std::string svg = picture_of(contents_of(device_of(drive), {}).pdos.front());
-  // 16 bits are two boxes, 4 bits one, and 8 bits from bit 20 on two.
+  // The object of 16 bits has two boxes, that of 4 bits one, the dummy object of 8 bits from bit 20 on two.
   CHECK(occurrences(svg, "<rect ") == 5);
   CHECK(occurrences(svg, "data-object=\"2000h\"") == 2);
   CHECK(occurrences(svg, "data-object=\"2001h:1\"") == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an EDS or DCF says of the whole device, compact storage, and modules.
+// Reading of an EDS or DCF: data of the whole device, compact storage, modules.
 #include <doctest/doctest.h>
 
 #include "reading.hpp"
@@ -107,7 +107,7 @@ TEST_CASE("DCF: compact storage stands for sub-objects like the object [306: 4.6
   CHECK(dcf.at(0x2000, 0).name.text == "NrOfObjects");
   CHECK(dcf.at(0x2000, 0).access.value == Access::ro);
   CHECK(meaning(dcf.value(0x2000, 0)) == "12");
-  CHECK(dcf.at(0x2000, 11).name.text == "Gain11");  // the number is decimal
+  CHECK(dcf.at(0x2000, 11).name.text == "Gain11");  // the number in the key is decimal
   CHECK(dcf.at(0x2000, 11).data_type.value == type_code::unsigned16);
   CHECK(dcf.at(0x2000, 11).access.value == Access::rw);
   CHECK(dcf.at(0x2000, 11).pdo_mapping.value == PdoMapping::optional);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of an EDS is kept to the byte, and a change touches one line.
+// EDS documents keep all bytes of the source; an edit changes one line.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -30,7 +30,7 @@ Device device_of(const std::string& text, const std::string& name) {
   return eds::read(document, findings).devices.front();
 }
 
-// All that says something, without values: what a normal form may neither lose nor make up.
+// Returns all names of keys and all comments, which the normal form must neither lose nor add.
 std::vector<std::string> words_of(const std::string& text) {
   std::vector<std::string> words;
   std::istringstream lines(text);
@@ -40,7 +40,7 @@ std::vector<std::string> words_of(const std::string& text) {
     if (begin != std::string::npos && line[begin] != '[') {
       std::string word = line.substr(begin, is_comment ? std::string::npos : line.find('=') - begin);
       word.erase(word.find_last_not_of(" \t\r") + 1);
-      if (!is_comment) {  // of names, capitals and blanks mean nothing
+      if (!is_comment) {  // case and blanks of names have no meaning
         word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
         std::transform(word.begin(), word.end(), word.begin(),
                        [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c; });
@@ -97,7 +97,7 @@ TEST_CASE("EDS normal form: names and numbers are as the standard writes them, a
         "DefaultValue=$NODEID+0x180\nLowLimit=010\nHighLimit=0xff\n");
   CHECK(formatted("[2000]\nDataType=five\nAccessType=often\nObjectType=\n") ==
         "[2000]\nDataType=five\nAccessType=often\nObjectType=\n");
-  CHECK(formatted("[2000]\nDataType=010\n") == "[2000]\nDataType=010\n");  // octal, or a mistake
+  CHECK(formatted("[2000]\nDataType=010\n") == "[2000]\nDataType=010\n");  // either octal or a mistake
   CHECK(formatted("[2000] what\nDataType=5\nDataType=6\n") == "[2000] what\nDataType=0x0005\nDataType=6\n");
 }
 

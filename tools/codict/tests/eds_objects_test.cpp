@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of objects, lists of objects, and sub-objects in an EDS: as CiA 306 has them, and as they are found.
+// Reading of an EDS: keys of objects, lists of objects, sub-objects; in the form of CiA 306 and in others that exist.
 #include <doctest/doctest.h>
 
 #include "reading.hpp"
@@ -130,7 +130,7 @@ TEST_CASE("sub-index 0 is there, and its default is the highest sub-index") {
   CHECK_FALSE(eds.value(0x2000, 0).is_given);
   CHECK(eds.device.find(0x2001, 0) == nullptr);
   CHECK(meaning(eds.value(0x2002, 0)) == "1");
-  CHECK(meaning(eds.value(0x2003, 0)) == "0");  // of what may be written, the default is what is in use
+  CHECK(meaning(eds.value(0x2003, 0)) == "0");  // sub-index 0 is writable: its default is the number of entries in use
   CHECK(eds.found() == "32:2 od-sub-zero-value\n52:2 od-sub-zero-missing\n74:14 od-sub-zero-small\n");
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("EDS: lists of compact storage add what sections leave open, and never
   CHECK(reading.at(0x2000, 2).denotation.text == "gear");
   CHECK(meaning(reading.at(0x2000, 1).actual_value) == "7");
   CHECK(meaning(reading.at(0x2000, 2).actual_value) == "9");
-  CHECK(reading.device.find(0x2000)->others.size() == 2);  // [2000Name], and what is left of [2000Value]
+  CHECK(reading.device.find(0x2000)->others.size() == 2);  // [2000Name], and the unused keys of [2000Value]
   CHECK(reading.device.find(0x2001)->others.size() == 1);
   CHECK(reading.found() ==
         "45:1 eds-compact-entry\n49:1 eds-compact-entry\n51:1 eds-compact-entry\n65:1 eds-compact-entry\n"

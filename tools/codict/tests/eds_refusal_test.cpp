@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no EDS or DCF is refused, with one message that says what it is.
+// Files that are no EDS or DCF are refused, with one message that names their kind.
 #include <doctest/doctest.h>
 
 #include <string>

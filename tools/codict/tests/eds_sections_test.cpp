@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sections, lines and characters of an EDS: as CiA 306 has them, and as they are found.
+// Reading of an EDS: sections, lines, characters; in the form of CiA 306 and in others that exist.
 #include <doctest/doctest.h>
 
 #include "eds/read.hpp"
@@ -64,7 +64,7 @@ TEST_CASE("EDS: a section with a sub-index beyond FFh is an error that suggests 
   CHECK(found("d000SUB1A0") == no_decimal);
   CHECK(found("D000sub256") == no_decimal);
   CHECK(found("D000sub99999999999") == no_decimal);
-  CHECK(found("D000sub99999999999999999999") == "");  // no number of 64 bits: an unknown section
+  CHECK(found("D000sub99999999999999999999") == "");  // the number exceeds 64 bits: an unknown section
   CHECK(found("D000subject") == "");
   CHECK(found("M1FixedD000sub255x") == "");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What values mean in an EDS: as CiA 306 has them, and as they are found.
+// Reading of an EDS: meaning of values; in the form of CiA 306 and in others that exist.
 #include <doctest/doctest.h>
 
 #include "reading.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices as fresh EDS and DCF. [306]
+// Writing of devices as new EDS and DCF. [306]
 #include "eds/write.hpp"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,7 @@ std::string written(const Device& device, bool as_dcf = false) {
   return eds::write(device, options);
 }
 
-// What a device has lost or got by being written and read again.
+// Returns the differences of a device after writing and reading it.
 std::string differences(const Device& device) {
   std::string text;
   for (const diff::Difference& difference : diff::compare(device, device_of(written(device, true)))) {

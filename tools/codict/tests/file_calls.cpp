@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Preloaded into codict by a test: prints the system calls that make a written file durable, in their order.
+// Library that a test preloads into codict: prints the system calls that make a written file durable, in their order.
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>

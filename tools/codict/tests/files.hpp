@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file files.hpp
-/// Descriptions in directories: our fixtures, and those from the field, which are not ours to publish.
+/// Descriptions in directories: the fixtures, and descriptions of real devices, which cannot be published.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -10,17 +10,18 @@
 
 namespace test {
 
-/// The directory that LEXICAN_CORPUS names; null without one.
+/// Returns the directory in the environment variable LEXICAN_CORPUS, null if it is not set.
 const char* corpus();
-/// For cases that need it.
+/// Skips test cases that need the corpus if there is none.
 doctest::skip skipped_without_corpus();
 
 using Endings = std::vector<std::string>;
 const Endings& eds_endings();
 const Endings& xml_endings();
-const Endings& all_endings();  ///< of both
+const Endings& all_endings();  ///< those of eds_endings() and xml_endings()
 
-/// Sorted. In the corpus, those that describe no CANopen device are foreign.
+/// Returns the paths of a directory in sorted order. are_foreign: those files of the corpus that describe no CANopen
+/// device.
 std::vector<std::string> files_in(const std::string& directory, const Endings& endings, bool are_foreign = false);
 
 }  // namespace test

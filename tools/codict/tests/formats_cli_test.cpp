@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of codict that go from one description to another, from outside.
+// Commands of codict that convert, merge, compare or generate, run as a program.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -204,7 +204,7 @@ TEST_CASE("codict size: RAM and flash of what gen makes") {
         "all                                 65      657\n");
   CHECK(has(run("size gen/every_kind.eds").out, "\nPERSIST_COMM               22      116      152\n"));
   CHECK(run("gen gen/small.eds --report -o " + directory / "made").out.rfind(sizes, 0) ==
-        0);  // and then what is external
+        0);  // followed by the list of externals
   const Json json = Json::parse(run("size --json gen/small.eds").out);
   CHECK(json.at("schema") == "codict-size-1");
   CHECK(json.at("parts").at(0).at("part") == "RAM");
@@ -311,7 +311,7 @@ TEST_CASE("codict set: what compact storage implies gets its entry in a list, an
 
 namespace {
 
-// An object whose type is an element of its parameter.
+// Object whose data type is an element of its parameter.
 const char* const typed_by_parameter =
     R"(<ISO15745ProfileContainer xmlns="http://www.canopen.org/xml/1.0"><ISO15745Profile><ProfileBody>
 <DeviceIdentity/><ApplicationProcess><parameterList>
@@ -450,7 +450,7 @@ TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where 
 TEST_CASE("codict convert: what CiA 311 cannot say of one device is told") {
   CHECK(has(run("convert compact.dcf --to xdc -o -").err, "1 serial numbers"));
   CHECK_FALSE(has(run("convert compact.dcf --to dcf -o -").err, "serial numbers"));
-  CHECK_FALSE(has(run("convert compact.dcf --to xdd -o -").err, "serial numbers"));  // nor the commissioning
+  CHECK_FALSE(has(run("convert compact.dcf --to xdd -o -").err, "serial numbers"));  // an XDD has no commissioning
 }
 
 TEST_CASE("codict convert: further devices, and characters that a format cannot have, are told") {
@@ -506,7 +506,7 @@ TEST_CASE("codict convert: --node-id, --bit-rate and --node-name make the descri
   const std::string xdc = directory / "node.xdc";
   CHECK(run("convert " + dcf + " -o " + xdc + " --node-id 6 --bit-rate 0").status == 0);
   CHECK(has(bytes_of(xdc), "nodeID=\"6\" nodeName=\"Inlet valve\" actualBaudRate=\"auto-baudRate\""));
-  // The same format: nothing else changes.
+  // Without change of format, nothing else changes.
   const std::string again = directory / "again.dcf";
   CHECK(run("convert " + dcf + " -o " + again + " --node-id 7").status == 0);
   std::string wanted = bytes_of(dcf);

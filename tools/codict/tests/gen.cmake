@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Nodes whose dictionary codict makes while the tests are built, in both languages, tested from the bus. The minimal
-# configuration has not all that they need. They need the stack and its demo: codict alone is tested without them.
+# Tests over the bus of nodes whose dictionaries codict generates during the build, in both languages. They are omitted
+# with the preset minimal, which is too small, and if codict is built without the stack and its demo.
 if(TARGET lexican_demo_dictionary AND NOT LEXICAN_PRESET STREQUAL "minimal")
   add_executable(lexican_codict_node_tests ${lexican_root}/tests/support/main.cpp gen_node.cpp gen_node_case.cpp od_conformance.cpp
     od_conformance_case.cpp)
@@ -27,7 +27,7 @@ if(TARGET lexican_demo_dictionary AND NOT LEXICAN_PRESET STREQUAL "minimal")
   endif()
 endif()
 
-# What the compilers say to the dictionaries of the corpus.
+# Compilers for the dictionaries of the corpus.
 find_package(Threads REQUIRED)
 target_link_libraries(lexican_codict_tests PRIVATE Threads::Threads)
 target_compile_definitions(lexican_codict_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"

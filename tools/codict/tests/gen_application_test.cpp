@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a description leaves to the application: types of its own, and memory.
+// Parts of a dictionary that the application defines: object types and memory.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -13,7 +13,7 @@ using test::has;
 
 namespace {
 
-// The header and the source of an XML description with these parameters, each an object from 2000h on.
+// Returns header and source for an XML description with two parameters, each with an object from 2000h on.
 std::string generated(const std::string& first, const std::string& second) {
   const auto parameter = [](const std::string& id, const std::string& text) {
     return "<parameter uniqueID=\"P" + id + "\"" + text + "</parameter>";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// codict gen as its user sees it.
+// The command codict gen: options, files and exit status.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -66,7 +66,7 @@ TEST_CASE("codict gen: of a description with errors, nothing is made without --f
   CHECK(forced.status == 0);
   CHECK(forced.err.find("[od-limit]\n") != std::string::npos);
   CHECK(std::filesystem::exists(directory / "new/bad_od.h"));
-  // A comment of the description has the same effect as it has on check.
+  // Comments in the description suppress rules as in codict check.
   eds.insert(eds.find("DefaultValue=501"), "; codict: ignore od-limit\n");
   test::write_bytes(directory / "bad.eds", eds);
   CHECK(run(directory, "bad.eds -o known").status == 0);
@@ -98,14 +98,14 @@ TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary
   const auto json = nlohmann::json::parse(run(directory, small + descriptions + "--json").out);
   CHECK(json["files"] == nlohmann::json{"new/small_od.h", "new/small_od.c", "device.eds", "device.xdd"});
   CHECK(run(directory, small + descriptions + "--check").status == 0);
-  // They make the same dictionary.
+  // The written EDS and XDD give the same dictionary.
   CHECK(run(directory, "device.eds -o of_eds --name small").status == 0);
   CHECK(run(directory, "device.xdd -o of_xdd --name small").status == 0);
   const std::string source = bytes_of(directory / "new/small_od.c");
   CHECK(source.size() > 1000);
   for (const char* file : {"of_eds/small_od.c", "of_xdd/small_od.c"}) {
     const std::string again = bytes_of(directory / file);
-    CHECK(again.substr(again.find('\n')) == source.substr(source.find('\n')));  // the first line names the description
+    CHECK(again.substr(again.find('\n')) == source.substr(source.find('\n')));  // the first line differs
   }
   CHECK(bytes_of(directory / "device.eds").find("FileName=device.eds\r\n") != std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dictionaries of the descriptions in the directory that LEXICAN_CORPUS names.
+// Dictionaries generated from the descriptions in the directory LEXICAN_CORPUS.
 #include <doctest/doctest.h>
 
 #include <atomic>
@@ -26,13 +26,13 @@ using namespace lexican::codict;
 
 namespace {
 
-// A configuration in which everything is there that a description can ask for.
+// Configuration with everything that a description can require.
 const std::string options =
     " -Wall -Wextra -Wpedantic -Wconversion -Werror -fsyntax-only -DCO_RPDO_N=512 -DCO_TPDO_N=512 -DCO_HBCONS_N=127"
     " -DCO_SSDO_N=128 -DCO_CSDO_N=100 -DCO_EMCY_CONS_N=127 -DUSE_TIME=1 -DUSE_MPDO=1 -DUSE_PDO_BITS=1"
     " -I" LEXICAN_SOURCE_DIR "/include -I" LEXICAN_SOURCE_DIR "/config ";
 
-// The first device of a file; none if it describes none.
+// Returns the first device of a file, nothing if it describes none.
 std::optional<Device> device_of(Source source) {
   Findings ignored;
   Description description;
@@ -64,7 +64,7 @@ std::vector<Named> devices() {
   return all;
 }
 
-// "" if it compiles.
+// Compiles a file. Returns the first line of the messages, empty if there are no errors.
 std::string compile(const std::string& directory, const gen::File& source) {
   const std::string path = directory + "/" + source.name;
   const std::string log = path + ".log";

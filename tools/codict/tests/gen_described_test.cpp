@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The description of the device that a dictionary makes, of one that says less, or something else.
+// Description of a generated device whose source description is incomplete or differs from it.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -26,7 +26,7 @@ std::string object(const std::string& index, int type, const std::string& rest) 
 
 std::string variable(const std::string& index) { return object(index, 7, "uniqueIDRef=\"P" + index + "\"/>"); }
 
-// The EDS that matches the dictionary of a device.
+// Returns the EDS that matches the dictionary of a device.
 std::string matching_eds(const Device& device) {
   gen::Options options;
   options.name = "small";

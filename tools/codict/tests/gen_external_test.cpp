@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the application has to define: which symbols, and first versions of them.
+// Symbols that the application has to define, and their stubs.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ using namespace lexican::codict;
 
 namespace {
 
-// A description of CANopenNode: there, an object without a value has no memory.
+// Generates from a description of CANopenNode, in which an object without a value has no memory.
 gen::Output generate_xdd(const std::string& objects, gen::Language language) {
   const std::string parameters =
       "<parameter uniqueID=\"RAM\" access=\"read\"><USINT/><defaultValue value=\"1\"/>"
@@ -47,7 +47,7 @@ std::string variable(const char* index, const char* type, const char* access, co
       access, rest);
 }
 
-// Returns what the compiler says.
+// Returns the messages of the compiler, empty if it succeeds.
 std::string compiled(const test::Directory& directory, const std::string& source, gen::Language language) {
   const bool is_c = language == gen::Language::c;
   const std::string command = fmt::format(

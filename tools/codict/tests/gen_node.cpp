@@ -12,7 +12,7 @@ namespace test {
 namespace {
 
 constexpr std::uint32_t baud = 250000;
-constexpr int enough = 300;  // calls, until the node has nothing left to do
+constexpr int enough = 300;  // calls of the node's functions until all work is done
 
 std::vector<std::uint8_t> octets(std::string_view text) {
   std::vector<std::uint8_t> bytes;
@@ -132,7 +132,7 @@ std::string GeneratedNode::sent_by(const std::function<void()>& call) {
   return fmt::format("{:X}: {}", heard->Identifier, text);
 }
 
-// [301:7.2.4.3.5, 7.2.4.3.6]
+// Uploads expedited or segmented. [301:7.2.4.3.5, 7.2.4.3.6]
 std::string GeneratedNode::read(std::uint16_t index, std::uint8_t sub_index) {
   Frame answer = ask({0x40, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(index >> 8), sub_index});
   if (answer[0] == aborted) {
@@ -161,7 +161,7 @@ std::string GeneratedNode::read(std::uint16_t index, std::uint8_t sub_index) {
   }
 }
 
-// [301:7.2.4.3.3, 7.2.4.3.4]
+// Downloads expedited or segmented. [301:7.2.4.3.3, 7.2.4.3.4]
 std::string GeneratedNode::write(std::uint16_t index, std::uint8_t sub_index, std::string_view hex_bytes) {
   const std::vector<std::uint8_t> bytes = octets(hex_bytes);
   Frame request{0x21, static_cast<std::uint8_t>(index), static_cast<std::uint8_t>(index >> 8), sub_index,

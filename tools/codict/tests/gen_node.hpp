@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file gen_node.hpp
-/// A node with a dictionary that codict has made, on a virtual bus, and an SDO client that sees it from outside.
+/// Node with a generated dictionary on a virtual bus, and an SDO client that accesses it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace test {
 
-/// Memory that outlives a node.
+/// Non-volatile memory, which outlives a node.
 struct Memory {
   std::array<std::uint8_t, 1024> bytes{};
   CO_NVM_RAM ram{bytes.data(), static_cast<std::uint32_t>(bytes.size())};
@@ -29,7 +29,7 @@ class GeneratedNode {
  public:
   static constexpr std::uint8_t id = 5;
 
-  /// Errors: those that the application of the dictionary may raise.
+  /// Emergency codes that the application of the dictionary may raise.
   struct Errors {
     CO_EMCY_TBL* first = nullptr;
     std::uint16_t number = 0;
@@ -41,15 +41,15 @@ class GeneratedNode {
   GeneratedNode(const GeneratedNode&) = delete;
   GeneratedNode& operator=(const GeneratedNode&) = delete;
 
-  /// The object in hexadecimal bytes, "01 02", or "abort 06020000".
+  /// Uploads an object. Returns its bytes in hexadecimal, "01 02", or "abort 06020000".
   std::string read(std::uint16_t index, std::uint8_t sub_index);
-  /// "ok", or "abort 06090031".
+  /// Downloads to an object. Returns "ok" or "abort 06090031".
   std::string write(std::uint16_t index, std::uint8_t sub_index, std::string_view hex_bytes);
-  /// A frame from another node.
+  /// Transmits a frame to the node.
   void say(std::uint32_t identifier, std::string_view hex_bytes);
-  /// The first frame that the node sends because of a call: "185: 01 02"; empty: none.
+  /// Returns the first frame that the node transmits because of a call, "185: 01 02"; empty if it transmits none.
   std::string sent_by(const std::function<void()>& call);
-  /// CODictGetFault() and CONodeGetErr() after the start.
+  /// Results of CODictGetFault() and CONodeGetErr() after the start.
   CO_DICT_FAULT fault = CO_DICT_OK;
   CO_ERR error = CO_ERR_NONE;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dictionary that codict has made of fixtures/gen/every_kind.eds, in C and in C++, seen from the bus.
+// Dictionaries generated from fixtures/gen/every_kind.eds, in C and in C++, accessed over the bus.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -44,7 +44,7 @@ const Dictionary dictionaries[] = {
     {"C++", every_cpp_od, EVERY_CPP_OD_NUM, &every_cpp_persist_app, sizeof every_cpp_persist_app},
 };
 
-// Index and sub-index, and what an SDO upload brings, for node-ID 5.
+// Index and sub-index, and the bytes of an SDO upload with node-ID 5.
 const std::map<std::uint32_t, std::string> values = {
     {0x100000, "91 01 0F 00"},
     {0x100100, "00"},
@@ -187,7 +187,7 @@ TEST_CASE("gen: a value outside of its limits is refused with 0609 0031h or 0032
   struct Limit {
     std::uint16_t index;
     const char* lowest;
-    const char* below;  // null: none
+    const char* below;  // null: there is no lower value
     const char* highest;
     const char* above;
   };
@@ -220,7 +220,7 @@ TEST_CASE("gen: a value outside of its limits is refused with 0609 0031h or 0032
       }
       CHECK(node.read(limit.index, 0) == limit.highest);
     }
-    CHECK(node.write(0x2032, 0, "00 00 C0 7F") == too_high);  // no number
+    CHECK(node.write(0x2032, 0, "00 00 C0 7F") == too_high);  // NaN
     CHECK(node.write(0x2032, 0, "00 00 00 80") == "ok");      // -0
     CHECK(node.write(0x2030, 0, "64 00 00 00") == "abort 06070012");
     CHECK(node.write(0x2030, 0, "F4 01") == "ok");
@@ -322,7 +322,7 @@ TEST_CASE("gen: reset communication gives 1017h its default value, and heartbeat
 }
 
 TEST_CASE("gen: resets give every entry that the network has written its default value [301:7.3.2.2]") {
-  // PDOs are mapped while they are off.
+  // The COB-IDs disable the PDOs, so that their mapping may change.
   const std::vector<std::pair<std::uint32_t, std::string>> of_communication = {
       {0x100500, "81 00 00 00"}, {0x100600, "10 27 00 00"}, {0x100700, "E8 03 00 00"}, {0x101400, "85 00 00 80"},
       {0x101500, "01 00"},       {0x101602, "E8 03 07 00"}, {0x101700, "E8 03"},       {0x102001, "01 00 00 00"},
@@ -474,12 +474,12 @@ TEST_CASE("gen: a PDO whose mapping names an object with PDOMapping=0 works; the
     CHECK(node.read(0x2001, 0) == "33 44");
     CHECK(node.sent_by([&] { COTPdoTrigPdo(node.node.TPdo, 0); }) == "185: 01 02");
     CHECK(node.sent_by([&] { COTPdoTrigPdo(node.node.TPdo, 1); }) == "285: 03 04");
-    // The network needs PDOMapping=1.
+    // Mappings by the network require PDOMapping=1 in the description.
     CHECK(node.write(0x1401, 1, "05 03 00 80") == "ok");
     CHECK(node.write(0x1601, 0, "00") == "ok");
     CHECK(node.write(0x1601, 1, "10 00 04 20") == "abort 06040041");
     CHECK(node.write(0x1601, 1, "10 00 01 20") == "abort 06040041");
-    // Reset communication brings back the mapping of the description.
+    // Reset communication restores the mapping of the description.
     node.say(0, reset_communication);
     node.say(0, "01 05");
     node.say(0x305, "55 66");

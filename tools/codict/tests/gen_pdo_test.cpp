@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs of a description that the stack does not create: the generated dictionary has them switched off.
+// PDOs of a description that the stack does not create: they are disabled in the generated dictionary.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ using test::variable;
 
 namespace {
 
-// TPDO 3 or RPDO 3 with these mapping entries.
+// Returns TPDO 3 or RPDO 3 with these mapping entries.
 std::string pdo(char direction, const char* cob_id, const char* number, const std::vector<const char*>& mapped) {
   const bool sends = direction == 'T';
   const std::string communication = sends ? "1802" : "1402";
@@ -55,9 +55,9 @@ TEST_CASE("gen: a PDO whose mapping is right stays on") {
     CHECK(generated.found == "");
     CHECK_FALSE(is_off(generated));
   }
-  // An RPDO may skip bits.
+  // An RPDO may contain dummy entries.
   CHECK(generate(pdo('R', "$NODEID+0x180", "2", {"0x00050008", "0x20000010"}) + objects).found == "");
-  // Its author has switched it off.
+  // The PDO is disabled in the description.
   CHECK(generate(pdo('T', "$NODEID+0x80000180", "0", {}) + objects).found == "");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sub-index of 1010h stores a storage group, and which one of 1011h restores it.
+// Assignment of sub-indexes of 1010h (store) and 1011h (restore) to storage groups.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ namespace {
 
 using Names = std::vector<std::pair<int, std::string>>;  // sub-index and name
 
-// 1010h or 1011h; sub-index 1 is in all of them.
+// Returns 1010h or 1011h with sub-index 1 and the given ones.
 std::string stores(const char* index, const Names& names) {
   std::string eds = record(index) + sub(fmt::format("{}sub0", index).c_str(), 5, "ro", "127") +
                     sub(fmt::format("{}sub1", index).c_str(), 7, "rw", "1");
@@ -36,7 +36,7 @@ std::string stored(const char* index, const std::string& group) {
   return variable(index, 5, "rw", fmt::format(";StorageLocation={}\n", group).c_str());
 }
 
-// Whether an entry of 1010h or 1011h names the CO_PARA of a group.
+// Returns true if an entry of 1010h or 1011h refers to the CO_PARA of a group.
 bool is_stored_by(const Generated& generated, const char* entry, const char* type, const char* group) {
   return generated.has(fmt::format("{{SMALL_{} | CO_OBJ_____RW, {}, (CO_DATA)(&small_{}_para)}},", entry, type, group));
 }
@@ -107,9 +107,9 @@ TEST_CASE("gen: without such names, 2 is communication, 3 is application and 4 i
   CHECK(saves(generated, "1010_2", "persist_comm"));
   CHECK(saves(generated, "1010_3", "persist_app"));
   CHECK(saves(generated, "1010_4", "persist_mfr"));
-  // A group with nothing but objects of the communication profile is for communication, whatever it is called.
+  // A group that contains only objects of the communication profile is for communication, regardless of its name.
   CHECK(saves(generate(stores("1010", names) + stored("1017", "EEPROM")), "1010_2", "eeprom"));
-  // A group of another name is the manufacturer's if there is one place for it.
+  // A group with an unknown name is manufacturer-specific if there is one place for it.
   CHECK(saves(generate(stores("1010", names) + stored("2000", "DRIVE")), "1010_4", "drive"));
 }
 
@@ -119,11 +119,11 @@ TEST_CASE("gen: a storage group that could be stored by several sub-indexes, or 
     CHECK(generated.output.files.empty());
     return generated.found.find("gen-store\n") != std::string::npos;
   };
-  // Sub-index 3 is described as something else.
+  // Sub-index 3 has another purpose in the description.
   CHECK(found({{2, "Save communication parameters"}, {3, "Save calibration"}}, stored("2000", "PERSIST_APP")));
-  // Two groups, and nothing tells which is which.
+  // No name distinguishes the two groups.
   CHECK(found({{2, "Sub 2"}, {4, "Sub 4"}, {5, "Sub 5"}}, stored("2000", "DRIVE") + stored("2001", "BRAKE")));
-  // Two sub-indexes of one name.
+  // Two sub-indexes have the same name.
   CHECK(found({{4, "Save DRIVE"}, {5, "Save drive"}}, stored("2000", "DRIVE")));
 }
 

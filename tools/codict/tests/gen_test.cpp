@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What codict makes of a description: text, and what it says about descriptions of which nothing can be made.
+// Generated text, and findings for descriptions that cannot be generated.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -274,7 +274,7 @@ TEST_CASE("gen: a storage group that no 1010h loads has its default values, as n
 }
 
 TEST_CASE("gen: the size of the RAM has the padding between variables, where addresses have 32 bits") {
-  // 1 byte, 4 of the domain, 3 of padding, 12 of its CO_OBJ_DOM, 4 of padding, 8
+  // 1 byte, 4 of the domain, 3 padding, 12 of its CO_OBJ_DOM, 4 padding, 8
   const std::string octets = variable("2000", 15, "rw", "DefaultValue=01020304");
   const auto wide_at = [](const char* index) { return variable(index, 0x1B, "rw", "DefaultValue=1"); };
   const std::string wide = wide_at("2001");
@@ -282,13 +282,13 @@ TEST_CASE("gen: the size of the RAM has the padding between variables, where add
   REQUIRE(generated.output.costs.at(0).part == "RAM");
   CHECK(generated.output.costs.at(0).ram == 32);
   CHECK(generated.output.costs.at(0).flash == 32);
-  // 8 and 1 that the network only reads, 7 of padding, 8 that reset node sets, 1 that both resets set, 7 of padding
+  // 8 and 1 not writable by the network, 7 padding, 8 set by reset node, 1 set by both resets, 7 padding
   CHECK(generate(variable("2000", 0x1B, "ro") + variable("2001", 5, "ro") + wide_at("2002") + variable("100D", 5, "rw"))
             .output.costs.at(0)
             .ram == 32);
   // 4 of the domain, 12 of its CO_OBJ_DOM, 8
   CHECK(generate(octets + wide).output.costs.at(0).ram == 24);
-  // 8, 12 of the CO_OBJ_DOM, 4 of the domain: what the network only reads is in descending order
+  // 8, 12 of the CO_OBJ_DOM, 4 of the domain: members that the network cannot write are in descending order
   CHECK(generate(variable("2000", 15, "ro", "DefaultValue=01020304") + variable("2001", 0x1B, "ro"))
             .output.costs.at(0)
             .ram == 24);

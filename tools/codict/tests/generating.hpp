@@ -11,9 +11,9 @@ namespace test {
 
 struct Generated {
   lexican::codict::gen::Output output;
-  std::string found;  ///< "line:column rule" of each finding but notes, a line for each
-  std::string notes;  ///< the same for notes
-  std::string texts;  ///< "rule: text" and the hint of each finding, a line for each
+  std::string found;  ///< "line:column rule" of each finding except notes, one per line
+  std::string notes;  ///< "line:column rule" of each note, one per line
+  std::string texts;  ///< "rule: text" and the remedy of each finding, one per line
 
   const std::string& header() const { return output.files.at(0).bytes; }
   const std::string& source() const { return output.files.at(1).bytes; }

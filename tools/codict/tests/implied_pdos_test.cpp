@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs that an EDS counts and does not describe (CompactPDO).
+// PDOs that an EDS counts but does not describe (CompactPDO).
 #include <doctest/doctest.h>
 
 #include <string>
@@ -52,7 +52,7 @@ TEST_CASE("EDS: PDOs that CompactPDO stands for are made, with the sub-indexes o
   CHECK(eds.default_of(0x1400, 0) == "5");
   CHECK(eds.default_of(0x1400, 1) == "$NODEID+2147484160");  // 0x80000200
   CHECK(eds.default_of(0x1403, 1) == "$NODEID+2147484928");  // 0x80000500
-  CHECK(eds.default_of(0x1404, 1) == "2147483648");          // none of the predefined connection set
+  CHECK(eds.default_of(0x1404, 1) == "2147483648");          // disabled: not in the predefined connection set
   CHECK(eds.default_of(0x1400, 2) == "255");
   CHECK(eds.default_of(0x1400, 3) == "0");
   CHECK(eds.default_of(0x1400, 4) == "missing");
@@ -61,7 +61,7 @@ TEST_CASE("EDS: PDOs that CompactPDO stands for are made, with the sub-indexes o
   CHECK(eds.default_of(0x1600, 0) == "0");
   CHECK(eds.default_of(0x1600, 8) == "0");
   CHECK(eds.default_of(0x1600, 9) == "missing");
-  CHECK(eds.default_of(0x1800, 1) == "5");  // the section decides
+  CHECK(eds.default_of(0x1800, 1) == "5");  // the section has priority
   CHECK(eds.default_of(0x1800, 2) == "missing");
   CHECK(eds.default_of(0x1801, 1) == "$NODEID+2147484288");  // 0x80000280
   CHECK(eds.notes() ==
@@ -72,7 +72,7 @@ TEST_CASE("EDS: PDOs that CompactPDO stands for are made, with the sub-indexes o
 TEST_CASE("EDS: implied PDOs take the lowest free indexes, and half described ones get their other half") {
   const Device306 eds("NrOfTXPDO=3\nCompactPDO=1\nGranularity=1\n",
                       "[1801]\nParameterName=x\nObjectType=9\n[1801sub1]\nParameterName=x\nDataType=7\n");
-  CHECK(eds.default_of(0x1800, 2) == "255");  // which CiA 301 demands
+  CHECK(eds.default_of(0x1800, 2) == "255");  // value that CiA 301 requires
   CHECK(eds.default_of(0x1A01, 64) == "0");
   CHECK(eds.default_of(0x1802, 0) == "2");
   CHECK(eds.device.find(0x1803) == nullptr);
@@ -89,7 +89,7 @@ TEST_CASE("EDS: without CompactPDO, or where all PDOs are described, none is mad
 TEST_CASE("EDS: CompactPDO fills no memory") {
   const Device306 eds("NrOfRXPDO=65535\nNrOfTXPDO=65535\nCompactPDO=0xFFFFFFFF\nGranularity=1\n");
   CHECK(eds.findings.count(eds::rules::compact_limit) == 1);
-  CHECK(eds.device.objects.size() == 1024);  // 512 PDOs of one direction
+  CHECK(eds.device.objects.size() == 1024);  // 512 PDOs of one direction, two objects each
   CHECK(eds.default_of(0x1400, 6) == "0");
   CHECK(eds.default_of(0x1400, 7) == "missing");
 }

@@ -38,7 +38,7 @@ struct JsonReading {
     }
   }
 
-  // "line:column rule" of each finding.
+  // Returns "line:column rule" of each finding, one per line.
   std::string found() const {
     std::string text;
     for (const Finding& finding : findings.all()) {
@@ -56,7 +56,7 @@ struct JsonReading {
   Description description;
 };
 
-// A device with one object, whose members are given.
+// Returns a device with one object that has these members.
 std::string with(const std::string& members) {
   return R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [
 {"index": 8192, )" +
@@ -65,7 +65,7 @@ std::string with(const std::string& members) {
 
 const Value& value_of(const JsonReading& reading) { return reading.device().objects.at(0).default_value; }
 
-// Without a value, it is no description.
+// Reads a description; returns nothing if the reader refuses it.
 template <typename Document, typename Refuse, typename Read>
 std::optional<Description> description_of(const std::string& path, Refuse refusal, Read read) {
   Findings findings;
@@ -296,7 +296,7 @@ TEST_CASE("JSON: the text of a number, a flag or a word that says something else
     CAPTURE(members);
     const JsonReading reading(with(members));
     CHECK(reading.has("json-contradiction"));
-    CHECK(JsonReading(json::write(reading.description)).found().empty());  // the text is used
+    CHECK(JsonReading(json::write(reading.description)).found().empty());  // the text has priority
   }
   CHECK(JsonReading(with(R"("data_type": {"value": 7, "text": "0x0006"})")).device().objects.at(0).data_type.value ==
         6);

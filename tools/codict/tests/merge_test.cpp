@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A description with overlays.
+// Merging of overlays into a description.
 #include "convert/merge.hpp"
 
 #include <doctest/doctest.h>
@@ -149,7 +149,7 @@ TEST_CASE("merge: a section of very many keys does not take for ever") {
   const std::clock_t begin = std::clock();
   const Merging merging(base, overlay);
   CHECK(merging.replaced.size() == 50000);
-  CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // with all checks of a build for tests; it was half an hour
+  CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // limit for slow test builds with all checks
 }
 
 TEST_CASE("merge: a whole description with another vendor or product number is of another product") {

@@ -20,8 +20,8 @@ constexpr Nanoseconds ms = 1000 * us;
 
 using Times = std::vector<std::optional<Nanoseconds>>;
 
-// The longest response time of a stream in its busy period, by simulation: the longest frame of lower priority begins
-// just before all others arrive. Nothing if the busy period does not end.
+// Simulates the longest response time of a stream in its busy period: the longest frame of lower priority begins just
+// before all others arrive. Returns nothing if the busy period does not end.
 std::optional<Nanoseconds> simulated(const std::vector<Stream>& streams, std::size_t at) {
   Nanoseconds time = 0;
   for (std::size_t n = at + 1; n < streams.size(); ++n) {
@@ -60,7 +60,7 @@ TEST_CASE("network: the length of a frame with known data counts its stuff bits"
   CHECK(exact_bits({0, false, false, 0}, "") == 34 + 13 + 6);
   // 555h alternates; RTR, IDE, r0 and the DLC are 7 zeros: one stuff bit.
   CHECK(exact_bits({0x555, false, false, 0}, "") == 48);
-  // Calculated by a program of its own.
+  // Calculated by a separate program.
   CHECK(exact_bits({0x080, false, false, 0}, "") == 51);
   CHECK(exact_bits({0x702, false, false, 1}, "\x05") == 58);
   CHECK(exact_bits({0x705, false, false, 1}, "\x05") == 59);
@@ -104,7 +104,7 @@ TEST_CASE("network: response times are those of a simulation of the worst case")
     random = random * 1664525U + 1013904223U;
     return static_cast<Nanoseconds>(low + (random >> 8) % (high - low + 1));
   };
-  unsigned later = 0;  // responses above the period: several instances in one busy period
+  unsigned later = 0;  // number of responses above the period, with several instances in one busy period
   for (int round = 0; round < 1000; ++round) {
     std::vector<Stream> streams;
     for (Nanoseconds count = number(2, 6); count != 0; --count) {
@@ -128,18 +128,18 @@ TEST_CASE("network: response times are those of a simulation of the worst case")
 TEST_CASE("network: one stream waits for nothing; two wait for one another") {
   CHECK(response_times({}, us).empty());
   CHECK(response_times({{100 * us, ms, 0}}, us) == Times{100 * us});
-  // The higher one is blocked by a frame that has just begun, the lower one waits for the higher one.
+  // The first stream is blocked by a frame that has just begun, the second one waits for the first one.
   CHECK(response_times({{100 * us, ms, 0}, {130 * us, ms, 0}}, us) == Times{230 * us, 230 * us});
 }
 
 TEST_CASE("network: jitter delays the stream itself and adds to what lower ones wait for") {
-  // Within 110 us of the lower one, the jitter of 950 us lets two frames of the higher one come.
+  // Within 110 us, the jitter of 950 us lets two frames of the first stream arrive.
   CHECK(response_times({{100 * us, ms, 950 * us}, {100 * us, 10 * ms, 0}}, us) == Times{1150 * us, 300 * us});
 }
 
 TEST_CASE("network: a stream without a period blocks, and has no response time") {
   CHECK(response_times({{100 * us, ms, 0}, {135 * us, 0, 0}}, us) == Times{235 * us, std::nullopt});
-  // In front of others it is not counted.
+  // At a higher priority it does not count.
   CHECK(response_times({{135 * us, 0, 0}, {100 * us, ms, 0}}, us) == Times{std::nullopt, 100 * us});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// codict network as its user sees it.
+// The command codict network: output, files and exit status.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ TEST_CASE("codict network: a plan is checked, and its files are written") {
   for (const char* name : {"drive_x.dcf", "drive_x.bin", "io.dcf", "io.bin", "master.dcf", "network.html"}) {
     CHECK_MESSAGE(std::filesystem::exists(directory / "out" + "/" + name), name);
   }
-  // The DCFs are the same network; a master's DCF is one of them.
+  // The DCFs describe the same network; the master has one, too.
   const Ran again = test::run_codict(directory / "out", "network drive_x.dcf drive_y.dcf io.dcf master.dcf");
   CHECK(again.err == "");
   CHECK(again.out == ran.out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plans of networks: what is read, and what is refused with its place.
+// Plans of networks: values that are read, and findings with their places.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using network::read_plan;
 
 namespace {
 
-// "line:column: rule: text" of each finding, a line for each.
+// Returns "line:column: rule: text" of each finding, one per line.
 std::string found(const std::string& yaml) {
   const Source source("plan.yaml", yaml);
   Findings findings;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Networks: checks between nodes, what a plan configures, concise DCFs, bus load, the report.
+// Networks: checks between nodes, configuration by a plan, concise DCFs, bus load, the report.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -56,7 +56,7 @@ std::string commissioned(unsigned node_id, const std::string& objects, const std
   return "[DeviceComissioning]\nNodeID=" + std::to_string(node_id) + "\nBaudrate=250\n" + more + objects;
 }
 
-// A TPDO or RPDO that maps so many objects of 16 bits.
+// Returns a TPDO or RPDO that maps `count` objects of 16 bits.
 std::string pdo(unsigned communication, const std::string& cob_id, const std::string& type, unsigned count,
                 const std::string& inhibit = "100", const std::string& event = "0") {
   std::map<unsigned, std::string> mapping = {{0, std::to_string(count)}};
@@ -96,7 +96,7 @@ std::string text_of(const NetworkFindings& findings, Severity least) {
   return text;
 }
 
-// Warnings and errors of all checks.
+// Returns the findings of all checks, from severity `least` on.
 std::string found(const std::vector<std::string>& descriptions, Severity least = Severity::warning) {
   const Network network = network_of(descriptions);
   NetworkFindings findings(network);
@@ -119,7 +119,7 @@ struct Configured {
   }
 };
 
-// A plan whose descriptions are all this one.
+// Returns the network of a plan in which all slaves have the same description.
 Configured planned(const std::string& yaml, const std::string& eds) {
   Configured result;
   const Plan plan = read_plan(Source("plan.yaml", yaml), result.findings);
@@ -139,7 +139,7 @@ Configured example() {
   return result;
 }
 
-// "1800:1=81010080 …": values as SDO transfers them, low byte first.
+// Returns "1800:1=81010080 …": values as SDO transfers them, low byte first.
 std::string downloads_text(const std::vector<Download>& downloads) {
   std::string text;
   for (const Download& download : downloads) {
@@ -177,7 +177,7 @@ TEST_CASE("network: a COB-ID that two nodes transmit is an error, whatever servi
             .find("SDO server 1, response") != std::string::npos);
   CHECK(found({commissioned(2, sync_master), commissioned(3, pdo(0x1800, "0x80", "255", 1))}, Severity::error)
             .find("is also that of a (node 2), SYNC") != std::string::npos);
-  // An identifier of 29 bits is another one, and bit 31 means none.
+  // A COB-ID of 29 bits differs from one of 11 bits; bit 31 disables the PDO.
   CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1)), commissioned(3, pdo(0x1800, "0x20000181", "255", 1)),
                commissioned(4, pdo(0x1800, "0x80000181", "255", 1))},
               Severity::error)
@@ -278,7 +278,7 @@ TEST_CASE("network: the bus load counts frames by their shortest and their usual
   NetworkFindings findings(network);
   const Traffic traffic = traffic_of(network, links_of(network), findings);
   CHECK(findings.count(Severity::warning) == 0);
-  // 95 bits every 10 ms and a heartbeat every 100 ms, at 250 kbit/s.
+  // 95 bits every 10 ms, and a heartbeat every 100 ms, at 250 kbit/s.
   const double heartbeat = exact_bits({0x702, false, false, 1}, "\x05");
   CHECK(traffic.worst_load == doctest::Approx(100.0 * (95 / 2500.0 + heartbeat / 25000.0)));
   CHECK(traffic.average_load ==
@@ -301,7 +301,7 @@ TEST_CASE("network: synchronous PDOs have the period of their SYNCs, and the win
   REQUIRE(tpdo != traffic.messages.end());
   CHECK(tpdo->shortest_period == 40000000);
   CHECK(tpdo->deadline == 400000);
-  // An SDO frame (540 us) and SYNC are in front of it.
+  // An SDO frame (540 us) and SYNC are transmitted before it.
   CHECK(text_of(findings, Severity::warning).find("net-response: TPDO 1 of b (node 2) (181h) takes up to 1.") == 0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as descriptions write them. [306: 4.2]
+// Notations of numbers in descriptions. [306: 4.2]
 #include <doctest/doctest.h>
 
 #include <cmath>

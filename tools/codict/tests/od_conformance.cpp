@@ -11,7 +11,7 @@ using namespace lexican::codict;
 
 namespace {
 
-constexpr std::uint32_t refuses_download = 1;  // ObjFlags: not to be written in a scan
+constexpr std::uint32_t refuses_download = 1;  // ObjFlags: a scan must not write the object
 constexpr std::uint32_t refuses_upload = 2;
 constexpr std::uint8_t structure_sub = 0xFF;
 
@@ -38,7 +38,7 @@ std::string octets(std::string_view bytes) {
   return text;
 }
 
-// In the order of the bus.
+// Returns a number as hexadecimal bytes, low byte first as on the bus.
 std::string octets(std::uint64_t number, unsigned size) {
   std::string bytes;
   for (unsigned n = 0; n < size; ++n) {
@@ -55,7 +55,7 @@ std::string octets_of(double value) {
   return octets(bits, sizeof bits);
 }
 
-// Two octets for each character; those of the fixtures need no more.
+// Converts UTF-8 up to U+07FF to 2 bytes per character, which the fixtures do not exceed.
 std::string wide(const std::string& utf8) {
   std::string bytes;
   for (std::size_t n = 0; n < utf8.size(); ++n) {
@@ -74,7 +74,7 @@ bool is_answer(const std::string& read) { return read.compare(0, 5, "abort") != 
 
 bool is_error_field(std::uint16_t index, std::uint8_t sub_index) { return index == 0x1003 && sub_index != 0; }
 
-// Takes "save" or "load" only. [301:7.5.2.13]
+// Returns true for entries that accept only the signature "save" or "load". [301:7.5.2.13]
 bool is_command(std::uint16_t index, std::uint8_t sub_index) {
   return (index == 0x1010 || index == 0x1011) && sub_index != 0;
 }
@@ -83,7 +83,7 @@ bool is_mapping(std::uint16_t index) {
   return (index >= 0x1600 && index <= 0x17FF) || (index >= 0x1A00 && index <= 0x1BFF);
 }
 
-// Sub-index 0 is a number of its own. [301:7.5.2.6, 7.5.2.36]
+// Returns true if sub-index 0 is a number of entries, not the highest sub-index. [301:7.5.2.6, 7.5.2.36]
 bool counts_otherwise(std::uint16_t index) { return index == 0x1003 || is_mapping(index); }
 
 bool takes(std::uint16_t index, std::uint8_t sub_index, const std::string& answer) {
@@ -111,7 +111,7 @@ Contradictions OdConformance::for_each(Check check) {
   return found;
 }
 
-// Something to be written: what is there, or what has the right length.
+// Returns bytes for a write access: the present value, else zeros of the right length.
 std::string OdConformance::content_of(std::uint16_t index, std::uint8_t sub_index, const Entry& entry) {
   const unsigned size = size_of(data_type_of(described_, entry.data_type.value));
   const std::string present = is_readable(entry.access.value) ? node_.read(index, sub_index) : "";
@@ -198,7 +198,7 @@ Contradictions OdConformance::structure() {
     if (object.subs.empty() || !is_in_area(object.index)) {
       continue;
     }
-    // Bits 8 to 15: the type, of an ARRAY that of its entries; bits 0 to 7: the object code. [301:7.4.5]
+    // Bits 8 to 15: data type, of an ARRAY that of its elements; bits 0 to 7: object code. [301:7.4.5]
     const std::uint16_t type = object.data_type.is_given ? object.data_type.value : object.subs.back().data_type.value;
     const std::string expected = octets(static_cast<std::uint64_t>(object.object_code.value) | unsigned{type} << 8, 4);
     const std::string read = node_.read(object.index, structure_sub);

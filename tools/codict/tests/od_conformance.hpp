@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file od_conformance.hpp
-/// What a description says of a device, held against that device over the bus: the cases OD 01 to OD 09 of CiA's
-/// conformance test. Each check returns a line for each contradiction, "2101h:00 default: 00 00, not 3C 00".
+/// Comparison of a description with its device over the bus: the cases OD 01 to OD 09 of CiA's conformance test. Each
+/// check returns a line for each contradiction, "2101h:00 default: 00 00, not 3C 00".
 #pragma once
 
 #include <cstdint>
@@ -15,30 +15,30 @@ namespace test {
 
 using Contradictions = std::vector<std::string>;
 
-/// The objects that a case is about.
+/// Range of the objects that a case checks.
 struct Area {
   std::uint16_t first;
   std::uint16_t last;
 };
 
 constexpr Area communication = {0x1000, 0x1FFF};
-constexpr Area beyond = {0x2000, 0xFFFF};  ///< the manufacturer's, and those of profiles
+constexpr Area beyond = {0x2000, 0xFFFF};  ///< manufacturer-specific objects and those of profiles
 
 class OdConformance {
  public:
   OdConformance(const lexican::codict::Device& described, GeneratedNode& node, Area area)
       : described_(described), node_(node), area_(area) {}
 
-  Contradictions access();      ///< what can be read has the length of its type; what can be written takes a value
-  Contradictions defaults();    ///< and constants, and sub-index 0
-  Contradictions read_only();   ///< 0601 0002h
-  Contradictions write_only();  ///< 0601 0001h
-  Contradictions structure();   ///< sub-index FFh, where there is one, and sub-index 0
-  Contradictions limits();      ///< 0609 0031h, 0609 0032h; of integers
-  Contradictions absence();     ///< what is not described: 0602 0000h, 0609 0011h
-  Contradictions mapping();     ///< what can be mapped, where a PDO can be told so; access rights are its direction
-  Contradictions flags();       ///< the same for all objects, from the device's own dictionary
-  Contradictions identity();    ///< DeviceInfo is 1018h
+  Contradictions access();      ///< readable values have the length of their type; writable objects accept a value
+  Contradictions defaults();    ///< default values, including constants and sub-index 0
+  Contradictions read_only();   ///< writes to read-only objects are aborted with 0601 0002h
+  Contradictions write_only();  ///< reads of write-only objects are aborted with 0601 0001h
+  Contradictions structure();   ///< sub-index FFh, if supported, and sub-index 0
+  Contradictions limits();      ///< limits of integers: 0609 0031h, 0609 0032h
+  Contradictions absence();     ///< objects without description are missing: 0602 0000h, 0609 0011h
+  Contradictions mapping();     ///< objects that can be mapped in a PDO with variable mapping, by access right
+  Contradictions flags();       ///< mappable objects, compared with flag P in the dictionary
+  Contradictions identity();    ///< 1018h equals the identity in DeviceInfo
 
  private:
   using Entry = lexican::codict::Entry;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// "The description matches the device": OD 01 to OD 09 of CiA's conformance test, with generated dictionaries. Each
-// case is tried with descriptions that are wrong in one place, too: it has to say where.
+// Cases OD 01 to OD 09 of CiA's conformance test with generated dictionaries: "The description matches the device".
+// Each case also runs with descriptions that are wrong in one place, which it has to report.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -74,7 +74,7 @@ Contradictions check(const Described& described, std::string eds, Check one, tes
   return (OdConformance(description.devices.front(), node, area).*one)();
 }
 
-/// The device is what its description says.
+/// Checks that the devices match their descriptions.
 void check_all(Check one, test::Area area) {
   for (const Described* const described : {&demo_clock, &every_c, &every_cpp}) {
     CAPTURE(described->eds);
@@ -88,7 +88,7 @@ std::pair<std::size_t, std::size_t> section_of(const std::string& eds, const std
   return {begin, std::min(eds.find("\n[", begin), eds.size() - 1) + 1};
 }
 
-/// A line of a section is another one.
+/// Replaces a line of a section.
 std::string changed(std::string eds, const std::string& section, const std::string& line, const std::string& other) {
   const auto [begin, end] = section_of(eds, section);
   const std::size_t place = eds.find("\n" + line + "\n", begin);

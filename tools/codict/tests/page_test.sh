@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The page that `codict doc` makes, in a browser: page_test.sh CODICT FIXTURES. Says what it found as TAP.
+# Tests the HTML page of `codict doc` in a browser: page_test.sh CODICT FIXTURES. Prints TAP.
 set -uo pipefail
 
 codict=$1 fixtures=$2
@@ -17,7 +17,7 @@ report() {  # WHAT WANTED FOUND
   fi
 }
 
-# What the page is after its script has run: open_page NAME [SEARCH]
+# open_page NAME [SEARCH]: opens a page and stores its DOM after the script has run.
 open_page() {
   timeout 120 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$place/profile" --enable-logging=stderr \
     --dump-dom "file://$place/$1.html${2:+?q=$2}" >"$place/dom" 2>"$place/log"
@@ -33,7 +33,7 @@ echo "1..14"
 open_page drive
 report "all objects are shown" 11 "$(shown_objects)"
 report "no error of the script" 0 "$(script_errors)"
-# 8 + 16 bits of the RPDO, 32 + 8 of the TPDO: a box for each byte.
+# A box for each byte: 8 + 16 bits of the RPDO, 32 + 8 of the TPDO.
 report "the pictures of the PDOs have their boxes" 8 "$(count '<g class="part"')"
 open_page drive wanted
 report "a search finds an object by its name" 1 "$(shown_objects)"
@@ -46,7 +46,8 @@ report "a search finds nothing where nothing is" 0 "$(shown_objects)"
 open_page broken
 report "an error of the script would be noticed" 1 "$(script_errors)"
 
-# How a page is laid out at a width: pixels beyond it, and descriptions of two lines: measure NAME WIDTH. The page is in a frame, as windows have a least width.
+# measure NAME WIDTH: counts the pixels of a page beyond a width, and the descriptions shown in two lines. The page is
+# in a frame because windows have a minimum width.
 measure() {
   cat >"$place/frame.html" <<END
 <body><iframe id="frame" style="width:$2px;height:800px;border:0" src="$1.html"></iframe><script>
@@ -67,7 +68,7 @@ measure drive 400
 report "at 400 pixels, nothing has to be scrolled sideways" 0 "$(of_frame beyond)"
 measure drive 1200
 report "nor at 1200 pixels" 0 "$(of_frame beyond)"
-# Names and values without a blank, as long as texts of an EDS may be.
+# A name without blanks, as long as an EDS permits.
 long=$(printf 'x%.0s' {1..240})
 "$codict" set "$fixtures/drive.eds" 0x2000 "name=$long" -o "$place/long.eds" && "$codict" doc "$place/long.eds" -o "$place/long.html"
 measure long 400

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file program.hpp
-/// The program codict, run by a shell as its user runs it.
+/// Runs the program codict in a shell.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ struct Ran {
   std::string err;
 };
 
-/// A command of the shell.
+/// Runs a command of the shell.
 Ran run_shell(const std::string& command);
-/// directory: in which it is run.
+/// Runs codict in a directory.
 Ran run_codict(const std::string& directory, const std::string& arguments);
-/// In that of the fixtures.
+/// Runs codict in the directory of the fixtures.
 Ran run(const std::string& arguments);
 
-/// A copy of a fixture; its path.
+/// Copies a fixture to a directory and returns the path of the copy.
 std::string copy_to(const Directory& directory, const char* fixture);
 
 bool has(const std::string& text, const std::string& part);

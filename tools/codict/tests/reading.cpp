@@ -87,7 +87,7 @@ std::string meaning(const Value& value) {
 }
 
 bool is_well_said(const lexican::codict::Finding& finding) {
-  constexpr std::size_t longest = 110;  // three shortened names and what is said of them
+  constexpr std::size_t longest = 110;  // three shortened names and the fault
   const std::string beginning = finding.text.substr(0, 5);
   const bool is_ideal = beginning == "there" || beginning == "this " || beginning == "a key" || beginning == "an un";
   return !finding.text.empty() && finding.text.size() <= longest && finding.text.back() != '.' && !is_ideal &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file reading.hpp
-/// A file that the reader under test has read, and what it says.
+/// Description that the reader under test has read, and its findings.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace test {
 
-/// The path of a fixture.
+/// Returns the path of a fixture.
 std::string fixture(const std::string& name);
 
 struct Reading {
-  /// A fixture; all checks have been made.
+  /// Reads a fixture and runs all checks.
   explicit Reading(const std::string& name);
 
   lexican::codict::Findings findings;
@@ -24,18 +24,18 @@ struct Reading {
   lexican::codict::Description description;
   lexican::codict::Device& device;
 
-  /// "line:column rule" of each finding, a line for each.
+  /// Returns "line:column rule" of each finding, one per line.
   std::string found() const;
 
-  /// The object, or sub-object, which must be there.
+  /// Returns an object or sub-object, which must exist.
   const lexican::codict::Entry& at(std::uint16_t index, std::uint8_t sub_index = 0) const;
   const lexican::codict::Value& value(std::uint16_t index, std::uint8_t sub_index = 0) const;
 };
 
-/// "10", "-1", "$NODEID+384", "none", "malformed" and so on, with quotes around texts.
+/// Returns "10", "-1", "$NODEID+384", "none", "malformed" and so on; texts are in quotes.
 std::string meaning(const lexican::codict::Value& value);
 
-/// Whether a message is a fault in lower case without a full stop, fits a terminal, and has a remedy.
+/// Returns true if a message describes a fault, has no full stop, is not too long, and has a remedy.
 bool is_well_said(const lexican::codict::Finding& finding);
 
 }  // namespace test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversion from each format into each other one: every difference has been announced as a loss.
+// Conversion between all formats: every difference has to be announced as a loss.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using convert::Target;
 namespace {
 
 struct Way {
-  const char* name;  // of the file that is read back: its ending distinguishes an XDC from an XDD
+  const char* name;  // name of the written file: its extension distinguishes an XDC from an XDD
   Target target;
   xdd::Edition edition;
 };
@@ -58,7 +58,7 @@ std::string written(const Description& description, const Way& way) {
                                     : convert::write(description.devices.front(), way.target, way.edition, "");
 }
 
-// The beginning of the names of differences, and the loss that announces them.
+// Beginnings of the names of differences, and the loss that announces each.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 59> announcements = {{
     {"value", "configured values"},
     {"denotation", "denotations"},
@@ -121,7 +121,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 59> announce
     {"access", "access types"},
 }};
 
-// The place of a loss begins with that of its object; losses of the whole device have other details.
+// Compares places. Those of losses begin with the object, followed by a detail; losses of the device have no object.
 bool is_at(const std::string& loss, const std::string& place) {
   return loss.empty() || place.empty() || loss == place || loss.substr(0, place.size() + 1) == place + " ";
 }
@@ -140,7 +140,7 @@ bool is_announced(const diff::Difference& difference, const std::vector<Loss>& l
   });
 }
 
-// Differences that convert does not announce, a line for each.
+// Returns the differences that convert does not announce, one per line.
 std::string silent_losses(const Description& description, const Way& way) {
   const Description after = description_of(written(description, way), way.name);
   const std::vector<Loss> losses = convert::losses(description, way.target);
@@ -154,7 +154,7 @@ std::string silent_losses(const Description& description, const Way& way) {
   return text;
 }
 
-// The lines of [DeviceComissioning], with a blank behind each.
+// Returns the lines of [DeviceComissioning], separated by blanks.
 std::string commissioning_of(const std::string& dcf) {
   const std::size_t begin = dcf.find("[DeviceComissioning]");
   std::string lines = dcf.substr(begin, dcf.find('[', begin + 1) - begin);
@@ -183,7 +183,7 @@ void check_all_ways(const Description& description) {
   }
 }
 
-// Of what has been written, too.
+// Checks all formats, and again all formats of what has been written.
 void check_all_ways_twice(const Description& description) {
   check_all_ways(description);
   for (const Way& way : ways) {
@@ -196,7 +196,7 @@ void check_all_ways_twice(const Description& description) {
 
 TEST_CASE("convert: what is different in another format has been announced, for each fixture and each format") {
   for (const std::string& path : test::files_in(test::fixture(""), test::all_endings())) {
-    if (!test::has(path, "control_character")) {  // which XML cannot have
+    if (!test::has(path, "control_character")) {  // XML cannot contain control characters
       CAPTURE(path);
       check_all_ways_twice(description_of(test::bytes_of(path), path));
     }

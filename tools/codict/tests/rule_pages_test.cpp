@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each rule has a page, catalogue/pages/RULE.md, whose examples do what the page says.
 //
-// An example shows what matters; here it gets a device around it (fixtures/rules). Sections of an EDS take the place of
-// those of the same name, and the lists of objects are made. Elements of an XML description go where they belong. An
-// example that is marked as "whole" stays as it is.
+// An example contains only the essential lines; the test inserts it into a device (fixtures/rules). Sections of an EDS
+// replace those of the same name, and the lists of objects are generated. Elements of an XML description are inserted
+// into their parents. An example marked as "whole" is not changed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -71,10 +71,10 @@ std::set<std::string> others_of(const Page& page) {
   return others;
 }
 
-// The device around an EDS -----------------------------------------------------------------------------------------
+// Device for examples of EDS and DCF ----------------------------------------------------------------------------------
 
 struct Part {
-  std::string name;  // of the section; empty in front of the first one
+  std::string name;  // name of the section; empty for the text in front of the first one
   std::string text;
 };
 
@@ -135,7 +135,7 @@ std::string in_eds_device(const std::string& example) {
   return text;
 }
 
-// The device around XML --------------------------------------------------------------------------------------------
+// Device for examples of XML ------------------------------------------------------------------------------------------
 
 const char* place_of(const std::string& element) {
   static const std::map<std::string, const char*> places = {
@@ -152,7 +152,7 @@ const char* place_of(const std::string& element) {
   return places.at(element);
 }
 
-// Comments go with the element behind them.
+// Inserts the elements of an example into a device, each with the comments in front of it.
 std::string in_xml_device(const std::string& example) {
   std::string text = test::bytes_of(test::fixture("rules/device.xdd"));
   pugi::xml_document tree;
@@ -170,7 +170,7 @@ std::string in_xml_device(const std::string& example) {
   return text;
 }
 
-// What is found ----------------------------------------------------------------------------------------------------
+// Findings of an example ----------------------------------------------------------------------------------------------
 
 template <typename Document, typename Read, typename Suppressions>
 Findings judge(const Rule& rule, Source source, Read read, Suppressions suppressions) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules, and the reference page that is generated from them.
+// List of rules, and the reference page that is generated from it.
 #include <doctest/doctest.h>
 
 #include <set>

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A codict that is linked with -DLEXICAN_STATIC=ON runs without anything else: static_test.sh CODICT FIXTURES. Prints TAP.
+# Tests that a codict built with -DLEXICAN_STATIC=ON needs no other files: static_test.sh CODICT FIXTURES. Prints TAP.
 set -uo pipefail
 
 codict=$1 fixtures=$2
@@ -21,7 +21,8 @@ needs_no_loader() { ! LC_ALL=C readelf --program-headers "$codict" | grep -E 'IN
 needs_no_library() { [[ $(LC_ALL=C ldd "$codict" 2>&1) == *'not a dynamic executable'* ]]; }
 runs_without_environment() { env -i "$codict" --version; }
 
-# A directory that has nothing but the program and a description is the root; a user namespace allows it to any user.
+# Runs codict in a root directory that contains only the program and a description. The user namespace permits chroot
+# for any user.
 runs_in_empty_root() {
   mkdir "$place/root" && cp "$codict" "$place/root/codict" && cp "$fixtures/drive.eds" "$place/root" || return
   local chroot=(chroot)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Findings name the object that they are about, and similar findings are folded.
+// Findings name the object that they concern, and similar findings are folded.
 #include <doctest/doctest.h>
 
 #include <filesystem>

@@ -117,9 +117,9 @@ TEST_CASE("an encoding is guessed from the bytes") {
   CHECK(guess_encoding("Gr\x94\xE1\x65") == Encoding::cp850);
   CHECK(guess_encoding("Gr\xF6\xDF\x65") == Encoding::cp1252);
   CHECK(guess_encoding("20 \xB0\x43") == Encoding::cp1252);
-  CHECK(guess_encoding("\xC3") == Encoding::cp1252);        // half a letter of UTF-8
-  CHECK(guess_encoding("\xED\xA0\x80") != Encoding::utf8);  // no letter at all
-  CHECK(guess_encoding("\xC0\x80") != Encoding::utf8);      // too long for what it is
+  CHECK(guess_encoding("\xC3") == Encoding::cp1252);        // incomplete UTF-8 character
+  CHECK(guess_encoding("\xED\xA0\x80") != Encoding::utf8);  // surrogate, which is no character
+  CHECK(guess_encoding("\xC0\x80") != Encoding::utf8);      // overlong encoding
   CHECK(guess_encoding("\xFE\xFF") == Encoding::utf16);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# codict gen --verify: verify_test.sh CODICT STACK FIXTURES DIRECTORY. The compiled stack stays in DIRECTORY.
+# Tests codict gen --verify: verify_test.sh CODICT STACK FIXTURES DIRECTORY. DIRECTORY keeps the compiled stack.
 set -euo pipefail
 
 codict=$1 stack=$2 fixtures=$3 directory=$4
@@ -8,7 +8,7 @@ mkdir -p "$directory"
 cd "$directory"
 failed=0
 
-# expect STATUS TEXT ARGUMENTS...: the exit status, and a text of the messages.
+# expect STATUS TEXT ARGUMENTS...: runs codict gen and compares its exit status, and its messages with TEXT.
 expect() {
   local status=$1 text=$2 got=0
   shift 2
@@ -28,7 +28,7 @@ small=$fixtures/gen/small.eds
 expect 0 'verify: small: CONodeInit() reports no error' "$small" $verify
 expect 0 'verify: small: CONodeInit() reports no error' "$small" $verify --language c++
 
-# The configuration has less than the description needs.
+# The configuration is too small for the description.
 expect 1 'verify: the description has objects that need USE_PARA, the configuration has USE_PARA = 0: set USE_PARA to 1' \
   "$small" $verify -DUSE_PARA=0
 sed -n '1,/^\[1014\]/p' "$small" | sed '$d' >consumers.eds
@@ -58,7 +58,7 @@ expect 1 'the description has heartbeat consumer 9, the configuration has CO_HBC
   consumers.eds $verify --force -DCO_HBCONS_N=4
 expect 0 'CONodeInit() reports no error' consumers.eds $verify --force -DCO_HBCONS_N=9
 
-# The stack reports an error: the entry has the name of the description.
+# The message for an error of the stack has the name of the entry in the description.
 cat >remote.eds <<'EDS'
 [1000]
 ParameterName=Device type

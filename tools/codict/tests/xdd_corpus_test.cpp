@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// XML descriptions from the field, which are not ours to publish: the directory that LEXICAN_CORPUS names.
+// Tests with XML descriptions of real devices in the directory LEXICAN_CORPUS, which cannot be published.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::bytes_of;
 
 namespace {
 
-// Begins of everything that the model has from the source.
+// Begins of all texts that the model has read from a source.
 class Places {
  public:
   explicit Places(const Device& device) {
@@ -97,14 +97,14 @@ class Places {
   std::unordered_set<std::uint32_t> begins_;
 };
 
-// What becomes a number or a name, without a place of its own.
+// Returns true for texts that the model stores as number or name, without their place.
 bool has_no_place(std::string_view element, std::string_view name) {
   return name == "lang" || name == "URI" || name == "index" || name == "subIndex" || name == "Index" ||
          name == "SubIndex" || (element == "property" && name == "name") ||
          (name == "uniqueIDRef" && (element == "CANopenObject" || element == "CANopenSubObject"));
 }
 
-// "line: name" of the first that the model has lost below an element; empty if it has all.
+// Returns "line: name" of the first text below an element that is missing in the model, empty if all are present.
 std::string lost_below(pugi::xml_node element, const test::XmlReading& reading, const Places& places) {
   const auto place = [&reading](Span span) {
     return std::to_string(reading.document.source().position(span.begin).line) + ": ";

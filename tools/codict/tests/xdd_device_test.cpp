@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What CiA 311 says of a device comes into the model. [311]
+// Reading of device data of CiA 311 into the model. [311]
 #include <doctest/doctest.h>
 
 #include "reading.hpp"
@@ -108,7 +108,7 @@ TEST_CASE("XDD: the one range of a parameter is the limits of the object") {
   const Entry& opening = reading.at(0x2002, 2);
   CHECK(meaning(opening.low_limit) == "0");
   CHECK(meaning(opening.high_limit) == "100");
-  CHECK(opening.data_type.value == 6);  // of a derived type
+  CHECK(opening.data_type.value == 6);  // derived type
   CHECK(opening.access.value == Access::rwr);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forms of XML descriptions that are found beside those of the standard.
+// XML descriptions in forms that deviate from the standard and are in use.
 #include <doctest/doctest.h>
 
 #include "reading.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file xdd_dump.hpp
-/// All that a device means as lines of text, to be compared: without the places where it is said.
+/// Text of a device for comparison: all values, without their places in the source.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An edit changes what it is to change and no other byte.
+// Edits of XML descriptions change only the intended bytes.
 #include <doctest/doctest.h>
 
 #include <string>

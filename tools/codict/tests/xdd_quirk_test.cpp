@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is not as CiA 311 has it is read all the same, and said.
+// Deviations from CiA 311 are read, and reported as findings.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -29,7 +29,7 @@ TEST_CASE("XDD quirk: the parameter wins over the object, and what the object sa
   CHECK(value.data_type.value == 7);
   CHECK(value.allowed.ranges.size() == 1);
   CHECK(value.others.size() == 2);
-  CHECK(value.others.at(0).name == "@highLimit");  // other words for the same: no remark
+  CHECK(value.others.at(0).name == "@highLimit");  // different notation of the same value: no finding
   CHECK(value.others.at(1).text.text == "rw");
   CHECK(reading.findings.count(Severity::error) == 0);
   CHECK(reading.found() ==
@@ -40,7 +40,7 @@ TEST_CASE("XDD quirk: the parameter wins over the object, and what the object sa
 TEST_CASE("XDD quirk: dataType says more than BITSTRING does") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.at(0x2001).data_type.value == 0x0C);
-  CHECK(reading.at(0x2001).name.text == "Time");  // its label
+  CHECK(reading.at(0x2001).name.text == "Time");  // label of the parameter
   CHECK_FALSE(reading.at(0x2001).name.is_given);
 }
 

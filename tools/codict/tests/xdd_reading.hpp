@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file xdd_reading.hpp
-/// An XML description that the reader under test has read, and what it says.
+/// XML description that the reader under test has read, and its findings.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace test {
 
-std::string bytes_of_fixture(const std::string& name);  ///< of fixtures/xdd
+std::string bytes_of_fixture(const std::string& name);  ///< name: path below fixtures/xdd
 
 struct XmlReading {
   explicit XmlReading(std::string bytes, const std::string& name = "device.xdd");
@@ -22,21 +22,21 @@ struct XmlReading {
   lexican::codict::Description description;
   lexican::codict::Device& device;
 
-  /// "line rule" of each finding, a line for each.
+  /// Returns "line rule" of each finding, one per line.
   std::string found() const;
   bool has(const char* rule) const;
 
-  const lexican::codict::Entry& at(std::uint16_t index, std::uint8_t sub_index = 0) const;  ///< must be there
+  const lexican::codict::Entry& at(std::uint16_t index, std::uint8_t sub_index = 0) const;  ///< the object must exist
   std::string raw(lexican::codict::Span span) const { return std::string(document.raw(span)); }
 };
 
 XmlReading fixture_xml(const std::string& name);
 
-/// A description of CiA 311 1.0 with these parameters and objects, on lines of their own.
+/// Returns a description of CiA 311 1.0 with these parameters and objects, each on a separate line.
 std::string xdd_with(const std::string& objects, const std::string& parameters = {},
                      const std::string& management = {});
 
-/// Empty if the reader takes it.
+/// Returns the message with which the reader refuses a description, empty if it accepts it.
 std::string xml_refusal(const std::string& bytes);
 
 }  // namespace test

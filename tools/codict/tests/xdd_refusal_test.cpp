@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is no XML description of a CANopen device is refused, with one message that says what it is; and what is made to
-// hurt a reader does not.
+// Files that are no XML description of a CANopen device are refused, with one message that names their kind. Hostile
+// files do not harm the reader.
 #include <doctest/doctest.h>
 
 #include <string>

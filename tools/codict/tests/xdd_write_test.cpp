@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that is written and read again is the same device.
+// Writing and reading a device gives an equal device.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -20,7 +20,7 @@ constexpr xdd::Edition editions[] = {xdd::Edition::v10, xdd::Edition::v11};
 
 bool says(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// What stands between two places, each searched behind the one before.
+// Returns true if the text contains all parts in this order.
 bool in_order(const std::string& text, std::initializer_list<const char*> parts) {
   std::size_t at = 0;
   for (const char* part : parts) {
