@@ -29,7 +29,7 @@ struct Options {
   std::string file;
   std::string output;
   std::string format;
-  std::uint8_t node_id = 0;  // 0, like empty texts: not given
+  std::uint8_t node_id = 0;  // 0 or an empty text: not given
   std::string bit_rate;
   std::string node_name;
   bool is_strict = false;
