@@ -86,7 +86,7 @@ std::vector<Member> plain_members(const Item& item) {
     case Storage::consumer: return {descriptor_of(item)};
     case Storage::string:
     case Storage::domain:
-      // The memory of a constant string or domain is a variable outside the structs.
+      // The bytes of a constant string or domain are an array outside the structs.
       if (item.access == Access::constant) {
         return {descriptor_of(item)};
       }
