@@ -61,7 +61,7 @@ TEST_CASE("access hook, SDO: block transfers are reported like segmented ones, a
     REQUIRE(log.sdo.size() == 1);
     CHECK(log.sdo[0] == one.seen);
     node.after(3s);
-    node.silent();  // no transfer was opened
+    node.silent();  // no transfer is open
   }
 }
 #endif
@@ -76,7 +76,7 @@ TEST_CASE("access hook, SDO: its abort code is sent, and a refused download chan
   CHECK(node.objects.u8 == 0x11);
   CHECK(node.error() == CO_ERR_NONE);
   node.ask("601#2101200001000000", refused_u8);
-  node.ask("601#0001200000000000", "581#8001200001000405");  // there is no transfer that it belongs to
+  node.ask("601#0001200000000000", "581#8001200001000405");  // segment without an open transfer
   node.ask("601#4001200000000000", "581#4F01200011000000");
   log.on_sdo = nullptr;
   node.ask("601#2F01200055000000", "581#6001200000000000");
@@ -114,7 +114,7 @@ TEST_CASE("access hook, SDO: comes after index, sub-index and access right, befo
   node.ask("601#4030200000000000", "581#8030200001000106");
   node.ask("601#4032200000000000", "581#8032200000000106");
   CHECK(log.sdo.empty());
-  node.ask("601#2301200011223344", refused_u8);  // four bytes into an UNSIGNED8
+  node.ask("601#2301200011223344", refused_u8);  // 4 bytes to an UNSIGNED8
   node.ask("601#2101200009000000", refused_u8);
   CHECK(log.sdo.size() == 2);
 }

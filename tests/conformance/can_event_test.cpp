@@ -70,7 +70,7 @@ TEST_CASE("CAN events: the counters of all events saturate [Q10]") {
 
 // A reset at bus-off --------------------------------------------------------------------------------------------------
 
-// A node whose controller is bus-off: a frame waits, and the application resets the node when it hears of it.
+// A node with a queued frame, whose application resets it when the callback reports bus-off.
 class BusOff : public Fixture {
  public:
   explicit BusOff(CO_NMT_RESET reset) : Fixture(Setup().tx_queue(20)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The SDO cases of CiA's conformance test tool, in its order and with its preparation. The other cases of the tool for
-// these services carry their numbers in the names of the tests beside this.
+// SDO cases of CiA's conformance test tool, in its order and with its preparation. Other cases of the tool are in other
+// files of this directory: the names of their tests contain the numbers of the tool.
 #include "support/fixture.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each of the 2048 11-bit CAN-IDs on each object that holds a COB-ID. [301:7.3.5] [Other 10]
+// Writes each of the 2048 11-bit CAN-IDs to each object that contains a COB-ID. [301:7.3.5] [Other 10]
 #include "support/pdo_model.hpp"
 
 namespace {
@@ -11,12 +11,12 @@ constexpr std::uint32_t off = 0x80000000;
 
 bool is_refused(std::uint32_t id) { return CO_RESTRICTED_IDS == 0 && is_restricted(id); }
 
-/// An object whose value may be replaced when \a pause is set in it.
+/// An object with a COB-ID, which is writable after the bits \a pause are set in it.
 struct Object {
   std::uint16_t index;
   std::uint8_t sub;
   std::uint32_t pause;
-  std::vector<std::uint32_t> flags;  ///< with which a restricted identifier is refused
+  std::vector<std::uint32_t> flags;  ///< upper bits with which a restricted CAN-ID is refused
 };
 
 std::vector<Object> objects() {
@@ -40,7 +40,7 @@ std::vector<Object> objects() {
   return all;
 }
 
-/// The objects of objects(), with a mapping for PDOs 0, and nothing switched on.
+/// A node with the objects of objects() and a mapping of RPDO 0 and TPDO 0. No PDO is valid.
 struct Sweep : PdoNode {
   explicit Sweep(std::uint32_t* memory) : PdoNode(mapped(), [=](Setup& setup) { add(setup, memory); }) {}
 
@@ -158,7 +158,7 @@ TEST_CASE("COB-ID sweep: a PDO works on every CAN-ID that it takes, and is gone 
   CO_IF_FRM frame{};
   frame.DLC = 1;
   for (std::uint32_t id = 0; id <= 0x7FF; id += stride(31)) {
-    // The node is a consumer of these, which have another length.
+    // SYNC, TIME and EMCY of this node: consumed with other lengths.
     const bool of_another = id == 0x080 || id == 0x100 || id == 0x081;
     if (is_refused(id) || of_another || (CO_RESTRICTED_IDS != 0 && (id == 0 || is_restricted(id)))) {
       continue;

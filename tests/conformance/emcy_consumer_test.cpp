@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// Arguments of the callback: node-ID, code, register, five bytes.
+// A node with three entries of 1028h. heard(): "node-ID code register data" for each call of the callback.
 class Consumer : public Fixture {
  public:
   explicit Consumer(std::uint32_t second = 0x82, Setup setup = Setup())

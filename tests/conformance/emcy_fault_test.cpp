@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emergencies that the stack finds itself: what the CAN controller reports, and what its services raise. [301:7.2.7.1]
+// EMCY messages of the stack: events of the CAN controller, and faults that services raise. [301:7.2.7.1]
 #include "support/emcy_fixture.hpp"
 
 #if USE_EMCY
@@ -98,7 +98,7 @@ TEST_CASE("EMCY: an RPDO without data in Operational: 8210h is sent, and stands 
 
 #endif
 
-// The controller ------------------------------------------------------------------------------------------------------
+// CAN controller ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("EMCY: a lost frame is 8110h until a second without another one has passed [E7]") {
   for (const std::uint32_t rate : clock_rates) {

@@ -255,7 +255,7 @@ TEST_CASE("1003h, 1014h: a table with their types or flags in a wrong place is n
 
 #endif
 
-// Variables whose entries the compiler checks.
+// Dictionary that is checked at compile time.
 std::uint8_t number_of_errors;
 std::uint32_t newest_error;
 constexpr CO_OBJ od[] = {{CO_KEY(0x1003, 0, CO_OBJ_____RW), CO_TEMCY_HIST, CO_DATA(&number_of_errors)},

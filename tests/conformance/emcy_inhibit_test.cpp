@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// EMCY messages that wait: for the inhibit time (1015h), and for the controller. [301:7.5.2.18]
+// EMCY messages that are delayed by the inhibit time (1015h) or by the controller. [301:7.5.2.18]
 #include "support/emcy_fixture.hpp"
 
 #if USE_EMCY
@@ -166,7 +166,7 @@ TEST_CASE("1015h: missing, or of another length, it is 0") {
   }
 }
 
-// The controller ------------------------------------------------------------------------------------------------------
+// CAN controller ------------------------------------------------------------------------------------------------------
 
 TEST_CASE("EMCY: none is lost, whichever frame the driver refuses [T12]") {
   const std::vector<std::string> expected = {"081#0020030000000000", "081#00400B0000000000", "081#0000090000000000",

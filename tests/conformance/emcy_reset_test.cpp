@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 using co::event::Fault;
 
-// Errors of both kinds, and messages that wait.
+// Sets errors of the application and faults of the stack; some EMCY messages are queued.
 void disturb(EmcyNode& node) {
   node.set(current);
   node.set(hot);

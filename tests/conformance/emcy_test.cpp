@@ -205,7 +205,7 @@ TEST_CASE("EMCY: null pointers end in CONodeFatalError(), questions answer -1") 
   CHECK(callbacks().fatal_errors == 8);
 }
 
-// Objects that are missing, or of another kind ------------------------------------------------------------------------
+// Missing objects, and objects of another type ------------------------------------------------------------------------
 
 TEST_CASE("EMCY: without 1001h the messages are right, and the node reports the missing object") {
   EmcyNode node(Setup().emergencies(errors_of_device()).without(0x1001, 0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1029h, error behaviour: what the node does when it has lost the network. [301:7.5.2.32]
+// 1029h, error behaviour: the NMT state that the node enters when the network is lost. [301:7.5.2.32]
 #include "support/monitor.hpp"
 
 namespace {
@@ -23,7 +23,7 @@ void lose(Fixture& node) {
   node.trace();
 }
 
-// The state after bus-off.
+// Returns the NMT state after bus-off.
 CO_MODE after_bus_off(std::uint8_t behaviour, const char* state) {
   Behaviour device(behaviour);
   device.node.rx(state);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONodeGetErrKey(): index and sub-index of the object that the node's error is about.
+// CONodeGetErrKey(): index and sub-index of the object that has caused the node's error.
 #include <cstdio>
 
 #include "support/emcy_fixture.hpp"
@@ -11,8 +11,8 @@ namespace {
 
 using namespace test;
 
-/// Name of the node's error and its object, read in one of the two orders: "CO_ERR_TPDO_MAP_OBJ 1A00:2"; "-": no
-/// object.
+/// Returns the name of the node's error and its object: "CO_ERR_TPDO_MAP_OBJ 1A00:2"; "-": no object. \a key_first:
+/// reads the key before the error.
 std::string told(CO_NODE& node, bool key_first = false) {
   std::uint32_t key = key_first ? CONodeGetErrKey(&node) : 0;
   const CO_ERR err = CONodeGetErr(&node);
@@ -61,7 +61,7 @@ TEST_CASE("error key: missing mandatory objects are named [X1]") {
   CHECK(told(without_both) == "CO_ERR_CFG_1018 1018:1");
 }
 
-/// A node without fixture, since it does not start.
+/// A node with a wrong entry, whose initialisation fails; therefore without the fixture.
 struct Refused {
   explicit Refused(CO_OBJ wrong)
       : table{{CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0}, wrong, CO_OBJ_DICT_ENDMARK} {
@@ -139,14 +139,14 @@ TEST_CASE("error key: a heartbeat consumer that monitors a node that another one
 
 // PDOs ---------------------------------------------------------------------------------------------------------------
 
-/// The error of a node whose PDO with this number, RPDO or TPDO, has these parameters.
+/// Returns the error of a node with these parameters of one RPDO or TPDO.
 std::string told_of(bool is_tpdo, unsigned number, const PdoEntries& entries,
                     const std::function<void(Setup&)>& change = {}) {
   PdoTable table;
   (is_tpdo ? table.tpdo : table.rpdo)[number] = entries;
   PdoNode node(table, change);
   const std::string error = told(node);
-  node.rx("000#8101");  // a reset names it again
+  node.rx("000#8101");  // a reset reports the error again
   node.tx("701#00");
   CHECK(told(node) == error);
   return error;
@@ -179,11 +179,11 @@ TEST_CASE("error key: the mapping entry of a PDO that is wrong [M9]") {
   } rows[] = {
       {pdo(0x301, 255, {}), "0"},                                          // no entry
       {pdo(0x301, 255, {0x21FF0008}), "1"},                                // no such object
-      {pdo(0x301, 255, {byte, 0x22020810, 0x22010110}), "3"},              // another length
-      {pdo(0x301, 255, {byte, 0}), "2"},                                   // a gap
-      {pdo(0x301, 255, {0x22080140, byte}), "2"},                          // the ninth byte
-      {pdo(0x301, 255, {0x22040120, 0x22020110, 0x22040220, byte}), "3"},  // the first of two that do not fit
-      {pdo(0x301, 255, {0x22080140, 0x22080240, 0x22010109}), "3"},        // a wrong object before all else
+      {pdo(0x301, 255, {byte, 0x22020810, 0x22010110}), "3"},              // wrong length
+      {pdo(0x301, 255, {byte, 0}), "2"},                                   // empty entry
+      {pdo(0x301, 255, {0x22080140, byte}), "2"},                          // ninth byte
+      {pdo(0x301, 255, {0x22040120, 0x22020110, 0x22040220, byte}), "3"},  // first of two that do not fit
+      {pdo(0x301, 255, {0x22080140, 0x22080240, 0x22010109}), "3"},        // objects are checked before the length
   };
   for (const auto& row : rows) {
     CAPTURE(row.sub);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fixture itself: what it must notice.
+// The test fixture: faults of a node that it has to detect.
 #include <cstdlib>
 
 #include "support/fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entry of all frames: kinds of frames, lengths, counters, error frames, and the order of what is sent.
+// Reception and transmission of frames: types of frames, lengths, counters, error frames, transmission order.
 #include <limits>
 
 #include "support/fixture.hpp"

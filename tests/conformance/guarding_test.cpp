@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Node guarding: answers to remote frames with the node's error control identifier, which no other node may use.
+// Node guarding: responses to remote frames, and detection of other nodes that use the node's error control identifier.
 // [301:7.2.8.2.2.1]
 #include "support/fixture.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1016h, consumer heartbeat time: what may be written, and what a change does to a node that is monitored.
+// 1016h, consumer heartbeat time: valid values, and effects of a change on a monitored node.
 // [301:7.5.2.19]
 #include "co/dictionary.hpp"
 #include "support/monitor.hpp"
@@ -101,7 +101,7 @@ TEST_CASE("1016h: a node that another entry monitors is refused, in whatever ent
   node.ask("601#4016100300000000", "581#4316100300000000");
   CHECK(node.configure(3, 0x00050000) == 0);  // time 0: monitors no node
   CHECK(node.configure(1, 0x00050000) == 0);
-  CHECK(node.configure(3, 0x00050064) == 0);  // free now
+  CHECK(node.configure(3, 0x00050064) == 0);  // node 5 is in no other entry now
   CHECK(node.configure(1, 0x00050064) == 0x06040043);
 }
 
@@ -261,7 +261,7 @@ TEST_CASE(
 
 #endif
 
-// Casts as firmware writes them.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 CO_HBCONS proved[2];
@@ -280,7 +280,7 @@ constexpr CO_OBJ too_many[] = {{CO_KEY(0x1016, CO_HBCONS_N + 1, 0), CO_THB_CONS,
 constexpr CO_OBJ elsewhere[] = {{CO_KEY(0x102A, 1, CO_OBJ_____RW), CO_TERROR_BEHAVIOUR, (CO_DATA)(&behaviour)}};
 #pragma GCC diagnostic pop
 
-// The compiler knows the rules of 1016h, 1029h and 1F80h.
+// Checks of 1016h, 1029h and 1F80h at compile time.
 CO_OD_CHECK(table);
 static_assert(co::dictionary::check<value_in_entry>().fault == CO_DICT_DIRECT_TYPE);
 static_assert(co::dictionary::check<too_many>().fault == CO_DICT_NOT_CONFIGURED);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat consumer against a model of it that looks at every entry in every millisecond: random heartbeats, changes
-// of 1016h, NMT commands and resets.
+// Compares the heartbeat consumer with a model that processes every entry in every millisecond: random heartbeats,
+// changes of 1016h, NMT commands and resets.
 #include <optional>
 #include <random>
 
@@ -15,7 +15,7 @@ using namespace test;
 struct Entry {
   unsigned node_id = 0;
   unsigned ms = 0;
-  std::optional<unsigned> waited;  // ms since the last heartbeat, or since the last one was missed
+  std::optional<unsigned> waited;  // ms since the last heartbeat or heartbeat event
   bool missing = false;
   int state = -1;
 };
@@ -103,7 +103,7 @@ class Walk {
     compare();
   }
 
-  // Not Stopped, where 1016h cannot be written.
+  // Sends a random NMT command, except stop: 1016h is not writable in Stopped.
   void command() {
     static constexpr std::uint8_t commands[] = {1, 128, 129, 130};
     const std::uint8_t command = commands[below(4)];

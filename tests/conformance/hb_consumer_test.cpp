@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat consumer: when a monitored node is missing, and what is told then. [301:7.2.8.3.2.2, 7.5.2.19]
+// Heartbeat consumer: detection of missing nodes, callbacks and EMCY messages. [301:7.2.8.3.2.2, 7.5.2.19]
 #include <algorithm>
 
 #include "support/monitor.hpp"
@@ -270,7 +270,7 @@ TEST_CASE("heartbeat consumer: a reserved state is a sign of life [H3]") {
 
 TEST_CASE("heartbeat consumer: after reset node and reset communication it starts anew [D21] [T14] [Heartbeat 07]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
-    for (const int moment : {0, 1, 2}) {  // nothing heard, heard, missing
+    for (const int moment : {0, 1, 2}) {  // before the first heartbeat, after it, after a heartbeat event
       CAPTURE(reset);
       CAPTURE(moment);
       Monitor fresh({{5, 100}});

@@ -51,7 +51,7 @@ TEST_CASE("heartbeat consumer: a new node with a shorter time is not waited for 
   node.emergency("081#3081110000060000");
   node.after(890ms);
   node.record.erase(node.record.begin(), node.record.begin() + 88);
-  node.told("5 missing, 6 missing");  // at 1000 ms both
+  node.told("5 missing, 6 missing");  // both at 1000 ms
   node.emergency(five_missing);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("heartbeat consumer: it needs no timer of the application's pool, nor 
   }
 }
 
-// A heartbeat of node 5 at the driver without context.
+// A heartbeat of node 5 that the classic driver has received.
 bool beat_waits = false;
 std::int16_t read_beat(CO_IF_FRM* frm) {
   if (!beat_waits) return 0;

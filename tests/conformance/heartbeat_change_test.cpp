@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing 1017h at the wrong moment: the heartbeat's time has come, and the loop has not yet sent it. [301:7.2.8.3.2.1]
+// Writes 1017h after the heartbeat timer has elapsed and before the loop sends the heartbeat. [301:7.2.8.3.2.1]
 #include "support/fixture.hpp"
 
 namespace {
@@ -14,11 +14,11 @@ struct Change {
 const Change changes[] = {
     {"601#2B17100032000000", 50},   // sooner
     {"601#2B171000FA000000", 250},  // later
-    {"601#2B17100064000000", 100},  // the same
+    {"601#2B17100064000000", 100},  // unchanged
     {"601#2B17100000000000", 0},    // off
 };
 
-// The new time counts from the write, and nothing of the old one is left.
+// Returns the expected heartbeats of 1 s. The new time starts with the write; the elapsed heartbeat is not sent.
 std::vector<std::string> expected_trace(std::uint16_t ms) {
   std::vector<std::string> lines;
   for (unsigned due = ms; ms != 0 && due <= 1000; due += ms) lines.push_back(std::to_string(due) + " 701#7F");

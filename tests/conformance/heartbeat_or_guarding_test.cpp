@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat or guarding: one of the two; the heartbeat wins. [301:7.2.8.2.2.1, 7.5.2.20] [Heartbeat-versus-guarding]
+// Heartbeat and guarding exclude each other; the heartbeat has precedence. [301:7.2.8.2.2.1, 7.5.2.20]
+// [Heartbeat-versus-guarding]
 #include "support/fixture.hpp"
 
 #if USE_GUARDING

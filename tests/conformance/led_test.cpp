@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Status LEDs. [CiA 303-3] Patterns are typed as samples of 50 ms: # lit, . dark.
+// Status LEDs. [CiA 303-3] Patterns are samples of 50 ms: '#' is on, '.' is off.
 #include "core/events.hpp"
 #include "support/fixture.hpp"
 
@@ -11,7 +11,7 @@ using namespace test;
 
 constexpr std::size_t five_seconds = 100;  // samples
 
-// One period, repeated.
+// Returns the samples of 5 s of a pattern with this period.
 std::string over_five_seconds(const std::string& period) {
   std::string all;
   while (all.size() < five_seconds) all += period;
@@ -46,7 +46,7 @@ const std::string flickering = over_five_seconds("#.");
 const std::string single_flash = over_five_seconds("####....................");
 const std::string double_flash = over_five_seconds("####....####....................");
 const std::string triple_flash = over_five_seconds("####....####....####....................");
-// Red begins a phase later than green.
+// Patterns of the red LED, which starts one phase after the green one.
 const std::string red_blinking = over_five_seconds("....####");
 const std::string red_flickering = over_five_seconds(".#");
 const std::string red_single = over_five_seconds("....####................");
@@ -169,7 +169,7 @@ struct LedNode : Fixture {
     trace();
     return shown;
   }
-  /// The pattern of ERR from the beginning of a period on, in Pre-operational, where green blinks all the time.
+  /// Returns the pattern of the ERR LED from the beginning of a period.
   std::string err() {
     after(24s - std::chrono::milliseconds{(now() - started) % 24000});
     return watch().err;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Life guarding: the NMT master is missing when it does not guard for 100Ch x 100Dh. [301:7.2.8.2.2.1, 7.5.2.11-12]
+// Life guarding: a life guarding event occurs without guarding by the NMT master for 100Ch x 100Dh.
+// [301:7.2.8.2.2.1, 7.5.2.11-12]
 #include "support/fixture.hpp"
 
 #if USE_GUARDING
@@ -28,7 +29,7 @@ class Guarded : public GuardObjects, public Fixture {
  public:
   Guarded(std::uint16_t guard_time, std::uint8_t life_time_factor, const Setup& setup = {})
       : GuardObjects{guard_time, life_time_factor}, Fixture(with_objects(setup, *this)) {
-    frames_per_call(2);  // the answer, and EMCY 0000h
+    frames_per_call(2);  // guarding response and EMCY 0000h
     callbacks().life_guard = [this](CO_NMT* nmt, bool occurred) {
       CHECK(nmt == &node.Nmt);
       told += occurred ? "lost " : "found ";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access hook of the LSS slave: the application permits or refuses what changes the node. [305]
+// Access hook of the LSS slave: the application permits or refuses services that change the node. [305]
 #include "support/access.hpp"
 #include "support/lss_slave.hpp"
 #include "support/sync_fixture.hpp"
@@ -14,7 +14,7 @@ constexpr std::uint8_t no_node_id = 255;
 
 struct Slave {
   explicit Slave(std::uint8_t node_id = 1) : node(setup(node_id)) {}
-  // Refuses a service with an error code.
+  // Makes the access hook refuse a service with an error code.
   void refuse(std::uint8_t service, std::uint8_t error = 1, std::uint8_t specific = 0) {
     log.on_lss = [=](CO_NODE&, CO_ACCESS_LSS& access) {
       access.Specific = specific;
@@ -75,7 +75,7 @@ TEST_CASE("access hook, LSS: switch state selective is asked once the address ha
   REQUIRE(slave.log.lss.size() == 1);
   CHECK(slave.last().Service == CO_LSS_SERVICE_SWITCH_SELECTIVE);
   CHECK(slave.last().State == CO_LSS_CONF);
-  slave.node.rx("7E5#4344000000000000");  // the last part alone
+  slave.node.rx("7E5#4344000000000000");  // only the last of the four frames
   slave.node.silent();
   slave.permit();
   select_lss_slave(slave.node);
@@ -117,7 +117,7 @@ TEST_CASE("access hook, LSS: configure node-ID: the error code is answered, the 
   slave.node.ask("7E5#1105000000000000", "7E4#1107000000000000");
   CHECK(slave.node->Lss.CfgNodeId == 1);
   const std::size_t asked = slave.log.lss.size();
-  slave.node.ask("7E5#1100000000000000", "7E4#1101000000000000");  // no node-ID: not asked
+  slave.node.ask("7E5#1100000000000000", "7E4#1101000000000000");  // invalid node-ID: the hook is not called
   CHECK(slave.log.lss.size() == asked);
   slave.permit();
   slave.node.ask("7E5#1105000000000000", "7E4#1100000000000000");
@@ -148,7 +148,7 @@ TEST_CASE("access hook, LSS: activate bit timing: silence, nothing is switched, 
   CHECK(slave.last().Baudrate == 500000);
   CHECK(slave.last().Mode == CO_PREOP);
   CHECK(slave.node.mode() == CO_OPERATIONAL);
-  slave.is_in_configuration();  // nothing is held back
+  slave.is_in_configuration();  // no frame is delayed
   slave.node.after(12s);
   slave.node.silent();
   CHECK(slave.node.can.init_calls == 1);

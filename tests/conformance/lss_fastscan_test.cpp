@@ -37,7 +37,7 @@ bool answers(Fixture& node, const CO_IF_FRM& request) {
   return !sent.empty();
 }
 
-// Returns the identity that a master finds, bit by bit.
+// Runs a fastscan. Returns the LSS address found, bit by bit.
 Identity find(Fixture& node) {
   Identity found = {};
   REQUIRE(answers(node, scan(0, 0x80, 0, 0)));

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// The controller may have lost its filters with its initialisation.
+// The initialisation of a controller may clear its filters.
 TEST_CASE("LSS master, slave: after the switch of the bit rate the driver has its filters again") {
   Setup setup;
   for (std::uint8_t sub = 1; sub <= 4; ++sub) {

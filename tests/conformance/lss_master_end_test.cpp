@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LSS master: how services end, and what may not begin. [305]
+// LSS master: ends of services, and services that must not start. [305]
 #include <algorithm>
 #include <utility>
 
@@ -241,7 +241,7 @@ TEST_CASE("LSS master: times last over a reset") {
 }
 
 TEST_CASE("LSS master: a full transmit queue is reported") {
-  LssMaster node(Setup().tx_queue(2));  // one place is the application's
+  LssMaster node(Setup().tx_queue(2));  // the application may use one of the two entries
   node.can.refuse_all();
   SUBCASE("at the start: nothing begins") {
     node.call([&] { CHECK(COLssmStore(&node->Lssm, note_lss) == CO_ERR_NONE); });
@@ -299,7 +299,7 @@ TEST_CASE("LSS master: answers are received from the first service on, until a r
 TEST_CASE("LSS master: the answers to the last request are counted, those after its end as well") {
   LssMaster node;
   node.run("7E5#1105000000000000", COLssmConfigureNodeId, std::uint8_t{5});
-  node.rx("7E4#1300000000000000");  // of another service
+  node.rx("7E4#1300000000000000");  // response of another service
   CHECK(node->Lssm.Heard == 0);
   node.rx("7E4#1100000000000000");
   node.end(CO_LSSM_OK);

@@ -19,12 +19,12 @@ std::string scan(std::uint32_t number, unsigned bit, unsigned part, unsigned to)
   return notation(request);
 }
 
-/// The bus of a fastscan with slaves of these addresses, as CiA 305 describes them: returns after its end.
+/// Simulated LSS slaves with these addresses, which respond to fastscan as in CiA 305.
 class Slaves {
  public:
   explicit Slaves(std::vector<LssNumbers> addresses) : addresses_(std::move(addresses)), part_(addresses_.size(), 0) {}
 
-  /// Answers for the slaves; the last slave answers at the end of the time.
+  /// Responds for the slaves until the fastscan has ended; the last slave responds at the end of the time-out.
   void serve(LssMaster& node) {
     while (lss_ends.empty()) {
       for (const std::string& request : node.frames()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LSS master: requests and answers. [305]
+// LSS master: requests and responses. [305]
 #include "support/lss_master_fixture.hpp"
 
 #if USE_LSS_MASTER
@@ -34,7 +34,7 @@ TEST_CASE("LSS master: an inquired value is passed to the callback") {
     CHECK(node.end(CO_LSSM_OK).value == numbers[n]);
   }
   node.run("7E5#5E00000000000000", COLssmInquireNodeId);
-  node.rx("7E4#5E7FEEEEEEEEEEEE");  // reserved bytes are none of the number
+  node.rx("7E4#5E7FEEEEEEEEEEEE");  // the value of reserved bytes is ignored
   CHECK(node.end(CO_LSSM_OK).value == 127);
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("LSS master: a refusal is reported with its error code, and that of th
     }
     start_all(node, lss_dialogues()[n + 1]);
     node.rx(std::string(refusals[n][1]) + "000000000000");
-    node.goes_on();  // 7 bytes
+    node.goes_on();  // a frame of 7 bytes is ignored
     node.rx(std::string(refusals[n][1]) + "00000000000000");
     CHECK(node.end(CO_LSSM_OK).error == 0);
   }
@@ -234,7 +234,7 @@ TEST_CASE("LSS master: a node is slave and master at the same time") {
   }
   LssMaster node(setup);
   node.run("7E5#0401000000000000", COLssmSwitchGlobal, lss_configuration);
-  node.rx("7E5#5E00000000000000");  // its slave is still waiting
+  node.rx("7E5#5E00000000000000");  // the LSS slave of the node is still in state waiting
   node.silent();
   node.after(1ms);
   node.end(CO_LSSM_OK);

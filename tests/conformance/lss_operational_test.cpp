@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LSS in Operational: what it serves there, and how a node leaves Operational before its bit rate is switched. [305]
+// LSS in Operational: supported services, and leaving Operational before the bit rate is switched. [305]
 #include "support/lss_slave.hpp"
 #include "support/sync_fixture.hpp"
 
@@ -11,7 +11,7 @@ using namespace test;
 
 constexpr const char* start = "000#0101";
 
-// RPDO1 writes u8[0] at once, RPDO2 u8[1] with the SYNC.
+// A node whose RPDO 1 writes u8[0] at once, and RPDO 2 writes u8[1] with the SYNC.
 class Device {
  public:
   explicit Device(std::uint8_t behaviour = absent, const std::function<void(Setup&)>& change = {})
@@ -26,13 +26,13 @@ class Device {
           }
         }) {}
 
-  // Bit rate 500 kbit/s with a delay of 100 ms, as three frames of an LSS master.
+  // Sends the three frames of an LSS master that activate 500 kbit/s with a delay of 100 ms.
   void take_over() {
     node.rx(lss_to_configuration);
     node.ask("7E5#1300020000000000", "7E4#1300000000000000");
     node.rx("7E5#1564000000000000");
   }
-  // Neither RPDO is applied now.
+  // Checks that neither RPDO is processed.
   void applies_nothing() {
     const std::uint8_t before[] = {node.u8[0], node.u8[1]};
     node.rx("201#5A");
@@ -75,7 +75,7 @@ TEST_CASE("LSS, activate bit timing in Operational: the node leaves it first, by
     Device device(one.behaviour);
     SyncNode& node = device.node;
     node.rx(start);
-    node.rx("301#77");  // kept for the SYNC
+    node.rx("301#77");  // applied at the next SYNC
     device.take_over();
     CHECK(node.mode() == one.mode);
     CHECK(node.can.init_calls == 1);
@@ -129,7 +129,7 @@ TEST_CASE("LSS, activate bit timing: in a node that is started during the switch
   device.applies_nothing();
   node.after(1ms);
   node.rx("080#");
-  CHECK(node.u8[1] == 0x21);  // its first value: what came during the switch is forgotten
+  CHECK(node.u8[1] == 0x21);  // initial value: frames received during the switch are discarded
   device.applies_both();
 }
 

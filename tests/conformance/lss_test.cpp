@@ -27,7 +27,7 @@ constexpr std::uint8_t no_node_id = 255;
 constexpr const char* to_configuration = "7E5#0401000000000000";
 constexpr const char* to_waiting = "7E5#0400000000000000";
 
-// In the state configuration.
+// A node in LSS state configuration.
 struct Configured {
   explicit Configured(std::uint8_t node_id = 1) : node(slave(node_id)) { node.rx(to_configuration); }
   Fixture node;
@@ -544,7 +544,7 @@ TEST_CASE("LSS: frames of a wrong length, remote frames and unknown commands are
   }
 }
 
-// Every command byte in each state, with and without node-ID.
+// Sends every command byte in each LSS state, with and without node-ID.
 TEST_CASE("LSS: no command byte but those of CiA 305 is answered [L1]") {
   for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
     for (const bool configuration : {false, true}) {

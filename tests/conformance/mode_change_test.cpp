@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONodeProcess() within CONmtModeChange(): the node is in between two states and processes nothing.
+// CONodeProcess() within CONmtModeChange(): the node is between two NMT states and processes no frame.
 #include "support/fixture.hpp"
 
 namespace {
 
 using namespace test;
 
-// Calls CONodeProcess() at every change while a request waits at the driver.
+// Calls CONodeProcess() in every mode change, and checks that it reads no frame from the driver.
 struct Nested {
   explicit Nested(Fixture& fixture) {
     callbacks().mode_change = [this, &fixture](CO_NMT* nmt, CO_MODE) {

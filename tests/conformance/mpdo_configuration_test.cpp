@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How multiplex PDOs are configured: FEh and FFh in sub 0 of the mapping [301:7.5.2.36, 7.5.2.38], the object scanner
-// list [301:7.5.2.39] and the object dispatching list [301:7.5.2.40].
+// Configuration of multiplex PDOs: FEh and FFh in sub-index 0 of the mapping [301:7.5.2.36, 7.5.2.38], the object
+// scanner list [301:7.5.2.39] and the object dispatching list [301:7.5.2.40].
 #include "co/dictionary.hpp"
 #include "support/mpdo_fixture.hpp"
 
@@ -192,7 +192,7 @@ TEST_CASE("MPDO configuration: after a reset another TPDO may have the scanner l
   MpdoNode node(table);
   node.may_change(0x1800, 1);
   node.may_change(0x1801, 1);
-  node.tpdo[0].cob_id = 0x40000181;  // as a storage of parameters would
+  node.tpdo[0].cob_id = 0x40000181;  // simulates stored parameters
   node.tpdo[1].cob_id = 0xC0000281;
   node.rx("000#8201");
   node.tx("701#00");
@@ -270,11 +270,11 @@ struct Row {
 TEST_CASE("MPDO scanner list: entries name objects that a TPDO could map, of up to 4 bytes [301:7.5.2.39] [M4] [M5]") {
   const Row rows[] = {
       {0x01220101, 0},                   // UNSIGNED8
-      {0x00220301, 0},                   // UNSIGNED24; a block of 0 is one object
+      {0x00220301, 0},                   // UNSIGNED24; block size 0 is one object
       {0x08220401, 0},                   // UNSIGNED32, sub 1…8
       {0x01225401, 0},                   // REAL32
       {0x01222101, 0},                   // read-only
-      {0, 0},                            // not used
+      {0, 0},                            // unused entry
       {0x01300001, abort_no_object},     // no such index
       {0x00000001, abort_no_object},     // index 0
       {0x01220109, abort_not_mappable},  // no such sub-index
@@ -283,7 +283,7 @@ TEST_CASE("MPDO scanner list: entries name objects that a TPDO could map, of up 
       {0x01220501, abort_not_mappable},  // 5 bytes
       {0x01220801, abort_not_mappable},  // 8 bytes
       {0x01000500, abort_no_object},     // a static data type
-      {0x09220401, abort_not_mappable},  // of a block sub 9 is missing
+      {0x09220401, abort_not_mappable},  // sub-index 9 of the block is missing
       {0x02220408, abort_not_mappable},
       {0x022204FF, abort_range},  // a block beyond sub-index 255
       {0xFF220402, abort_range},
@@ -313,9 +313,9 @@ TEST_CASE("MPDO dispatching list: own objects are those that an RPDO could map, 
       {0x0122050160000105, abort_not_mappable},
       {0x0122080160000105, abort_not_mappable},
       {0x0100050060000105, abort_no_object},     // a static data type
-      {0x0922040160000105, abort_not_mappable},  // sub 9 is missing
+      {0x0922040160000105, abort_not_mappable},  // sub-index 9 is missing
       {0x022204FF60000105, abort_range},
-      {0x082204016000F97F, abort_range},  // the producer's sub-index goes beyond 255
+      {0x082204016000F97F, abort_range},  // the producer's block ends beyond sub-index 255
       {0x0122010160000100, abort_range},  // node-ID 0
       {0x0122010160000180, abort_range},  // node-ID 128
       {0x01220101600001FF, abort_range},
@@ -441,7 +441,7 @@ TEST_CASE("MPDO lists: 1FCFh and 1FFFh are the last of them; the next index is n
   without_dispatching.tx({"181#0101220111000000", "181#0101220221000000"});
 }
 
-// Macros that the compiler checks.
+// Macros for entries of the lists, checked at compile time.
 
 static_assert(CO_MPDO_SCAN(3, 0x2201, 4) == 0x03220104);
 static_assert(CO_MPDO_DISPATCH(3, 0x2201, 4, 0x6000, 0xFD, 5) == 0x032201046000FD05);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RPDOs that are multiplex PDOs. [301:7.2.3] Byte 0: address, bit 7 set: of the consumer; bytes 1-2: index; byte 3:
-// sub-index; bytes 4-7: data.
+// Reception of multiplex PDOs. [301:7.2.3] Byte 0: node-ID, of the consumer if bit 7 is set, otherwise of the producer;
+// bytes 1-2: index; byte 3: sub-index; bytes 4-7: data.
 #include <cstring>
 
 #include "support/mpdo_fixture.hpp"
@@ -85,7 +85,7 @@ TEST_CASE("MPDO destination: what is meant for another node is as if it did not 
   CHECK(calls == 0);
   CHECK_FALSE(was_received(node, 0));
   CHECK(node.counters().Malformed == 0);
-  node.after(200ms);  // its deadline has not begun
+  node.after(200ms);  // frames to other nodes do not start the deadline
   node.silent();
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("MPDO destination: an object that is not there is not written: EMCY 82
       "201#81003001A1000000",  // no such index
       "201#80012209A1000000",  // no such sub-index
       "201#81412201A1000000",  // not mappable
-      "201#81212201A1000000",  // not to be written by the network
+      "201#81212201A1000000",  // not writable by the network
       "201#81052201A1000000",  // 5 bytes
       "201#81082201A1000000",  // 8 bytes
       "201#81100100A1000000",  // COB-ID: not mappable
@@ -249,7 +249,7 @@ TEST_CASE("MPDO destination: a change of an object with flag A sends the TPDO th
   node.silent();
 }
 
-// The type functions of the application -------------------------------------------------------------------------------
+// Type functions of the application -----------------------------------------------------------------------------------
 
 std::vector<std::string>& log() {
   static std::vector<std::string> all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TPDOs that are multiplex PDOs. [301:7.2.3] Byte 0: address, bit 7 set: of the consumer; bytes 1-2: index; byte 3:
-// sub-index; bytes 4-7: data.
+// Transmission of multiplex PDOs. [301:7.2.3] Byte 0: node-ID, of the consumer if bit 7 is set, otherwise of the
+// producer; bytes 1-2: index; byte 3: sub-index; bytes 4-7: data.
 #include <cstring>
 
 #include "support/mpdo_fixture.hpp"
@@ -18,7 +18,7 @@ MpdoTable to_destination(std::uint16_t inhibit = 0) {
   return table;
 }
 
-/// 2211h, 2212h, 2214h sub 1, and 2201h sub 1…2
+/// Returns a table with an object scanner list of 2211h:1, 2212h:1, 2214h:1, 2201h:1 and 2201h:2.
 MpdoTable from_source(std::uint16_t inhibit = 0) {
   MpdoTable table;
   table.tpdo[0].on(0x40000181, 255, {}).number = sam;
@@ -113,7 +113,7 @@ TEST_CASE("MPDO to a destination: a full transmit queue is reported: nothing is 
   while (taken < 10 && node.send_to(0, 5, CO_DEV(0x6200, 1), taken) == CO_ERR_NONE) {
     ++taken;
   }
-  CHECK(taken == 2);  // half of the queue is the node's own
+  CHECK(taken == 2);  // half of the queue is reserved for the stack
   CHECK(node.send_to(0, 5, CO_DEV(0x6200, 1), 9) == CO_ERR_IF_CAN_SEND);
   node.can.accept_all();
   node.frames_per_call(4);
@@ -200,8 +200,8 @@ TEST_CASE("MPDO from a source: a change of an object with flag A sends that obje
   node.silent();
   CHECK(node.set(0x2212, 1, 2, 0x4544) == 0);
   node.tx("181#0112220144450000");
-  CHECK(node.set(0x2212, 2, 2, 0x4544) == 0);  // is not in the list
-  CHECK(node.set(0x2201, 1, 1, 0x77) == 0);    // has no flag A
+  CHECK(node.set(0x2212, 2, 2, 0x4544) == 0);  // not in the object scanner list
+  CHECK(node.set(0x2201, 1, 1, 0x77) == 0);    // without flag A
   node.silent();
 }
 
@@ -456,7 +456,7 @@ TEST_CASE("MPDO from a source: other frames pass between its own, and none is lo
   }
 }
 
-// The type functions and callbacks of the application -----------------------------------------------------------------
+// Type functions and callbacks of the application ---------------------------------------------------------------------
 
 std::uint32_t two_bytes(CO_OBJ*, CO_NODE*, std::uint32_t) { return 2; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplex PDOs against every address, and against random frames and writes. [301:7.2.3]
+// Multiplex PDOs with every address, and with random frames and writes. [301:7.2.3]
 #include <random>
 
 #include "support/mpdo_fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every NMT frame: all 65 536 contents of two bytes in frames of 0…8 bytes, from every state. [301:7.3.2.1, 7.2.8.2.1]
+// All NMT frames: 65 536 contents of two bytes in frames of 0…8 bytes, in every state. [301:7.3.2.1, 7.2.8.2.1]
 #include "support/fixture.hpp"
 
 namespace {
@@ -9,7 +9,7 @@ using namespace test;
 constexpr std::uint8_t own = 5;
 constexpr std::uint8_t state_commands[] = {128, 1, 2};
 
-// The state after a frame of two bytes, and whether it is a reset.
+// Effect of a frame of two bytes: the NMT state after it, and whether the node is reset.
 struct Outcome {
   CO_MODE mode;
   bool reset;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONodeGetErr(): errors of the application's own calls, of the platform and of the configuration. A request of an SDO
-// client that is refused is none of them.
+// CONodeGetErr(): errors of calls of the application, of the platform and of the configuration. A refused request of an
+// SDO client does not set an error.
 #include "support/emcy_fixture.hpp"
 #include "support/logged_stream.hpp"
 #include "support/sdo_client_fixture.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// The request is refused with an abort, and the error of the node is what it was.
+// Checks that the request is aborted and does not change the error of the node.
 void check_refused(Fixture& node, const char* request) {
   for (const CO_ERR before : {CO_ERR_NONE, CO_ERR_NMT_MODE}) {
     CAPTURE(std::string(request));
@@ -26,7 +26,7 @@ void check_refused(Fixture& node, const char* request) {
 TEST_CASE("node error: refused requests to 1003h and 1014h do not change it") {
   EmcyNode node;
   for (const char* request : {"601#2F03100001000000",     // number of errors: only 0 may be written
-                              "601#2303100101000000",     // an error
+                              "601#2303100101000000",     // an entry, which is read-only
                               "601#4003100100000000",     // an entry that is empty
                               "601#4003100900000000",     // an entry that does not exist
                               "601#2314100000000000",     // CAN-ID 000h

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entries of basic types whose Data is null: each of them alone cannot be used, and the node runs.
+// Entries of basic types whose Data is null: accesses to them are refused, and the node works otherwise.
 #include <iterator>
 
 #include "support/fixture.hpp"
@@ -19,7 +19,7 @@ CO_OBJ entry_of(const Null& null, std::uint32_t flags = CO_OBJ_____RW) {
   return {CO_KEY(null.index, null.sub, flags), null.type, 0};
 }
 
-// Any index.
+// Types that are allowed at any index.
 const Null basic[] = {
     {0x4000, 0, CO_TUNSIGNED8},    {0x4001, 0, CO_TUNSIGNED16},     {0x4002, 0, CO_TUNSIGNED32},
     {0x4003, 0, CO_TUNSIGNED64},   {0x4004, 0, CO_TUNSIGNED24},     {0x4005, 0, CO_TUNSIGNED40},
@@ -33,7 +33,7 @@ const Null basic[] = {
 #endif
 };
 
-// Their place in the communication profile.
+// Types that are allowed only at their index of the communication profile.
 const Null placed[] = {
     {0x1014, 0, CO_TEMCY_ID},     {0x1017, 0, CO_THB_PROD},      {0x1029, 1, CO_TERROR_BEHAVIOUR},
     {0x1F80, 0, CO_TNMT_STARTUP},
@@ -77,7 +77,7 @@ std::string multiplexer(const Null& null) {
   return notation(frm).substr(4, 6);
 }
 
-// Every initiate is answered with 0800 0020h.
+// Checks that every initiate is aborted with 0800 0020h.
 void check_refused(Fixture& node, const Null& null) {
   CAPTURE(null.index);
   CAPTURE(unsigned{null.sub});
@@ -122,7 +122,7 @@ void check_errors(Fixture& node, const Null& null) {
   });
 }
 
-// Traffic of every service.
+// Sends frames of every service.
 void run(Fixture& node) {
   for (const char* const text : {"000#0101", "080#", "080#01", "100#010203040506", "201#0102030405060708", "705#05",
                                  "085#0010810000000000", "181#R8", "701#R1", "000#8201", "000#0101"}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block transfers of extended streams (co_od.h) that lose frames: an upload goes back, also beyond the buffer, where
-// the function begins anew; a download asks for the rest. [301:7.2.4.3.9-15]
+// Block transfers of extended streams (co_od.h) with lost frames. An upload repeats segments; if they are no longer in
+// the buffer, the extension is read again from its beginning. A download requests the lost segments.
+// [301:7.2.4.3.9-15]
 #include "support/block_frames.hpp"
 #include "support/logged_extension.hpp"
 
@@ -30,7 +31,7 @@ struct Node : Fixture {
   }
 };
 
-// Bytes that are no zeros.
+// Returns bytes that are not 0.
 Bytes letters(std::size_t size) {
   Bytes data = counting(size);
   for (std::uint8_t& byte : data) {
@@ -51,7 +52,7 @@ TEST_CASE(
   node.rx("601#A2641E0000000000");
   expect_segments(node, counting(1000), 100, 30);
   CHECK(node.extension.take_log() == Log{"read 889 at 889 of 0"});
-  node.rx("601#A2057F0000000000");  // segments 105 and on are lost: byte 735
+  node.rx("601#A2057F0000000000");  // all segments from byte 735 are lost
   Log log = node.extension.take_log();
   CHECK(log.size() == 735 / 32 + 2);
   CHECK(log.front() == "read 32 at 0 of 0");
@@ -64,7 +65,7 @@ TEST_CASE(
   CHECK(node.extension.take_log().empty());
 }
 
-// Bytes that the extension has been asked for since the last look.
+// Returns the number of bytes that were requested from the extension since the last call.
 std::uint32_t bytes_read(LoggedExtension& extension) {
   std::uint32_t bytes = 0;
   for (const std::string& line : extension.take_log()) {
@@ -73,7 +74,7 @@ std::uint32_t bytes_read(LoggedExtension& extension) {
   return bytes;
 }
 
-// An upload of 20000 bytes that has come so far that going back reads 17780 of them again.
+// Runs an upload of 20000 bytes until segment 2700, so that a repetition has to read 17780 bytes again.
 void upload_to_the_end(Node& node, const Bytes& data) {
   node.extension.data = data;
   node.ask("601#A400300064000000", "581#C400300000000000");
@@ -92,7 +93,7 @@ TEST_CASE("OD block loss: a call of CONodeProcess() reads no more again than a b
   const Bytes data = letters(20000);
   upload_to_the_end(node, data);
   node.calls(1);
-  node.rx("601#A2017F0000000000");  // segment 2602 and on are lost: byte 18207, and the buffer begins at 18669
+  node.rx("601#A2017F0000000000");  // all segments from byte 18207 are lost; the buffer begins at 18669
   unsigned calls = 0;
   while (node->Paused != 0 && node.can.sent.empty()) {
     CHECK(bytes_read(node.extension) <= 2 * CO_SDO_BUF_BYTE);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects that are disabled until they are extended (co_od.h: OD_DISABLED, OD_TNUMBER, OD_TSTREAM), and tables of
-// extensible types on a node that has no index.
+// Objects that are disabled until they are extended (co_od.h: OD_DISABLED, OD_TNUMBER, OD_TSTREAM), and dictionaries
+// with extensible types in a node without an index of the OD access interface.
 #include "support/block_frames.hpp"
 #include "support/logged_extension.hpp"
 
@@ -13,7 +13,8 @@ using namespace test;
 const OD_TYPE disabled_value = OD_VALUE(CO_TUNSIGNED32, OD_DISABLED);
 const OD_TYPE disabled_stream = OD_STREAM(CO_TDOMAIN, OD_DISABLED);
 
-// 3000h UNSIGNED32, 3001h DOMAIN of 20 bytes, 3002h 8 bytes and 3003h a stream that only an extension has.
+// A node with 3000h UNSIGNED32, 3001h DOMAIN of 20 bytes, and two objects whose data exist only in an extension: 3002h
+// of 8 bytes and 3003h, a stream.
 struct Node : Fixture {
   std::uint32_t word = 0x44332211;
   Bytes memory = counting(20);
@@ -132,7 +133,7 @@ TEST_CASE("OD disabled: a node without an index takes extensible types for their
 
 #if USE_DICT_CHECK
 
-// An error that a C compiler does not detect.
+// A C compiler does not detect this error.
 TEST_CASE("OD disabled: an OD_TYPE in front of an OD_TYPE keeps the node from starting, and is named") {
   static const CO_OBJ_TYPE* const number = OD_TUNSIGNED32;
   static const OD_TYPE twice = OD_VALUE(number, OD_ORIGINAL);

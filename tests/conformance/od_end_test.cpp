@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another extension (co_od.h) while a transfer runs: that ends with an abort, and the type behind the extension, which
-// was told its begin, is told its end once.
+// A change of the extension (co_od.h) during a transfer aborts the transfer. If Begin of the original type was called,
+// its End is called once.
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -41,7 +41,7 @@ struct Node : Variables, Fixture {
   }
 };
 
-// Begins that have succeeded, and ends.
+// Logged calls of Begin (number) and of End.
 struct Told {
   unsigned begins = 0;
   Log ends;
@@ -58,11 +58,11 @@ Told told(const Log& log) {
   return told;
 }
 
-// Segmented and block transfers, up and down, up to a frame within.
+// A segmented or block transfer that is not complete.
 struct Open {
   const char* name;
   std::vector<std::string> frames;
-  std::string next;  // the frame behind these
+  std::string next;  // next frame of the client
   bool uploads;
 };
 
@@ -83,7 +83,7 @@ const std::vector<Open>& open_transfers() {
 TEST_CASE(
     "OD end: another extension aborts an open transfer at its next frame, and End of the type is called at once") {
   for (const Open& open : open_transfers()) {
-    for (const unsigned from : {0U, 1U, 2U}) {  // extended by another, taken away, extended for the first time
+    for (const unsigned from : {0U, 1U, 2U}) {  // extension replaced, removed, set for the first time
       CAPTURE(std::string(open.name));
       CAPTURE(from);
       Node node;
@@ -125,7 +125,7 @@ TEST_CASE("OD end: after the time-out of such a transfer End is not called again
   CHECK(node.image.take_log().empty());
 }
 
-// Whole transfers.
+// Returns the client's frames of complete transfers.
 const std::vector<std::vector<std::string>>& transfers() {
   static const std::vector<std::vector<std::string>> all = {
     {"601#4000300000000000", "601#6000000000000000", "601#7000000000000000", "601#6000000000000000"},
@@ -141,7 +141,7 @@ const std::vector<std::vector<std::string>>& transfers() {
   return all;
 }
 
-// The number of answers that are aborts.
+// Sends the frames. Returns the number of aborts in the answers.
 unsigned run_frames(Node& node, const std::vector<std::string>& frames) {
   unsigned aborts = 0;
   for (const std::string& frame : frames) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extensions of streams (co_od.h): strings, domains and what only the extension has, in the pieces in which they come.
+// Extensions of streams (co_od.h): strings, domains, and data that exist only in the extension, in partial accesses.
 #include <cstring>
 
 #include "support/block_frames.hpp"
@@ -11,8 +11,9 @@ namespace {
 
 using namespace test;
 
-// 3000h VISIBLE_STRING of 16 bytes, 3001h OCTET_STRING of 12, 3002h UNICODE_STRING of 16 (7 characters and a zero),
-// 3003h DOMAIN of 20, 3004h bytes of the extension of unknown length, 3005h 10 of them, 3006h constant text.
+// Objects 3000h VISIBLE_STRING of 16 bytes, 3001h OCTET_STRING of 12, 3002h UNICODE_STRING of 16 (7 characters and a
+// zero), 3003h DOMAIN of 20, 3004h data of the extension of unknown length, 3005h data of the extension of 10 bytes,
+// 3006h constant text.
 struct Streams {
   std::uint8_t text_memory[16] = {'t', 'e', 'x', 't', 0};
   CO_OBJ_STR_RW text{0, 4, 16, text_memory};
@@ -239,7 +240,7 @@ TEST_CASE("OD extension, stream: a UNICODE_STRING ends at a zero character, wher
     Bytes data, shown;
   } const table[] = {
       {utf16({'a', 'b', 'c'}), utf16({'a', 'b', 'c'})},
-      {utf16({'a', 'b', 'c', 0, 'd'}), utf16({'a', 'b', 'c'})},  // the zero lies in two segments
+      {utf16({'a', 'b', 'c', 0, 'd'}), utf16({'a', 'b', 'c'})},  // the zero is split between two segments
       {utf16({'a', 'b', 'c', 0x0100, 'd'}), utf16({'a', 'b', 'c', 0x0100, 'd'})},
       {utf16({'a', 'b', 'c', 'd', 0x0100, 'e', 0}), utf16({'a', 'b', 'c', 'd', 0x0100, 'e'})},
       {utf16({0x0100, 0x0001, 0x0100, 0x0001, 0x0100, 0}), utf16({0x0100, 0x0001, 0x0100, 0x0001, 0x0100})},
@@ -471,7 +472,7 @@ TEST_CASE("OD extension, stream: a text shorter than its capacity comes with its
   CHECK(node.extension.take_log().empty());
 }
 
-// Passes all data at once, and says in the next call only that this was the end.
+// Returns all data in one call with ODR_PARTIAL, and ODR_OK without data in the next call.
 ODR_t read_with_late_end(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
   const OutsideStack outside;
   const auto& self = *static_cast<LoggedExtension*>(stream->object);
@@ -615,8 +616,7 @@ TEST_CASE("OD extension, stream: a length that the application has found out is 
   node.call([&] { CHECK(COObjGetSize(node.find(0x3000, 0), &node.node, 0) == 13); });
 }
 
-// Types of the application that take part in the transfer
-// ---------------------------------------------------------------
+// Types of the application with Begin and End ------------------------------------------------------------------------
 
 struct Image {
   Log log;

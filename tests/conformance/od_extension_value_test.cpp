@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extensions of values (co_od.h): SDO, PDO and the application reach the same functions, and what these answer becomes
-// the abort code. Streams are in od_extension_stream_test.cpp, PDOs in od_pdo_test.cpp.
+// Extensions of values (co_od.h): accesses by SDO, PDO and the application call the functions of the extension, and
+// their results determine the abort code. Streams are in od_extension_stream_test.cpp, PDOs in od_pdo_test.cpp.
 #include <cstring>
 
 #include "support/logged_extension.hpp"
@@ -11,8 +11,8 @@ namespace {
 
 using namespace test;
 
-// An UNSIGNED32 at 3000h:0, of 1…8 bytes at 300wh:1, REAL32 at 3010h, flag A at 3011h, flag N at 3012h, flag D at
-// 3013h, a number that only the extension has at 3014h (3 bytes).
+// Objects 3000h:0 UNSIGNED32, 300wh:1 numbers of w = 1…8 bytes, 3010h REAL32, 3011h with flag A, 3012h with flag N,
+// 3013h with flag D, 3014h a number of 3 bytes that exists only in the extension.
 struct Values {
   std::uint32_t word = 0x44332211;
   std::uint8_t u8 = 0;
@@ -187,7 +187,7 @@ constexpr int largest = sizeof(ODR_t) == 1 ? INT8_MAX : INT32_MAX;
 
 struct Row {
   int result;
-  const char* code;  // as on the bus
+  const char* code;  // abort code in bus order
 };
 constexpr Row rows[] = {{1, "05000405"},  {2, "00000106"},  {3, "01000106"},  {4, "02000106"},      {5, "00000206"},
                         {6, "41000406"},  {7, "42000406"},  {8, "43000406"},  {9, "47000406"},      {10, "00000606"},
@@ -301,9 +301,9 @@ TEST_CASE("OD extension, value: rights are the entry's: the network is refused b
   CHECK(extension.data == number_of({5, 0, 0, 0}));
 }
 
-// The original functions, called from within ------------------------------------------------------------------------
+// Extensions that call the original functions -----------------------------------------------------------------------
 
-// Checks before it commits: an even number up to a limit, its own.
+// An extension that stores only even numbers up to its limit, with OD_writeOriginal().
 struct Even {
   std::uint32_t limit = 100;
   OD_extension_t extension{this, OD_readOriginal, write, {}};
@@ -394,7 +394,7 @@ TEST_CASE(
   node.ask("601#2B00300001020000", "581#6000300000000000");
 }
 
-// Giving and taking -------------------------------------------------------------------------------------------------
+// Adding and removing extensions ------------------------------------------------------------------------------------
 
 TEST_CASE("OD extension, value: it acts from the next access on, until it is taken away or changed for another") {
   Node node;

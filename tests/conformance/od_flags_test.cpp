@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// co_od.h: what has passed by PDO, in the way of both drafts: requests and "transmitted" flags of sub-indexes, and the
-// word of flags with a bit for each TPDO.
+// co_od.h: requests to transmit an object, and flags of transmitted objects, in both forms of the interface: for each
+// sub-index, and as a word with a bit for each TPDO.
 #include "support/mpdo_fixture.hpp"
 #include "support/sync_fixture.hpp"
 
@@ -151,7 +151,7 @@ TEST_CASE("OD request: a TPDO of type 0 is sent at the next SYNC, one of type 1 
   FlagNode node(table);
   node.start();
   node.rx("080#");
-  node.tx({"181#31", "281#3141"});  // type 0 is sent at the first
+  node.tx({"181#31", "281#3141"});  // type 0 is sent at the first SYNC
   node.rx("080#");
   node.tx("281#3141");
   node.request(3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// co_od.h: parameter groups by name, stored and restored as by the network, atomically. [301:7.5.2.13]
+// co_od.h: parameter groups that are stored and restored by name, atomically, like by 1010h and 1011h. [301:7.5.2.13]
 #include <cstring>
 
 #include "support/failing_nvm.hpp"
@@ -22,8 +22,8 @@ struct Application {
   std::uint8_t bytes[8];
 };
 
-// Device with groups "PERSIST_COMM" and "PERSIST_APP" (2, 3), one without a name (4), one that is stored autonomously
-// (5), and an object in no group.
+// A device with the groups "PERSIST_COMM" (sub-index 2), "PERSIST_APP" (3), one without a name (4), one that is stored
+// autonomously (5), and an object in no group.
 struct Device {
   CO_DATA data(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extensions that keep no contract (co_od.h), and clients that keep none: nothing hangs, nothing is passed on that was
-// not there, and what comes afterwards is served.
+// Extensions and SDO clients that violate the contract of co_od.h and the protocol: the node does not hang, returns no
+// bytes that were not read, and serves later requests.
 #include <cstring>
 
 #include "support/block_frames.hpp"
@@ -12,8 +12,8 @@ namespace {
 
 using namespace test;
 
-// 3000h UNSIGNED32, 3001h unknown length, 3002h VISIBLE_STRING of 30, 3003h 20 bytes, 3004h UNICODE_STRING of 30,
-// 3005h OCTET_STRING of 30.
+// A node with 3000h UNSIGNED32, 3001h of unknown length, 3002h VISIBLE_STRING of 30 bytes, 3003h of 20 bytes, 3004h
+// UNICODE_STRING of 30 bytes, 3005h OCTET_STRING of 30 bytes.
 struct Node : Fixture {
   std::uint32_t word = 0;
   std::uint8_t memory[3][30] = {};
@@ -36,11 +36,11 @@ struct Node : Fixture {
   }
 };
 
-// Invalid answer of a function: its result, and the number of bytes that it reports.
+// Results of a function that may be invalid.
 struct Nonsense {
   int result;
   std::int64_t more;
-  std::uint32_t offset;  // that it leaves
+  std::uint32_t offset;  // dataOffset after the call
   std::uint32_t length;
 };
 
@@ -71,7 +71,7 @@ std::vector<Nonsense> all_nonsense() {
   return all;
 }
 
-// Uploads read with patience: an extension without an end is the client's to end.
+// Uploads an object, and aborts after 12 segments, because the extension may never report the end.
 void upload(Node& node, std::uint16_t index) {
   const auto low = static_cast<std::uint8_t>(index);
   node.rx(CO_IF_FRM{0x601, {0x40, low, 0x30}, 8});
@@ -169,8 +169,7 @@ TEST_CASE("OD nonsense: bytes that an extension writes behind its reported lengt
   node.ask("601#6000000000000000", "581#0978787800000000");
 }
 
-// A client sends any frame in any state: the extension is never asked for, or given, more than there is room for, and
-// never told an end that has not come.
+// An extension that counts wrong calls: more bytes than fit, or an offset beyond the length.
 struct Watched {
   unsigned calls = 0;
   unsigned faults = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Partial accesses to the same objects by several at a time (co_od.h): two SDO servers, two OD_IO_t, COObj functions.
-// In whatever order their pieces come, each reads and writes what it would alone.
+// Simultaneous partial accesses to the same objects (co_od.h) by two SDO servers, two OD_IO_t and COObj functions. Each
+// access reads and writes the same bytes as without the others, in every order of the pieces.
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -23,8 +23,8 @@ class Actor {
   void step(unsigned n) { n == 0 ? begin() : n == 1 ? go_on() : end(); }
 };
 
-// Two streams of 12 bytes that only extensions have, at 3000h and 3001h; a domain without an extension, at 3002h; a
-// text with one, at 3003h. The second server is on 690h/6A0h.
+// A node with two streams of 12 bytes that exist only in extensions (3000h, 3001h), a domain without an extension
+// (3002h) and a text with an extension (3003h). The second SDO server uses 690h/6A0h.
 struct Node {
   Bytes domain_memory = counting(12, 101);
   CO_OBJ_DOM domain{0, 12, domain_memory.data()};
@@ -54,13 +54,13 @@ struct Node {
   }
 
   CO_OBJ* find(std::uint16_t index) { return fixture.find(index, 0); }
-  // The first byte of what is there.
+  // Returns the first byte of the object's initial value.
   std::uint8_t first(std::uint16_t index) const {
     return index == 0x3000 ? 1 : index == 0x3001 ? 51 : index == 0x3002 ? 101 : 'a';
   }
 };
 
-// An SDO client, by frames. [301:7.2.4.3]
+// An SDO client that sends and checks frames. [301:7.2.4.3]
 class Client : public Actor {
  public:
   Client(Node& node, unsigned server, std::uint16_t index)
@@ -108,7 +108,7 @@ class Upload : public Client {
   }
 };
 
-// A download of bytes that no other actor writes: it replaces the content at its end.
+// A segmented download of 12 bytes.
 class Download : public Client {
  public:
   using Client::Client;
@@ -214,7 +214,7 @@ class ObjWriter : public Actor {
   std::uint16_t index_;
 };
 
-// Every order of three pieces each.
+// Runs the actors, three pieces each, in every order. Returns the number of orders.
 unsigned run_all_orders(const std::vector<Actor*>& actors) {
   std::vector<unsigned> order;
   for (unsigned n = 0; n < actors.size(); ++n) {
@@ -233,8 +233,8 @@ unsigned run_all_orders(const std::vector<Actor*>& actors) {
 
 constexpr unsigned orders_of_three = 1680;  // 9! / 3!^3
 
-// The extension tells pieces of several writers apart by their position alone, so that it must not keep them in one
-// place.
+// Replaces the write function by one that discards the data: the extension would store the pieces of several writers in
+// one buffer.
 void forget_pieces(LoggedExtension& extension) {
   extension.extension.write = [](OD_stream_t* stream, const void*, OD_size_t count, OD_size_t* passed) {
     *passed = count;

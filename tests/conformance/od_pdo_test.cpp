@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extended objects in PDOs (co_od.h): the functions are called for each PDO; what they refuse is the node's error, and
-// keeps a TPDO from being sent.
+// Extended objects in PDOs (co_od.h): the functions are called for each PDO. If they fail, the node's error is set, and
+// a TPDO is not sent.
 #include <cstring>
 #include <functional>
 
@@ -14,8 +14,9 @@ namespace {
 
 using namespace test;
 
-// 3000h UNSIGNED8, 3001h UNSIGNED16, 3002h UNSIGNED32, 3003h UNSIGNED64, 3004h BOOLEAN, 3005h 4 bytes and 3006h of
-// unknown length that only the extension has, 3007h UNSIGNED32 with flag A, 3008h a number of 3 bytes of the extension.
+// Objects 3000h UNSIGNED8, 3001h UNSIGNED16, 3002h UNSIGNED32, 3003h UNSIGNED64, 3004h BOOLEAN, 3007h UNSIGNED32 with
+// flag A, and data that exist only in the extension: 3005h of 4 bytes, 3006h of unknown length, 3008h a number of 3
+// bytes.
 struct Variables {
   std::uint8_t byte = 0x11;
   std::uint16_t half = 0x2211;
@@ -199,12 +200,12 @@ TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the ori
   node.ask("601#2307300001020304", "581#8007300000000606");
 }
 
-// An extension that ends in the original, as most do.
+// An extension whose write function calls OD_writeOriginal(), as most do.
 struct Checking {
   OD_extension_t extension{this, OD_readOriginal, write, {}};
-  ODR_t verdict = ODR_OK;          // behind the original
-  bool as_application = false;     // writes the original by another stream than its own
-  std::function<void()> on_write;  // behind the original
+  ODR_t verdict = ODR_OK;          // result after the original function, unless it is ODR_OK
+  bool as_application = false;     // the original function is called with a copy of the stream
+  std::function<void()> on_write;  // called after the original function
 
   static ODR_t write(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* written) {
     auto& self = *static_cast<Checking*>(stream->object);
@@ -367,8 +368,8 @@ TEST_CASE("OD PDO: an extension that stops the node, or changes the dictionary, 
 
 // Partial accesses of the application --------------------------------------------------------------------------------
 
-// 3010h 20 bytes that only the extension has; 3011h to 3013h domains of 4 bytes: extensible, with an extension that is
-// the original, plain.
+// Objects 3010h, 20 bytes that exist only in the extension, and domains of 4 bytes: 3011h extensible, 3012h with an
+// extension that contains the original functions, 3013h not extensible.
 struct Streams : Variables {
   Bytes memory = counting(12);
   CO_OBJ_DOM domains[3] = {{0, 4, memory.data()}, {0, 4, memory.data() + 4}, {0, 4, memory.data() + 8}};
@@ -415,7 +416,7 @@ TEST_CASE("OD PDO: between two pieces of the application's access a PDO passes a
        std::initializer_list<std::uint32_t>{0x30050020, 0x30110020, 0x30120020, 0x30130020}) {
     for (const bool receives : {true, false}) {
       for (const std::uint16_t index :
-           {std::uint16_t{0x3010}, static_cast<std::uint16_t>(word >> 16)}) {  // another object, the same
+           {std::uint16_t{0x3010}, static_cast<std::uint16_t>(word >> 16)}) {  // another object, the mapped one
         CAPTURE(word);
         CAPTURE(receives);
         CAPTURE(index);
@@ -431,7 +432,7 @@ TEST_CASE("OD PDO: between two pieces of the application's access a PDO passes a
         node.call([&] { CHECK(COObjRdBufStart(obj, &node.node, again, size) == CO_ERR_NONE); });
         CHECK(std::equal(bytes, bytes + 20, again));
         if (index == 0x3012 || (index == 0x3005 && receives)) {
-          continue;  // it is written at once; the test's extension knows one download at a time
+          continue;  // The PDO writes it at once, and the extension of this test supports only one write at a time.
         }
         node.call([&] { CHECK(COObjWrBufStart(obj, &node.node, again, 2) == CO_ERR_NONE); });
         node.pass(receives);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extensions (co_od.h) that act on the node during an access: they stop it, remove themselves, read their object,
-// change the dictionary. The caller continues or is refused, and later accesses work.
+// Extensions (co_od.h) that call functions of the node during an access: they stop it, remove themselves, read their
+// object, change the dictionary. The access continues or is refused, and later accesses work.
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -14,8 +14,8 @@ namespace {
 
 using namespace test;
 
-// 3000h UNSIGNED64, 3001h of unknown length, 3002h VISIBLE_STRING of 30 bytes, 3003h 20 bytes that only the extension
-// has; all with one extension.
+// Objects 3000h UNSIGNED64, 3001h of unknown length, 3002h VISIBLE_STRING of 30 bytes, 3003h 20 bytes that exist only
+// in the extension. All have the same extension.
 struct Variables {
   std::uint64_t number = 0;
   std::uint8_t text_memory[30] = {};
@@ -24,7 +24,7 @@ struct Variables {
 
 struct Node : Variables, Fixture {
   LoggedExtension extension;
-  unsigned calls_seen = 0;  // by do_at()
+  unsigned calls_seen = 0;  // calls of the extension since do_at()
 
   Node() : Fixture(setup(*this)) { extend(); }
 
@@ -48,7 +48,7 @@ using Act = std::function<void(Node&, OD_stream_t*)>;
 
 OD_entry_t* entry_of(Node& node, const OD_stream_t* stream) { return OD_find(&node.od, stream->index); }
 
-// Without the last entry, and as it was.
+// Initialises the dictionary again, with the same table.
 void shorten(Node& node) {
   const auto n = static_cast<std::uint16_t>(node->Dict.Num);
   CHECK(CODictInit(&node->Dict, &node.node, node->Dict.Root, n) == n);
@@ -75,7 +75,7 @@ void read_own(Node& node, const OD_stream_t* stream) {
 struct Named {
   const char* name;
   Act act;
-  bool serves;  // afterwards, without a reset
+  bool serves;  // the node serves requests afterwards without a reset
 };
 
 const std::vector<Named>& acts() {
@@ -111,7 +111,7 @@ const std::vector<Named>& acts() {
   return all;
 }
 
-// Once, from the given call on; inside itself it does nothing.
+// Makes the extension run \a act once, in the call with this number, from 0.
 void do_at(Node& node, unsigned call, const Act& act) {
   node.calls_seen = 0;
   const auto once = [&node, call, act](OD_stream_t* stream) {
@@ -150,7 +150,7 @@ void check_serves(Node& node) {
   CHECK(Bytes(bytes, bytes + 20) == counting(20));
 }
 
-// A transfer frame by frame, whatever is answered.
+// Sends the frames of a transfer, and ignores the answers.
 void run_frames(Node& node, const std::vector<std::string>& frames) {
   for (const std::string& text : frames) {
     node.rx(text);
@@ -343,7 +343,7 @@ TEST_CASE("OD re-entrance: OD_extension_init aborts open transfers of the object
   node.ask("601#6000000000000000", "581#8001300022000008");
   other.data = counting(9);
   CHECK(node.upload(0x3001, 0) == counting(9));
-  other.put_at(node, 0x3001);  // the same: nothing changes
+  other.put_at(node, 0x3001);  // the same extension: no effect
   node.ask("601#4001300000000000", "581#4001300000000000");
   other.put_at(node, 0x3001);
   node.ask("601#6000000000000000", "581#0001020304050607");
@@ -389,7 +389,7 @@ TEST_CASE(
 
 #if CO_RPDO_N > 0 && CO_TPDO_N > 0
 
-// An extended stream of 4 bytes with flag A, mapped into an event-driven TPDO: a download of it sends that.
+// The download of an extended stream with flag A (4 bytes, mapped to an event-driven TPDO) sends the TPDO.
 TEST_CASE("OD re-entrance: a TPDO reads the stream while its download ends, and that ends once") {
   LoggedExtension extension;
   PdoTable table;

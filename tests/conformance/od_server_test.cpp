@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Effects of a write by co_od.h: they are complete when it returns.
+// Effects of a write by co_od.h, which are complete when the function returns.
 #include <algorithm>
 
 #include "support/od.hpp"

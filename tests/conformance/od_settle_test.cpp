@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// co_od.h: what a function leads to is done when it returns; nothing waits for a frame, which on a bus of one node
-// never comes.
+// co_od.h: deferred work of a function is complete when the function returns. It must not be left to the next received
+// frame, because a node may receive none.
 #include "support/failing_nvm.hpp"
 #include "support/od.hpp"
 #include "support/pdo_fixture.hpp"
@@ -13,8 +13,7 @@ using namespace test;
 
 constexpr std::uint32_t new_request = 0x241;
 
-// An object of the application that switches an SDO server on whenever it is read: the COB-ID is taken when all else
-// is done.
+// Read function of an object that enables an SDO server. The new COB-IDs become effective as deferred work.
 CO_ERR read_and_configure(CO_OBJ*, CO_NODE* node, void* buffer, std::uint32_t) {
   std::uint32_t cob_ids[] = {new_request, 0x1C1};
   for (std::uint8_t sub = 1; sub <= 2; ++sub) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several nodes and dictionaries in one program (co_od.h): each has its index, its extensions and its transfers, also
-// over one constant table.
+// Several nodes and dictionaries in one program (co_od.h): each has a separate index, extensions and transfers, even if
+// they share one constant table.
 #include "support/block_frames.hpp"
 #include "support/logged_extension.hpp"
 

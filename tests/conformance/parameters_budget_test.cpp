@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often the bus can make a node write its memory: CO_PARA_BUDGET stores in a row, one more each minute.
+// Limit of store requests from the network: CO_PARA_BUDGET without a pause, and one more each minute.
 #include "support/parameter_groups.hpp"
 
 #if USE_PARA && CO_PARA_BUDGET > 0
@@ -17,7 +17,7 @@ constexpr const char* second_refused = "581#8010100322000008";
 constexpr const char* load_second = "601#231110036C6F6164";
 constexpr auto budget = CO_PARA_BUDGET;
 
-// A device, and a client that changes 2300h:2 before each "save".
+// A device, and an SDO client that changes 2300h:2 before each "save".
 struct BudgetDevice : GroupDevice {
   BudgetDevice() = default;
   explicit BudgetDevice(CO_NVM_SHAPE shape) : GroupDevice(shape) {}
@@ -210,7 +210,7 @@ constexpr std::chrono::milliseconds period{CO_PARA_PERIOD};
 
 struct AutonomousDevice : BudgetDevice {
   AutonomousDevice() { second.Value = CO_PARA__AE; }
-  // Takes what is left, by "save" of the other group.
+  // Uses up the rest of the budget by "save" of the other group.
   void use_up(Fixture& node) {
     node.call([this] { ++ram[0].number; });
     while (true) {

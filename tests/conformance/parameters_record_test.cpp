@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which record belongs to which parameter group: exchanged and overlapping groups, records of version 0.1.0, and
-// records that are damaged. (docs/storage.md)
+// Assignment of stored records to parameter groups: exchanged and overlapping groups, records of version 0.1.0, damaged
+// records. (docs/storage.md)
 #include <algorithm>
 #include <utility>
 
@@ -89,7 +89,8 @@ TEST_CASE("parameters: a group that is not stored loads no record, whatever lies
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-// Index and sub-index that CODictGetFault() names, 0: none. It names none without USE_DICT_CHECK.
+// Returns index and sub-index of the entry that CODictGetFault() reports; 0: none. Without USE_DICT_CHECK it reports
+// none.
 unsigned refused_entry(const Fixture& node, bool expected) {
   std::uint32_t key = 0;
   const CO_DICT_FAULT fault = CODictGetFault(&node.node.Dict, &key);
@@ -97,7 +98,7 @@ unsigned refused_entry(const Fixture& node, bool expected) {
   return uint32_t{CO_GET_IDX(key)} << 8U | CO_GET_SUB(key);
 }
 
-// Groups that overlap ----------------------------------------------------------------------------------------------
+// Overlapping groups -----------------------------------------------------------------------------------------------
 
 TEST_CASE("parameters: a group that overlaps the memory of one before it is refused; the other works") {
   constexpr std::uint32_t space = CO_PARA_SPACE(8, 1, 1);
@@ -183,14 +184,14 @@ TEST_CASE("parameters: groups whose variables overlap are accepted: each has its
 
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 
-// "LXN1", version 0, 8 bytes, generation 0 and 1, CRC, data: numbers 2Ah and 2Bh.
+// Records of "save": "LXN1", version 0, 8 bytes, generation 0 and 1, CRC, data with the numbers 2Ah and 2Bh.
 constexpr std::array<std::uint8_t, 28> old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
                                                      0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x12, 0x44, 0xB8, 0x63,
                                                      0x2A, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
 constexpr std::array<std::uint8_t, 28> newer_old_record = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0x08, 0x00,
                                                            0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0xE3, 0x08, 0xB7, 0x34,
                                                            0x2B, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
-// "load", generation 1.
+// Record of "load", generation 1.
 constexpr std::array<std::uint8_t, 20> old_defaults = {0x4C, 0x58, 0x4E, 0x31, 0x00, 0x00, 0x00, 0x00, 0xFF, 0xFF,
                                                        0xFF, 0xFF, 0x01, 0x00, 0x00, 0x00, 0xFA, 0x97, 0x5B, 0x56};
 constexpr std::uint32_t slot = 28;
@@ -293,7 +294,7 @@ TEST_CASE("LSS: node-ID and bit rate that version 0.1.0 has stored are loaded, a
 #endif
 #endif
 
-// Records that are damaged ----------------------------------------------------------------------------------------
+// Damaged records -------------------------------------------------------------------------------------------------
 
 struct Recovered {
   std::vector<const CO_PARA*> groups;
@@ -403,7 +404,7 @@ TEST_CASE("parameters: the application reports a recovered group to the network 
   device.nvm.bytes = stored_twice().nvm.bytes;
   device.nvm.bytes[100 + 28] ^= 1;
   EmcyNode node(device.setup().callbacks(recovered_callbacks).emergencies({{CO_EMCY_REG_GENERAL, 0x6300}}));
-  // The loop, after CONodeStart(): see docs/storage.md.
+  // As in the application's loop after CONodeStart() in docs/storage.md.
   if (!Recovered::take().empty()) {
     node.set(0);
   }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A device with three groups, and its memory, which outlives each of its nodes.
+// A device with three groups, and its non-volatile memory, which outlives each of its nodes.
 struct Device {
   struct Memory {
     std::uint32_t number;
@@ -180,7 +180,7 @@ TEST_CASE("parameters: a reset loads what was stored: communication its groups, 
   }
 }
 
-// A group of reset node whose first bytes are an object of the communication profile.
+// A group that is loaded at reset node, and whose first bytes are an object of the communication profile.
 struct MixedGroup {
   struct Memory {
     std::uint16_t heartbeat;
@@ -231,7 +231,7 @@ TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a
     node.tx("701#00");
     node.ask("601#4017100000000000", "581#4B171000E8030000");
     node.ask("601#4000230100000000", "581#4300230101000000");
-    // 7 and 2 are stored; then other values are written.
+    // The values 7 and 2 are stored; then other values are written.
     node.ask("601#2B17100007000000", "581#6017100000000000");
     node.ask("601#2300230102000000", "581#6000230100000000");
     node.ask("601#2310100173617665", "581#6010100100000000");
@@ -245,7 +245,7 @@ TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a
     node.rx("000#8101");
     node.tx("701#00");
     node.ask("601#4000230100000000", "581#4300230102000000");
-    // "load" acts on 1017h alone, too.
+    // After "load", too, only 1017h gets its default value.
     node.ask("601#231110016C6F6164", "581#6011100100000000");
     node.rx("000#8201");
     node.tx("701#00");
@@ -279,7 +279,7 @@ TEST_CASE(
   node.ask("601#2B17100000000000", "581#6017100000000000");
   node.ask("601#2310100173617665", "581#6010100100000000");
   node.ask("601#2300230102000000", "581#6000230100000000");
-  device.nvm.bytes[20 + offsetof(MixedGroup::Memory, number)] ^= 1;  // of the other part
+  device.nvm.bytes[20 + offsetof(MixedGroup::Memory, number)] ^= 1;  // a byte outside of ComSize
   node.rx("000#8201");
   node.tx("701#00");
   node.ask("601#4017100000000000", "581#4B171000E8030000");
@@ -360,7 +360,7 @@ TEST_CASE("parameters: a memory that fails aborts \"save\" with 0606 0000h; what
 
 TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tells the failure [S3]") {
   Device device;
-  device.own.Offset = 1000;  // no room there
+  device.own.Offset = 1000;  // the record exceeds the memory
   {
     Fixture node(device.setup());
     CHECK(node.error() == CO_ERR_PARA_STORE);
@@ -476,7 +476,7 @@ TEST_CASE("parameters: without a memory a node runs with its default values, and
   node.ask(save_all, "581#8010100100000606");
 }
 
-// A driver without context, as firmware for CANopen-Stack has it.
+// A classic driver, as in firmware for CANopen-Stack.
 std::uint8_t raw_memory[256];
 unsigned raw_writes;
 const CO_IF_NVM_DRV_EX raw_driver = {[](void*) {},
@@ -586,7 +586,7 @@ TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the d
                               CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, 0}}) {
     Device device;
     Fixture node(device.single().with(wrong).stay_in_init());
-    const bool has_data = wrong.Data != 0;  // null concerns the entry alone
+    const bool has_data = wrong.Data != 0;  // null disables only this entry
     CHECK((node.mode() == CO_INVALID) == has_data);
     CHECK(node.error() == (has_data ? CO_ERR_DICT_INIT : CO_ERR_OBJ_INIT));
     std::uint32_t key = 0;
@@ -597,13 +597,13 @@ TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the d
 
 #endif
 
-// A classic driver whose accesses can be refused.
+// Memory of a classic driver that refuses accesses.
 struct RefusingMemory {
   std::uint8_t bytes[256];
   unsigned reads = 0;
   unsigned writes = 0;
-  unsigned refuse_read = 0;   // this one, from 1
-  unsigned refuse_write = 0;  // this one, from 1
+  unsigned refuse_read = 0;   // number of the read that fails, from 1; 0: none
+  unsigned refuse_write = 0;  // number of the write that fails, from 1; 0: none
 };
 RefusingMemory refusing;
 const CO_IF_NVM_DRV_EX refusing_driver = {
@@ -637,7 +637,7 @@ struct ClassicDevice : Device {
 };
 
 TEST_CASE("parameters: a classic driver that cannot read: default values, CO_ERR_PARA_LOAD, COParaLost()") {
-  for (const unsigned read : {1U, 2U}) {  // the first finds out whether anything is stored
+  for (const unsigned read : {1U, 2U}) {  // the first read checks whether a record is stored
     ClassicDevice device;
     device.hold(0x44);
     refusing.refuse_read = read;

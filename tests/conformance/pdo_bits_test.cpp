@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mapping of single bits in transmission: objects at any bit of the frame. [M10] (Only in the configuration that has
-// it.)
+// PDO mapping of single bits: objects at any bit of the frame. [M10] (Only with USE_PDO_BITS.)
 #include <random>
 
 #include "support/sync_fixture.hpp"
@@ -11,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// One of the objects of the fixture, and its value on the bus.
+// A mapping entry of an object of the fixture, and the object's value on the bus.
 struct Mapped {
   std::uint32_t word;
   std::uint32_t value;
@@ -20,7 +19,7 @@ struct Mapped {
 
 std::uint32_t low_bits(std::uint32_t value, unsigned bits) { return bits == 32 ? value : value & ((1U << bits) - 1U); }
 
-// The frame that holds the objects one after the other from bit 0 on.
+// Returns the frame that contains the objects without gaps from bit 0.
 CO_IF_FRM packed(std::uint32_t id, const std::vector<Mapped>& objects) {
   std::uint64_t all = 0;
   unsigned position = 0;
@@ -47,7 +46,7 @@ PdoTable mapping(const std::vector<Mapped>& objects) {
   return table;
 }
 
-// Sends what is there, receives other values, and sends these.
+// Checks that the node transmits the initial values, receives random ones, and transmits these.
 void check(std::vector<Mapped> objects, std::mt19937& random) {
   PdoNode node(mapping(objects));
   node.start();
@@ -120,7 +119,7 @@ TEST_CASE("PDO bits: each of 64 bits is one object's, sent and received") {
     PdoEntries& tpdo = table.tpdo[0].on(0x40000181, 255, {});
     for (unsigned n = 0; n < 64; ++n) {
       const std::uint32_t word = boolean(n == bit ? 1 : 2);
-      rpdo.map[rpdo.number++] = n == bit ? word : 0x00010001;  // a dummy
+      rpdo.map[rpdo.number++] = n == bit ? word : 0x00010001;  // dummy of 1 bit
       tpdo.map[tpdo.number++] = word;
     }
     PdoNode node(table);

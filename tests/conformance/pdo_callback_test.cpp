@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// COPdoTransmit(), which may call the API. [Q9]
+// COPdoTransmit(), which may call API functions. [Q9]
 #include "support/pdo_commands.hpp"
 
 #if CO_TPDO_N > 1 && CO_RPDO_N > 1
@@ -103,7 +103,7 @@ TEST_CASE("PDO callback: the same in the event timer's turn [Q9] [N3]") {
 TEST_CASE("PDO callback: the same at a SYNC, of which the rest is not sent either [Q9] [N3]") {
   for (const std::string& what : commands) {
     if (what.compare(0, 5, "reset") == 0) {
-      continue;  // a reset waits until the SYNC has been taken
+      continue;  // a reset is deferred until the SYNC is processed
     }
     CAPTURE(what);
     SyncNode node(table_of(1));

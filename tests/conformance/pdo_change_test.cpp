@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Type functions that change the PDO whose objects are being copied.
+// Type functions that change the PDO during which they are called.
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 1 && CO_RPDO_N > 1
@@ -38,7 +38,7 @@ void add_acting(Setup& setup) { setup.with({CO_KEY(0x22FF, 0, CO_OBJ____PRW), ac
 
 constexpr std::uint32_t acting = 0x22FF0008;
 
-// The whole procedure, by the application. [301:7.5.2.36]
+// Runs the remapping procedure as the application. [301:7.5.2.36]
 void map_anew(CO_NODE* node, std::uint16_t index, const std::vector<std::uint32_t>& words, std::uint32_t cob_id) {
   const auto mapping = static_cast<std::uint16_t>(index + 0x200);
   CHECK(CODictWrLong(&node->Dict, CO_DEV(index, 1), 0x80000000 | cob_id) == CO_ERR_NONE);
@@ -152,7 +152,7 @@ TEST_CASE(
   }
   REQUIRE(node.set(0x1800, 2, 1, 252) == 0);
   node.rx("181#R8");
-  node.silent();  // nothing is sampled yet
+  node.silent();  // no SYNC has sampled the objects
 }
 
 #endif

@@ -8,7 +8,7 @@ using namespace test;
 
 constexpr std::uint32_t abort_range = 0x06090030;
 
-/// RPDO 0 on 200h + node-ID writes 2201h:1, TPDO 0 on 180h + node-ID holds 2202h:1.
+/// Returns a table with RPDO 0 on 200h + node-ID for 2201h:1, and TPDO 0 on 180h + node-ID for 2202h:1.
 PdoTable relative() {
   PdoTable table;
   table.rpdo[0].on(0x200, 255, {0x22010108});
@@ -16,7 +16,8 @@ PdoTable relative() {
   return table;
 }
 
-/// Node-ID 127, whose SDO server has the identifiers of node-ID 1; both COB-IDs relative.
+/// A node with node-ID 127, whose PDOs have COB-IDs relative to the node-ID. Its SDO server uses the CAN-IDs of node-ID
+/// 1, which the fixture requires.
 struct Relative : PdoNode {
   explicit Relative(PdoTable& memory)
       : PdoNode(memory, [&](Setup& setup) {

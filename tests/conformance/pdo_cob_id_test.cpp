@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-/// RPDO 0 on 201h writes 2201h:1, TPDO 0 on 181h holds 2202h:1; both exist.
+/// Returns a table with RPDO 0 on 201h for 2201h:1, and TPDO 0 on 181h for 2202h:1; both are valid.
 PdoTable both_on() {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1400h… and 1800h…, sub-index 2 to 6: the communication parameters besides the COB-ID. [301:7.5.2.35, 7.5.2.37]
+// 1400h… and 1800h…, sub-index 2 to 6: communication parameters except the COB-ID. [301:7.5.2.35, 7.5.2.37]
 #include "support/pdo_fixture.hpp"
 
 namespace {
@@ -26,7 +26,7 @@ void switch_on(PdoNode& node) {
   REQUIRE(node.set(0x1800, 1, 4, 0x40000181) == 0);
 }
 
-// Lengths and rights --------------------------------------------------------------------------------------------------
+// Lengths and access rights -------------------------------------------------------------------------------------------
 
 TEST_CASE("PDO communication: sub 0 is the highest sub-index, and read-only") {
   PdoNode node;
@@ -67,7 +67,7 @@ bool is_type(bool of_tpdo, unsigned value) {
   return value <= 240 || value >= 254;
 }
 
-// Without SYNC there are no synchronous PDOs; whether their types may be written is not of interest then.
+// Returns true for synchronous types. Without USE_SYNC, writes of these types are not checked.
 bool is_synchronous(unsigned value) { return value <= 240; }
 
 void check_types(PdoNode& node) {
@@ -191,7 +191,7 @@ TEST_CASE("PDO communication: an event that waited for the SYNC is not sent by o
   node.trigger(0);
   node.silent();
   CHECK(node.set(0x1800, 2, 1, 254) == 0);
-  node.frames();  // at once, or not at all
+  node.frames();  // the event may be sent at once or be discarded
   node.rx("080#");
   node.silent();
 }
@@ -355,7 +355,7 @@ TEST_CASE("PDO communication: the SYNC start value of a TPDO that exists is not 
   CHECK(node.set(0x1800, 6, 1, 3) == abort_range);
 }
 
-// All of them ---------------------------------------------------------------------------------------------------------
+// All sub-indexes -----------------------------------------------------------------------------------------------------
 
 TEST_CASE("PDO communication: entries that are missing mean 0, but for the COB-ID") {
   PdoNode node(both_on(), [](Setup& setup) {

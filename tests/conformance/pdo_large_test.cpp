@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 512 RPDOs and 512 TPDOs in one node. (Only in the configuration that has them.)
+// 512 RPDOs and 512 TPDOs in one node. (Only in the configuration with these numbers.)
 #include "support/sync_fixture.hpp"
 
 #if CO_RPDO_N == 512 && CO_TPDO_N == 512 && USE_SYNC
@@ -10,7 +10,8 @@ using namespace test;
 
 constexpr unsigned all = 512;
 
-// RPDO and TPDO n map variable n, 3000h + n / 128. The even ones are event-driven, the odd ones synchronous.
+// A node whose RPDO n and TPDO n map variable n, at index 3000h + n / 128. Even PDOs are event-driven, odd ones
+// synchronous.
 class LargeNode : public SyncEntries {
  public:
   LargeNode() : fixture_(setup()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CO_NODE_EXT.OdLock and OdUnlock: mapped objects against the application. [X10] (The fixture checks that they never
-// nest, and that nothing is sent while they are held.)
+// CO_NODE_EXT.OdLock and OdUnlock: protection of mapped objects from the application. [X10] (The fixture checks that
+// the calls are not nested, and that no frame is sent in between.)
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 0 && CO_RPDO_N > 0

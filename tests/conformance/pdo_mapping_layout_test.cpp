@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the bytes of a PDO land: numbers of the fixture in many orders.
+// Positions of mapped objects in the frame: numbers of the fixture in many orders.
 // [301:7.2.2, 7.1.4]
 #include "support/pdo_fixture.hpp"
 
@@ -9,7 +9,7 @@ using namespace test;
 
 struct Layout {
   std::vector<std::uint32_t> words;
-  const char* sampled;  ///< what a TPDO sends of the values that the fixture starts with
+  const char* sampled;  ///< data of a TPDO with the initial values of the fixture
 };
 
 const Layout layouts[] = {
@@ -71,7 +71,7 @@ TEST_CASE("PDO layout: an RPDO writes its objects in the order of the mapping, e
     node.start();
     REQUIRE(node.remap_rpdo(0, one.words, 0x201) == 0);
     node.rx("201#" + std::string(pattern, std::string(one.sampled).size()));
-    std::map<std::uint32_t, Bytes> last;  // an object that is mapped twice keeps what comes last
+    std::map<std::uint32_t, Bytes> last;  // of an object that is mapped twice, the last value counts
     std::size_t at = 0;
     for (const std::uint32_t word : one.words) {
       const std::size_t size = (word & 0xFFU) / 8U;

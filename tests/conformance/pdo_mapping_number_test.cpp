@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sub 0 of 1600h… and 1A00h…, the number of mapped objects, dummies, and single bits. [301:7.5.2.36, 7.5.2.38]
+// 1600h… and 1A00h…, sub-index 0 (number of mapped objects), dummies, and single bits. [301:7.5.2.36, 7.5.2.38]
 #include "support/pdo_fixture.hpp"
 
 namespace {
@@ -130,7 +130,7 @@ TEST_CASE("PDO mapping: sub 0 checks every entry again: 0604 0041h, and it leave
     for (unsigned place = 0; place < 8; ++place) {
       node.rpdo[0] = table.rpdo[0];
       node.tpdo[0] = table.tpdo[0];
-      node.rpdo[0].map[place] = one.rpdo;  // written by the application, without a check
+      node.rpdo[0].map[place] = one.rpdo;  // a write by the application is not checked
       node.tpdo[0].map[place] = one.tpdo;
       CHECK(node.set(0x1600, 0, 1, place) == 0);
       CHECK(node.set(0x1600, 0, 1, place + 1) == abort_not_mappable);

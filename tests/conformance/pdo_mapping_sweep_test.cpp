@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every mapping word of interest, and writes in random order, compared with a model of the rules. [301:7.5.2.35-38]
+// Mapping entries, and writes of PDO parameters in random order, compared with a model of the rules. [301:7.5.2.35-38]
 #include <random>
 
 #include "support/pdo_model.hpp"
@@ -73,7 +73,7 @@ std::string hex_bytes(const Bytes& bytes) {
   return text;
 }
 
-/// The data of a frame: values without a gap between them, from bit 0 of byte 0 on.
+/// Data of a frame: values without gaps from bit 0 of byte 0.
 class Packed {
  public:
   void append(const Bytes& value, unsigned bits) {
@@ -98,7 +98,7 @@ Bytes little_endian(T value) {
   return bytes;
 }
 
-/// A node, its model, and a client that writes to both.
+/// A node and its model, which receive the same random writes.
 class Trial {
  public:
   explicit Trial(unsigned seed) : random_(seed), objects_(node_->Dict), words_{words(false), words(true)} {
@@ -145,7 +145,7 @@ class Trial {
       all.insert(all.end(), {0x00020008, 0x00030010, 0x00040020, 0x00050008, 0x00060010, 0x00070020});
     }
     if (USE_PDO_BITS != 0) {
-      for (std::uint32_t n = 0; n < 100; ++n) {  // half of the words
+      for (std::uint32_t n = 0; n < 100; ++n) {  // about half of the mapping entries
         all.push_back(transmit || n % 4 != 0 ? 0x22500001U | (n % 8 + 1) << 8 : 0x00010001U);
       }
     }
@@ -179,7 +179,7 @@ class Trial {
     REQUIRE(node_.set(mapping(which), sub, 4, value) == expected);
   }
 
-  /// Identifiers that only this PDO uses.
+  /// Returns a random valid COB-ID that no other PDO of the test uses.
   std::uint32_t own_id(std::size_t which) {
     const auto place = static_cast<std::uint32_t>(which);
     return any_of<std::uint32_t>({0x200U + place, 0x300U + place, 0x20012340U + place, 0x3FFFFFF0U + place}) |
@@ -199,7 +199,7 @@ class Trial {
     const std::uint32_t id = value & 0x1FFFFFFFU;
     return (value & 0x20000000U) == 0 && (id > 0x7FF || is_restricted(id));
   }
-  /// Not one that another PDO may have, nor a 29-bit one of a low value.
+  /// Returns true for a CAN-ID that no other PDO of the test uses. 29-bit CAN-IDs up to 7FFh are excluded.
   static bool is_own(std::size_t which, std::uint32_t value) {
     const std::uint32_t id = value & 0x1FFFFFFFU;
     return (id & 0xFU) == which && ((value & 0x20000000U) == 0 || id > 0x7FF);
@@ -227,7 +227,7 @@ class Trial {
              any_of<std::uint32_t>({right, right, other, 0, present, right ^ 1U << any(8), right ^ 1U << any(32),
                                     (right & 0xFFFF00FFU) | any(256) << 8, any_word()}));
   }
-  /// The procedure, which mostly succeeds.
+  /// Runs the remapping procedure with valid mapping entries, which mostly succeeds.
   void configure(std::size_t which) {
     set_communication(which, 1, 4, own_id(which) | 0x80000000U);
     set_number(which, 0);
@@ -268,7 +268,7 @@ class Trial {
     }
   }
 
-  /// A frame, if the PDO exists; none, if it does not.
+  /// Sends or receives a frame of an event-driven PDO, and checks that a PDO that is not valid sends and receives none.
   void exchange(std::size_t which) {
     const PdoModel& pdo = pdos_[which];
     const std::uint32_t cob_id = pdo.entries().cob_id;
@@ -277,13 +277,13 @@ class Trial {
       return;
     }
     exchanged_ += operational_ && pdo.exists() ? 1U : 0U;
-    node_.after(2ms);  // the inhibit time
+    node_.after(2ms);  // longer than the inhibit time
     node_.silent();
     return pdo.is_transmit() ? send(pdo, number_[which]) : receive(pdo);
   }
 
   Bytes value_of(std::uint32_t word) {
-    switch (CO_GET_IDX(word)) {  // write-only
+    switch (CO_GET_IDX(word)) {  // write-only objects
       case 0x2231: return little_endian(node_.w8);
       case 0x2232: return little_endian(node_.w16);
       case 0x2234: return little_endian(node_.w32);
@@ -305,7 +305,7 @@ class Trial {
     }
   }
 
-  /// The objects of the PDO, and some that it does not write.
+  /// Returns the values of the objects of these mapping entries, without dummies.
   std::map<std::uint32_t, Bytes> values(const std::vector<std::uint32_t>& words) {
     std::map<std::uint32_t, Bytes> all;
     for (const std::uint32_t word : words) {

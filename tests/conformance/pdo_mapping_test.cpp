@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1600h… and 1A00h…, written by the network: the procedure, and what may be mapped. [301:7.5.2.36, 7.5.2.38]
+// 1600h… and 1A00h…, written by the network: the remapping procedure, and mappable objects. [301:7.5.2.36, 7.5.2.38]
 #include "support/pdo_fixture.hpp"
 
 namespace {
@@ -10,7 +10,7 @@ constexpr std::uint32_t abort_access = 0x06010000;
 constexpr std::uint32_t abort_no_object = 0x06020000;
 constexpr std::uint32_t abort_not_mappable = 0x06040041;
 
-/// RPDO 0 on 201h writes 2201h:1 and :2, TPDO 0 on 181h holds 2202h:1 and :2; both exist.
+/// Returns a table with RPDO 0 on 201h for 2201h:1 and :2, and TPDO 0 on 181h for 2202h:1 and :2; both are valid.
 PdoTable both_on() {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, 0x22010208});
@@ -26,7 +26,7 @@ PdoTable both_off() {
   return table;
 }
 
-// The procedure -------------------------------------------------------------------------------------------------------
+// Remapping procedure -------------------------------------------------------------------------------------------------
 
 TEST_CASE("PDO mapping: an RPDO is mapped anew by the procedure [M1] [PDO 21] [PDO 22]") {
   PdoNode node(both_on());
@@ -149,7 +149,7 @@ TEST_CASE("PDO mapping: the other PDOs do not matter to one that is being mapped
   node.tx("181#11122122");
 }
 
-// Objects that may be mapped ----------------------------------------------------------------------------------------
+// Mappable objects --------------------------------------------------------------------------------------------------
 
 /// A node whose RPDO 0 and TPDO 0 are ready to be mapped.
 struct Ready : PdoNode {
@@ -263,7 +263,7 @@ TEST_CASE("PDO mapping: a refused entry keeps its value [M5]") {
   }
 }
 
-// Which code comes first ----------------------------------------------------------------------------------------------
+// Precedence of abort codes -------------------------------------------------------------------------------------------
 
 TEST_CASE(
     "PDO mapping: a PDO that exists is the first reason, sub 0 the second, a missing index the third [M2] [M3] [M4]") {
@@ -339,7 +339,7 @@ TEST_CASE("PDO mapping: the rules hold for the application as well [M2] [M3] [M5
   CHECK(node.u32[0] == 0xA4A3A2A1);
 }
 
-// Again and again -----------------------------------------------------------------------------------------------------
+// Repetition ----------------------------------------------------------------------------------------------------------
 
 TEST_CASE("PDO mapping: thirty new mappings leave one, and one frame for one change [D41]") {
   PdoNode node;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of every type and length in a PDO, compared with what SDO reads and writes.
+// Objects of every type and length in a PDO, compared with their values by SDO.
 // [301:7.2.2, 7.1.4]
 #include "support/pdo_fixture.hpp"
 
@@ -23,7 +23,7 @@ Bytes joined(const Bytes& a, const Bytes& b, const Bytes& c) {
   return all;
 }
 
-/// A type of the application: a value of 1 to 8 bytes, whose functions note how they were called.
+/// A type of the application: a value of 1 to 8 bytes, whose functions log their calls.
 struct UserType {
   CO_OBJ_TYPE type{size, nullptr, read, write, nullptr};
   std::uint8_t width = 0;
@@ -52,7 +52,7 @@ struct Values {
   Bytes second;
 };
 
-/// The entry 2300h:0 of some type, and what may be downloaded to it.
+/// An entry 2300h:0, and values that may be downloaded to it.
 struct Case {
   std::string name;
   std::uint8_t width;
@@ -62,7 +62,7 @@ struct Case {
   Values values;
 };
 
-/// All types that a PDO can hold. Owns their memory.
+/// Entries of all mappable types. Owns their memory.
 class Types {
  public:
   Types() {
@@ -155,7 +155,7 @@ class Types {
   std::deque<UserType> users_;
 };
 
-/// Mappings of the object alone, and with a byte before and after it where the PDO has space.
+/// A mapping of the object alone, or between two other bytes.
 struct Around {
   Around(const Case& one, bool alone) {
     constexpr bool bits = USE_PDO_BITS != 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Neighbouring variables that are mapped side by side: in every order, alignment and mixture of widths, PDOs carry the
-// bytes of each object and nothing else.
+// Mapping of adjacent variables, which are copied together: PDOs contain the bytes of each object in every order,
+// alignment and combination of widths.
 #include <cstring>
 #include <memory>
 #include <numeric>
@@ -16,7 +16,7 @@ using namespace test;
 constexpr std::size_t memory_size = 40;
 constexpr std::size_t guard = 12;
 
-// A variable of 1, 2 or 4 bytes at a separate address.
+// A variable of 1, 2 or 4 bytes at an offset of the memory.
 struct Variable {
   std::size_t offset;
   unsigned bytes;
@@ -26,7 +26,7 @@ const CO_OBJ_TYPE* type_of(unsigned bytes) {
   return bytes == 1 ? CO_TUNSIGNED8 : bytes == 2 ? CO_TUNSIGNED16 : CO_TUNSIGNED32;
 }
 
-// The variables are 2300h:1, 2300h:2, …; RPDO 1 and TPDO 1 map them in the order given.
+// A node with the variables at 2300h:1, 2300h:2, …, which the first RPDO and TPDO map in the given order.
 class MergeNode {
  public:
   MergeNode(const std::vector<Variable>& variables, const std::vector<std::size_t>& order) {
@@ -52,7 +52,7 @@ class MergeNode {
   }
 
  private:
-  // The first byte on the bus is the lowest one.
+  // Returns the address of a byte of the variable. Byte 0 is the lowest, as on the bus.
   static std::size_t place_of(const Variable& variable, unsigned byte) {
     constexpr bool little_endian = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__;
     return variable.offset + (little_endian ? byte : variable.bytes - 1 - byte);
@@ -255,7 +255,7 @@ TEST_CASE("PDO merge: an RPDO that changes several objects with flag A sends one
   node.rx("201#0102030405060708");
   node.tx("181#0102030405060708");
   node.rx("201#0102030405060708");
-  node.silent();  // nothing has changed
+  node.silent();  // no object has changed
   node.rx("201#01020304050607FF");
   node.tx("181#01020304050607FF");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CORPdoWasReceived(), COTPdoWasSent(), CORPdoObjWasReceived() and COTPdoObjWasSent(): for each PDO and each object.
+// CORPdoWasReceived() and COTPdoWasSent() for PDOs, CORPdoObjWasReceived() and COTPdoObjWasSent() for objects.
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 0 && CO_RPDO_N > 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entries of PDOs where there is no such PDO, or none with this parameter. [301:7.5.2.35-38]
+// PDO entries at indexes of PDOs that are not configured, or with a sub-index that the PDO does not have.
+// [301:7.5.2.35-38]
 #include "support/pdo_fixture.hpp"
 
 namespace {

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// A scenario is a list of frames; between two of them time passes.
+// Frames that are sent to the node, with time between them.
 struct Scenario {
   std::string name;
   bool produces;
@@ -74,7 +74,7 @@ void configure_as(SyncNode& node) {
   }
 }
 
-// Returns the actions of a node since its boot-up.
+// Runs a sequence of frames after boot-up. Returns the sent frames and the received values.
 std::vector<std::string> life(SyncNode& node) {
   std::vector<std::string> all;
   const auto note = [&] {
@@ -94,7 +94,7 @@ std::vector<std::string> life(SyncNode& node) {
   return all;
 }
 
-// A node that was switched on with the values that the dictionary of another has.
+// Returns life() of a new node whose initial values are the current values of \a node.
 std::vector<std::string> life_of_fresh(const SyncNode& node) {
   SyncTable table;
   table.rpdo = node.rpdo;

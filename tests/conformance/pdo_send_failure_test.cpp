@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs and SYNC when the controller does not take a frame. [T12] [Q4]
+// PDOs and SYNC when the controller refuses frames. [T12] [Q4]
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 2 && CO_RPDO_N > 0 && USE_SYNC
@@ -19,7 +19,7 @@ SyncTable table_of() {
   return table;
 }
 
-// Runs a session: events, SYNC production, event timers, RPDOs, SDO.
+// Runs a session of events, SYNC production, event timers, RPDOs and SDO. Returns the sent frames, sorted.
 std::vector<std::string> session(SyncNode& node) {
   std::vector<std::string> all;
   const auto collect = [&] {
@@ -58,7 +58,7 @@ TEST_CASE("PDO send failure: nothing is lost, whichever frame the driver refuses
         node.frames_per_call(16);
         node.can.refuse_nth(n, refusal);
         node.can.refuse_to += times - 1;
-        CHECK(session(node) == expected);  // in whatever order
+        CHECK(session(node) == expected);  // session() sorts the frames
         CHECK(node.counters().Dropped == 0);
       }
     }

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// One of each kind.
+// Returns a table with PDOs of each kind.
 SyncTable all_kinds() {
   SyncTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
@@ -21,7 +21,7 @@ SyncTable all_kinds() {
   return table;
 }
 
-// Everything that could make a PDO move.
+// Triggers all PDOs by frames, by the application and by time, and checks that none is sent or received.
 void stir(SyncNode& node) {
   node.rx("201#71");
   node.rx("301#72");
@@ -134,7 +134,7 @@ TEST_CASE("PDO state: commands to the state that the node has change nothing [N7
   node.tx("281#31");
   CHECK(node.u8[1] == 0x72);
   node.after(150ms);
-  node.tx_at(110ms, "181#11");  // the inhibit time has gone on
+  node.tx_at(110ms, "181#11");  // the inhibit time continues outside of Operational
 }
 
 TEST_CASE(
@@ -210,7 +210,7 @@ TEST_CASE("PDO state: bus-off withdraws synchronous TPDOs, not the event-driven 
   node.trigger(0);
   CHECK(node->TxQueue.Num == 3);
   node.call([&] { CONodeCanEvent(&node.node, CO_CAN_BUS_OFF); });
-  CHECK(node->TxQueue.Num == 0);  // and 1029h has led to Pre-operational, where there are no PDOs
+  CHECK(node->TxQueue.Num == 0);  // the default of 1029h enters Pre-operational, in which PDOs are not sent
   CHECK(node.mode() == CO_PREOP);
   node.can.accept_all();
   node.loop();

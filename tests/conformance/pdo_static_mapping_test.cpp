@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs that the table itself describes: checked at start by the rules of the network. What is wrong makes that PDO not
-// exist, and nothing else. [301:7.5.2.35-38]
+// PDOs with constant parameters in the dictionary, which are checked at start like writes of the network. A wrong
+// parameter makes only its PDO invalid. [301:7.5.2.35-38]
 #include "co/dictionary.hpp"
 #include "support/pdo_fixture.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-/// The only entries of 1600h or 1A00h, all constant.
+/// All entries of 1600h or 1A00h, as constants.
 struct Constant {
   std::uint16_t index;
   std::uint32_t number;
@@ -26,7 +26,7 @@ struct Constant {
   }
 };
 
-/// PDOs 0 are described by \a constants; PDOs 1, where they are configured, are right.
+/// A node whose RPDO 0 and TPDO 0 are described by \a constants. RPDO 1 and TPDO 1, if configured, are valid.
 struct Static : PdoNode {
   explicit Static(const std::vector<Constant>& constants, std::uint32_t rpdo_id = 0x201,
                   std::uint32_t tpdo_id = 0x40000181, std::uint8_t rpdo_type = 255, std::uint8_t tpdo_type = 254)
@@ -47,7 +47,7 @@ struct Static : PdoNode {
     return table;
   }
 
-  /// PDOs 1, and SDO.
+  /// Checks that RPDO 1, TPDO 1 and SDO work.
   void check_others() {
     rx("000#0101");
     silent();
@@ -63,7 +63,7 @@ struct Static : PdoNode {
     ask("601#4000100000000000", "581#4300100091010F00");
   }
 
-  /// RPDO 0 takes no frame of any length.
+  /// Checks that RPDO 0 ignores frames of every length.
   void check_no_rpdo() {
     const PdoVariables before;
     for (const char* frame : {"201#", "201#F1", "201#F1F2", "201#F1F2F3F4F5F6F7F8", "000#F1F2F3F4F5F6F7F8"}) {
@@ -112,7 +112,7 @@ TEST_CASE("PDO static: one with bit 31 is off, and not an error [M9]") {
 
 const std::vector<std::uint32_t> nine(9, 0x22010108);
 
-/// Mappings that neither an RPDO nor a TPDO may have.
+/// Mappings that are invalid for RPDOs and TPDOs.
 const Constant wrong_mappings[] = {
     {0, 0, {0x22010108}},
     {0, 1, {}},
@@ -168,7 +168,7 @@ TEST_CASE("PDO static: a wrong mapping of a TPDO makes it not exist, and is the 
   std::vector<Constant> wrong(std::begin(wrong_mappings), std::end(wrong_mappings));
   wrong.push_back({0, 1, {0x22310108}});  // write-only
   wrong.push_back({0, 2, {0x22010108, 0x22320110}});
-  wrong.push_back({0, 1, {0x00050008}});  // a dummy
+  wrong.push_back({0, 1, {0x00050008}});  // dummy
   wrong.push_back({0, 2, {0x22010108, 0x00070020}});
   for (Constant& one : wrong) {
     one.index = 0x1A00;
@@ -251,7 +251,7 @@ TEST_CASE("PDO static: relative to the node-ID, a COB-ID that comes out as restr
   CHECK(node.error() == CO_ERR_RPDO_COM_OBJ);
   node.start();
   node.rx("701#A1A2");
-  node.frames();  // it is the node's own heartbeat identifier
+  node.frames();  // 701h is the heartbeat of the node: it may report the collision
   CHECK(node.u8[0] == 0x11);
 }
 
@@ -273,11 +273,12 @@ TEST_CASE("PDO static: a transmission type that the network must not write makes
   }
 }
 
-// The designer maps 2241h:1 and 2242h:1, which have no flag P ---------------------------------------------------------
+// Static mappings of 2241h:1 and 2242h:1, which have no flag P --------------------------------------------------------
 
 constexpr std::uint32_t abort_not_mappable = 0x06040041;
 
-/// RPDO 0 on 201h and TPDO 0 on 181h, in variables that the network may write.
+/// Returns a table with RPDO 0 on 201h and TPDO 0 on 181h, which map objects without flag P and are writable by the
+/// network.
 PdoTable without_flag_p() {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, 0x22410108});
@@ -470,7 +471,7 @@ TEST_CASE("PDO static: entries may be plain numbers") {
 std::uint8_t speed = 0x11;
 std::uint16_t torque = 0x2221;
 
-/// A table in read-only memory, which the compiler has checked.
+/// A dictionary in read-only memory that is checked at compile time.
 constexpr CO_OBJ read_only[] = {
     {CO_KEY(0x1001, 0, CO_OBJ____PR_), CO_TUNSIGNED8, &speed},
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 1},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything timed of PDOs and SYNC, wherever the clock starts, at every frequency, however the loop waits. [T15] [Q8]
+// Times of PDOs and SYNC, for all start values and frequencies of the clock and all ways of waiting. [T15] [Q8]
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 1 && CO_RPDO_N > 0 && USE_SYNC
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// All times are multiples of 250 ms: whole numbers of ticks at 300, 1024 and 32768 Hz alike.
+// Returns PDOs whose times are multiples of 250 ms: whole numbers of ticks at 300, 1024 and 32768 Hz.
 SyncTable table_of() {
   SyncTable table;
   table.rpdo[0].on(0x201, 1, {0x22110108}).event = 750;

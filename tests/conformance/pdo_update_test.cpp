@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// COPdoReceive(), COPdoUpdate() and COPdoSyncUpdate(), which may call the API. [Q9]
+// COPdoReceive(), COPdoUpdate() and COPdoSyncUpdate(), which may call API functions. [Q9]
 #include "support/pdo_commands.hpp"
 
 #if CO_TPDO_N > 1 && CO_RPDO_N > 1
@@ -57,7 +57,7 @@ TEST_CASE("PDO callback: COPdoReceive does not see what is too short, or comes i
 TEST_CASE("PDO callback: COPdoReceive that leaves Operational: nothing is written after that [Q9] [X9]") {
   for (const std::string& what : commands) {
     if (what.compare(0, 5, "reset") == 0) {
-      continue;  // a reset waits until the frame has been taken
+      continue;  // a reset is deferred until the frame is processed
     }
     for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
       CAPTURE(what);
@@ -133,7 +133,7 @@ TEST_CASE("PDO callback: COPdoUpdate may trigger TPDOs, write objects, and ask f
       node.rx("201#40");
       CHECK(pdos(node.frames()) == (type == 255 ? 1 : 0));
       node.rx("080#");
-      CHECK(pdos(node.frames()) == (type == 1 ? 2 : 0));  // sent before the update
+      CHECK(pdos(node.frames()) == (type == 1 ? 2 : 0));  // TPDOs are sent before RPDOs are updated
       CHECK(node.u8[0] == 0x40);
       CHECK(node.u8[2] == 0x66);
       check_left(node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Power-on values of a table that is written by hand: the end mark names the variables and their default values.
+// Power-on values of a hand-written dictionary, whose end mark refers to the variables and their default values.
 // [301:7.3.2.2.1]
 #include <cstring>
 
@@ -12,7 +12,7 @@ using namespace test;
 
 CO_DATA data(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
 
-// Variables of a device, with other values than their defaults until the node has been initialised.
+// Variables of a device, which differ from their defaults until the node is initialised.
 struct Device {
   struct Communication {
     std::uint16_t heartbeat = 77;
@@ -184,7 +184,7 @@ TEST_CASE("power-on values: what a parameter group has stored comes after the de
 }
 #endif
 
-// Resets that an end mark of the application was called with, and the heartbeat time that it found.
+// Logged calls of an end mark with an application type: reset types, and the heartbeat time at each call.
 struct Calls {
   std::uint16_t heartbeat = 5;
   unsigned number = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONodeRealTime(): SYNC and PDOs in one thread, everything else in another.
+// CONodeRealTime(): SYNC and PDOs in one thread, all other services in another.
 #include "support/real_time_fixture.hpp"
 
 #if USE_REAL_TIME && USE_SYNC && CO_TPDO_N > 0 && CO_RPDO_N > 0
@@ -399,7 +399,7 @@ TEST_CASE("real time: timers of PDOs do not depend on how long the mainline has 
   node.tx({"181#31", "381#51"});
   serve_at(round - 5);
   node.tx({"381#51", "181#31"});
-  serve_at(round + 5);  // one has elapsed less than a round of the clock behind the timer of the mainline, one more
+  serve_at(round + 5);  // one timer expires within 2^32 ticks after the mainline's, one later
   node.tx({"381#51", "181#31"});
 }
 
@@ -519,7 +519,7 @@ TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") 
   CHECK(node.u8[0] == 0xAA);
   CHECK(node.can.to_node.size() == 2);
   node.real_time();
-  CHECK(node.can.to_node.size() == 1);  // dropped, one in each call
+  CHECK(node.can.to_node.size() == 1);  // each call discards one frame
   node.mainline();
   CHECK(node.can.to_node.empty());
   CHECK(node.u8[0] == 0xAA);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Type functions and callbacks that act on the node while it works for them.
+// Type functions and callbacks that call functions of the node.
 #include <algorithm>
 
 #include "support/fixture.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// Actions in the functions of the types at 3000h (a stream of 20 bytes) and 3001h (a value of 8 bytes).
+// Actions of the type functions of 3000h (a stream of 20 bytes) and 3001h (a value of 8 bytes).
 struct Script {
   std::function<void(CO_NODE*)> on_init;
   std::function<void(CO_NODE*)> on_read;
@@ -71,9 +71,9 @@ void check_stopped(Fixture& node) {
   CHECK(node.mode() == CO_INVALID);
 }
 
-constexpr unsigned plenty = 20;  // an endless recursion shall fail, and not end the test program
+constexpr unsigned plenty = 20;  // limits a recursion, so that it fails the test instead of crashing the program
 
-// Resets that are asked for during a reset ----------------------------------------------------------------------------
+// Resets that are requested during a reset ----------------------------------------------------------------------------
 
 TEST_CASE("re-entrancy: CONmtModeChange asks for a reset during a reset: it is part of it, one boot-up") {
   for (const char* command : {"000#8101", "000#8201"}) {
@@ -166,7 +166,7 @@ TEST_CASE("re-entrancy: a reset asked for when the master changes the state foll
   CHECK(node.mode() == CO_PREOP);
 }
 
-// Frames that wait at a reset -----------------------------------------------------------------------------------------
+// Frames that are queued at a reset -----------------------------------------------------------------------------------
 
 void send(Fixture& node, const char* text) {
   CO_IF_FRM frm = frame(text);
@@ -210,7 +210,7 @@ TEST_CASE("re-entrancy: a reset by the master throws away even what a reset of t
 
 // Slow type functions -------------------------------------------------------------------------------------------------
 
-// Lets time pass for the timers, as a function that waits for a slow memory does.
+// Lets time pass, and runs the timers, like a type function that waits for a slow memory.
 void wait(Fixture& node, Time time) {
   const OutsideStack outside;
   node.after(time);
@@ -221,7 +221,7 @@ struct Step {
   const char* answer;
 };
 
-// The last step is the one whose type function is slow.
+// Returns transfers whose last step calls the slow type function.
 const std::vector<std::vector<Step>>& slow_transfers() {
   static const std::vector<std::vector<Step>> all = {
       {{"601#2000300000000000", "581#6000300000000000"}, {"601#0001020304050607", "581#2000000000000000"}},
@@ -381,9 +381,9 @@ TEST_CASE("re-entrancy: CONodeStart within a type's Init does nothing") {
   CHECK(node.mode() == CO_PREOP);
 }
 
-// A dictionary that is replaced during a transfer ---------------------------------------------------------------------
+// Replacement of the dictionary during a transfer ---------------------------------------------------------------------
 
-// The fixture's node with a copy of its table, at another place: what is open refers to the old one.
+// A node with an open transfer whose dictionary was replaced by a copy, so that the transfer refers to the old table.
 class Moved : public Fixture {
  public:
   Moved() {
@@ -391,7 +391,7 @@ class Moved : public Fixture {
     table_.assign(node.Dict.Root, node.Dict.Root + node.Dict.Num);
     call([this] { CHECK(CODictInit(&node.Dict, &node, table_.data(), node.Dict.Num) == node.Dict.Num); });
   }
-  ~Moved() { CONodeStop(&node); }  // before its table is gone
+  ~Moved() { CONodeStop(&node); }  // the node must not use the table after its destruction
   Moved(const Moved&) = delete;
   Moved& operator=(const Moved&) = delete;
 
@@ -422,7 +422,7 @@ TEST_CASE("re-entrancy: the table moves during a transfer: a new initiate is ser
   CHECK(two.objects.u64 == 0x0807060504030201);
 }
 
-// A reset that the callback asks for, whenever the node enters a mode.
+// Requests a reset from CONmtModeChange() when the node enters \a mode for the first time.
 struct Resetting {
   explicit Resetting(CO_MODE mode) {
     callbacks().mode_change = [this, mode](CO_NMT* nmt, CO_MODE next) {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// A stream of the application, of 20 bytes.
+// Object of a stream type of the application, 20 bytes.
 struct Stream {
   std::uint32_t offset;
   std::uint8_t memory[20];
@@ -52,7 +52,7 @@ struct Scenario {
   std::string name;
   Requests requests;
   std::uint16_t heartbeat = 0;
-  unsigned timers = 0;               // cyclic ones of the application
+  unsigned timers = 0;               // number of cyclic timers of the application
   bool application_meddles = false;  // use_dictionary() after each frame
 };
 
@@ -116,7 +116,7 @@ void start_timers(Fixture& node, unsigned number) {
   }
 }
 
-// The node started at tick 0: so every expiry, before and after, is at a multiple of the period, and none is missing.
+// Checks that no expiry is missing. The timers were started at tick 0, so all expiries are multiples of the period.
 void check_timers_went_on(Fixture& node, const Scenario& scenario) {
   std::vector<std::uint64_t> expected;
   for (std::uint64_t tick = period; tick <= node.now(); tick += period) {
@@ -141,7 +141,7 @@ void play(Fixture& node, const Scenario& scenario, std::size_t steps, bool busy)
   }
 }
 
-// A fresh node that has the same values in its dictionary, and as many timers of the application.
+// Returns the difference to a new node with the same dictionary values and number of application timers; empty: none.
 std::string difference_to_fresh(Fixture& node, const Scenario& scenario, unsigned timers) {
   Fixture fresh(setup_of(scenario).before_init([&](Objects& o) {
     o.heartbeat = node.objects.heartbeat;
@@ -163,7 +163,7 @@ void check_no_transfer(Fixture& node) {
   node.ask("601#0001020300000000", "581#8001020301000405");
 }
 
-// Checks that the node behaves like a new one since its boot-up: it sends only heartbeats.
+// Checks that the node sends only heartbeats, like a new node after boot-up.
 void check_heartbeats_only(Fixture& node, Time time) {
   const std::uint16_t ms = node.objects.heartbeat;
   node.after(time);

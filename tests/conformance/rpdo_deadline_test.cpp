@@ -72,7 +72,7 @@ TEST_CASE("RPDO deadline: a frame that is too short is none, one that is too lon
   node.after(40ms);
   node.tx(emcy(0x8250, 1));
   node.rx("201#0102");
-  CHECK(node.frames().size() == 3);  // both are gone, the length is wrong the other way
+  CHECK(node.frames().size() == 3);  // EMCY: both faults are resolved, and the PDO is too long
   node.after(99ms);
   node.silent();
   node.after(1ms);
@@ -110,7 +110,7 @@ TEST_CASE("RPDO deadline: a new time restarts it, 0 ends it and resolves what wa
   node.silent();
   CHECK(node.set(0x1400, 5, 2, 10) == 0);
   node.after(1000ms);
-  node.silent();  // armed by the next frame
+  node.silent();  // the deadline starts with the next frame
   node.rx("201#01");
   node.after(10ms);
   node.tx(emcy(0x8250, 1));
@@ -152,7 +152,7 @@ TEST_CASE("RPDO deadline: an RPDO that is switched off is not missed") {
 
 #if USE_LED
 
-// COLedChange() is called when the error LED goes off because the RPDO is received again.
+// The callback is COLedChange(): the error LED is switched off when the RPDO is received again.
 TEST_CASE("RPDO deadline: a callback that ends the PDO when it is received again ends that reception, too") {
   const std::function<void(PdoNode&)> ends[] = {
       [](PdoNode& node) { (void)CODictWrLong(&node->Dict, CO_DEV(0x1400, 1), 0x80000201); },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RPDOs that wait for the SYNC: types 0 to 240. [301:7.2.2.3, 7.5.2.35]
+// Synchronous RPDOs, which are applied at the SYNC: types 0 to 240. [301:7.2.2.3, 7.5.2.35]
 #include "support/sync_fixture.hpp"
 
 #if CO_RPDO_N > 0 && USE_SYNC
@@ -73,7 +73,7 @@ TEST_CASE("synchronous RPDO: all of one SYNC are written, in the order of their 
     std::vector<CO_RPDO*> order;
     callbacks().pdo_update = [&](CO_RPDO* pdo) { order.push_back(pdo); };
     node.rx("080#");
-    CHECK(node.u8[0] == 0x10 * round);  // the first one came last
+    CHECK(node.u8[0] == 0x10 * round);  // RPDO 0 was received last
     REQUIRE(order.size() == fixture_rpdos);
     for (unsigned n = 0; n < fixture_rpdos; ++n) {
       CHECK(node.u16[n] == 0x7700 + 0x10 * round + n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// RPDOs that are written when they arrive: types 254 and 255. [301:7.2.2.5.1, 7.5.2.35]
+// Event-driven RPDOs, which are applied when they are received: types 254 and 255. [301:7.2.2.5.1, 7.5.2.35]
 #include "support/sync_fixture.hpp"
 
 #if CO_RPDO_N > 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: each of the 31 abort codes can be told by an object type, in each kind of transfer, up and down; and each
-// error code of a type function has its abort code. [301:7.2.4.3.17]
+// SDO server: object types can return each of the 31 abort codes in each kind of upload and download, and each error
+// code of a type function is converted to an abort code. [301:7.2.4.3.17]
 #include <cstring>
 #include <iterator>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// Abort codes as they lie on the bus: low byte first.
+// Abort codes in bus order: low byte first.
 const char* const codes[] = {
     "00000305", "00000405", "01000405", "02000405", "03000405", "04000405", "05000405", "00000106",
     "01000106", "02000106", "00000206", "41000406", "42000406", "43000406", "47000406", "00000606",
@@ -20,9 +20,9 @@ const char* const codes[] = {
 
 struct Script {
   std::uint32_t size;
-  std::uint32_t abort;  // for COObjTypeUserSDOAbort(), 0: none
+  std::uint32_t abort;  // argument of COObjTypeUserSDOAbort(); 0: it is not called
   CO_ERR error;
-  unsigned good_calls;  // of Read and Write with a length, before they fail
+  unsigned good_calls;  // calls of Read and Write with a length that succeed before one fails
 } script;
 
 uint32_t scripted_size(CO_OBJ*, CO_NODE*, uint32_t) { return script.size; }
@@ -58,7 +58,7 @@ Setup scripted_setup() {
       .with({CO_KEY(0x3002, 0, CO_OBJ_____RW), &stream_without_size, 0});
 }
 
-// Each kind of transfer, up to the frame in which the type function refuses.
+// Runs each kind of transfer until the type function fails, and checks the abort code.
 void check_refusals(Fixture& node, const Script& how, const std::string& code) {
   const auto with_size = [&](std::uint32_t size, unsigned good_calls = 0) {
     script = how;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: abort codes, and which wins when several apply. [301:7.2.4.3.17]
+// SDO server: abort codes and their precedence. [301:7.2.4.3.17]
 #include <cstring>
 
 #include "support/fixture.hpp"
@@ -8,14 +8,14 @@ namespace {
 
 using namespace test;
 
-// A type whose functions answer what the test wants.
+// Results of the type functions of the test's objects.
 struct Script {
   std::uint32_t size = 4;
   CO_ERR read = CO_ERR_NONE;
   CO_ERR write = CO_ERR_NONE;
   std::uint32_t read_abort = 0;
   std::uint32_t write_abort = 0;
-  unsigned fail_at_call = 1;  // of Read or Write with a length, counted from 1
+  unsigned fail_at_call = 1;  // number of the call of Read or Write with a length that fails, from 1
   unsigned calls = 0;
   std::function<void(CO_NODE*)> on_write;
 } script;

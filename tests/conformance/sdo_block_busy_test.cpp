@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: block transfers while the controller does not take every frame. [D20] [T12]
+// SDO server: block transfers while the controller refuses frames. [D20] [T12]
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -21,7 +21,7 @@ void finish_upload(Fixture& node, std::uint8_t ackseq) {
   node.silent();
 }
 
-// An upload and a download, whose client looks at the bus as long as something comes.
+// Runs a block upload and a block download. Returns the frames of the server.
 std::vector<std::string> session(Fixture& node) {
   std::vector<std::string> all;
   const auto say = [&](const CO_IF_FRM& frm) {

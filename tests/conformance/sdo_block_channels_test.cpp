@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// The second server is on 690h/6A0h.
+// Returns the settings of a node whose second SDO server uses 690h/6A0h.
 Setup two() {
   return Setup().before_init([](Objects& o) {
     o.sdo2_rx = 0x690;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server, block download: segments and answers that are lost, come twice or in another order. [301:7.2.4.3.10]
+// SDO server, block download: lost, duplicate and reordered segments and answers. [301:7.2.4.3.10]
 #include "support/block_frames.hpp"
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// A download of 890 bytes to 2104h whose initiate is answered, and its happy end.
+// A node with an initiated block download of 890 bytes to 2104h.
 struct Download : Fixture {
   Bytes data = counting(890, 7);
 
@@ -19,7 +19,7 @@ struct Download : Fixture {
     send_segments(*this, data, place, number, seqno, at);
   }
 
-  // The segments from place on are sent as they should.
+  // Sends the segments from \a place without faults, and checks that the download succeeds.
   void finish(std::size_t place, unsigned blksize, Where at = {__builtin_FILE(), __builtin_LINE()}) {
     if (place + blksize < 128) {
       segments(place, blksize, 1, at);
@@ -311,7 +311,7 @@ TEST_CASE("SDO block download: the answer to the end is lost, the repeated end i
   CHECK(node.objects.u32 == 0x04030201);
 }
 
-// Silence ------------------------------------------------------------------------------------------------------------
+// Time-out -----------------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO block download: each new segment starts the time anew, in order or behind a gap [D11] [D18]") {
   Download node;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: how block transfers fail, and the abort code of each. [301:7.2.4.3.17]
+// SDO server: errors of block transfers and their abort codes. [301:7.2.4.3.17]
 #include "support/block_frames.hpp"
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
@@ -11,7 +11,7 @@ using namespace test;
 constexpr std::uint32_t too_long = 0x06070012;
 constexpr std::uint32_t too_short = 0x06070013;
 
-// The server is idle.
+// Checks that the server is idle.
 void check_idle(Fixture& node) {
   node.ask("601#A1DEADBE00000000", "581#80DEADBE01000405");
   node.ask("601#4000100000000000", "581#4300100091010F00");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: block transfers on a bus that loses, duplicates and delays frames, at every position. With a CRC or an
-// announced size the data are right or the transfer is aborted with a report; never wrong data, never a hang. [T11]
+// SDO server: block transfers on a bus that loses, duplicates and delays frames at every position. With a CRC or an
+// announced size, the transfer ends with correct data or an abort code, never with wrong data. [T11]
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A node with a domain of that size at 2106h.
+// A node with a domain of \a size bytes at 2106h.
 class Target {
  public:
   explicit Target(std::uint32_t size)
@@ -19,7 +19,7 @@ class Target {
         domain_{0, size, memory_.data()},
         setup_(Setup().only_small().with({CO_KEY(0x2106, 0, CO_OBJ_____RW), CO_TDOMAIN, CO_DATA(&domain_)})) {}
 
-  // Returns the abort code. Success is right data, and afterwards the node is as good as new.
+  // Runs a download. Checks that the data are correct after success, and that the server is idle afterwards.
   BlockResult download(const BlockOptions& options) {
     const Bytes data = counting(memory_.size(), 0x80);
     std::fill(memory_.begin(), memory_.end(), std::uint8_t{0});
@@ -56,7 +56,7 @@ class Target {
 using Faults = std::set<unsigned> BlockOptions::*;
 using Transfer = BlockResult (Target::*)(const BlockOptions&);
 
-// Hits each frame once. Returns how many transfers were aborted.
+// Repeats the transfer with a fault in each of its frames in turn. Returns the number of aborted transfers.
 unsigned aborts(Target& target, Transfer transfer, Faults faults, BlockOptions options = {}) {
   const BlockResult undisturbed = (target.*transfer)(options);
   REQUIRE(undisturbed.abort == 0);
@@ -74,10 +74,11 @@ unsigned aborts(Target& target, Transfer transfer, Faults faults, BlockOptions o
 
 constexpr std::uint32_t sizes[] = {1, 7, 8, 888, 889, 890, 891, 900, 1800};
 
-// In a block of one segment nothing tells whether it comes again or is the next.
+// In blocks of one segment, a repeated segment cannot be distinguished from the next one.
 #if CO_SDO_BUF_SEG > 1
 
-// In a last block of one or two segments a loss leaves nothing that the server can tell from a repetition.
+// Returns the number of aborts that are possible because of a last block of one or two segments: after a loss in it,
+// the server cannot distinguish the remaining segment from a repeated one.
 unsigned lonely(std::uint32_t size) {
   const std::uint32_t segments = (size + 6) / 7;
   const std::uint32_t rest = segments % CO_SDO_BUF_SEG;

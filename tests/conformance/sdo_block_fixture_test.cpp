@@ -42,10 +42,9 @@ TEST_CASE("fixture: frames of block transfers that a server must not send") {
   CHECK(fault_of(frame("581#01112233445566"), 1, CO_PREOP, true, true) != "");
 }
 
-// The observer
-// ---------------------------------------------------------------------------------------------------------
+// Observer -----------------------------------------------------------------------------------------------------------
 
-// A channel in a block upload of four segments a block, after its start.
+// Returns an observer within a started block upload with blksize 4.
 SdoObserver uploading() {
   SdoObserver channel;
   channel.request(frame("601#A412345604000000"));
@@ -94,7 +93,7 @@ Changeable may_change(SdoObserver& channel) {
 
 constexpr std::uint32_t dev = CO_DEV(0x3412, 0x56);
 
-// A channel in a block download that has been accepted.
+// Returns an observer of an initiated block download.
 SdoObserver downloading() {
   SdoObserver channel;
   channel.request(frame("601#C612345611223344"));
@@ -156,8 +155,7 @@ TEST_CASE("fixture: segments out of order and from the queue are counted as what
   CHECK(may_change(channel).completed.empty());
 }
 
-// The client
-// -----------------------------------------------------------------------------------------------------------
+// Client -------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("fixture: an object that changes in a block download before its end fails" * doctest::should_fail()) {
   Fixture node;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server, block download: segments that arrive when the server has already given up. Only its state tells a segment
-// from a request; the server is idle, and so they are requests. [301:7.2.4.3.10]
+// SDO server, block download: segments that arrive after the time-out. Only the state of the server distinguishes
+// segments from requests; as the server is idle, it treats them as requests. [301:7.2.4.3.10]
 #include "support/fixture.hpp"
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server, block download: requests of a client that polls, while a block is open, are taken for segments. Only
-// frames that belong to the transfer keep it open. [301:7.2.4.3.10] [D18]
+// SDO server, block download: within a block, requests of a client that polls are treated as segments. Only frames that
+// belong to the transfer restart its time-out. [301:7.2.4.3.10] [D18]
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// The server has given up, or has found data beyond the size at the same time.
+// Returns true if the server has aborted: after the time-out, or because the data exceed the size.
 bool has_ended(Fixture& node) {
   const std::vector<std::string> sent = node.frames();
   return std::any_of(sent.begin(), sent.end(), [](const std::string& text) {
@@ -19,7 +19,7 @@ bool has_ended(Fixture& node) {
   });
 }
 
-// Sends the frames one after the other, one each 100 ms, until the server has given up. Returns the time that passed.
+// Sends one of the frames every 100 ms until the server has aborted. Returns the time that has passed.
 Time poll(Fixture& node, const std::vector<CO_IF_FRM>& requests, Time limit) {
   Time passed{0};
   for (std::size_t n = 0; passed < limit; ++n) {
@@ -80,7 +80,7 @@ TEST_CASE("SDO block download: all is there but the end, which a repeated last s
   CHECK(poll(node, {frame("601#830F000000000000")}, 10s) <= node.sdo_time_out() + 100ms);
 }
 
-// After a silence the server acknowledges what it has, so that each segment is the first of its block.
+// The server acknowledges after a time without segments, so that each segment is the first of a block.
 TEST_CASE("SDO block download: a client that sends a segment every 1.5 s is served to the end [D18]") {
   Fixture node(Setup().only_small());
   const Bytes data = counting(15, 0x21);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: what ends a block transfer, in every state: the client's abort, a new initiate, silence, the NMT state.
+// SDO server: ends of a block transfer in every state, by the client's abort, a new initiate, time-out or NMT state.
 #include "support/block_states.hpp"
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// A fixture in each state.
+// Calls the function with a fixture in each state of a block transfer.
 template <class Function>
 void in_every_state(Function function, Setup setup = {}) {
   for (const BlockState& state : block_states()) {
@@ -19,7 +19,7 @@ void in_every_state(Function function, Setup setup = {}) {
   }
 }
 
-// The client ---------------------------------------------------------------------------------------------------------
+// Client -------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO block: the client's abort ends the transfer in every state, without an answer [D6]") {
   in_every_state([](Fixture& node, const BlockState& state) {
@@ -129,7 +129,7 @@ TEST_CASE("SDO block: frames of a wrong length are ignored and counted in every 
   });
 }
 
-// Silence ------------------------------------------------------------------------------------------------------------
+// Time-out -----------------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO block: a silent client is given up after the time-out, in every state [D18]") {
   in_every_state([](Fixture& node, const BlockState& state) {
@@ -183,7 +183,7 @@ TEST_CASE("SDO block upload: each frame of the client starts the time anew [D18]
   node.silent();
 }
 
-// The NMT state ------------------------------------------------------------------------------------------------------
+// NMT state ----------------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO block: stop ends the transfer in every state without a frame, the next one works [N8] [D17] [T14]") {
   for (const std::string on : {"000#8001", "000#0101"}) {

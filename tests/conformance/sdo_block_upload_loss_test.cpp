@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server, block upload: what the client has not received is sent again. [301:7.2.4.3.13, 7.2.4.3.14]
+// SDO server, block upload: repetition of segments that the client has not received. [301:7.2.4.3.13, 7.2.4.3.14]
 #include "support/block_frames.hpp"
 
 #if USE_SDO_BLOCK
@@ -12,7 +12,7 @@ CO_IF_FRM ack(unsigned ackseq, unsigned blksize) {
   return CO_IF_FRM{0x601, {0xA2, static_cast<std::uint8_t>(ackseq), static_cast<std::uint8_t>(blksize)}, 8};
 }
 
-// An upload of 2104h, 890 bytes, whose first block has been sent.
+// A node with an upload of 2104h (890 bytes) whose first block was sent.
 struct Upload : Fixture {
   Bytes data = counting(890);
 

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// Servers 1201h on 690h/6A0h and, where there is a third, 1202h on 691h/6A1h.
+// Returns the settings of a node with 1201h on 690h/6A0h and, if configured, 1202h on 691h/6A1h.
 Setup channels() {
   return Setup().before_init([](Objects& o) {
     o.sdo2_rx = 0x690;
@@ -121,8 +121,8 @@ TEST_CASE("SDO channels: a CAN-ID of more than 11 bits needs bit 29 [D16]") {
 
 TEST_CASE("SDO channels: a COB-ID relative to the node-ID reads back as written, its flags unharmed [D16]") {
   struct Row {
-    const char* bytes;     // as on the bus
-    std::uint32_t stored;  // node-ID 127 taken off the CAN-ID alone, modulo its width
+    const char* bytes;     // COB-ID in bus order
+    std::uint32_t stored;  // 127 (the node-ID) is subtracted from the CAN-ID, modulo its width; flags do not change
   };
   const Row rows[] = {
       {"05000080", 0x80000786},  // below the node-ID
@@ -130,8 +130,8 @@ TEST_CASE("SDO channels: a COB-ID relative to the node-ID reads back as written,
       {"7F000080", 0x80000000},  // the node-ID
       {"7E0000C0", 0xC00007FF},  // dynamic
       {"050000A0", 0xBFFFFF86},  // 29 bits
-      {"FF0700C0", 0xC0000780},  // the highest of 11 bits
-      {"FFFFFFBF", 0xBFFFFF80},  // the highest of 29 bits
+      {"FF0700C0", 0xC0000780},  // highest 11-bit CAN-ID
+      {"FFFFFFBF", 0xBFFFFF80},  // highest 29-bit CAN-ID
       {"90060000", 0x00000611},  // valid
   };
   for (const Row& row : rows) {

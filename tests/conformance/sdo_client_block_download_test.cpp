@@ -9,13 +9,13 @@ namespace {
 
 using namespace test;
 
-// 40 bytes as six segments of one sub-block.
+// Segments of 40 bytes in one sub-block.
 constexpr const char* whole[] = {"605#0101020304050607", "605#0208090A0B0C0D0E", "605#030F101112131415",
                                  "605#04161718191A1B1C", "605#051D1E1F20212223", "605#8624252627280000"};
 
 void send_all(SdoClient& node) { node.tx({whole[0], whole[1], whole[2], whole[3], whole[4], whole[5]}); }
 
-// Asks for a block download of 40 bytes; the server answers with \a answer.
+// Starts a block download of 40 bytes; \a answer is the server's response to the initiate.
 void start(SdoClient& node, std::string_view answer) {
   node.start_download(0x2000, 5, counted(40));
   node.tx("605#C600200528000000");

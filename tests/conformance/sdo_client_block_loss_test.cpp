@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// 40 bytes in six segments.
+// Segments of 40 bytes.
 constexpr const char* segments[] = {"585#0101020304050607", "585#0208090A0B0C0D0E", "585#030F101112131415",
                                     "585#04161718191A1B1C", "585#051D1E1F20212223", "585#8624252627280000"};
 
@@ -20,7 +20,7 @@ void start(SdoClient& node, std::string_view answer = "585#C600200528000000") {
   node.tx("605#A300000000000000");
 }
 
-// The segments of these numbers come, in this order; the last one ends the sub-block.
+// Sends the segments with these numbers to the client, in this order. The last one ends the sub-block.
 void send(SdoClient& node, const std::vector<unsigned>& order) {
   for (std::size_t n = 0; n < order.size(); ++n) {
     node.rx(segments[order[n] - 1]);
@@ -157,7 +157,7 @@ TEST_CASE("SDO client: the end of a sub-block that comes twice is ignored the se
   finish(node);
 }
 
-// Runs a transfer of \a length bytes with one disturbance. Returns whether the client has reported success.
+// Runs an upload of \a length bytes with one fault. Returns true if the client has reported success.
 bool upload_with(const Disturbance& disturbance, std::size_t length, bool crc) {
   SdoClient node;
   PeerOptions options;
@@ -229,7 +229,7 @@ TEST_CASE("SDO client: one fault at any frame of a block download: the right dat
   }
 }
 
-// If the only segment of a sub-block is lost, neither side can detect it: the failure is reported. [T11]
+// If the only segment of a sub-block is lost, neither side can recover it: the transfer fails. [T11]
 TEST_CASE("SDO client: a segment that is lost, repeated or overtaken does not fail a block upload [T11] [D11]") {
   for (const std::size_t length : {14U, 100U, 455U, 896U}) {
     const std::size_t count = (length + 6) / 7;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// The server answers the initiate with \a answer; the client starts.
+// Starts a block upload; \a answer is the server's response to the initiate.
 void start(SdoClient& node, std::uint32_t size, std::string_view answer) {
   node.start_upload(0x2000, 5, size);
   node.tx("605#A40020057F1C0000");
@@ -17,7 +17,7 @@ void start(SdoClient& node, std::uint32_t size, std::string_view answer) {
   node.tx("605#A300000000000000");
 }
 
-// Segments 1…number of bytes 1, 2, 3, …; no answer to any.
+// Sends segments 1…number with the bytes 1, 2, 3, …, and checks that the client does not answer.
 void send_segments(SdoClient& node, unsigned number) {
   for (unsigned n = 1; n <= number; ++n) {
     CO_IF_FRM frm = frame("585#0000000000000000");
@@ -229,7 +229,7 @@ TEST_CASE("SDO client: a block upload with more bytes than announced is refused 
   node.ended(CO_SDO_ERR_LEN_HIGH);
 }
 
-// The frames until the client gives up, at the latest at the end of the sub-block. [D21]
+// Sends segments until the client aborts, and checks that this is not later than the end of the sub-block. [D21]
 void check_gives_up(SdoClient& node, unsigned first, unsigned last, const char* abort, std::uint32_t code) {
   for (unsigned n = first; n <= last && node.ends.empty(); ++n) {
     CO_IF_FRM frm = frame("585#0055555555555555");

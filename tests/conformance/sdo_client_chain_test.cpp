@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: transfers that follow one another, and several at once.
+// SDO client: consecutive and simultaneous transfers.
 #include "support/sdo_client_peer.hpp"
 #include "support/sdo_client_states.hpp"
 
@@ -106,7 +106,7 @@ TEST_CASE("SDO client: ten thousand transfers of every kind and end leave no tim
     } else if (n % 3 == 1) {
       node.cancel();
     } else {
-      node.after(130ms);  // within a block it may be a quarter more
+      node.after(130ms);  // within a block the time-out may be a quarter longer
     }
     node.frames();
     node.ends.clear();

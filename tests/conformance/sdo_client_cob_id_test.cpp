@@ -64,7 +64,8 @@ TEST_CASE("SDO client: the node-ID of the server, written over the network, comp
   CHECK(node.csdo()->NodeId == 9);
 }
 
-// CiA 301 reserves 581h…5FFh and 601h…67Fh for SDO; here they belong to SDO. [301:7.3.5] [D26]
+// CiA 301 reserves 581h…5FFh and 601h…67Fh for the default SDO servers, which are those that a client uses.
+// [301:7.3.5] [D26]
 TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others that are restricted [D26]") {
   const auto of_servers = [](unsigned sub, unsigned id) {
     return sub == 1 ? id >= 0x601 && id <= 0x67F : id >= 0x581 && id <= 0x5FF;
@@ -97,7 +98,7 @@ TEST_CASE("SDO client: a CAN-ID of 1280h of more than 11 bits needs bit 29") {
   check_asks(node, "00001605", "00001585");
 }
 
-// The request of a transfer, the write that changes the client meanwhile, and its answer.
+// A write to 1280h during a transfer, and its response.
 struct Change {
   const char* what;
   const char* request;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: 1280h and how a client is found. [301:7.5.2.34]
+// SDO client: 1280h, and COCSdoFind(). [301:7.5.2.34]
 #include "support/sdo_client_fixture.hpp"
 
 #if USE_CSDO

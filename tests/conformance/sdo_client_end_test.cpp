@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: transfers that the own node ends: by COCSdoCancel, or with the NMT state. [N8]
+// SDO client: transfers that its node ends by COCSdoCancel() or by a change of the NMT state. [N8]
 #include "support/sdo_client_states.hpp"
 
 #if USE_CSDO

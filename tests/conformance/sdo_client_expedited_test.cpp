@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: what fits into one frame. [301:7.2.4.3.3, 7.2.4.3.5]
+// SDO client: expedited transfers. [301:7.2.4.3.3, 7.2.4.3.5]
 #include "support/sdo_client_fixture.hpp"
 
 #if USE_CSDO

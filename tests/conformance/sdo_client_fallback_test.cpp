@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: how the data are carried, and what happens when a server knows no block transfer.
+// SDO client: selection of the transfer type, and fallback if a server does not support block transfer.
 #include "support/sdo_client_fixture.hpp"
 
 #if USE_CSDO
@@ -107,7 +107,7 @@ TEST_CASE("SDO client: a block download that the server does not support is sent
   }
 }
 
-// Starts a transfer of 29 bytes and leads it behind its second initiate.
+// Starts a transfer of 29 bytes, and leads it to the second initiate, after the server has refused block transfer.
 void fall_back(SdoClient& node, bool upload) {
   if (upload) {
     node.start_upload(0x2000, 5, 29);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: answers to a transfer that has ended, or to another client. [C1]
+// SDO client: responses that belong to a transfer that has ended, or to another client. [C1]
 #include "support/sdo_client_states.hpp"
 
 #if USE_CSDO
@@ -10,7 +10,7 @@ using namespace test;
 
 bool awaits_initiate(const ClientState& state) { return state.path.empty(); }
 
-// The answer of the server to the initiate of this state, for the object that bytes 1…3 name.
+// Returns all responses of a server to an initiate, with this multiplexer.
 std::vector<std::string> initiate_answers(const std::string& multiplexer) {
   return {
       "585#43" + multiplexer + "11223344", "585#4F" + multiplexer + "11000000", "585#42" + multiplexer + "11223344",
@@ -19,7 +19,7 @@ std::vector<std::string> initiate_answers(const std::string& multiplexer) {
       "585#A0" + multiplexer + "01000000", "585#80" + multiplexer + "00000405", "585#80" + multiplexer + "01000405"};
 }
 
-// Any object but 2000h:05.
+// Multiplexers of other objects than 2000h:05.
 constexpr const char* others[] = {"002006", "002004", "002105", "002205", "012005", "000000", "FFFFFF", "200005"};
 
 TEST_CASE("SDO client: an initiate answer or abort for another object is ignored while one is awaited [C1]") {
@@ -80,7 +80,7 @@ constexpr const char* late[] = {
 
 void time_out(SdoClient& node, const ClientState& state) {
   enter(node, state, 100);
-  node.after(130ms);  // within a block it may be a quarter more
+  node.after(130ms);  // within a block the time-out may be a quarter longer
   node.frames();
   node.ended(CO_SDO_ERR_TIMEOUT);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client whose server is its own node: streams, also those that take part in the whole transfer (CO_OBJ_TYPE_EX).
+// SDO client whose server is the same node: streams, including those with Begin and End (CO_OBJ_TYPE_EX).
 #include <cstring>
 
 #include "support/sdo_client_fixture.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// The object at 3000h: what was called, and what it answers.
+// The object at 3000h: logged calls of its type functions, and their results.
 struct Image {
   std::vector<std::string> calls;
   Bytes data;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client whose server is its own node: the own dictionary, with the rights of the network, and no frame.
+// SDO client whose server is the same node: access to its dictionary, with the rights of the network, without frames.
 #include "support/heap_watch.hpp"
 #include "support/sdo_client_fixture.hpp"
 
@@ -13,7 +13,7 @@ class Local : public SdoClient {
  public:
   explicit Local(Setup setup = Setup().only_small()) : SdoClient(std::move(setup), local_entries()) {}
 
-  // Lets the callback come. It needs no time and no frame.
+  // Runs the loop until the callback is called, without a frame. Returns its arguments.
   ClientEnd settle() {
     loop();
     after(1ms);
@@ -151,7 +151,7 @@ TEST_CASE("SDO client, own node: strings and domains are written") {
   CHECK(node.write(0x2112, 0, counted(3)).code != 0);
 }
 
-// Returns the abort code that a remote client receives.
+// Reads an object by SDO frames. Returns the abort code.
 std::uint32_t code_over_the_bus(Fixture& node, std::uint16_t index, std::uint8_t sub, Bytes& data) {
   CO_IF_FRM request = frame("601#4000000000000000");
   CO_SET_WORD(&request, index, 1);
@@ -327,12 +327,12 @@ TEST_CASE("SDO client, own node: a value that a remote client is just reading or
   CHECK(node.objects.u64 == 0x0102030405060708);
 }
 
-// Types whose functions an SDO transfer of the network calls, and which let the own client work meanwhile.
+// Settings of type functions that use the node's SDO client while a transfer of the network calls them.
 struct Nested {
   Local* node;
-  std::uint16_t index;  // of the object that the own client reads
-  std::uint32_t code;   // the transfer's own abort code, 0: none
-  bool is_early;        // it is given before the other access
+  std::uint16_t index;  // object that the node's client reads
+  std::uint32_t code;   // abort code for the transfer of the network; 0: none
+  bool is_early;        // the code is set before the client's access
 };
 Nested nested;
 

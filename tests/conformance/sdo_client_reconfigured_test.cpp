@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: callbacks that write the client's own COB-IDs and go on with them. [301:7.5.2.34]
+// SDO client: callbacks that write the COB-IDs of their client and start a request with them. [301:7.5.2.34]
 #include <algorithm>
 
 #include "support/sdo_client_fixture.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-// Client 0 waits for an answer at 585h.
+// A node whose client 0 waits for a response at 585h.
 class Waiting : public SdoClient {
  public:
   Waiting() {
@@ -21,7 +21,7 @@ class Waiting : public SdoClient {
   }
   void switch_off(std::uint8_t sub) { CHECK(CODictWrLong(&node.Dict, CO_DEV(0x1280, sub), 0x80000000) == CO_ERR_NONE); }
   void write(std::uint8_t sub, std::uint32_t cob_id) {
-    switch_off(sub);  // a valid CAN-ID is not changed
+    switch_off(sub);  // a valid CAN-ID must not be changed
     CHECK(CODictWrLong(&node.Dict, CO_DEV(0x1280, sub), cob_id) == CO_ERR_NONE);
   }
   void move_to(std::uint32_t tx_id, std::uint32_t rx_id) {
@@ -30,7 +30,7 @@ class Waiting : public SdoClient {
   }
 };
 
-// The transfer under way is answered under 586h, and not under 585h.
+// Checks that the open transfer accepts a response at 586h, and not at 585h.
 void check_is_answered_at_586(SdoClient& node) {
   node.goes_on();
   node.rx("585#4F00200511000000");

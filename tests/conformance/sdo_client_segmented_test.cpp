@@ -10,11 +10,11 @@ using namespace test;
 
 struct Upload {
   std::uint32_t length;
-  const char* announced;  // initiate answer with the size
+  const char* announced;  // response to the initiate with the size
   std::vector<const char*> segments;
 };
 
-// Segments of the server: 000t nnnc.
+// Uploads with the segments of the server: 000t nnnc.
 const Upload uploads[] = {
     {5, "585#4100200505000000", {"585#0501020304050000"}},
     {7, "585#4100200507000000", {"585#0101020304050607"}},
@@ -27,7 +27,7 @@ const Upload uploads[] = {
 
 constexpr const char* asks[] = {"605#6000000000000000", "605#7000000000000000"};
 
-// The client asks for each segment with the toggle bit alternating from 0.
+// Checks that the client requests each segment, with the toggle bit alternating from 0.
 void take_segments(SdoClient& node, const std::vector<const char*>& segments) {
   std::size_t n = 0;
   for (const char* segment : segments) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: what happens when the controller does not take a frame. [T12] [D20]
+// SDO client: transfers while the controller refuses frames. [T12] [D20]
 #include "support/sdo_client_peer.hpp"
 #include "support/sdo_client_states.hpp"
 
@@ -43,7 +43,8 @@ TEST_CASE("SDO client: a request that has to wait for the controller goes out la
 
 #if USE_SDO_BLOCK
 
-// The frames of a transfer, with the client's refused from the n-th on for a number of times.
+// Runs a transfer while the controller refuses \a times frames of the client, from number \a refuse_at. Returns the
+// client's frames.
 std::vector<std::string> session(bool upload, std::size_t length, std::uint64_t refuse_at, std::uint64_t times,
                                  std::int16_t with) {
   SdoClient node;
@@ -95,7 +96,7 @@ TEST_CASE("SDO client: whichever frame the controller refuses, the transfer is t
   }
 }
 
-// A block download of 40 bytes whose third segment the controller refuses for now.
+// Starts a block download of 40 bytes, and lets the controller refuse the third segment and later frames.
 void pause(SdoClient& node) {
   node.start_download(0x2000, 5, counted(40));
   node.tx("605#C600200528000000");
@@ -193,7 +194,7 @@ TEST_CASE("SDO client: the server aborts a paused block download: no segment com
   node.ended(CO_SDO_ERR_MEM);
   node.can.accept_all();
   for (int i = 0; i < 10; ++i) node.loop();
-  CHECK(node.frames().size() <= 1);  // what was waiting in the queue
+  CHECK(node.frames().size() <= 1);  // a frame that was in the transmit queue
   check_asks(node);
 }
 

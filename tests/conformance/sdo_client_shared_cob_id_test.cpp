@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO clients that listen at one identifier, and callbacks that configure them while a frame is given to each.
+// SDO clients with the same response COB-ID, and callbacks that configure them while a frame is passed to each.
 #include <algorithm>
 
 #include "support/sdo_client_fixture.hpp"
@@ -10,11 +10,11 @@ namespace {
 
 using namespace test;
 
-// Clients 0 and 1 listen at 585h, client 2 at 587h.
+// Response COB-IDs: clients 0 and 1 at 585h, client 2 at 587h; or all at 585h.
 ClientEntries two_at_585() { return {{{0x605, 0x585, 5}, {0x606, 0x585, 6}, {0x607, 0x587, 7}}}; }
 ClientEntries three_at_585() { return {{{0x605, 0x585, 5}, {0x606, 0x585, 6}, {0x607, 0x585, 7}}}; }
 
-// All servers have a route, too.
+// Returns the settings of a node whose SDO servers are all valid, so that each has a route.
 Setup all_servers() {
   return Setup()
       .only_small()
@@ -28,7 +28,7 @@ Setup all_servers() {
       });
 }
 
-// Their callbacks write what they like to 1280h and following.
+// A node whose callbacks may write to 1280h, 1281h and 1282h.
 struct Clients : SdoClient {
   explicit Clients(const ClientEntries& entries) : SdoClient(all_servers(), entries) {
     for (unsigned index = 0x1280; index < 0x1283; ++index) {
@@ -72,7 +72,7 @@ TEST_CASE("SDO client: an abort at a shared response COB-ID ends only the transf
   node.silent();
 }
 
-// The client's route gets behind that of the other one, where the frame is still to come.
+// The client's route moves behind that of the other client, which receives the frame later.
 TEST_CASE(
     "SDO client: a callback gives its client another request COB-ID and asks again: one frame is no two answers") {
   Clients node(two_at_585());
@@ -92,7 +92,7 @@ TEST_CASE(
   node.has_read({0x33}, 0);
 }
 
-// The route of client 1 moves forward.
+// The route of client 1 moves forward in the table.
 TEST_CASE(
     "SDO client: a callback switches off the client before this one and starts a request: one frame, one answer") {
   Clients node(three_at_585());
@@ -127,7 +127,7 @@ TEST_CASE("SDO client: a callback moves another client away: that one gets nothi
   node.has_read({0x22}, 1);
 }
 
-// The last places of a full table.
+// The routes are the last ones of a full table.
 TEST_CASE("SDO client: a callback that takes another request COB-ID hides the frame from no other client") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
@@ -209,7 +209,7 @@ TEST_CASE("SDO client: every callback gives its client another place in the tabl
   for (unsigned changed = 0; changed < 27; ++changed) {
     CAPTURE(changed);
     Clients node(at_the_end());
-    // Whom the callback of each client moves; one that is busy is moved by its own request, afterwards.
+    // Client that the callback of each client moves. The COB-ID of a busy one becomes effective with its next request.
     const unsigned targets[] = {changed % 3, changed / 3 % 3, changed / 9};
     for (unsigned n = 0; n < 3; ++n) start(node, n, 0x2001);
     unsigned calls[3] = {};

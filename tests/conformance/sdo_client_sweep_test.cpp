@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO client: each of the 256 command bytes of a server in each state that the client can be in. [T6] The reactions are
-// those of support/sdo_client_states.cpp.
+// SDO client: each of the 256 command bytes of a server in each state of the client. [T6] The expected reactions are in
+// support/sdo_client_states.cpp.
 #include "support/sdo_client_states.hpp"
 
 #if USE_CSDO
@@ -22,7 +22,7 @@ std::string text(const std::vector<std::string>& lines) {
   return all.empty() ? " nothing" : all;
 }
 
-// Empty if the client reacts as the table says, else what is different.
+// Returns the difference between the client's reaction and the table; empty: none.
 std::string deviation(SdoClient& node, const ClientState& state, unsigned command) {
   const ClientReaction& expected = *reactions_to(state, command).at(0);
   enter(node, state);
@@ -121,7 +121,7 @@ TEST_CASE("SDO client: frames of another kind at the server's identifier have no
     node.rx(frm);
     frm.Identifier = 0x585 | CO_IF_FRM_EXT;
     node.rx(frm);
-    frm.Identifier = 0x605;  // another client's request
+    frm.Identifier = 0x605;  // request of another client
     node.rx(frm);
     node.silent();
     node.goes_on();

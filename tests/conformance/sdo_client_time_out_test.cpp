@@ -11,14 +11,14 @@ using namespace test;
 
 constexpr const char* time_out_abort = "605#8000200500000405";
 
-// Acknowledges that a client repeats in a silent sub-block do not belong to the end of the transfer.
+// Returns the frames without acknowledges, which a client repeats within a sub-block before the time-out.
 std::vector<std::string> without_acknowledges(std::vector<std::string> frames) {
   const auto is_acknowledge = [](const std::string& text) { return text.compare(0, 6, "605#A2") == 0; };
   frames.erase(std::remove_if(frames.begin(), frames.end(), is_acknowledge), frames.end());
   return frames;
 }
 
-// Within a sub-block the client looks at the end of each quarter whether segments come.
+// Returns true for states in which the time-out is checked in quarters and may be a quarter longer.
 bool is_within_block(const ClientState& state) {
   return state.name == "block upload: one segment taken" || state.name == "block upload: all segments but one taken";
 }
@@ -124,7 +124,7 @@ TEST_CASE("SDO client: what the timer driver cannot count is taken as the longes
   node.after(std::chrono::minutes{35});
   node.goes_on();
   node.silent();
-  node.after(std::chrono::minutes{37});  // 32 bits are 71.6
+  node.after(std::chrono::minutes{37});  // 2^32 µs are 71.6 min
   node.tx(time_out_abort);
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
@@ -198,7 +198,7 @@ TEST_CASE("SDO client: the abort of a time-out names the object, in the middle o
 
 #if USE_SDO_BLOCK
 
-// The times in ms at which the client acknowledged in the silence before its time-out of a second.
+// Returns the times in ms at which the client repeats the acknowledge before its time-out of 1 s.
 std::vector<std::uint64_t> acknowledges_in_silence(SdoClient& node, const std::string& acknowledge) {
   node.after(999ms);
   std::vector<std::uint64_t> times;
@@ -240,7 +240,7 @@ TEST_CASE("SDO client: silence within a sub-block: what has come is acknowledged
 
 TEST_CASE("SDO client: the server goes on after the acknowledge of a silence: the data are whole [D11]") {
   SdoClient node;
-  read_some(node, 2);  // segment 3, the last, is lost
+  read_some(node, 2);  // segment 3, the last one, is lost
   node.after(750ms);
   const std::vector<std::string> sent = node.frames();
   REQUIRE_FALSE(sent.empty());
@@ -272,7 +272,7 @@ TEST_CASE("SDO client: a lost acknowledge of the last segment is repeated in the
   SdoClient node;
   read_some(node, 2);
   node.rx("585#830F101112131400");
-  node.tx("605#A2037F0000000000");  // is lost
+  node.tx("605#A2037F0000000000");  // lost
   node.after(750ms);
   const std::vector<std::string> sent = node.frames();
   REQUIRE_FALSE(sent.empty());

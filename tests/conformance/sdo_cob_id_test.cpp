@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// COB-IDs of SDO servers that a table or the network should not hold. [301:7.5.2.33, 7.3.5]
+// Invalid COB-IDs of SDO servers, in the dictionary or written by the network. [301:7.5.2.33, 7.3.5]
 #include "support/fixture.hpp"
 
 namespace {

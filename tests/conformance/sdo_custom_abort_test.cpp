@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Abort codes that an object type chooses itself (COObjTypeUserSDOAbort).
+// Abort codes that an object type sets (COObjTypeUserSDOAbort()).
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 
@@ -12,7 +12,7 @@ constexpr unsigned always = 1000;
 struct Script {
   std::uint32_t size = 4;
   std::uint32_t abort = 0;
-  unsigned good_calls = 0;  // of Size, before it fails
+  unsigned good_calls = 0;  // calls of Size that succeed before one fails
   unsigned calls = 0;
 } script;
 
@@ -76,7 +76,7 @@ TEST_CASE("SDO custom abort: set in the Size function at the last segment of a d
 }
 
 #if USE_OBJ_EX && CO_SSDO_N > 1
-// Server 2 has a transfer open, whose type is told its end.
+// A node with an open transfer of its second SDO server, of an object whose type has an End function.
 struct TwoTransfers : LoggedStream, Fixture {
   explicit TwoTransfers(CO_OBJ other)
       : Fixture(Setup().only_small().with(extended(0x3100)).with(other).before_init([](Objects& memory) {

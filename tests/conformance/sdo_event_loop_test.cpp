@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware that calls CONodeProcess() only when a frame has arrived, and COTmrProcess() cyclically: block transfers
-// that pause and frames that the driver has refused are continued by COTmrProcess(). [T12] [T17] [D20]
+// An application that calls CONodeProcess() only when a frame has arrived, and COTmrProcess() cyclically:
+// COTmrProcess() continues paused block transfers, and sends frames that the driver has refused. [T12] [T17] [D20]
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -16,7 +16,7 @@ constexpr std::size_t pace = CO_SDO_BLOCK_PACE;
 
 enum class Call { always, when_elapsed };
 
-// A millisecond passes. Returns what COTmrProcess() has sent.
+// Lets 1 ms pass. Returns the frames sent by COTmrProcess().
 std::vector<std::string> tick(Fixture& node, Call call = Call::always) {
   node.idle(1ms);
   node.call([&] {
@@ -166,7 +166,7 @@ TEST_CASE("loop without idle calls: a loop that sleeps until CONodeNextDeadline,
 }
 
 #if USE_OBJ_EX
-// The second piece of the object is read in COTmrProcess(): 37 segments are left in the buffer.
+// Runs an upload until 37 segments are left in the buffer, so that COTmrProcess() reads the second piece of the object.
 void read_second_piece(Fixture& node) {
   node.calls(1);
   node.ask("601#A40031007F000000", "581#C600310008070000");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table and variables in read-only memory that the network may write to, according to their flags: the application's
-// Writable function refuses, the client is told 0601 0000h, and nothing is written. Where it were, the program would
-// die.
+// A dictionary and variables in read-only memory, whose flags permit writes of the network. The application's Writable
+// function refuses them: the transfer is aborted with 0601 0000h. A write to this memory would crash the program.
 #include <iterator>
 
 #include "support/fixture.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types whose End function gives the SDO server that is carrying their data other COB-IDs: the answer belongs to the
-// request, what was written counts afterwards. [301:7.5.2.33]
+// Types whose End function changes the COB-IDs of the SDO server of the transfer: the response uses the old COB-ID, the
+// new ones become effective after it. [301:7.5.2.33]
 #include <algorithm>
 
 #include "support/logged_stream.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// The End function of 3000h moves server 1201h from 690h/6A0h to 691h/6A1h.
+// A node whose object 3000h has an End function that moves server 1201h from 690h/6A0h to 691h/6A1h.
 struct Moving : LoggedStream, Fixture {
   CO_ERR result = CO_ERR_NONE;
 
@@ -47,9 +47,9 @@ void check_has_moved(Moving& node, const std::string& end) {
 
 struct Transfer {
   const char* name;
-  std::vector<std::string> requests;  // after which the last one is still missing
+  std::vector<std::string> requests;  // all requests except the last one
   std::string last;
-  std::string answer;  // to it
+  std::string answer;  // response to the last request
 };
 
 const std::vector<Transfer>& downloads() {

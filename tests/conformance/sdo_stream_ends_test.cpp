@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types that see the whole transfer (CO_OBJ_TYPE_EX): each Begin that succeeded is followed by one End, whatever ends
-// the transfer, and the End says what.
+// Types with Begin and End (CO_OBJ_TYPE_EX): each Begin that succeeds is followed by one End with the abort code,
+// regardless of how the transfer ends.
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -18,7 +18,7 @@ struct Stream : LoggedStream, Fixture {
   }
 };
 
-// A state of an open transfer, and how it is reached.
+// A state of an open transfer, and the requests that lead to it.
 struct State {
   std::string name;
   std::string direction;
@@ -60,7 +60,7 @@ std::vector<State> states() {
   return all;
 }
 
-// Runs the function in each state; the transfer must then end with the code, once.
+// Calls the function in each state. Checks that End is called once, with the code.
 template <class Function>
 void each_ends_with(const std::string& code, Function function, bool also_in_sub_block = true) {
   for (const State& state : states()) {
@@ -252,7 +252,7 @@ const auto only_set_code = [](CO_OBJ* obj, CO_NODE* node) {
 
 struct Initiate {
   std::string request;
-  bool expedited;  // of two bytes, else of more
+  bool expedited;  // true: 2 bytes; false: more
   std::string direction;
 };
 
@@ -301,7 +301,7 @@ TEST_CASE("SDO stream types: a specific code in Begin without an error has no ef
 
 TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End gets the code") {
   for (const Initiate& initiate : initiates()) {
-    if (initiate.request[4] == 'C') continue;  // not before its end
+    if (initiate.request[4] == 'C') continue;  // Reset is called only at its end
     CAPTURE(initiate.request);
     Stream node(initiate.expedited ? 2 : 890);
     node.on_reset = refuse;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: a function of its type changes address or size of the object of an open transfer; so does the timer that
-// monitors transfers.
+// SDO server: type functions that move the dictionary or change the size of the object of an open transfer, and the
+// timer that monitors transfers.
 #include "support/block_frames.hpp"
 #include "support/logged_stream.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// Its type moves the table, which ends the transfers of all objects.
+// A node whose object 3100h has a type that moves the dictionary, which ends the transfers of all objects.
 struct MovingStream : LoggedStream, Fixture {
   std::vector<CO_OBJ> table;
 
@@ -83,7 +83,7 @@ TEST_CASE("SDO stream types: a Reset that moves the table when a block upload go
 }
 #endif
 
-// The timer that watches transfers ----------------------------------------------------------------------------------
+// Time-out of transfers ---------------------------------------------------------------------------------------------
 
 #if CO_SDO_TIMEOUT != 0
 TEST_CASE("SDO server: the timer that watches transfers stops when none is open, however they have ended [D18]") {

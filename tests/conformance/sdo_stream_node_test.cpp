@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types that see the whole transfer (CO_OBJ_TYPE_EX), and what Begin and End may do to the node. [Q9]
+// Types with Begin and End (CO_OBJ_TYPE_EX) whose functions call functions of the node. [Q9]
 #include <algorithm>
 
 #include "support/block_frames.hpp"

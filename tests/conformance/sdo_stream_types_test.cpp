@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types that see the whole transfer (CO_OBJ_TYPE_EX), in transfers that succeed: the order and the arguments of their
-// functions. How transfers fail is in sdo_stream_ends_test.cpp.
+// Types with Begin and End (CO_OBJ_TYPE_EX): order and arguments of their functions in transfers that succeed. Failed
+// transfers are in sdo_stream_ends_test.cpp.
 #include <algorithm>
 
 #include "support/block_frames.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// Objects at 3000h (CO_OBJ_TYPE_EX), 3001h (CO_OBJ_TYPE with Reset) and 3002h (without).
+// A node with the objects 3000h (CO_OBJ_TYPE_EX), 3001h (CO_OBJ_TYPE with Reset) and 3002h (CO_OBJ_TYPE without Reset).
 struct Streams : LoggedStream, Fixture {
   Streams() : Fixture(Setup().only_small().with(extended(0x3000)).with(plain(0x3001)).with(value(0x3002))) {}
 };
@@ -298,7 +298,7 @@ TEST_CASE("SDO stream types: a block upload goes back, with Reset, to where the 
   CHECK(std::count_if(log.begin(), log.end(), [](const std::string& call) { return call[0] == 'e'; }) == 1);
 }
 
-// Types that know nothing of transfers --------------------------------------------------------------------------------
+// Types without Begin and End -----------------------------------------------------------------------------------------
 
 TEST_CASE("SDO stream types: a type with Reset sees what it always saw, and pieces of the buffer in blocks") {
   Streams node;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO server: each of the 256 command bytes in each state that the server can be in, for each kind of object, at each
-// length. [T6] The reactions are those of sdo_sweep_golden.txt, to which a model of the server is held as well.
+// SDO server: each of the 256 command bytes in each state of the server, for each kind of object, at each length. [T6]
+// The expected reactions are in sdo_sweep_golden.txt; the model of the server is compared with them, too.
 #include <algorithm>
 #include <cstring>
 
@@ -48,10 +48,10 @@ constexpr std::uint32_t large_size = 1000;
 std::uint8_t large_memory[2][large_size];
 CO_OBJ_DOM large[2] = {{0, large_size, large_memory[0]}, {0, large_size, large_memory[1]}};
 
-// The block states of the table are those of a server with a buffer of 127 segments.
+// The states of block transfers in the table require a server with a buffer of 127 segments.
 constexpr bool has_block = USE_SDO_BLOCK != 0 && CO_SDO_BUF_SEG == 127;
 
-// The memory of all objects that the table names.
+// Returns the memory of all objects of the table.
 Bytes image(const Objects& o) {
   Bytes all;
   const auto add = [&](const void* memory, std::size_t size) {
@@ -115,7 +115,7 @@ class Sweep : public Fixture {
       CHECK_MESSAGE(sent == step.answers, state.name, ": cannot be entered, ", step.request, " is answered ", sent);
     }
   }
-  // A transfer that is open is aborted when its time is over, at the latest, with its multiplexer. [D18]
+  // Returns the multiplexer of the open transfer, from the abort after its time-out; empty: no transfer is open. [D18]
   std::string open_transfer() {
     after(sdo_time_out());
     const Frames sent = frames();
@@ -126,7 +126,7 @@ class Sweep : public Fixture {
 
 std::string listed(const Frames& frames) { return frames.empty() ? "-" : doctest::toString(frames).c_str(); }
 
-// Empty if a server reacts as the table says, else what is different.
+// Returns the difference between the server's reaction and the table; empty: none.
 std::string deviation(const SdoState& state, unsigned command, const Frames& answers, const std::string& open,
                       bool changed) {
   const SdoReaction& expected = state.reactions[command][0];
@@ -161,7 +161,7 @@ void check_reactions(const std::vector<SdoState>& states, bool block) {
   }
 }
 
-// The model -----------------------------------------------------------------------------------------------------------
+// Model ---------------------------------------------------------------------------------------------------------------
 
 Bytes text(const char* all) { return Bytes(all, all + std::strlen(all)); }
 
@@ -189,7 +189,7 @@ std::vector<SdoObject> objects_of_model() {
   };
 }
 
-// The memory of the table's objects, as the model sees it.
+// Returns the values of the table's objects in the model.
 std::vector<Bytes> values(const SdoServerModel& model) {
   std::vector<Bytes> all;
   for (const SdoObject& object : model.objects()) all.push_back(object.value);
@@ -223,7 +223,7 @@ std::string deviation_of_model(const SdoState& state, unsigned command, bool blo
   return deviates;
 }
 
-// The cases -----------------------------------------------------------------------------------------------------------
+// Test cases ----------------------------------------------------------------------------------------------------------
 
 TEST_CASE("SDO server: the table of reactions names 61 states, and one reaction to each command byte [T6]") {
   const std::vector<SdoState> states = sdo_states(golden, true);
@@ -281,7 +281,7 @@ TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any 
   }
 }
 
-// Within a sub-block a read looks like a segment: its client has to end the transfer first. [D23]
+// Within a sub-block, the server would treat an upload request as a segment: the client has to abort first. [D23]
 TEST_CASE("SDO server: whatever the command byte was, in whatever state, the next read is answered [T6] [D8]") {
   unsigned round = 0;
   for (const SdoState& state : sdo_states(golden, has_block)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO: block transfers that share a slow controller, and frames that look like others.
+// SDO: several block transfers with a slow controller, and ambiguous frames.
 #include <string>
 
 #include "support/block_frames.hpp"
@@ -13,7 +13,7 @@ namespace {
 using namespace test;
 
 #if CO_SSDO_N > 1
-// The identifiers of what a controller that takes one frame at a time has sent.
+// Returns the CAN-IDs of the frames sent by a controller that accepts one frame at a time.
 std::vector<std::uint32_t> senders(Fixture& node, unsigned frames) {
   std::vector<std::uint32_t> ids;
   while (ids.size() < frames) {
@@ -48,12 +48,12 @@ TEST_CASE("SDO block upload: channels take turns, however few frames the control
 }
 #endif
 
-// 617 bytes are 88 segments and one byte: the last segment is D9h, as is the end, and all else is 0 in both.
+// 617 bytes are 88 segments and one byte: the last segment and the end request are equal, D9h and seven bytes 0.
 TEST_CASE("SDO block download: an end that is equal to the last segment is the end if length and CRC are right [D27]") {
   for (const char* initiate : {"601#C202210069020000", "601#C602210069020000"}) {
     CAPTURE(initiate);
     Fixture node(Setup().with_70000());
-    node.may_change(0x2102, 0);  // for the fixture such an end is a repeated segment
+    node.may_change(0x2102, 0);  // the fixture treats this end request as a repeated segment
     const Bytes zeros(617);
     node.ask(initiate, "581#A40221007F000000");
     for (unsigned n = 0; n < 89; ++n) {
@@ -122,7 +122,7 @@ TEST_CASE("SDO client, own node: a type function that cancels the access is not 
   stream.on_open = [&](CO_OBJ*, CO_NODE* of) {
     CHECK(COCSdoCancel(&of->CSdo[0]) == CO_ERR_NONE);
     CHECK(of->CSdo[0].State ==
-          CO_CSDO_STATE_BUSY);  // the callback, and with it the end of the buffer, comes afterwards
+          CO_CSDO_STATE_BUSY);  // The buffer remains valid until the callback, which is called later.
     return CO_ERR_NONE;
   };
   node.start_download(0x2300, 0, counted(40));

@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-// Boot-up, uploads, downloads, an abort, NMT and heartbeats.
+// Runs a session of boot-up, uploads, downloads, an abort, NMT and heartbeats. Returns the sent frames.
 std::vector<std::string> session(Fixture& node) {
   std::vector<std::string> all;
   const auto collect = [&] {
@@ -74,7 +74,7 @@ TEST_CASE("send failure: waiting frames go out by priority, equal ones in order 
   node.tx({"091#0102030405060708", "091#1112131415161718", "581#4300100091010F00", "701#05", "7FF#"});
 }
 
-// [ISO 11898-1] Arbitration: the base identifier first, then 11-bit before 29-bit identifiers.
+// Arbitration compares the base identifiers first; of equal ones, an 11-bit identifier wins. [ISO 11898-1]
 TEST_CASE("send failure: 29-bit identifiers wait in the order of arbitration among themselves and 11-bit ones [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();

@@ -148,7 +148,7 @@ struct Device {
         .with({CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, data(&values.heartbeat)});
   }
 
-  // Stores the values like a firmware that had no lower bound.
+  // Stores the values without checking them, like firmware without lower limits.
   void store(std::uint32_t cycle, std::uint16_t heartbeat) {
     Fixture node(setup(0x80));
     values = {cycle, heartbeat};

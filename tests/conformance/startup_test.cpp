@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1F80h, NMT startup: does the node self-start (enter Operational without a command)? [302-2] [U1]
+// 1F80h, NMT startup: self-start, the entry into Operational without an NMT command. [302-2] [U1]
 #include "support/fixture.hpp"
 
 namespace {
@@ -107,7 +107,7 @@ TEST_CASE("self-start: firmware that sets a mode after CONodeStart, or in its pl
   }
 }
 
-// CONmtModeChange() asks for another mode when it is told of one.
+// Starts a node whose CONmtModeChange() requests the mode \a ask_for in mode \a when. Returns the mode after it.
 CO_MODE started(CO_MODE when, CO_MODE ask_for) {
   Startup device(0, Setup().stay_in_init());
   Fixture& node = device.node;

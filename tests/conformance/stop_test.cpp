@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CONodeStop() at any moment: nothing but CONodeInit() brings the node back.
+// CONodeStop() in all contexts: only CONodeInit() makes the node work again.
 #include "support/fixture.hpp"
 
 namespace {

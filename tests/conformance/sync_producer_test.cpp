@@ -16,7 +16,7 @@ SyncTable producer(std::uint32_t cycle_us, std::uint8_t counter = 0) {
   return table;
 }
 
-// So many SYNCs of 10 ms each, with the numbers that they have.
+// Returns the SYNC messages of so many periods of 10 ms, with their counter values.
 std::vector<std::string> numbers(SyncNode& node, unsigned syncs) {
   std::vector<std::string> all;
   for (unsigned n = 0; n < syncs; ++n) {
@@ -205,7 +205,7 @@ TEST_CASE("SYNC producer: a period below CO_SYNC_PERIOD_MIN is refused: 0609 003
   node.ask("601#23061000F4010000", "581#6006100000000000");
   node.after(2ms);
   CHECK(node.frames().size() == 2);
-  CHECK(node.set(0x1007, 0, 4, 1) == 0);  // the window is no period
+  CHECK(node.set(0x1007, 0, 4, 1) == 0);  // the synchronous window does not depend on the period
 }
 
 TEST_CASE("SYNC producer: a table or a store that holds a period below CO_SYNC_PERIOD_MIN produces none [Y4]") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every CAN-ID against 1005h. [301:7.3.5, 7.5.2.5] [Y2] [Other 10]
+// Writes every CAN-ID to 1005h. [301:7.3.5, 7.5.2.5] [Y2] [Other 10]
 #include "support/restricted_ids.hpp"
 #include "support/sync_fixture.hpp"
 

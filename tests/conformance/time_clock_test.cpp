@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock behind TIME: right to the millisecond whatever the timer counts and whenever the loop comes. [T15] [Q8]
+// The clock of TIME: exact to 1 ms for all timer frequencies and intervals of the loop. [T15] [Q8]
 #include <random>
 
 #include "support/fixture.hpp"
@@ -20,7 +20,7 @@ CO_TIME_OF_DAY time_of(CO_NODE& node) {
   return now;
 }
 
-// Milliseconds since the beginning of day 0.
+// Returns the milliseconds since the beginning of day 0.
 std::uint64_t ms_of(const CO_TIME_OF_DAY& time) { return time.Days * day + time.Ms; }
 
 void set(Fixture& node) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIME, consumer and producer. [301:7.2.6]
+// TIME consumer and producer. [301:7.2.6]
 #include "support/time_fixture.hpp"
 
 #if USE_TIME

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything timed, at every frequency of the clock, wherever the clock starts and however the loop waits. [T15] [Q8]
+// Times of all services, for all start values and frequencies of the clock and all ways of waiting. [T15] [Q8]
 #include "support/fixture.hpp"
 
 namespace {
 
 using namespace test;
 
-// All times are whole numbers of ticks at 300, 1024 and 32768 Hz alike: multiples of 250 ms.
+// A sequence of timed actions. All times are multiples of 250 ms: whole numbers of ticks at 300, 1024 and 32768 Hz.
 using Scenario = void (*)(Fixture&, std::vector<std::string>&);
 
 void note(Fixture& node, std::vector<std::string>& all) {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// Two of every kind that matters: A objects, plain ones.
+// Returns a table with TPDO 0 on 181h. By default it maps 2211h:1, with flag A, and 2202h:1, without.
 PdoTable with(std::uint8_t type, std::initializer_list<std::uint32_t> words = {0x22110108, 0x22020110}) {
   PdoTable table;
   table.tpdo[0].on(0x40000181, type, words);
@@ -197,7 +197,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj of an entry of another dictionary is CO_ERR
   CO_OBJ* const mapped = node.find(0x2211, 1);
   trigger_object(node, mapped);
   CHECK(node.frames().size() == 1);
-  // The number of an entry has 16 bits.
+  // Entries are numbered with 16 bits: an entry 65536 entries away must not be confused with the mapped one.
   const auto far = reinterpret_cast<std::uintptr_t>(mapped) + 65536 * sizeof(CO_OBJ);
   CO_OBJ copy = *mapped;
   for (CO_OBJ* const other : {reinterpret_cast<CO_OBJ*>(far), &copy, node->Dict.Root + node->Dict.Num}) {
@@ -290,7 +290,7 @@ TEST_CASE("TPDO event: type 0 is sent with the next SYNC after an event, once [X
   SyncNode node(table);
   node.start();
   node.rx("080#");
-  node.tx("181#11");  // entering Operational has marked it
+  node.tx("181#11");  // entering Operational is an event
   for (int i = 0; i < 3; ++i) {
     node.rx("080#");
     node.silent();
@@ -308,7 +308,7 @@ TEST_CASE("TPDO event: type 0 is sent with the next SYNC after an event, once [X
   node.silent();
   node.a8[0] = 0x14;
   node.rx("080#");
-  node.tx("181#14");  // sampled at the SYNC
+  node.tx("181#14");  // the value at the SYNC
   node.rx("080#");
   node.silent();
 }

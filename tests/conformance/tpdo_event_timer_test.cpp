@@ -64,7 +64,7 @@ TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [Q8
     sent += static_cast<unsigned>(node.frames().size());
   }
   const std::uint64_t passed = node.now() - begin;
-  CHECK(sent + 0U == passed / 10);  // late by less than a period: none is skipped
+  CHECK(sent + 0U == passed / 10);  // delays are shorter than the period: no TPDO is skipped
   node.after(std::chrono::milliseconds{10 - passed % 10});
   CHECK(node.frames().size() == 1);
 }

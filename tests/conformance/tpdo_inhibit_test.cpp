@@ -81,7 +81,7 @@ TEST_CASE("TPDO inhibit: a storm of events never sends two PDOs closer than the 
   }
   CHECK(sent == 100);
   node.after(20ms);
-  node.tx("181#E7");  // the last value arrives: 999
+  node.tx("181#E7");  // the last value, 999 modulo 256, is sent
 }
 
 TEST_CASE("TPDO inhibit: a late loop sends no two PDOs closer than the time [X6] [Q8]") {
@@ -253,7 +253,7 @@ TEST_CASE("TPDO inhibit: times of 100 us, and the longest one") {
   longest.trigger(0);
   longest.tx("181#11");
   longest.after(10000ms);
-  longest.tx_at(6554ms, "181#11");  // rounded up: never too early
+  longest.tx_at(6554ms, "181#11");  // 6553.5 ms, rounded up
 }
 
 TEST_CASE("TPDO inhibit: each PDO has its own") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remote requests for TPDOs, types 252 and 253 among them. [301:7.2.2.5.3, 7.5.2.37] [X11] [X13]
+// Remote requests for TPDOs of all types, including 252 and 253. [301:7.2.2.5.3, 7.5.2.37] [X11] [X13]
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 0 && USE_PDO_RTR && USE_SYNC
@@ -39,7 +39,7 @@ TEST_CASE("remote TPDO: types 0 to 240 and 252 send what the last SYNC has sampl
     SyncNode node(with(static_cast<std::uint8_t>(type)));
     node.start();
     node.rx("181#R");
-    node.silent();  // no SYNC yet
+    node.silent();  // before the first SYNC
     node.rx("080#");
     node.frames();
     node.u8[0] = 0x77;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TPDOs that are sent with the SYNC: types 1 to 240, SYNC start value. [301:7.2.2.3, 7.5.2.37]
+// Synchronous TPDOs: types 1 to 240, SYNC start value. [301:7.2.2.3, 7.5.2.37]
 #include "support/sync_fixture.hpp"
 
 #if CO_TPDO_N > 0 && USE_SYNC
@@ -15,7 +15,8 @@ SyncTable with(std::uint8_t type, std::uint8_t start = 0, std::uint8_t counter =
   return table;
 }
 
-// SYNCs with numbers first, first + 1, …: those at which the PDO was sent, counted from 1.
+// Sends SYNCs with the counter values first, first + 1, …. Returns the SYNCs, counted from 1, at which the PDO was
+// sent.
 std::vector<unsigned> sent_at(SyncNode& node, unsigned syncs, unsigned first = 1) {
   std::vector<unsigned> at;
   for (unsigned n = 1; n <= syncs; ++n) {
@@ -200,7 +201,7 @@ TEST_CASE("SYNC start value: it is waited for after each entry into Operational 
     CHECK(sent_at(node, 10) == List{6, 9});
     node.rx(command);
     node.rx("000#0101");
-    CHECK(sent_at(node, 20, 5) == List{12, 15, 18});  // number 4 is the tenth
+    CHECK(sent_at(node, 20, 5) == List{12, 15, 18});  // the tenth SYNC has counter value 4
     node.rx(command);
     node.rx("000#0101");
     CHECK(sent_at(node, 10) == List{6, 9});
@@ -223,7 +224,7 @@ TEST_CASE("SYNC start value: it is waited for after the PDO is switched on, and 
   CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
   CHECK(node.set(0x1800, 6, 1, 2) == 0);
   CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0);
-  CHECK(sent_at(node, 10, 9) == List{6, 9});  // number 2 is the fourth
+  CHECK(sent_at(node, 10, 9) == List{6, 9});  // the fourth SYNC has counter value 2
   CHECK(node.set(0x1800, 2, 1, 1) == 0);
   CHECK(sent_at(node, 4) == List{2, 3, 4});
 }
