@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The access hook as docs/access.md shows it: a configuration lock, a role, and a rate limit.
+// The access hook of docs/access.md: a configuration lock, a role, and a rate limit.
 #include "co_core.h"
 #include "fakes.h"
 #include "unity.h"
@@ -7,9 +7,9 @@
 #define SAVES_IN_A_ROW 2u
 
 typedef struct DEVICE { /* CO_NODE_EXT.User */
-  uint8_t Locked;       /* a switch in the cabinet */
-  uint8_t Moving;       /* the drive turns */
-  uint8_t Saves;        /* "save" commands that are left */
+  uint8_t Locked;       /* the key switch in the cabinet is locked */
+  uint8_t Moving;       /* the drive is turning */
+  uint8_t Saves;        /* number of "save" commands still permitted */
 } DEVICE;
 
 static int IsConfiguration(uint16_t index) { return index < 0x2000; }
@@ -21,10 +21,10 @@ static uint32_t PermitSdo(CO_NODE* node, void* user, const CO_ACCESS_SDO* access
     return 0;
   }
   if (device->Locked && IsConfiguration(access->Index)) {
-    return CO_SDO_ERR_TOS_LOCAL; /* configuration lock */
+    return CO_SDO_ERR_TOS_LOCAL; /* configuration is locked */
   }
   if (access->Channel != 0 && access->Index != 0x2100) {
-    return CO_SDO_ERR_WR; /* role: the operator's panel, on the second SDO server, writes its set point only */
+    return CO_SDO_ERR_WR; /* role: the operator's panel, on the second SDO server, may write its set point only */
   }
   if (access->Index == 0x1010) {
     if (device->Saves == 0) {

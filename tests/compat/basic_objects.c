@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of 8, 16 and 32 bits: the table, its flags, and both ways for the application to reach an entry.
+// Objects of 8, 16 and 32 bits: the table, its flags, and the access of the application by entry and by value.
 #include "co_core.h"
 #include "fakes.h"
 #include "unity.h"
@@ -51,7 +51,7 @@ static void test_values_are_read_in_the_width_of_their_type(void) {
   TEST_ASSERT_EQUAL_HEX32(0x11223344, value);
   TEST_ASSERT_EQUAL(CO_ERR_NONE, CODictRdWord(&Node.Dict, CO_DEV(0x2400, 2), &word));
   TEST_ASSERT_EQUAL_HEX16(0x5566, word);
-  ErrorRegister = 0x11; /* the node has written it */
+  ErrorRegister = 0x11; /* written by the node */
   TEST_ASSERT_EQUAL(CO_ERR_NONE, CODictRdByte(&Node.Dict, CO_DEV(0x1001, 0), &byte));
   TEST_ASSERT_EQUAL_HEX8(0x11, byte);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Block transfers as a firmware sees them that was written without: its object types as server, its buffers as client.
+// Block transfers with firmware that was written for a stack without them: its object types at the server, its buffers
+// at the client.
 #include <stdio.h>
 #include <string.h>
 
@@ -88,7 +89,7 @@ static CO_ERR LimitWrite(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size
 
 static const CO_OBJ_TYPE LimitType = {LimitSize, 0, 0, LimitWrite, 0};
 
-/* A type that sees the end. */
+/* A type with Begin and End. */
 
 static CO_OBJ_TRANSFER Transfer;
 static uint32_t Begun;
@@ -126,7 +127,7 @@ static const CO_OBJ Dictionary[] = {
 
 static CO_NODE Node;
 
-static uint8_t Buffer[64]; /* of the client */
+static uint8_t Buffer[64]; /* buffer of the client */
 static unsigned Calls;
 static uint32_t Code;
 
@@ -151,7 +152,7 @@ void setUp(void) {
 
 static uint8_t Letter(uint32_t position) { return (uint8_t)('A' + position % 23); }
 
-/* A segment of a block: sequence number, bit 7 in the last of all, and the letters from a position on. */
+/* Returns a segment of a block: sequence number, with bit 7 in the last segment, and the letters from position on. */
 static const char* Segment(const char* id, uint32_t number, uint32_t position, uint32_t size) {
   static char frame[24];
   unsigned last = position + 7 >= size ? 0x80u : 0;
@@ -167,7 +168,7 @@ static uint32_t SegmentsInBlock(uint32_t position, uint32_t size, uint32_t block
   return left < block ? left : block;
 }
 
-/* The segments of a download of the letters, block by block. */
+/* Downloads the letters in segments, block by block, and checks the acknowledges. */
 static void DownloadBlocks(uint32_t size) {
   for (uint32_t position = 0; position < size;) {
     char acknowledge[24];
@@ -185,7 +186,7 @@ static void DownloadBlocks(uint32_t size) {
 
 static void ReceiveSegments(uint32_t num, uint32_t position, uint32_t size) {
   for (uint32_t n = 1; n <= num; n++) {
-    CONodeProcess(&Node); /* goes on when the controller is free */
+    CONodeProcess(&Node); /* sends the next segment */
     TEST_ASSERT_SENT(Segment("581", n, position + (n - 1) * 7, size));
   }
   CONodeProcess(&Node);
@@ -226,7 +227,7 @@ static void test_a_stream_is_uploaded_in_pieces_of_the_buffer(void) {
   TEST_ASSERT_EQUAL_UINT32(1500 - CO_SDO_BUF_BYTE, Journal.Pieces[1]);
 }
 
-/* The check value of the CRC: 31C3h for "123456789". */
+/* Downloads "123456789", whose CRC is 31C3h. */
 static void DownloadDigits(const char* initiate, const char* accept, const char* end) {
   BusReceive(&Node, initiate);
   TEST_ASSERT_EQUAL_STRING_LEN(accept, BusSent(), 12);
@@ -298,7 +299,7 @@ static void test_without_a_size_the_type_is_told_so(void) {
   TEST_ASSERT_EQUAL_HEX32(CO_OBJ_SIZE_UNKNOWN, Begun);
 }
 
-/* The client. Its requests are those of CANopen-Stack; what is on the bus depends on the size of the buffer. */
+/* The client. Its requests are those of CANopen-Stack; the size of the buffer determines the protocol. */
 
 static void RequestUpload(void) {
   CO_CSDO* csdo = COCSdoFind(&Node, 0);

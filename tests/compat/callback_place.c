@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A callback counts only if the linker sees its definition: from an object it always does (EXPECTED_CALLS 1), in a
-// static library that nothing else needs it does not (EXPECTED_CALLS 0), and the stack's own default stays.
+// Checks which definition of a callback is linked. A definition in an object file replaces the stack's default
+// (EXPECTED_CALLS 1). One in a static library from which nothing else is needed does not: the default is called
+// (EXPECTED_CALLS 0).
 #include "callback_place.h"
 
 #include "fakes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file callback_place.h
-/// What callback_place.c and callback_definition.c share.
+/// Declarations for callback_place.c and callback_definition.c.
 #ifndef COMPAT_CALLBACK_PLACE_H_
 #define COMPAT_CALLBACK_PLACE_H_
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The application's own definitions replace the stack's weak ones.
+// Checks that the application's definitions of callbacks replace the stack's weak ones.
 #include <string.h>
 
 #include "co_core.h"

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# The configuration of a program, and that of the library that it is linked with:
+# Checks the configuration of a program against that of the library that it is linked with:
 #   configuration.sh link PROJECT LIBRARY COMPILER...      a program with another configuration is not linked
-#   configuration.sh settings PROJECT COMPILER...          each setting of co_cfg.h is part of the configuration's number
+#   configuration.sh settings PROJECT COMPILER...          each setting of co_cfg.h changes the configuration's number
 #   configuration.sh presets PROJECT COMPILER...           a definition has priority over each setting of each preset
-# COMPILER... has options, too: the language, and for link the configuration of LIBRARY.
+# COMPILER... includes its options: the language and, for link, the configuration of LIBRARY.
 set -u
 what=$1 project=$2
 shift 2
@@ -19,7 +19,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-# build OPTION...: other_configuration.c, by "${compiler[@]}"
+# build OPTION...: compiles other_configuration.c with "${compiler[@]}"
 build() { "${compiler[@]}" "${includes[@]}" "${strict[@]}" "$@" -x none "$library" -o "$directory/program" >"$directory/said" 2>&1; }
 
 check_link() {
@@ -44,10 +44,10 @@ check_link() {
   done
 }
 
-# The names of the settings in a header.
+# Prints the names of the settings in a header.
 settings_in() { sed -nE 's/^#ifndef ((CO|USE)_[A-Z0-9_]+)$/\1/p' "$1" | grep -vE '_H_$|^CO_CFG_PRESET$'; }
 
-# number_with DEFINITION...: the configuration's number, nothing if the configuration is not possible
+# number_with DEFINITION...: prints the configuration's number; nothing if the configuration is invalid
 number_with() {
   printf '#include "co_configuration.h"\nnumber CO_CONFIGURED_SYMBOL("of")\n' |
     "$@" "${includes[@]}" -E -P - 2>/dev/null | sed -n 's/^number //p' | tr -d '" '
@@ -74,7 +74,7 @@ check_settings() {
   [ "$(wc -l <<<"$all")" -gt 35 ] || fail "settings are missing"
 }
 
-# The other value of a switch, or 16.
+# Prints the other value of a switch, or 16 for a number.
 check_presets() {
   local preset setting value other
   for preset in "$project"/config/presets/*.h; do

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// unity.cpp asks doctest whether one of its cases is running; in these programs none ever is.
+// Defines doctest's functions: unity.cpp queries whether a doctest case is running, which is never true in these
+// programs.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>

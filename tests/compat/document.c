@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The examples of the page "Using Object Dictionary", unchanged but for white space. The tables of several sections are
-// joined, lines for "and so on" are removed, and prototypes and variables that the page leaves to the reader are added.
+// The examples of the page "Using Object Dictionary", unchanged except for white space. The tables of several sections
+// are joined, lines with ellipses are removed, and prototypes and variables that the page omits are added.
 #include <string.h>
 
 #include "co_core.h"
 #include "fakes.h"
 #include "unity.h"
 
-/* left to the reader */
+/* omitted by the page */
 #define DEMO_DOMAIN_SIZE 10u
 static CO_NODE demo;
 static uint32_t value;
@@ -61,7 +61,7 @@ CO_OBJ_TYPE DemoType = {
 const CO_OBJ_TYPE MyType = {MyTypeSize, 0, MyTypeRead, MyTypeWrite};
 
 const CO_OBJ DemoOD[] = {
-    /* mandatory, left to the reader */
+    /* mandatory, omitted by the page */
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
 
     /* PDO mappable read-only value: */
@@ -70,11 +70,11 @@ const CO_OBJ DemoOD[] = {
     /* Read-only value, which depends on Node-ID: */
     {CO_KEY(0x1014, 0, CO_OBJ__N__R_), CO_TUNSIGNED32, (CO_DATA)(&DemoEmcyId)},
 
-    /* mandatory, left to the reader */
+    /* mandatory, omitted by the page */
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
 
-    /* of the examples for access and for domains */
+    /* entries of the examples for access and for domains */
     {CO_KEY(0x1234, 0x56, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&DemoPolled)},
     {CO_KEY(0x2345, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&DemoDomainObj)},
     {CO_KEY(0x2345, 0x56, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&DemoVarLong)},
@@ -93,7 +93,7 @@ const CO_OBJ DemoOD[] = {
     /* mark the end of object dictionary: */
     CO_OBJ_DICT_ENDMARK};
 
-/* left to the reader */
+/* omitted by the page */
 uint32_t DemoSize(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   (void)obj;
   (void)node;

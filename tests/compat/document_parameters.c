@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameter groups of the page "Using Object Dictionary", unchanged but for white space and the place of the type
-// name CO_PARA. The program is only compiled: it has no memory to store in.
+// The parameter groups of the page "Using Object Dictionary", unchanged except for white space and the position of the
+// type name CO_PARA. The program is only compiled: it has no memory to store the groups in.
 #include <string.h>
 
 #include "co_core.h"
@@ -15,7 +15,7 @@ struct DEMO_PARA_T {
   uint8_t ParaByte;  /* storable 8bit parameter value */
 } DemoParaMem;
 
-struct DEMO_PARA_T DemoParaDef = {1, 2, 3}; /* left to the reader */
+struct DEMO_PARA_T DemoParaDef = {1, 2, 3}; /* omitted by the page */
 
 const CO_PARA DemoParaObj = {
     0L,                         /* start address in non-volatile memory */
@@ -36,7 +36,7 @@ const CO_OBJ DemoOD[] = {
 
 void StoreDemoParameters(void) { COParaStore(&DemoParaObj, &demo); /* store parameter group */ }
 
-/* Not of the page: the ways in which firmware uses the members. */
+/* Uses of the members by firmware; not part of the page. */
 static uint8_t Bytes[8];
 static CO_PARA ByteGroup = {0, sizeof(Bytes), Bytes, 0, CO_RESET_COM, (void*)"bytes", CO_PARA__AE};
 static CO_PARA CastGroup = {0,    sizeof(DemoParaMem), (uint8_t*)&DemoParaMem, (uint8_t*)&DemoParaDef, CO_RESET_NODE,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dictionary in RAM that the application fills when it runs, and extends later.
+// A dictionary in RAM that the application fills at run time, and extends later.
 #include <string.h>
 
 #include "co_core.h"
@@ -18,7 +18,7 @@ static CO_NODE Node;
 static uint8_t ErrorRegister;
 static uint32_t Values[8];
 
-/* Entries come in ascending order; the end mark moves behind the last one. */
+/* Appends an entry and moves the end mark behind it. Entries must be added in ascending order. */
 static void Append(DYNAMIC_DICTIONARY* self, uint32_t key, const CO_OBJ_TYPE* type, CO_DATA data) {
   const CO_OBJ end = CO_OBJ_DICT_ENDMARK;
   CO_OBJ* obj = &self->Root[self->Used];

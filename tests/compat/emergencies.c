@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emergencies of a firmware: a table of errors, a history, COEmcySet() and its like, and the callback of the consumer.
+// Emergencies of firmware: an error table, a history, COEmcySet() and related functions, and the callback of the
+// consumer.
 #include <string.h>
 
 #include "co_core.h"

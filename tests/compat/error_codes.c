@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Error codes have fixed numbers and names: firmware logs them, and tools know them.
+// Checks the numbers and names of the error codes, which firmware logs and tools interpret.
 #include <string.h>
 
 #include "co_err.h"
@@ -130,7 +130,7 @@ static void test_each_error_code_has_a_meaning(void) {
   }
 }
 
-// A code that is added to co_err.h has to be added here.
+// Fails if a code was added to co_err.h and not to the table above.
 static void test_no_other_number_is_an_error_code(void) {
   const unsigned beyond = Expected[EXPECTED_NUM - 1].Number + 1;
   TEST_ASSERT_EQUAL_STRING("unknown error", COErrName((CO_ERR)beyond));

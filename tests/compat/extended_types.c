@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object types that see how a transfer begins and ends (CO_OBJ_TYPE_EX), as constant tables with positional
-// initialisers: a firmware image that counts only when all of it has come, and records whose number is not known before
-// they are read.
+// Object types with Begin and End (CO_OBJ_TYPE_EX), as constant tables with positional initialisers: a firmware image
+// that is valid only when it was received completely, and records whose number is unknown before they are read.
 #include <stdio.h>
 #include <string.h>
 
@@ -9,7 +8,7 @@
 #include "fakes.h"
 #include "unity.h"
 
-/* What the type functions were called for, in their order. */
+/* Calls of the type functions, in their order. */
 static char Calls[256];
 
 static void Called(const char* what, uint32_t number) {
@@ -22,7 +21,7 @@ static void Called(const char* what, uint32_t number) {
 typedef struct IMAGE {
   uint8_t Flash[32];
   uint32_t Position;
-  uint32_t Length; /* of a valid image, else 0 */
+  uint32_t Length; /* length of a valid image, else 0 */
 } IMAGE;
 
 static IMAGE Image;
@@ -76,7 +75,7 @@ static CO_ERR ImageBegin(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, u
   return CO_ERR_NONE;
 }
 
-/* An image begins with 7Fh. */
+/* Ends a transfer. A received image is valid if its first byte is 7Fh. */
 static CO_ERR ImageEnd(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
   IMAGE* image = (IMAGE*)obj->Data;
   Called(transfer == CO_OBJ_DOWNLOAD ? "end download" : "end upload", abort);
@@ -95,15 +94,15 @@ static CO_ERR ImageEnd(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, uin
 }
 
 static const CO_OBJ_TYPE_EX ImageType = {
-    {ImageSize, 0, ImageRead, ImageWrite, COObjTypeExReset}, /* as every type */
+    {ImageSize, 0, ImageRead, ImageWrite, COObjTypeExReset}, /* functions of every type */
     ImageReset,                                              /* sets the position */
-    ImageBegin,                                              /* a transfer begins */
-    ImageEnd                                                 /* and has ended */
+    ImageBegin,                                              /* called when a transfer begins */
+    ImageEnd                                                 /* called when a transfer has ended */
 };
 
 #define CO_TIMAGE ((const CO_OBJ_TYPE*)&ImageType)
 
-/* Records are taken out of a queue; how many there are shows when it is empty. */
+/* A type that reads records from a queue; their number is known when the queue is empty. */
 
 static uint32_t RecordsNum;   /* bytes in the queue */
 static uint32_t RecordsTaken; /* bytes read by this transfer */
@@ -135,7 +134,7 @@ static CO_ERR RecordsReset(CO_OBJ* obj, CO_NODE* node, uint32_t para) {
   return CO_ERR_NONE;
 }
 
-/* The next transfer asks for the size before it begins. */
+/* Ends a transfer. The next one requests the size before it begins. */
 static CO_ERR RecordsEnd(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, uint32_t abort) {
   (void)obj;
   (void)node;
@@ -148,7 +147,7 @@ static CO_ERR RecordsEnd(CO_OBJ* obj, CO_NODE* node, CO_OBJ_TRANSFER transfer, u
 static const CO_OBJ_TYPE_EX RecordsType = {
     {RecordsSize, 0, RecordsRead, 0, COObjTypeExReset}, RecordsReset, 0, RecordsEnd};
 
-/* A type that asks for nothing. */
+/* A type without Reset, Begin and End. */
 
 static uint8_t Register[9];
 
@@ -188,7 +187,7 @@ void setUp(void) {
   NodeUp(&Node, Dictionary, sizeof(Dictionary) / sizeof(Dictionary[0]));
 }
 
-/* Up to the answer to the last segment. */
+/* Downloads an image, up to the response to the last segment. */
 static void DownloadImage(const char* first_segment) {
   BusReceive(&Node, "601#21501F010A000000");
   TEST_ASSERT_SENT("581#60501F0100000000");
@@ -274,7 +273,7 @@ static void test_the_abort_of_the_client_is_the_end(void) {
 
 static void test_the_abort_of_the_server_is_the_end(void) {
   HalfADownload();
-  BusReceive(&Node, "601#0908090A00000000"); /* the toggle bit of the segment before */
+  BusReceive(&Node, "601#0908090A00000000"); /* toggle bit of the previous segment */
   TEST_ASSERT_SENT("581#80501F0100000305");
   TEST_ASSERT_CALLS("end download 5030000, ");
 }

@@ -15,8 +15,8 @@ static CO_IF_FRM Sent[32];
 static unsigned SentNum;
 static unsigned SentTaken;
 
-static uint32_t TicksLeft; /* both timers; 0: stopped or elapsed */
-static int Compare;        /* 1: the timer interrupts at its end only */
+static uint32_t TicksLeft; /* ticks of either timer; 0: stopped or elapsed */
+static int Compare;        /* 1: the timer interrupts only when its time has elapsed */
 static uint8_t NvmMemory[64];
 
 void FakesReset(void) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file fakes.h
-/// The surroundings of a node in these programs: drivers without context as a firmware has them, and the bus and the
-/// clock behind them. Frames are written as candump does: "601#4000100000000000".
+/// Simulated environment of a node: classic drivers, a bus, and a clock. Frames are written as by candump:
+/// "601#4000100000000000".
 #ifndef COMPAT_FAKES_H_
 #define COMPAT_FAKES_H_
 
@@ -12,11 +12,11 @@ extern "C" {
 #endif
 
 extern const CO_IF_CAN_DRV FakeCanDriver;
-extern const CO_IF_TIMER_DRV FakeCyclicTimerDriver;  ///< a periodic interrupt and a count-down
+extern const CO_IF_TIMER_DRV FakeCyclicTimerDriver;  ///< a periodic interrupt and a down counter
 extern const CO_IF_TIMER_DRV FakeDeltaTimerDriver;   ///< a compare match
 extern const CO_IF_NVM_DRV FakeNvmDriver;
 
-/// Calls and arguments that the drivers have received.
+/// Number of calls of the drivers, and their last arguments.
 typedef struct FAKES {
   unsigned CanInits;
   unsigned CanEnables;
@@ -30,15 +30,15 @@ typedef struct FAKES {
 
 extern FAKES Fakes;
 
-/// Back to the state before power-on.
+/// Restores the state before power-on.
 void FakesReset(void);
 
 /// Puts a frame on the bus and lets \a node process it.
 void BusReceive(CO_NODE* node, const char* frame);
-/// The next frame that the node has sent, "" if there is none.
+/// Returns the next frame that the node has sent, "" if there is none.
 const char* BusSent(void);
 
-/// Lets \a ticks pass in the timer interrupt, then in the loop.
+/// Advances the time by \a ticks: calls the timer interrupt and the main loop for each.
 void TimePasses(CO_NODE* node, uint32_t ticks);
 
 /// Initialises and starts a node (node-ID 1) without application timers; removes its boot-up message from the bus.

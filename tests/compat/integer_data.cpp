@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// C++ code that takes CO_DATA for the integer that it is in C, compiled with CO_DATA_INTEGER.
+// C++ code that uses CO_DATA as an integer, like C code, compiled with CO_DATA_INTEGER.
 #include <type_traits>
 
 #include "co_core.h"

@@ -11,7 +11,7 @@ static void test_what_is_loaded_is_unchanged(void) {
   TEST_ASSERT_EQUAL(5, id);
 }
 
-/* An LSS master must not believe that its node-ID is safe. */
+/* Storing must fail, so that the LSS master does not assume that the node-ID is stored. */
 static void test_nothing_can_be_stored(void) { TEST_ASSERT_EQUAL(CO_ERR_LSS_NO_STORE, COLssStore(250000, 5)); }
 
 int main(void) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Builds library and program with link-time optimisation, the table in one language and its use in the other, and runs it.
+# Builds and runs library and program with link-time optimisation, the table in one language and its use in the other.
 # A warning of compiler or linker is a failure, except about initialisers with fewer values than members.
 # lto.sh CC CXX PROJECT DOCTEST-DIRECTORY BUILD-DIRECTORY
 set -eu
@@ -15,7 +15,7 @@ rm -rf "$build"
 mkdir -p "$build"
 cd "$build"
 
-# clang's objects need a linker of its own.
+# clang's objects need LLVM's linker.
 linker=-flto-partition=one  # needs no make, and no warning about the number of processes
 if [ "$cc" = clang ]; then
   linker=-fuse-ld=lld
@@ -28,14 +28,14 @@ common="-O2 -flto $warnings $includes"
 as_c="$cc -x c -std=c11 $common -c"
 as_cpp="$cxx -x c++ -std=c++17 $common -c"
 
-# Services have sources of the same name.
+# Sources of different services have the same file name.
 mkdir library
 find "$project/src" -name '*.cpp' -printf '%P\n' | while read -r source; do
   # shellcheck disable=SC2086
   $as_cpp -fno-exceptions -fno-rtti "$project/src/$source" -o "library/$(echo "$source" | tr '/' '-').o"
 done
 
-# The assertions are no subject of this test, and doctest is large.
+# Without link-time optimisation, as the assertions are not tested here and doctest is large.
 # shellcheck disable=SC2086
 $cxx -std=c++17 -O0 $includes -c "$project/tests/support/unity.cpp" "$compat/doctest.cpp"
 

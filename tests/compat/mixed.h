@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file mixed.h
-/// What mixed_table.c and mixed_use.c share, whatever the language of each.
+/// Declarations for mixed_table.c and mixed_use.c, each of which is C or C++.
 #ifndef COMPAT_MIXED_H_
 #define COMPAT_MIXED_H_
 
@@ -19,9 +19,9 @@ extern const CO_PARA MixedGroup;
 extern uint32_t MixedLong;
 extern uint8_t MixedBytes[4];
 
-/// Puts a direct value into an entry of MixedDynamic.
+/// Writes a direct value to an entry of MixedDynamic.
 void MixedSet(CO_OBJ* obj, uint32_t value);
-/// The value that lies in an entry.
+/// Returns the value that the entry contains.
 uint32_t MixedGet(const CO_OBJ* obj);
 
 #ifdef __cplusplus

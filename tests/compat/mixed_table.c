@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of one language, used by the other (mixed_use.c), see lto.sh.
+// Tables in one language that mixed_use.c uses in the other one, see lto.sh.
 #include "mixed.h"
 
 uint32_t MixedLong = 0xCAFEF00D;

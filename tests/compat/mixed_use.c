@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses the tables of mixed_table.c, which may be of the other language. Both sides read and write the same entries, so
-// that a link-time optimiser that takes their types for different ones is found out.
+// Uses the tables of mixed_table.c, which may be compiled in the other language. Both files read and write the same
+// entries: a link-time optimiser that treats their types as different fails the test.
 #include "fakes.h"
 #include "mixed.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names, numbers and macros that a firmware uses without calling the stack.
+// Names, numbers and macros that firmware uses without calling the stack.
 #include <string.h>
 
 #include "co_core.h"
@@ -182,7 +182,7 @@ static void test_argument_checks_let_good_arguments_pass(void) {
   TEST_ASSERT_EQUAL(CO_ERR_NONE, AssertLowerErr(4));
 }
 
-/* Types by their tags, which a firmware uses to declare without including. */
+/* Structure tags, by which firmware declares types without including their headers. */
 static void test_structures_have_their_tags(void) {
   struct CO_OBJ_T obj = CO_OBJ_DICT_ENDMARK;
   TEST_ASSERT_EQUAL(sizeof(CO_OBJ), sizeof(obj));
@@ -332,7 +332,7 @@ static void test_sizes_of_the_sdo_buffer_belong_together(void) {
   TEST_ASSERT_EQUAL(CO_SDO_BUF_SEG * 7, CO_SDO_BUF_BYTE);
 }
 
-/* Also in a configuration that makes no use of them. */
+/* The names exist in a configuration that does not use them, too. */
 static void test_the_configuration_has_all_its_names(void) {
   const long values[] = {CO_SSDO_N,     USE_CSDO,       CO_CSDO_N,     USE_SDO_BLOCK,
                          CO_CSDO_BLOCK, CO_SDO_TIMEOUT, CO_TX_QUEUE_N, CO_SDO_BUF_SEG};

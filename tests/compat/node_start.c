@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node from power-on to its loop, in the order of a firmware: init, error check, timers of the application, start,
-// mode, loop; with a cyclic and with a compare timer, with and without non-volatile memory.
+// A node from power-on to the main loop, in the order of typical firmware: initialisation, error check, timers of the
+// application, start, mode, loop; with a cyclic and with a compare timer, with and without non-volatile memory.
 #include <string.h>
 
 #include "co_core.h"
 #include "fakes.h"
 #include "unity.h"
 
-#define DICTIONARY_LENGTH 128u /* room for more entries than are in use */
+#define DICTIONARY_LENGTH 128u /* more than the entries in use */
 
 static uint8_t ErrorRegister;
 static uint16_t HeartbeatTime = 100;
@@ -54,7 +54,7 @@ void setUp(void) {
   Seconds = 0;
 }
 
-/* Everything before the loop; the specification lives on the stack and is filled member by member. */
+/* Starts a node like typical firmware. The specification is a local variable, filled member by member. */
 static void Start(CO_NODE* node, CO_IF_DRV* drivers) {
   CO_NODE_SPEC spec;
   memset(&spec, 0xA5, sizeof(spec));

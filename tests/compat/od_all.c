@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OD_ALL defined behind co_core.h, which has named all basic types already, and behind a first co_od.h: from there on
-// every one of them can be extended, also where the header of a type is included once more.
+// Defines OD_ALL after co_core.h, which has declared all basic types, and after a first co_od.h: all basic types can be
+// extended from there on, also if the header of a type is included again.
 #include <string.h>
 
 #include "co_core.h"
@@ -75,7 +75,7 @@ static ODR_t Refuse(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* 
 static OD_extension_t Extension;
 
 void setUp(void) {
-  static CO_NODE_EXT ext; /* the node reads it as long as it runs */
+  static CO_NODE_EXT ext; /* must exist as long as the node */
   uint16_t n;
   memset(&ext, 0, sizeof(ext));
   ext.Size = sizeof(ext);
@@ -121,7 +121,7 @@ static void test_the_network_reaches_the_extension_of_every_type(void) {
     TEST_ASSERT_EQUAL(ODR_OK, OD_extension_init(&List[n], &Extension));
     Upload(List[n].index);
     (void)BusSent();
-    BusReceive(&Node, "601#6000000000000000"); /* what is longer is read by the first segment */
+    BusReceive(&Node, "601#6000000000000000"); /* longer values are read with the first segment */
     (void)BusSent();
     TEST_ASSERT_EQUAL_UINT32(before + 1, Reads);
     BusReceive(&Node, "601#8000210000000008");

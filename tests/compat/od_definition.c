@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A dictionary that is defined as the page "Object Dictionary" shows it (od_definition/ODxyz.c): found, read and
-// written without a node.
+// Uses a dictionary that is defined like the example of the page "Object Dictionary" (od_definition/ODxyz.c): finds,
+// reads and writes its entries without a node.
 #include <string.h>
 
 // clang-format off: the page's header needs the other before it
@@ -9,7 +9,7 @@
 // clang-format on
 #include "unity.h"
 
-/* The page calls 1003h a variable, where it means an array. */
+/* The page defines 1003h as a variable, but means an array. */
 static OD_obj_array_t Errors = {
     &ODxyz_RAM.x1003_preDefinedErrorField_sub0,
     &ODxyz_RAM.x1003_preDefinedErrorField[0],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access by the application as in the page "Object Dictionary": myFunc() is unchanged but for white space, the second
-// example has the names of this stack.
+// Accesses the object dictionary like the page "Object Dictionary": myFunc() is unchanged except for white space, the
+// second example uses names of this stack.
 #include <string.h>
 
 #include "301/CO_ODinterface.h"
@@ -11,7 +11,7 @@
 extern OD_t* ODxyz;
 void myFunc(OD_t* od);
 
-/* left to the reader */
+/* omitted by the page */
 static CO_NODE Node;
 static CO_NODE* const CANmodule = &Node;
 static char Name[50];
@@ -41,7 +41,7 @@ void myFunc(OD_t* od) {
   }
   if (odRet != ODR_OK) error++;
 
-  /* not of the page: what the test looks at */
+  /* not part of the page: results for the test */
   if (odRet == ODR_OK) {
     memcpy(Name, buf, bytesRd);
     NameBytes = bytesRd;
@@ -53,7 +53,7 @@ void myFunc(OD_t* od) {
   CO_UNLOCK_OD(CANmodule);
   if (odRet != ODR_OK) error++;
 
-  Errors = error; /* not of the page */
+  Errors = error; /* not part of the page */
 }
 
 static uint8_t ErrorRegister;
@@ -83,7 +83,7 @@ static OD_entry_t List[OD_LIST_N(5)];
 static OD_t Od;
 OD_t* ODxyz = &Od;
 
-/* Shortcuts, as the page has them in its header: the list is ours, but its order is that of the indexes. */
+/* Shortcut like those of the page's header; the list is this file's, in the order of the indexes. */
 #define ODxyz_1001_errorRegister &ODxyz->list[1]
 
 void setUp(void) {
@@ -120,7 +120,7 @@ static void test_the_function_of_the_page_counts_what_is_not_there(void) {
   TEST_ASSERT_EQUAL_INT(2, Errors);
 }
 
-/* The second example. */
+/* The second example of the page. */
 static void test_simple_access_by_globals(void) {
   /* Direct address instead of OD_find() */
   OD_entry_t* entry_errReg = ODxyz_1001_errorRegister;
@@ -136,7 +136,7 @@ static void test_simple_access_by_globals(void) {
   TEST_ASSERT_SENT("581#4318100478563412");
 }
 
-/* What a program that keeps numbers of results in an int passes. */
+/* Checks numbers outside ODR_t, which a program that stores results in an int may pass. */
 static void test_numbers_that_are_no_result_have_an_abort_code(void) {
   TEST_ASSERT_EQUAL_HEX32(0x06040047, OD_getSDOabCode((ODR_t)-1));
   TEST_ASSERT_EQUAL_HEX32(0x06040047, OD_getSDOabCode((ODR_t)26));

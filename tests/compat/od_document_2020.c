@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Access by the application as in the first draft of the page "Object Dictionary": myFunc() is unchanged but for white
-// space.
+// Accesses the object dictionary like the first draft of the page "Object Dictionary": myFunc() is unchanged except for
+// white space.
 #include <string.h>
 
 #include "co_core.h"
@@ -11,7 +11,7 @@
 extern const OD_t ODxyz;
 void myFunc(const OD_t* od);
 
-/* left to the reader */
+/* omitted by the page */
 static char Name[50];
 static OD_size_t NameBytes;
 static int Errors;
@@ -33,7 +33,7 @@ void myFunc(const OD_t* od) {
   if (ret == ODR_OK) bytesRd = io1008.read(&io1008.stream, 0x00, &buf[0], sizeof(buf), &ret);
   if (ret != ODR_OK) error++;
 
-  /* not of the page: what the test looks at */
+  /* not part of the page: results for the test */
   if (ret == ODR_OK) {
     memcpy(Name, buf, bytesRd);
     NameBytes = bytesRd;
@@ -43,7 +43,7 @@ void myFunc(const OD_t* od) {
   ret = OD_set_u16(OD_find(od, 0x1017), 0x00, 500, false);
   if (ret != ODR_OK) error++;
 
-  Errors = error; /* not of the page */
+  Errors = error; /* not part of the page */
 }
 
 static CO_NODE Node;
@@ -98,7 +98,7 @@ static void test_a_variable_tells_its_properties(void) {
   TEST_ASSERT_EQUAL(ODR_OK, OD_getSub(OD_find(&Od, 0x1018), 4, &entry, &stream, false));
   TEST_ASSERT_EQUAL_HEX16(0x1018, entry.index);
   TEST_ASSERT_EQUAL_UINT8(4, entry.subIndex);
-  TEST_ASSERT_EQUAL_UINT8(2, entry.maxSubIndex); /* three sub-indexes, as the entry counts them */
+  TEST_ASSERT_EQUAL_UINT8(2, entry.maxSubIndex); /* number of sub-indexes, 3, minus 1 */
   TEST_ASSERT_EQUAL_UINT8(0, entry.storageGroup);
   TEST_ASSERT_EQUAL_HEX8(ODA_SDO_R | ODA_MB, entry.attribute);
 }

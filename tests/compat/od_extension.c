@@ -26,7 +26,7 @@ static const CO_OBJ Table[] = {
     {CO_KEY(0x1017, 0, CO_OBJ_____RW), CO_THB_PROD, (CO_DATA)(&HeartbeatTime)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2100, 0, CO_OBJ____PRW), OD_TUNSIGNED32, (CO_DATA)(&Speed)}, /* can be extended */
-    {CO_KEY(0x2101, 0, CO_OBJ_____R_), OD_TNUMBER, (CO_DATA)(2)},          /* only an extension has it */
+    {CO_KEY(0x2101, 0, CO_OBJ_____R_), OD_TNUMBER, (CO_DATA)(2)},          /* readable by an extension only */
     {CO_KEY(0x2102, 0, CO_OBJ_____RW), CO_TDOMAIN, (CO_DATA)(&File)},
     CO_OBJ_DICT_ENDMARK,
 };
@@ -62,7 +62,7 @@ static OD_extension_t SpeedExtension;
 static OD_extension_t TemperatureExtension;
 
 void setUp(void) {
-  static CO_NODE_EXT ext; /* the node reads it as long as it runs */
+  static CO_NODE_EXT ext; /* must exist as long as the node */
   memset(&ext, 0, sizeof(ext));
   ext.Size = sizeof(ext);
   ext.Od = &Od;
@@ -138,7 +138,7 @@ static void test_an_extension_validates_before_anything_changes(void) {
 static void test_a_number_that_only_an_extension_has(void) {
   int16_t temperature = 0;
   BusReceive(&Node, "601#4001210000000000");
-  TEST_ASSERT_SENT("581#8001210001000106"); /* disabled until there is one */
+  TEST_ASSERT_SENT("581#8001210001000106"); /* no access without an extension */
   TEST_ASSERT_EQUAL(ODR_SUB_NOT_EXIST, OD_get_i16(OD_find(&Od, 0x2101), 0, &temperature, false));
   TEST_ASSERT_EQUAL(ODR_OK, OD_extension_init(OD_find(&Od, 0x2101), &TemperatureExtension));
   BusReceive(&Node, "601#4001210000000000");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that configuration.sh compiles with and without the configuration of the library.
+// A program that configuration.sh compiles with and without the library's configuration.
 #include "co_core.h"
 
 static CO_NODE Nodes[2];

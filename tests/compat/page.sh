@@ -1,19 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Usage: page.sh PAGE TESTS
-# Checks that each test that docs/from-canopen-stack.md names exists: cases in quotes ("SDO client: ..."), and functions
+# Checks that each test named in docs/from-canopen-stack.md exists: cases in quotes ("SDO client: ..."), and functions
 # of programs of tests/compat (program.test_...).
 set -u
 page=$1
 tests=$2
 failed=0
 
-# Wrapped lines are joined; a quote that holds ": " is the name of a case.
+# Joins wrapped lines; a quotation that contains ": " is the name of a case.
 text=$(tr '\n' ' ' <"$page")
 cases=$(printf '%s' "$text" | grep -oE '"[A-Za-z0-9 ]+: [^"]+"' | tr -d '"' | sort -u)
 [ "$(printf '%s\n' "$cases" | wc -l)" -ge 15 ] || { echo "$page: hardly any case is found"; exit 1; }
 
-# Names that the sources split over two lines are compared by their first piece.
+# Compares only the first piece of a name, as sources may split names over two lines.
 printf '%s\n' "$cases" | (
   while IFS= read -r name; do
     grep -rqF --include='*.cpp' -- "$name" "$tests/conformance" "$tests/integration" ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The addresses of a CO_PARA in C++: those of any object, as a constant expression, and used as bytes.
+// Uses the addresses of a CO_PARA in C++: addresses of objects of any type, in constant expressions, and as bytes.
 #include <cstring>
 
 #include "co_core.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Initialisers by position with fewer values than members: the rest is 0.
+// Positional initialisers with fewer values than members: the other members are 0.
 #include "co_core.h"
 #include "fakes.h"
 #include "unity.h"

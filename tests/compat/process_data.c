@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PDOs in a dictionary as applications write it, and their callbacks; objects of more than 4 bytes go to the functions
-// of the application where it has them.
+// PDOs in a dictionary as applications define it, and the PDO callbacks. Objects of more than 4 bytes are passed to the
+// application's functions, if there are any.
 #include <string.h>
 
 #include "co_core.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first program of a firmware team, in the style of CANopen-Stack 4.x: constant dictionary with end mark, drivers
-// as tables of functions, CO_NODE_SPEC, CONodeInit(), error check, cyclic timer, CONodeStart(), loop. The CAN driver
-// sends to and receives from a virtual bus, on which a second controller is the NMT master and SDO client.
+// A first program in the style of CANopen-Stack 4.x: constant dictionary with end mark, drivers as tables of functions,
+// CO_NODE_SPEC, CONodeInit(), error check, cyclic timer, CONodeStart(), loop. The CAN driver uses a virtual bus, on
+// which a second controller is the NMT master and SDO client.
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@ extern "C" {
 
 #include "unity.h"
 
-/* --- dictionary: a conveyor counts its pieces --- */
+/* --- dictionary of a conveyor that counts pieces --- */
 
 static uint8_t ErrorRegister;
 static uint16_t HeartbeatTime; /* ms; 0: no heartbeat */
@@ -104,7 +104,7 @@ static CO_NODE_SPEC ConveyorSpec = {
     1u,                        /* default node-ID */
     250000u,                   /* default bit rate */
     (CO_OBJ*)&ConveyorOD[0],   /* dictionary */
-    CONVEYOR_OBJ_N,            /* its length */
+    CONVEYOR_OBJ_N,            /* length of the dictionary */
     NULL,                      /* EMCY table */
     &TmrMem[0],                /* timers */
     CONVEYOR_TMR_N,            /* number of timers */
@@ -139,7 +139,7 @@ static CO_ERR Start(void) {
   return CONodeGetErr(&Conveyor);
 }
 
-/* The endless loop of a firmware, for some ticks of the timer interrupt. */
+/* Runs the main loop of the firmware for some ticks of the timer interrupt. */
 static void Loop(uint32_t ticks) {
   while (ticks-- > 0) {
     COTmrService(&Conveyor.Tmr); /* timer interrupt */
@@ -148,7 +148,7 @@ static void Loop(uint32_t ticks) {
   }
 }
 
-/* --- the other side of the bus --- */
+/* --- master on the bus --- */
 
 static CO_VIRTUAL_PORT* Master;
 static char Received[1024];
@@ -162,7 +162,7 @@ static void Send(uint32_t identifier, uint8_t dlc, const uint8_t* data) {
   TEST_ASSERT_EQUAL(sizeof(CO_IF_FRM), COVirtualPortSend(Master, &frame));
 }
 
-/* All frames that the master has received since the last call, as candump writes them. */
+/* Returns the frames that the master has received since the last call, in the notation of candump. */
 static const char* FramesReceived(void) {
   CO_IF_FRM frame;
   size_t at = 0;

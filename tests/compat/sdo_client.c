@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A firmware that reads and writes the objects of another node: 1280h with the bare 600h and 580h, buffers that live
-// on, and a callback that asks for the next object.
+// Firmware that reads and writes objects of another node: 1280h with 600h and 580h without node-ID, static buffers, and
+// a callback that requests the next object.
 #include <string.h>
 
 #include "co_core.h"
@@ -29,7 +29,7 @@ static CO_NODE Node;
 static uint8_t Value[4];
 static uint8_t Text[16];
 
-/* What the callback was told. */
+/* Number of calls of the callback, and its last arguments. */
 static struct ENDED {
   unsigned Calls;
   CO_CSDO* Csdo;
@@ -206,7 +206,7 @@ static void test_a_server_that_is_not_there_times_out(void) {
   TimePasses(&Node, 1);
   TEST_ASSERT_SENT("605#8000200500000405");
   AssertEnded(0x05040000);
-  BusReceive(&Node, "585#4300200578563412"); /* too late */
+  BusReceive(&Node, "585#4300200578563412"); /* response after the time-out */
   TimePasses(&Node, 10 * TIMEOUT_MS);
   AssertEnded(0x05040000);
   TEST_ASSERT_EQUAL_HEX8(0xA5, Value[0]);
@@ -271,7 +271,7 @@ static void test_a_transfer_is_cancelled(void) {
   AssertEnded(CO_SDO_ERR_TOS_LOCAL);
 }
 
-/* A start-up sequence: read the vendor-ID, write the heartbeat time, read it back; an error starts it anew. */
+/* A start-up sequence: reads the vendor-ID, writes the heartbeat time and reads it back; restarts after an error. */
 
 static unsigned Step;
 static uint8_t Identity[4];

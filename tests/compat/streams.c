@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains and strings: their memory, their descriptions, and what network and application see of them.
+// Domains and strings: their memory, their descriptions, and their access by the network and the application.
 #include <string.h>
 
 #include "co_core.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The assertions of unity.h in C code: a failure ends its test and is reported once. (Which values pass and which fail
-// is the concern of tests/unit/unity_test.cpp.)
+// Tests the assertions of unity.h in C: a failure ends its test and is reported once. (tests/unit/unity_test.cpp tests
+// which values pass.)
 #include "unity.h"
 
 #include <string.h>
@@ -27,7 +27,7 @@ static void Record(UNITY_KIND kind, const char* file, int line, const char* text
   }
 }
 
-/* Runs a test as RUN_TEST does, with its reports kept away from the output. */
+/* Runs a test like RUN_TEST, and counts its reports instead of printing them. */
 static void RunRecorded(void (*test)(void)) {
   Failures = 0;
   Others = 0;
@@ -62,7 +62,7 @@ static void Passes(void) {
   Reached = 1;
 }
 
-/* The checks run after the recorded test, outside of it. */
+/* Each of the following tests runs a recorded test, and checks its results outside of it. */
 static void test_a_failed_assertion_ends_its_test(void) {
   RunRecorded(Fails);
   TEST_ASSERT_EQUAL(1, Failures);

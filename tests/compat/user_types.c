@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Object types of the application: all five functions, omitted functions, application-specific abort codes, and reused
-// basic types.
+// Object types of the application: with all five functions, with omitted functions, with application-specific abort
+// codes, and based on basic types.
 #include <string.h>
 
 #include "co_core.h"
@@ -15,7 +15,7 @@ typedef struct JOURNAL {
   uint32_t Position;
   unsigned Inits;
   unsigned Resets;
-  uint32_t WidthInside; /* what COObjGetSize() says inside Read */
+  uint32_t WidthInside; /* result of COObjGetSize() within Read */
   uint32_t LargestPiece;
 } JOURNAL;
 
@@ -76,7 +76,7 @@ static CO_OBJ_TYPE JournalType = {
 
 #define CO_TJOURNAL ((CO_OBJ_TYPE*)&JournalType)
 
-/* A type that changes only how a basic one is written; no Init, no Reset. */
+/* A type that changes only the Write of a basic type; no Init, no Reset. */
 
 static uint32_t LimitSize(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   const CO_OBJ_TYPE* uint32 = CO_TUNSIGNED32;
@@ -109,7 +109,7 @@ static CO_ERR LimitWrite(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size
 static const CO_OBJ_TYPE LimitType = {LimitSize, 0, LimitRead, LimitWrite, 0};
 static uint32_t Limit;
 
-/* Functions left out: neither Read nor Write. */
+/* A type without Read and Write. */
 
 static uint32_t OneByte(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   (void)obj;
@@ -121,7 +121,7 @@ static uint32_t OneByte(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 static const CO_OBJ_TYPE LockedType = {OneByte, 0, 0, 0, 0};
 static uint8_t Locked;
 
-/* A read that refuses with a code of its own, in a segmented transfer, too. */
+/* A type whose Read refuses with an application-specific abort code, also in a segmented transfer. */
 
 static uint32_t TenBytes(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   (void)obj;
@@ -140,7 +140,7 @@ static CO_ERR RefuseRead(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size
 static const CO_OBJ_TYPE RefusingType = {TenBytes, 0, RefuseRead, 0, 0};
 static uint8_t Refusing;
 
-/* Flags that are free for types. */
+/* A type that uses the flags reserved for types. */
 
 static uint32_t FlagsSeen;
 

@@ -21,15 +21,15 @@ static CO_VIRTUAL_TIMER* Timer;
 static uint8_t SdoBuffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 static uint8_t MemoryBytes[1024];
 static CO_NVM_RAM Memory = {MemoryBytes, sizeof(MemoryBytes)};
-static char Sent[1024];    // since the last call
-static char Result[1024];  // of the last call
+static char Sent[1024];    // frames since the last call
+static char Result[1024];  // result of the last call
 
 static void Append(const char* text) {
   const size_t length = strlen(Sent);
   (void)snprintf(&Sent[length], sizeof(Sent) - length, "%s", text);
 }
 
-// Notes the frames of the node only.
+// Records the frames of the node.
 static void Note(void* user, const CO_IF_FRM* frame, const char* sender) {
   char text[16];
   (void)user;

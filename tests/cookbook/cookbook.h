@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file cookbook.h
-/// The cases of the recipes of docs/cookbook.md; main.c runs them.
+/// Test cases of the recipes of docs/cookbook.md, which main.c runs.
 #ifndef LEXICAN_COOKBOOK_H_
 #define LEXICAN_COOKBOOK_H_
 

@@ -46,7 +46,7 @@ static void ConfigureReport(CO_NODE_SPEC* spec, CO_NODE_EXT* ext) {
   spec->EmcyCode = Errors;
 }
 
-/// Call this in the main loop, behind CONodeProcess() and COTmrProcess().
+/// Reports a damaged record. Call this in the main loop, after CONodeProcess() and COTmrProcess().
 static void ReportDamage(CO_NODE* node) {
   if (Damaged && CONmtGetMode(&node->Nmt) != CO_INIT) {
     Damaged = false;
@@ -65,7 +65,7 @@ static void Save(int16_t value) {
 }
 
 void a_damaged_record_is_reported(void) {
-  const uint32_t slot = CO_PARA_SPACE(sizeof(Setpoint), 1, 1) / 2;  // a header and the data
+  const uint32_t slot = CO_PARA_SPACE(sizeof(Setpoint), 1, 1) / 2;  // bytes of a header and the data
   uint8_t* memory = ((CO_NVM_RAM*)Ext.NvmCtx)->Mem;
   TEST_ASSERT_EQUAL_INT(CO_ERR_NONE, StartNode());
   Save(300);
@@ -77,7 +77,7 @@ void a_damaged_record_is_reported(void) {
   TEST_ASSERT_EQUAL_STRING("085: 00 63 01 00 00 00 00 00", BenchRun(1));
   ReportDamage(&Node);
   TEST_ASSERT_EQUAL_STRING("", BenchRun(1));
-  memory[slot - 1] ^= 1;  // the older one
+  memory[slot - 1] ^= 1;  // the older record
   TEST_ASSERT_EQUAL_INT(CO_ERR_PARA_LOAD, StartNode());
   TEST_ASSERT_EQUAL_INT16(200, Setpoint);
   ReportDamage(&Node);

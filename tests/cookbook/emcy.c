@@ -4,8 +4,8 @@
 #include "cookbook.h"
 #include "unity.h"
 
-static uint8_t ErrorRegister;  // in RAM: the stack writes it
-static uint8_t HistoryNum;     // the entry needs it
+static uint8_t ErrorRegister;  // in RAM, as the stack writes it
+static uint8_t HistoryNum;     // storage that the entry requires
 static uint32_t History[4];
 static uint32_t EmcyId = 0x80;       // plus node-ID (flag N)
 static uint16_t EmcyInhibit = 0;     // 100 us
@@ -65,7 +65,7 @@ void COEmcyReceived(CO_NODE* node, uint8_t nodeId, uint16_t code, uint8_t reg, c
   (void)reg;
   (void)msef;
   if (nodeId == 1) {
-    CodeOfNode1 = code;  // 0: an error of node 1 is gone
+    CodeOfNode1 = code;  // 0: the error of node 1 is resolved
   }
 }
 

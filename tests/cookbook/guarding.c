@@ -7,7 +7,7 @@
 static uint8_t ErrorRegister;
 
 static uint16_t GuardTime = 100;    // ms
-static uint8_t LifeTimeFactor = 3;  // the master is missing after 300 ms
+static uint8_t LifeTimeFactor = 3;  // no guarding by the master for 300 ms is an error
 
 static const CO_OBJ Dictionary[] = {
     {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},

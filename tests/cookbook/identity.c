@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Example of docs/cookbook.md: the mandatory objects, and what a device tells of itself.
+// Example of docs/cookbook.md: the mandatory objects, and the identity of a device.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -11,7 +11,7 @@ static uint8_t RpdoType = 254;
 static uint16_t RpdoDeadline;  // ms; 0: none
 static uint8_t RpdoNum = 1;
 static uint32_t RpdoMap[2] = {CO_LINK(0x2200, 0, 16), 0};
-static uint32_t TpdoId = CO_TPDO_COBID_OFF | CO_COBID_TPDO_DEFAULT(0);  // off until the master switches it on
+static uint32_t TpdoId = CO_TPDO_COBID_OFF | CO_COBID_TPDO_DEFAULT(0);  // disabled until the master enables it
 static uint8_t TpdoType = 254;
 static uint16_t TpdoInhibit;  // 100 us
 static uint16_t TpdoEvent;    // ms
@@ -51,18 +51,18 @@ static const CO_OBJ Dictionary[] = {
 
 void the_master_maps_a_tpdo(void) {
   TEST_ASSERT_EQUAL_INT(CO_ERR_NONE, BenchStart(Dictionary, BENCH_NUM(Dictionary)));
-  (void)BenchSend("605: 23 00 18 01 85 01 00 C0");  // 1800h:1 = C000 0185h: the TPDO is switched off
+  (void)BenchSend("605: 23 00 18 01 85 01 00 C0");  // 1800h:1 = C000 0185h: the TPDO is disabled
   (void)BenchSend("605: 2F 00 18 02 01 00 00 00");  // 1800h:2 = 1: with each SYNC
   (void)BenchSend("605: 2F 00 1A 00 00 00 00 00");  // 1A00h:0 = 0: the mapping may be written
   (void)BenchSend("605: 23 00 1A 01 10 00 00 21");  // 1A00h:1 = 2100 0010h: object 2100h:0, 16 bits
   (void)BenchSend("605: 23 00 1A 02 08 00 01 21");  // 1A00h:2 = 2101 0008h: object 2101h:0, 8 bits
   (void)BenchSend("605: 2F 00 1A 00 02 00 00 00");  // 1A00h:0 = 2: two objects
-  (void)BenchSend("605: 23 00 18 01 85 01 00 40");  // 1800h:1 = 4000 0185h: the TPDO is switched on
+  (void)BenchSend("605: 23 00 18 01 85 01 00 40");  // 1800h:1 = 4000 0185h: the TPDO is enabled
   TEST_ASSERT_EQUAL_HEX32(0x40000180, TpdoId);      // without the node-ID
   (void)BenchSend("000: 01 05");
   (void)BenchRun(10);
   TEST_ASSERT_EQUAL_STRING("185: D7 00 03", BenchSend("080:"));
-  (void)BenchSend("205: 2C 01");  // the RPDO works as the table says
+  (void)BenchSend("205: 2C 01");  // the RPDO uses the table's COB-ID and mapping
   TEST_ASSERT_EQUAL_INT16(300, Setpoint);
 }
 

@@ -21,7 +21,7 @@ static APPLICATION App;
 
 static const CO_DEFAULTS Defaults[] = {
     CO_DEFAULTS_OF(Com, ComDefault, CO_RESET_COM),  // objects 1000h to 1FFFh
-    CO_DEFAULTS_ZERO(App, CO_RESET_NODE),           // all others; here: every byte 0
+    CO_DEFAULTS_ZERO(App, CO_RESET_NODE),           // all other objects; here with the value 0
     CO_DEFAULTS_END,
 };
 
@@ -33,7 +33,7 @@ static const CO_OBJ Dictionary[] = {
     {CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(1)},
     {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
     {CO_KEY(0x2200, 0, CO_OBJ_____RW), CO_TSIGNED16, (CO_DATA)(&App.Setpoint)},
-    CO_OBJ_DICT_DEFAULTS(Defaults),  // the end mark; DictLen counts it
+    CO_OBJ_DICT_DEFAULTS(Defaults),  // the end mark, which DictLen includes
 };
 
 void resets_restore_power_on_values(void) {

@@ -25,7 +25,7 @@ static const CO_OBJ Dictionary[] = {
 
 static char Name[32];
 static bool NameIsThere;
-static uint8_t HeartbeatTime[2] = {0xF4, 0x01};  // 500, in the order of the bus
+static uint8_t HeartbeatTime[2] = {0xF4, 0x01};  // 500, least significant byte first
 static uint32_t LastAbort;
 
 static void HeartbeatWritten(CO_CSDO* client, uint16_t index, uint8_t sub, uint32_t code) {
@@ -55,7 +55,8 @@ static CO_ERR ReadName(CO_NODE* node) {
 void a_client_reads_and_writes_objects_of_another_node(void) {
   TEST_ASSERT_EQUAL_INT(CO_ERR_NONE, BenchStart(Dictionary, BENCH_NUM(Dictionary)));
   TEST_ASSERT_EQUAL_INT(CO_ERR_NONE, ReadName(&Node));
-  // 31 bytes are asked for by block transfer; the server, which has 4 of them, may answer with an expedited upload.
+  // The client requests 31 bytes by block transfer; the server, whose object has 4 bytes, may respond with an expedited
+  // upload.
   TEST_ASSERT_EQUAL_STRING("601: A4 08 10 00 7F 1C 00 00", BenchRun(1));
   TEST_ASSERT_EQUAL_STRING("601: 2B 17 10 00 F4 01 00 00", BenchSend("581: 43 08 10 00 70 75 6D 70"));
   TEST_ASSERT_TRUE(NameIsThere);

@@ -24,7 +24,7 @@ static const CO_OBJ Dictionary[] = {
 
 void the_master_makes_the_node_produce_sync(void) {
   TEST_ASSERT_EQUAL_INT(CO_ERR_NONE, BenchStart(Dictionary, BENCH_NUM(Dictionary)));
-  (void)BenchSend("605: 2F 19 10 00 04 00 00 00");  // 1019h: the counter goes from 1 to 4
+  (void)BenchSend("605: 2F 19 10 00 04 00 00 00");  // 1019h: the counter counts from 1 to 4
   (void)BenchSend("605: 23 06 10 00 10 27 00 00");  // 1006h: 10 000 us
   (void)BenchSend("605: 23 05 10 00 80 00 00 40");  // 1005h: bit 30, the node produces SYNC
   TEST_ASSERT_EQUAL_STRING("080: 01 | 080: 02 | 080: 03 | 080: 04 | 080: 01", BenchRun(50));

@@ -16,7 +16,7 @@ static CO_ERR SetpointRead(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t si
   return CO_TSIGNED16->Read(obj, node, buffer, size);
 }
 
-// A number arrives in the byte order of the CPU.
+// Checks a number, which is in the byte order of the CPU.
 static CO_ERR SetpointWrite(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   int16_t value;
   if (size != sizeof(value)) {
@@ -41,7 +41,7 @@ static uint32_t PowerSize(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
 }
 
 static CO_ERR PowerRead(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  const uint32_t power = 230u * 4u;  // what your hardware measures
+  const uint32_t power = 230u * 4u;  // measured by your hardware
   (void)obj;
   (void)node;
   if (size != sizeof(power)) {

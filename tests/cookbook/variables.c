@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Example of docs/cookbook.md: variables of the application, an array, and a table that is wrong.
+// Example of docs/cookbook.md: variables of the application, an array, and a table with an error.
 #include "bench.h"
 #include "cookbook.h"
 #include "unity.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "Example ODxyz.c file" of the page "Object Dictionary", as it stands there but for white space.
+// "Example ODxyz.c file" of the page "Object Dictionary", unchanged except for white space.
 // clang-format off
 #define OD_DEFINITION
 #include "301/CO_ODinterface.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "Example ODxyz.h file" of the page "Object Dictionary", as it stands there but for white space and the guard.
+// "Example ODxyz.h file" of the page "Object Dictionary", unchanged except for white space and the include guard.
 #ifndef COMPAT_ODXYZ_H_
 #define COMPAT_ODXYZ_H_
 
