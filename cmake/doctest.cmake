@@ -9,12 +9,12 @@ if(NOT LEXICAN_DOCTEST_DIR)
 endif()
 
 add_library(lexican_doctest INTERFACE)
-# An exception in an assertion ends its test case either way; without the code for it, test code compiles in a tenth to a
-# third less time.
+# Assertions without exception handling: an exception ends the test case anyway, and test code takes 10 to 33 % less
+# time to compile.
 target_compile_definitions(lexican_doctest INTERFACE DOCTEST_CONFIG_SUPER_FAST_ASSERTS)
 
 if(CMAKE_CROSSCOMPILING)
-  # The host's include directory must not be seen by a cross compiler: only this one directory of it is.
+  # A cross compiler must not search the host's include directory, so only its directory doctest is made available.
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/doctest_only)
   file(CREATE_LINK ${LEXICAN_DOCTEST_DIR}/doctest ${PROJECT_BINARY_DIR}/doctest_only/doctest SYMBOLIC)
   target_include_directories(lexican_doctest SYSTEM INTERFACE ${PROJECT_BINARY_DIR}/doctest_only)

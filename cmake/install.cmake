@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# What find_package(lexican), pkg-config and a bare compiler need.
+# Installs the files that find_package(lexican), pkg-config and a compiler without CMake need.
 include(CMakePackageConfigHelpers)
 
-# The configuration of this build is written into the installed co_cfg.h, so that an application that is compiled
-# without CMake agrees with the library, too.
+# Writes the configuration of this build to the installed co_cfg.h, so that an application that is compiled without
+# CMake has the configuration of the library.
 file(READ ${PROJECT_SOURCE_DIR}/config/co_cfg.h co_cfg)
 file(WRITE ${PROJECT_BINARY_DIR}/installed/co_cfg.h
   "#ifndef CO_CFG_PRESET\n#define CO_CFG_PRESET \"presets/${LEXICAN_PRESET}.h\"\n#endif\n${co_cfg}")
@@ -15,7 +15,7 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/lexican-config.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/installed/lexican-config-version.cmake
   COMPATIBILITY SameMinorVersion)
 
-# The headers would be copied into the directory that they are read from.
+# The headers would be copied onto themselves.
 if(CMAKE_INSTALL_PREFIX STREQUAL PROJECT_SOURCE_DIR)
   message(FATAL_ERROR "the installation prefix ${CMAKE_INSTALL_PREFIX} is the source directory; give another one with --install-prefix")
 endif()

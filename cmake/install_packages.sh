@@ -2,9 +2,10 @@
 # shellcheck shell=bash
 # install_packages PACKAGE[=PROBE]...
 #
-# Installs the Debian packages that are missing and says which, how many they bring along, and their size. A package counts as present when its probe is: a command
-# name, or an absolute path (a pattern is allowed). Without a probe the package's name is the command. Returns 1, with the
-# missing packages named, where it cannot install: no apt, neither root nor sudo, or a package that the archive lacks.
+# Installs missing Debian packages; prints their names, the number of packages that this installs, and their size. A
+# package is present if its probe is: a command, or an absolute path (patterns are allowed); by default the command with
+# the package's name. Returns 1, with the names of the missing packages, if it cannot install: without apt, without root
+# and sudo, or if the archive does not have a package.
 
 . "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 
@@ -34,7 +35,7 @@ apt_install() {
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
 }
 
-# What apt-get would do, without root and without doing it. Fails if the package lists do not name all packages.
+# Prints what apt-get would install, without root. Fails if the package lists do not contain all packages.
 apt_plan() {
   local plan status
   plan=$(LC_ALL=C apt-get install --assume-no -q --no-install-recommends -o Debug::NoLocking=1 "$@" 2>&1)
@@ -43,7 +44,7 @@ apt_plan() {
   [ $status -eq 0 ] || grep -qE '^(Abort|After this operation|Space needed)' <<<"$plan"
 }
 
-# "23 packages, 45.2 MB to download, 201 MB on disk", of what apt_plan has printed.
+# Prints a summary of apt_plan's output: "23 packages, 45.2 MB to download, 201 MB on disk".
 summary_of_plan() {
   sed -nE \
     -e 's/.* ([0-9]+) newly installed,.*/\1 packages/p' \
@@ -67,13 +68,13 @@ install_packages() {
   echo "missing Debian packages: ${missing[*]}"
   log=$(mktemp)
   as_root true || return 1  # asks for a password before the progress is shown
-  # The package lists of a fresh system are empty.
+  # A fresh system has no package lists.
   if ! plan=$(apt_plan "${missing[@]}"); then
     with_progress "updating the package lists" "$log" as_root apt-get update -q || true
     plan=$(apt_plan "${missing[@]}") || true
   fi
   echo "installing them and what they need: $(summary_of_plan "$plan")"
-  # Old lists name versions that the archive no longer has: a second attempt, with new ones.
+  # Outdated lists name versions that the archive no longer has: the second attempt has new lists.
   if ! with_progress "installing packages" "$log" apt_install "${missing[@]}" && ! {
     with_progress "updating the package lists" "$log" as_root apt-get update -q &&
       with_progress "installing packages" "$log" apt_install "${missing[@]}"

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# lexican_generate(): the object dictionary of a target, made from a device description when it is built.
+# lexican_generate(): generates the object dictionary of a target from a device description during the build.
 
 # lexican_generate(TARGET app DESCRIPTION device.eds [NAME name] [LANGUAGE C|CXX] [OUTPUT_DIRECTORY dir]
 #                  [EDS file] [XDD file] [VERIFY ON|OFF] [OPTIONS …])
 #
-# Adds NAME_od.h and NAME_od.c or NAME_od.cpp to a target of this directory, and lets it include the header. NAME: the
-# name of the file; LANGUAGE: CXX where the project has it, as the compiler then proves most; EDS, XDD: descriptions of
-# what is made, in the directory of the build; OPTIONS: of `codict gen`. The target links lexican::lexican itself.
+# Adds NAME_od.h and NAME_od.c or NAME_od.cpp to a target of this directory, and the header's directory to its include
+# directories. NAME: name of the files; LANGUAGE: by default CXX if the project enables it, as more is checked at
+# compile time; EDS, XDD: descriptions of the generated dictionary, in the build directory; OPTIONS: more options of
+# codict gen. The target must link lexican::lexican.
 #
 # VERIFY: starts a node with the dictionary and lexican::lexican when the target is built; the build fails if the stack
 # reports an error. ON by default, except in a cross build or without a target lexican::lexican.
@@ -63,7 +64,7 @@ function(lexican_generate)
     list(APPEND files ${verify})
   endif()
 
-  # A file that has not changed keeps its time, which Ninja understands and others take for out of date.
+  # codict does not write unchanged files. Ninja supports that; other generators would run the command in every build.
   set(touch)
   if(NOT CMAKE_GENERATOR MATCHES "Ninja")
     set(touch COMMAND ${CMAKE_COMMAND} -E touch_nocreate ${files})
@@ -81,7 +82,7 @@ function(lexican_generate)
   endif()
 endfunction()
 
-# Builds and runs the program that starts a node with a dictionary, before its target is built.
+# Builds and runs the program that starts a node with the dictionary, before its target is built.
 function(lexican_verify_dictionary target name directory source verify)
   set(program ${target}_verify_${name})
   add_executable(${program} EXCLUDE_FROM_ALL "${source}" "${verify}")
@@ -92,7 +93,7 @@ function(lexican_verify_dictionary target name directory source verify)
   add_dependencies(${target} ${program})
 endfunction()
 
-# What codict calls a dictionary whose name nobody has given.
+# Returns the name that codict gives to a dictionary by default.
 function(lexican_generated_name path result)
   get_filename_component(name ${path} NAME_WLE)
   string(TOLOWER "${name}" name)
@@ -102,8 +103,8 @@ function(lexican_generated_name path result)
   set(${result} ${name} PARENT_SCOPE)
 endfunction()
 
-# A codict that runs here: LEXICAN_CODICT, that of this build, an installed one, or one that is built for this machine
-# from the sources beside this file.
+# Returns a codict that runs on this machine: LEXICAN_CODICT, that of this build, an installed one, or one that is built
+# for this machine from the sources of this project.
 function(lexican_find_codict result)
   if(NOT LEXICAN_CODICT AND TARGET codict AND NOT CMAKE_CROSSCOMPILING)
     set(${result} codict PARENT_SCOPE)
@@ -124,8 +125,8 @@ function(lexican_find_codict result)
   set(program ${directory}/codict${CMAKE_HOST_EXECUTABLE_SUFFIX})
   if(NOT TARGET lexican_host_codict)
     include(ExternalProject)
-    # No toolchain and no flags of the target; the compiler of this machine is what CMake finds. Not optimised: it takes
-    # minutes to build so, and milliseconds to run otherwise.
+    # Built without the target's toolchain and flags, by the compiler that CMake finds on this machine. Not optimised:
+    # optimisation takes minutes, and saves milliseconds per run.
     ExternalProject_Add(lexican_host_codict
       SOURCE_DIR ${root}/tools/codict
       BINARY_DIR ${directory}

@@ -2,9 +2,9 @@
 # shellcheck shell=bash
 # with_progress WHAT LOG COMMAND...
 #
-# Runs COMMAND with its output in LOG, and shows on standard error what it is doing once it takes longer than a second:
-# on a terminal in one line that is rewritten every second and erased at the end, elsewhere as a line every 15 seconds.
-# Returns the status of COMMAND.
+# Runs COMMAND with its output in LOG. After a second it shows the progress on standard error: on a terminal in one line
+# that is rewritten every second and erased at the end, otherwise in a new line every 15 seconds. Returns the status of
+# COMMAND.
 
 progress_of_log() {  # LOG: "12 of 89" of a build with ninja, otherwise the last line
   tail -n 1 "$1" | sed -E 's/^\[([0-9]+)\/([0-9]+)\] .*/\1 of \2/' | tr -d '\r' | cut -c 1-60

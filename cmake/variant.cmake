@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 
-# lexican_variant(NAME DEFINITION...): the library with another configuration, for tests that compare several.
+# lexican_variant(NAME DEFINITION...): builds the library with another configuration, for tests that compare several.
 function(lexican_variant name)
   get_target_property(sources lexican SOURCES)
   list(TRANSFORM sources PREPEND ${PROJECT_SOURCE_DIR}/src/)

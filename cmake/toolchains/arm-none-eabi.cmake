@@ -9,7 +9,7 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-# Given twice, the option makes the compiler link the libraries of another core.
+# If the option were given twice, the compiler would link the libraries of another core.
 set(lexican_flags "-mcpu=${LEXICAN_CPU} -mthumb")
 if(LEXICAN_FLOAT_ABI)
   string(APPEND lexican_flags " -mfloat-abi=${LEXICAN_FLOAT_ABI}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Linux on a 32-bit CPU, run by QEMU's user mode.
+# Linux on a 32-bit x86 CPU, run in QEMU's user mode.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR i686)
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Bare-metal RISC-V, 32 bits: -D LEXICAN_CPU=rv32imac (the value of -march).
 #
-# The compiler is gcc-riscv64-unknown-elf, the C library is picolibc. Debian has no C++ library for this CPU. Headers of
-# libstdc++ do not depend on it, as far as the CPU is of 32 bits and the C library is a newlib, which picolibc comes from:
-# those of libstdc++-arm-none-eabi-newlib are taken, with the configuration of its smallest Arm core. What lies in
-# libstdc++.a is missing (streams, std::map, exceptions …): a program is linked with the C compiler, and without them.
+# The compiler is gcc-riscv64-unknown-elf, the C library is picolibc. Debian has no C++ library for this CPU. The
+# headers of libstdc++ work with any 32-bit CPU whose C library is derived from newlib, like picolibc: those of
+# libstdc++-arm-none-eabi-newlib are used, with the configuration of its smallest Arm core. The content of libstdc++.a
+# is missing (streams, std::map, exceptions …): programs must not use it, and are linked with the C compiler.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR riscv32)
 set(LEXICAN_CPU rv32imac CACHE STRING "Value of -march")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Linux on a big-endian CPU, run by QEMU's user mode.
+# Linux on a big-endian 64-bit CPU, run in QEMU's user mode.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR s390x)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# The bare-metal demo on its boards: what it needs, how it is built, how it runs. $root is known.
+# Packages, build and run commands of the bare-metal demo for its boards. The caller must set $root.
 
 boards=(microbit mps2-an385 mps2-an386 virt)
 
@@ -45,7 +45,7 @@ machine() {  # BOARD: QEMU's command
   fi
 }
 
-# Runs a program that ends by itself, with a time that its instructions make: run_alone BOARD PROGRAM
+# Runs a program without a bus until it ends; its clock counts executed instructions: run_alone BOARD PROGRAM
 run_alone() {
   local qemu
   read -ra qemu <<<"$(machine "$1")"
@@ -53,8 +53,8 @@ run_alone() {
     -kernel "$2"
 }
 
-# Runs COMMAND --slcan SOCKET while the board runs, which starts when COMMAND has opened the socket, and is stopped when
-# it has ended. What goes wrong on the board is shown: with_board BOARD PROGRAM COMMAND...
+# Runs COMMAND --slcan SOCKET with a board: with_board BOARD PROGRAM COMMAND... The board starts when COMMAND has opened
+# the socket, and is stopped when COMMAND has ended. Prints the board's error messages.
 with_board() (
   read -ra qemu <<<"$(machine "$1")"
   program=$2
@@ -72,8 +72,8 @@ with_board() (
   exit $status
 )
 
-# Runs the board with its UART at a Unix socket, which one program after the other can connect to. Replaces the shell that
-# calls it, in the background: serve_board BOARD PROGRAM SOCKET &
+# Runs the board with its UART at a Unix socket, to which programs can connect one after the other. It replaces the
+# calling shell, so call it in the background: serve_board BOARD PROGRAM SOCKET &
 serve_board() {
   local qemu
   read -ra qemu <<<"$(machine "$1")"

@@ -8,13 +8,13 @@ for board in "${boards[@]}"; do
   mapfile -t -O ${#packages[@]} packages < <(board_packages "$board")
 done
 
-# In the directory of the lane vcan, but only what is needed here.
+# Builds only the master, in the build tree of the lane vcan.
 build_master() {
   (cd "$root" && cmake -S "$root" -B "$build/release" -G Ninja -DLEXICAN_PRESET=full --preset release) &&
     cmake --build "$build/release" --target lexican-demo-master
 }
 
-# The boards are built one after the other, and run at the same time.
+# Builds for one board after the other, then runs all boards at the same time.
 lane() {
   build_master >"$results/build-bare-metal.log" 2>&1 || { fail "build of the master" "$results/build-bare-metal.log"; return; }
   local board
@@ -61,7 +61,7 @@ master_at() {  # BOARD ARGUMENT...
     "$build/release/demo/linux_master/lexican-demo-master" "${@:2}"
 }
 
-# A case for each step of the tour: BOARD LOG
+# Reports a case for each step of the tour: count_steps BOARD LOG
 count_steps() {
   local line title= before=$failed
   while IFS= read -r line; do
@@ -84,7 +84,7 @@ name_of() {  # BOARD
   name=$(master_at "$1" --node 1 --index 1009 --timeout 30000 read) && echo "$name" && [ "$name" = "$1" ]
 }
 
-# As demo/run --bare-metal BOARD --serve: the emulator goes on when a master has gone.
+# Serves like demo/run --bare-metal BOARD --serve: the emulator continues when a master has disconnected.
 served() (  # BOARD
   place=$(mktemp -d)
   serve_board "$1" "$build/bare-metal-$1/demo/bare_metal/lexican-demo-bare-metal" "$place/can" &

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# For the lanes that run tests/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for another
-# CPU. All of them run the same cases.
+# Functions of the lanes that run tests/target: on boards of QEMU (demo/bare_metal/boards), and as programs of Linux for
+# other CPUs. All of them run the same cases.
 board_packages=("${build_packages[@]}" "${arm_packages[@]}" qemu-system-arm gcc-riscv64-unknown-elf=riscv64-unknown-elf-gcc
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/picolibc.specs
   qemu-system-misc=qemu-system-riscv32)
 powerpc_packages=(g++-powerpc-linux-gnu=powerpc-linux-gnu-g++ qemu-user-static=qemu-ppc-static)
 s390x_packages=(g++-s390x-linux-gnu=s390x-linux-gnu-g++ qemu-user-static=qemu-s390x-static)
 
-# In build/target-CPU: arm_tree CPU CMAKE-ARGUMENT...
+# Build the tests in build/target-CPU: arm_tree CPU CMAKE-ARGUMENT...
 arm_tree() { target_tree "$1" arm-none-eabi "$1" "-mno-unaligned-access" "${@:2}"; }
 riscv_tree() { target_tree "$1" riscv32-none-elf "$1" "-mstrict-align" "${@:2}"; }
 linux_tree() { target_tree "$1" "$1-linux-gnu" "$1" "" -DLEXICAN_TARGET_TESTS=ON "${@:2}"; }
 
-# In build/target-doctest, with unaligned accesses, as the streams of the C++ library have them: doctest_tree CPU
-# CMAKE-ARGUMENT...
+# Builds the tests in build/target-doctest: doctest_tree CPU CMAKE-ARGUMENT... Unaligned accesses are permitted, as the
+# streams of the C++ library use them.
 doctest_tree() { target_tree doctest arm-none-eabi "$1" "" -DLEXICAN_TARGET_RUNNER=doctest "${@:2}"; }
 
 target_tree() {  # NAME TOOLCHAIN CPU OPTIONS CMAKE-ARGUMENT...
@@ -33,7 +33,7 @@ emulate() {  # BOARD PROGRAM [ARGUMENT...]
     -semihosting-config "$semihosting" -kernel "$2"
 }
 
-# All cases in some processes at the same time, each with its share: suite_on WHAT COMMAND... -- SHARE...
+# Runs all cases in several processes at the same time, one for each share: suite_on WHAT COMMAND... -- SHARE...
 suite_on() {
   local what=$1 log=$results/suite-$1.log command=() share process processes=() status=0
   while shift && [ "$1" != -- ]; do
@@ -53,7 +53,7 @@ suite_on() {
 
 quarters=(-part=1/4 -part=2/4 -part=3/4 -part=4/4)
 
-# With the small runner. In fewer processes the board's memory is too small for what the tests leave in pieces.
+# Runs the cases with the small runner. With fewer processes the fragmented heap would exceed the board's memory.
 on_board() {  # CPU BOARD
   suite_on "$1" emulate "$2" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
 }
@@ -67,7 +67,7 @@ on_linux() {  # CPU EMULATOR
   suite_on "$1" "$2" -L "/usr/$1-linux-gnu" "$build/target-$1/tests/target/lexican_target_tests" -- "${quarters[@]}"
 }
 
-# Adds up the summaries of the processes. Each says how many cases it has not run: these are the other's.
+# Adds up the summaries of the processes. A process reports the cases of the other shares as skipped.
 count_suite() {  # WHAT STATUS LOG
   local ran=0 good=0 all=0 line summary='cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed \| +([0-9]+) skipped'
   while read -r line; do
@@ -84,8 +84,8 @@ count_suite() {  # WHAT STATUS LOG
   fi
 }
 
-# Every program of a lane runs as many cases as the first, a big-endian one without those of $little_endian_cases: stored
-# records of version 0.1.0, whose bytes are typed as a little-endian CPU wrote them.
+# Checks that each program of a lane runs as many cases as the first one. A big-endian program runs all but
+# $little_endian_cases: their stored records of version 0.1.0 have the byte order of a little-endian CPU.
 little_endian_cases=4
 compare_number() {  # WHAT CASES
   local expected=${cases_of_first:=$2}
@@ -104,7 +104,7 @@ smoke_on() {  # CPU BOARD
   fi
 }
 
-# That the tests mean something: an unaligned access ends the program as a fault does.
+# Checks that an unaligned access ends the program by a fault, so that the tests detect such accesses.
 fault_on() {  # CPU BOARD
   local log=$results/fault-$1.log
   emulate "$2" "$build/target-$1/tests/target/lexican_fault" >"$log" 2>&1

@@ -3,7 +3,7 @@ about="all doctest cases and the C programs, clang with address and undefined be
 minutes=9
 packages=("${build_packages[@]}" python3 "${clang_packages[@]}")
 
-# Lane gcc makes the whole sweeps; lane sweeps makes them with sanitizers.
+# Reduces the sweeps: lane gcc runs them completely, lane sweeps with sanitizers.
 lane() {
   build_preset development clang -DLEXICAN_THIN_SWEEPS=ON -DLEXICAN_TEST_OPTIONS="-O0;-g1" || return
   run_doctest clang "$build/clang/tests/lexican_tests"

@@ -14,7 +14,8 @@ lane() {
   fi
 }
 
-# What a contributor runs: the library of the tool, without sanitizers and fuzz targets. The program takes longer to build.
+# Builds and tests only the library of the tool, without sanitizers and fuzz targets, for the contributor's run: the
+# program takes longer to build.
 core_cases() {
   local source=tools/codict targets=(lexican_codict_tests)
   build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TESTS=ON \

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What all lanes share. A lane file sets
+# Functions shared by all lanes. A lane file sets
 #   about      one line for --list
-#   minutes    how long the lane takes alone on two cores, about, for --list
+#   minutes    approximate duration of the lane when it runs alone on two cores, for --list
 #   packages   PACKAGE[=PROBE]... (see cmake/install_packages.sh)
 #   optional   not empty: the lane is skipped, with a reason, where its packages cannot be installed
 #   exclusive  not empty: no other lane runs at the same time
-# and defines lane(), which reports every case by the functions below. $lane_name, $root, $build and $results are known;
-# $full is empty in the contributor's run.
+# and defines lane(), which reports each case by the functions below. The runner sets $lane_name, $root, $build and
+# $results; $full is empty in the contributor's run.
 
 passed=0
 failed=0
@@ -37,10 +37,10 @@ skip() {  # WHAT AND WHY: one case
   echo "   SKIPPED $1"
 }
 
-# Tells tests/run which log shows the lane's progress, and how many cases its program has: now_in LOG [CASES]
+# Informs tests/run of the log that shows the lane's progress, and of the number of its cases: now_in LOG [CASES]
 now_in() { echo "${2:-0} $1" >"$results/$lane_name.now"; }
 
-# Does the thread sanitizer find a race in what runs unprotected?
+# Succeeds if the thread sanitizer detects a data race in a program without locks.
 finds_races() {  # PROGRAM
   local said
   said=$(TSAN_OPTIONS=halt_on_error=1 timeout 120 setarch -R "$1" 2>&1)
@@ -54,10 +54,9 @@ measure_lane() {
   [ $((passed + failed + skipped)) -gt 0 ] || fail "$lane_name ran nothing"
 }
 
-# Builds in build/NAME: build_tree NAME CMAKE-ARGUMENT... The project in $source, by default the stack. All of it, or
-# "${targets[@]}". In the largest configuration,
-# unless told otherwise: it has several SDO servers. Without the tools, which have a lane of their own. Lanes that share
-# a tree wait for each other.
+# Builds "${targets[@]}", by default all, of the project in $source, by default the stack, in build/NAME: build_tree
+# NAME CMAKE-ARGUMENT... The preset is full unless an argument sets another one, as it has several SDO servers. The
+# tools are not built: they have a lane. Lanes that share a build tree build one after the other.
 build_tree() {
   local name=$1 log=$results/build-$1.log
   shift
@@ -72,15 +71,15 @@ build_tree() {
   fi
 }
 
-# Builds a preset of CMakePresets.json in build/NAME, which is the preset's name unless another one is given.
+# Builds a preset of CMakePresets.json in build/NAME; NAME is by default the name of the preset.
 build_preset() {  # PRESET [NAME CMAKE-ARGUMENT...]
   local preset=$1 name=${2:-$1}
   shift
   (cd "$root" && build_tree "$name" --preset "$preset" "${@:2}")
 }
 
-# Counts the cases of a doctest program: run_doctest WHAT COMMAND... In two processes at the same time, which have half
-# of the work each: the cases of SDO, and all others. All cases that the program lists must have run.
+# Runs a doctest program and counts its cases: run_doctest WHAT COMMAND... Two processes run at the same time, one with
+# the cases of SDO, one with all others, about half of the work each. All cases that the program lists must have run.
 run_doctest() {
   local what=$1 log=$results/doctest-${1//[^a-zA-Z0-9_]/-} sdo='*/sdo_*' ran=0 listed
   shift
@@ -95,7 +94,7 @@ run_doctest() {
   count_unrun "$what" "$@"
 }
 
-# Adds what one process says that it ran to $ran.
+# Adds the number of cases that one process has run to $ran.
 count_doctest() {  # WHAT STATUS LOG
   local summary='^\[doctest\] test cases: +([0-9]+) \| +([0-9]+) passed \| +([0-9]+) failed'
   if ! [[ $(grep '^\[doctest\] test cases:' "$3") =~ $summary ]]; then
@@ -112,7 +111,7 @@ count_doctest() {  # WHAT STATUS LOG
   fi
 }
 
-# Cases that the program leaves out on this machine (doctest::skip), by suite, with the reason that the suite states
+# Counts the cases that the program skips on this machine (doctest::skip), by suite, with the suite's reason
 # (doctest::description).
 count_unrun() {  # WHAT COMMAND...
   local what=$1 unrun line
@@ -125,7 +124,7 @@ count_unrun() {  # WHAT COMMAND...
   echo "   SKIPPED $line cases of $what that this machine cannot run: $(sed 's/:.*//' <<<"$unrun" | sort | uniq -c | awk '{ n = $1; $1 = ""; printf "%s%s (%d)", (NR > 1) ? "," : "", $0, n }')"
 }
 
-# Counts the ctest cases below a build directory: run_ctest WHAT DIRECTORY [CTEST-ARGUMENT...]
+# Runs the ctest cases of a build directory and counts them: run_ctest WHAT DIRECTORY [CTEST-ARGUMENT...]
 run_ctest() {
   local what=$1 directory=$2 log=$results/ctest-${1//[^a-zA-Z0-9_]/-}
   shift 2
@@ -153,13 +152,13 @@ run_ctest() {
   [ "$ran" -eq "${listed:-0}" ] || fail "$what: $ran of ${listed:-an unknown number of} tests ran"
 }
 
-# The reasons that skipped tests print.
+# Prints the reasons that skipped tests have printed.
 skipped_tests() { grep -A 3 -E '\*\*\*Skipped' "$1" | grep -oE 'skipped: .*' | sort | uniq -c | sed 's/^ */   SKIPPED /'; }
 
 junit_count() { grep -oE "\b$1=\"[0-9]+\"" "$2" | head -n 1 | grep -oE '[0-9]+'; }
 
-# Counts the lines "ok …" ("ok … # SKIP why" was not run) and "not ok …" of a program that also says how many there should
-# be ("1..N"). With status 77 it says, in its last line, why it cannot be run here: run_tap COMMAND...
+# Runs a program and counts its lines "ok …" ("ok … # SKIP why" is skipped) and "not ok …"; their number must be the N
+# of its line "1..N". With status 77 the lane is skipped, with the program's last line as the reason: run_tap COMMAND...
 run_tap() {
   local log=$results/$lane_name.tap
   now_in "$log"
@@ -182,7 +181,7 @@ run_tap() {
   fi
 }
 
-# The project's files: sources src drivers -name '*.cpp'
+# Prints files of the project: sources src drivers -name '*.cpp'
 sources() {
   local places=()
   while [ $# -gt 0 ] && [[ $1 != -* ]]; do

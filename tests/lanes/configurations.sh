@@ -3,7 +3,7 @@ about="all doctest cases with other compiler options (-O3, link-time optimisatio
 packages=("${build_packages[@]}")
 
 lane() {
-  # The tests' own code optimised, too, and each of its files with the headers that it names.
+  # Optimises the tests' own code, too, and compiles each file without precompiled headers, to detect missing includes.
   test_options=(-DLEXICAN_TEST_OPTIONS= -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
   configuration O3 -O3
   test_options=()
@@ -11,13 +11,13 @@ lane() {
   configuration unsigned-char "-O2 -funsigned-char"
   configuration short-enums "-O2 -fshort-enums"
   configuration asserts "-O0 -UNDEBUG"
-  # The smallest buffers, the most channels, the slowest block transfer, clients without it.
+  # Smallest buffers, most channels, slowest block transfer, clients without block transfer.
   configuration one-segment "-O2 -DCO_SDO_BUF_SEG=1" slave
   configuration two-segments "-O2 -DCO_SDO_BUF_SEG=2 -DCO_SSDO_N=128 -DCO_CSDO_N=100" slave
   configuration eight-segments "-O2 -DCO_SDO_BUF_SEG=8" slave
   configuration segment-a-call "-O2 -DCO_SDO_BLOCK_PACE=1" slave
   configuration no-block "-O2 -DUSE_SDO_BLOCK=0" slave
-  # Mapping of single bits, no remote requests (and no LSS in Operational), reserved CAN-IDs for everybody, the most PDOs.
+  # Mapping of single bits, no remote requests (and no LSS in Operational), restricted CAN-IDs permitted, most PDOs.
   configuration pdo-bits "-O2 -DUSE_PDO_BITS=1"
   configuration no-remote "-O2 -DUSE_PDO_RTR=0 -DCO_LSS_IN_OPERATIONAL=0"
   configuration restricted-ids "-O2 -DCO_RESTRICTED_IDS=1"

@@ -2,8 +2,8 @@
 about="line and branch coverage of src/ by all doctest cases and the C programs"
 packages=("${build_packages[@]}" gcovr)
 
-# As deployed: asserts off. Not optimised, so that a branch of the report is one of the source. With the mapping of single
-# bits, which is beside that of bytes.
+# Builds without asserts, as in firmware, and without optimisation, so that branches of the report are those of the
+# source. USE_PDO_BITS=1 includes the code for single bits in addition to that for bytes.
 lane() {
   local flags="--coverage -O0 -DNDEBUG -DUSE_PDO_BITS=1" program=$build/coverage/tests/lexican_tests
   build_tree coverage -DCMAKE_BUILD_TYPE= -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" || return

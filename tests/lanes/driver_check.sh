@@ -31,7 +31,7 @@ needs_only_string_h() {
   [ -z "$needed" ] || { echo "needs $needed"; return 1; }
 }
 
-# The programs of can-utils are replaced by some that write down how they were called.
+# Runs the script feed with replacements of can-utils that record their arguments.
 feed_answers() {
   local work
   work=$(mktemp -d)

@@ -10,7 +10,7 @@ lane() {
   run_tap python3 "$root/tests/lanes/language.py" --self-test
 }
 
-# Generated files are as their generators write them.
+# Generated files are excluded: they have the format of their generators.
 formatted() {
   local files
   mapfile -t files < <(sources include config src drivers tools demo tests -name '*.[ch]' -o -name '*.[ch]pp' |

@@ -21,7 +21,7 @@ lane() {
     --column "instructions" "arm-none-eabi-g++ $(arm-none-eabi-g++ -dumpfullversion)" "$of"
 }
 
-# The largest of each name, in the order of the first file.
+# Prints the line with the largest number for each name, in the order of the first file.
 worst_of() {  # FILE...
   awk -F '\t' '/^#/ { next } !($1 in most) { names[++number] = $1 } $2 > most[$1] + 0 { most[$1] = $2; line[$1] = $0 }
     END { for (n = 1; n <= number; ++n) print line[names[n]] }' "$@"

@@ -3,7 +3,7 @@ about="each fuzz target for LEXICAN_FUZZ_SECONDS (60), beginning with the commit
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 
-# New inputs and findings stay in build/fuzz-TARGET.
+# Runs the fuzz targets; new inputs and findings are stored in build/fuzz-TARGET.
 lane() {
   build_fuzz fuzz clang clang++ fuzzer-no-link,address,undefined || return
   local target

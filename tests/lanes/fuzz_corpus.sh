@@ -4,7 +4,7 @@ minutes=3
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 
-# Those of the tools are in lane codict, where the tools are built anyway.
+# Runs the stack's targets only: lane codict, which builds the tools, runs those of the tools.
 lane() {
   local fuzz_targets=("${stack_fuzz_targets[@]}")
   corpus_of gcc g++

@@ -19,8 +19,8 @@ lane() {
   done
 }
 
-# Some headers hold nothing but macros: the declaration behind them is what C's grammar asks of a translation unit.
-# A configuration preset has no meaning of its own and is read through co_cfg.h.
+# Compiles a header alone. A declaration is appended, because C requires one in a translation unit and some headers
+# contain only macros. A configuration preset is included by co_cfg.h.
 header_alone() {  # HEADER LANGUAGE STANDARD [BEFORE AFTER]
   local source="#include \"$1\"" compiler
   [[ $1 != config/presets/* ]] || source="#define CO_CFG_PRESET \"${1#config/}\"

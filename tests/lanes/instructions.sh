@@ -3,7 +3,7 @@ about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on 
 minutes=2
 packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 
-# Each instruction takes the same time on the clock of the emulated machine: every host counts the same.
+# Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
 lane() {
   count_on_arm m3 cortex-m3 RelWithDebInfo && count_on_arm m0plus cortex-m0plus MinSizeRel && count_on_host || return
   local of=$results/instructions arm host

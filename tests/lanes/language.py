@@ -13,7 +13,7 @@ DIRECTORIES = ("config", "demo", "drivers", "include", "src", "tests")
 SUFFIXES = {".h", ".hpp", ".c", ".cpp"}
 COMMENT = re.compile(r"(?:^|\s)//[/!]?<?\s*(.*)$")
 NAME = re.compile(r'TEST_CASE\(\s*"([^"]*)"')
-# At the beginning of a comment, unless the line before ends within a sentence.
+# Matched at the beginning of a comment, unless the previous line ends within a sentence.
 BEGINNINGS = re.compile(r"(What|Who|Whoever|Whatever|Of|The same|That|As|Nothing|Nobody|Somebody)\b(?! (is|are) )")
 WORDS = re.compile(
     r"\b(whoever|whosoever|somebody|nobody|anybody|nameless|halving|neighbours?|foreign frames?|torn|from now on|by itself|of its own)\b",

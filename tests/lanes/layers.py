@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOMS = ["wire", "core", "object", "service", "od", "node"]
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
-# What a compiler offers without an operating system and without allocation.
+# Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
     "algorithm", "array", "climits", "cstddef", "cstdint", "cstring", "initializer_list", "iterator", "limits", "tuple",
     "type_traits", "utility", "stdbool.h", "stddef.h", "stdint.h",

@@ -26,7 +26,7 @@ compiles() {  # SOURCE COMPILER...
   check "$source with $1" "$@" "${strict[@]}" "${includes[@]}" -c "$root/$source" -o /dev/null
 }
 
-# The size that docs/porting.md tells of the driver check: flash and RAM in bytes.
+# The size of the driver check that docs/porting.md states: flash and RAM in bytes.
 flash=14500 ram=2000
 
 links_for_arm() {
@@ -46,7 +46,7 @@ links_for_arm() {
     awk -v flash="$flash" -v ram="$ram" 'NR == 2 { exit !($1 + $2 <= flash && $2 + $3 <= ram) }'
 }
 
-# Files in `code` that look like paths of this project, and the checks of the table.
+# Checks that paths of this project in `code` exist, and that the page's table has all checks.
 names_what_exists() {
   local name missing=
   for name in $(grep -oE '`(tests|docs|drivers)/[a-z_/.]+' "$root/docs/porting.md" | tr -d '`' | sort -u); do

@@ -3,8 +3,8 @@ about="the configurations of config/presets (full is that of all other lanes)"
 minutes=6
 packages=("${build_packages[@]}")
 
-# The smallest configuration is built for size, so that each preset of CMakePresets.json is used, too. Lane gcc makes the
-# whole sweeps.
+# Builds the smallest configuration for size, so that each preset of CMakePresets.json is used. The sweeps are reduced:
+# lane gcc runs them completely.
 lane() {
   test_preset size minimal
   test_preset release slave

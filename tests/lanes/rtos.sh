@@ -3,7 +3,7 @@ about="the example of a node in a task of FreeRTOS, on threads under the thread 
 minutes=1
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${arm_packages[@]}")
 
-# Without address randomisation: see the lane threads.
+# Runs without address randomisation for the reason given in lane threads.
 lane() {
   local tree=$build/rtos log=$results/build-rtos.log
   { cmake -S "$root/tests/rtos" -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \

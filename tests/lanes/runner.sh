@@ -22,7 +22,7 @@ fails_empty_lane() {
   ) && test "$(cat "$results/runner-inner.count")" = "0 1 0"
 }
 
-# Runs a program of one of these forms in a shell of its own, and compares the cases that are counted as passed and failed.
+# Runs a program of one of the forms below in a subshell, and checks the numbers of passed and failed cases.
 counts() {  # KIND "PASSED FAILED" ARGUMENT...
   local kind=$1 expected=$2 counted
   shift 2
@@ -35,7 +35,7 @@ counts() {  # KIND "PASSED FAILED" ARGUMENT...
   check "$kind $*: $counted (passed, failed) instead of $expected" test "$counted" = "$expected"
 }
 
-# Answers as a doctest program that lists some cases, and runs some in each of two processes: LISTED RAN-EACH
+# Prints what a doctest program prints that lists some cases and runs some in each of two processes: LISTED RAN-EACH
 doctest_program() {
   case "$*" in
     *--count*) echo "[doctest] unskipped test cases passing the current filters: $1" ;;

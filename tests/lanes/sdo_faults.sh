@@ -2,7 +2,7 @@
 about="SDO transfers with every pair of faults, every frame of 65536 bytes, and 200000 triples, gcc -O2, half an hour"
 packages=("${build_packages[@]}")
 
-# The second build has a server with blocks of 8 segments.
+# Runs the complete sweep of faults twice; the second build's server has blocks of 8 segments.
 lane() {
   build_preset release || return
   suffer blocks-of-127 "$build/release/tests/lexican_tests"

@@ -29,7 +29,7 @@ lane() {
   self_test
 }
 
-# The tools of the functions below. Machine code and what link-time optimisation needs are in the same objects.
+# Sets the tools for the functions below. The objects contain machine code and the data for link-time optimisation.
 choose_cpu() {  # CPU
   local core
   case $1 in
@@ -81,7 +81,7 @@ size_of_node() {  # CPU PRESET
   size_lines "$2" "$program-lto" >>"$of-$1-lto"
 }
 
-# With everything: all that an application can name is kept.
+# Links a program. With EVERYTHING all functions that an application may call are kept.
 link_node() {  # OBJECTS PROGRAM EVERYTHING FLAG...: links PROGRAM.o
   local objects keep=()
   mapfile -t objects < <(find "$1" -name '*.o*' | sort)
@@ -106,7 +106,7 @@ bytes_of() {  # OBJECT-OR-PROGRAM
   "$tools-size" "$1" | awk -v reserved="${reserved:-0}" 'NR == 2 { print $1 + $2, $2 + $3 - reserved }'
 }
 
-# Everything kept: with a switch the other way, less with presets/slave.h.
+# Prints the difference in size of each switch's other value to presets/slave.h, with all functions kept.
 size_of_switches() {
   local switch before after
   rm -f "$of-switches-flash" "$of-switches-ram"
@@ -138,7 +138,8 @@ size_of_memory() {
   done
 }
 
-# Bytes of what a node consists of, with a number of something and with 16 more of it: a sixteenth of the difference.
+# Prints the bytes of one more of a thing: the difference between a node with a number of it and one with 16 more,
+# divided by 16.
 size_of_things() {
   rm -f "$of-things-flash" "$of-things-ram"
   thing "dictionary entry" -DENTRIES=4 -- -DENTRIES=20 &&
@@ -222,7 +223,7 @@ report_switches() {
     --column "flash" "$arm" "$of-switches-flash" --column "RAM" "$arm" "$of-switches-ram"
 }
 
-# What numbers.py is there for must be found, in any lane.
+# Checks that numbers.py detects deviations.
 self_test() {
   planted "a number that has grown" '{ $2 += NR == 1; print }'
   planted "a number that was not measured" 'NR > 1'

@@ -3,7 +3,7 @@ about="how fast SDO transfers are on a simulated bus, and that docs/speed.md tel
 minutes=4
 packages=("${build_packages[@]}")
 
-# The time is that of the simulation: every machine measures the same.
+# Measures the time of the simulated bus, which is the same on every machine.
 lane() {
   build_preset release || return
   local program=$build/release/tests/speed/lexican_speed page=$root/docs/speed.md

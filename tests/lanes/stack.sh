@@ -27,7 +27,7 @@ depths_of() {  # TREE RESULT CALLS
     --tools arm-none-eabi- --depths "$2-depths" --ways "$2-ways"
 }
 
-# The functions of the run time whose instructions are looked at.
+# Links the functions of the C run time, whose instructions are evaluated, too.
 link_everything() {  # TREE PROGRAM
   local objects
   mapfile -t objects < <(find "$1/src" -name '*.o*')
@@ -35,7 +35,7 @@ link_everything() {  # TREE PROGRAM
     -Wl,-e,CONodeProcess -o "$2" >"$2.log" 2>&1 || { fail "link of the library" "$2.log"; return 1; }
 }
 
-# A call that nobody has thought of, and functions that call themselves, must be found.
+# Checks that a call without a line in calls.txt and recursive functions are detected.
 self_test() {  # TREE RESULT
   grep -v '^core/timer.cpp' "$root/tests/stack/calls.txt" >"$2-planted"
   check "found: a call without a line" is_refused "$@" "nobody has said what timer.Func() may lead to"

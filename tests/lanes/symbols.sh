@@ -3,8 +3,8 @@ about="what the library may not need or contain: heap, exceptions, C++ run time,
 minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 
-# All that the library may ask of its surroundings: what every C compiler takes for granted, and integer division, shifts
-# and switches of the Arm run time, which have no software reals among them.
+# Symbols that the library may require: functions that every C compiler assumes, and integer division, shifts and
+# switches of the Arm run time, but no software floating point.
 allowed='mem(cpy|move|set|cmp)|strlen|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|ll?sl|ll?sr|lasr|u?lcmp|idiv0|ldiv0|mem(cpy|move|set|clr)[48]?)'
 allowed+='|__gnu_thumb1_case_[a-z]+|_GLOBAL_OFFSET_TABLE_'
 
@@ -17,7 +17,7 @@ lane() {
   self_test
 }
 
-# Builds the library alone and looks at it: library WHAT DIRECTORY NM OBJDUMP …
+# Builds the library alone and checks its symbols: library WHAT DIRECTORY NM OBJDUMP …
 library() {
   local what=$1 directory=$2 nm=$3 objdump=$4
   shift 4
@@ -33,8 +33,8 @@ library() {
 
 has_objects() { [ "$("$1" --defined-only "$2" 2>/dev/null | grep -c ' [TtWw] ')" -gt 20 ]; }
 
-# Undefined in one object and defined in none. Weak ones are defaults that the application replaces, or functions that it
-# may define and need not.
+# Checks the symbols that are undefined in one object and defined in none. Weak ones are excluded: they are defaults
+# that the application may replace, or functions that it may define.
 needs_only_allowed() {
   local needed
   needed=$(comm -23 <("$1" --undefined-only -f posix "$2" 2>/dev/null | grep -v ' [vw] *$' | symbol_names) \
@@ -44,12 +44,12 @@ needs_only_allowed() {
 
 symbol_names() { awk 'NF >= 2 { print $1 }' | sort -u; }
 
-# Guards of static objects, virtual tables, type information, the standard library, exceptions, unwinding.
+# Symbols of guards of static objects, virtual tables, type information, the standard library, exceptions, unwinding.
 no_cpp_runtime() { ! "$1" -f posix "$2" 2>/dev/null | grep -E '^(_ZG|_ZT|_ZN?K?St|__cxa|__gxx|_Unwind|__aeabi_unwind)'; }
 
 no_initialisers() { ! "$1" -h "$2" | grep -E ' \.(init_array|fini_array|ctors|dtors|preinit_array|gcc_except_table)'; }
 
-# Variables of the library: all memory is the user's, so that any number of nodes can live side by side.
+# Checks that the library has no variables: the application supplies all memory, so there may be any number of nodes.
 no_memory() {
   ! "$1" -h "$2" | awk '$2 ~ /^\.(data|bss|tdata|tbss)/ && $2 !~ /^\.data\.rel\.ro/ && $3 !~ /^0+$/ { print $2, $3 }' | grep .
 }
@@ -69,7 +69,7 @@ C
     -Wl,--whole-archive "$build/symbols-gcc/src/liblexican.a" -Wl,--no-whole-archive
 }
 
-# Each check must find what it is there for.
+# Checks that each check detects the fault that it is for.
 self_test() {
   planted heap 'void* f() { return new int; }' needs_only_allowed nm
   planted "a library function" 'extern "C" int puts(const char*); int f() { return puts(""); }' needs_only_allowed nm

@@ -5,7 +5,8 @@ minutes=7
 . "$root/tests/lanes/boards.sh"
 packages=("${board_packages[@]}" "${powerpc_packages[@]}")
 
-# The code of a Cortex-M0 runs on a Cortex-M3, which has the memory for it, and faults as on a Cortex-M0.
+# Runs the code for a Cortex-M0 on a Cortex-M3, which has enough memory and, like a Cortex-M0, faults on unaligned
+# accesses.
 lane() {
   arm_tree cortex-m0 || return
   fault_on cortex-m0 mps2-an385

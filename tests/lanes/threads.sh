@@ -3,7 +3,7 @@ about="what has threads, under the thread sanitizer: the interrupt's and the loo
 minutes=2
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 
-# Without address randomisation: the sanitizer's shadow needs its fixed place, which newer kernels may give away.
+# Runs without address randomisation: the sanitizer's shadow memory needs fixed addresses, which newer kernels may use.
 lane() {
   local targets=(lexican_thread_tests lexican-demo-two-threads lexican-demo-without-turns)
   build_tree threads -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_C_COMPILER=clang \

@@ -6,7 +6,7 @@ packages=("${build_packages[@]}" "${clang_packages[@]}" clang-tidy-14)
 places=(src drivers)
 with_tools=OFF
 
-# How each file is compiled is known once the preset is configured: nothing is built here.
+# Configures the preset only: this determines the compiler options of each file, and nothing needs to be built.
 lane() {
   (cd "$root" && cmake --preset development -DLEXICAN_TOOLS=$with_tools -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
   local file logs=$results/tidy

@@ -18,7 +18,7 @@ lane() {
     "$build/heater/heater"
 }
 
-# As README says it; with the codict of lane package, if that has been built.
+# Builds as README describes; uses the codict of lane package, if that has been built.
 heater() {
   local codict=$build/release/tests/package/generate.cross/lexican_host_codict/codict known=()
   [ ! -x "$codict" ] || known=(-DLEXICAN_CODICT="$codict")

@@ -11,7 +11,7 @@ lane() {
   run_on_machine lexican_zynqmp_driver_check
 }
 
-# Each instruction takes the same time on the clock of the emulated machine: every host runs the same.
+# Runs are the same on every host, as each instruction takes the same time on the clock of the emulated machine.
 run_on_machine() {  # PROGRAM
   run_tap timeout 120 qemu-system-aarch64 -M xlnx-zcu102,canbus0=bus,canbus1=bus -object can-bus,id=bus -m 256M \
     -display none -audiodev none,id=none -monitor none -serial none -chardev stdio,id=host \

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-# lexican_bare_metal_program(<target> <board> [LARGE]): lets an executable run on a board, which is a machine of QEMU:
+# lexican_bare_metal_program(<target> <board> [LARGE]): builds an executable for a board, which is a machine of QEMU:
 #
 #   microbit      Cortex-M0       -D CMAKE_TOOLCHAIN_FILE=cmake/toolchains/arm-none-eabi.cmake -D LEXICAN_CPU=cortex-m0
-#   mps2-an385    Cortex-M3       the same with LEXICAN_CPU=cortex-m3, or the code of a smaller core
-#   mps2-an386    Cortex-M4F      the same with LEXICAN_CPU=cortex-m4 and LEXICAN_FLOAT_ABI=hard
+#   mps2-an385    Cortex-M3       as above with LEXICAN_CPU=cortex-m3, or the code of a smaller core
+#   mps2-an386    Cortex-M4F      as above with LEXICAN_CPU=cortex-m4 and LEXICAN_FLOAT_ABI=hard
 #   virt          RISC-V rv32     -D CMAKE_TOOLCHAIN_FILE=cmake/toolchains/riscv32-none-elf.cmake
 #
-# LARGE gives a program on mps2-… 7 MiB of code and 9 MiB of RAM. main() takes no arguments; its result is QEMU's
-# exit status. What a program may ask of its board: board.hpp.
-# To run it: lexican_board_command(<variable> <board>) gives the command that the path of the program is appended to.
+# LARGE gives a program on mps2-… 7 MiB of code and 9 MiB of RAM. main() takes no arguments; its result is QEMU's exit
+# status. board.hpp declares the functions of the board.
+# lexican_board_command(<variable> <board>) returns the command that runs a program, to which its path is to be
+# appended.
 set(LEXICAN_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 function(lexican_board_command variable board)
@@ -22,7 +23,7 @@ function(lexican_board_command variable board)
   set(${variable} ${command} PARENT_SCOPE)
 endfunction()
 
-# The board's part of a program. It is compiled with the program, whose options may name another core.
+# Library with the functions of the board, compiled with the options of the program, which may be for another core.
 function(lexican_board board)
   set(library lexican_board_${board})
   if(TARGET ${library})

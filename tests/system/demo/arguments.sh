@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 # arguments.sh NODE MASTER THERMOMETER
 #
-# demo/run checks its arguments, and shows its help, before it installs or builds anything. The commands of README are
-# right. The help texts have the options of the programs.
+# Checks that demo/run checks its arguments and shows its help before it installs or builds anything, that the commands
+# in README.md are valid, and that the help texts have the options of the programs.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 node=${1:?the demo node} master=${2:?the demo master} thermometer=${3:?the thermometer}
 trap 'rm -r "$work"' EXIT
 
-# Instead of the tools that install and build: they take a note.
+# Replacements of the tools that install and build, which record their arguments.
 mkdir "$work/bin"
 for tool in apt-get sudo cmake ninja g++; do
   printf '#!/bin/sh\necho "%s $*" >>"%s"\nexit 1\n' "$tool" "$work/called" >"$work/bin/$tool"
@@ -51,7 +51,8 @@ answers "unknown board" 2 "demo/run: unknown board 'uno'; one of *" --bare-metal
 answers "unknown option of a board" 2 "demo/run: unknown option '--virtual' of --bare-metal*" --bare-metal microbit --virtual
 answers "several boards to be served" 2 "demo/run: --serve runs one board, not all" --bare-metal all --serve
 
-# All commands of README and docs/demo.md: the arguments are right. What is missing is then looked for, and cannot be installed here.
+# Checks the arguments of all commands in README.md, docs/demo.md and docs/use.md. Then the command fails, as the
+# replaced tools cannot install missing packages.
 readme_commands() { sed -nE 's/^(demo\/run( [^#]*)?)(#.*)?$/\1/p' "$root/README.md" "$root"/docs/{demo,use}.md | sed 's/ *&* *$//; s/ \[BOARD\]//'; }
 count=0
 while read -r command; do
@@ -64,7 +65,7 @@ done < <(readme_commands)
 [ $count -ge 9 ]
 verdict $? "the pages have commands of the demo" "$count found"
 
-# The help texts and the programs name the same options, with as many values.
+# Checks that the help texts and the programs have the same options, with the same number of values.
 . <(sed -n '/^options_of()/,/^}/p' "$root/demo/run")
 same_options() {  # HELP COMMAND...
   "${@:2}" --help >"$work/help"
@@ -75,7 +76,7 @@ same_options master.txt "$master"
 same_options lss.txt "$master" lss
 same_options thermometer.txt "$thermometer"
 
-# What is missing is named with its size before it is installed.
+# Checks that missing packages are named with their size before they are installed.
 ends "missing packages" 0 "missing Debian packages: sl
 installing them and what they need: 23 packages, 45.2 MB to download, 1,201 MB on disk" bash -c '
   . "$1/cmake/install_packages.sh"

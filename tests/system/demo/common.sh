@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What the shell tests of the demo share. Each prints a line for each case; its status is 0 if all are right.
+# Functions shared by the shell tests of the demo. A test prints a line for each case; its status is 0 if all have
+# passed.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)
 work=$(mktemp -d)
@@ -15,10 +16,10 @@ verdict() {  # STATUS CASE DETAIL
   fi
 }
 
-# Ends the test: the status is that of all cases.
+# Ends the test with status 0 if all cases have passed, else 1.
 finish() { exit $((failures > 0)); }
 
-# The command ends with this status, and its output (of both kinds) matches the pattern.
+# Checks that a command ends with this status, and that its output (standard output and error) matches the pattern.
 ends() {  # CASE STATUS PATTERN COMMAND...
   local name=$1 expected=$2 pattern=$3 output status=0
   shift 3
@@ -28,7 +29,7 @@ ends() {  # CASE STATUS PATTERN COMMAND...
   verdict $? "$name" "expected status $expected and '$pattern', got status $status and '$output'"
 }
 
-# Waits until a file has a line that matches: await FILE REGEX
+# Waits until a file has a matching line: await FILE REGEX
 await() {
   local tries=200
   until grep -qsE "$2" "$1" || [ $((tries -= 1)) -eq 0 ]; do sleep 0.05; done

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # serve.sh NODE MASTER
 #
-# The demo node on a pseudo-terminal, and the master at its other end: a bus without CAN sockets of the kernel.
+# Tests the demo node on a pseudo-terminal, with the master at its other end: a bus without CAN support of the kernel.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 node=${1:?the demo node} master=${2:?the demo master}
@@ -67,7 +67,7 @@ ends "LSS gives the node-ID" 0 "vendor-ID, product code, revision, serial number
 ends "the node answers with it" 0 "Lexican demo clock" at_node --node 5 --index 1008 read
 stop "the node without node-ID ends with status 0"
 
-# The master is terminated in a transfer: what the node sends then is not what the next master reads.
+# Kills a master in a transfer: the next master must not receive the remaining frames.
 serve --node-id 5
 "$master" --slcan "$pty" --node 5 --index 2200 --file "$work/half" read &
 client=$!
@@ -77,7 +77,8 @@ wait $client 2>/dev/null
 ends "another master after one that was killed" 0 "0x0000C10C" at_node --node 5 --index 1018 --sub 2 read
 stop "it, too, ends with status 0"
 
-# On its own bus the time is simulated: it passes only while the program waits, so a slow machine cannot be late.
+# Checks that time on the built-in bus is simulated: it passes only while the program waits, so a slow machine is not
+# late.
 begin=$(date +%s%N)
 ends "the tour on the built-in bus" 0 "*built-in virtual bus*simulated time*22 of 22 steps in 1?.? s, all as expected" \
   "$node" --virtual

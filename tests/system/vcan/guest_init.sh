@@ -12,7 +12,7 @@ mount -t tmpfs tmp /tmp
 mkdir -p /dev/pts
 mount -t devpts pts /dev/pts
 while read -r module; do insmod "/modules/$module"; done </modules/order
-# By their paths: busybox's own ip knows no CAN.
+# Called by their paths, as busybox's ip does not support CAN.
 /bin/ip link set lo up
 /bin/ip link add dev vcan0 type vcan
 /bin/ip link set vcan0 txqueuelen 1000 up

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=dash
-# Runs in the guest: can-utils, python-can and the demo master against the demo node. Bytes as CiA 301 prints them, in
-# candump's notation.
+# Runs in the guest: tests the demo node with can-utils, python-can and the demo master. Frames have the bytes that CiA
+# 301 specifies, in candump's notation.
 
 node=lexican-demo-node
 latest_heartbeat=50000  # ticks of the node, which are microseconds: 5 % of its heartbeat time
@@ -20,8 +20,8 @@ verdict() {  # STATUS NAME DETAIL
 
 listeners() { grep -ci " $1 " /proc/net/can/rcvlist_sff; }  # CAN-ID
 
-# Data frames of some CAN-IDs are recorded from listen until expect. Nothing is lost between the two, however slow the
-# machine is: listen returns when the kernel knows the listener, which has room for the frames of a long transfer.
+# Records data frames of some CAN-IDs until expect is called. No frame is lost, however slow the machine is: listen
+# returns when the kernel has registered the listener, whose buffer holds the frames of a long transfer.
 listen() {  # "CAN-ID..." NUMBER [MILLISECONDS]
   others=$(listeners "${1##* }")
   filters=
@@ -32,7 +32,7 @@ listen() {  # "CAN-ID..." NUMBER [MILLISECONDS]
   until [ "$(listeners "${1##* }")" -gt "$others" ] || [ $((tries -= 1)) -eq 0 ]; do usleep 10000; done
 }
 
-# Compares what was heard since listen: the frames without time and interface, in one line.
+# Compares the frames recorded since listen, without time and interface, in one line.
 expect() {  # NAME EXPECTED-PATTERN
   wait "$listener"
   got=$(awk '{ printf "%s%s", (NR > 1 ? " " : ""), $3 }' /tmp/heard)
@@ -54,7 +54,7 @@ silence() {  # NAME FRAME
   expect "$1" ""
 }
 
-# A heartbeat may come before the command takes effect; from then on they carry the new state.
+# Sends an NMT command, and waits 200 ms: heartbeats sent before it takes effect have the old state.
 nmt() {  # NAME COMMAND STATE
   cansend vcan0 "000#$2"
   usleep 200000
@@ -62,7 +62,7 @@ nmt() {  # NAME COMMAND STATE
   expect "$1" "$heartbeat#$3"
 }
 
-# One boot-up message, among the heartbeats.
+# Expects one boot-up message among the heartbeats.
 reboot() {  # NAME COMMAND
   listen $heartbeat 2
   cansend vcan0 "000#$2"
@@ -84,7 +84,7 @@ period() {  # NAME MINIMUM MAXIMUM (ms), of the heartbeat
   verdict $? "$1" "$between ms between two"
 }
 
-# The master succeeds, and prints this and nothing else.
+# Checks that the master succeeds, and prints exactly this.
 says() {  # NAME OUTPUT ARGUMENT...
   name=$1 expected=$2
   shift 2
@@ -94,7 +94,7 @@ says() {  # NAME OUTPUT ARGUMENT...
   verdict $? "$name" "expected '$expected', got '$got', status $status $(cat /tmp/said)"
 }
 
-# The master prints nothing, says why in words, and ends with this status.
+# Checks that the master prints nothing but the error message, and ends with this status.
 refuses() {  # NAME STATUS WORDS ARGUMENT...
   name=$1 expected="$2 $3"
   shift 3
@@ -104,7 +104,7 @@ refuses() {  # NAME STATUS WORDS ARGUMENT...
   verdict $? "$name" "expected '$expected', got '$got'"
 }
 
-# Ctrl-C when a quarter of the picture has been transferred. The last frame of the master is the abort.
+# Sends Ctrl-C when a quarter of the picture has been transferred. The last frame of the master must be the abort.
 interrupted() {  # NAME ARGUMENT...
   name=$1
   shift
@@ -260,7 +260,7 @@ nmt "NMT start after guarding" 0105 05
 
 cangen vcan0 -g 0 -p 10 -n 20000 -I 123 -L 8
 sdo "a flood of 20000 foreign frames is survived" 4018100000000000 4F18100004000000
-# What random NMT and SDO frames have done is undone by the reset.
+# The reset restores the state before the random NMT and SDO frames.
 cangen vcan0 -g 0 -p 10 -n 20000
 reboot "a flood of 20000 random frames is survived" 8105
 sdo "and the node answers" 4018100200000000 431810020CC10000
@@ -334,9 +334,9 @@ kill -TERM $server
 wait $server
 verdict $? "SIGTERM ends the node with status 0" "status $?"
 
-# --- Half a minute at full speed: all identifiers, lengths and kinds of frames, and many for the node itself. How late
-# its heartbeats are the node tells in ticks of its own clock, counted from the boot-up message. Seven programs share
-# one processor, so it has to wait for its turn.
+# --- Half a minute at full load: all identifiers, lengths and kinds of frames, and many for the node. The node reports
+# the lateness of its heartbeats in ticks of its clock, counted from the boot-up message. The tolerance is for the seven
+# programs that share one processor.
 
 flood() {  # ARGUMENT... of cangen
   timeout 30 cangen vcan0 -g 0 -p 10 "$@" &
@@ -368,7 +368,7 @@ received=$(sed -n 's/.*node *\([0-9]*\) frames received.*/\1/p' /tmp/end)
 verdict $? "and many frames were for the node" "$(cat /tmp/end)"
 cat /tmp/end
 
-# --- Storage and LSS: what was stored is there after kill -9, which leaves the node no time for anything.
+# --- Storage and LSS: stored values survive kill -9, which permits the node no action.
 
 address="vendor-ID, product code, revision, serial number: 0x00000000 0x0000C10C 0x???????? 0x00000001"
 
@@ -385,7 +385,7 @@ killed() {  # NAME
   verdict $? "$1" "status $status"
 }
 
-# The LSS master succeeds, and prints this and nothing else.
+# Checks that the LSS master succeeds, and prints exactly this.
 lss() {  # NAME OUTPUT-PATTERN ARGUMENT...
   name=$1 expected=$2
   shift 2
@@ -445,7 +445,7 @@ $node --can vcan0 --node-id 5 --serve --storage /tmp/missing/file >/tmp/tour 2>&
 [ $? -eq 2 ] && grep -q /tmp/missing/file /tmp/tour
 verdict $? "a file that cannot be made is named, status 2" "$(cat /tmp/tour)"
 
-# Without arguments the demo takes vcan0 by itself.
+# Without arguments the demo uses vcan0.
 $node >/tmp/tour 2>&1 && grep -q "steps in .* all as expected" /tmp/tour && head -n 1 /tmp/tour | grep -q vcan0
 verdict $? "the tour, on vcan0 by itself" "$(tail -n 1 /tmp/tour)"
 $node --can vcan9 >/tmp/tour 2>&1
@@ -455,7 +455,7 @@ $node --can lo >/tmp/tour 2>&1
 [ $? -eq 2 ] && grep -q lo /tmp/tour
 verdict $? "an interface that is not CAN is named, status 2" "$(tail -n 1 /tmp/tour)"
 
-# demo/heater: a dictionary that was made of an XDD when the program was built.
+# demo/heater: its dictionary is generated from an XDD during the build.
 request=609 response=589 heartbeat=709 tpdo=189
 listen $heartbeat 1
 heater vcan0 9 &
