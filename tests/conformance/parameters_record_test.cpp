@@ -404,7 +404,7 @@ TEST_CASE("parameters: the application reports a recovered group to the network 
   device.nvm.bytes = stored_twice().nvm.bytes;
   device.nvm.bytes[100 + 28] ^= 1;
   EmcyNode node(device.setup().callbacks(recovered_callbacks).emergencies({{CO_EMCY_REG_GENERAL, 0x6300}}));
-  // As in the application's loop after CONodeStart() in docs/storage.md.
+  // Simulates the application's loop after CONodeStart(), as in docs/storage.md.
   if (!Recovered::take().empty()) {
     node.set(0);
   }

@@ -14,11 +14,11 @@ namespace {
 using co::BitTiming;
 using co::BitTimingLimits;
 
-// Limits as in the data sheets.
+// Limits of controllers, from their data sheets.
 constexpr BitTimingLimits zynqmp = {256, 16, 8, 4};
 constexpr BitTimingLimits bxcan = {1024, 16, 8, 4};
 constexpr BitTimingLimits fdcan = {512, 256, 128, 128};
-constexpr BitTimingLimits sja1000 = {64, 16, 8, 4};     // at half the crystal's frequency
+constexpr BitTimingLimits sja1000 = {64, 16, 8, 4};     // clock: half of the crystal's frequency
 constexpr BitTimingLimits mcp2515 = {64, 16, 8, 4, 2};  // likewise
 
 struct Known {
@@ -30,7 +30,7 @@ struct Known {
   unsigned sample_point;  // 0.01 %
 };
 
-// From application notes and from tables that are in use.
+// Bit timings of application notes and of tables in use.
 const Known known[] = {
     {"8 MHz, as in CiA's table of recommended timings", 8000000, 10000, sja1000, {50, 13, 2, 2}, 8750},
     {"8 MHz", 8000000, 20000, sja1000, {25, 13, 2, 2}, 8750},
@@ -100,7 +100,7 @@ TEST_CASE("bit timing: whatever is found keeps to the limits, the rate and CiA's
   CHECK(found > 2000 / test::stride(7));
 }
 
-// An exhaustive search finds none that is better.
+// Compares the result with all possible bit timings.
 TEST_CASE("bit timing: none is nearer to the rate, or as near and nearer to 87.5 %") {
   for (const std::uint32_t clock : {8000000U, 13560000U, 24000000U, 33333333U, 48000000U, 99999001U}) {
     for (const std::uint32_t rate : co::cia_bit_rates) {
@@ -136,12 +136,12 @@ TEST_CASE("bit timing: none is nearer to the rate, or as near and nearer to 87.5
 }
 
 TEST_CASE("bit timing: what cannot be has prescaler 0") {
-  CHECK(co::find_bit_timing(100000000, 10000, zynqmp).prescaler == 0);   // too slow
-  CHECK(co::find_bit_timing(100000000, 800000, zynqmp).prescaler == 0);  // 125 periods: 5 x 25 samples too late
-  CHECK(co::find_bit_timing(4000000, 1000000, zynqmp).prescaler == 0);   // 4 quanta
+  CHECK(co::find_bit_timing(100000000, 10000, zynqmp).prescaler == 0);   // rate too low
+  CHECK(co::find_bit_timing(100000000, 800000, zynqmp).prescaler == 0);  // 125 = 5 x 25 quanta: sample point at 68 %
+  CHECK(co::find_bit_timing(4000000, 1000000, zynqmp).prescaler == 0);   // only 4 quanta
   CHECK(co::find_bit_timing(7000000, 500000, {256, 16, 8, 4, 1, 0}).prescaler == 1);
-  CHECK(co::find_bit_timing(7000001, 500000, {256, 16, 8, 4, 1, 0}).prescaler == 0);  // must be exact
-  CHECK(co::find_bit_timing(4000000, 500000, mcp2515).prescaler == 0);  // 8 quanta, 2 of them behind the sample: 75 %
+  CHECK(co::find_bit_timing(7000001, 500000, {256, 16, 8, 4, 1, 0}).prescaler == 0);  // deviation of 0 ppm required
+  CHECK(co::find_bit_timing(4000000, 500000, mcp2515).prescaler == 0);                // 8 quanta: sample point at 75 %
   CHECK(co::find_bit_timing(0, 500000, zynqmp).prescaler == 0);
   CHECK(co::find_bit_timing(8000000, 0, zynqmp).prescaler == 0);
 }
@@ -169,9 +169,9 @@ TEST_CASE("bit timing: the macros for C make the same") {
   }
   CHECK(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 16));
   CHECK(CO_CAN_ZYNQMP_RATE_FITS(100000000, 20000, 20));
-  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 12));   // samples at 83 %
-  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 21));   // segment 1 of 17
+  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 12));   // sample point at 83 %
+  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(24000000, 500000, 21));   // segment 1 has 17 quanta
   CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(24000000, 1000000, 16));  // not a multiple
-  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(4000000, 1000000, 8));    // too slow a clock
+  CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(4000000, 1000000, 8));    // clock too slow
   CHECK_FALSE(CO_CAN_ZYNQMP_RATE_FITS(100000000, 10000, 20));   // prescaler 500
 }

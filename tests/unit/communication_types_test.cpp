@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types of the communication profile, called as an application may call them: with any length.
+// Types of the communication profile: calls of the application with any length.
 #include <doctest/doctest.h>
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // required by the demo's master
 #include <doctest/doctest.h>
 
 #include <cstdio>
@@ -35,7 +35,7 @@ Arguments to_write(const char* type, const char* value) {
 
 std::string fault_of(const Arguments& arguments) { return demo::prepare(arguments).fault; }
 
-/// A file that lives as long as the test case.
+/// A file that is removed at the end of the test case.
 class File {
  public:
   explicit File(const std::string& content) { std::ofstream(name, std::ios::binary) << content; }

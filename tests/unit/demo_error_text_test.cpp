@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of a demo's node in words: name, object, meaning; and the fault of its dictionary.
+// Texts of the demo for the error of its node (name, object, meaning) and for the fault of its dictionary.
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // required by the demo's master
 #include <doctest/doctest.h>
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // required by the demo's master
 #include <doctest/doctest.h>
 
 #include "linux_node/heartbeat_watch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // required by the demo's master
 #include <doctest/doctest.h>
 
 #include <string>
@@ -16,7 +16,7 @@ using demo::millisecond;
 using demo::Progress;
 using demo::second;
 
-/// Records the texts shown of a transfer.
+/// Records the progress texts of a transfer.
 struct Watcher {
   explicit Watcher(Progress::Form form) : progress(form, [this](const std::string& text) { shown.push_back(text); }) {}
   void sees(const Amount& amount) { progress.update(amount); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bus behind an slcan adapter: a socket, a terminal, and what goes wrong with them.
+// Access to a bus by an slcan adapter on a socket or a terminal, and their faults.
 #include "co_cfg.h"
 
-#if USE_CSDO && defined(__linux__)  // the demo's master needs the one, and the other
+#if USE_CSDO && defined(__linux__)  // the demo's master requires USE_CSDO; terminals and sockets require Linux
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -25,13 +25,13 @@ using demo::SlcanHost;
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
-/// A chroot without the file system devpts has no pseudo-terminals.
+/// Returns true if pseudo-terminals exist. A chroot without the file system devpts has none.
 bool has_terminals() {
   const int fd = ::posix_openpt(O_RDWR | O_NOCTTY);
   return fd >= 0 && ::close(fd) == 0;
 }
 
-/// The other end of a host's adapter.
+/// Test side of the connection between a host and its adapter.
 class Adapter {
  public:
   explicit Adapter(int fd) : fd_(fd) {}
@@ -153,7 +153,7 @@ TEST_CASE("slcan host: Send returns 0 for an adapter that accepts nothing, which
     const std::string more = line.adapter->receive();
     REQUIRE(!more.empty());
     text += more;
-    line.read();  // sends on, too
+    line.read();  // also continues the transmission
   }
   CHECK(text == expected);
   CHECK(line.send("080#") == taken);
@@ -216,7 +216,7 @@ TEST_CASE("slcan host, needs devpts: a pseudo-terminal carries frames while anot
   can.driver->Enable(can.context, 0);
   const CO_IF_FRM nobody = test::frame("705#00");
   for (unsigned n = 0; n < 10000; ++n) {
-    REQUIRE(can.driver->Send(can.context, &nobody) == taken);  // dropped: it fills no buffer
+    REQUIRE(can.driver->Send(can.context, &nobody) == taken);  // discarded, so that no buffer overflows
   }
   const auto read = [&] {
     CO_IF_FRM frame{};
@@ -257,7 +257,7 @@ TEST_CASE("linux host: the time of the built-in bus passes only while the progra
   CHECK(host.now() == 0);
   host.wait(250 * demo::millisecond);
   CHECK(host.now() == 250 * demo::millisecond);
-  host.wait(demo::for_ever);  // with nothing that could end it
+  host.wait(demo::for_ever);  // no event can end it earlier
   CHECK(host.now() == 250 * demo::millisecond + demo::second);
 }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "co_cfg.h"
 
-#if USE_CSDO  // which the demo's master needs
+#if USE_CSDO  // required by the demo's master
 #include <doctest/doctest.h>
 
 #include <string>
@@ -18,7 +18,7 @@ demo::ValueType type(const char* name) {
   return *found;
 }
 
-/// The bytes of a value that must be right.
+/// Returns the bytes of a value. The text must be valid.
 Bytes bytes(const char* type_name, const std::string& text) {
   const demo::Encoded encoded = demo::encode(type(type_name), text);
   CAPTURE(text);
@@ -32,7 +32,7 @@ std::string fault(const char* type_name, const std::string& text) {
   return encoded.fault;
 }
 
-/// The text of bytes that must be right.
+/// Returns the text of a value. The bytes must be valid.
 std::string shown(const char* type_name, const Bytes& value) {
   const demo::Shown result = demo::show(type(type_name), value);
   CHECK(result.fault == "");

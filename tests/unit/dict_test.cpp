@@ -11,7 +11,7 @@ using namespace test;
 
 CO_OBJ byte_at(std::uint32_t dev, std::uintptr_t value) { return CO_OBJ{dev | CO_OBJ_D___RW, CO_TUNSIGNED8, value}; }
 
-// Keys with gaps of one sub-index, several of each index.
+// Returns the key of entry \a n: 4 entries for each index, with every second sub-index.
 std::uint32_t nth_dev(std::uint32_t n) { return CO_DEV(0x2000 + n / 4, 2 * (n % 4) + 1); }
 
 std::vector<CO_OBJ> table_of(std::uint32_t number) {
@@ -66,7 +66,7 @@ TEST_CASE("dictionary: 65535 entries without end mark, first and last key includ
   std::vector<CO_OBJ> table = table_of(65534);
   table.push_back(byte_at(CO_DEV(0xFFFF, 0xFE), 1));
   CO_DICT dict;
-  REQUIRE(CODictInit(&dict, some_node(), table.data(), 65535) == 32767);  // the highest that int16_t can tell
+  REQUIRE(CODictInit(&dict, some_node(), table.data(), 65535) == 32767);  // INT16_MAX
   CHECK(dict.Num == 65535);
   unsigned wrong = 0;
   for (CO_OBJ& obj : table) wrong += CODictFind(&dict, CO_GET_DEV(obj.Key)) == &obj ? 0U : 1U;
@@ -376,7 +376,7 @@ TEST_CASE("dictionary: buffers and values, with every error") {
   Fixture node;
   std::uint8_t buffer[8] = {1, 2, 3, 4};
   CHECK(CODictWrBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer, 4) == CO_ERR_NONE);
-  CHECK(std::memcmp(&node.objects.u32, buffer, 4) == 0);  // a value: in the byte order of the CPU
+  CHECK(std::memcmp(&node.objects.u32, buffer, 4) == 0);  // values have the byte order of the CPU
   CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer + 1, 4) == CO_ERR_NONE);
   CHECK(buffer[4] == 4);
   CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer, 3) == CO_ERR_BAD_ARG);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of a dictionary by the compiler. Most of them are decided when this file compiles; tests/failing_builds has
-// the sources that must not compile.
+// Checks of a dictionary at compile time. Most of them are static assertions of this file; sources that must not
+// compile are in tests/failing_builds.
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include <doctest/doctest.h>
@@ -66,7 +66,7 @@ static_assert(co::entry<od, 0x0005, 0>() == &od[0]);
 static_assert(co::entry<od, 0xFFFF, 0xFF>() == &od[14]);
 static_assert(co::entry<od, 0x2100, 0>()->Data == 42, "a value is known to the compiler");
 
-// The rules at their borders.
+// Limits of the rules.
 using namespace co::rules;
 constexpr std::uint32_t key = CO_KEY(0x2000, 1, CO_OBJ_____RW);
 
@@ -82,7 +82,7 @@ static_assert(check_entry(0, CO_KEY(0x0020, 0, 0), true, true) == CO_DICT_OK);
 static_assert(check_entry(0, CO_KEY(0x1200 + CO_SSDO_N - 1, 1, 0), true, true) == CO_DICT_OK);
 static_assert(CO_SSDO_N == 128 ||
               check_entry(0, CO_KEY(0x1200 + CO_SSDO_N, 1, 0), true, true) == CO_DICT_NOT_CONFIGURED);
-constexpr std::uint32_t clients = USE_CSDO != 0 ? CO_CSDO_N : 0;  // 1280h begins another service
+constexpr std::uint32_t clients = USE_CSDO != 0 ? CO_CSDO_N : 0;  // 1280h: SDO client parameters
 static_assert(clients == 0 || check_entry(0, CO_KEY(0x1280 + clients - 1, 3, 0), true, true) == CO_DICT_OK);
 static_assert(check_entry(0, CO_KEY(0x1280 + clients, 3, 0), true, true) == CO_DICT_NOT_CONFIGURED);
 static_assert(check_entry(0, CO_KEY(0x1280 + clients, 4, 0), true, true) == CO_DICT_OK, "no sub-index of CiA 301");

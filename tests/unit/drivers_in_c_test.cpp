@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host drivers by their C interface; that C11 compiles it is shown by the lane headers and demo/first_node.
+// C interface of the host drivers. The lane headers and demo/first_node compile it as C11.
 #include <doctest/doctest.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameter memories: RAM and file.
+// Drivers of non-volatile memory: in RAM, and in a file.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Both memories behave alike through the driver table.
+// Checks accesses through the driver table, which are equal for both memories.
 void check_accesses(const CO_IF_NVM_DRV_EX& driver, void* ctx, std::uint32_t capacity) {
   driver.Init(ctx);
   const CO_NVM_SHAPE shape = driver.Shape(ctx);
@@ -59,7 +59,7 @@ void check_accesses(const CO_IF_NVM_DRV_EX& driver, void* ctx, std::uint32_t cap
 
   driver.Init(ctx);
   CHECK(driver.Read(ctx, 5, buffer.data(), 1) == 1);
-  CHECK(buffer[0] == 1);  // as a real memory, it remembers
+  CHECK(buffer[0] == 1);  // Init does not clear the memory
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ TEST_CASE("NVM in RAM: a memory of no bytes, and none at all, do no harm") {
 
 namespace {
 
-// A directory that is gone at the end of the test.
+// A directory that is removed at the end of the test.
 class Directory {
  public:
   Directory() {
@@ -106,7 +106,7 @@ class Directory {
   std::string path_;
 };
 
-// For as long as it lives, files end at a number of bytes, as on a full device.
+// Limits the size of files as long as the object exists, to simulate a full device.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -226,7 +226,7 @@ TEST_CASE("NVM in a file: a device that is full keeps the file from being made, 
   CHECK_FALSE(made);
   CHECK(nvm.capacity() == 0);
   CHECK(nvm.error() == directory.file() + " cannot be filled: File too large");
-  REQUIRE(nvm.open(directory.file(), 16));  // goes on where it was interrupted
+  REQUIRE(nvm.open(directory.file(), 16));  // fills the rest of the file
   CHECK(content(directory.file()) == Bytes(16, 0xFF));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of slcan, as an adapter sends and receives it, and what is no such text.
+// slcan texts that are received and sent, and malformed ones.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
-/// A controller, and the other end of its line.
+/// A controller, and the test side of its serial line.
 struct Line {
   explicit Line(std::uint16_t capacity = 8) : frames(capacity) {
     const auto note = [](void* line) { ++static_cast<Line*>(line)->starts; };
@@ -42,7 +42,7 @@ struct Line {
     const CO_IF_FRM frame = test::frame(text);
     return SlcanDriver.Send(&can, &frame);
   }
-  /// The line takes up to so many characters.
+  /// Returns the next characters that the controller sends, at most \a most.
   std::string take(std::uint32_t most = 1000) {
     std::string text;
     const std::uint8_t* bytes = nullptr;
@@ -117,39 +117,39 @@ TEST_CASE("slcan: answers, commands of a peer, empty lines and line feeds are pa
 
 TEST_CASE("slcan: a line that is no frame is dropped and counted, and the next one is received") {
   const char* const lines[] = {
-      "t",                                // nothing behind the letter
-      "t70",                              // identifier cut off
+      "t",                                // only the letter
+      "t70",                              // incomplete identifier
       "t701",                             // no length
       "t8000",                            // more than 11 bits
       "T200000000",                       // more than 29 bits
       "t7019112233445566778899",          // 9 bytes
-      "t701A00",                          // a length in letters
-      "t7012AA",                          // data cut off
+      "t701A00",                          // length is not a decimal digit
+      "t7012AA",                          // incomplete data
       "t7012AAB",                         // likewise
       "t7011AA0",                         // neither data nor a time stamp
       "t7011AA01",                        // likewise
       "t7011AA012",                       // likewise
       "t7011AA01234",                     // likewise
-      "t7011AA012G",                      // a time stamp that is no number
-      "t7011A/",                          // no hex digit: before 0
-      "t7011A:",                          // behind 9
-      "t7011A@",                          // before A
-      "t7011AG",                          // behind F
+      "t7011AA012G",                      // time stamp is not a number
+      "t7011A/",                          // not a hexadecimal digit: below '0'
+      "t7011A:",                          // above '9'
+      "t7011A@",                          // below 'A'
+      "t7011AG",                          // above 'F'
       "t7011Ag",                          // likewise
       "t7G11AA",                          // in the identifier
-      "t 7011AA",                         // a blank
-      "t70105",                           // no bytes, and half of one
-      "t701\n1AA",                        // a line feed in the midst
+      "t 7011AA",                         // space
+      "t70105",                           // half a byte after length 0
+      "t701\n1AA",                        // line feed within the frame
       "r70111",                           // a remote frame has no data
-      "T7011AA",                          // a short identifier behind the long letter
-      "x7011AA",                          // no such letter
+      "T7011AA",                          // 11-bit identifier after the letter for 29 bits
+      "x7011AA",                          // unknown letter
       "7011AA",                           // no letter
-      "V1013",                            // an answer to what was not asked
-      "zt7011AA",                         // two lines in one
+      "V1013",                            // answer without a request
+      "zt7011AA",                         // two commands in one line
       "Ct7011AA",                         // likewise
-      "S",                                // no rate
+      "S",                                // missing bit rate
       "S66",                              // likewise
-      "t7011t7011AA",                     // a line whose end was lost
+      "t7011t7011AA",                     // lost end of line
       "T1ABCDEF08112233445566778812345",  // one digit more than the longest
       "t7018112233445566778812345678901234567890123456789012345678901234567890",
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SocketCAN on a real kernel: a virtual interface that these tests make, take down and remove. They need root and
-// AF_CAN and are skipped elsewhere; tests/system runs them in a guest.
+// SocketCAN on a real kernel, with a virtual interface that these tests create, take down and remove. They require root
+// and AF_CAN, and are skipped otherwise; tests/system runs them in a guest.
 #include <doctest/doctest.h>
 
 #ifdef __linux__
@@ -31,7 +31,7 @@ using Texts = std::vector<std::string>;
 constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 const std::string interface = "lexicantest0";
 
-// The program ip of iproute2.
+// Runs the program ip of iproute2. Returns true if it succeeds.
 bool ip(std::vector<std::string> words) {
   words.insert(words.begin(), "ip");
   std::vector<char*> arguments;
@@ -53,11 +53,11 @@ bool has_can() {
   return fd >= 0 && ::geteuid() == 0;
 }
 
-// The interface, for the time of a test.
+// The virtual interface, which exists as long as the object.
 class Interface {
  public:
   Interface() { add(); }
-  ~Interface() { ip({"link", "del", interface}); }  // fails where the test has removed it
+  ~Interface() { ip({"link", "del", interface}); }  // fails if the test has removed it
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
   void add() {
@@ -86,7 +86,7 @@ class StuckAdapter {
   }
   StuckAdapter(const StuckAdapter&) = delete;
   StuckAdapter& operator=(const StuckAdapter&) = delete;
-  const std::string& name() const { return name_; }  // empty: this kernel has no slcan
+  const std::string& name() const { return name_; }  // empty: the kernel does not support slcan
 
  private:
   int master_ = -1;
@@ -226,7 +226,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     for (int i = 0; i < 10; ++i) {
       errors += (b.read(frame) == -1) ? 1 : 0;
     }
-    const bool told = errors == 1 || errors == 2;  // down, then gone
+    const bool told = errors == 1 || errors == 2;  // interface down, then removed
     CHECK(told);
     CHECK(b.fd() == -1);
     CHECK(send(b, "585#60") == -1);
@@ -248,14 +248,14 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     SocketCan b;
     REQUIRE(a.open(interface));
     REQUIRE(b.open(interface));
-    const int small = 1;  // bytes: the kernel takes its least
+    const int small = 1;  // bytes; the kernel uses its minimum
     REQUIRE(::setsockopt(b.fd(), SOL_SOCKET, SO_RCVBUF, &small, sizeof small) == 0);
     for (int i = 0; i < 200; ++i) {
       CHECK(send(a, "201#01") == taken);
     }
     const Texts before = received(b);
     CHECK(before.size() < 200);
-    CHECK(b.lost() == 0);  // the kernel tells it with the next frame
+    CHECK(b.lost() == 0);  // the kernel reports it with the next frame
     send(a, "201#02");
     CHECK(received(b) == Texts{"201#02", "20000004#0001000000000000"});
     CHECK(b.lost() == 200 - before.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SocketCAN as far as it goes without a CAN interface: frames, filters, errors, and a driver whose interface is not
-// there. The rest is tested in a kernel with CAN (tests/system/vcan).
+// SocketCAN without a CAN interface: frames, filters, errors, and a driver whose interface does not exist. Tests with
+// an interface run in a kernel with CAN (tests/system/vcan).
 #include <doctest/doctest.h>
 
 #ifdef __linux__
@@ -99,7 +99,7 @@ TEST_CASE("socketcan: a length above 15 is left to the node, which counts it as 
 
 TEST_CASE("socketcan: an identifier beyond 11 bits never becomes another message") {
   CO_IF_FRM frame = test::frame("181#11");
-  frame.Identifier = 0x800;  // cut to 11 bits: NMT
+  frame.Identifier = 0x800;  // truncated to 11 bits it would be NMT
   CHECK(co::to_socketcan(frame).can_id == 0x80000800);
   frame.Identifier = 0x7FF;
   CHECK(co::to_socketcan(frame).can_id == 0x7FF);
@@ -146,7 +146,7 @@ TEST_CASE("socketcan: more identifiers than the kernel takes open the filter") {
   REQUIRE(open.size() == 1);
   CHECK(open[0].can_id == 0);
   CHECK(open[0].can_mask == 0);
-  ids[512] = 0;  // 512 different ones
+  ids[512] = 0;  // 512 different identifiers
   CHECK(co::socketcan_filters(ids.data(), 513).size() == 512);
 }
 

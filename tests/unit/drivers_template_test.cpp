@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The templates, as they are, do nothing in a defined way.
+// Driver templates: unchanged, their functions have no effect and defined results.
 #include <doctest/doctest.h>
 
 #include "co_can_template.h"

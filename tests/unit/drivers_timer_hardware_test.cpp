@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timers of microcontrollers, on registers that the test moves: never early, never lost, across every wrap.
+// Timers of microcontrollers, on registers simulated by the test: expiries are never early and never lost, also when
+// counters wrap.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,12 +26,12 @@ struct SysTick {
     load();
   }
 
-  /// The driver has started a slice, and waited for the cycle in which it is loaded.
+  /// Checks that the driver has started a slice and has waited for the cycle in which the counter is loaded.
   void load() {
     REQUIRE(registers.Value == timer.Slice - 1);
     ++total;
   }
-  /// The CPU does something else for some cycles.
+  /// Lets the counter run for some cycles of the CPU.
   void run(std::uint32_t cycles) {
     total += cycles;
     while (cycles != 0) {
@@ -48,16 +49,16 @@ struct SysTick {
   }
   void alarm(std::uint32_t ticks) {
     SysTickDriver.Alarm(&timer, ticks);
-    ++total;  // it starts the counter twice
+    ++total;  // the driver starts the counter twice
     load();
   }
-  /// The CPU takes the interrupt, if there is one.
+  /// Executes a pending interrupt. Returns false if there is none.
   bool interrupt() {
     if ((icsr & pending) == 0) {
       return false;
     }
     icsr = 0;
-    run(registers.Value == 0 ? 1 : 0);  // until the CPU is there
+    run(registers.Value == 0 ? 1 : 0);  // latency of the interrupt
     COSysTickInterrupt(&timer);
     return true;
   }
@@ -156,7 +157,7 @@ TEST_CASE("systick: far alarms, and the time without any, are reached in steps o
   for (const std::uint32_t ticks : std::initializer_list<std::uint32_t>{0u, longest_slice, UINT32_MAX}) {
     SysTick systick;
     systick.alarm(ticks);
-    for (unsigned n = 0; n < 600; ++n) {  // beyond 2^32 cycles
+    for (unsigned n = 0; n < 600; ++n) {  // more than 2^32 cycles
       systick.run(systick.timer.Slice - 2);
       CHECK_FALSE(systick.interrupt());
       systick.run(1);
@@ -220,7 +221,7 @@ TEST_CASE("mtime: far alarms are reached in steps, and the ticks count on across
     MtimeDriver.Alarm(&mtime.timer, ticks);
     CHECK(mtime.due() == mtime.at + (1u << 31));
   }
-  for (unsigned n = 0; n < 100; ++n) {  // beyond 2^32 ticks
+  for (unsigned n = 0; n < 100; ++n) {  // more than 2^32 ticks
     mtime.run((1u << 31) + n);
     total += (1u << 31) + n;
     CHECK(mtime.now() == static_cast<std::uint32_t>(total / 10));
@@ -237,7 +238,7 @@ TEST_CASE("nrf51: Init starts a clock of 32 bits at the frequency, Alarm sets an
   CHECK(registers.BitMode == 3);
   CHECK(registers.Prescaler == 4);
   for (const std::uint32_t now : {0u, 0xFFFFFFF0u}) {
-    registers.Compare[0] = now;  // where it captures the clock
+    registers.Compare[0] = now;  // the register that captures the clock
     registers.Compared[1] = 1;
     CHECK(Nrf51TimerDriver.Now(&timer) == now);
     Nrf51TimerDriver.Alarm(&timer, 1000);

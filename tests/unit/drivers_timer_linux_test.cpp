@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The timer of Linux: conversions at every frequency, alarms, and waiting that is never too short.
+// Timer of Linux: conversions at every frequency, alarms, and waits that are never too short.
 #include <doctest/doctest.h>
 
 #ifdef __linux__
@@ -71,7 +71,7 @@ TEST_CASE("linux timer: starts at 0, wraps at 2^32, has no drift") {
   CHECK(LinuxTimerDriver.Now(&timer) == 0);
   LinuxTimerDriver.Init(&timer, 300);
   for (int i = 0; i < 1000; ++i) {
-    fake_now += 3333333;  // a hair less than a tick each
+    fake_now += 3333333;  // slightly less than a tick each
   }
   CHECK(LinuxTimerDriver.Now(&timer) == 999);
 }
@@ -155,14 +155,14 @@ TEST_CASE("linux timer: runs with the monotonic clock") {
   usleep(20000);
   const std::uint32_t now = timer.now();
   CHECK(now >= 20);
-  CHECK(now < 20000);  // a very slow machine
+  CHECK(now < 20000);  // allows for a very slow computer
 }
 
 TEST_CASE("linux timer: the descriptor is readable from the alarm on, not before, and not after it was replaced") {
   LinuxTimer timer;
   timer.start(1000);
   timer.set_alarm(30);
-  const int fd = timer.fd();  // made while an alarm is set
+  const int fd = timer.fd();  // created while an alarm is set
   REQUIRE(fd >= 0);
   CHECK(timer.fd() == fd);
   CHECK_FALSE(readable(fd, 0));

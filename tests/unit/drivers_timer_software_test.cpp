@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual clock, and the timer that counts the ticks of the application.
+// Virtual clock, and the timer that counts ticks of the application.
 #include <doctest/doctest.h>
 
 #include <chrono>

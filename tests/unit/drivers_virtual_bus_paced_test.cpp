@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paced virtual bus: lengths of frames to the bit, and when frames begin and arrive.
-// Lengths are typed with the intermission, as tables of bus loads have them.
+// Paced virtual bus: exact lengths of frames in bits, and times at which frames begin and arrive. Lengths include the
+// intermission, as in tables of bus loads.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void check_lengths(const std::vector<Length>& vectors) {
 
 std::int16_t send(VirtualBus::Port& port, const char* text) { return port.send(test::frame(text)); }
 
-// A paced bus with three ports, a time that the test sets, and what has arrived: "µs frame".
+// A paced bus with three ports, a time that the test sets, and a trace of the frames that have arrived: "µs frame".
 struct Bench {
   explicit Bench(std::uint32_t bit_rate = 1000000) {
     bus.set_time([this] { return time; });
@@ -55,7 +55,7 @@ struct Bench {
     }
   }
 
-  // From arrival to arrival up to this moment.
+  // Runs the bus until \a end, stopping at each arrival of a frame.
   void run_until(Time end) {
     while (bus.next_due() <= end) {
       time = bus.next_due();
@@ -179,7 +179,7 @@ TEST_CASE("paced bus: frames that follow one another do not drift, at whatever r
     send(bench.a, "080#");
     for (std::uint64_t n = 1; n <= 3000 / test::stride(20); ++n) {
       send(bench.a, "080#");
-      const std::uint64_t bit_micros = (51 * n - 3) * 1000000;  // times the rate
+      const std::uint64_t bit_micros = (51 * n - 3) * 1000000;  // time in µs multiplied by the rate
       REQUIRE(bench.bus.next_due() == Time{(bit_micros + rate - 1) / rate});
       bench.run_until(bench.bus.next_due());
       REQUIRE(bench.b.read());
@@ -191,10 +191,10 @@ TEST_CASE("paced bus: when the bus is free again, the highest priority goes firs
   Bench bench;
   send(bench.a, "080#");
   send(bench.b, "300#");
-  send(bench.b, "100#");  // behind 300 of the same port
+  send(bench.b, "100#");  // queued behind 300 of the same port
   bench.run_until(20us);
   send(bench.c, "201#");
-  bench.run_until(51us);  // in this moment the next frame starts
+  bench.run_until(51us);  // the next frame starts at this time
   send(bench.a, "200#");
   CHECK(bench.arrived_until(1ms) == Texts{at(48, "080#"), at(51 + 48, "200#"), at(51 + 51 + 47, "201#"),
                                           at(51 + 51 + 50 + 48, "300#"), at(51 + 51 + 50 + 51 + 48, "100#")});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The virtual bus: delivery, order, filters, queues, and every fault it can make.
+// Virtual bus: delivery, order, filters, queues, and all kinds of injected faults.
 #include <doctest/doctest.h>
 
 #include <chrono>
@@ -20,7 +20,7 @@ constexpr std::int16_t taken = sizeof(CO_IF_FRM);
 
 std::int16_t send(VirtualBus::Port& port, const char* text) { return port.send(test::frame(text)); }
 
-// Everything that a port has received since the last look.
+// Returns the frames that a port has received since the last call.
 Texts received(VirtualBus::Port& port) {
   Texts texts;
   while (const auto frame = port.read()) {
@@ -37,7 +37,7 @@ VirtualBus::Port& online(VirtualBus& bus, VirtualBus::Options options) {
 
 bool is_201(const VirtualBus::Traffic& traffic) { return traffic.frame.Identifier == 0x201; }
 
-// Two ports, a time that the test sets, and what was on the bus.
+// A bus with two ports, a time that the test sets, and a trace of the frames on the bus.
 struct Bench {
   Bench() {
     bus.set_time([this] { return time; });
@@ -145,7 +145,7 @@ TEST_CASE("virtual bus: pending frames go in the order of CAN arbitration, the f
   Bench bench;
   VirtualBus::Port& c = online(bench.bus, {"c"});
   bench.bus.hold();
-  send(bench.a, "300#");  // behind it, 080 of the same port has to wait
+  send(bench.a, "300#");  // 080 of the same port is queued behind it
   send(bench.a, "080#");
   send(bench.b, "200#");
   send(bench.b, "700#");

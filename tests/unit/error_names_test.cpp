@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // COErrName(), COErrText(), CODictFaultName(), CODictFaultText(). tests/compat/error_codes.c compares all names and
-// numbers of co_err.h with a list that was typed by hand.
+// numbers of co_err.h with a separate list.
 #include <doctest/doctest.h>
 
 #include <set>
@@ -13,7 +13,7 @@ namespace {
 constexpr unsigned last_error = 0x15C;
 constexpr unsigned last_fault = 12;
 
-// One line that can follow the name of an error in a message.
+// Checks that the text is one line that can follow the name of an error in a message.
 void check_text(const std::string& text) {
   CAPTURE(text);
   CHECK(text.size() > 7);
@@ -70,7 +70,7 @@ TEST_CASE("error names: each fault of a dictionary has a name and a meaning") {
   }
 }
 
-// Firmware logs the numbers; C and C++ agree on them.
+// The numbers must not change, because firmware logs them.
 static_assert(CO_DICT_NOT_ASCENDING == 1 && CO_DICT_NO_DATA == 3 && CO_DICT_WRONG_PLACE == 6);
 static_assert(CO_DICT_DIRECT_CONST == 9 && CO_DICT_PARA_OVERLAP == last_fault);
 static_assert(CO_ERR_OBJ_RANGE_LOW == last_error);

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-// Drivers that count what a node does to them once it has failed.
+// Calls of the drivers after the failed initialisation.
 unsigned sent;
 unsigned read;
 unsigned enabled;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of co_if.h over drivers with context, and every function that takes a pointer with a null one.
+// Functions of co_if.h with drivers that have a context argument, and every function with null pointers.
 #include <cstring>
 
 #include "support/callbacks.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-// A driver of each kind that records what it was asked.
+// Recorded calls of the CAN, timer and NVM drivers, and their results.
 struct Recorder {
   unsigned inits = 0;
   unsigned resets = 0;

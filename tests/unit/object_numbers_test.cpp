@@ -14,7 +14,7 @@ bool is_little_endian() {
   return first == 1;
 }
 
-// The low \a width bytes of a number in the byte order of the CPU.
+// Returns the low \a width bytes of a number in the byte order of the CPU.
 Bytes bytes_of(std::uint64_t number, unsigned width) {
   Bytes bytes(width);
   for (unsigned i = 0; i < width; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// COB-IDs of SDO servers and the heartbeat time in variables, and through buffers, of any alignment.
+// COB-IDs of SDO servers and the heartbeat time, with variables and buffers of any alignment.
 #include <cstring>
 
 #include "support/entry.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// OD_getSub() and what it says of each kind of object, OD_mappable(), OD_rwRestart(), OD_extension_init().
+// OD_getSub() for each kind of object, OD_mappable(), OD_rwRestart(), OD_extension_init().
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include <cstring>
@@ -33,7 +33,7 @@ Setup with_extensible() {
       .with({CO_KEY(0x3003, 1, CO_OBJ_____RW), OD_TUNSIGNED8, (CO_DATA)(&number)});
 }
 
-// An object that is nothing but memory.
+// Returns an entry whose object is plain memory.
 OD_entry_t memory_entry(unsigned kind, const void* object, std::uint8_t subs = 1) {
   return {0x2000, subs, static_cast<std::uint8_t>(kind), object, nullptr};
 }
@@ -78,8 +78,8 @@ TEST_CASE("OD_getSub: no OD_IO_t is ODR_DEV_INCOMPAT") {
 TEST_CASE("OD_getSub: a sub-index that the object does not have is ODR_SUB_NOT_EXIST") {
   Fixture node(with_extensible());
   OD_IO_t io;
-  CHECK(OD_getSub(OD_find(&node.od, 0x2004), 1, &io, false) == ODR_SUB_NOT_EXIST);  // a variable
-  CHECK(OD_getSub(OD_find(&node.od, 0x1018), 5, &io, false) == ODR_SUB_NOT_EXIST);  // behind the last
+  CHECK(OD_getSub(OD_find(&node.od, 0x2004), 1, &io, false) == ODR_SUB_NOT_EXIST);  // a variable has sub-index 0 only
+  CHECK(OD_getSub(OD_find(&node.od, 0x1018), 5, &io, false) == ODR_SUB_NOT_EXIST);  // behind the last sub-index
   CHECK(OD_getSub(OD_find(&node.od, 0x2033), 0, &io, false) == ODR_SUB_NOT_EXIST);  // has sub-index 1 only
   CHECK(OD_getSub(OD_find(&node.od, 0x2033), 1, &io, false) == ODR_OK);
   CHECK(OD_getSub(OD_find(&node.od, 0x2100), 10, &io, false) == ODR_SUB_NOT_EXIST);  // a gap
@@ -87,7 +87,7 @@ TEST_CASE("OD_getSub: a sub-index that the object does not have is ODR_SUB_NOT_E
   CHECK(OD_getSub(OD_find(&node.od, 0x2100), 255, &io, false) == ODR_SUB_NOT_EXIST);
 }
 
-// What is nothing but memory ------------------------------------------------------------------------------------------
+// Objects in plain memory ---------------------------------------------------------------------------------------------
 
 TEST_CASE("OD_getSub: a variable in memory has sub-index 0 only") {
   std::uint32_t value = 0;
@@ -163,7 +163,7 @@ TEST_CASE("OD_getSub: of numbers the length on the bus, their variable, and ODA_
     check_stream(without_mapping, one.memory, one.length, ODA_SDO_RW | many);
     CHECK(io.stream.index == one.index);
   }
-  check_stream(variable(node, 0x2026).stream, nullptr, 6, ODA_SDO_RW | ODA_MB);  // TIME_OF_DAY: no bytes in bus order
+  check_stream(variable(node, 0x2026).stream, nullptr, 6, ODA_SDO_RW | ODA_MB);  // TIME_OF_DAY: not in bus order
 }
 
 TEST_CASE("OD_getSub: of a number with flag D the place in the table") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The index that co_od.h searches: OD_init(), OD_find(), OD_getIndex(). No node is initialised here.
+// Index of the OD access interface (co_od.h): OD_init(), OD_find(), OD_getIndex(). The node is not initialised.
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include <cstring>
@@ -42,7 +42,7 @@ constexpr Expected expected[] = {{0x1000, 1, ODT_VAR}, {0x1001, 1, ODT_VAR}, {0x
                                  {0x2001, 2, ODT_REC}, {0x2002, 1, ODT_REC}, {0xFFFF, 1, ODT_VAR}};
 constexpr std::uint16_t objects = sizeof expected / sizeof *expected;
 
-// An index of a table, with memory that nothing has cleared.
+// An index whose memory is not zeroed.
 struct Index {
   OD_entry_t list[40];
   OD_t od{};

@@ -106,7 +106,7 @@ TEST_CASE("OD_readOriginal: an offset at the end or behind it is ODR_DEV_INCOMPA
     CAPTURE(one.name);
     for (const OD_size_t behind : {0U, 1U, 1000U}) {
       if (one.name.find("stream of the application") != std::string::npos && behind == 0) {
-        continue;  // the end of a stream is a place, too
+        continue;  // a stream may be read at its end
       }
       CAPTURE(behind);
       one.io.stream.dataOffset = length_of(one) + behind;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The results of co_od.h and their abort codes, typed from the table of the interface.
+// Results of co_od.h and their abort codes, copied from the table of the interface.
 #include "support/od.hpp"
 
 #if USE_OD

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values of a known length: OD_get_…(), OD_set_…(), OD_getPtr().
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OD_writeOriginal(): variables of every kind in pieces of every length.
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include "support/od_variables.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// Other bytes than were there; no zeros.
+// Returns bytes that differ from \a value.
 Bytes other_than(const Bytes& value) {
   Bytes other = value;
   for (std::uint8_t& byte : other) {
@@ -26,7 +26,7 @@ Bytes piece(const Bytes& all, std::size_t from, std::size_t count) {
   return {all.begin() + static_cast<std::ptrdiff_t>(from), all.begin() + static_cast<std::ptrdiff_t>(to)};
 }
 
-// The first bytes of one, the others of the other.
+// Returns \a at bytes of \a first, followed by those of \a rest.
 Bytes mixed(const Bytes& first, const Bytes& rest, std::size_t at) {
   Bytes all = rest;
   std::copy_n(first.begin(), at, all.begin());
@@ -275,7 +275,7 @@ TEST_CASE(
   io.stream.dataLength = 3;
   CHECK(write(io, {'f', 'g', 'h', 'i'}) == ODR_DATA_LONG);
   CHECK(text_of(text) == Bytes{'d', 'e'});
-  io.stream.dataLength = 100;  // more than there is room for
+  io.stream.dataLength = 100;  // more than the capacity
   CHECK(write(io, Bytes(17, 'x')) == ODR_DATA_LONG);
   CHECK(write(io, Bytes(16, 'x')) == ODR_OK);
   CHECK(text_of(text) == Bytes(16, 'x'));

@@ -16,7 +16,7 @@ struct Route {
   bool operator<(const Route& other) const { return id < other.id; }
 };
 
-// The routes of an identifier as the node finds them.
+// Returns the routes of an identifier in the order of the lookup.
 std::vector<Route> found(const CO_NODE& node, std::uint32_t id) {
   std::vector<Route> all;
   for (unsigned n = co::routes::find(node, id); n != co::routes::nowhere && co::routes::is_at(node, n, id); ++n) {

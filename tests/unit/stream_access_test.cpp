@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Domains and strings: where an access begins, what they can hold, and memory that must not be written.
+// Domains and strings: start position of accesses, capacity, and memory that must not be written.
 #include <cstring>
 
 #include "support/fixture.hpp"
@@ -108,7 +108,7 @@ struct Asked {
   std::uint32_t size;
 };
 
-// A node whose memory must not be written, from its start on.
+// A node whose Writable hook refuses all memory and records its arguments.
 class ReadOnly : public Fixture {
  public:
   ReadOnly()
@@ -117,7 +117,7 @@ class ReadOnly : public Fixture {
           return false;
         })) {}
 
-  // All questions, and at least one, were about this.
+  // Checks that the hook was called, and only with these arguments.
   void check_asked(const void* address, std::uint32_t size) {
     CHECK_FALSE(asked.empty());
     for (const Asked& one : asked) {
@@ -146,13 +146,14 @@ TEST_CASE("stream access: the Writable hook is asked about all of the memory, an
     const auto* const first = static_cast<const std::uint8_t*>(one.memory);
     const Bytes before(first, first + one.size);
     const std::string refused = "581#80" + one.object + "00000106";
-    for (const char* request : {"601#2B", "601#23", "601#20", "601#21"}) {  // of 2 and 4 bytes, in segments
+    // Expedited with 2 and 4 bytes; segmented without and with size.
+    for (const char* request : {"601#2B", "601#23", "601#20", "601#21"}) {
       CAPTURE(std::string(request));
       node.ask(request + one.object + "04000000", refused);
       node.check_asked(one.memory, one.size);
       node.ask("601#0011223300000000", "581#8011223301000405");
     }
-    node.ask("601#21" + one.object + "00000000", refused);  // empty
+    node.ask("601#21" + one.object + "00000000", refused);  // size 0
     node.check_asked(one.memory, one.size);
     CHECK(Bytes(first, first + one.size) == before);
   }

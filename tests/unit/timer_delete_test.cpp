@@ -95,7 +95,7 @@ TEST_CASE("timer: the only elapsed timer can be deleted, with nothing else in us
   CHECK(runs() == Runs{2});
 }
 
-// Actions that work on timers themselves.
+// Arguments and result of an action that deletes a timer.
 struct Plan {
   CO_TMR* tmr;
   std::int16_t target;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timers when the timer interrupt is late: what has elapsed in the hardware, the stack hears of only later.
+// Timers with a late timer interrupt, or a late loop.
 #include <algorithm>
 #include <cstring>
 
@@ -9,17 +9,17 @@ namespace {
 
 using namespace test;
 
-// A counter with a compare match, as timer drivers use it. The test moves it on; an interrupt comes when it says so.
+// A simulated hardware counter with a compare match. The test advances it and calls the interrupt function.
 struct Hardware {
   std::uint64_t now;
   std::uint64_t match;
   std::uint64_t last_match;
   bool armed;
-  bool from_match;  // the next Reload counts from the moment that has just elapsed
+  bool from_match;  // the next Reload counts from the last match
   bool stopped;
   unsigned starts;
   unsigned reloads;
-  std::uint32_t shortest;  // it cannot wait for less
+  std::uint32_t shortest;  // minimum number of ticks until a match
   std::string misuse;
 } hardware;
 
@@ -103,7 +103,7 @@ class Device {
     if (has_elapsed()) COTmrService(&node.Tmr);
   }
   void process() { COTmrProcess(&node.Tmr); }
-  // Time with interrupts, and a loop that is always in time.
+  // Advances to \a tick, with interrupt and loop at each tick.
   void until(std::uint64_t tick) {
     interrupt();
     process();
@@ -127,7 +127,7 @@ TEST_CASE("timer lateness: deleting the first timer while its expiry is pending 
   Device device(Driver::counter);
   device.create(0, 10, 1);
   const std::int16_t first = device.create(5, 0, 2);
-  hardware.now = 5;  // the interrupt is kept away
+  hardware.now = 5;  // without the interrupt
   CHECK(device.remove(first) == 0);
   device.until(35);
   CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}});
@@ -256,7 +256,7 @@ TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks whose next expiry is pendin
   device.create(0, 0xFFFFFFFF, 1);
   hardware.now = longest;
   device.interrupt();
-  hardware.now = 2 * longest;  // the loop comes a whole cycle late, and before the interrupt
+  hardware.now = 2 * longest;  // the loop runs a whole cycle late, and before the interrupt
   device.process();
   CHECK(runs == Runs{{1, 2 * longest}});
   device.until(2 * longest + 1000);
@@ -269,7 +269,7 @@ TEST_CASE("timer lateness: the only cyclic timer keeps its phase on a driver wit
   CHECK(hardware.reloads == 1);
   device.until(50);
   CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}, {1, 40}, {1, 50}});
-  CHECK(hardware.reloads == 11);  // at the start, in each interrupt, and when the loop has run the timer
+  CHECK(hardware.reloads == 11);  // once at the start, and in each interrupt and after each run of the timer
 }
 
 TEST_CASE(
@@ -288,7 +288,7 @@ TEST_CASE(
       interrupts += has_elapsed() ? 1U : 0U;
       device.interrupt();
     }
-    CHECK(interrupts == 1);  // no other before the loop has run the timer
+    CHECK(interrupts == 1);  // no more until the loop has run the timer
     CHECK(hardware.reloads == reloads + 1);
     CHECK(hardware.starts == starts);
     CHECK(runs.empty());
@@ -310,7 +310,7 @@ TEST_CASE("timer lateness: a timer that is armed elapses at its time while an el
     interrupts += has_elapsed() ? 1U : 0U;
     device.interrupt();
   }
-  CHECK(interrupts == 2);  // of the cyclic one and of the other
+  CHECK(interrupts == 2);  // one of each timer
   device.process();
   CHECK(runs == Runs{{1, 600}, {2, 600}});
   device.create(10, 0, 3);
@@ -363,7 +363,7 @@ TEST_CASE("timer lateness: order across the wrap of the clock at 2^32, with eith
   }
 }
 
-// Parameters of actions that run while the interrupt continues.
+// Parameters of actions during which timer interrupts occur.
 Device* acting;
 std::int16_t victim;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Places in the list of armed timers, whichever were deleted or have elapsed before.
+// Order of the list of armed timers after timers were deleted or have elapsed.
 #include <algorithm>
 #include <memory>
 #include <random>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// A node with each kind of driver, and a loop that is in time.
+// A node with a free-running clock, and a loop that is never late.
 class Clocked {
  public:
   explicit Clocked(std::uint32_t start) : timers_(Setup().clock(start)) {}
@@ -38,7 +38,7 @@ class Counting {
   PlainNode plain_;
 };
 
-// The drivers of a test: a clock that starts there, or a counter that is cyclic or not.
+// Calls the function with each kind of driver: clocks with different start values, cyclic and tickless counters.
 template <class Check>
 void with_each_driver(Check check) {
   for (const std::uint32_t start : clock_starts) {
@@ -98,7 +98,7 @@ TEST_CASE("timer order: when all have elapsed or are deleted, the next ones star
   });
 }
 
-// Model of the expected behaviour, with a clock that does not wrap.
+// Model of timers, with a clock that does not wrap.
 class Model {
  public:
   void create(std::int16_t id, std::uint32_t start, std::uint32_t cycle, std::uintptr_t n) {

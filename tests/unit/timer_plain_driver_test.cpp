@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-// Drivers without context, cyclic and tickless.
+// A node with a classic driver, cyclic or tickless.
 struct OldNode : PlainNode {
   explicit OldNode(bool cyclic) : PlainNode(cyclic) { runs().clear(); }
   std::int16_t create(std::uint32_t start, std::uint32_t cycle, std::uintptr_t n) {
@@ -54,7 +54,7 @@ TEST_CASE("timer: drivers without context: COTmrService() returns 1 in each tick
   CHECK(COTmrService(&t.node.Tmr) == 1);
   is_refusing = false;
   COTmrProcess(&t.node.Tmr);
-  CHECK(CONodeGetCounters(&t.node).Sent == 2);  // the boot-up message, and this
+  CHECK(CONodeGetCounters(&t.node).Sent == 2);  // the boot-up message and this frame
   CHECK(COTmrService(&t.node.Tmr) == 0);
 }
 

@@ -23,7 +23,7 @@ using demo::trace::Place;
 std::string meaning(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).text; }
 Place place(const char* frame) { return demo::trace::Decoder(names).decode(test::frame(frame)).place; }
 
-/// Frames in the order of the bus.
+/// A decoder for frames that follow one another.
 struct Listener {
   std::string hears(const char* frame) { return decoder.decode(test::frame(frame)).text; }
   Place place(const char* frame) { return decoder.decode(test::frame(frame)).place; }
@@ -64,7 +64,7 @@ TEST_CASE("trace: an expedited upload shows the object and its value [301 SDO up
   CHECK(meaning("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
   CHECK(meaning("581#4F00210117000000") == "SDO answer: 2100h:01 hour = 23");
   CHECK(meaning("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
-  CHECK(meaning("581#4B08100041070000") == "SDO answer: 1008h:00 device name = 0741h");  // no readable text
+  CHECK(meaning("581#4B08100041070000") == "SDO answer: 1008h:00 device name = 0741h");  // not printable
 }
 
 TEST_CASE("trace: a segmented transfer shows size, toggle bit and what is in the segments [301 SDO segments]") {
@@ -186,15 +186,15 @@ TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
   CHECK(meaning("780#1122334455667788") == "unknown 780#1122334455667788");
   CHECK(meaning("180#11") == "unknown 180#11");  // a PDO of node 0
   CHECK(meaning("500#11") == "unknown 500#11");
-  CHECK(meaning("080#0102") == "unknown 080#0102");                      // SYNC has a byte at most
-  CHECK(meaning("081#00000000000000") == "unknown 081#00000000000000");  // EMCY has eight
-  CHECK(meaning("100#0000000000") == "unknown 100#0000000000");          // TIME has six
+  CHECK(meaning("080#0102") == "unknown 080#0102");                      // SYNC has at most one byte
+  CHECK(meaning("081#00000000000000") == "unknown 081#00000000000000");  // EMCY has eight bytes
+  CHECK(meaning("100#0000000000") == "unknown 100#0000000000");          // TIME has six bytes
   CHECK(meaning("000#01") == "unknown 000#01");                          // NMT has two bytes
   CHECK(meaning("000#010500") == "unknown 000#010500");
-  CHECK(meaning("701#0000") == "unknown 701#0000");  // a heartbeat has one
-  CHECK(meaning("700#05") == "unknown 700#05");      // of node 0
+  CHECK(meaning("701#0000") == "unknown 701#0000");  // a heartbeat has one byte
+  CHECK(meaning("700#05") == "unknown 700#05");      // node-ID 0
   CHECK(meaning("600#4000100000000000") == "unknown 600#4000100000000000");
-  CHECK(meaning("601#40001000") == "unknown 601#40001000");  // SDO frames have eight
+  CHECK(meaning("601#40001000") == "unknown 601#40001000");  // SDO frames have eight bytes
   CHECK(meaning("601#E000100000000000") == "SDO unknown command 601#E000100000000000");
   CHECK(meaning("581#E000100000000000") == "SDO answer: unknown command 581#E000100000000000");
   CHECK(meaning("581#A300000000000000") == "SDO answer: unknown command 581#A300000000000000");
@@ -214,9 +214,9 @@ TEST_CASE("trace: only the middle of a segmented transfer can be folded") {
   CHECK(place("601#0041424344454647") == Place::middle);
   CHECK(place("581#0041424344454647") == Place::middle);
   CHECK(place("581#3000000000000000") == Place::middle);
-  CHECK(place("601#0148494A4B000000") == Place::edge);  // the last
+  CHECK(place("601#0148494A4B000000") == Place::edge);  // last segment
   CHECK(place("581#1748494A4B000000") == Place::edge);
-  CHECK(place("601#4008100000000000") == Place::edge);  // the initiates
+  CHECK(place("601#4008100000000000") == Place::edge);  // initiate
   CHECK(place("581#6000220000000000") == Place::edge);
   CHECK(place("581#8008100000000405") == Place::edge);
   CHECK(place("705#05") == Place::outside);
@@ -294,7 +294,7 @@ TEST_CASE("trace: a sub-block that lost segments goes on after its acknowledge, 
   bus.hears("581#C200220010000000");
   bus.hears("601#A300000000000000");
   bus.hears("581#0101020304050607");
-  bus.hears("581#8301020000000000");  // 2 was lost
+  bus.hears("581#8301020000000000");  // segment 2 was lost
   CHECK(bus.hears("601#A2017F0000000000") == "SDO block segments taken up to 1, blksize 127");
   CHECK(bus.hears("581#0101020304050607") == "SDO answer: block segment 1, 7 bytes");
   CHECK(bus.hears("581#8201020000000000") == "SDO answer: last block segment 2, up to 7 bytes");
@@ -307,7 +307,7 @@ TEST_CASE("trace: behind the last segment of a sub-block frames are commands unt
   bus.hears("601#C200220010270000");
   bus.hears("581#A000220001000000");
   CHECK(bus.hears("601#0101020304050607") == "SDO download block segment 1, 7 bytes");
-  CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");  // the client has started anew
+  CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");  // the client starts another transfer
   CHECK(bus.hears("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
 }
 
@@ -315,7 +315,7 @@ TEST_CASE("trace: a server that refuses the block, or answers without one, gets 
   Listener bus;
   bus.hears("601#A4171000017F0000");
   CHECK(bus.hears("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
-  bus.hears("601#A300000000000000");  // there is nothing to be started
+  bus.hears("601#A300000000000000");  // no block upload is open
   CHECK(bus.hears("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
   bus.hears("601#C200220010270000");
   CHECK(bus.hears("581#8000220001000405") == "SDO ABORT 2200h:00 picture: 0504 0001h command not valid or unknown");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of the application whose identifier tells by its value only that it has 29 bits.
+// Frames of the application with a 29-bit identifier without the flag CO_IF_FRM_EXT.
 #include "support/fixture.hpp"
 
 namespace {
 
 using namespace test;
 
-// Sends an identifier as firmware may write it; the caller's frame stays as it is.
+// Sends a frame with this identifier, and checks that the caller's frame does not change.
 void send(Fixture& node, std::uint32_t identifier) {
   CO_IF_FRM frm = {identifier, {1}, 1};
   node.call([&] { CHECK(COIfCanSend(&node->If, &frm) == sizeof(CO_IF_FRM)); });
@@ -30,7 +30,7 @@ TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits,
 TEST_CASE("transmit identifier: above 7FFh without flag it waits with the priority of a 29-bit frame [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
-  // 091h is 02440000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
+  // 02440000h has the base identifier 091h: of equal base identifiers, the 11-bit frame wins.
   for (const std::uint32_t id : {0x7FFU, 0x092U, 0x02440000U, 0x091U, 0x02480000U, 0x0243FFFFU, 0x800U}) {
     send(node, id);
   }

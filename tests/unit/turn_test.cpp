@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CO_NODE_EXT.Enter and Leave: who takes the turn of a node, and around what. (The fixture checks that turns never
-// nest, and that each has an end.)
+// CO_NODE_EXT.Enter and Leave, the node lock: functions that take it, and work that it encloses. (The fixture checks
+// that calls of Enter are not nested, and that each is followed by Leave.)
 #include "support/failing_nvm.hpp"
 #include "support/real_time_fixture.hpp"
 #include "support/timers.hpp"
@@ -13,7 +13,7 @@ using namespace test;
 
 using Entries = std::vector<std::string>;
 
-// Log of events while the node lock is held, and between.
+// Log of events, and of the calls of Enter and Leave.
 class Diary {
  public:
   Diary() {
@@ -69,7 +69,7 @@ TEST_CASE("turn: COTmrProcess takes one for each action") {
                                  "timer", "leave", "enter", "leave"});
 }
 
-// Timers that elapse one tick from now and far behind that, while the mainline is away; the timer interrupt comes.
+// Threads of the node: one without node lock, one with it, or a real-time thread and a mainline.
 enum class Threads { one, turns, real_time };
 
 Runs run_late(Threads threads, std::uint32_t start, std::uint32_t far, std::uint32_t cycle) {
@@ -206,7 +206,7 @@ TEST_CASE("turn: an action that initialises the node anew ends the turn that it 
 
 #if USE_PARA
 
-// A memory that says in the diary when it works.
+// A non-volatile memory that logs its accesses in the diary.
 struct NotedNvm {
   explicit NotedNvm(bool tells_shape) : table(FailingNvm::driver) {
     table.Read = [](void* ctx, std::uint32_t start, std::uint8_t* buffer, std::uint32_t size) {
@@ -256,7 +256,7 @@ struct NotedNvm {
 constexpr const char* save = "601#2310100173617665";
 constexpr const char* saved = "581#6010100100000000";
 
-// Turns, and what happens outside of them; in them only what is asked for.
+// Returns the log without the events during which the node lock is held, and without repetitions.
 Entries outside_of_turns(const Entries& all) {
   Entries outside;
   bool in_turn = false;

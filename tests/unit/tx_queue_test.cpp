@@ -25,7 +25,7 @@ TEST_CASE("transmit queue: a frame goes straight to a driver that takes it") {
   send(node, "181#0102");
   node.tx("181#0102");
   CHECK(node->TxQueue.Num == 0);
-  CHECK(node.counters().Sent == 2);  // with the boot-up
+  CHECK(node.counters().Sent == 2);  // including the boot-up message
 }
 
 TEST_CASE("transmit queue: priority is that of the bus, identifiers of 11 before those of 29 bits [Q4]") {
@@ -34,7 +34,7 @@ TEST_CASE("transmit queue: priority is that of the bus, identifiers of 11 before
   for (const char* text : {"7FF#01", "091#02", "1FFFFFFF#03", "02440000#04", "0243FFFF#05", "080#06", "00000001#07"}) {
     send(node, text);
   }
-  // 091h is 02440000h in the first 11 of its 29 bits: of two equal bases the shorter frame wins.
+  // 02440000h has the base identifier 091h: of equal base identifiers, the 11-bit frame wins.
   CHECK(released(node) ==
         Frames{"00000001#07", "080#06", "0243FFFF#05", "091#02", "02440000#04", "7FF#01", "1FFFFFFF#03"});
 }
@@ -46,7 +46,8 @@ TEST_CASE("transmit queue: frames of one identifier keep their order [Q4]") {
   CHECK(released(node) == Frames{"180#11", "180#12", "181#01", "181#02", "181#03"});
 }
 
-// What is left for the application: a frame of each SDO server and client and a heartbeat need not wait for its frames.
+// Returns the number of elements that frames of the application may use. The others, at most half of the queue, are
+// reserved for a frame of each SDO server and client, an EMCY message and a heartbeat.
 unsigned places_for_application(unsigned length) {
   const unsigned clients = USE_CSDO != 0 ? CO_CSDO_N : 0U;
   const unsigned kept = std::min(length / 2, 2U + CO_SSDO_N + clients);

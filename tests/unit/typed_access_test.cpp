@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Tables and casts are those that firmware writes.
+// The dictionary contains C casts, as in firmware.
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 
 #include <doctest/doctest.h>
@@ -62,7 +62,7 @@ constexpr CO_OBJ od[] = {
 };
 CO_OD_CHECK(od);
 
-// A dictionary with the node that it needs, and nothing else.
+// A node that is initialised only as far as the dictionary requires.
 struct Node : CO_NODE {
   Node() : CO_NODE{} {
     static constexpr CO_NODE_EXT nothing = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every assertion of unity.h passes when it should and fails when it should.
+// Assertions of unity.h, with values that pass and values that fail.
 #include "support/unity.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ void record(UNITY_KIND kind, const char* file, int line, const char* text) {
   reports.push_back({kind, file, line, text});
 }
 
-/// Runs a test as RUN_TEST does and returns its reports, without telling doctest.
+/// Runs a test as RUN_TEST does. Returns its reports, and does not pass them to doctest.
 std::vector<Report> reports_of(void (*test)()) {
   reports.clear();
   const UNITY_SINK before = unity_report_to(record);
@@ -53,11 +53,11 @@ std::size_t sizes[] = {3, 3};
 
 }  // namespace
 
-// The body of a test without captures; the macro lets a line say what it shows.
+// Check that a test with this body passes or fails. The body is a lambda without captures.
 #define PASSES(...) CHECK(only(reports_of([] { __VA_ARGS__; }), UNITY_PASSED))
 #define FAILS(...) CHECK(only(reports_of([] { __VA_ARGS__; }), UNITY_FAILED))
 
-// Every relation of a type, once as it holds and once as it does not.
+// Checks every relation of a type, with values that pass and values that fail.
 #define CHECK_RELATIONS(TYPE)                             \
   PASSES(TEST_ASSERT_EQUAL_##TYPE(5, 5));                 \
   FAILS(TEST_ASSERT_EQUAL_##TYPE(5, 6));                  \
@@ -78,7 +78,7 @@ std::size_t sizes[] = {3, 3};
   FAILS(TEST_ASSERT_EQUAL_##TYPE##_MESSAGE(5, 6, "why")); \
   FAILS(TEST_ASSERT_GREATER_THAN_##TYPE##_MESSAGE(5, 5, "why"))
 
-// Arrays of a type, whose elements are as wide as the name says.
+// Checks the array assertions of a type.
 #define CHECK_ARRAYS(TYPE, ELEMENT)                                                                              \
   PASSES(const ELEMENT a[] = {1, 2}; const ELEMENT b[] = {1, 2}; TEST_ASSERT_EQUAL_##TYPE##_ARRAY(a, b, 2));     \
   FAILS(const ELEMENT a[] = {1, 2}; const ELEMENT b[] = {1, 3}; TEST_ASSERT_EQUAL_##TYPE##_ARRAY(a, b, 2));      \

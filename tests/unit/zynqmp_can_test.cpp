@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver of ZynqMP's CAN controllers where QEMU's model (tests/zynqmp) shows nothing: arbitration, error states.
+// Driver of the ZynqMP CAN controllers, for behaviour that QEMU (tests/zynqmp) does not model: arbitration, error
+// states.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ using Ids = std::vector<std::uint32_t>;
 constexpr std::uint16_t queue_frames = 4;
 constexpr auto& rates = co::zynqmp_rates<24000000, 125000, 500000>;
 
-// A controller with its driver, on the bus.
+// A controller model and its driver, on the bus.
 class Controller {
  public:
   Controller() {
@@ -58,7 +59,7 @@ class Controller {
     }
   }
 
-  /// Everything that waits goes over the bus.
+  /// Transmits all waiting frames.
   void drain() {
     for (unsigned n = 0; n < 100; ++n) {
       model.begin();
@@ -84,7 +85,7 @@ TEST_CASE(
     CHECK(node.takes("300#"));
     CHECK(node.send("200#") == 0);
     node.model.begin();
-    CHECK(node.send("080#") == 0);  // on the wire: it cannot be overtaken
+    CHECK(node.send("080#") == 0);  // 300h is being transmitted and cannot be overtaken
     node.model.win();
     node.interrupt();
     CHECK(node.takes("080#"));
@@ -101,14 +102,14 @@ TEST_CASE(
   CHECK(node.takes("300#"));
   node.model.begin();
   node.model.lose();
-  CHECK(node.send("300#01") == 0);  // the same identifier keeps its order
+  CHECK(node.send("300#01") == 0);  // frames of one identifier keep their order
   CHECK(node.send("301#") == 0);
   CHECK(node.takes("100#"));
   CHECK(node.model.waiting() == 2);
-  CHECK(node.send("080#") == 0);  // 100 goes next
+  CHECK(node.send("080#") == 0);  // 100h is the next frame
   node.model.begin();
   node.model.lose();
-  CHECK(node.send("080#") == 0);  // the place in front is taken
+  CHECK(node.send("080#") == 0);  // the high priority buffer is full
   node.model.begin();
   node.model.win();
   CHECK(node.model.sent == Ids{0x100});
@@ -143,7 +144,7 @@ TEST_CASE("ZynqMP CAN: what another frame has lost is no reason to overtake the 
 
 TEST_CASE("ZynqMP CAN: 11-bit identifiers come before 29-bit ones of the same base, data before remote frames") {
   Controller node;
-  CHECK(node.takes("0C000000#"));  // base 300h
+  CHECK(node.takes("0C000000#"));  // base identifier 300h
   node.model.begin();
   node.model.lose();
   CHECK(node.send("0C000001#") == 0);
@@ -182,7 +183,7 @@ TEST_CASE("ZynqMP CAN: a frame that is sent at once does not block the next, wha
   }
 }
 
-// In each access in turn the frame ends, or the interrupt comes, or both.
+// In each register access in turn, the transmission ends, without or with the interrupt.
 TEST_CASE("ZynqMP CAN: an end of transmission in any moment blocks nothing") {
   for (const bool level : {false, true}) {
     for (unsigned moment = 0; moment < 16; ++moment) {
@@ -232,7 +233,7 @@ TEST_CASE("ZynqMP CAN: an identifier above 7FFh goes out with 29 bits, more than
   node.drain();
   REQUIRE(node.model.sent_words.size() == 1);
   const ZynqmpModel::Words& words = node.model.sent_words[0];
-  CHECK(words[0] == ((1U << 20) | (1U << 19) | (0x800U << 1)));  // base 0, SRR, IDE, extension
+  CHECK(words[0] == ((1U << 20) | (1U << 19) | (0x800U << 1)));  // base identifier 0, SRR, IDE, identifier extension
   CHECK(words[1] == 8U << 28);
   CHECK(words[2] == 0x01020304);
   CHECK(words[3] == 0x05060708);
@@ -308,7 +309,7 @@ TEST_CASE(
   ZynqmpCanDriver.Reset(&node.can);
   CHECK(node.model.on_bus());
   CHECK(node.model.waiting() == 0);
-  node.model.set_state(0);  // it waits for the bus
+  node.model.set_state(0);  // waiting for the bus
   CHECK(node.read() == "0");
   node.model.set_state(co::zynqmp::error_active);
   CHECK(node.read() == "20000100#0000000000000000");
