@@ -34,11 +34,11 @@ struct CO_PARA_T;
 /// not checked yet.
 typedef struct CO_ACCESS_SDO_T {
   CO_OBJ_TRANSFER Direction;  ///< CO_OBJ_UPLOAD: the client reads; CO_OBJ_DOWNLOAD: it writes
-  uint16_t Index;
-  uint8_t Sub;
-  uint8_t Channel;      ///< SDO server, from 0: the one with the parameters 1200h + Channel
-  uint32_t Size;        ///< bytes that the client announces for a download; 0: unknown, and in an upload
-  const uint8_t* Data;  ///< expedited download: Size bytes, or 4 if that is 0, in the order of the bus; else null
+  uint16_t Index;             ///< index of the object
+  uint8_t Sub;                ///< sub-index of the object
+  uint8_t Channel;            ///< SDO server, from 0: the one with the parameters 1200h + Channel
+  uint32_t Size;              ///< bytes that the client announces for a download; 0: unknown, and in an upload
+  const uint8_t* Data;        ///< expedited download: Size bytes, or 4 if that is 0, in the order of the bus; else null
 } CO_ACCESS_SDO;
 
 /// A command of the NMT master that addresses this node. [CiA 301, 7.2.8.2.1]

@@ -98,7 +98,7 @@ typedef enum CO_CAN_EVENT_T {
   CO_CAN_PASSIVE,      ///< error passive
   CO_CAN_BUS_OFF,      ///< bus-off
   CO_CAN_RECOVERED,    ///< error active again
-  CO_CAN_EVENT_NUM
+  CO_CAN_EVENT_NUM     ///< number of events
 } CO_CAN_EVENT;
 
 /// Counters of a node since CONodeInit(). All counters saturate.
@@ -120,17 +120,17 @@ typedef struct CO_NODE_COUNTERS_T {
 /// Settings that are not in CO_NODE_SPEC. Initialise the structure with zero, set Size, then the members that the
 /// application needs. The node only reads it; it must live as long as the node.
 typedef struct CO_NODE_EXT_T {
-  uint32_t Size;                ///< sizeof(CO_NODE_EXT)
-  const CO_IF_CAN_DRV_EX* Can;  ///< CAN driver with context, or null: CO_NODE_SPEC.Drv
-  void* CanCtx;
+  uint32_t Size;                    ///< sizeof(CO_NODE_EXT)
+  const CO_IF_CAN_DRV_EX* Can;      ///< CAN driver with context, or null: CO_NODE_SPEC.Drv
+  void* CanCtx;                     ///< argument of the functions of Can
   const CO_IF_TIMER_DRV_EX* Timer;  ///< timer driver with context, or null: CO_NODE_SPEC.Drv
-  void* TimerCtx;
-  const CO_IF_NVM_DRV_EX* Nvm;  ///< memory driver with context, or null: CO_NODE_SPEC.Drv
-  void* NvmCtx;
-  CO_IF_FRM* TxQueue;        ///< memory for the transmit queue, or null: CO_TX_QUEUE_N frames in the node
-  uint16_t TxQueueLen;       ///< frames at TxQueue
-  void (*Lock)(void* user);  ///< replaces COTmrLock() and COTmrUnlock(); both or none
-  void (*Unlock)(void* user);
+  void* TimerCtx;                   ///< argument of the functions of Timer
+  const CO_IF_NVM_DRV_EX* Nvm;      ///< memory driver with context, or null: CO_NODE_SPEC.Drv
+  void* NvmCtx;                     ///< argument of the functions of Nvm
+  CO_IF_FRM* TxQueue;               ///< memory for the transmit queue, or null: CO_TX_QUEUE_N frames in the node
+  uint16_t TxQueueLen;              ///< frames at TxQueue
+  void (*Lock)(void* user);         ///< replaces COTmrLock() and COTmrUnlock(); both or none
+  void (*Unlock)(void* user);       ///< counterpart of Lock
   /// Returns whether \a size bytes at \a address may be written; null: all addresses may. Called before a basic type
   /// stores a value. It protects tables and variables that the linker has placed in read-only memory: on false the
   /// write is refused with CO_ERR_OBJ_ACC.
@@ -138,8 +138,8 @@ typedef struct CO_NODE_EXT_T {
   void* User;  ///< for the functions above and below, and for CONodeGetUser()
   /// Lock that the stack holds while it copies mapped objects (co_pdo.h); both functions or none. Calls do not nest.
   void (*OdLock)(void* user);
-  void (*OdUnlock)(void* user);
-  uint16_t EmcyNum;  ///< number of errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
+  void (*OdUnlock)(void* user);  ///< releases the lock of OdLock
+  uint16_t EmcyNum;              ///< number of errors in CO_NODE_SPEC.EmcyCode; 0: CO_EMCY_N
 #if USE_REAL_TIME
   /// The node lock, both functions or none: a mutex, or a function that disables an interrupt. The node works only
   /// while the lock is held, so any thread may use it. It is locked by
@@ -151,7 +151,7 @@ typedef struct CO_NODE_EXT_T {
   /// lock. A driver must not block, because other threads wait for the lock. While a memory driver that has a Shape
   /// function reads, writes or erases, the stack releases the lock; therefore only one thread may store, load or reset.
   void (*Enter)(void* user);
-  void (*Leave)(void* user);
+  void (*Leave)(void* user);  ///< releases the lock of Enter
   /// Ring of the frames that CONodeRealTime() does not process itself and hands over to CONodeProcess(). Prepared by
   /// CORingInit(); the application must not access it afterwards. Null: no real-time thread.
   CO_RING* Mainline;
@@ -198,7 +198,7 @@ typedef struct CO_TX_QUEUE_T {  ///< transmit queue, ordered by priority
 /// Baudrate, and must not access any other member. Frequently used members come first, where small CPUs reach them with
 /// one instruction.
 typedef struct CO_NODE_T {
-  uint8_t NodeId;
+  uint8_t NodeId;   ///< 1…127, or CO_LSS_NO_NODE_ID: unconfigured
   uint8_t State;    ///< bits: initialised and running, processing a frame, changing the NMT state
   uint8_t Pending;  ///< bits: deferred work, to be done when the API function or the frame in progress is complete
   /// Block transfers are paused: they wait for the controller, or for the next call of CONodeProcess() or
@@ -216,51 +216,51 @@ typedef struct CO_NODE_T {
 #if USE_REAL_TIME
   uint8_t InTurn;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
-  CO_NMT Nmt;
-  uint16_t RPdoFirst;  ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
-  uint16_t RPdoLast;
-  uint16_t TPdoFirst;  ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
-  const CO_NODE_EXT* Ext;
-  CO_TX_QUEUE TxQueue;
-  CO_IF If;
-  CO_OBJ* Served;      ///< object of the SDO request that is being processed; null: none
-  uint32_t UserAbort;  ///< abort code for that request, set by COObjTypeUserSDOAbort()
-  enum CO_ERR_T Error;
-  CO_NODE_COUNTERS Count;
-  CO_ROUTES Routes;
-  CO_DICT Dict;
-  CO_TMR Tmr;
-  uint32_t Baudrate;
-  CO_SDO Sdo[CO_SSDO_N];
-  uint8_t* SdoBuf;
-  CO_TMR_MEM SdoTmr;
-  CO_TMR_MEM HbProdTmr;
+  CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
+  uint16_t RPdoFirst;      ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
+  uint16_t RPdoLast;       ///< tail of that list, if it is not empty
+  uint16_t TPdoFirst;      ///< head of the list of synchronous TPDOs, linked by CO_TPDO.Next
+  const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
+  CO_TX_QUEUE TxQueue;     ///< transmit queue
+  CO_IF If;                ///< drivers, handle for co_if.h
+  CO_OBJ* Served;          ///< object of the SDO request that is being processed; null: none
+  uint32_t UserAbort;      ///< abort code for that request, set by COObjTypeUserSDOAbort()
+  enum CO_ERR_T Error;     ///< last error, for CONodeGetErr()
+  CO_NODE_COUNTERS Count;  ///< counters, for CONodeGetCounters()
+  CO_ROUTES Routes;        ///< routing table of received frames
+  CO_DICT Dict;            ///< object dictionary, handle for co_dict.h
+  CO_TMR Tmr;              ///< timers, handle for co_tmr.h
+  uint32_t Baudrate;       ///< bit/s, present bit rate
+  CO_SDO Sdo[CO_SSDO_N];   ///< SDO servers, 1200h + index
+  uint8_t* SdoBuf;         ///< CO_NODE_SPEC.SdoBuf
+  CO_TMR_MEM SdoTmr;       ///< one time-out timer for all SDO servers
+  CO_TMR_MEM HbProdTmr;    ///< heartbeat producer: period
 #if USE_CSDO
-  CO_CSDO CSdo[CO_CSDO_N];
+  CO_CSDO CSdo[CO_CSDO_N];  ///< SDO clients, 1280h + index; see COCSdoFind()
 #endif
 #if USE_EMCY
-  CO_EMCY Emcy;
+  CO_EMCY Emcy;  ///< emergencies, handle for co_emcy.h
 #endif
 #if CO_RPDO_N > 0
-  CO_RPDO RPdo[CO_RPDO_N];
+  CO_RPDO RPdo[CO_RPDO_N];  ///< RPDOs, 1400h + index
 #endif
 #if CO_TPDO_N > 0
-  CO_TPDO TPdo[CO_TPDO_N];
+  CO_TPDO TPdo[CO_TPDO_N];  ///< TPDOs, 1800h + index; handle for COTPdoTrigPdo() and COTPdoTrigObj()
 #endif
 #if USE_SYNC
-  CO_SYNC Sync;
+  CO_SYNC Sync;  ///< SYNC consumer and producer
 #endif
 #if USE_TIME
-  CO_TIME Time;
+  CO_TIME Time;  ///< TIME consumer and producer, and the clock
 #endif
 #if USE_LED
-  CO_LED Led;
+  CO_LED Led;  ///< status LEDs
 #endif
 #if USE_LSS
-  CO_LSS Lss;
+  CO_LSS Lss;  ///< LSS slave
 #endif
 #if USE_LSS_MASTER
-  CO_LSSM Lssm;
+  CO_LSSM Lssm;  ///< LSS master, handle for co_lss_master.h
 #endif
 #if USE_PARA
   CO_TMR_MEM ParaTmr;  ///< checks the groups that are stored autonomously
@@ -273,17 +273,17 @@ typedef struct CO_NODE_T {
 #if USE_GUARDING
   uint8_t GuardToggle;  ///< bit 7 of the next node guarding response
   uint8_t GuardLost;    ///< life guarding: the NMT master is missing
-  CO_TMR_MEM GuardTmr;
+  CO_TMR_MEM GuardTmr;  ///< life guarding: time within which the NMT master has to send the next remote frame
 #endif
 #if CO_HBCONS_N > 0
   CO_TMR_MEM HbConsTmr;             ///< one timer for all heartbeat consumers
   CO_HB_WATCH HbCons[CO_HBCONS_N];  ///< indexed by sub-index of 1016h
 #endif
 #if USE_MPDO
-  CO_MPDO Mpdo;
+  CO_MPDO Mpdo;  ///< object scanner list and object dispatching list
 #endif
-  CO_IF_FRM TxFrame[CO_TX_QUEUE_N];
-  uint32_t ErrorKey;  ///< key of the object that Error is about
+  CO_IF_FRM TxFrame[CO_TX_QUEUE_N];  ///< memory of TxQueue, if CO_NODE_EXT.TxQueue is null
+  uint32_t ErrorKey;                 ///< key of the object that Error is about
 } CO_NODE;
 
 /// Initialises a node and its drivers and puts the controller on the bus; no frame is sent. The node is then in

@@ -41,6 +41,7 @@ extern "C" {
 struct CO_NODE_T;
 struct CO_CSDO_T;
 
+/// State of an SDO client.
 typedef enum CO_CSDO_STATE_T {
   CO_CSDO_STATE_INVALID = 0,  ///< not configured
   CO_CSDO_STATE_IDLE,         ///< ready for a request
@@ -59,28 +60,28 @@ typedef void (*CO_CSDO_CALLBACK_T)(struct CO_CSDO_T* csdo, uint16_t index, uint8
 
 /// An SDO client (1280h, 1281h, …). The application may read State and NodeId and must not access other members.
 typedef struct CO_CSDO_T {
-  struct CO_NODE_T* Node;
-  CO_CSDO_STATE State;  ///< state for the application
-  uint8_t NodeId;       ///< node-ID of the server
-  uint8_t Step;         ///< state of the protocol
-  uint8_t Flags;        ///< flags of the transfer
-  uint8_t Toggle;       ///< toggle bit of the current segment, as in the frame (00h or 10h)
-  uint8_t BlkSize;      ///< segments of a block
-  uint8_t Seq;          ///< last segment of the block that was sent or received in sequence
-  uint8_t AckSeq;       ///< block upload: last ackseq sent
-  uint8_t Silence;      ///< block upload: quarters of the time-out without a segment
-  uint16_t Crc;         ///< CRC of the data so far
-  uint32_t RxId;        ///< identifier of the server's frames, as in CO_IF_FRM; FFFF FFFFh: none
-  uint32_t TxId;        ///< identifier of the client's frames
-  uint32_t WasTxId;     ///< previous TxId, under which an abort may still be in the transmit queue
-  CO_CSDO_CALLBACK_T Call;
-  uint8_t* Buf;    ///< buffer, owned by the caller
-  uint32_t Size;   ///< bytes at Buf
-  uint32_t Num;    ///< bytes transferred; those of the current block are counted when it is acknowledged
-  uint32_t Total;  ///< bytes that the transfer will have; 0: unknown
-  uint32_t Key;    ///< CO_DEV() of the object
-  uint32_t Ticks;  ///< time-out in ticks; 0: none. Also the result of a cancelled access to the own dictionary
-  CO_TMR_MEM Tmr;
+  struct CO_NODE_T* Node;   ///< owner
+  CO_CSDO_STATE State;      ///< state for the application
+  uint8_t NodeId;           ///< node-ID of the server
+  uint8_t Step;             ///< state of the protocol
+  uint8_t Flags;            ///< flags of the transfer
+  uint8_t Toggle;           ///< toggle bit of the current segment, as in the frame (00h or 10h)
+  uint8_t BlkSize;          ///< segments of a block
+  uint8_t Seq;              ///< last segment of the block that was sent or received in sequence
+  uint8_t AckSeq;           ///< block upload: last ackseq sent
+  uint8_t Silence;          ///< block upload: quarters of the time-out without a segment
+  uint16_t Crc;             ///< CRC of the data so far
+  uint32_t RxId;            ///< identifier of the server's frames, as in CO_IF_FRM; FFFF FFFFh: none
+  uint32_t TxId;            ///< identifier of the client's frames
+  uint32_t WasTxId;         ///< previous TxId, under which an abort may still be in the transmit queue
+  CO_CSDO_CALLBACK_T Call;  ///< callback of the transfer
+  uint8_t* Buf;             ///< buffer, owned by the caller
+  uint32_t Size;            ///< bytes at Buf
+  uint32_t Num;             ///< bytes transferred; those of the current block are counted when it is acknowledged
+  uint32_t Total;           ///< bytes that the transfer will have; 0: unknown
+  uint32_t Key;             ///< CO_DEV() of the object
+  uint32_t Ticks;           ///< time-out in ticks; 0: none. Also the result of a cancelled access to the own dictionary
+  CO_TMR_MEM Tmr;           ///< time-out, or start of an access to the own dictionary
 } CO_CSDO;
 
 /// Returns client \a num, from 0. A busy client is returned, too: see State.

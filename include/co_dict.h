@@ -46,11 +46,13 @@ extern "C" {
 #define CO_DICT_FAULT_TEXT_AND_NUL(name, number, text) text "\0"
 /// \endcond
 
+/// Faults of a dictionary, see CO_DICT_FAULT_LIST.
 typedef enum CO_DICT_FAULT_T {
   CO_DICT_OK = 0,  ///< no fault
   CO_DICT_FAULT_LIST(CO_DICT_FAULT_ENUMERATOR)
 } CO_DICT_FAULT;
 
+/// The object dictionary of a node: &node.Dict. The application must not access the members.
 typedef struct CO_DICT_T {
   struct CO_OBJ_T* Root;  ///< first entry
 #if USE_FAST_PATHS
@@ -98,10 +100,14 @@ typedef struct CO_DEFAULTS_T {
   enum CO_NMT_RESET_T Type;  ///< CO_RESET_COM: both NMT resets; CO_RESET_NODE: reset node only
 } CO_DEFAULTS;
 
+/// Initialises a CO_DEFAULTS: \a variables gets the value of \a defaults, a variable of the same type. \a type:
+/// CO_RESET_COM or CO_RESET_NODE.
 #define CO_DEFAULTS_OF(variables, defaults, type) \
   { &(variables), &(defaults), sizeof(variables), (type) }
+/// Initialises a CO_DEFAULTS: all bytes of \a variables become 0. \a type as in CO_DEFAULTS_OF().
 #define CO_DEFAULTS_ZERO(variables, type) \
   { &(variables), 0, sizeof(variables), (type) }
+/// Initialises the last CO_DEFAULTS of a list.
 #define CO_DEFAULTS_END \
   { 0, 0, 0, CO_RESET_INVALID }
 
@@ -116,7 +122,7 @@ typedef struct CO_DEFAULTS_T {
 /// CO_DEFAULTS_KEY: the Reset function is then called as Reset(end mark, node, CO_RESET_NODE or CO_RESET_COM).
 /// CONodeInit() calls it with CO_RESET_NODE.
 extern const CO_OBJ_TYPE COTDefaults;
-#define CO_TDEFAULTS ((const CO_OBJ_TYPE*)&COTDefaults)
+#define CO_TDEFAULTS ((const CO_OBJ_TYPE*)&COTDefaults)  ///< type of the end mark
 /// \}
 
 /// Finds an entry by index and sub-index (CO_DEV(); flags of \a key are ignored).
@@ -131,12 +137,12 @@ CO_OBJ* CODictFind(CO_DICT* cod, uint32_t key);
 /// \retval CO_ERR_OBJ_SIZE       the object has another length
 /// \retval CO_ERR_OBJ_ACC        the type has no Read or Write function
 /// \{
-CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val);
-CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val);
-CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val);
-CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val);
-CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val);
-CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);
+CO_ERR CODictRdByte(CO_DICT* cod, uint32_t key, uint8_t* val);   ///< reads 8 bits
+CO_ERR CODictRdWord(CO_DICT* cod, uint32_t key, uint16_t* val);  ///< reads 16 bits
+CO_ERR CODictRdLong(CO_DICT* cod, uint32_t key, uint32_t* val);  ///< reads 32 bits
+CO_ERR CODictWrByte(CO_DICT* cod, uint32_t key, uint8_t val);    ///< writes 8 bits
+CO_ERR CODictWrWord(CO_DICT* cod, uint32_t key, uint16_t val);   ///< writes 16 bits
+CO_ERR CODictWrLong(CO_DICT* cod, uint32_t key, uint32_t val);   ///< writes 32 bits
 /// \}
 
 /// Finds a stream or value and reads \a len bytes of it from its beginning into \a buf. A value is in the byte order of

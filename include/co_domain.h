@@ -11,15 +11,16 @@
 extern "C" {
 #endif
 
+/// Memory of a domain, owned by the application.
 typedef struct CO_OBJ_DOM_T {
   uint32_t Offset;  ///< position of the next access
   uint32_t Size;    ///< bytes at Start
-  uint8_t* Start;
+  uint8_t* Start;   ///< the bytes
 } CO_OBJ_DOM;
 
-extern const CO_OBJ_TYPE COTDomain;
+extern const CO_OBJ_TYPE COTDomain;  ///< functions of CO_TDOMAIN
 
-#define CO_TDOMAIN ((const CO_OBJ_TYPE*)&COTDomain)
+#define CO_TDOMAIN ((const CO_OBJ_TYPE*)&COTDomain)  ///< DOMAIN; Data: a CO_OBJ_DOM
 
 #ifdef __cplusplus
 }

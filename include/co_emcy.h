@@ -45,10 +45,12 @@ extern "C" {
 /// \name Values for 1014h and 1028h
 /// \a valid: 1 = the EMCY exists, \a id: CAN-ID
 /// \{
-#define CO_EMCY_COBID_OFF 0x80000000u  ///< bit 31: the EMCY does not exist
-#define CO_EMCY_COBID_EXT 0x20000000u  ///< bit 29: 29-bit CAN-ID
-#define CO_EMCY_COBID_MASK 0x1FFFFFFFu
+#define CO_EMCY_COBID_OFF 0x80000000u   ///< bit 31: the EMCY does not exist
+#define CO_EMCY_COBID_EXT 0x20000000u   ///< bit 29: 29-bit CAN-ID
+#define CO_EMCY_COBID_MASK 0x1FFFFFFFu  ///< bits 0…28: CAN-ID
+/// Value with an 11-bit CAN-ID.
 #define CO_COBID_EMCY_STD(valid, id) ((((uint32_t)(id)) & 0x7FFu) | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// Value with a 29-bit CAN-ID.
 #define CO_COBID_EMCY_EXT(valid, id) \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
 /// \}
@@ -62,46 +64,46 @@ extern "C" {
 #define CO_EMCY_REG_COM 4           ///< communication
 #define CO_EMCY_REG_PROFILE 5       ///< device profile
 #define CO_EMCY_REG_MANUFACTURER 7  ///< manufacturer
-#define CO_EMCY_REG_NUM 8
+#define CO_EMCY_REG_NUM 8           ///< number of bits
 /// \}
 
 /// \name Error codes. [CiA 301, 7.2.7.1 table 26]
 /// \{
-#define CO_EMCY_CODE_NO_ERR 0x0000u
-#define CO_EMCY_CODE_GEN_ERR 0x1000u
-#define CO_EMCY_CODE_CUR_ERR 0x2000u
-#define CO_EMCY_CODE_CUR_INPUT_ERR 0x2100u
-#define CO_EMCY_CODE_CUR_INTERN_ERR 0x2200u
-#define CO_EMCY_CODE_CUR_OUTPUT_ERR 0x2300u
-#define CO_EMCY_CODE_VOL_ERR 0x3000u
-#define CO_EMCY_CODE_VOL_INPUT_ERR 0x3100u
-#define CO_EMCY_CODE_VOL_INTERN_ERR 0x3200u
-#define CO_EMCY_CODE_VOL_OUTPUT_ERR 0x3300u
-#define CO_EMCY_CODE_TEMP_ERR 0x4000u
-#define CO_EMCY_CODE_TEMP_AMBIENT_ERR 0x4100u
-#define CO_EMCY_CODE_TEMP_DEVICE_ERR 0x4200u
-#define CO_EMCY_CODE_HW_ERR 0x5000u
-#define CO_EMCY_CODE_SW_ERR 0x6000u
-#define CO_EMCY_CODE_SW_INTERNAL_ERR 0x6100u
-#define CO_EMCY_CODE_SW_USER_ERR 0x6200u
-#define CO_EMCY_CODE_SW_DATASET_ERR 0x6300u
-#define CO_EMCY_CODE_ADD_MODULES_ERR 0x7000u
-#define CO_EMCY_CODE_MON_ERR 0x8000u
-#define CO_EMCY_CODE_MON_COM_ERR 0x8100u
-#define CO_EMCY_CODE_MON_COM_OVERRUN_ERR 0x8110u
-#define CO_EMCY_CODE_MON_COM_PASSIVE_ERR 0x8120u
-#define CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR 0x8130u
-#define CO_EMCY_CODE_MON_COM_RECOVER_ERR 0x8140u
-#define CO_EMCY_CODE_MON_COM_COLLISION_ERR 0x8150u
-#define CO_EMCY_CODE_MON_PROT_ERR 0x8200u
-#define CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR 0x8210u
-#define CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR 0x8220u
-#define CO_EMCY_CODE_MON_PROT_DAM_ERR 0x8230u
-#define CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR 0x8240u
-#define CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR 0x8250u
-#define CO_EMCY_CODE_EXT_ERR 0x9000u
-#define CO_EMCY_CODE_ADD_FUNC_ERR 0xF000u
-#define CO_EMCY_CODE_DEV_ERR 0xFF00u
+#define CO_EMCY_CODE_NO_ERR 0x0000u                 ///< error reset, no error
+#define CO_EMCY_CODE_GEN_ERR 0x1000u                ///< generic error
+#define CO_EMCY_CODE_CUR_ERR 0x2000u                ///< current
+#define CO_EMCY_CODE_CUR_INPUT_ERR 0x2100u          ///< current, input side of the device
+#define CO_EMCY_CODE_CUR_INTERN_ERR 0x2200u         ///< current inside the device
+#define CO_EMCY_CODE_CUR_OUTPUT_ERR 0x2300u         ///< current, output side of the device
+#define CO_EMCY_CODE_VOL_ERR 0x3000u                ///< voltage
+#define CO_EMCY_CODE_VOL_INPUT_ERR 0x3100u          ///< mains voltage
+#define CO_EMCY_CODE_VOL_INTERN_ERR 0x3200u         ///< voltage inside the device
+#define CO_EMCY_CODE_VOL_OUTPUT_ERR 0x3300u         ///< output voltage
+#define CO_EMCY_CODE_TEMP_ERR 0x4000u               ///< temperature
+#define CO_EMCY_CODE_TEMP_AMBIENT_ERR 0x4100u       ///< ambient temperature
+#define CO_EMCY_CODE_TEMP_DEVICE_ERR 0x4200u        ///< device temperature
+#define CO_EMCY_CODE_HW_ERR 0x5000u                 ///< device hardware
+#define CO_EMCY_CODE_SW_ERR 0x6000u                 ///< device software
+#define CO_EMCY_CODE_SW_INTERNAL_ERR 0x6100u        ///< internal software
+#define CO_EMCY_CODE_SW_USER_ERR 0x6200u            ///< user software
+#define CO_EMCY_CODE_SW_DATASET_ERR 0x6300u         ///< data set
+#define CO_EMCY_CODE_ADD_MODULES_ERR 0x7000u        ///< additional modules
+#define CO_EMCY_CODE_MON_ERR 0x8000u                ///< monitoring
+#define CO_EMCY_CODE_MON_COM_ERR 0x8100u            ///< communication
+#define CO_EMCY_CODE_MON_COM_OVERRUN_ERR 0x8110u    ///< CAN overrun: received frames were lost
+#define CO_EMCY_CODE_MON_COM_PASSIVE_ERR 0x8120u    ///< CAN controller is error passive
+#define CO_EMCY_CODE_MON_COM_HEARTBEAT_ERR 0x8130u  ///< life guard error or heartbeat error
+#define CO_EMCY_CODE_MON_COM_RECOVER_ERR 0x8140u    ///< recovered from bus-off
+#define CO_EMCY_CODE_MON_COM_COLLISION_ERR 0x8150u  ///< CAN-ID collision
+#define CO_EMCY_CODE_MON_PROT_ERR 0x8200u           ///< protocol error
+#define CO_EMCY_CODE_MON_PROT_PDO_IGN_ERR 0x8210u   ///< PDO not processed: too short
+#define CO_EMCY_CODE_MON_PROT_PDO_LEN_ERR 0x8220u   ///< PDO length exceeded
+#define CO_EMCY_CODE_MON_PROT_DAM_ERR 0x8230u       ///< MPDO with destination addressing not processed: no such object
+#define CO_EMCY_CODE_MON_PROT_SYNC_LEN_ERR 0x8240u  ///< unexpected data length of SYNC
+#define CO_EMCY_CODE_MON_PROT_PDO_TIMEOUT_ERR 0x8250u  ///< RPDO timeout
+#define CO_EMCY_CODE_EXT_ERR 0x9000u                   ///< external error
+#define CO_EMCY_CODE_ADD_FUNC_ERR 0xF000u              ///< additional functions
+#define CO_EMCY_CODE_DEV_ERR 0xFF00u                   ///< device-specific
 /// \}
 
 struct CO_NODE_T;
@@ -141,16 +143,16 @@ typedef struct CO_EMCY_MSG_T {  // bytes of a message, the first one lowest
 
 /// Emergencies of a node: &node.Emcy. The application must not access the members.
 typedef struct CO_EMCY_T {
-  struct CO_NODE_T* Node;
-  const CO_EMCY_TBL* Root;          ///< CO_NODE_SPEC.EmcyCode
-  uint8_t Waiting;                  ///< messages in the queue, oldest first
-  CO_EMCY_HIST Hist;                ///< 1003h
-  uint8_t Register;                 ///< value of 1001h
-  uint8_t Err[CO_EMCY_STORAGE];     ///< errors of the application: bit 0 of byte 0 is identifier 0
-  uint16_t Fault[CO_EMCY_FAULT_N];  ///< number of unresolved occurrences of each error of the stack
-  CO_TMR_MEM Tmr;                   ///< inhibit time
-  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];  ///< times until 8110h and 8150h are resolved
-  CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];
+  struct CO_NODE_T* Node;              ///< owner
+  const CO_EMCY_TBL* Root;             ///< CO_NODE_SPEC.EmcyCode
+  uint8_t Waiting;                     ///< messages in the queue, oldest first
+  CO_EMCY_HIST Hist;                   ///< 1003h
+  uint8_t Register;                    ///< value of 1001h
+  uint8_t Err[CO_EMCY_STORAGE];        ///< errors of the application: bit 0 of byte 0 is identifier 0
+  uint16_t Fault[CO_EMCY_FAULT_N];     ///< number of unresolved occurrences of each error of the stack
+  CO_TMR_MEM Tmr;                      ///< inhibit time
+  CO_TMR_MEM Hold[CO_EMCY_HOLD_N];     ///< times until 8110h and 8150h are resolved
+  CO_EMCY_MSG Queue[CO_EMCY_QUEUE_N];  ///< messages that wait for the inhibit time or the transmit queue
 } CO_EMCY;
 
 /// Sets error \a err (index in CO_NODE_SPEC.EmcyCode) of the application. \a usr: manufacturer-specific data, or null:

@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTEmcyCons CO_NEEDS(CO_EMCY_CONS_N);
+extern const CO_OBJ_TYPE COTEmcyCons CO_NEEDS(CO_EMCY_CONS_N);  ///< functions of CO_TEMCY_CONS
 
-#define CO_TEMCY_CONS ((const CO_OBJ_TYPE*)&COTEmcyCons)
+#define CO_TEMCY_CONS ((const CO_OBJ_TYPE*)&COTEmcyCons)  ///< type of 1028h, sub 1…127
 
 #ifdef __cplusplus
 }

@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTEmcyHist CO_NEEDS(USE_EMCY);
+extern const CO_OBJ_TYPE COTEmcyHist CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_HIST
 
-#define CO_TEMCY_HIST ((const CO_OBJ_TYPE*)&COTEmcyHist)
+#define CO_TEMCY_HIST ((const CO_OBJ_TYPE*)&COTEmcyHist)  ///< type of 1003h, all sub-indices
 
 #ifdef __cplusplus
 }

@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTEmcyId CO_NEEDS(USE_EMCY);
+extern const CO_OBJ_TYPE COTEmcyId CO_NEEDS(USE_EMCY);  ///< functions of CO_TEMCY_ID
 
-#define CO_TEMCY_ID ((const CO_OBJ_TYPE*)&COTEmcyId)
+#define CO_TEMCY_ID ((const CO_OBJ_TYPE*)&COTEmcyId)  ///< type of 1014h
 
 #ifdef __cplusplus
 }

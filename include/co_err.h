@@ -125,6 +125,7 @@ extern "C" {
 #define CO_ERR_TEXT_AND_NUL(name, number, decimal, text) text "\0"
 /// \endcond
 
+/// Error codes, see CO_ERR_LIST.
 typedef enum CO_ERR_T {
   CO_ERR_NONE = 0,  ///< success
   CO_ERR_LIST(CO_ERR_ENUMERATOR)

@@ -20,9 +20,9 @@ extern "C" {
 #define CO_ERROR_BEHAVIOUR_NONE 1u   ///< no change of the NMT state
 #define CO_ERROR_BEHAVIOUR_STOP 2u   ///< to Stopped
 
-extern const CO_OBJ_TYPE COTErrorBehaviour;
+extern const CO_OBJ_TYPE COTErrorBehaviour;  ///< functions of CO_TERROR_BEHAVIOUR
 
-#define CO_TERROR_BEHAVIOUR ((const CO_OBJ_TYPE*)&COTErrorBehaviour)
+#define CO_TERROR_BEHAVIOUR ((const CO_OBJ_TYPE*)&COTErrorBehaviour)  ///< type of 1029h
 
 #ifdef __cplusplus
 }

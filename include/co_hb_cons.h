@@ -32,13 +32,13 @@ struct CO_NODE_T;
 
 /// An entry of 1016h. The application sets Time and NodeId before CONodeInit() and must not access it afterwards.
 typedef struct CO_HBCONS_T {
-  struct CO_NODE_T* Node;
+  struct CO_NODE_T* Node;    ///< owner, set by CONodeInit()
   struct CO_HBCONS_T* Next;  ///< not used
   CO_MODE State;             ///< last state received; CO_INVALID: none
   int16_t Tmr;               ///< last state byte received; negative: none
   uint16_t Time;             ///< ms
-  uint8_t NodeId;
-  uint8_t Event;  ///< missed periods, see CONmtGetHbEvents()
+  uint8_t NodeId;            ///< node-ID of the monitored node; 0, and above 127: the entry is not used
+  uint8_t Event;             ///< missed periods, see CONmtGetHbEvents()
 } CO_HBCONS;
 
 /// \cond internal
@@ -49,9 +49,9 @@ typedef struct CO_HB_WATCH_T {  ///< an entry of 1016h that monitors a node
 } CO_HB_WATCH;
 /// \endcond
 
-extern const CO_OBJ_TYPE COTNmtHbCons CO_NEEDS(CO_HBCONS_N);
+extern const CO_OBJ_TYPE COTNmtHbCons CO_NEEDS(CO_HBCONS_N);  ///< functions of CO_THB_CONS
 
-#define CO_THB_CONS ((const CO_OBJ_TYPE*)&COTNmtHbCons)
+#define CO_THB_CONS ((const CO_OBJ_TYPE*)&COTNmtHbCons)  ///< type of 1016h, all sub-indices
 
 /// Sets the time in ms and the node-ID of \a hbc, an entry of 1016h of an initialised node, like a write of the entry
 /// by the network.

@@ -13,11 +13,11 @@
 extern "C" {
 #endif
 
-typedef uint16_t CO_OBJ_HB_PROD;
+typedef uint16_t CO_OBJ_HB_PROD;  ///< variable of 1017h, in ms
 
-extern const CO_OBJ_TYPE COTNmtHbProd;
+extern const CO_OBJ_TYPE COTNmtHbProd;  ///< functions of CO_THB_PROD
 
-#define CO_THB_PROD ((const CO_OBJ_TYPE*)&COTNmtHbProd)
+#define CO_THB_PROD ((const CO_OBJ_TYPE*)&COTNmtHbProd)  ///< type of 1017h
 
 #ifdef __cplusplus
 }

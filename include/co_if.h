@@ -19,14 +19,15 @@ struct CO_NODE_T;
 
 /// The classic drivers (without context) of a node. Nvm may be null: then nothing can be stored.
 typedef struct CO_IF_DRV_T {
-  const CO_IF_CAN_DRV* Can;
-  const CO_IF_TIMER_DRV* Timer;
-  const CO_IF_NVM_DRV* Nvm;
+  const CO_IF_CAN_DRV* Can;      ///< may be null if CO_NODE_EXT.Can is not
+  const CO_IF_TIMER_DRV* Timer;  ///< may be null if CO_NODE_EXT.Timer is not
+  const CO_IF_NVM_DRV* Nvm;      ///< not used if CO_NODE_EXT.Nvm is not null
 } CO_IF_DRV;
 
+/// The drivers of a node: &node.If. The application must not access the members.
 typedef struct CO_IF_T {
-  struct CO_NODE_T* Node;
-  CO_IF_DRV* Drv;
+  struct CO_NODE_T* Node;  ///< owner
+  CO_IF_DRV* Drv;          ///< classic drivers: CO_NODE_SPEC.Drv, or a table of null pointers
 } CO_IF;
 
 /// Connects the interface with a node and initialises all drivers; called by CONodeInit(). \a freq: timer ticks per

@@ -21,7 +21,7 @@ extern "C" {
 /// A CAN frame.
 typedef struct CO_IF_FRM_T {
   uint32_t Identifier;  ///< CAN-ID and flags
-  uint8_t Data[8];
+  uint8_t Data[8];      ///< data in the order of the bus
   /// Number of valid bytes in Data, 0…8. 9…15 mean 8 bytes [ISO 11898-1]; a frame with a larger value is malformed: the
   /// node counts it (CO_NODE_COUNTERS.Malformed) and discards it.
   uint8_t DLC;
@@ -30,15 +30,17 @@ typedef struct CO_IF_FRM_T {
 /// \name Members of a frame; \a f is a pointer, \a pos a position in Data (modulo 8), multi-byte values are little
 /// endian
 /// \{
-#define CO_SET_ID(f, id) ((f)->Identifier = (uint32_t)(id))
-#define CO_SET_DLC(f, n) ((f)->DLC = (uint8_t)(n))
-#define CO_SET_BYTE(f, value, pos) ((f)->Data[(pos)&7] = (uint8_t)(value))
-#define CO_SET_WORD(f, value, pos) COFrmSetWord((f), (uint32_t)(value), (uint32_t)(pos))
-#define CO_SET_LONG(f, value, pos) COFrmSetLong((f), (uint32_t)(value), (uint32_t)(pos))
-#define CO_GET_ID(f) ((f)->Identifier)
-#define CO_GET_DLC(f) ((f)->DLC)
-#define CO_GET_BYTE(f, pos) ((f)->Data[(pos)&7])
+#define CO_SET_ID(f, id) ((f)->Identifier = (uint32_t)(id))                               ///< sets CAN-ID and flags
+#define CO_SET_DLC(f, n) ((f)->DLC = (uint8_t)(n))                                        ///< sets the DLC
+#define CO_SET_BYTE(f, value, pos) ((f)->Data[(pos)&7] = (uint8_t)(value))                ///< sets a byte
+#define CO_SET_WORD(f, value, pos) COFrmSetWord((f), (uint32_t)(value), (uint32_t)(pos))  ///< sets 2 bytes
+#define CO_SET_LONG(f, value, pos) COFrmSetLong((f), (uint32_t)(value), (uint32_t)(pos))  ///< sets 4 bytes
+#define CO_GET_ID(f) ((f)->Identifier)                                                    ///< returns CAN-ID and flags
+#define CO_GET_DLC(f) ((f)->DLC)                                                          ///< returns the DLC
+#define CO_GET_BYTE(f, pos) ((f)->Data[(pos)&7])                                          ///< returns a byte
+/// Returns 2 bytes.
 #define CO_GET_WORD(f, pos) ((uint16_t)(CO_GET_BYTE(f, (pos)) | ((uint32_t)CO_GET_BYTE(f, (pos) + 1) << 8)))
+/// Returns 4 bytes.
 #define CO_GET_LONG(f, pos) ((uint32_t)(CO_GET_WORD(f, (pos)) | ((uint32_t)CO_GET_WORD(f, (pos) + 2) << 16)))
 
 /// \cond internal
@@ -67,12 +69,12 @@ typedef struct CO_IF_CAN_DRV_T {
 /// A CAN driver with context argument, for several controllers in one program (CO_NODE_EXT). The functions are those of
 /// CO_IF_CAN_DRV.
 typedef struct CO_IF_CAN_DRV_EX_T {
-  void (*Init)(void* ctx);
-  void (*Enable)(void* ctx, uint32_t baud);
-  int16_t (*Read)(void* ctx, CO_IF_FRM* frm);
-  int16_t (*Send)(void* ctx, const CO_IF_FRM* frm);
-  void (*Reset)(void* ctx);
-  void (*Close)(void* ctx);
+  void (*Init)(void* ctx);                           ///< prepares the controller, which stays off the bus
+  void (*Enable)(void* ctx, uint32_t baud);          ///< sets the bit timing (bit/s) and goes on the bus
+  int16_t (*Read)(void* ctx, CO_IF_FRM* frm);        ///< returns sizeof(CO_IF_FRM) for a frame, 0 for none, -1 on error
+  int16_t (*Send)(void* ctx, const CO_IF_FRM* frm);  ///< returns sizeof(CO_IF_FRM) if accepted, else 0 or -1: retried
+  void (*Reset)(void* ctx);                          ///< clears errors and queues, goes back on the bus
+  void (*Close)(void* ctx);                          ///< goes off the bus
   /// Sets the acceptance filter; may be null. \a ids: the identifiers (with CO_IF_FRM_EXT) that the node receives, in
   /// data and in remote frames, ascending; an identifier occurs once for each service that uses it. The array is valid
   /// during the call only. Called before Enable and after every change. A driver may pass further frames.

@@ -13,9 +13,9 @@ extern "C" {
 /// A classic memory driver (without context). The application defines the address space. Read and Write return the
 /// number of bytes done; less than \a size means an error. All functions are called in the loop context and may block.
 typedef struct CO_IF_NVM_DRV_T {
-  void (*Init)(void);
-  uint32_t (*Read)(uint32_t start, uint8_t* buffer, uint32_t size);
-  uint32_t (*Write)(uint32_t start, uint8_t* buffer, uint32_t size);
+  void (*Init)(void);  ///< prepares the memory; does not change its content
+  uint32_t (*Read)(uint32_t start, uint8_t* buffer, uint32_t size);   ///< returns the bytes read
+  uint32_t (*Write)(uint32_t start, uint8_t* buffer, uint32_t size);  ///< returns the bytes written
 } CO_IF_NVM_DRV;
 
 /// Geometry of a memory, in bytes.
@@ -28,11 +28,11 @@ typedef struct CO_NVM_SHAPE_T {
 /// A memory driver with context argument, geometry and erase function (CO_NODE_EXT). Required for atomic (power-fail
 /// safe) stores.
 typedef struct CO_IF_NVM_DRV_EX_T {
-  void (*Init)(void* ctx);
+  void (*Init)(void* ctx);  ///< prepares the memory; does not change its content
   uint32_t (*Read)(void* ctx, uint32_t start, uint8_t* buffer, uint32_t size);         ///< returns the bytes read
   uint32_t (*Write)(void* ctx, uint32_t start, const uint8_t* buffer, uint32_t size);  ///< returns the bytes written
   bool (*Erase)(void* ctx, uint32_t start, uint32_t size);  ///< sets bytes to FFh; may be null if EraseSize is 0
-  CO_NVM_SHAPE (*Shape)(void* ctx);
+  CO_NVM_SHAPE (*Shape)(void* ctx);  ///< returns the geometry; may be null: then stores are not atomic
 } CO_IF_NVM_DRV_EX;
 
 #ifdef __cplusplus

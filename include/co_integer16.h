@@ -11,10 +11,10 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTInt16;
+extern const CO_OBJ_TYPE COTInt16;  ///< functions of both types
 
-#define CO_TUNSIGNED16 ((const CO_OBJ_TYPE*)&COTInt16)
-#define CO_TSIGNED16 ((const CO_OBJ_TYPE*)&COTInt16)
+#define CO_TUNSIGNED16 ((const CO_OBJ_TYPE*)&COTInt16)  ///< UNSIGNED16; Data: a uint16_t
+#define CO_TSIGNED16 ((const CO_OBJ_TYPE*)&COTInt16)    ///< INTEGER16; Data: an int16_t
 
 #ifdef __cplusplus
 }

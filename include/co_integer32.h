@@ -12,14 +12,14 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTInt32;
+extern const CO_OBJ_TYPE COTInt32;       ///< functions of CO_TUNSIGNED32 and CO_TSIGNED32
 extern const CO_OBJ_TYPE COTUnsigned24;  ///< 3 bytes on the bus, in a uint32_t
 extern const CO_OBJ_TYPE COTSigned24;    ///< 3 bytes on the bus, in an int32_t
 
-#define CO_TUNSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)
-#define CO_TSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)
-#define CO_TUNSIGNED24 ((const CO_OBJ_TYPE*)&COTUnsigned24)
-#define CO_TSIGNED24 ((const CO_OBJ_TYPE*)&COTSigned24)
+#define CO_TUNSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)       ///< UNSIGNED32; Data: a uint32_t
+#define CO_TSIGNED32 ((const CO_OBJ_TYPE*)&COTInt32)         ///< INTEGER32; Data: an int32_t
+#define CO_TUNSIGNED24 ((const CO_OBJ_TYPE*)&COTUnsigned24)  ///< UNSIGNED24; Data: a uint32_t
+#define CO_TSIGNED24 ((const CO_OBJ_TYPE*)&COTSigned24)      ///< INTEGER24; Data: an int32_t
 
 #ifdef __cplusplus
 }

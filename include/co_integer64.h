@@ -12,22 +12,22 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTInt64;
-extern const CO_OBJ_TYPE COTUnsigned40;  ///< 5, 6, 7 bytes on the bus, in a uint64_t
-extern const CO_OBJ_TYPE COTUnsigned48;
-extern const CO_OBJ_TYPE COTUnsigned56;
-extern const CO_OBJ_TYPE COTSigned40;  ///< 5, 6, 7 bytes on the bus, in an int64_t
-extern const CO_OBJ_TYPE COTSigned48;
-extern const CO_OBJ_TYPE COTSigned56;
+extern const CO_OBJ_TYPE COTInt64;       ///< functions of CO_TUNSIGNED64 and CO_TSIGNED64
+extern const CO_OBJ_TYPE COTUnsigned40;  ///< 5 bytes on the bus, in a uint64_t
+extern const CO_OBJ_TYPE COTUnsigned48;  ///< 6 bytes on the bus, in a uint64_t
+extern const CO_OBJ_TYPE COTUnsigned56;  ///< 7 bytes on the bus, in a uint64_t
+extern const CO_OBJ_TYPE COTSigned40;    ///< 5 bytes on the bus, in an int64_t
+extern const CO_OBJ_TYPE COTSigned48;    ///< 6 bytes on the bus, in an int64_t
+extern const CO_OBJ_TYPE COTSigned56;    ///< 7 bytes on the bus, in an int64_t
 
-#define CO_TUNSIGNED64 ((const CO_OBJ_TYPE*)&COTInt64)
-#define CO_TSIGNED64 ((const CO_OBJ_TYPE*)&COTInt64)
-#define CO_TUNSIGNED40 ((const CO_OBJ_TYPE*)&COTUnsigned40)
-#define CO_TUNSIGNED48 ((const CO_OBJ_TYPE*)&COTUnsigned48)
-#define CO_TUNSIGNED56 ((const CO_OBJ_TYPE*)&COTUnsigned56)
-#define CO_TSIGNED40 ((const CO_OBJ_TYPE*)&COTSigned40)
-#define CO_TSIGNED48 ((const CO_OBJ_TYPE*)&COTSigned48)
-#define CO_TSIGNED56 ((const CO_OBJ_TYPE*)&COTSigned56)
+#define CO_TUNSIGNED64 ((const CO_OBJ_TYPE*)&COTInt64)       ///< UNSIGNED64; Data: a uint64_t
+#define CO_TSIGNED64 ((const CO_OBJ_TYPE*)&COTInt64)         ///< INTEGER64; Data: an int64_t
+#define CO_TUNSIGNED40 ((const CO_OBJ_TYPE*)&COTUnsigned40)  ///< UNSIGNED40; Data: a uint64_t
+#define CO_TUNSIGNED48 ((const CO_OBJ_TYPE*)&COTUnsigned48)  ///< UNSIGNED48; Data: a uint64_t
+#define CO_TUNSIGNED56 ((const CO_OBJ_TYPE*)&COTUnsigned56)  ///< UNSIGNED56; Data: a uint64_t
+#define CO_TSIGNED40 ((const CO_OBJ_TYPE*)&COTSigned40)      ///< INTEGER40; Data: an int64_t
+#define CO_TSIGNED48 ((const CO_OBJ_TYPE*)&COTSigned48)      ///< INTEGER48; Data: an int64_t
+#define CO_TSIGNED56 ((const CO_OBJ_TYPE*)&COTSigned56)      ///< INTEGER56; Data: an int64_t
 
 #ifdef __cplusplus
 }

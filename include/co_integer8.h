@@ -11,12 +11,12 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTInt8;
+extern const CO_OBJ_TYPE COTInt8;     ///< functions of CO_TUNSIGNED8 and CO_TSIGNED8
 extern const CO_OBJ_TYPE COTBoolean;  ///< accepts 0 and 1 only (else CO_ERR_OBJ_RANGE)
 
-#define CO_TUNSIGNED8 ((const CO_OBJ_TYPE*)&COTInt8)
-#define CO_TSIGNED8 ((const CO_OBJ_TYPE*)&COTInt8)
-#define CO_TBOOLEAN ((const CO_OBJ_TYPE*)&COTBoolean)
+#define CO_TUNSIGNED8 ((const CO_OBJ_TYPE*)&COTInt8)   ///< UNSIGNED8; Data: a uint8_t
+#define CO_TSIGNED8 ((const CO_OBJ_TYPE*)&COTInt8)     ///< INTEGER8; Data: an int8_t
+#define CO_TBOOLEAN ((const CO_OBJ_TYPE*)&COTBoolean)  ///< BOOLEAN; Data: a uint8_t, 0 or 1
 
 #ifdef __cplusplus
 }

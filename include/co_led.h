@@ -42,13 +42,13 @@ struct CO_NODE_T;
 
 /// Conditions that determine the LEDs.
 typedef struct CO_LED_STATE_T {
-  CO_MODE Mode;
+  CO_MODE Mode;  ///< NMT state of the node
   uint8_t What;  ///< bits CO_LED_BUS_OFF … CO_LED_DOWNLOAD
 } CO_LED_STATE;
 
 /// LEDs of a node. The application must not access the members.
 typedef struct CO_LED_T {
-  CO_TMR_MEM Tmr;
+  CO_TMR_MEM Tmr;    ///< advances Phase; active while an LED blinks or flashes
   uint16_t Control;  ///< number of missing nodes
   uint16_t Pdo;      ///< number of late RPDOs
   uint16_t Sync;     ///< number of faults of SYNC

@@ -34,38 +34,38 @@ extern "C" {
 
 struct CO_NODE_T;
 
-#define CO_LSS_RX_ID 2021u  ///< 7E5h, from the LSS master
-#define CO_LSS_TX_ID 2020u  ///< 7E4h, from the slaves
-#define CO_LSS_NO_NODE_ID 255u
+#define CO_LSS_RX_ID 2021u      ///< 7E5h, from the LSS master
+#define CO_LSS_TX_ID 2020u      ///< 7E4h, from the slaves
+#define CO_LSS_NO_NODE_ID 255u  ///< in place of a node-ID: unconfigured
 
 #define CO_LSS_WAIT 1u  ///< state waiting
 #define CO_LSS_CONF 2u  ///< state configuration
 
 /// \name Command specifiers of services that change the slave
 /// \{
-#define CO_LSS_SERVICE_SWITCH_GLOBAL 0x04u
-#define CO_LSS_SERVICE_NODE_ID 0x11u
-#define CO_LSS_SERVICE_BIT_TIMING 0x13u
-#define CO_LSS_SERVICE_ACTIVATE 0x15u
-#define CO_LSS_SERVICE_STORE 0x17u
-#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< whole address has matched (last of 40h…43h)
-#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< whole address has matched
+#define CO_LSS_SERVICE_SWITCH_GLOBAL 0x04u     ///< switch state global
+#define CO_LSS_SERVICE_NODE_ID 0x11u           ///< configure node-ID
+#define CO_LSS_SERVICE_BIT_TIMING 0x13u        ///< configure bit timing parameters
+#define CO_LSS_SERVICE_ACTIVATE 0x15u          ///< activate bit timing parameters
+#define CO_LSS_SERVICE_STORE 0x17u             ///< store configuration
+#define CO_LSS_SERVICE_SWITCH_SELECTIVE 0x43u  ///< switch state selective: whole address has matched (last of 40h…43h)
+#define CO_LSS_SERVICE_FASTSCAN 0x51u          ///< fastscan: whole address has matched
 /// \}
 
 /// The LSS slave of a node. The application must not access its members.
 typedef struct CO_LSS_T {
-  struct CO_NODE_T* Node;
-  CO_TMR_MEM Tmr;        ///< switch delay
-  uint32_t Delay;        ///< switch delay in ticks
-  uint32_t OwnBaudrate;  ///< bit/s, from the application: used if nothing is stored
-  uint32_t CfgBaudrate;  ///< bit/s, configured, to be activated
-  uint8_t OwnNodeId;     ///< from the application: used if nothing is stored
-  uint8_t CfgNodeId;     ///< configured, used after the next reset
-  uint8_t Mode;          ///< LSS state: CO_LSS_WAIT, CO_LSS_CONF
-  uint8_t Selected;      ///< switch state selective: number of address parts that have matched
-  uint8_t Identified;    ///< identify remote slave: number of address parts that have matched
-  uint8_t Scanned;       ///< fastscan: current part of the address
-  uint8_t Started;       ///< CONodeStart() is pending until the node has a node-ID
+  struct CO_NODE_T* Node;  ///< owner
+  CO_TMR_MEM Tmr;          ///< switch delay
+  uint32_t Delay;          ///< switch delay in ticks
+  uint32_t OwnBaudrate;    ///< bit/s, from the application: used if nothing is stored
+  uint32_t CfgBaudrate;    ///< bit/s, configured, to be activated
+  uint8_t OwnNodeId;       ///< from the application: used if nothing is stored
+  uint8_t CfgNodeId;       ///< configured, used after the next reset
+  uint8_t Mode;            ///< LSS state: CO_LSS_WAIT, CO_LSS_CONF
+  uint8_t Selected;        ///< switch state selective: number of address parts that have matched
+  uint8_t Identified;      ///< identify remote slave: number of address parts that have matched
+  uint8_t Scanned;         ///< fastscan: current part of the address
+  uint8_t Started;         ///< CONodeStart() is pending until the node has a node-ID
 } CO_LSS;
 
 /// \name Callbacks of the application (see co_nmt.h on how to define them)

@@ -39,7 +39,6 @@
 ///
 /// Context: the loop. Callbacks run in CONodeProcess(), COTmrProcess(), COLssmCancel() and in the functions that stop
 /// or reset the node. They may call any function and start the next service.
-/// or reset the node. They may call everything, and start the next service.
 #ifndef CO_LSS_MASTER_H_
 #define CO_LSS_MASTER_H_
 
@@ -61,17 +60,17 @@ struct CO_LSSM_T;
 
 /// \name Parts of an LSS address, in the order of 1018h
 /// \{
-#define CO_LSSM_VENDOR 0u
-#define CO_LSSM_PRODUCT 1u
-#define CO_LSSM_REVISION 2u
-#define CO_LSSM_SERIAL 3u
-#define CO_LSSM_PARTS 4u
+#define CO_LSSM_VENDOR 0u    ///< vendor-ID
+#define CO_LSSM_PRODUCT 1u   ///< product code
+#define CO_LSSM_REVISION 2u  ///< revision number
+#define CO_LSSM_SERIAL 3u    ///< serial number
+#define CO_LSSM_PARTS 4u     ///< number of parts
 /// \}
 
 /// \name States of slaves
 /// \{
-#define CO_LSSM_WAITING 0u
-#define CO_LSSM_CONFIGURATION 1u
+#define CO_LSSM_WAITING 0u        ///< LSS state waiting
+#define CO_LSSM_CONFIGURATION 1u  ///< LSS state configuration
 /// \}
 
 /// Result of a service.
@@ -102,21 +101,21 @@ typedef struct CO_LSSM_T {
   /// fastscan, means that several slaves have the same address or are in configuration. Equal responses that slaves
   /// transmit at the same moment appear as one frame.
   uint8_t Heard;
-  uint8_t Request;     ///< command specifier of the first frame
-  uint8_t Frames;      ///< number of frames of the request
-  uint8_t Sent;        ///< number of frames sent
-  uint8_t Answer;      ///< command specifier of the expected response
-  uint8_t Then;        ///< value of State after the last frame
-  uint8_t Known;       ///< fastscan: number of parts that need no scan
-  uint8_t Part;        ///< fastscan: current part of the address
-  uint8_t Bit;         ///< fastscan: lowest bit that is compared
-  uint8_t Routed;      ///< a route for responses exists
-  uint32_t Number[6];  ///< parameters of the frames of the request
-  uint32_t Baudrate;   ///< activate bit timing: new bit rate of this node, 0: unchanged
-  uint32_t Timeout;    ///< time-out for responses in ms; 0: CO_LSSM_TIMEOUT_MS
-  uint32_t Listen;     ///< time for responses of a search in ms; 0: CO_LSSM_LISTEN_MS
-  CO_LSSM_CALLBACK Call;
-  CO_TMR_MEM Tmr;
+  uint8_t Request;        ///< command specifier of the first frame
+  uint8_t Frames;         ///< number of frames of the request
+  uint8_t Sent;           ///< number of frames sent
+  uint8_t Answer;         ///< command specifier of the expected response
+  uint8_t Then;           ///< value of State after the last frame
+  uint8_t Known;          ///< fastscan: number of parts that need no scan
+  uint8_t Part;           ///< fastscan: current part of the address
+  uint8_t Bit;            ///< fastscan: lowest bit that is compared
+  uint8_t Routed;         ///< a route for responses exists
+  uint32_t Number[6];     ///< parameters of the frames of the request
+  uint32_t Baudrate;      ///< activate bit timing: new bit rate of this node, 0: unchanged
+  uint32_t Timeout;       ///< time-out for responses in ms; 0: CO_LSSM_TIMEOUT_MS
+  uint32_t Listen;        ///< time for responses of a search in ms; 0: CO_LSSM_LISTEN_MS
+  CO_LSSM_CALLBACK Call;  ///< callback of the service in progress
+  CO_TMR_MEM Tmr;         ///< time-out, time between two frames, or switch delay
 } CO_LSSM;
 
 /// Sets times in ms, from the next request on until CONodeInit(). \a timeout: for the response of one slave; a slave

@@ -31,36 +31,39 @@ struct CO_NODE_T;
 /// \{
 #define CO_NMT_ALLOWED 0x01u   ///< NMT commands and error control
 #define CO_BOOT_ALLOWED 0x02u  ///< boot-up
-#define CO_EMCY_ALLOWED 0x04u
-#define CO_TIME_ALLOWED 0x08u
-#define CO_SYNC_ALLOWED 0x10u
-#define CO_SDO_ALLOWED 0x20u
-#define CO_LSS_ALLOWED 0x80u
-#define CO_PDO_ALLOWED 0x40u
+#define CO_EMCY_ALLOWED 0x04u  ///< EMCY
+#define CO_TIME_ALLOWED 0x08u  ///< TIME
+#define CO_SYNC_ALLOWED 0x10u  ///< SYNC
+#define CO_SDO_ALLOWED 0x20u   ///< SDO
+#define CO_LSS_ALLOWED 0x80u   ///< LSS
+#define CO_PDO_ALLOWED 0x40u   ///< PDO
 /// \}
 
+/// NMT states. [CiA 301, 7.3.2.2]
 typedef enum CO_MODE_T {
   CO_INVALID = 0,  ///< not initialised, or stopped by CONodeStop()
   CO_INIT,         ///< Initialisation
   CO_PREOP,        ///< Pre-operational
   CO_OPERATIONAL,  ///< Operational
   CO_STOP,         ///< Stopped
-  CO_MODE_NUM
+  CO_MODE_NUM      ///< number of modes
 } CO_MODE;
 
+/// NMT resets. [CiA 301, 7.3.2.2.1]
 typedef enum CO_NMT_RESET_T {
-  CO_RESET_INVALID = 0,
-  CO_RESET_NODE,  ///< reset node: application and communication
-  CO_RESET_COM,   ///< reset communication
-  CO_RESET_NUM
+  CO_RESET_INVALID = 0,  ///< no reset
+  CO_RESET_NODE,         ///< reset node: application and communication
+  CO_RESET_COM,          ///< reset communication
+  CO_RESET_NUM           ///< number of values
 } CO_NMT_RESET;
 
+/// The NMT slave of a node: &node.Nmt, a handle for the functions below.
 typedef struct CO_NMT_T {
-  struct CO_NODE_T* Node;
-  CO_MODE Mode;
-  CO_MODE Next;     ///< mode to be entered; equal to Mode unless a change is in progress
-  uint8_t Allowed;  ///< CO_…_ALLOWED bits of the present mode
-  uint8_t Booting;  ///< the node has not been in Pre-operational since its initialisation
+  struct CO_NODE_T* Node;  ///< owner
+  CO_MODE Mode;            ///< present mode, see CONmtGetMode()
+  CO_MODE Next;            ///< mode to be entered; equal to Mode unless a change is in progress
+  uint8_t Allowed;         ///< CO_…_ALLOWED bits of the present mode
+  uint8_t Booting;         ///< the node has not been in Pre-operational since its initialisation
 } CO_NMT;
 
 /// Resets the node like the NMT command: ends transfers, stops the timers of the stack, and initialises everything as

@@ -19,9 +19,9 @@ extern "C" {
 
 #define CO_NMT_STARTUP_STAY 0x04u  ///< bit 2: no self-start
 
-extern const CO_OBJ_TYPE COTNmtStartup;
+extern const CO_OBJ_TYPE COTNmtStartup;  ///< functions of CO_TNMT_STARTUP
 
-#define CO_TNMT_STARTUP ((const CO_OBJ_TYPE*)&COTNmtStartup)
+#define CO_TNMT_STARTUP ((const CO_OBJ_TYPE*)&COTNmtStartup)  ///< type of 1F80h
 
 #ifdef __cplusplus
 }

@@ -58,33 +58,33 @@ struct CO_OBJ_T;
 #define CO_OBJ_T2 0x20u  ///< free for user types
 #define CO_OBJ_T3 0x40u  ///< free for user types (shares the bit of N)
 
-#define CO_OBJ_____RW (CO_OBJ_____R_ | CO_OBJ______W)
-#define CO_OBJ____PR_ (CO_OBJ____P__ | CO_OBJ_____R_)
-#define CO_OBJ____P_W (CO_OBJ____P__ | CO_OBJ______W)
-#define CO_OBJ____PRW (CO_OBJ____P__ | CO_OBJ_____RW)
-#define CO_OBJ___APR_ (CO_OBJ___A___ | CO_OBJ____PR_)
-#define CO_OBJ___AP_W (CO_OBJ___A___ | CO_OBJ____P_W)
-#define CO_OBJ___APRW (CO_OBJ___A___ | CO_OBJ____PRW)
-#define CO_OBJ__N__R_ (CO_OBJ__N____ | CO_OBJ_____R_)
-#define CO_OBJ__N___W (CO_OBJ__N____ | CO_OBJ______W)
-#define CO_OBJ__N__RW (CO_OBJ__N____ | CO_OBJ_____RW)
-#define CO_OBJ__N_PR_ (CO_OBJ__N____ | CO_OBJ____PR_)
-#define CO_OBJ__N_P_W (CO_OBJ__N____ | CO_OBJ____P_W)
-#define CO_OBJ__N_PRW (CO_OBJ__N____ | CO_OBJ____PRW)
-#define CO_OBJ_D___R_ (CO_OBJ_D_____ | CO_OBJ_____R_)
-#define CO_OBJ_D____W (CO_OBJ_D_____ | CO_OBJ______W)
-#define CO_OBJ_D___RW (CO_OBJ_D_____ | CO_OBJ_____RW)
-#define CO_OBJ_DN__R_ (CO_OBJ_D_____ | CO_OBJ__N__R_)
-#define CO_OBJ_DN___W (CO_OBJ_D_____ | CO_OBJ__N___W)
-#define CO_OBJ_DN__RW (CO_OBJ_D_____ | CO_OBJ__N__RW)
+#define CO_OBJ_____RW (CO_OBJ_____R_ | CO_OBJ______W)  ///< read and write
+#define CO_OBJ____PR_ (CO_OBJ____P__ | CO_OBJ_____R_)  ///< read, mappable into TPDOs
+#define CO_OBJ____P_W (CO_OBJ____P__ | CO_OBJ______W)  ///< write, mappable into RPDOs
+#define CO_OBJ____PRW (CO_OBJ____P__ | CO_OBJ_____RW)  ///< read and write, mappable
+#define CO_OBJ___APR_ (CO_OBJ___A___ | CO_OBJ____PR_)  ///< read, mappable into TPDOs, which a change triggers
+#define CO_OBJ___AP_W (CO_OBJ___A___ | CO_OBJ____P_W)  ///< write, mappable into RPDOs, with flag A
+#define CO_OBJ___APRW (CO_OBJ___A___ | CO_OBJ____PRW)  ///< read and write, mappable, a change triggers TPDOs
+#define CO_OBJ__N__R_ (CO_OBJ__N____ | CO_OBJ_____R_)  ///< read, relative to the node-ID
+#define CO_OBJ__N___W (CO_OBJ__N____ | CO_OBJ______W)  ///< write, relative to the node-ID
+#define CO_OBJ__N__RW (CO_OBJ__N____ | CO_OBJ_____RW)  ///< read and write, relative to the node-ID
+#define CO_OBJ__N_PR_ (CO_OBJ__N____ | CO_OBJ____PR_)  ///< read, mappable into TPDOs, relative to the node-ID
+#define CO_OBJ__N_P_W (CO_OBJ__N____ | CO_OBJ____P_W)  ///< write, mappable into RPDOs, relative to the node-ID
+#define CO_OBJ__N_PRW (CO_OBJ__N____ | CO_OBJ____PRW)  ///< read and write, mappable, relative to the node-ID
+#define CO_OBJ_D___R_ (CO_OBJ_D_____ | CO_OBJ_____R_)  ///< read, value in Data
+#define CO_OBJ_D____W (CO_OBJ_D_____ | CO_OBJ______W)  ///< write, value in Data
+#define CO_OBJ_D___RW (CO_OBJ_D_____ | CO_OBJ_____RW)  ///< read and write, value in Data
+#define CO_OBJ_DN__R_ (CO_OBJ_D_____ | CO_OBJ__N__R_)  ///< read, value in Data, relative to the node-ID
+#define CO_OBJ_DN___W (CO_OBJ_D_____ | CO_OBJ__N___W)  ///< write, value in Data, relative to the node-ID
+#define CO_OBJ_DN__RW (CO_OBJ_D_____ | CO_OBJ__N__RW)  ///< read and write, value in Data, relative to the node-ID
 
 /// Tests of flags: the result is not 0 if the flag is set (it need not be 1).
 #define CO_IS_WRITE(key) ((uint32_t)((key)&CO_OBJ______W))
-#define CO_IS_READ(key) ((uint32_t)((key)&CO_OBJ_____R_))
-#define CO_IS_PDOMAP(key) ((uint32_t)((key)&CO_OBJ____P__))
-#define CO_IS_ASYNC(key) ((uint32_t)((key)&CO_OBJ___A___))
-#define CO_IS_NODEID(key) ((uint32_t)((key)&CO_OBJ__N____))
-#define CO_IS_DIRECT(key) ((uint32_t)((key)&CO_OBJ_D_____))
+#define CO_IS_READ(key) ((uint32_t)((key)&CO_OBJ_____R_))    ///< flag R
+#define CO_IS_PDOMAP(key) ((uint32_t)((key)&CO_OBJ____P__))  ///< flag P
+#define CO_IS_ASYNC(key) ((uint32_t)((key)&CO_OBJ___A___))   ///< flag A
+#define CO_IS_NODEID(key) ((uint32_t)((key)&CO_OBJ__N____))  ///< flag N
+#define CO_IS_DIRECT(key) ((uint32_t)((key)&CO_OBJ_D_____))  ///< flag D
 /// \}
 
 /// End mark of a dictionary table. Not needed if the table has exactly DictLen entries. CO_OBJ_DICT_DEFAULTS()
@@ -121,12 +121,13 @@ typedef CO_ERR (*CO_OBJ_WRITE_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node
 /// Sets the position in the stream to byte \a para.
 typedef CO_ERR (*CO_OBJ_RESET_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, uint32_t para);
 
+/// An object type: its functions, each of which may be null. Constant; it must live as long as the dictionary.
 typedef struct CO_OBJ_TYPE_T {
-  CO_OBJ_SIZE_FUNC Size;
-  CO_OBJ_INIT_FUNC Init;
-  CO_OBJ_READ_FUNC Read;
-  CO_OBJ_WRITE_FUNC Write;
-  CO_OBJ_RESET_FUNC Reset;
+  CO_OBJ_SIZE_FUNC Size;    ///< returns the length
+  CO_OBJ_INIT_FUNC Init;    ///< initialises the object
+  CO_OBJ_READ_FUNC Read;    ///< reads the value, or the next bytes of a stream
+  CO_OBJ_WRITE_FUNC Write;  ///< writes the value, or the next bytes of a stream
+  CO_OBJ_RESET_FUNC Reset;  ///< sets the position; not null: the type is a stream
 } CO_OBJ_TYPE;
 /// \}
 
@@ -152,6 +153,7 @@ typedef struct CO_OBJ_TYPE_T {
 /// filled less than its buffer), Size must return the length of the object; it may do so earlier.
 #define CO_OBJ_SIZE_UNKNOWN 0xFFFFFFFFu
 
+/// Direction of an SDO transfer.
 typedef enum CO_OBJ_TRANSFER_T {
   CO_OBJ_UPLOAD = 0,  ///< the object is read
   CO_OBJ_DOWNLOAD     ///< the object is written
@@ -167,6 +169,7 @@ typedef CO_ERR (*CO_OBJ_BEGIN_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node
 typedef CO_ERR (*CO_OBJ_END_FUNC)(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer,
                                   uint32_t abort);
 
+/// An object type with functions for the begin and the end of a transfer.
 typedef struct CO_OBJ_TYPE_EX_T {
   CO_OBJ_TYPE Type;         ///< Type.Reset: COObjTypeExReset
   CO_OBJ_RESET_FUNC Reset;  ///< sets the position; null: block uploads of long objects are refused

@@ -53,9 +53,9 @@ struct CO_NODE_T;
 #ifndef CO_OD_OWN_TYPES
 typedef uint32_t OD_size_t;  ///< bytes: a length, or a position in a variable
 typedef uint8_t OD_attr_t;   ///< bits ODA_…
-typedef bool bool_t;
-typedef float float32_t;
-typedef double float64_t;
+typedef bool bool_t;         ///< false or true
+typedef float float32_t;     ///< REAL32
+typedef double float64_t;    ///< REAL64
 #endif
 /// \}
 
@@ -77,25 +77,27 @@ typedef double float64_t;
 /// checks them, except OD_mappable(). The attributes of safety-relevant PDOs (SRDO) are never set, because the stack
 /// has none.
 /// \{
+
+/// Bits of OD_attr_t.
 typedef enum OD_attributes_T {
-  ODA_SDO_R = 0x01,  ///< flag R
-  ODA_SDO_W = 0x02,  ///< flag W
-  ODA_SDO_RW = ODA_SDO_R | ODA_SDO_W,
-  ODA_TPDO = 0x04,  ///< flags P and R
-  ODA_RPDO = 0x08,  ///< flags P and W
-  ODA_TRPDO = ODA_TPDO | ODA_RPDO,
-  ODA_TSRDO = 0x10,
-  ODA_RSRDO = 0x20,
-  ODA_TRSRDO = ODA_TSRDO | ODA_RSRDO,
-  ODA_MB = 0x40,  ///< a number of more than one byte: CPU order here, little-endian on the bus
-  ODA_STR = 0x80  ///< text: a shorter value may be written, the first zero ends it
+  ODA_SDO_R = 0x01,                    ///< flag R
+  ODA_SDO_W = 0x02,                    ///< flag W
+  ODA_SDO_RW = ODA_SDO_R | ODA_SDO_W,  ///< flags R and W
+  ODA_TPDO = 0x04,                     ///< flags P and R
+  ODA_RPDO = 0x08,                     ///< flags P and W
+  ODA_TRPDO = ODA_TPDO | ODA_RPDO,     ///< flags P, R and W
+  ODA_TSRDO = 0x10,                    ///< transmit SRDO: never set
+  ODA_RSRDO = 0x20,                    ///< receive SRDO: never set
+  ODA_TRSRDO = ODA_TSRDO | ODA_RSRDO,  ///< both: never set
+  ODA_MB = 0x40,                       ///< a number of more than one byte: CPU order here, little-endian on the bus
+  ODA_STR = 0x80                       ///< text: a shorter value may be written, the first zero ends it
 } OD_attributes_t;
 /// \}
 
 /// Results. Each result from ODR_OUT_OF_MEM on corresponds to an SDO abort code (OD_getSDOabCode()).
 typedef enum ODR_T {
-  ODR_PARTIAL = -1,  ///< there is more data: call again
-  ODR_OK = 0,
+  ODR_PARTIAL = -1,         ///< there is more data: call again
+  ODR_OK = 0,               ///< success
   ODR_OUT_OF_MEM = 1,       ///< 0504 0005h
   ODR_UNSUPP_ACCESS = 2,    ///< 0601 0000h: the extension has no such function, or the object cannot be extended
   ODR_WRITEONLY = 3,        ///< 0601 0001h
@@ -140,8 +142,8 @@ typedef struct OD_stream_T {
   OD_size_t dataLength;
   OD_size_t dataOffset;  ///< bytes transferred so far; 0: start of an access. Maintained by the read or write function
   OD_attr_t attribute;   ///< ODA_…
-  uint16_t index;
-  uint8_t subIndex;
+  uint16_t index;        ///< index of the variable
+  uint8_t subIndex;      ///< sub-index of the variable
   /// \cond internal
   struct CO_OBJ_T* Entry;  // null: plain memory at dataOrig
   struct CO_NODE_T* Owner;
@@ -161,7 +163,10 @@ typedef struct OD_stream_T {
 /// error. It has to check the data before it changes anything, because bytes of earlier calls stay written. The access
 /// ends when dataOffset + \a count is dataLength.
 /// \{
+
+/// A read function.
 typedef ODR_t (*OD_read_t)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+/// A write function.
 typedef ODR_t (*OD_write_t)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 /// \}
 
@@ -172,8 +177,9 @@ typedef ODR_t (*OD_write_t)(OD_stream_t* stream, const void* buf, OD_size_t coun
 ///       r = io.read(&io.stream, name, sizeof name, &n);
 ///     }
 typedef struct OD_IO_T {
-  OD_stream_t stream;
-  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+  OD_stream_t stream;  ///< first argument of read and write
+  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);  ///< reads the next bytes
+  /// Writes the next bytes.
   ODR_t (*write)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 } OD_IO_t;
 
@@ -182,7 +188,8 @@ typedef struct OD_IO_T {
 /// access with ODR_UNSUPP_ACCESS.
 typedef struct OD_extension_T {
   void* object;  ///< for the application: becomes OD_stream_t.object
-  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);
+  ODR_t (*read)(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead);  ///< null: refuses to read
+  /// Null: refuses to write.
   ODR_t (*write)(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten);
 #if OD_FLAGS_PDO_SIZE > 0
   uint8_t
@@ -192,18 +199,20 @@ typedef struct OD_extension_T {
 
 /// \name Kinds of objects (OD_entry_t.odObjectType)
 /// \{
+
+/// Values of OD_entry_t.odObjectType: one kind, and ODT_TABLE.
 typedef enum OD_objectTypes_T {
-  ODT_VAR = 0x01,  ///< sub-index 0 only
-  ODT_ARR = 0x02,  ///< sub-indexes 0…n without gaps, those from 1 on of one type
-  ODT_REC = 0x03,  ///< anything else
-  ODT_TYPE_MASK = 0x0F,
-  ODT_TABLE = 0x80  ///< odObject is the OD_t: the object is in its table of CO_OBJ. Set by OD_init()
+  ODT_VAR = 0x01,        ///< sub-index 0 only
+  ODT_ARR = 0x02,        ///< sub-indexes 0…n without gaps, those from 1 on of one type
+  ODT_REC = 0x03,        ///< anything else
+  ODT_TYPE_MASK = 0x0F,  ///< bits of the kind
+  ODT_TABLE = 0x80       ///< odObject is the OD_t: the object is in its table of CO_OBJ. Set by OD_init()
 } OD_objectTypes_t;
 /// \}
 
 /// An object: 12 bytes on a 32-bit CPU.
 typedef struct OD_entry_T {
-  uint16_t index;
+  uint16_t index;             ///< index of the object
   uint8_t subEntriesCount;    ///< number of sub-indexes, including 0; 255 for 256
   uint8_t odObjectType;       ///< ODT_…
   const void* odObject;       ///< depends on odObjectType
@@ -300,7 +309,10 @@ void OD_rwRestart(OD_stream_t* stream) CO_NEEDS(USE_OD);
 /// \retval ODR_DATA_DEV_STATE  the stream is open in an SDO transfer
 /// \retval ODR_UNSUPP_ACCESS   second call for an object that can be transferred in a single call only
 /// \{
+
+/// Original read function.
 ODR_t OD_readOriginal(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* countRead) CO_NEEDS(USE_OD);
+/// Original write function.
 ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD_size_t* countWritten) CO_NEEDS(USE_OD);
 /// \}
 
@@ -325,7 +337,10 @@ ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) CO_NEEDS(U
 /// \retval ODR_DEV_INCOMPAT   \a val is null, or an extension has accepted fewer bytes and returned ODR_OK
 /// \retval ODR_TYPE_MISMATCH  the variable has another length; nothing is read or written
 /// \{
+
+/// Reads a value of \a len bytes into \a val.
 ODR_t OD_get_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
+/// Writes a value of \a len bytes from \a val.
 ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size_t len, bool_t odOrig) CO_NEEDS(USE_OD);
 
 /// \cond internal
@@ -387,6 +402,7 @@ bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 /// PDO flags of a variable. Bit 0: written by an RPDO; bit n: sent by TPDO n (from 1), since the bit was cleared.
 typedef uint32_t OD_flagsPDO_t;
 
+/// Returns the PDO flags of the variable; 0 if no PDO maps it.
 OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(USE_OD);
 
 /// Clears the bits that are set in \a flags. Requests the transmission of the TPDOs among them that map the variable,
@@ -426,14 +442,15 @@ uint8_t OD_getStorageGroup(const OD_entry_t* entry, uint8_t subIndex) CO_NEEDS(O
 /// Returns the name of a group; null: there is no such group, or it has no name.
 const char* OD_getStorageName(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 
-/// Store the group, or restore its default values at the reset of its type, like "save" and "load" of the network. If
-/// 1010h has more than one sub-index, group 1 stands for all groups.
-/// \retval ODR_OK              the group is stored, or marked to be restored
+/// Stores the group, like "save" of the network. If 1010h has more than one sub-index, group 1 stands for all groups.
+/// \retval ODR_OK              the group is stored; OD_restoreGroup(): it is marked to be restored
 /// \retval ODR_SUB_NOT_EXIST   there is no such group
 /// \retval ODR_HW              the memory does not hold the values; the old ones stay
 /// \retval ODR_DATA_TRANSF     the group is not stored on command
 /// \retval ODR_OD_MISSING      the node does not use this dictionary
 ODR_t OD_storeGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
+/// Restores the default values of the group at the reset of its type, like "load" of the network. Group 1 and results
+/// are those of OD_storeGroup().
 ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// \}
 
@@ -450,20 +467,22 @@ ODR_t OD_restoreGroup(const OD_t* od, uint8_t group) CO_NEEDS(OD_STORAGE);
 /// accesses. \a node: a CO_NODE*; examples for CANopenNode use CANmodule.
 /// \{
 #ifndef CO_LOCK_OD
-#define CO_LOCK_OD(node) OD_lock(node)
-#define CO_UNLOCK_OD(node) OD_unlock(node)
+#define CO_LOCK_OD(node) OD_lock(node)      ///< locks, for access to objects
+#define CO_UNLOCK_OD(node) OD_unlock(node)  ///< unlocks
 #endif
 #ifndef CO_LOCK_CAN_SEND
-#define CO_LOCK_CAN_SEND(node) OD_lock(node)
-#define CO_UNLOCK_CAN_SEND(node) OD_unlock(node)
+#define CO_LOCK_CAN_SEND(node) OD_lock(node)      ///< locks, for frames of the application
+#define CO_UNLOCK_CAN_SEND(node) OD_unlock(node)  ///< unlocks
 #endif
 #ifndef CO_LOCK_EMCY
-#define CO_LOCK_EMCY(node) OD_lock(node)
-#define CO_UNLOCK_EMCY(node) OD_unlock(node)
+#define CO_LOCK_EMCY(node) OD_lock(node)      ///< locks, for emergencies
+#define CO_UNLOCK_EMCY(node) OD_unlock(node)  ///< unlocks
 #endif
 
+/// Takes the lock. A null \a node calls CONodeFatalError().
 void OD_lock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
-/// With OdLock: then sends the TPDOs that were triggered while it was held.
+/// Releases the lock. With OdLock: then sends the TPDOs that were triggered while it was held. A null \a node calls
+/// CONodeFatalError().
 void OD_unlock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
 /// \}
 
@@ -474,11 +493,14 @@ void OD_unlock(struct CO_NODE_T* node) CO_NEEDS(USE_OD);
 /// call, a stream in the pieces that arrive; their results are converted to abort codes. Numbers of such types are not
 /// copied directly in PDOs, and BOOLEAN is mapped as a byte.
 /// \{
+
+/// Behaviour of an entry without an extension.
 typedef enum OD_WITHOUT_T {
   OD_ORIGINAL = 0,  ///< the entry behaves like its original type
   OD_DISABLED = 1   ///< the entry can be neither read nor written: 0601 0001h, 0601 0002h
 } OD_WITHOUT;
 
+/// A type of extensible entries, initialised by OD_VALUE() or OD_STREAM(). It must live as long as the dictionary.
 typedef struct OD_TYPE_T {
   CO_OBJ_TYPE_EX Ex;            ///< Ex.Type.Init is ODTypeInit, which identifies an OD_TYPE
   const CO_OBJ_TYPE* Original;  ///< null: no memory
@@ -495,6 +517,7 @@ typedef struct OD_TYPE_T {
 ///     { CO_KEY(0x2200, 0, CO_OBJ_____RW), &FileType.Ex.Type, (CO_DATA)(&file) },
 #define OD_VALUE(original, without) \
   { {{ODValueSize, ODTypeInit, ODValueRead, ODValueWrite, 0}, 0, 0, 0}, OD_BEHIND(original), (without) }
+/// Initialises an OD_TYPE for a type with Reset function, see OD_VALUE().
 #define OD_STREAM(original, without)                                            \
   {                                                                             \
     {{ODStreamSize, ODTypeInit, ODStreamRead, ODStreamWrite, COObjTypeExReset}, \
@@ -517,7 +540,6 @@ CO_ERR ODStreamBegin(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSF
     CO_NEEDS(USE_OD);
 CO_ERR ODStreamEnd(struct CO_OBJ_T* obj, struct CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uint32_t abort)
     CO_NEEDS(USE_OD);
-/// \endcond
 
 CO_NEEDS(USE_OD) extern const OD_TYPE ODTInt8, ODTInt16, ODTInt32, ODTInt64, ODTBoolean, ODTReal32, ODTReal64;
 CO_NEEDS(USE_OD) extern const OD_TYPE ODTTimeOfDay;
@@ -525,33 +547,34 @@ CO_NEEDS(USE_OD) extern const OD_TYPE ODTUnsigned24, ODTUnsigned40, ODTUnsigned4
 CO_NEEDS(USE_OD) extern const OD_TYPE ODTSigned24, ODTSigned40, ODTSigned48, ODTSigned56;
 CO_NEEDS(USE_OD) extern const OD_TYPE ODTString, ODTVisibleString, ODTOctetString, ODTUnicodeString, ODTDomain;
 CO_NEEDS(USE_OD) extern const OD_TYPE ODTNumber, ODTStream;
+/// \endcond
 
-#define OD_TUNSIGNED8 (&ODTInt8.Ex.Type)
-#define OD_TUNSIGNED16 (&ODTInt16.Ex.Type)
-#define OD_TUNSIGNED24 (&ODTUnsigned24.Ex.Type)
-#define OD_TUNSIGNED32 (&ODTInt32.Ex.Type)
-#define OD_TUNSIGNED40 (&ODTUnsigned40.Ex.Type)
-#define OD_TUNSIGNED48 (&ODTUnsigned48.Ex.Type)
-#define OD_TUNSIGNED56 (&ODTUnsigned56.Ex.Type)
-#define OD_TUNSIGNED64 (&ODTInt64.Ex.Type)
-#define OD_TSIGNED8 (&ODTInt8.Ex.Type)
-#define OD_TSIGNED16 (&ODTInt16.Ex.Type)
-#define OD_TSIGNED24 (&ODTSigned24.Ex.Type)
-#define OD_TSIGNED32 (&ODTInt32.Ex.Type)
-#define OD_TSIGNED40 (&ODTSigned40.Ex.Type)
-#define OD_TSIGNED48 (&ODTSigned48.Ex.Type)
-#define OD_TSIGNED56 (&ODTSigned56.Ex.Type)
-#define OD_TSIGNED64 (&ODTInt64.Ex.Type)
-#define OD_TBOOLEAN (&ODTBoolean.Ex.Type)
-#define OD_TREAL32 (&ODTReal32.Ex.Type)
-#define OD_TREAL64 (&ODTReal64.Ex.Type)
-#define OD_TTIME_OF_DAY (&ODTTimeOfDay.Ex.Type)
-#define OD_TTIME_DIFFERENCE (&ODTTimeOfDay.Ex.Type)
-#define OD_TSTRING (&ODTString.Ex.Type)
-#define OD_TVISIBLE_STRING (&ODTVisibleString.Ex.Type)
-#define OD_TOCTET_STRING (&ODTOctetString.Ex.Type)
-#define OD_TUNICODE_STRING (&ODTUnicodeString.Ex.Type)
-#define OD_TDOMAIN (&ODTDomain.Ex.Type)
+#define OD_TUNSIGNED8 (&ODTInt8.Ex.Type)                ///< replaces CO_TUNSIGNED8
+#define OD_TUNSIGNED16 (&ODTInt16.Ex.Type)              ///< replaces CO_TUNSIGNED16
+#define OD_TUNSIGNED24 (&ODTUnsigned24.Ex.Type)         ///< replaces CO_TUNSIGNED24
+#define OD_TUNSIGNED32 (&ODTInt32.Ex.Type)              ///< replaces CO_TUNSIGNED32
+#define OD_TUNSIGNED40 (&ODTUnsigned40.Ex.Type)         ///< replaces CO_TUNSIGNED40
+#define OD_TUNSIGNED48 (&ODTUnsigned48.Ex.Type)         ///< replaces CO_TUNSIGNED48
+#define OD_TUNSIGNED56 (&ODTUnsigned56.Ex.Type)         ///< replaces CO_TUNSIGNED56
+#define OD_TUNSIGNED64 (&ODTInt64.Ex.Type)              ///< replaces CO_TUNSIGNED64
+#define OD_TSIGNED8 (&ODTInt8.Ex.Type)                  ///< replaces CO_TSIGNED8
+#define OD_TSIGNED16 (&ODTInt16.Ex.Type)                ///< replaces CO_TSIGNED16
+#define OD_TSIGNED24 (&ODTSigned24.Ex.Type)             ///< replaces CO_TSIGNED24
+#define OD_TSIGNED32 (&ODTInt32.Ex.Type)                ///< replaces CO_TSIGNED32
+#define OD_TSIGNED40 (&ODTSigned40.Ex.Type)             ///< replaces CO_TSIGNED40
+#define OD_TSIGNED48 (&ODTSigned48.Ex.Type)             ///< replaces CO_TSIGNED48
+#define OD_TSIGNED56 (&ODTSigned56.Ex.Type)             ///< replaces CO_TSIGNED56
+#define OD_TSIGNED64 (&ODTInt64.Ex.Type)                ///< replaces CO_TSIGNED64
+#define OD_TBOOLEAN (&ODTBoolean.Ex.Type)               ///< replaces CO_TBOOLEAN
+#define OD_TREAL32 (&ODTReal32.Ex.Type)                 ///< replaces CO_TREAL32
+#define OD_TREAL64 (&ODTReal64.Ex.Type)                 ///< replaces CO_TREAL64
+#define OD_TTIME_OF_DAY (&ODTTimeOfDay.Ex.Type)         ///< replaces CO_TTIME_OF_DAY
+#define OD_TTIME_DIFFERENCE (&ODTTimeOfDay.Ex.Type)     ///< replaces CO_TTIME_DIFFERENCE
+#define OD_TSTRING (&ODTString.Ex.Type)                 ///< replaces CO_TSTRING
+#define OD_TVISIBLE_STRING (&ODTVisibleString.Ex.Type)  ///< replaces CO_TVISIBLE_STRING
+#define OD_TOCTET_STRING (&ODTOctetString.Ex.Type)      ///< replaces CO_TOCTET_STRING
+#define OD_TUNICODE_STRING (&ODTUnicodeString.Ex.Type)  ///< replaces CO_TUNICODE_STRING
+#define OD_TDOMAIN (&ODTDomain.Ex.Type)                 ///< replaces CO_TDOMAIN
 /// \cond internal
 #if defined(__cplusplus) && USE_OD
 inline void OD_TYPE_in_front_of_an_OD_TYPE(void) {}  // not constexpr, so that a call of it is a compile error
@@ -589,80 +612,84 @@ constexpr const CO_OBJ_TYPE* OD_BEHIND(const CO_OBJ_TYPE* original) {
 /// structures. The functions above find, read and write them. They are not accessible from the network, which uses the
 /// table of CO_OBJ.
 /// \{
+
+/// An object with sub-index 0 only (ODT_VAR).
 typedef struct OD_obj_var_T {
   union {
     void* dataOrig;  ///< null: no memory
     void* data;      ///< alias of dataOrig
   };
-  OD_attr_t attribute;
-  OD_size_t dataLength;
+  OD_attr_t attribute;   ///< ODA_…
+  OD_size_t dataLength;  ///< bytes of the variable
 } OD_obj_var_t;
 
+/// An array (ODT_ARR).
 typedef struct OD_obj_array_T {
-  uint8_t* dataOrig0;  ///< sub-index 0
-  void* dataOrig;      ///< sub-index 1; null: no memory
-  OD_attr_t attribute0;
-  OD_attr_t attribute;
+  uint8_t* dataOrig0;           ///< sub-index 0
+  void* dataOrig;               ///< sub-index 1; null: no memory
+  OD_attr_t attribute0;         ///< ODA_… of sub-index 0
+  OD_attr_t attribute;          ///< ODA_… of the elements
   OD_size_t dataElementLength;  ///< bytes of each element
   OD_size_t dataElementSizeof;  ///< distance of two elements in bytes
 } OD_obj_array_t;
 
+/// A sub-index of a record (ODT_REC), which is an array of these.
 typedef struct OD_obj_record_T {
   union {
     void* dataOrig;  ///< null: no memory
     void* data;      ///< alias of dataOrig
   };
-  uint8_t subIndex;  ///< ascending, gaps are allowed
-  OD_attr_t attribute;
-  OD_size_t dataLength;
+  uint8_t subIndex;      ///< ascending, gaps are allowed
+  OD_attr_t attribute;   ///< ODA_…
+  OD_size_t dataLength;  ///< bytes of the variable
 } OD_obj_record_t;
 /// \}
 
-/// Indexes of the communication profile. [CiA 301, 7.5.2]
+/// Indexes of the communication profile [CiA 301, 7.5.2], and of safety-relevant PDOs (1300h…13FFh) [EN 50325-5].
 typedef enum OD_ObjDicId_30x_T {
-  OD_H1000_DEV_TYPE = 0x1000,
-  OD_H1001_ERR_REG = 0x1001,
-  OD_H1002_MANUF_STATUS_REG = 0x1002,
-  OD_H1003_PREDEF_ERR_FIELD = 0x1003,
-  OD_H1005_COBID_SYNC = 0x1005,
-  OD_H1006_COMM_CYCL_PERIOD = 0x1006,
-  OD_H1007_SYNC_WINDOW_LEN = 0x1007,
-  OD_H1008_MANUF_DEV_NAME = 0x1008,
-  OD_H1009_MANUF_HW_VERSION = 0x1009,
-  OD_H100A_MANUF_SW_VERSION = 0x100A,
-  OD_H100C_GUARD_TIME = 0x100C,
-  OD_H100D_LIFETIME_FACTOR = 0x100D,
-  OD_H1010_STORE_PARAM_FUNC = 0x1010,
-  OD_H1011_REST_PARAM_FUNC = 0x1011,
-  OD_H1012_COBID_TIME = 0x1012,
-  OD_H1013_HIGH_RES_TIMESTAMP = 0x1013,
-  OD_H1014_COBID_EMERGENCY = 0x1014,
-  OD_H1015_INHIBIT_TIME_MSG = 0x1015,
-  OD_H1016_CONSUMER_HB_TIME = 0x1016,
-  OD_H1017_PRODUCER_HB_TIME = 0x1017,
-  OD_H1018_IDENTITY_OBJECT = 0x1018,
-  OD_H1019_SYNC_CNT_OVERFLOW = 0x1019,
-  OD_H1020_VERIFY_CONFIG = 0x1020,
-  OD_H1021_STORE_EDS = 0x1021,
-  OD_H1022_STORE_FORMAT = 0x1022,
-  OD_H1023_OS_CMD = 0x1023,
-  OD_H1024_OS_CMD_MODE = 0x1024,
-  OD_H1025_OS_DBG_INTERFACE = 0x1025,
-  OD_H1026_OS_PROMPT = 0x1026,
-  OD_H1027_MODULE_LIST = 0x1027,
-  OD_H1028_EMCY_CONSUMER = 0x1028,
-  OD_H1029_ERR_BEHAVIOR = 0x1029,
-  OD_H1200_SDO_SERVER_1_PARAM = 0x1200,
-  OD_H1280_SDO_CLIENT_1_PARAM = 0x1280,
-  OD_H1300_GFC_PARAM = 0x1300,
-  OD_H1301_SRDO_1_PARAM = 0x1301,
-  OD_H1381_SRDO_1_MAPPING = 0x1381,
-  OD_H13FE_SRDO_VALID = 0x13FE,
-  OD_H13FF_SRDO_CHECKSUM = 0x13FF,
-  OD_H1400_RXPDO_1_PARAM = 0x1400,
-  OD_H1600_RXPDO_1_MAPPING = 0x1600,
-  OD_H1800_TXPDO_1_PARAM = 0x1800,
-  OD_H1A00_TXPDO_1_MAPPING = 0x1A00
+  OD_H1000_DEV_TYPE = 0x1000,            ///< device type
+  OD_H1001_ERR_REG = 0x1001,             ///< error register
+  OD_H1002_MANUF_STATUS_REG = 0x1002,    ///< manufacturer status register
+  OD_H1003_PREDEF_ERR_FIELD = 0x1003,    ///< pre-defined error field
+  OD_H1005_COBID_SYNC = 0x1005,          ///< COB-ID SYNC
+  OD_H1006_COMM_CYCL_PERIOD = 0x1006,    ///< communication cycle period
+  OD_H1007_SYNC_WINDOW_LEN = 0x1007,     ///< synchronous window length
+  OD_H1008_MANUF_DEV_NAME = 0x1008,      ///< manufacturer device name
+  OD_H1009_MANUF_HW_VERSION = 0x1009,    ///< manufacturer hardware version
+  OD_H100A_MANUF_SW_VERSION = 0x100A,    ///< manufacturer software version
+  OD_H100C_GUARD_TIME = 0x100C,          ///< guard time
+  OD_H100D_LIFETIME_FACTOR = 0x100D,     ///< life time factor
+  OD_H1010_STORE_PARAM_FUNC = 0x1010,    ///< store parameters
+  OD_H1011_REST_PARAM_FUNC = 0x1011,     ///< restore default parameters
+  OD_H1012_COBID_TIME = 0x1012,          ///< COB-ID time stamp
+  OD_H1013_HIGH_RES_TIMESTAMP = 0x1013,  ///< high resolution time stamp
+  OD_H1014_COBID_EMERGENCY = 0x1014,     ///< COB-ID EMCY
+  OD_H1015_INHIBIT_TIME_MSG = 0x1015,    ///< inhibit time EMCY
+  OD_H1016_CONSUMER_HB_TIME = 0x1016,    ///< consumer heartbeat time
+  OD_H1017_PRODUCER_HB_TIME = 0x1017,    ///< producer heartbeat time
+  OD_H1018_IDENTITY_OBJECT = 0x1018,     ///< identity object
+  OD_H1019_SYNC_CNT_OVERFLOW = 0x1019,   ///< synchronous counter overflow value
+  OD_H1020_VERIFY_CONFIG = 0x1020,       ///< verify configuration
+  OD_H1021_STORE_EDS = 0x1021,           ///< store EDS
+  OD_H1022_STORE_FORMAT = 0x1022,        ///< store format
+  OD_H1023_OS_CMD = 0x1023,              ///< OS command
+  OD_H1024_OS_CMD_MODE = 0x1024,         ///< OS command mode
+  OD_H1025_OS_DBG_INTERFACE = 0x1025,    ///< OS debugger interface
+  OD_H1026_OS_PROMPT = 0x1026,           ///< OS prompt
+  OD_H1027_MODULE_LIST = 0x1027,         ///< module list
+  OD_H1028_EMCY_CONSUMER = 0x1028,       ///< emergency consumer object
+  OD_H1029_ERR_BEHAVIOR = 0x1029,        ///< error behaviour object
+  OD_H1200_SDO_SERVER_1_PARAM = 0x1200,  ///< parameters of SDO server 1
+  OD_H1280_SDO_CLIENT_1_PARAM = 0x1280,  ///< parameters of SDO client 1
+  OD_H1300_GFC_PARAM = 0x1300,           ///< global fail-safe command parameter
+  OD_H1301_SRDO_1_PARAM = 0x1301,        ///< communication parameters of SRDO 1
+  OD_H1381_SRDO_1_MAPPING = 0x1381,      ///< mapping of SRDO 1
+  OD_H13FE_SRDO_VALID = 0x13FE,          ///< safety configuration valid
+  OD_H13FF_SRDO_CHECKSUM = 0x13FF,       ///< safety configuration checksum
+  OD_H1400_RXPDO_1_PARAM = 0x1400,       ///< communication parameters of RPDO 1
+  OD_H1600_RXPDO_1_MAPPING = 0x1600,     ///< mapping of RPDO 1
+  OD_H1800_TXPDO_1_PARAM = 0x1800,       ///< communication parameters of TPDO 1
+  OD_H1A00_TXPDO_1_MAPPING = 0x1A00      ///< mapping of TPDO 1
 } OD_ObjDicId_30x_t;
 
 #ifdef __cplusplus

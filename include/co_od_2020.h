@@ -16,32 +16,35 @@ struct OD_IO2020_T;
 
 /// A position in a variable, with its read and write functions.
 typedef struct OD_stream2020_T {
-  OD_IO_t Now;
+  OD_IO_t Now;  ///< the variable, with the functions of co_od.h
 } OD_stream2020_t;
 
-/// Function that reads or writes: returns the number of bytes transferred, and the result in \a returnCode.
+/// Function that reads: returns the number of bytes transferred, and the result in \a returnCode.
 typedef OD_size_t (*OD_read2020_t)(OD_stream2020_t* stream, uint8_t subIndex, void* buf, OD_size_t count,
                                    ODR_t* returnCode);
+/// Function that writes, like OD_read2020_t.
 typedef OD_size_t (*OD_write2020_t)(OD_stream2020_t* stream, uint8_t subIndex, const void* buf, OD_size_t count,
                                     ODR_t* returnCode);
 
+/// A variable with its access functions.
 typedef struct OD_IO2020_T {
-  OD_stream2020_t stream;
-  OD_read2020_t read;
-  OD_write2020_t write;
+  OD_stream2020_t stream;  ///< first argument of read and write
+  OD_read2020_t read;      ///< OD_read2020()
+  OD_write2020_t write;    ///< OD_write2020()
 } OD_IO2020_t;
 
 /// Properties of a variable that OD_getSub() returns.
 typedef struct OD_subEntry_T {
-  uint16_t index;
-  uint8_t subIndex;
-  uint8_t maxSubIndex;
+  uint16_t index;        ///< index of the object
+  uint8_t subIndex;      ///< sub-index of the variable
+  uint8_t maxSubIndex;   ///< highest sub-index of the object, if there are no gaps
   uint8_t storageGroup;  ///< sub-index of 1010h, 0: not stored
-  OD_attr_t attribute;
-  OD_read2020_t read;
-  OD_write2020_t write;
+  OD_attr_t attribute;   ///< ODA_…
+  OD_read2020_t read;    ///< OD_read2020()
+  OD_write2020_t write;  ///< OD_write2020()
 } OD_subEntry_t;
 
+/// Reads the next bytes; ODR_SUB_NOT_EXIST if \a subIndex is not that of \a stream.
 static inline OD_size_t OD_read2020(OD_stream2020_t* stream, uint8_t subIndex, void* buf, OD_size_t count,
                                     ODR_t* returnCode) {
   OD_size_t passed = 0;
@@ -52,6 +55,7 @@ static inline OD_size_t OD_read2020(OD_stream2020_t* stream, uint8_t subIndex, v
   return result == ODR_OK || result == ODR_PARTIAL ? passed : 0;
 }
 
+/// Writes the next bytes; ODR_SUB_NOT_EXIST if \a subIndex is not that of \a stream.
 static inline OD_size_t OD_write2020(OD_stream2020_t* stream, uint8_t subIndex, const void* buf, OD_size_t count,
                                      ODR_t* returnCode) {
   OD_size_t passed = 0;
@@ -63,6 +67,8 @@ static inline OD_size_t OD_write2020(OD_stream2020_t* stream, uint8_t subIndex, 
 }
 
 #if USE_OD
+/// Fills \a subEntry and \a stream for access to a variable. Returns the results of OD_getSub(); ODR_DEV_INCOMPAT if
+/// one of them is null.
 static inline ODR_t OD_getSub2020(const OD_entry_t* entry, uint8_t subIndex, OD_subEntry_t* subEntry,
                                   OD_stream2020_t* stream, bool_t odOrig) {
   const OD_subEntry_t none = {0, 0, 0, 0, 0, OD_read2020, OD_write2020};
@@ -92,6 +98,8 @@ static inline const OD_entry_t* OD_find2020(const OD_t* od, uint16_t index) { re
 
 /// \name Typed addresses: on error null, with the reason as result
 /// \{
+
+/// Defines OD_getPtr_i8() and so on: stores the address in \a val and returns the result of OD_getPtr().
 #define OD_GET_PTR(name, type)                                                                  \
   static inline ODR_t OD_getPtr_##name(const OD_entry_t* entry, uint8_t subIndex, type** val) { \
     ODR_t result = ODR_DEV_INCOMPAT;                                                            \
@@ -118,11 +126,11 @@ OD_GET_PTR(r64, float64_t)
 }
 #endif
 
-#define OD_stream_t OD_stream2020_t
-#define OD_IO_t OD_IO2020_t
+#define OD_stream_t OD_stream2020_t  ///< name in the draft
+#define OD_IO_t OD_IO2020_t          ///< name in the draft
 #if USE_OD
-#define OD_find OD_find2020
-#define OD_getSub OD_getSub2020
+#define OD_find OD_find2020      ///< name in the draft
+#define OD_getSub OD_getSub2020  ///< name in the draft
 #endif
 
 #endif

@@ -75,8 +75,9 @@ extern "C" {
 /// the larger of its ProgramSize and EraseSize; \a program: its ProgramSize. Offset must be a multiple of \a unit.
 #define CO_PARA_SPACE(size, unit, program) \
   (2u * CO_PARA_ROUND_UP(CO_PARA_ROUND_UP(20u, program) + CO_PARA_ROUND_UP((uint32_t)(size), program), unit))
-#define CO_PARA_ROUND_UP(n, unit) (((n) + (unit)-1u) / (unit) * (unit))
+#define CO_PARA_ROUND_UP(n, unit) (((n) + (unit)-1u) / (unit) * (unit))  ///< \a n rounded up to a multiple of \a unit
 
+/// A parameter group, constant or in RAM. It must live as long as the node.
 // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): an aggregate, initialised by position
 typedef struct CO_PARA_T {
   uint32_t Offset;           ///< start address in the non-volatile memory
@@ -97,21 +98,22 @@ typedef struct CO_PARA_T {
 #endif
 } CO_PARA;
 
-/// Types of 1010h and 1011h: sub-index 0 is an UNSIGNED8, the others refer to a CO_PARA. Reading 1010h returns bits 0
-/// and 1 of CO_PARA.Value (stored on command, autonomously), reading 1011h bit 0. Abort codes:
+/// Functions of CO_TPARA_STORE and CO_TPARA_RESTORE, for 1010h and 1011h: sub-index 0 is an UNSIGNED8, the others refer
+/// to a CO_PARA. Reading 1010h returns bits 0 and 1 of CO_PARA.Value (stored on command, autonomously), reading 1011h
+/// bit 0. Abort codes:
 /// - 0800 0020h: the value is neither "save" nor "load", or the group is not stored on command;
 /// - 0606 0000h: the memory does not hold the values and the old ones stay, or the group overlaps another;
 /// - 0800 0022h: the budget of stores is used up (CO_PARA_BUDGET).
 extern const CO_OBJ_TYPE COTParaStore CO_NEEDS(USE_PARA);
-extern const CO_OBJ_TYPE COTParaRestore CO_NEEDS(USE_PARA);
+extern const CO_OBJ_TYPE COTParaRestore CO_NEEDS(USE_PARA);  ///< functions of CO_TPARA_RESTORE, see COTParaStore
 
 /// Type of 1020h, sub-index 1 and 2 (date and time of the configuration): an UNSIGNED32 that becomes 0 when the network
 /// writes an object of a parameter group, or any string or domain. [CiA 301, 7.5.2.23]
 extern const CO_OBJ_TYPE COTVerifyConfig CO_NEEDS(USE_PARA);
 
-#define CO_TPARA_STORE ((const CO_OBJ_TYPE*)&COTParaStore)
-#define CO_TPARA_RESTORE ((const CO_OBJ_TYPE*)&COTParaRestore)
-#define CO_TVERIFY_CONFIG ((const CO_OBJ_TYPE*)&COTVerifyConfig)
+#define CO_TPARA_STORE ((const CO_OBJ_TYPE*)&COTParaStore)        ///< type of 1010h, all sub-indices
+#define CO_TPARA_RESTORE ((const CO_OBJ_TYPE*)&COTParaRestore)    ///< type of 1011h, all sub-indices
+#define CO_TVERIFY_CONFIG ((const CO_OBJ_TYPE*)&COTVerifyConfig)  ///< type of 1020h, sub 1 and 2
 
 /// Stores the group, unless its values are already stored, then executes a reset that was requested meanwhile. Ignores
 /// a group that is not stored on command (CO_PARA___E). Not limited by CO_PARA_BUDGET, except in COLssStore().

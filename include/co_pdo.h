@@ -56,19 +56,24 @@ extern "C" {
 #define CO_TPDO_COBID_OFF 0x80000000u     ///< bit 31: the PDO does not exist
 #define CO_TPDO_COBID_REMOTE 0x40000000u  ///< bit 30: no remote requests
 #define CO_TPDO_COBID_EXT 0x20000000u     ///< bit 29: 29-bit CAN-ID
+/// RPDO with an 11-bit CAN-ID.
 #define CO_COBID_RPDO_STD(valid, id) ((((uint32_t)(id)) & 0x7FFu) | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// RPDO with a 29-bit CAN-ID.
 #define CO_COBID_RPDO_EXT(valid, id) \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// TPDO with an 11-bit CAN-ID, without remote requests.
 #define CO_COBID_TPDO_STD(valid, id) \
   ((((uint32_t)(id)) & 0x7FFu) | 0x40000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// TPDO with a 29-bit CAN-ID, without remote requests.
 #define CO_COBID_TPDO_EXT(valid, id) \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x60000000u | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
 #define CO_COBID_RPDO_BASE 0x200u  ///< first four RPDOs; consecutive ones differ by CO_COBID_RPDO_INC
-#define CO_COBID_RPDO_INC 0x100u
+#define CO_COBID_RPDO_INC 0x100u   ///< difference of the CAN-IDs of consecutive RPDOs
 #define CO_COBID_TPDO_BASE 0x180u  ///< first four TPDOs; consecutive ones differ by CO_COBID_TPDO_INC
-#define CO_COBID_TPDO_INC 0x100u
+#define CO_COBID_TPDO_INC 0x100u   ///< difference of the CAN-IDs of consecutive TPDOs
 /// COB-IDs of the pre-defined connection set, for entries with flag N. [CiA 301, 7.3.5] \a n: 0…3
 #define CO_COBID_RPDO_DEFAULT(n) (CO_COBID_RPDO_BASE + (uint32_t)(n)*CO_COBID_RPDO_INC)
+/// TPDO \a n of the pre-defined connection set, without remote requests.
 #define CO_COBID_TPDO_DEFAULT(n) (0x40000000u + CO_COBID_TPDO_BASE + (uint32_t)(n)*CO_COBID_TPDO_INC)
 /// \}
 
@@ -104,11 +109,11 @@ typedef struct CO_TPDO_TIMES_T {
 
 /// A PDO. The application must not access its members; it refers to a PDO by its number in node.RPdo or node.TPdo.
 typedef struct CO_PDO_T {
-  struct CO_NODE_T* Node;
-  uint16_t Next;  ///< link: RPDOs that wait for the SYNC; synchronous TPDOs
-  uint8_t Type;   ///< transmission type
-  uint8_t Count;  ///< TPDO: SYNCs since the last transmission, or the SYNC start value until it is reached
-  CO_PDO_MAP Map;
+  struct CO_NODE_T* Node;  ///< owner
+  uint16_t Next;           ///< link: RPDOs that wait for the SYNC; synchronous TPDOs
+  uint8_t Type;            ///< transmission type
+  uint8_t Count;           ///< TPDO: SYNCs since the last transmission, or the SYNC start value until it is reached
+  CO_PDO_MAP Map;          ///< mapping and flags
   union {
     uint32_t Deadline;    ///< RPDO: event time in ticks, 0: none
     uint32_t Identifier;  ///< TPDO: identifier of its frames
@@ -121,8 +126,8 @@ typedef struct CO_PDO_T {
   CO_TMR_MEM Tmr;  ///< RPDO: deadline; TPDO: inhibit time, then the rest of the event time
 } CO_PDO;
 
-typedef CO_PDO CO_RPDO;
-typedef CO_PDO CO_TPDO;
+typedef CO_PDO CO_RPDO;  ///< element of node.RPdo
+typedef CO_PDO CO_TPDO;  ///< element of node.TPdo
 
 #if USE_MPDO
 /// \cond internal
@@ -186,10 +191,10 @@ CO_ERR COTPdoSendTo(struct CO_NODE_T* node, uint16_t num, uint8_t node_id, uint3
 /// on). PDOs and their objects are tracked independently. Received means written to the objects: for a synchronous RPDO
 /// at the SYNC. Sent means given to the driver or to the transmit queue. False if the PDO or object does not exist.
 /// \{
-bool CORPdoWasReceived(struct CO_NODE_T* node, uint16_t num);
-bool COTPdoWasSent(struct CO_NODE_T* node, uint16_t num);
-bool CORPdoObjWasReceived(struct CO_NODE_T* node, const CO_OBJ* obj);
-bool COTPdoObjWasSent(struct CO_NODE_T* node, const CO_OBJ* obj);
+bool CORPdoWasReceived(struct CO_NODE_T* node, uint16_t num);          ///< RPDO \a num, 0…CO_RPDO_N-1
+bool COTPdoWasSent(struct CO_NODE_T* node, uint16_t num);              ///< TPDO \a num, 0…CO_TPDO_N-1
+bool CORPdoObjWasReceived(struct CO_NODE_T* node, const CO_OBJ* obj);  ///< \a obj in any RPDO
+bool COTPdoObjWasSent(struct CO_NODE_T* node, const CO_OBJ* obj);      ///< \a obj in any TPDO
 /// \}
 
 /// \name Callbacks of the application
@@ -204,14 +209,15 @@ void COPdoTransmit(CO_IF_FRM* frm);
 /// \retval other  the application has processed the frame; the stack writes nothing
 int16_t COPdoReceive(CO_IF_FRM* frm);
 
-/// Called after the objects of an RPDO were written: COPdoSyncUpdate() for synchronous RPDOs only, COPdoUpdate() for
-/// every RPDO.
+/// Called after the objects of a synchronous RPDO were written, besides COPdoUpdate().
 void COPdoSyncUpdate(CO_RPDO* pdo);
+/// Called after the objects of any RPDO were written.
 void COPdoUpdate(CO_RPDO* pdo);
 
-/// Replace the Read and Write functions of mapped objects of more than 4 bytes, if the application defines them; there
-/// is no default. \a pos: position of the first byte in frm->Data, \a size: bytes.
+/// Replaces the Write functions of mapped objects of more than 4 bytes, if the application defines it; there is no
+/// default. \a pos: position of the first byte in frm->Data, \a size: bytes.
 void CORpdoWriteData(CO_IF_FRM* frm, uint8_t pos, uint8_t size, CO_OBJ* obj);
+/// Replaces the Read functions of mapped objects of more than 4 bytes, like CORpdoWriteData().
 void COTpdoReadData(CO_IF_FRM* frm, uint8_t pos, uint8_t size, CO_OBJ* obj);
 /// \}
 

@@ -20,9 +20,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoDispatch CO_NEEDS(USE_MPDO);
+extern const CO_OBJ_TYPE COTPdoDispatch CO_NEEDS(USE_MPDO);  ///< functions of CO_TPDO_DISPATCH
 
-#define CO_TPDO_DISPATCH ((const CO_OBJ_TYPE*)&COTPdoDispatch)
+#define CO_TPDO_DISPATCH ((const CO_OBJ_TYPE*)&COTPdoDispatch)  ///< type of 1FD0h…1FFFh, sub 1…254
 
 /// Value of an entry: \a block objects with consecutive sub-indices (0 and 1: one), from \a idx, \a sub on in this
 /// node, and from \a from_idx, \a from_sub on in node \a node_id.

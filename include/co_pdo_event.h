@@ -13,9 +13,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoEvent;
+extern const CO_OBJ_TYPE COTPdoEvent;  ///< functions of CO_TPDO_EVENT
 
-/// For RPDOs and TPDOs.
+/// Type of 1400h… and 1800h…, sub 5, for RPDOs and TPDOs.
 #define CO_TPDO_EVENT ((const CO_OBJ_TYPE*)&COTPdoEvent)
 
 #ifdef __cplusplus

@@ -15,9 +15,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoId;
+extern const CO_OBJ_TYPE COTPdoId;  ///< functions of CO_TPDO_ID
 
-/// For RPDOs and TPDOs.
+/// Type of 1400h… and 1800h…, sub 1, for RPDOs and TPDOs.
 #define CO_TPDO_ID ((const CO_OBJ_TYPE*)&COTPdoId)
 
 #ifdef __cplusplus

@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoInhibit;
+extern const CO_OBJ_TYPE COTPdoInhibit;  ///< functions of CO_TPDO_INHIBIT
 
-#define CO_TPDO_INHIBIT ((const CO_OBJ_TYPE*)&COTPdoInhibit)
+#define CO_TPDO_INHIBIT ((const CO_OBJ_TYPE*)&COTPdoInhibit)  ///< type of 1800h…, sub 3
 
 #ifdef __cplusplus
 }

@@ -19,9 +19,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoMap;
+extern const CO_OBJ_TYPE COTPdoMap;  ///< functions of CO_TPDO_MAP
 
-/// For RPDOs and TPDOs.
+/// Type of 1600h… and 1A00h…, sub 1…, for RPDOs and TPDOs.
 #define CO_TPDO_MAP ((const CO_OBJ_TYPE*)&COTPdoMap)
 
 #ifdef __cplusplus

@@ -18,9 +18,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoNum;
+extern const CO_OBJ_TYPE COTPdoNum;  ///< functions of CO_TPDO_NUM
 
-/// For RPDOs and TPDOs.
+/// Type of 1600h… and 1A00h…, sub 0, for RPDOs and TPDOs.
 #define CO_TPDO_NUM ((const CO_OBJ_TYPE*)&COTPdoNum)
 
 #ifdef __cplusplus

@@ -20,9 +20,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(USE_MPDO);
+extern const CO_OBJ_TYPE COTPdoScan CO_NEEDS(USE_MPDO);  ///< functions of CO_TPDO_SCAN
 
-#define CO_TPDO_SCAN ((const CO_OBJ_TYPE*)&COTPdoScan)
+#define CO_TPDO_SCAN ((const CO_OBJ_TYPE*)&COTPdoScan)  ///< type of 1FA0h…1FCFh, sub 1…254
 
 /// Value of an entry: \a block objects with consecutive sub-indices (0 and 1: one), from \a idx, \a sub on.
 #define CO_MPDO_SCAN(block, idx, sub) \

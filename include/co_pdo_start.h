@@ -13,9 +13,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoStart;
+extern const CO_OBJ_TYPE COTPdoStart;  ///< functions of CO_TPDO_START
 
-#define CO_TPDO_START ((const CO_OBJ_TYPE*)&COTPdoStart)
+#define CO_TPDO_START ((const CO_OBJ_TYPE*)&COTPdoStart)  ///< type of 1800h…, sub 6
 
 #ifdef __cplusplus
 }

@@ -15,9 +15,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTPdoType;
+extern const CO_OBJ_TYPE COTPdoType;  ///< functions of CO_TPDO_TYPE
 
-/// For RPDOs and TPDOs.
+/// Type of 1400h… and 1800h…, sub 2, for RPDOs and TPDOs.
 #define CO_TPDO_TYPE ((const CO_OBJ_TYPE*)&COTPdoType)
 
 #ifdef __cplusplus

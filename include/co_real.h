@@ -11,11 +11,11 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTReal32;
-extern const CO_OBJ_TYPE COTReal64;
+extern const CO_OBJ_TYPE COTReal32;  ///< functions of CO_TREAL32
+extern const CO_OBJ_TYPE COTReal64;  ///< functions of CO_TREAL64
 
-#define CO_TREAL32 ((const CO_OBJ_TYPE*)&COTReal32)
-#define CO_TREAL64 ((const CO_OBJ_TYPE*)&COTReal64)
+#define CO_TREAL32 ((const CO_OBJ_TYPE*)&COTReal32)  ///< REAL32; Data: a float
+#define CO_TREAL64 ((const CO_OBJ_TYPE*)&COTReal64)  ///< REAL64; Data: a double
 
 #ifdef __cplusplus
 }

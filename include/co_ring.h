@@ -10,12 +10,13 @@
 extern "C" {
 #endif
 
+/// A ring of frames, owned by the application or a driver, which must not access the members.
 typedef struct CO_RING_T {
-  CO_IF_FRM* Mem;
-  uint16_t Size;
-  uint16_t Head;  ///< written by the producer only; counts 0…2*Size-1
-  uint16_t Tail;  ///< written by the consumer only
-  uint16_t Lost;  ///< written by the producer only
+  CO_IF_FRM* Mem;  ///< memory for Size frames, owned by the caller of CORingInit()
+  uint16_t Size;   ///< frames, 1…32767; 0: every frame is rejected
+  uint16_t Head;   ///< written by the producer only; counts 0…2*Size-1
+  uint16_t Tail;   ///< written by the consumer only
+  uint16_t Lost;   ///< written by the producer only
 } CO_RING;
 
 /// Initialises a ring with memory for \a size frames at \a mem (1…32767). The caller owns the memory. Must not be

@@ -46,20 +46,23 @@
 /// Expedited and segmented transfers do not use it. SdoBuf may be null: block transfers are then refused with
 /// CO_SDO_ERR_CMD, and clients fall back to segments.
 /// \{
-#define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)
+#define CO_SDO_BUF_BYTE (CO_SDO_BUF_SEG * 7)  ///< bytes of the buffer of one server
 /// \}
 
 /// \name Values for the COB-ID entries 1200h…12FFh. [CiA 301, 7.5.2.33]
 /// \a valid: 1 = the SDO exists, \a dynamic: 1 = assigned dynamically, \a id: CAN-ID
 /// \{
 #define CO_SDO_ID_OFF 0x80000000u  ///< bit 31: the SDO does not exist
+/// Value with an 11-bit CAN-ID.
 #define CO_COBID_SDO_STD(valid, dynamic, id) \
   ((((uint32_t)(id)) & 0x7FFu) | ((((uint32_t)(dynamic)) & 1u) << 30) | ((1u - (((uint32_t)(valid)) & 1u)) << 31))
+/// Value with a 29-bit CAN-ID.
 #define CO_COBID_SDO_EXT(valid, dynamic, id)                                               \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((((uint32_t)(dynamic)) & 1u) << 30) | \
    ((1u - (((uint32_t)(valid)) & 1u)) << 31))
-/// Default COB-IDs of the first server, to be used with the flag N (node-ID relative).
+/// Default COB-ID of requests to the first server (1200h sub 1), to be used with flag N.
 #define CO_COBID_SDO_REQUEST() 0x600u
+/// Default COB-ID of responses of the first server (1200h sub 2), to be used with flag N.
 #define CO_COBID_SDO_RESPONSE() 0x580u
 /// \}
 

@@ -15,9 +15,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSdoId;
+extern const CO_OBJ_TYPE COTSdoId;  ///< functions of CO_TSDO_ID
 
-#define CO_TSDO_ID ((const CO_OBJ_TYPE*)&COTSdoId)
+#define CO_TSDO_ID ((const CO_OBJ_TYPE*)&COTSdoId)  ///< type of 1200h…12FFh, sub 1 and 2
 
 #ifdef __cplusplus
 }

@@ -16,10 +16,10 @@ extern "C" {
 
 /// One SDO server channel (1200h, 1201h, …).
 typedef struct CO_SDO_T {
-  struct CO_NODE_T* Node;
-  uint8_t State;
-  uint8_t Flags;
-  uint8_t Idle;  ///< time slices since the last frame of the transfer
+  struct CO_NODE_T* Node;  ///< owner
+  uint8_t State;           ///< state of the protocol; 0: no transfer is open
+  uint8_t Flags;           ///< flags of the transfer
+  uint8_t Idle;            ///< time slices since the last frame of the transfer
 #if USE_SDO_BLOCK
   uint8_t Heard;    ///< block download: highest sequence number received in the current block; 0: none
   uint8_t BlkSize;  ///< segments of the current block

@@ -25,10 +25,10 @@ typedef struct CO_OBJ_STR_RW_T {
   uint8_t* Start;     ///< CO_TUNICODE_STRING: an array of uint16_t
 } CO_OBJ_STR_RW;
 
-extern const CO_OBJ_TYPE COTString;
-extern const CO_OBJ_TYPE COTVisibleString;
-extern const CO_OBJ_TYPE COTOctetString;
-extern const CO_OBJ_TYPE COTUnicodeString;
+extern const CO_OBJ_TYPE COTString;         ///< functions of CO_TSTRING
+extern const CO_OBJ_TYPE COTVisibleString;  ///< functions of CO_TVISIBLE_STRING
+extern const CO_OBJ_TYPE COTOctetString;    ///< functions of CO_TOCTET_STRING
+extern const CO_OBJ_TYPE COTUnicodeString;  ///< functions of CO_TUNICODE_STRING
 
 /// Read-only text; Data: a CO_OBJ_STR.
 #define CO_TSTRING ((const CO_OBJ_TYPE*)&COTString)

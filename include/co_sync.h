@@ -21,10 +21,12 @@ extern "C" {
 /// \name Values for 1005h
 /// \a generate: 1 = the node produces SYNC, \a id: CAN-ID
 /// \{
-#define CO_SYNC_COBID_ON 0x40000000u   ///< bit 30: the node produces SYNC
-#define CO_SYNC_COBID_EXT 0x20000000u  ///< bit 29: 29-bit CAN-ID
-#define CO_SYNC_COBID_MASK 0x1FFFFFFFu
+#define CO_SYNC_COBID_ON 0x40000000u    ///< bit 30: the node produces SYNC
+#define CO_SYNC_COBID_EXT 0x20000000u   ///< bit 29: 29-bit CAN-ID
+#define CO_SYNC_COBID_MASK 0x1FFFFFFFu  ///< bits 0…28: CAN-ID
+/// Value with an 11-bit CAN-ID.
 #define CO_COBID_SYNC_STD(generate, id) ((((uint32_t)(id)) & 0x7FFu) | ((((uint32_t)(generate)) & 1u) << 30))
+/// Value with a 29-bit CAN-ID.
 #define CO_COBID_SYNC_EXT(generate, id) \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((((uint32_t)(generate)) & 1u) << 30))
 /// \}

@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncCount CO_NEEDS(USE_SYNC);
+extern const CO_OBJ_TYPE COTSyncCount CO_NEEDS(USE_SYNC);  ///< functions of CO_TSYNC_COUNT
 
-#define CO_TSYNC_COUNT ((const CO_OBJ_TYPE*)&COTSyncCount)
+#define CO_TSYNC_COUNT ((const CO_OBJ_TYPE*)&COTSyncCount)  ///< type of 1019h
 
 #ifdef __cplusplus
 }

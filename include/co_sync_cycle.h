@@ -17,10 +17,10 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncCycle CO_NEEDS(USE_SYNC);
+extern const CO_OBJ_TYPE COTSyncCycle CO_NEEDS(USE_SYNC);  ///< functions of both types
 
-#define CO_TSYNC_CYCLE ((const CO_OBJ_TYPE*)&COTSyncCycle)
-#define CO_TSYNC_WINDOW ((const CO_OBJ_TYPE*)&COTSyncCycle)
+#define CO_TSYNC_CYCLE ((const CO_OBJ_TYPE*)&COTSyncCycle)   ///< type of 1006h
+#define CO_TSYNC_WINDOW ((const CO_OBJ_TYPE*)&COTSyncCycle)  ///< type of 1007h
 
 #ifdef __cplusplus
 }

@@ -14,9 +14,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTSyncId CO_NEEDS(USE_SYNC);
+extern const CO_OBJ_TYPE COTSyncId CO_NEEDS(USE_SYNC);  ///< functions of CO_TSYNC_ID
 
-#define CO_TSYNC_ID ((const CO_OBJ_TYPE*)&COTSyncId)
+#define CO_TSYNC_ID ((const CO_OBJ_TYPE*)&COTSyncId)  ///< type of 1005h
 
 #ifdef __cplusplus
 }

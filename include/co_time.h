@@ -31,9 +31,11 @@ extern "C" {
 #define CO_TIME_COBID_CONSUME 0x80000000u  ///< bit 31: the node consumes TIME
 #define CO_TIME_COBID_PRODUCE 0x40000000u  ///< bit 30: the node produces TIME
 #define CO_TIME_COBID_EXT 0x20000000u      ///< bit 29: 29-bit CAN-ID
-#define CO_TIME_COBID_MASK 0x1FFFFFFFu
+#define CO_TIME_COBID_MASK 0x1FFFFFFFu     ///< bits 0…28: CAN-ID
+/// Value with an 11-bit CAN-ID.
 #define CO_COBID_TIME_STD(consume, produce, id) \
   ((((uint32_t)(id)) & 0x7FFu) | ((((uint32_t)(produce)) & 1u) << 30) | ((((uint32_t)(consume)) & 1u) << 31))
+/// Value with a 29-bit CAN-ID.
 #define CO_COBID_TIME_EXT(consume, produce, id)                                            \
   ((((uint32_t)(id)) & 0x1FFFFFFFu) | 0x20000000u | ((((uint32_t)(produce)) & 1u) << 30) | \
    ((((uint32_t)(consume)) & 1u) << 31))

@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);
+extern const CO_OBJ_TYPE COTTimeClock CO_NEEDS(USE_TIME);  ///< functions of CO_TTIME_CLOCK
 
-#define CO_TTIME_CLOCK ((const CO_OBJ_TYPE*)&COTTimeClock)
+#define CO_TTIME_CLOCK ((const CO_OBJ_TYPE*)&COTTimeClock)  ///< type of the clock; Data: 0
 
 #ifdef __cplusplus
 }

@@ -15,9 +15,9 @@
 extern "C" {
 #endif
 
-extern const CO_OBJ_TYPE COTTimeId CO_NEEDS(USE_TIME);
+extern const CO_OBJ_TYPE COTTimeId CO_NEEDS(USE_TIME);  ///< functions of CO_TTIME_ID
 
-#define CO_TTIME_ID ((const CO_OBJ_TYPE*)&COTTimeId)
+#define CO_TTIME_ID ((const CO_OBJ_TYPE*)&COTTimeId)  ///< type of 1012h
 
 #ifdef __cplusplus
 }

@@ -31,11 +31,11 @@ typedef void (*CO_TMR_FUNC)(void*);
 
 /// A timer. Applications declare arrays of it for CO_NODE_SPEC.TmrMem and must not access the members.
 typedef struct CO_TMR_MEM_T {
-  struct CO_TMR_MEM_T* Next;
-  CO_TMR_FUNC Func;
-  void* Para;
-  uint32_t At;     ///< clock at expiry
-  uint32_t Cycle;  ///< period in ticks; 0: runs once
+  struct CO_TMR_MEM_T* Next;  ///< link of the list of running timers, or of unused timers of the pool
+  CO_TMR_FUNC Func;           ///< action
+  void* Para;                 ///< argument of Func
+  uint32_t At;                ///< clock at expiry
+  uint32_t Cycle;             ///< period in ticks; 0: runs once
   /// Timer of the pool: its number in the low bits, generation above; other timers: 1 = of SYNC or a PDO
   /// (CONodeRealTime()).
   uint16_t Id;
@@ -43,11 +43,12 @@ typedef struct CO_TMR_MEM_T {
   uint8_t Pooled;   ///< 1: belongs to the pool and has an id; 0: member of its owner's structure
 } CO_TMR_MEM;
 
+/// The timers of a node: &node.Tmr. The application must not access the members.
 typedef struct CO_TMR_T {
-  CO_TMR_MEM* First;  ///< running timers: elapsed ones, oldest first, then armed ones, by time
-  struct CO_NODE_T* Node;
-  CO_TMR_MEM* Pool;
-  CO_TMR_MEM* Free;  ///< unused timers of the pool
+  CO_TMR_MEM* First;       ///< running timers: elapsed ones, oldest first, then armed ones, by time
+  struct CO_NODE_T* Node;  ///< owner
+  CO_TMR_MEM* Pool;        ///< timers of the application: CO_NODE_SPEC.TmrMem, Max elements
+  CO_TMR_MEM* Free;        ///< unused timers of the pool
   /// Link to the first armed timer: advanced by COTmrService(), while COTmrProcess() removes elapsed ones.
   CO_TMR_MEM** Armed;
   CO_TMR_MEM** End;     ///< link behind the last armed timer, if there is one
@@ -101,9 +102,10 @@ void COTmrProcess(CO_TMR* tmr);
 /// live as long as the node; may be null if \a num is 0. \a freq: ticks per second.
 void COTmrInit(CO_TMR* tmr, struct CO_NODE_T* node, CO_TMR_MEM* mem, uint16_t num, uint32_t freq);
 
-/// Disable and enable the timer interrupt. To be defined by the application where COTmrService() runs in an interrupt.
-/// Calls do not nest. The defaults are empty.
+/// Disables the timer interrupt. To be defined by the application where COTmrService() runs in an interrupt. Calls do
+/// not nest. The default is empty.
 void COTmrLock(void);
+/// Enables the timer interrupt again. Defined together with COTmrLock().
 void COTmrUnlock(void);
 
 #ifdef __cplusplus

@@ -29,40 +29,50 @@ void CONodeFatalError(void);
 
 /// \name Argument checks for functions in the style of object types: return from the function when the check fails.
 /// \{
+
+/// Returns if \a p is null.
 #define ASSERT_PTR(p) \
   if ((p) == 0) {     \
     return;           \
   }
+/// Returns \a err if \a p is null.
 #define ASSERT_PTR_ERR(p, err) \
   if ((p) == 0) {              \
     return (err);              \
   }
+/// Calls CONodeFatalError() and returns if \a p is null.
 #define ASSERT_PTR_FATAL(p) \
   if ((p) == 0) {           \
     CONodeFatalError();     \
     return;                 \
   }
+/// Calls CONodeFatalError() and returns \a err if \a p is null.
 #define ASSERT_PTR_FATAL_ERR(p, err) \
   if ((p) == 0) {                    \
     CONodeFatalError();              \
     return (err);                    \
   }
+/// Returns \a err if \a var is not equal to \a val.
 #define ASSERT_EQU_ERR(var, val, err) \
   if ((var) != (val)) {               \
     return (err);                     \
   }
+/// Returns if \a var is equal to \a val.
 #define ASSERT_NOT(var, val) \
   if ((var) == (val)) {      \
     return;                  \
   }
+/// Returns \a err if \a var is equal to \a val.
 #define ASSERT_NOT_ERR(var, val, err) \
   if ((var) == (val)) {               \
     return (err);                     \
   }
+/// Returns if \a var is not lower than \a limit.
 #define ASSERT_LOWER(var, limit) \
   if ((var) >= (limit)) {        \
     return;                      \
   }
+/// Returns \a err if \a var is not lower than \a limit.
 #define ASSERT_LOWER_ERR(var, limit, err) \
   if ((var) >= (limit)) {                 \
     return (err);                         \
