@@ -9,7 +9,7 @@ import re
 import sys
 from pathlib import Path
 
-DIRECTORIES = ("config", "demo", "drivers", "include", "src", "tests")
+DIRECTORIES = ("config", "demo", "drivers", "include", "src", "tests", "tools")
 SUFFIXES = {".h", ".hpp", ".c", ".cpp"}
 COMMENT = re.compile(r"(?:^|\s)//[/!]?<?\s*(.*)$")
 NAME = re.compile(r'TEST_CASE\(\s*"([^"]*)"')

@@ -6,8 +6,8 @@
 
 #include "co/dictionary.hpp"
 
-// A number of up to 32 bits with limits. It is all that Plain is; what is written lies between Low and High, which are
-// numbers of Order: 0 unsigned, 1 signed, 2 real.
+// Type of a number of up to 32 bits with limits: Plain does the access, a value outside Low and High is refused.
+// Order says how Low and High are compared: 0 unsigned, 1 signed, 2 real.
 typedef struct {
   CO_OBJ_TYPE Type;
   const CO_OBJ_TYPE *Plain;
@@ -31,8 +31,8 @@ static CO_ERR limited32_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t 
   return limited32(obj)->Plain->Read(obj, node, buffer, size);
 }
 
-// What a number of the CPU's byte order is worth: the lowest is 0. A real is greater the greater its bits are, or, below
-// zero, the smaller they are; what is no number is above all others.
+// Returns the rank of a number in the CPU's byte order; the lowest number has rank 0. The bits of a positive real grow
+// with its value, those of a negative one decrease; NaN has the highest rank.
 static uint32_t limited32_rank(uint32_t bits, uint32_t size, uint8_t order) {
   const uint32_t highest = (uint32_t)1 << 31;
   const uint32_t sign = (uint32_t)1 << (8u * size - 1u);
@@ -235,7 +235,7 @@ constexpr CO_OBJ clock_od[CLOCK_OD_NUM] = {
     {CO_DEFAULTS_KEY, &power_on_type, (CO_DATA)(0)},
 };
 
-// What the compiler proves: the order of the table,
+// Checks by the compiler: the order of the table,
 CO_OD_CHECK(clock_od);
 // the layout of what is stored,
 static_assert(offsetof(clock_settings_t, od_1020_1) == 0 && sizeof clock_settings.od_1020_1 == 4, "od_1020_1");

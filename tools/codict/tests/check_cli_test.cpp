@@ -89,7 +89,7 @@ TEST_CASE("codict check --error-format sarif: columns are characters, paths are 
   CHECK(Json::parse(missing.out).at("runs").at(0).at("invocations").at(0).at("executionSuccessful") == false);
 }
 
-TEST_CASE("codict check: --json is a form of its own") {
+TEST_CASE("codict check: --json is another output format") {
   CHECK(check("--error-format json octal.eds").out == check("--json octal.eds").out);
   CHECK(check("--error-format gcc octal.eds").out == check("octal.eds").out);
   CHECK(check("--json --error-format gcc octal.eds").status == 2);
@@ -104,7 +104,7 @@ TEST_CASE("codict check --werror: warnings are errors") {
   CHECK(check("--level error --werror bit_pattern.eds").status == 0);  // notes do not become errors
 }
 
-TEST_CASE("codict check --disable: every rule can be named, and a wrong one has its neighbours told") {
+TEST_CASE("codict check --disable: every rule can be named, and for a wrong one similar rules are suggested") {
   CHECK(check("--disable gen-limits --disable suppression-unused bit_pattern.eds").status == 0);
   const Ran wrong = check("--disable od-value-octl octal.eds");
   CHECK(wrong.status == 2);
@@ -227,7 +227,7 @@ TEST_CASE("codict check: a suppression without an effect, and one of no rule, ar
   CHECK(check_text("a.xdd", "<ISO15745ProfileContainer><!-- codict: ignore od-limit").status == 1);
 }
 
-TEST_CASE("codict check: more comments than anybody writes for one place do what one of them does") {
+TEST_CASE("codict check: very many comments for one place have the effect of one") {
   std::string comments;
   for (int n = 0; n < 60000; ++n) {
     comments += n % 3 == 0 ? "; codict: ignore eds-key-unknown x\n" : "; codict: ignore eds-key-unknown\n";

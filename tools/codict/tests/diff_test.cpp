@@ -168,7 +168,7 @@ TEST_CASE("diff: a day and a time are the same in the form of an EDS and of XML"
         "file time of creation: 09:30PM -> 09:30:00");
 }
 
-TEST_CASE("diff: what a property says is compared, each of CANopenNode and those that nobody knows") {
+TEST_CASE("diff: values of properties are compared, those of CANopenNode and unknown ones") {
   const std::string original = test::bytes_of_fixture("device10.xdd");
   const auto changed = [&original](const std::string& name, const std::string& value, const std::string& other) {
     const std::string property = "<property name=\"" + name + "\" value=\"";

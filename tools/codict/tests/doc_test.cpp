@@ -79,7 +79,7 @@ TEST_CASE("doc: COB-IDs are those of the node-ID that is asked for") {
   CHECK(has(text, "| 185h | TPDO 1 | 1800h:1 |"));
 }
 
-TEST_CASE("doc: a COB-ID that is off, or that nobody gives, is told as such; of SYNC bit 31 means something else") {
+TEST_CASE("doc: a COB-ID that is off or missing is shown as such; bit 31 of SYNC has another meaning") {
   const auto cob_id = [](const char* index, const char* value) {
     const Device device =
         device_of("[" + std::string(index) +

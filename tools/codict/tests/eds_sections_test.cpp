@@ -10,7 +10,7 @@ using namespace lexican::codict;
 using test::meaning;
 using test::Reading;
 
-TEST_CASE("EDS: the name of an object's section has no letters of its own case, and zeros do not matter") {
+TEST_CASE("EDS: the name of an object's section is case-insensitive, and leading zeros do not matter") {
   const Reading eds("section_form.eds");
   CHECK(eds.at(0x200A, 1).name.text == "First");
   CHECK(meaning(eds.value(0x200A, 0)) == "1");

@@ -133,7 +133,7 @@ TEST_CASE("EDS writer: access and direction of PDOs are one word") {
   CHECK(access(Access::ro, PdoMapping::no) == "AccessType=ro\n");
 }
 
-TEST_CASE("EDS writer: compact storage stays compact, with names and values of its own [306: 4.6.4]") {
+TEST_CASE("EDS writer: compact storage stays compact, with its own names and values [306: 4.6.4]") {
   const std::string dcf = written(
       device_of("[2000]\nParameterName=Gain\nObjectType=8\nDataType=6\nAccessType=rw\nCompactSubObj=3\nDefaultValue=1\n"
                 "[2000Name]\nNrOfEntries=1\n2=Second\n[2000Value]\nNrOfEntries=1\n3=7\n"),
@@ -156,7 +156,7 @@ TEST_CASE("EDS writer: what CiA 306 does not know stays where it was") {
             "[DeviceComissioning]\nNodeID=5\nColour=red\n"));
 }
 
-TEST_CASE("EDS writer: no text can begin a line of its own") {
+TEST_CASE("EDS writer: no text can begin another line") {
   Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=a\n");
   device.objects.front().name.text = "a\n[3000]\r\nb";
   CHECK(device_of(written(device)).objects.size() == 1);

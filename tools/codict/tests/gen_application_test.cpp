@@ -56,7 +56,7 @@ TEST_CASE("gen: a type of the application's without a value, or of any length, h
   CHECK(has(text, "{SMALL_2001_0 | CO_OBJ_____RW, &small_2001_0_type, (CO_DATA)(0)},"));
 }
 
-TEST_CASE("gen: a text of the application's is a CO_OBJ_STR if nobody may write it, else a CO_OBJ_STR_RW") {
+TEST_CASE("gen: a text of the application is a CO_OBJ_STR if it is read-only, else a CO_OBJ_STR_RW") {
   const std::string label = "<property name=\"CO_countLabel\" value=\"TEXTS\"/>";
   const std::string text = generated(" access=\"const\"><STRING/>" + label, " access=\"readWrite\"><STRING/>" + label);
   CHECK(has(text, "extern CO_OBJ_STR small_2000_0;\n"));

@@ -102,7 +102,7 @@ TEST_CASE("gen: an object of the communication profile has the type of CiA 301, 
   CHECK(history.has("uint32_t od_1003_1;"));
 }
 
-TEST_CASE("gen: a type that nobody knows is the application's") {
+TEST_CASE("gen: an unknown type is defined by the application") {
   const Generated generated = generate(variable("2000", 0x77, "rw", "DefaultValue=5"));
   CHECK(generated.has("extern const CO_OBJ_TYPE small_2000_0_type;\n"));
   CHECK(generated.has("{SMALL_2000_0 | CO_OBJ_____RW, &small_2000_0_type, (CO_DATA)(0)},"));

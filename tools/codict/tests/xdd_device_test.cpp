@@ -10,7 +10,7 @@ using test::fixture_xml;
 using test::meaning;
 using test::XmlReading;
 
-TEST_CASE("XDD: nothing is remarked of a description that is as it should be, but a parameter of nobody") {
+TEST_CASE("XDD: a valid description has no finding, except a parameter without object") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.found() == "107 xdd-parameter-unused\n");
   CHECK(reading.device.format == Format::xdc10);

@@ -37,8 +37,8 @@ std::string flags_text(std::uint32_t flags) {
 }
 
 constexpr const char* limited_functions = R"(
-// A number of up to {0} bits with limits. It is all that Plain is; what is written lies between Low and High, which are
-// numbers of Order: 0 unsigned, 1 signed, 2 real.
+// Type of a number of up to {0} bits with limits: Plain does the access, a value outside Low and High is refused.
+// Order says how Low and High are compared: 0 unsigned, 1 signed, 2 real.
 typedef struct {{
   CO_OBJ_TYPE Type;
   const CO_OBJ_TYPE *Plain;
@@ -62,8 +62,8 @@ static CO_ERR limited{0}_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t
   return limited{0}(obj)->Plain->Read(obj, node, buffer, size);
 }}
 
-// What a number of the CPU's byte order is worth: the lowest is 0. A real is greater the greater its bits are, or, below
-// zero, the smaller they are; what is no number is above all others.
+// Returns the rank of a number in the CPU's byte order; the lowest number has rank 0. The bits of a positive real grow
+// with its value, those of a negative one decrease; NaN has the highest rank.
 static uint{0}_t limited{0}_rank(uint{0}_t bits, uint32_t size, uint8_t order) {{
   const uint{0}_t highest = (uint{0}_t)1 << {1};
   const uint{0}_t sign = (uint{0}_t)1 << (8u * size - 1u);
@@ -584,7 +584,7 @@ class SourceText {
   // Proofs -----------------------------------------------------------------------------------------------------------
 
   void write_proofs() {
-    out_.raw("\n// What the compiler proves: the order of the table,\n");
+    out_.raw("\n// Checks by the compiler: the order of the table,\n");
     if (is_cpp()) {
       out_.add("CO_OD_CHECK({}_od);", options_.name);
     } else {
