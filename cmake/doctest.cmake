@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # lexican_doctest: the doctest header of the distribution, for native and for cross builds.
 include_guard(GLOBAL)
-set(LEXICAN_TEST_OPTIONS -O1 CACHE STRING "Compiler options of the tests' own code, after all others")
+set(LEXICAN_TEST_OPTIONS -O0 CACHE STRING "Compiler options of the tests' own code, after all others")
 find_path(LEXICAN_DOCTEST_DIR doctest/doctest.h PATHS /usr/local/include /usr/include NO_CMAKE_FIND_ROOT_PATH)
 if(NOT LEXICAN_DOCTEST_DIR)
   message(FATAL_ERROR

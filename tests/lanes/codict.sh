@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions${full:+ and its program, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
+about="the tool for device descriptions${full:+ with its program, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
 minutes=${full:+7}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
@@ -17,17 +17,18 @@ lane() {
 # Builds and tests only the library of the tool, without sanitizers and fuzz targets, for the contributor's run: the
 # program takes longer to build.
 core_cases() {
-  local source=tools/codict targets=(lexican_codict_tests)
+  local source=tools/codict targets=(lexican_codict_core_tests)
   build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TESTS=ON \
-    -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
-  run_doctest codict "$build/codict-core/tests/lexican_codict_tests"
+    -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+  run_doctest codict "$build/codict-core/tests/lexican_codict_core_tests"
 }
 
 all_cases() {
-  local target targets=(lexican_codict_tests lexican_codict_program_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
+  local target targets=(lexican_codict_core_tests lexican_codict_tests lexican_codict_program_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
     "${tool_fuzz_targets[@]/%/_fuzz}")
   build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
-    -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+    -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+  run_doctest "codict core" "$build/codict/tools/codict/tests/lexican_codict_core_tests"
   run_doctest codict "$build/codict/tools/codict/tests/lexican_codict_tests"
   run_doctest "codict program" "$build/codict/tools/codict/tests/lexican_codict_program_tests"
   run_doctest "codict nodes" "$build/codict/tools/codict/tests/lexican_codict_node_tests"

@@ -12,7 +12,7 @@ lane() {
 
 test_preset() {  # CMAKE-PRESET CONFIGURATION
   local targets=(lexican_tests tests/compat/all)
-  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" -DLEXICAN_TEST_OPTIONS=-O0 -DLEXICAN_THIN_SWEEPS=ON || return
+  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" -DLEXICAN_THIN_SWEEPS=ON || return
   run_doctest "preset-$2" "$build/preset-$2/tests/lexican_tests"
   run_ctest "preset-$2-compat" "$build/preset-$2/tests/compat"
 }

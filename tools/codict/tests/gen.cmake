@@ -29,6 +29,6 @@ endif()
 
 # Compilers for the dictionaries of the corpus.
 find_package(Threads REQUIRED)
-target_link_libraries(lexican_codict_tests PRIVATE Threads::Threads)
-target_compile_definitions(lexican_codict_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"
+target_link_libraries(lexican_codict_core_tests PRIVATE Threads::Threads)
+target_compile_definitions(lexican_codict_core_tests PRIVATE LEXICAN_CC="${CMAKE_C_COMPILER}"
   LEXICAN_CXX="${CMAKE_CXX_COMPILER}")
