@@ -82,8 +82,13 @@ TEST_CASE("codict network: JSON for programs") {
   CHECK(has(ran.out, "\"response_ns\": 744000"));
 }
 
-TEST_CASE("codict explain: a rule of networks names its page") {
+TEST_CASE("codict explain: a rule of networks has a page with a remedy and examples") {
   const Ran ran = test::run("explain net-cob-id");
   CHECK(ran.status == 0);
-  CHECK(has(ran.out, "net-cob-id (error): COB-ID that two services of the network transmit\n"));
+  CHECK(has(ran.out, "### net-cob-id\n\nerror: COB-ID that two services of the network transmit\n"));
+  CHECK(has(ran.out, "\nRemedy: "));
+  CHECK(has(ran.out, "\n```yaml\n"));
+  CHECK(has(ran.out, "tools/codict/docs/rules.md#net-cob-id\n"));
+  CHECK(has(test::run("explain net-cob-id --json").out, "\"rule\": \"net-cob-id\""));
+  CHECK(has(test::run("explain").out, "net-cob-id "));
 }

@@ -199,12 +199,11 @@ TEST_CASE("network: a TPDO without consumer and an RPDO without producer are war
 
 TEST_CASE("network: a TPDO that is too short is an error, one that is longer a warning") {
   CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1)), commissioned(3, pdo(0x1400, "0x181", "255", 2))}) ==
-        "net-pdo-short: RPDO 1 of b (node 3) receives TPDO 1 of a (node 2), which has 2 bytes (181h); it maps 4: the "
-        "frame is dropped with EMCY 8210h\n");
-  CHECK(
-      found({commissioned(2, pdo(0x1800, "0x181", "255", 2)), commissioned(3, pdo(0x1400, "0x181", "255", 1))}) ==
-      "net-pdo-long: RPDO 1 of b (node 3) receives TPDO 1 of a (node 2), which has 4 bytes (181h); it maps 2: the last "
-      "bytes are not used\n");
+        "net-pdo-short: RPDO 1 of b (node 3) maps 4 bytes, TPDO 1 of a (node 2) has 2 (181h): it is dropped, with EMCY "
+        "8210h\n");
+  CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 2)), commissioned(3, pdo(0x1400, "0x181", "255", 1))}) ==
+        "net-pdo-long: RPDO 1 of b (node 3) maps 2 bytes, TPDO 1 of a (node 2) has 4 (181h): the last ones are not "
+        "used\n");
 }
 
 TEST_CASE("network: the deadline of an RPDO is longer than the period of its TPDO") {
@@ -264,11 +263,10 @@ TEST_CASE("network: synchronous PDOs need one SYNC producer with a period") {
 }
 
 TEST_CASE("network: events without a bound are a warning") {
-  CHECK(
-      found({commissioned(2, pdo(0x1800, "0x181", "255", 1, "0", "50")),
-             commissioned(3, pdo(0x1400, "0x181", "255", 1))}) ==
-      "net-event-unbounded: TPDO 1 of a (node 2) (181h) has no inhibit time: its events have no bound, the worst case "
-      "counts its event timer only\n");
+  CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1, "0", "50")),
+               commissioned(3, pdo(0x1400, "0x181", "255", 1))}) ==
+        "net-event-unbounded: TPDO 1 of a (node 2) (181h) has no inhibit time: the worst case counts its event timer "
+        "only\n");
 }
 
 TEST_CASE("network: the bus load counts frames by their shortest and their usual period") {

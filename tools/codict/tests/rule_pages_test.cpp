@@ -22,6 +22,12 @@
 #include "eds/read.hpp"
 #include "eds/suppressions.hpp"
 #include "gen/gen.hpp"
+#include "network/check.hpp"
+#include "network/concise.hpp"
+#include "network/links.hpp"
+#include "network/network.hpp"
+#include "network/plan.hpp"
+#include "network/traffic.hpp"
 #include "program.hpp"
 #include "reading.hpp"
 #include "xdd/read.hpp"
@@ -32,10 +38,11 @@ using namespace lexican::codict;
 namespace {
 
 struct Example {
-  std::string form;  // "eds", "dcf", "xml", each also with " whole"
+  std::string form;  // "eds", "dcf", "xml", each also with " whole"; "yaml": a plan of a network
   std::string text;
 
   bool is_xml() const { return form.substr(0, 3) == "xml"; }
+  bool is_plan() const { return form == "yaml"; }
   bool is_whole() const { return form.find(" whole") != std::string::npos; }
 };
 
@@ -192,7 +199,36 @@ Findings judge(const Rule& rule, Source source, Read read, Suppressions suppress
   return findings;
 }
 
+// Returns the findings of a plan, whose descriptions are fixtures.
+Findings judge_plan(const std::string& text) {
+  Findings findings;
+  const network::Plan plan = network::read_plan(Source("plan.yaml", text), findings);
+  if (findings.count(Severity::error) != 0) {
+    return findings;
+  }
+  std::vector<Device> devices;
+  for (const network::PlannedSlave& slave : plan.slaves) {
+    Findings ignored;
+    const std::string bytes = test::bytes_of(test::fixture("network/") + slave.description.value);
+    const eds::Document document(Source(slave.description.value, bytes), ignored);
+    devices.push_back(eds::read(document, ignored).devices.front());
+  }
+  const network::Network net = network::planned_network(plan, std::move(devices), findings);
+  network::NetworkFindings of_network(net);
+  of_network.plan = findings;
+  const network::Links links = network::links_of(net);
+  network::check_all(net, links, of_network);
+  network::traffic_of(net, links, of_network);
+  for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+    network::downloads_of(net, n, of_network);
+  }
+  return of_network.plan;
+}
+
 Findings judge(const Rule& rule, const Example& example) {
+  if (example.is_plan()) {
+    return judge_plan(example.text);
+  }
   const std::string name = std::string(rule.id) + (example.is_xml() ? ".xdd" : "." + example.form.substr(0, 3));
   if (example.is_xml()) {
     Source source(name, example.is_whole() ? example.text : in_xml_device(example.text));

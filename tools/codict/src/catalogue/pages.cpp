@@ -15,14 +15,15 @@ namespace {
 constexpr std::string_view introduction =
     R"(# Rules of codict
 
-This page explains every finding of `codict check` and `codict gen` to those who write device descriptions:
-the fault, its consequences, the remedy, and an example.
+This page explains every finding of `codict check`, `codict gen` and `codict network` to those who write device
+descriptions or plan networks: the fault, its consequences, the remedy, and an example.
 
 `codict explain RULE` prints the section of a rule. Rule ids never change. To disable a rule for a key, a section
 or a file, see [known findings](codict.md#findings-that-are-known).
 
 Examples show only the relevant part of a description. The tests add it to a device without faults; examples marked
-`whole` are complete files. The wrong example breaks its rule, the right one does not.
+`whole` are complete files, and so are plans of networks, whose descriptions are in
+`tools/codict/tests/fixtures/network`. The wrong example breaks its rule, the right one does not.
 
 This file is generated: `codict explain --all >tools/codict/docs/rules.md`. The sections are written in
 `tools/codict/src/catalogue/pages`, the faults next to the checks (`rules.cpp`).
@@ -33,11 +34,12 @@ struct Chapter {
   std::string_view title;
 };
 
-constexpr std::array<Chapter, 6> chapters = {{{"eds-", "Form of an EDS or DCF"},
+constexpr std::array<Chapter, 7> chapters = {{{"eds-", "Form of an EDS or DCF"},
                                               {"", "Objects, values and services, in any format"},
                                               {"xdd-", "Form of an XDD, XDC or XPD"},
                                               {"json-", "Form of JSON"},
                                               {"gen-", "Generated dictionaries"},
+                                              {"net-", "Networks"},
                                               {"suppression-", "Comments that suppress rules"}}};
 
 bool begins_with(std::string_view text, std::string_view beginning) {

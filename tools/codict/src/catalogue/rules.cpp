@@ -11,6 +11,7 @@
 #include "gen/rules.hpp"
 #include "json/read.hpp"
 #include "model/parse.hpp"
+#include "network/rules.hpp"
 #include "xdd/rules.hpp"
 
 namespace lexican::codict::catalogue {
@@ -28,7 +29,7 @@ const std::vector<const Rule*>& all_rules() {
     std::vector<const Rule*> joined;
     for (const auto* rules :
          {&eds::all_rules(), &value_rules(), &check::all_rules(), &check::network_rules(), &check::profile_rules(),
-          &xdd::all_rules(), &json::all_rules(), &gen::all_rules(), &suppression_rules()}) {
+          &xdd::all_rules(), &json::all_rules(), &gen::all_rules(), &network::all_rules(), &suppression_rules()}) {
       joined.insert(joined.end(), rules->begin(), rules->end());
     }
     return joined;

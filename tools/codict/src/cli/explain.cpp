@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,6 @@
 #include "catalogue/rules.hpp"
 #include "cli/command.hpp"
 #include "cli/services.hpp"
-#include "network/rules.hpp"
 
 namespace lexican::codict::cli {
 
@@ -28,20 +26,8 @@ Json to_json(const Rule& rule) {
           {"page", catalogue::link_to(rule)}};
 }
 
-// Returns a rule of networks, null for an unknown id. These rules have no page, as no single description breaks them.
-const Rule* find_network_rule(const std::string& id) {
-  const std::vector<const Rule*>& rules = network::all_rules();
-  const auto place = std::find_if(rules.begin(), rules.end(), [&id](const Rule* rule) { return rule->id == id; });
-  return place != rules.end() ? *place : nullptr;
-}
-
 int explain_one(const Options& options) {
   const Rule* const rule = catalogue::find_rule(options.rule);
-  if (const Rule* const of_network = find_network_rule(options.rule); of_network != nullptr && !options.is_json) {
-    print(fmt::format("{} ({}): {}\nSee tools/codict/docs/network.md, section \"Checks\".\n", of_network->id,
-                      name_of(of_network->severity), of_network->about));
-    return clean;
-  }
   if (rule == nullptr) {
     complain(unknown_rule(options.rule));
     return unusable;
@@ -88,7 +74,7 @@ std::string unknown_rule(const std::string& id) {
 
 Command add_explain(CommandLine& line) {
   const auto options = std::make_shared<Options>();
-  Arguments command = line.add_command("explain", "Explain a rule of check or gen");
+  Arguments command = line.add_command("explain", "Explain a rule of check, gen or network");
   const Option rule = command.add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
   command.add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)").excludes(rule);
   command.add_flag("--json", options->is_json, "For programs");

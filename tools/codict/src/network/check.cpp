@@ -138,9 +138,9 @@ void check_length(const Network& network, const ActivePdo& from, const ActivePdo
   }
   const bool is_short = from.bytes() < to.bytes();
   findings.add(is_short ? rules::pdo_short : rules::pdo_long, to.node, cob_id_entry(to),
-               fmt::format("{} receives {}, which has {} bytes ({}); it maps {}{}", title_of(network, to),
-                           title_of(network, from), from.bytes(), cob_id_of(from), to.bytes(),
-                           is_short ? ": the frame is dropped with EMCY 8210h" : ": the last bytes are not used"),
+               fmt::format("{} maps {} bytes, {} has {} ({}): {}", title_of(network, to), to.bytes(),
+                           title_of(network, from), from.bytes(), cob_id_of(from),
+                           is_short ? "it is dropped, with EMCY 8210h" : "the last ones are not used"),
                "map the same objects on both sides");
 }
 
@@ -151,7 +151,7 @@ void check_deadline(const Network& network, const ActivePdo& from, const ActiveP
     findings.add(rules::pdo_deadline, to.node, to.pdo.parameter(5),
                  fmt::format("{} has a deadline of {} ms; {} comes every {} ms ({})", title_of(network, to), deadline,
                              title_of(network, from), period, cob_id_of(from)),
-                 fmt::format("an event timer of the RPDO above {} ms", period));
+                 fmt::format("set the event timer of the RPDO above {} ms", period));
   }
 }
 
@@ -190,12 +190,13 @@ void check_consumer(const Network& network, std::size_t at, const codict::Sub& s
   const std::optional<std::size_t> producer = node_of(network, producer_id);
   const std::uint64_t period = producer ? network.nodes[*producer].number_or(0x1017, 0, 0) : 0;
   if (!producer || period == 0) {
-    findings.add(rules::heartbeat_producer, at, &sub,
-                 producer ? fmt::format("{} expects the heartbeat of {}, which produces none (1017h is 0)",
-                                        node.title(), network.nodes[*producer].title())
-                          : fmt::format("{} expects the heartbeat of node {}, which is not in the network",
-                                        node.title(), producer_id),
-                 producer ? "heartbeat_producer of that node, or remove the entry of 1016h" : "");
+    findings.add(
+        rules::heartbeat_producer, at, &sub,
+        producer ? fmt::format("{} expects the heartbeat of {}, which produces none (1017h is 0)", node.title(),
+                               network.nodes[*producer].title())
+                 : fmt::format("{} expects the heartbeat of node {}, which is not in the network", node.title(),
+                               producer_id),
+        producer ? "set heartbeat_producer of that node, or remove the entry of 1016h" : "remove the entry of 1016h");
     return;
   }
   is_monitored[*producer] = true;
@@ -203,7 +204,7 @@ void check_consumer(const Network& network, std::size_t at, const codict::Sub& s
     findings.add(rules::heartbeat_time, at, &sub,
                  fmt::format("{} expects the heartbeat of {} within {} ms, and it comes every {} ms", node.title(),
                              network.nodes[*producer].title(), time, period),
-                 fmt::format("a consumer time above {} ms, e.g. {}", period, 3 * period));
+                 fmt::format("use a consumer time above {} ms, e.g. {}", period, 3 * period));
   }
 }
 
@@ -244,12 +245,12 @@ void check_guarding(const Network& network, std::size_t at, NetworkFindings& fin
   if (life_time != 0 && requested == 0) {
     findings.add(rules::guarding, at, node.device.find(0x100C, 0),
                  fmt::format("{} has life guarding ({} ms), and no master guards it (1F81h)", node.title(), life_time),
-                 "guard_time in the plan, or 100Ch 0");
+                 "set guard_time in the plan, or 100Ch to 0");
   } else if (life_time != 0 && requested >= life_time) {
     findings.add(
         rules::guarding, at, node.device.find(0x100C, 0),
         fmt::format("{} is guarded every {} ms, its life time ends after {} ms", node.title(), requested, life_time),
-        "a larger life time factor");
+        "use a larger life time factor");
   }
 }
 
@@ -266,7 +267,7 @@ void check_error_control(const Network& network, NetworkFindings& findings) {
     if (!is_monitored[n] && !node.is_master && guard_time(network, node) == 0) {
       findings.add(rules::unmonitored, n, node.device.find(0x1017, 0),
                    fmt::format("no node monitors {}: its failure is not detected", node.title()),
-                   "heartbeat_producer of the node");
+                   "set heartbeat_producer of the node");
     }
   }
 }
@@ -294,7 +295,7 @@ void check_sync_producer(const Network& network, std::size_t producer, NetworkFi
   if (node.number_or(0x1006, 0, 0) == 0) {
     findings.add(rules::sync_period, producer, node.device.find(0x1006, 0),
                  fmt::format("{} produces SYNC with a period (1006h) of 0: it transmits none", node.title()),
-                 "sync_period of the master");
+                 "set sync_period of the master");
   }
   for (std::size_t n = producer + 1; n < network.nodes.size(); ++n) {
     if ((network.nodes[n].number_or(0x1005, 0, 0) & 0x40000000U) != 0) {
@@ -313,7 +314,8 @@ void check_sync_consumer(const Network& network, std::size_t producer, std::size
   if (cob_id != wanted) {
     findings.add(rules::sync_cob_id, at, node.device.find(0x1005, 0),
                  fmt::format("{} expects SYNC with {:03X}h, {} transmits it with {:03X}h", node.title(), cob_id,
-                             from.title(), wanted));
+                             from.title(), wanted),
+                 "use one COB-ID in 1005h of both");
   }
   const std::uint64_t counter = node.number_or(0x1019, 0, 0);
   const std::uint64_t produced = from.number_or(0x1019, 0, 0);
@@ -328,7 +330,8 @@ void check_sync_consumer(const Network& network, std::size_t producer, std::size
   if (period != 0 && transmitted != 0 && period != transmitted) {
     findings.add(rules::sync_period, at, node.device.find(0x1006, 0),
                  fmt::format("{} expects SYNC every {} us (1006h), {} transmits it every {} us", node.title(), period,
-                             from.title(), transmitted));
+                             from.title(), transmitted),
+                 "use one period in 1006h of both");
   }
 }
 
@@ -339,7 +342,7 @@ void check_start_value(const Network& network, const ActivePdo& pdo, std::uint64
     findings.add(
         rules::sync_counter, pdo.node, pdo.pdo.parameter(6),
         fmt::format("{} starts at SYNC counter {}, the counter ends at {}", title_of(network, pdo), start, overflow),
-        "sync_overflow of the master, or sync_start 0");
+        "set sync_overflow of the master, or sync_start to 0");
   }
 }
 
@@ -354,7 +357,7 @@ void check_sync(const Network& network, const Links& links, NetworkFindings& fin
       findings.add(rules::sync_missing, pdo->node, pdo->pdo.parameter(2),
                    fmt::format("{} is synchronous (transmission type {}), and no node produces SYNC",
                                title_of(network, *pdo), transmission_of(network, *pdo)),
-                   "sync_period of the master");
+                   "set sync_period of the master");
     }
     return;
   }

@@ -81,10 +81,10 @@ void Writer::add(std::uint16_t index, std::uint8_t sub_index, const Entry& entry
     downloads_.push_back({index, sub_index, *bytes});
     return;
   }
-  findings_.add(
-      rules::concise, at_, &entry,
-      fmt::format("{}: {:04X}h:{} = {} is left out of the concise DCF: the coding of its data type is unknown",
-                  node_.title(), index, sub_index, entry.actual_value.text));
+  findings_.add(rules::concise, at_, &entry,
+                fmt::format("{}: {:04X}h:{} = {} is not in the concise DCF: unknown coding of its data type",
+                            node_.title(), index, sub_index, shortened(entry.actual_value.text)),
+                "write the value by the application");
 }
 
 void Writer::add_objects() {

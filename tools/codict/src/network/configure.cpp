@@ -55,13 +55,15 @@ Entry* Configurator::find(std::uint16_t index, std::uint8_t sub_index, Span span
   }
   if (entry == nullptr) {
     findings_.add(rules::object, span,
-                  fmt::format("{}: {:04X}h:{} ({}) is not in the description", node_.name, index, sub_index, what));
+                  fmt::format("{}: {:04X}h:{} ({}) is not in the description", node_.name, index, sub_index, what),
+                  "correct the index, or use the description of this version of the device");
     return nullptr;
   }
   if (!is_writable(entry->access.value)) {
     findings_.add(rules::object, span,
                   fmt::format("{}: {:04X}h:{} ({}) is {}: it cannot be configured", node_.name, index, sub_index, what,
-                              name_of(entry->access.value)));
+                              name_of(entry->access.value)),
+                  "remove it from the plan");
     return nullptr;
   }
   return entry;
@@ -77,7 +79,8 @@ bool Configurator::set(std::uint16_t index, std::uint8_t sub_index, std::uint64_
   if (bits != 0 && !fits_unsigned(value, bits)) {
     findings_.add(rules::object, span,
                   fmt::format("{}: {:04X}h:{} ({}) has {} bits, too few for {:#x}", node_.name, index, sub_index, what,
-                              bits, value));
+                              bits, value),
+                  fmt::format("write a value of at most {} bits", bits));
     return false;
   }
   set_number(entry->actual_value, value, span);
@@ -121,7 +124,8 @@ void Configurator::consume_heartbeat(std::uint8_t producer, std::uint64_t time_m
   }
   const std::uint8_t sub_index = same != 0 ? same : free;
   if (sub_index == 0) {
-    findings_.add(rules::object, span, fmt::format("{}: no free entry in 1016h (heartbeat_consumer)", node_.name));
+    findings_.add(rules::object, span, fmt::format("{}: no free entry in 1016h (heartbeat_consumer)", node_.name),
+                  "remove heartbeat_consumer, or free an entry: sdo, value 0");
     return;
   }
   set(0x1016, sub_index, value, span, "heartbeat_consumer");
@@ -135,7 +139,8 @@ void Configurator::apply(const PlannedPdo& plan, bool is_transmit) {
   const std::string what = fmt::format("{}pdo {}", is_transmit ? 't' : 'r', plan.number);
   if (node_.device.find(index) == nullptr) {
     findings_.add(rules::object, plan.span,
-                  fmt::format("{} has no {}: there is no {:04X}h in the description", node_.name, what, index));
+                  fmt::format("{} has no {}: there is no {:04X}h in the description", node_.name, what, index),
+                  "use a PDO that the description has");
     return;
   }
   apply_cob_id(plan, index, what);
@@ -170,7 +175,7 @@ void Configurator::apply_cob_id(const PlannedPdo& plan, std::uint16_t index, con
     span = plan.cob_id.span;
   } else if (plan.is_enabled.value && (cob_id & 0x1FFFFFFFU) == 0) {
     findings_.add(rules::missing, plan.span, fmt::format("{}: {} has no COB-ID", node_.name, what),
-                  "cob_id: 0x181, or another one that is free");
+                  "add a free one: cob_id: 0x181");
     return;
   }
   if (!plan.is_enabled.value) {
@@ -186,7 +191,8 @@ void Configurator::apply_cob_id(const PlannedPdo& plan, std::uint16_t index, con
 unsigned Configurator::mapped_bits(const PlannedMapping& mapped, bool is_transmit, const std::string& what) {
   const std::string object = fmt::format("{:04X}h:{}", mapped.index, mapped.sub_index);
   const auto refuse = [&](std::string_view why) {
-    findings_.add(rules::mapping, mapped.span, fmt::format("{}: {} maps {}, {}", node_.name, what, object, why));
+    findings_.add(rules::mapping, mapped.span, fmt::format("{}: {} maps {}, {}", node_.name, what, object, why),
+                  "map another object");
     return 0U;
   };
   if (mapped.index < 0x20 && mapped.sub_index == 0) {  // dummy object
@@ -221,7 +227,8 @@ void Configurator::apply_mapping(const PlannedPdo& plan, bool is_transmit, const
   }
   if (sum > 64) {
     findings_.add(rules::mapping, plan.mapping.span,
-                  fmt::format("{}: {} maps {} bits, a frame has 64", node_.name, what, sum));
+                  fmt::format("{}: {} maps {} bits, a frame has 64", node_.name, what, sum),
+                  "map fewer or shorter objects");
   }
   set(index, 0, count, plan.mapping.span, what + " mapping");
 }
@@ -281,7 +288,7 @@ void monitor_master(const Plan& plan, const PlannedSlave& planned, Node& node, F
   if (time == 0) {
     findings.add(rules::heartbeat_producer, planned.heartbeat_consumer.span,
                  fmt::format("{} monitors the master, which produces no heartbeat", planned.name),
-                 "heartbeat_producer of the master");
+                 "set heartbeat_producer of the master");
     return;
   }
   Configurator(node, findings)

@@ -317,7 +317,7 @@ void Master::mapping_of(const ActivePdo& partner, std::uint16_t index, std::uint
       findings_.add(rules::mapping, node.span,
                     fmt::format("{}: {} maps {} bits of {:04X}h:{}; no data type of the master has as many", node.name,
                                 partner.title(), mapped.bits, mapped.index, mapped.sub_index),
-                    "pdo: none in the section master, or another mapping");
+                    "change the mapping, or set pdo: none in the section master");
       return;
     }
     const auto sub_index = static_cast<std::uint8_t>(values.size() + 1);

@@ -133,7 +133,8 @@ void check_nodes(const Network& network, NetworkFindings& findings) {
     } else if (const auto [place, is_new] = seen.emplace(node.node_id, n); !is_new) {
       findings.add(
           rules::node_id, n, nullptr,
-          fmt::format("{} and {} have the node-ID {}", network.nodes[place->second].name, node.name, node.node_id));
+          fmt::format("{} and {} have the node-ID {}", network.nodes[place->second].name, node.name, node.node_id),
+          "give one of them another node-ID");
     }
     if (network.bit_rate != 0) {
       check_bit_rate(network, n, findings);

@@ -47,7 +47,8 @@ class Reader {
 
  private:
   void refuse(const Node& node, std::string_view wanted) {
-    findings_.add(rules::value, node.span, fmt::format("{} is {}, not {}", path_, shown(node), wanted));
+    findings_.add(rules::value, node.span, fmt::format("invalid {}: {}", path_, shown(node)),
+                  fmt::format("write {}", wanted));
   }
 
   bool is_map(const Node& node) {
@@ -84,7 +85,7 @@ class Reader {
     const std::vector<std::string_view> near = similar(name.text, names);
     findings_.add(rules::key, name.span, fmt::format("unknown key {} in {}", shown(name), path),
                   near.empty() ? fmt::format("the keys are {}", fmt::join(names, ", "))
-                               : fmt::format("{}?", fmt::join(near, ", ")));
+                               : fmt::format("did you mean {}?", fmt::join(near, ", ")));
   }
 
   // Returns false, with a finding, if the value is no integer of this range.
@@ -162,7 +163,7 @@ class Reader {
     for (std::size_t n = 0; n < node.members(); ++n) {
       std::uint64_t sub_index = 0;
       std::uint64_t value = 0;
-      path_ = path + ": the sub-index of 1029h";
+      path_ = "sub-index of 1029h in " + path;
       const bool has_sub_index = integer(node.name(n), 1, 254, sub_index);
       path_ = fmt::format("{}.{}", path, sub_index);
       if (has_sub_index && integer(node.value(n), 0, 255, value)) {
@@ -190,7 +191,7 @@ class Reader {
   void read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>& mapping);
   void read_values(const Node& node, std::vector<PlannedValue>& values);
   bool has_name(const Node& name);
-  void require(bool is_given, const Node& name, std::string_view key);
+  void require(bool is_given, const Node& name, std::string_view key, std::string_view remedy);
 
   Findings& findings_;
   std::string path_;
@@ -226,7 +227,7 @@ void Reader::read_master(const Node& name, const Node& node, PlannedMaster& mast
                     {"pdo", [&](const Node& n) { connect(n, master.connect); }}};
   keys.insert(keys.end(), own.begin(), own.end());
   map(node, name.text, keys);
-  require(master.node_id.is_given || node.kind != Node::Kind::map, name, "node_id");
+  require(master.node_id.is_given || node.kind != Node::Kind::map, name, "node_id", "add one: node_id: 127");
 }
 
 void Reader::read_slave(const Node& name, const Node& node, PlannedSlave& slave) {
@@ -249,12 +250,13 @@ void Reader::read_slave(const Node& name, const Node& node, PlannedSlave& slave)
                     {"sdo", [&](const Node& n) { read_values(n, slave.values); }}};
   keys.insert(keys.end(), own.begin(), own.end());
   map(node, name.text, keys);
-  require(slave.description.is_given || node.kind != Node::Kind::map, name, "dcf");
+  require(slave.description.is_given || node.kind != Node::Kind::map, name, "dcf",
+          "add the path of its description: dcf: drive.eds");
 }
 
-void Reader::require(bool is_given, const Node& name, std::string_view key) {
+void Reader::require(bool is_given, const Node& name, std::string_view key, std::string_view remedy) {
   if (!is_given) {
-    findings_.add(rules::missing, name.span, fmt::format("{} has no {}", name.text, key));
+    findings_.add(rules::missing, name.span, fmt::format("{} has no {}", name.text, key), std::string(remedy));
   }
 }
 
@@ -265,7 +267,7 @@ void Reader::read_pdos(const Node& node, std::vector<PlannedPdo>& pdos) {
   }
   for (std::size_t n = 0; n < node.members(); ++n) {
     std::uint64_t number = 0;
-    path_ = path + ": the number of a PDO";
+    path_ = "PDO number in " + path;
     if (!integer(node.name(n), 1, 512, number)) {
       continue;
     }
@@ -314,7 +316,7 @@ void Reader::read_mapping(const Node& node, Planned<std::vector<PlannedMapping>>
     if (index.is_given) {
       mapping.value.push_back({index.value, sub_index.value, item.span});
     } else if (item.kind == Node::Kind::map) {
-      findings_.add(rules::missing, item.span, path + ": an object without index");
+      findings_.add(rules::missing, item.span, path + ": object without index", "write {index: 0x2000, sub_index: 0}");
     }
   }
 }
@@ -337,7 +339,8 @@ void Reader::read_values(const Node& node, std::vector<PlannedValue>& values) {
       values.push_back({index.value, sub_index.value, value.value, value.span});
     } else if (item.kind == Node::Kind::map) {
       findings_.add(rules::missing, item.span,
-                    fmt::format("{}: a value without {}", path, index.is_given ? "value" : "index"));
+                    fmt::format("{}: entry without {}", path, index.is_given ? "value" : "index"),
+                    "write {index: 0x2000, sub_index: 0, value: 1}");
     }
   }
 }
@@ -351,15 +354,15 @@ bool Reader::has_name(const Node& name) {
         return (small >= 'a' && small <= 'z') || is_digit(c) || c == '_' || c == '-';
       });
   if (!is_name) {
-    findings_.add(rules::value, name.span, fmt::format("the name of a node is {}", shown(name)),
-                  "letters, digits, - and _, at most 64: files are named after the node");
+    findings_.add(rules::value, name.span, fmt::format("invalid name of a node: {}", shown(name)),
+                  "use at most 64 letters, digits, - and _: files are named after the node");
   }
   return is_name;
 }
 
 Plan Reader::read(const Node& root) {
   Plan plan;
-  path_ = "the plan";
+  path_ = "plan";
   if (!is_map(root)) {
     return plan;
   }
@@ -377,11 +380,13 @@ Plan Reader::read(const Node& root) {
   }
   if (plan.slaves.size() > most_slaves) {
     findings_.add(rules::node_id, plan.slaves[most_slaves].span,
-                  fmt::format("{} nodes and a master: a network has 127 node-IDs", plan.slaves.size()));
+                  fmt::format("{} nodes and a master: a network has 127 node-IDs", plan.slaves.size()),
+                  "divide the nodes between several networks");
     plan.slaves.clear();
   }
   if (!has_master) {
-    findings_.add(rules::missing, root.span, "the plan has no section master", "master: {node_id: 127, baudrate: 250}");
+    findings_.add(rules::missing, root.span, "the plan has no section master",
+                  "add one: master: {node_id: 127, baudrate: 250}");
   }
   return plan;
 }

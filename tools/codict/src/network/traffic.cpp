@@ -96,10 +96,10 @@ void Collector::add_event_driven(const ActivePdo& pdo, const Frame& frame) {
   }
   add(pdo.title(), pdo.node, frame, event, event);
   findings_.add(rules::event_unbounded, pdo.node, pdo.pdo.parameter(3),
-                fmt::format("{} of {} ({}) has no inhibit time: its events have no bound, {}", pdo.title(),
-                            node.title(), cob_id_text(pdo.identifier, pdo.is_extended),
-                            event != 0 ? "the worst case counts its event timer only" : "the worst case lacks it"),
-                "an inhibit time (sub-index 3), or event_interval in the options of the plan");
+                fmt::format("{} of {} ({}) has no inhibit time: {}", pdo.title(), node.title(),
+                            cob_id_text(pdo.identifier, pdo.is_extended),
+                            event != 0 ? "the worst case counts its event timer only" : "it is not in the worst case"),
+                "set an inhibit time (sub-index 3), or event_interval in the options of the plan");
 }
 
 void Collector::add_pdo(const ActivePdo& pdo) {
@@ -207,24 +207,28 @@ std::string in_ms(Nanoseconds time) {
   return fmt::format("{:.3f} ms", static_cast<double>(time) / static_cast<double>(ms));
 }
 
+constexpr const char* response_remedy = "give it a lower COB-ID, others longer periods, or use a higher bit rate";
+
 void check_traffic(const Network& network, const Traffic& traffic, NetworkFindings& findings) {
   for (const Message& message : traffic.messages) {
     const std::string title = fmt::format("{} of {} ({})", message.service, network.nodes[message.node].title(),
                                           cob_id_text(message.frame.identifier, message.frame.is_extended));
     if (message.shortest_period != 0 && !message.response) {
       findings.add(rules::response, message.node, nullptr,
-                   title + " may wait without bound: frames of its priority and higher ones fill the bus");
+                   title + " may wait without bound: frames of its priority and higher ones fill the bus",
+                   response_remedy);
     } else if (message.response && *message.response > message.deadline) {
       findings.add(rules::response, message.node, nullptr,
                    fmt::format("{} takes up to {}, its deadline is {}", title, in_ms(*message.response),
-                               in_ms(message.deadline)));
+                               in_ms(message.deadline)),
+                   response_remedy);
     }
   }
   if (traffic.worst_load > network.load_limit) {
     findings.add(
         rules::load, 0, nullptr,
         fmt::format("worst-case bus load {:.1f} %, the limit is {:.1f} %", traffic.worst_load, network.load_limit),
-        "a higher bit rate, longer periods or inhibit times, or load_limit in the options of the plan");
+        "use a higher bit rate, longer periods or inhibit times, or another load_limit");
   }
 }
 

@@ -82,7 +82,7 @@ class Builder final : public YAML::EventHandler {
       throw Refusal{span_of(mark), "tags are not supported: " + tag, "remove the tag"};
     }
     if (++count_ > node_limit) {
-      throw Refusal{span_of(mark), fmt::format("more than {} values", node_limit), ""};
+      throw Refusal{span_of(mark), fmt::format("more than {} values", node_limit), "write a shorter plan"};
     }
     Node node;
     node.kind = kind;
@@ -104,7 +104,7 @@ class Builder final : public YAML::EventHandler {
 
   void begin(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (open_.size() == depth_limit) {
-      throw Refusal{span_of(mark), fmt::format("more than {} levels of nesting", depth_limit), ""};
+      throw Refusal{span_of(mark), fmt::format("more than {} levels of nesting", depth_limit), "write fewer levels"};
     }
     open_.push_back(node_of(kind, mark, tag, anchor));
   }
@@ -159,10 +159,11 @@ std::string_view name_of(Node::Kind kind) {
 
 bool read(const Source& source, Node& root, Findings& findings) {
   if (source.size() > size_limit) {
-    return refuse(findings, {}, fmt::format("the plan has {} bytes; the limit is {}", source.size(), size_limit));
+    return refuse(findings, {}, fmt::format("the plan has {} bytes; the limit is {}", source.size(), size_limit),
+                  "write a shorter plan");
   }
   if (is_binary(source.bytes())) {
-    return refuse(findings, {}, "the plan is not UTF-8 text");
+    return refuse(findings, {}, "the plan is not UTF-8 text", "save it as UTF-8");
   }
   Builder builder(source);
   try {
@@ -179,7 +180,8 @@ bool read(const Source& source, Node& root, Findings& findings) {
   } catch (const Refusal& refusal) {
     return refuse(findings, refusal.span, refusal.text, refusal.hint);
   } catch (const YAML::Exception& exception) {
-    return refuse(findings, builder.span_of(exception.mark), "invalid YAML: " + exception.msg);
+    return refuse(findings, builder.span_of(exception.mark), "invalid YAML: " + exception.msg,
+                  "correct the syntax of YAML at this place");
   }
   return true;
 }
