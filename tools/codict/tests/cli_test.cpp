@@ -67,6 +67,14 @@ std::string completed(const std::string& words) {
       .out;
 }
 
+// Runs codict with the library that prints system calls. environment: further variables.
+Ran run_with_file_calls(const Directory& directory, const std::string& arguments, const std::string& environment = "") {
+  return test::run_shell("cd '" + directory / "" + "' && " + environment +
+                         " ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" LEXICAN_CODICT_FILE_CALLS
+                         "' '" LEXICAN_CODICT_PROGRAM "' " +
+                         arguments);
+}
+
 }  // namespace
 
 TEST_CASE("codict completion: bash completes commands, and the options of a command") {
@@ -84,13 +92,29 @@ TEST_CASE("codict: a file that is written is on the medium before it gets its na
   }
   const Directory directory;
   test::copy_to(directory, "drive.eds");
-  const Ran written =
-      test::run_shell("cd '" + directory / "" +
-                      "' && ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" LEXICAN_CODICT_FILE_CALLS
-                      "' '" LEXICAN_CODICT_PROGRAM "' convert drive.eds -o copy.eds");
+  const Ran written = run_with_file_calls(directory, "convert drive.eds -o copy.eds");
   CHECK(written.status == 0);
   CHECK(written.err == "fsync file\nrename\nfsync directory\n");
   CHECK(test::bytes_of(directory / "copy.eds") == test::bytes_of(directory / "drive.eds"));
+}
+
+TEST_CASE("codict: a file whose directory cannot be synchronised is written: a warning, or nothing if unsupported") {
+  if (test::run_shell("ldd '" LEXICAN_CODICT_PROGRAM "'").status != 0) {
+    return;
+  }
+  for (const int error : {EIO, EINVAL, ENOTSUP}) {
+    CAPTURE(error);
+    const Directory directory;
+    test::copy_to(directory, "drive.eds");
+    const Ran written = run_with_file_calls(directory, "convert drive.eds -o copy.eds",
+                                            "DIRECTORY_FSYNC_ERROR=" + std::to_string(error));
+    CHECK(written.status == 0);
+    CHECK(has(written.err,
+              "codict: copy.eds: the file is written, but a power failure now may undo it: its directory "
+              "cannot be synchronised (Input/output error)\n") == (error == EIO));
+    CHECK(has(written.err, "codict:") == (error == EIO));
+    CHECK(test::bytes_of(directory / "copy.eds") == test::bytes_of(directory / "drive.eds"));
+  }
 }
 
 TEST_CASE("codict completion zsh: the script has all commands, options and words, and zsh accepts it") {

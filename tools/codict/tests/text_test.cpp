@@ -165,6 +165,17 @@ TEST_CASE("what a symbolic link names is written, and the link stays") {
   CHECK(read(directory / "target") == "two");
 }
 
+TEST_CASE("a text is shortened to a number of characters, the last of which is then an ellipsis") {
+  CHECK(shortened_to("speed", 5) == "speed");
+  CHECK(shortened_to("speeds", 5) == "spee…");
+  CHECK(shortened_to("größer", 6) == "größer");
+  CHECK(shortened_to("größere", 6) == "größe…");
+  CHECK(shortened_to("", 0) == "");
+  CHECK(shortened_to("speed", 1) == "…");
+  CHECK(shortened_to("speed", 0) == "…");
+  CHECK(shortened_to("\x80\x80\x80", 2) == "\x80\x80\x80");  // bytes that begin no character
+}
+
 TEST_CASE("what cannot be read or written is said in one line") {
   const Directory directory;
   std::string why;

@@ -11,11 +11,11 @@ namespace lexican::codict::cli {
 
 Status write_output(const std::string& path, std::string_view bytes) {
   std::string why;
-  if (write_file(path, bytes, why) == Written::no) {
+  const Written written = write_file(path, bytes, why);
+  if (!why.empty()) {
     complain(why);
-    return unusable;
   }
-  return clean;
+  return written == Written::no ? unusable : clean;
 }
 
 bool make_directory(const std::string& path) {

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <string>
 
+#include "text/encoding.hpp"
+
 namespace lexican::codict::doc {
 
 namespace {
@@ -25,25 +27,6 @@ struct Box {
   unsigned count;
 };
 
-// Shortens a text to a number of UTF-8 characters; the last one is then an ellipsis.
-std::string shortened(std::string_view text, std::size_t letters) {
-  std::size_t seen = 0;
-  std::size_t keep = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool begins_letter = (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U;
-    if (!begins_letter) {
-      continue;
-    }
-    if (seen + 1 == letters) {
-      keep = at;
-    }
-    if (++seen > letters) {
-      return std::string(text.substr(0, keep)) + "…";
-    }
-  }
-  return std::string(text);
-}
-
 void draw(const Box& box, const PdoPart& part, bool is_first, std::string& svg) {
   const unsigned x = left + (bits_of_row - box.low - box.count) * bit_width;
   const unsigned y = top + box.row * row_height;
@@ -57,7 +40,7 @@ void draw(const Box& box, const PdoPart& part, bool is_first, std::string& svg) 
     const std::size_t letters = box.count * bit_width / 7;
     const std::string label = box.count * bit_width >= 2 * bit_width ? part.number + " " + part.name : part.number;
     fmt::format_to(std::back_inserter(svg), "<text x=\"{}\" y=\"{}\">{}</text>", x + 5, y + 20,
-                   escaped_html(shortened(label, letters)));
+                   escaped_html(shortened_to(label, letters)));
   }
   svg += "</g>\n";
 }

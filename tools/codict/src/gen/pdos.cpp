@@ -16,7 +16,7 @@ constexpr std::uint64_t multiplexed = 0xFE;  // value of sub-index 0 for a multi
 
 constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID: the PDO is disabled
 constexpr std::uint32_t identifier_bits = 0x1FFFFFFF;
-constexpr std::uint16_t from_mapping = 0x200;  // distance from a communication parameter to its mapping parameter
+constexpr std::uint16_t to_mapping = 0x200;  // distance from a communication parameter to its mapping parameter
 
 constexpr bool is_receive(std::uint16_t index) { return (index & 0x1800U) == 0x1000; }
 
@@ -169,7 +169,7 @@ void switch_off(Plan& plan, Findings& findings) {
     }
     const bool has_identifier = value.adds_node_id || (value.integer.magnitude & identifier_bits) != 0;
     const std::string fault = has_identifier
-                                  ? fault_of_mapping(plan, static_cast<std::uint16_t>(item.index + from_mapping))
+                                  ? fault_of_mapping(plan, static_cast<std::uint16_t>(item.index + to_mapping))
                                   : place_name(item) + " has no CAN-ID";
     if (fault.empty()) {
       continue;

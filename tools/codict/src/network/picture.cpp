@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "doc/picture.hpp"
+#include "text/encoding.hpp"
 
 namespace lexican::codict::network {
 
@@ -23,18 +24,6 @@ constexpr std::size_t box_gap = 24;
 constexpr std::size_t row_height = 110;
 constexpr std::size_t left = 20;
 
-// Shortens a name; the complete name is in the title element.
-std::string shortened(const std::string& text, std::size_t letters) {
-  std::size_t seen = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool begins_letter = (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U;
-    if (begins_letter && ++seen > letters) {
-      return text.substr(0, at) + "…";
-    }
-  }
-  return text;
-}
-
 void draw_node(const Node& node, std::size_t tpdos, std::size_t rpdos, std::size_t at, std::string& svg) {
   const std::size_t x = left + at % boxes_of_row * (box_width + box_gap);
   const std::size_t y = 10 + at / boxes_of_row * row_height;
@@ -44,7 +33,7 @@ void draw_node(const Node& node, std::size_t tpdos, std::size_t rpdos, std::size
                  "<text class=\"soft\" x=\"{}\" y=\"{}\">{} TPDO, {} RPDO</text>"
                  "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"/></g>\n",
                  escaped_html(node.title()), node.is_master ? " class=\"master\"" : "", x, y, box_width, box_height,
-                 x + 8, y + 18, escaped_html(shortened(node.name, 20)), x + 8, y + 34, node.node_id, x + 8, y + 50,
+                 x + 8, y + 18, escaped_html(shortened_to(node.name, 21)), x + 8, y + 34, node.node_id, x + 8, y + 50,
                  tpdos, rpdos, x + box_width / 2, y + box_height, x + box_width / 2, y + box_height + 22);
 }
 
@@ -82,7 +71,7 @@ void draw_column(const Network& network, const Links& links, const std::map<std:
                    "<g><title>{0}</title><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
                    "<text x=\"{5}\" y=\"{6}\">{7}</text></g>\n",
                    escaped_html(label), x, middle_of(row) - 9, column_width, line_height - 4, x + 6, middle_of(row) + 4,
-                   escaped_html(shortened(label, 33)));
+                   escaped_html(shortened_to(label, 34)));
   }
 }
 

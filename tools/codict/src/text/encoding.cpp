@@ -207,4 +207,20 @@ bool from_utf8(std::string_view utf8, Encoding encoding, std::string& bytes) {
   return true;
 }
 
+std::string shortened_to(std::string_view text, std::size_t characters) {
+  std::size_t seen = 0;
+  std::size_t kept = 0;  // bytes in front of the character that an ellipsis would replace
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const bool begins_character = (static_cast<unsigned char>(text[at]) & 0xC0U) != 0x80U;
+    if (!begins_character) {
+      continue;
+    }
+    kept = seen + 1 == characters ? at : kept;
+    if (++seen > characters) {
+      return std::string(text.substr(0, kept)) + "…";
+    }
+  }
+  return std::string(text);
+}
+
 }  // namespace lexican::codict

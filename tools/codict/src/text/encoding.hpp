@@ -28,6 +28,10 @@ bool is_ascii(std::string_view bytes);
 /// Converts bytes to valid UTF-8. Bytes that are invalid in the encoding become U+FFFD.
 std::string to_utf8(std::string_view bytes, Encoding encoding);
 
+/// Returns a UTF-8 text of at most `characters` characters (at least 1): the last one is an ellipsis if the text is
+/// longer.
+std::string shortened_to(std::string_view text, std::size_t characters);
+
 /// Converts UTF-8 text to an encoding. Returns false if the encoding lacks one of its characters.
 bool from_utf8(std::string_view utf8, Encoding encoding, std::string& bytes);
 

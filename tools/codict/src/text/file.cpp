@@ -2,6 +2,7 @@
 #include "text/file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -75,8 +76,9 @@ bool has_bytes(const std::string& path, std::string_view bytes) {
   return present && present->bytes() == bytes;
 }
 
-// Writes cached data of a file or directory to its medium. EINVAL means that the file system does not support it.
-bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL; }
+// Writes cached data of a file or directory to its medium. EINVAL and ENOTSUP mean that the file system does not
+// support it.
+bool sync(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 bool sync_directory_of(const std::string& path) {
   const std::string directory = std::filesystem::path(path).parent_path().string();
@@ -84,8 +86,9 @@ bool sync_directory_of(const std::string& path) {
   return file.number() < 0 || sync(file.number());  // a directory without read permission cannot be synchronised
 }
 
-// Replaces a file by a new one with its name and permissions. A symbolic link is followed: its target is replaced.
-bool replace_file(const std::string& path, std::string_view bytes) {
+// Replaces a file by a new one with its name and permissions. A symbolic link is followed: its target is replaced. On
+// success, `warning` is set if a power failure may undo the change.
+bool replace_file(const std::string& path, std::string_view bytes, std::string& warning) {
   std::error_code error;
   const std::filesystem::path canonical = std::filesystem::canonical(path, error);
   const std::string target = error ? path : canonical.string();
@@ -101,7 +104,12 @@ bool replace_file(const std::string& path, std::string_view bytes) {
   const bool complete =
       write_all(file.number(), bytes) && ::fchmod(file.number(), mode) == 0 && sync(file.number()) && file.close();
   if (complete && ::rename(temporary.c_str(), target.c_str()) == 0) {
-    return sync_directory_of(target);
+    if (!sync_directory_of(target)) {
+      warning = fmt::format(
+          "{}: the file is written, but a power failure now may undo it: its directory cannot be synchronised ({})",
+          path, std::generic_category().message(errno));
+    }
+    return true;
   }
   const int first_error = errno;
   ::unlink(temporary.c_str());
@@ -127,6 +135,7 @@ std::optional<Source> read_file(const std::string& path, std::string& why) {
 }
 
 Written write_file(const std::string& path, std::string_view bytes, std::string& why) {
+  why.clear();
   if (path != "-" && has_bytes(path, bytes)) {
     return Written::unchanged;
   }
@@ -140,7 +149,7 @@ Written write_file(const std::string& path, std::string_view bytes, std::string&
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     is_written = file.number() >= 0 && write_all(file.number(), bytes) && file.close();
   } else {
-    is_written = replace_file(path, bytes);
+    is_written = replace_file(path, bytes, why);
   }
   if (!is_written) {
     why = reason(path, errno);

@@ -19,7 +19,8 @@ enum class Written { no, unchanged, yes };
 
 /// Writes a file; path "-" is the standard output. A file that already has these bytes is not written, and keeps its
 /// modification time. Else a new file replaces it, after it is complete and on the medium (fsync of file and
-/// directory). On Written::no, `why` is set to one line with the reason.
+/// directory). On Written::no, `why` is set to one line with the reason. On Written::yes, `why` is a warning if the
+/// directory could not be synchronised, else empty.
 Written write_file(const std::string& path, std::string_view bytes, std::string& why);
 
 }  // namespace lexican::codict

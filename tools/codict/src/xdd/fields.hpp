@@ -29,7 +29,6 @@ struct Shared {
   Ids types;
   Ids parameters;
   Ids templates;
-  Ids flags;                                                  ///< not used: flags of maxon are in `templates`
   Ids enum_entries;                                           ///< of maxon: entries of enumerations
   std::unordered_map<std::string_view, bool> used;            ///< parameters that an object refers to
   std::unordered_map<std::string_view, std::uint16_t> codes;  ///< codes of the types that have been looked up
