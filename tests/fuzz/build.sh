@@ -2,7 +2,7 @@
 # shellcheck shell=bash
 # Functions shared by the lanes fuzz and fuzz_corpus.
 stack_fuzz_targets=(node sdo_client sdo_server)
-tool_fuzz_targets=(eds json xdd)
+tool_fuzz_targets=(eds json network xdd)
 fuzz_targets=("${stack_fuzz_targets[@]}" "${tool_fuzz_targets[@]}")
 
 # Builds only "${fuzz_targets[@]}" and the code that they test, with the preset full: build_fuzz NAME COMPILER
