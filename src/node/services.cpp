@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/services.hpp"
 
-#include "core/count.hpp"
-#include "core/events.hpp"
-#include "core/port.hpp"
-#include "core/routes.hpp"
-#include "core/transmit.hpp"
+#include "base/count.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/transmit.hpp"
+#include "hal/port.hpp"
 #include "service/emcy/emcy.hpp"
 #include "service/guarding/guarding.hpp"
 #include "service/heartbeat/heartbeat.hpp"
@@ -13,12 +13,12 @@
 #include "service/lss/lss.hpp"
 #include "service/lss/master.hpp"
 #include "service/nmt/nmt.hpp"
-#include "service/para/para.hpp"
 #include "service/pdo/pdo.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "service/sync/sync.hpp"
 #include "service/time/time.hpp"
+#include "storage/para.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co {

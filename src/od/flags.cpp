@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDO flags of an object: which PDOs have been transmitted or received with it.
-#include "core/error.hpp"
-#include "core/events.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
 #include "od/list.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"

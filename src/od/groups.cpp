@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameter groups: lookup by name or by variable, store and restore (co_od.h).
-#include "service/para/groups.hpp"
+#include "storage/groups.hpp"
 
-#include "core/events.hpp"
-#include "core/obj.hpp"
-#include "object/place.hpp"
+#include "base/events.hpp"
+#include "dictionary/obj.hpp"
+#include "dictionary/types/place.hpp"
 #include "od/list.hpp"
 #include "od/result.hpp"
 

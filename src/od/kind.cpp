@@ -3,9 +3,9 @@
 
 #if USE_OD
 
-#include "core/obj.hpp"
-#include "object/place.hpp"
-#include "object/stream.hpp"
+#include "dictionary/obj.hpp"
+#include "dictionary/types/place.hpp"
+#include "dictionary/types/stream.hpp"
 #include "wire/bytes.hpp"
 
 // Weak: a comparison with the address of a type does not link the type.

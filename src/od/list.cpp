@@ -3,7 +3,7 @@
 
 #if USE_OD
 
-#include "core/dict.hpp"
+#include "dictionary/dict.hpp"
 
 namespace co::od {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // OD_lock() and OD_unlock(): the node lock where several threads use the node, else the lock of mapped objects
 // (CO_NODE_EXT.OdLock).
-#include "core/events.hpp"
-#include "core/port.hpp"
+#include "base/events.hpp"
+#include "hal/port.hpp"
 #include "service/pdo/pdo.hpp"
 
 #if USE_OD

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // OD_readOriginal() and OD_writeOriginal(): access to objects through their original types, in pieces of any length.
-#include "core/access.hpp"
-#include "core/events.hpp"
-#include "object/place.hpp"
-#include "object/stream.hpp"
+#include "base/events.hpp"
+#include "dictionary/access.hpp"
+#include "dictionary/types/place.hpp"
+#include "dictionary/types/stream.hpp"
 #include "od/kind.hpp"
 #include "od/result.hpp"
 #include "od/types.hpp"

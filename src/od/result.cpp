@@ -3,7 +3,7 @@
 
 #if USE_OD
 
-#include "core/access.hpp"
+#include "dictionary/access.hpp"
 
 namespace co::od {
 namespace {

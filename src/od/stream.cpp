@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types of extensible entries: streams.
-#include "object/stream.hpp"
-#include "core/access.hpp"
-#include "core/obj.hpp"
+#include "dictionary/types/stream.hpp"
+#include "dictionary/access.hpp"
+#include "dictionary/obj.hpp"
 #include "od/transfer.hpp"
 #include "od/types.hpp"
 #include "wire/bytes.hpp"

@@ -3,8 +3,8 @@
 
 #if USE_OD
 
-#include "core/access.hpp"
-#include "core/obj.hpp"
+#include "dictionary/access.hpp"
+#include "dictionary/obj.hpp"
 #include "od/kind.hpp"
 #include "service/sdo_server/transfer.hpp"
 

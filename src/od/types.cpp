@@ -4,10 +4,10 @@
 
 #if USE_OD
 
-#include "core/abort_code.hpp"
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "core/obj.hpp"
+#include "base/events.hpp"
+#include "dictionary/abort_code.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
 #include "service/pdo/pdo.hpp"
 
 namespace co::od {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to variables: lookup, extensions, and reading and writing of whole values (co_od.h).
-#include "core/dict.hpp"
+#include "dictionary/dict.hpp"
 #include "od/kind.hpp"
 #include "od/list.hpp"
 #include "od/transfer.hpp"

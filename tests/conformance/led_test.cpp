@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Status LEDs. [CiA 303-3] Patterns are samples of 50 ms: '#' is on, '.' is off.
-#include "core/events.hpp"
+#include "base/events.hpp"
 #include "support/fixture.hpp"
 
 #if USE_LED

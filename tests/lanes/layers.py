@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of inclusion: include < wire < core < object < service < od < node, drivers know only include.
+"""The rules of inclusion: include < wire < hal < base < dictionary < storage < service < od < node, drivers know only include.
 The rooms of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none knows one beside it.
 
 layers.py ROOT         checks a source tree, a case per room
@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOMS = ["wire", "core", "object", "service", "od", "node"]
+ROOMS = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "node"]
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
@@ -124,10 +124,10 @@ CLEAN = {
     "include/co_b.h": '#include "co_a.h"\n',
     "config/co_cfg.h": "",
     "src/wire/sdo.hpp": '#include "co_a.h"\n',
-    "src/core/dict.cpp": '#include "wire/sdo.hpp"\n#include "co_cfg.h"\n',
-    "src/core/dict.hpp": "",
-    "src/object/string.cpp": '#include "core/dict.hpp"\n',
-    "src/service/nmt/nmt.hpp": '#include "core/dict.hpp"\n',
+    "src/dictionary/dict.cpp": '#include "wire/sdo.hpp"\n#include "co_cfg.h"\n',
+    "src/dictionary/dict.hpp": "",
+    "src/dictionary/types/string.cpp": '#include "dictionary/dict.hpp"\n',
+    "src/service/nmt/nmt.hpp": '#include "dictionary/dict.hpp"\n',
     "src/service/pdo/pdo.cpp": '#include "service/pdo/pdo.hpp"\n',
     "src/service/pdo/pdo.hpp": "",
     "src/od/flags.cpp": '#include "service/pdo/pdo.hpp"\n#include "od/list.hpp"\n',
@@ -142,20 +142,20 @@ CLEAN = {
 }
 
 PLANTED = {
-    "a public header includes a room": ("include/co_b.h", '#include "core/dict.hpp"'),
+    "a public header includes a source header": ("include/co_b.h", '#include "dictionary/dict.hpp"'),
     "a public header needs a hosted library": ("include/co_b.h", "#include <string>"),
-    "wire includes core": ("src/wire/sdo.hpp", '#include "core/dict.hpp"'),
-    "core includes a service": ("src/core/dict.cpp", '#include "service/nmt/nmt.hpp"'),
-    "object includes the node": ("src/object/string.cpp", '#include "node/services.cpp"'),
+    "wire includes the dictionary": ("src/wire/sdo.hpp", '#include "dictionary/dict.hpp"'),
+    "the dictionary includes a service": ("src/dictionary/dict.cpp", '#include "service/nmt/nmt.hpp"'),
+    "a type includes the node": ("src/dictionary/types/string.cpp", '#include "node/services.cpp"'),
     "a service includes another service": ("src/service/pdo/pdo.cpp", '#  include "service/nmt/nmt.hpp"'),
-    "a service includes the second way into the dictionary": ("src/service/pdo/pdo.cpp", '#include "od/list.hpp"'),
-    "a room needs a hosted library": ("src/core/dict.cpp", "#include <vector>"),
-    "a room includes by a relative path": ("src/core/dict.cpp", '#include "../wire/sdo.hpp"'),
-    "a room defines a macro": ("src/core/dict.cpp", "#define FAST 1"),
-    "a driver includes a room": ("drivers/can/socket.cpp", '#include "core/dict.hpp"'),
-    "a room of codict includes one above": ("tools/codict/src/text/edit.hpp", '#include "eds/read.hpp"'),
-    "a room of codict includes one beside": ("tools/codict/src/eds/read.cpp", '#include "xdd/read.hpp"'),
-    "a room of codict includes what is no room": ("tools/codict/src/eds/read.cpp", '#include "co_core.h"'),
+    "a service includes the OD access interface": ("src/service/pdo/pdo.cpp", '#include "od/list.hpp"'),
+    "a source needs a hosted library": ("src/dictionary/dict.cpp", "#include <vector>"),
+    "a source includes by a relative path": ("src/dictionary/dict.cpp", '#include "../wire/sdo.hpp"'),
+    "a source defines a macro": ("src/dictionary/dict.cpp", "#define FAST 1"),
+    "a driver includes a source header": ("drivers/can/socket.cpp", '#include "dictionary/dict.hpp"'),
+    "a directory of codict includes one above": ("tools/codict/src/text/edit.hpp", '#include "eds/read.hpp"'),
+    "a directory of codict includes one beside": ("tools/codict/src/eds/read.cpp", '#include "xdd/read.hpp"'),
+    "a directory of codict includes a header of the stack": ("tools/codict/src/eds/read.cpp", '#include "co_core.h"'),
     "a driver includes another kind of driver": ("drivers/nvm/file.cpp", '#include "../can/socket.h"'),
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="bytes of flash and RAM of whole nodes, their rooms, switches, and one more of a thing, and that docs/sizes.md tells them"
+about="bytes of flash and RAM of whole nodes, their modules, switches, and one more of a thing, and that docs/sizes.md tells them"
 minutes=4
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)
@@ -22,7 +22,7 @@ lane() {
   done
   size_of_switches && size_of_memory && size_of_things || return
   report_nodes
-  report_rooms
+  report_modules
   report_memory
   report_things
   report_switches
@@ -76,8 +76,8 @@ size_of_node() {  # CPU PRESET
     link_node "$(objects_of "$1" "$2")" "$program" "$everything" -fno-lto -Wl,-Map="$program.map" &&
     link_node "$(objects_of "$1" "$2")" "$program" "$everything" -flto=2 -o "$program-lto" ||
     { fail "link of $2 for $1" "$of.log"; return 1; }
-  python3 "$root/tests/sizes/rooms.py" "$program.map" >"$of-$1-$2-rooms" || return
-  size_lines "$2" "$program" "$(awk '/^all rooms/ { print $NF }' "$of-$1-$2-rooms")" >>"$of-$1"
+  python3 "$root/tests/sizes/modules.py" "$program.map" >"$of-$1-$2-modules" || return
+  size_lines "$2" "$program" "$(awk '/^all modules/ { print $NF }' "$of-$1-$2-modules")" >>"$of-$1"
   size_lines "$2" "$program-lto" >>"$of-$1-lto"
 }
 
@@ -91,7 +91,7 @@ link_node() {  # OBJECTS PROGRAM EVERYTHING FLAG...: links PROGRAM.o
     -Wl,-e,main >"$of.log" 2>&1
 }
 
-size_lines() {  # WHAT PROGRAM [BYTES-OF-ALL-ROOMS]
+size_lines() {  # WHAT PROGRAM [BYTES-OF-ALL-MODULES]
   local flash ram
   read -r flash ram < <(bytes_of "$2")
   printf '%s, flash\t%d\n' "$1" "$flash"
@@ -131,10 +131,10 @@ size_with() {  # CONFIGURATION FLAG...: prints the bytes of flash and of RAM
 size_of_memory() {
   local preset
   for preset in "${presets[@]}"; do
-    compile_c memory.c "$of.o" "$(preset_flag "$preset")" -DROOMS >"$of.log" 2>&1 ||
-      { fail "memory of the rooms, $preset" "$of.log"; return 1; }
-    "$tools-nm" -fposix -td "$of.o" | awk '{ sub("room_", "", $1); print $1 "\t" $4 + 0; all += $4 }
-      END { print "all rooms\t" all }' >"$of-memory-$preset"
+    compile_c memory.c "$of.o" "$(preset_flag "$preset")" -DMODULES >"$of.log" 2>&1 ||
+      { fail "memory of the modules, $preset" "$of.log"; return 1; }
+    "$tools-nm" -fposix -td "$of.o" | awk '{ sub("module_", "", $1); print $1 "\t" $4 + 0; all += $4 }
+      END { print "all modules\t" all }' >"$of-memory-$preset"
   done
 }
 
@@ -199,18 +199,18 @@ report_nodes() {
     --column "rv32imac" "$riscv" "$of-rv32" --column "rv32imac with LTO" "$riscv" "$of-rv32-lto"
 }
 
-report_rooms() {
+report_modules() {
   local preset columns=()
   for preset in "${presets[@]}"; do
-    columns+=(--column "Cortex-M0+, $preset" "$arm" "$of-m0plus-$preset-rooms"
-      --column "Cortex-M4, $preset" "$arm" "$of-m4-$preset-rooms"
-      --column "rv32imac, $preset" "$riscv" "$of-rv32-$preset-rooms")
+    columns+=(--column "Cortex-M0+, $preset" "$arm" "$of-m0plus-$preset-modules"
+      --column "Cortex-M4, $preset" "$arm" "$of-m4-$preset-modules"
+      --column "rv32imac, $preset" "$riscv" "$of-rv32-$preset-modules")
   done
-  report rooms "room" --percent 1 --slack 16 "${columns[@]}"
+  report modules "module" --percent 1 --slack 16 "${columns[@]}"
 }
 
 report_memory() {
-  report memory "room" --column minimal "$arm" "$of-memory-minimal" --column slave "$arm" "$of-memory-slave" \
+  report memory "module" --column minimal "$arm" "$of-memory-minimal" --column slave "$arm" "$of-memory-slave" \
     --column full "$arm" "$of-memory-full"
 }
 

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Variables as large as the memory of each room (their names begin with "room_"), or else of what a node consists of:
-   with one more of something, everything together grows by what that costs. */
+/* Variables as large as the memory of each module (their names begin with "module_"), or else of what a node consists
+   of: with one more of something, everything together grows by what that costs. */
 #include "co_core.h"
 
 #define SIZE_OF(member) sizeof(((CO_NODE*)0)->member)
 
-#ifdef ROOMS
+#ifdef MODULES
 
 #if USE_CSDO
-uint8_t room_sdo_client[SIZE_OF(CSdo)];
-#define SDO_CLIENT sizeof room_sdo_client
+uint8_t module_sdo_client[SIZE_OF(CSdo)];
+#define SDO_CLIENT sizeof module_sdo_client
 #else
 #define SDO_CLIENT 0
 #endif
 
 #if USE_EMCY
-uint8_t room_emcy[SIZE_OF(Emcy)];
-#define EMCY sizeof room_emcy
+uint8_t module_emcy[SIZE_OF(Emcy)];
+#define EMCY sizeof module_emcy
 #else
 #define EMCY 0
 #endif
@@ -26,66 +26,66 @@ uint8_t room_emcy[SIZE_OF(Emcy)];
 #else
 #define MPDO 0
 #endif
-uint8_t room_pdo[SIZE_OF(RPdo) + SIZE_OF(TPdo) + MPDO];
+uint8_t module_pdo[SIZE_OF(RPdo) + SIZE_OF(TPdo) + MPDO];
 
 #if USE_SYNC
-uint8_t room_sync[SIZE_OF(Sync)];
-#define SYNC sizeof room_sync
+uint8_t module_sync[SIZE_OF(Sync)];
+#define SYNC sizeof module_sync
 #else
 #define SYNC 0
 #endif
 
 #if USE_TIME
-uint8_t room_time[SIZE_OF(Time)];
-#define TIME sizeof room_time
+uint8_t module_time[SIZE_OF(Time)];
+#define TIME sizeof module_time
 #else
 #define TIME 0
 #endif
 
 #if USE_LED
-uint8_t room_led[SIZE_OF(Led)];
-#define LED sizeof room_led
+uint8_t module_led[SIZE_OF(Led)];
+#define LED sizeof module_led
 #else
 #define LED 0
 #endif
 
 #if USE_LSS && USE_LSS_MASTER
-uint8_t room_lss[SIZE_OF(Lss) + SIZE_OF(Lssm)];
-#define LSS sizeof room_lss
+uint8_t module_lss[SIZE_OF(Lss) + SIZE_OF(Lssm)];
+#define LSS sizeof module_lss
 #elif USE_LSS
-uint8_t room_lss[SIZE_OF(Lss)];
-#define LSS sizeof room_lss
+uint8_t module_lss[SIZE_OF(Lss)];
+#define LSS sizeof module_lss
 #else
 #define LSS 0
 #endif
 
 #if USE_PARA
-uint8_t room_para[SIZE_OF(Verified) + SIZE_OF(ParaTmr)];
-#define PARA sizeof room_para
+uint8_t module_storage[SIZE_OF(Verified) + SIZE_OF(ParaTmr)];
+#define PARA sizeof module_storage
 #else
 #define PARA 0
 #endif
 
 #if USE_GUARDING
-uint8_t room_guarding[SIZE_OF(GuardToggle) + SIZE_OF(GuardLost) + SIZE_OF(GuardTmr)];
-#define GUARDING sizeof room_guarding
+uint8_t module_guarding[SIZE_OF(GuardToggle) + SIZE_OF(GuardLost) + SIZE_OF(GuardTmr)];
+#define GUARDING sizeof module_guarding
 #else
 #define GUARDING 0
 #endif
 
 #if CO_HBCONS_N > 0
-uint8_t room_heartbeat[SIZE_OF(HbProdTmr) + SIZE_OF(HbConsTmr) + SIZE_OF(HbCons)];
+uint8_t module_heartbeat[SIZE_OF(HbProdTmr) + SIZE_OF(HbConsTmr) + SIZE_OF(HbCons)];
 #else
-uint8_t room_heartbeat[SIZE_OF(HbProdTmr)];
+uint8_t module_heartbeat[SIZE_OF(HbProdTmr)];
 #endif
-#define HEARTBEAT sizeof room_heartbeat
+#define HEARTBEAT sizeof module_heartbeat
 
-uint8_t room_nmt[SIZE_OF(Nmt)];
-uint8_t room_sdo_server[SIZE_OF(Sdo) + SIZE_OF(SdoTmr)];
+uint8_t module_nmt[SIZE_OF(Nmt)];
+uint8_t module_sdo_server[SIZE_OF(Sdo) + SIZE_OF(SdoTmr)];
 
 /* All that is nobody's. */
-uint8_t room_core[sizeof(CO_NODE) - sizeof room_nmt - sizeof room_sdo_server - sizeof room_pdo - SDO_CLIENT - EMCY -
-                  SYNC - TIME - LED - LSS - PARA - GUARDING - HEARTBEAT];
+uint8_t module_base[sizeof(CO_NODE) - sizeof module_nmt - sizeof module_sdo_server - sizeof module_pdo - SDO_CLIENT -
+                    EMCY - SYNC - TIME - LED - LSS - PARA - GUARDING - HEARTBEAT];
 
 #else
 

@@ -3,7 +3,7 @@
 /// A node with a table of application errors and the EMCY objects 1003h, 1014h and 1015h.
 #pragma once
 
-#include "core/events.hpp"
+#include "base/events.hpp"
 #include "fixture.hpp"
 
 namespace test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/routes.hpp"
+#include "base/routes.hpp"
 
 #include <random>
 

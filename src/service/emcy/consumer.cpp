@@ -4,9 +4,9 @@
 
 #if CO_EMCY_CONS_N > 0
 
-#include "core/dict.hpp"
-#include "core/routes.hpp"
-#include "object/cob_id.hpp"
+#include "base/routes.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 

@@ -3,12 +3,12 @@
 
 #if USE_EMCY
 
-#include "core/count.hpp"
-#include "core/dict.hpp"
-#include "core/error.hpp"
-#include "core/obj.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/count.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/emcy.hpp"
 

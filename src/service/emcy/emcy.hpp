@@ -2,7 +2,7 @@
 // EMCY producer with error register and history, and EMCY consumer. [301:7.2.7]
 #pragma once
 
-#include "core/events.hpp"
+#include "base/events.hpp"
 
 namespace co::emcy {
 
@@ -12,7 +12,7 @@ void init(CO_NODE& node);
 // Discards queued messages when EMCY is not allowed.
 void on_mode(CO_NODE& node);
 
-// Implement the functions of core/events.hpp.
+// Implement the functions of base/events.hpp.
 void raise(CO_NODE& node, event::Fault fault, uint8_t detail);
 void resolve(CO_NODE& node, event::Fault fault, uint8_t detail);
 void forget(CO_NODE& node, event::Fault fault);

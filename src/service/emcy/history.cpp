@@ -4,8 +4,8 @@
 
 #if USE_EMCY
 
-#include "core/dict.hpp"
-#include "core/error.hpp"
+#include "base/error.hpp"
+#include "dictionary/dict.hpp"
 
 namespace co::emcy {
 namespace {

@@ -4,8 +4,8 @@
 
 #if USE_EMCY
 
-#include "core/dict.hpp"
-#include "object/cob_id.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::emcy {

@@ -3,11 +3,11 @@
 // elapses when the first node may be missing, and then checks all of them.
 #include "co_hb_cons.h"
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "object/place.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/place.hpp"
 #include "service/heartbeat/heartbeat.hpp"
 #include "wire/nmt.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/led/led.hpp"
 
-#include "core/timer.hpp"
+#include "base/timer.hpp"
 
 #if USE_LED
 

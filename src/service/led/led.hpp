@@ -2,7 +2,7 @@
 // Status LEDs. [CiA 303-3]
 #pragma once
 
-#include "core/events.hpp"
+#include "base/events.hpp"
 
 #if USE_LED
 

@@ -3,8 +3,8 @@
 
 #if USE_LSS || USE_LSS_MASTER
 
-#include "core/port.hpp"
-#include "core/routes.hpp"
+#include "base/routes.hpp"
+#include "hal/port.hpp"
 
 namespace co::lss {
 

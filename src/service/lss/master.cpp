@@ -3,9 +3,9 @@
 
 #if USE_LSS_MASTER
 
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
 #include "service/lss/bit_rate.hpp"
 #include "wire/lss.hpp"
 

@@ -3,16 +3,16 @@
 
 #if USE_LSS
 
-#include "core/budget.hpp"
-#include "core/dict.hpp"
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/gate.hpp"
-#include "core/machine.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "base/gate.hpp"
+#include "base/machine.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
 #include "service/lss/bit_rate.hpp"
+#include "storage/budget.hpp"
 #include "wire/lss.hpp"
 
 namespace co::lss {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Storage of node-ID and bit rate in the node's non-volatile memory.
-#include "core/events.hpp"
-#include "core/port.hpp"
-#include "core/store.hpp"
+#include "base/events.hpp"
+#include "hal/port.hpp"
+#include "storage/store.hpp"
 
 #if USE_LSS && USE_PARA
 

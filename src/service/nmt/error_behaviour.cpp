@@ -2,8 +2,8 @@
 // 1029h: reaction of the node to the loss of the network. [301:7.5.2.32]
 #include "co_error_behaviour.h"
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
+#include "base/events.hpp"
+#include "dictionary/dict.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {

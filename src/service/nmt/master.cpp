@@ -2,8 +2,8 @@
 // Commands of an NMT master. [301:7.2.8.2.1]
 #include "co_nmt.h"
 
-#include "core/events.hpp"
-#include "core/transmit.hpp"
+#include "base/events.hpp"
+#include "base/transmit.hpp"
 #include "wire/nmt.hpp"
 
 #if USE_NMT_MASTER

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/nmt/nmt.hpp"
 
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/gate.hpp"
-#include "core/routes.hpp"
-#include "core/transmit.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "base/gate.hpp"
+#include "base/routes.hpp"
+#include "base/transmit.hpp"
 #include "wire/nmt.hpp"
 
 namespace co::nmt {

@@ -2,8 +2,8 @@
 // 1F80h: self-start. [302-2]
 #include "co_nmt_startup.h"
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
+#include "base/events.hpp"
+#include "dictionary/dict.hpp"
 #include "service/nmt/nmt.hpp"
 
 namespace co::nmt {

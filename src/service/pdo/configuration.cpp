@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/configuration.hpp"
 
-#include "core/error.hpp"
-#include "core/timer.hpp"
-#include "object/cob_id.hpp"
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 #include "wire/cob_id.hpp"

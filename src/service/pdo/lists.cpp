@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Object scanner list and object dispatching list. [301:7.5.2.39-40]
-#include "core/dict.hpp"
-#include "core/obj.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "wire/mpdo.hpp"
 

@@ -3,11 +3,11 @@
 
 #if USE_MPDO
 
-#include "core/dict.hpp"
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/obj.hpp"
-#include "object/whole.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
+#include "dictionary/types/whole.hpp"
 #include "service/pdo/configuration.hpp"
 #include "wire/mpdo.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1400h…1BFFh: communication and mapping parameters of PDOs. [301:7.5.2.35-38]
-#include "core/dict.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "object/cob_id.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "wire/cob_id.hpp"

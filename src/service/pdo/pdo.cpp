@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/pdo.hpp"
 
-#include "core/error.hpp"
+#include "base/error.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 

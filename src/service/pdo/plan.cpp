@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/pdo/plan.hpp"
 
-#include "core/dict.hpp"
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/obj.hpp"
-#include "core/port.hpp"
-#include "object/place.hpp"
-#include "object/whole.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
+#include "dictionary/types/place.hpp"
+#include "dictionary/types/whole.hpp"
+#include "hal/port.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "wire/bytes.hpp"
 

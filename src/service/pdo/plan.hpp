@@ -3,7 +3,7 @@
 #pragma once
 
 #include "co_core.h"
-#include "object/place.hpp"
+#include "dictionary/types/place.hpp"
 #include "wire/bytes.hpp"
 
 namespace co::pdo {

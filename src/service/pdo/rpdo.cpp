@@ -2,10 +2,10 @@
 // RPDOs. [301:7.2.2.5.1]
 #include <stddef.h>
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "dictionary/dict.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"

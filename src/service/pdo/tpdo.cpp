@@ -2,11 +2,11 @@
 // TPDOs. [301:7.2.2.5.2-3]
 #include <stddef.h>
 
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
 #include "service/pdo/configuration.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Block download: segments are read from the caller's buffer. [301:7.2.4.3.9-11]
-#include "core/transmit.hpp"
+#include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 
 namespace co::sdo_client {

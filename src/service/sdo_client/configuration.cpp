@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The SDO client parameter: COB-IDs and the node-ID of the server. [301:7.5.2.34]
-#include "core/dict.hpp"
-#include "core/routes.hpp"
-#include "core/transmit.hpp"
+#include "base/routes.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
 #include "service/sdo_client/transfer.hpp"
 #include "wire/cob_id.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access of an SDO client to the dictionary of the same node, with the rights of the network, without frames.
-#include "core/access.hpp"
-#include "object/stream.hpp"
+#include "dictionary/access.hpp"
+#include "dictionary/types/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
 
 namespace co::sdo_client {

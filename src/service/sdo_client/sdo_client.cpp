@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_client/sdo_client.hpp"
 
-#include "core/events.hpp"
-#include "core/machine.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/events.hpp"
+#include "base/machine.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
 #include "service/sdo_client/transfer.hpp"
 #include "wire/cob_id.hpp"
 

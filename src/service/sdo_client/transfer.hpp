@@ -3,7 +3,7 @@
 #pragma once
 
 #include "co_csdo.h"
-#include "core/abort_code.hpp"
+#include "dictionary/abort_code.hpp"
 #include "service/sdo_client/sdo_client.hpp"
 #include "wire/sdo.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Block download. Segments are collected in the buffer, which is written to the object when it is full, and at the end
 // of the transfer after the checks of length and CRC. [301:7.2.4.3.9-11]
-#include "core/transmit.hpp"
+#include "base/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_SDO_BLOCK

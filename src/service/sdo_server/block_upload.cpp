@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Block upload. The buffer holds a window of the object, which goes back when the client has lost segments. Segments
 // are sent as the controller accepts them. [301:7.2.4.3.13-15]
-#include "core/events.hpp"
-#include "core/transmit.hpp"
+#include "base/events.hpp"
+#include "base/transmit.hpp"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_SDO_BLOCK

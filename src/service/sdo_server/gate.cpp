@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The access hook of SDO transfers.
-#include "core/gate.hpp"
+#include "base/gate.hpp"
 
-#include "core/events.hpp"
+#include "base/events.hpp"
 #include "service/sdo_server/transfer.hpp"
 
 #if USE_ACCESS_HOOK

@@ -2,10 +2,10 @@
 // 1200h…12FFh, sub 1 and 2: COB-IDs of the SDO servers and clients. [301:7.5.2.33-34]
 #include "co_sdo_id.h"
 
+#include "base/events.hpp"
 #include "co_core.h"
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "object/cob_id.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_server/sdo_server.hpp"
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "core/machine.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/events.hpp"
+#include "base/machine.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
 #include "service/sdo_server/transfer.hpp"
 #include "wire/cob_id.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sdo_server/transfer.hpp"
 
-#include "core/count.hpp"
-#include "core/events.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
-#include "object/stream.hpp"
+#include "base/count.hpp"
+#include "base/events.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/types/stream.hpp"
 
 namespace co::sdo_server {
 namespace {

@@ -2,8 +2,8 @@
 // State and helper functions of a server transfer, shared by the services of the state machine.
 #pragma once
 
-#include "core/access.hpp"
-#include "object/stream.hpp"
+#include "dictionary/access.hpp"
+#include "dictionary/types/stream.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "wire/sdo.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/sync/sync.hpp"
 
-#include "core/dict.hpp"
-#include "core/error.hpp"
-#include "core/events.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
-#include "object/cob_id.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 

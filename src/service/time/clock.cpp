@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The clock: a past time and the ticks at that time. The time since then is counted in whole seconds, which are a whole
 // number of ticks.
-#include "core/timer.hpp"
+#include "base/timer.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // 1012h, and the clock as an object.
-#include "core/dict.hpp"
-#include "core/routes.hpp"
-#include "object/cob_id.hpp"
+#include "base/routes.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/cob_id.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/time/time.hpp"
 
-#include "core/dict.hpp"
-#include "core/events.hpp"
-#include "core/routes.hpp"
-#include "core/timer.hpp"
-#include "core/transmit.hpp"
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "base/timer.hpp"
+#include "base/transmit.hpp"
+#include "dictionary/dict.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/time.hpp"

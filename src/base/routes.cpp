@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/routes.hpp"
+
+#include "hal/port.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co::routes {
+namespace {
+
+constexpr uint8_t end = CO_ROUTE_CLASS_N;
+
+constexpr uint16_t owner(Service service, uint16_t number) {
+  return static_cast<uint16_t>((static_cast<unsigned>(service) << 12) | number);
+}
+
+// Adds by to the positions of the first routes of all function codes behind that of the identifier.
+void shift_starts(CO_ROUTES& routes, uint32_t identifier, int by) {
+  for (unsigned n = class_of(identifier) + 1U; n <= end; ++n) {
+    routes.Start[n] = static_cast<CO_ROUTE_NUM>(routes.Start[n] + by);
+  }
+}
+
+// Returns whether the route at this position follows the route of identifier and owner.
+bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uint16_t owner) {
+  return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
+}
+
+void move(CO_ROUTES& routes, unsigned to, unsigned from) {
+  routes.Id[to] = routes.Id[from];
+  routes.Owner[to] = routes.Owner[from];
+}
+
+}  // namespace
+
+void clear(CO_NODE& node) {
+  node.Routes = {};
+  node.Routes.Id[0] = no_identifier;
+}
+
+void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+  CO_ROUTES& routes = node.Routes;
+  const uint16_t whose = owner(service, number);
+  unsigned place = routes.Start[end];
+  routes.Id[place + 1] = no_identifier;
+  for (; place > 0 && is_behind(routes, place - 1, identifier, whose); --place) {
+    move(routes, place, place - 1);
+  }
+  routes.Id[place] = identifier;
+  routes.Owner[place] = whose;
+  shift_starts(routes, identifier, +1);
+}
+
+void remove(CO_NODE& node, Service service, uint16_t number) {
+  CO_ROUTES& routes = node.Routes;
+  const unsigned num = routes.Start[end];
+  unsigned place = 0;
+  while (place < num && routes.Owner[place] != owner(service, number)) {
+    ++place;
+  }
+  if (place == num) {
+    return;
+  }
+  shift_starts(routes, routes.Id[place], -1);
+  for (; place + 1 < num; ++place) {
+    move(routes, place, place + 1);
+  }
+  routes.Id[place] = no_identifier;
+}
+
+void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
+  remove(node, service, number);
+  if (identifier != wire::no_frame) {
+    add(node, identifier, service, number);
+  }
+}
+
+unsigned next(const CO_NODE& node, unsigned place, uint32_t identifier, uint16_t owner) {
+  const CO_ROUTES& routes = node.Routes;
+  if (place >= routes.Start[end] || !is_at(node, place, identifier) || routes.Owner[place] != owner) {
+    place = 0;
+  }
+  while (routes.Id[place] != no_identifier && !is_behind(routes, place, identifier, owner)) {
+    ++place;
+  }
+  return is_at(node, place, identifier) ? place : nowhere;
+}
+
+void publish(const CO_NODE& node) {
+  if (port::can_wants_filter(node)) {
+    port::can_filter(node, node.Routes.Id, node.Routes.Start[end]);
+  }
+}
+
+}  // namespace co::routes

@@ -1,0 +1,495 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/timer.hpp"
+
+#include <stddef.h>
+
+#include "base/count.hpp"
+#include "base/error.hpp"
+#include "base/events.hpp"
+#include "hal/port.hpp"
+
+namespace co::tmr {
+namespace {
+
+// Scope in which the timer interrupt is locked out.
+class Lock {
+ public:
+  explicit Lock(const CO_TMR& timers) : timers_(timers) { port::lock(*timers.Node); }
+  [[gnu::always_inline]] ~Lock() { port::unlock(*timers_.Node); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  const CO_TMR& timers_;
+};
+
+// Returns the timer that contains the link.
+CO_TMR_MEM& owner_of(CO_TMR_MEM** link) { return *reinterpret_cast<CO_TMR_MEM*>(link); }
+static_assert(offsetof(CO_TMR_MEM, Next) == 0);
+
+// Returns the link to the first armed timer. Atomic: COTmrProcess() reads it without the lock.
+CO_TMR_MEM** first_armed(const CO_TMR& t) { return __atomic_load_n(&t.Armed, __ATOMIC_RELAXED); }
+bool has_due(const CO_TMR& t) { return first_armed(t) != &t.First; }
+
+// Returns whether frames or segments are queued that COTmrProcess() can send. Called in the timer interrupt, without
+// the lock.
+bool has_to_send(const CO_NODE& node) {
+  return __atomic_load_n(&node.TxQueue.Num, __ATOMIC_RELAXED) != 0 ||
+         __atomic_load_n(&node.Paused, __ATOMIC_RELAXED) != 0;
+}
+
+// Sets the clock to now; timers that have elapsed by then become due.
+void advance(CO_TMR& t, uint32_t now) {
+  const uint32_t passed = now - t.Clock;
+  t.Clock = now;
+  CO_TMR_MEM** armed = t.Armed;
+  while (*armed != nullptr && now - (*armed)->At <= passed) {
+    armed = &(*armed)->Next;
+  }
+  __atomic_store_n(&t.Armed, armed, __ATOMIC_RELAXED);
+}
+
+bool has_cyclic(const CO_TMR_MEM* list) {
+  while (list != nullptr && list->Cycle == 0) {
+    list = list->Next;
+  }
+  return list != nullptr;
+}
+
+// Returns the ticks for which a classic driver counts while no timer is armed; 0 stops it. While elapsed cyclic timers
+// have not been processed by the loop, it counts as long as it can: so they keep their phase without further
+// interrupts.
+uint32_t wait_for_loop(const CO_TMR& t) { return has_cyclic(t.First) ? UINT32_MAX : 0; }
+
+// Programs the driver for the first armed timer.
+void program(CO_TMR& t, uint32_t now) {
+  const CO_TMR_MEM* const first = *t.Armed;
+  const uint32_t next = first != nullptr ? first->At - now : 0;
+  if (port::has_clock(*t.Node)) {
+    port::set_alarm(*t.Node, next);
+    return;
+  }
+  const uint32_t wait = next != 0 ? next : wait_for_loop(t);
+  port::count_down(*t.Node, wait, t.Programmed == 0);
+  t.Clock = now + wait;
+  t.Programmed = wait;
+}
+
+// Returns whether a classic driver has elapsed and COTmrService(), which programs it again, has not been called yet.
+bool is_pending(const CO_TMR& t, uint32_t now) { return t.Programmed != 0 && now == t.Clock; }
+
+// Programs the driver, unless COTmrService() will do it.
+void reprogram(CO_TMR& t, uint32_t now) {
+  if (!is_pending(t, now)) {
+    program(t, now);
+  }
+}
+
+// Returns the present clock. With a driver that has a clock, timers that have elapsed become due.
+uint32_t synchronise(CO_TMR& t) {
+  if (port::has_clock(*t.Node)) {
+    advance(t, port::now(*t.Node));
+    return t.Clock;
+  }
+  if (t.Programmed == 0) {
+    return t.Clock;
+  }
+  const uint32_t left = port::ticks_left(*t.Node);
+  return t.Clock - (left < t.Programmed ? left : t.Programmed);
+}
+
+// Inserts a timer behind all timers that elapse before it or at the same tick: usually at the end, which is compared
+// first. The driver is programmed only if its next expiry changes.
+void insert(CO_TMR& t, CO_TMR_MEM& timer, uint32_t now, uint32_t ticks) {
+  CO_TMR_MEM** link = t.Armed;
+  if (*link != nullptr && owner_of(t.End).At - now <= ticks) {
+    link = t.End;
+  } else if (*link != nullptr) {
+    while ((*link)->At - now <= ticks) {
+      link = &(*link)->Next;
+    }
+  }
+  timer.Running = 1;
+  timer.At = now + ticks;
+  timer.Next = *link;
+  *link = &timer;
+  if (timer.Next == nullptr) {
+    t.End = &timer.Next;
+  }
+  if (link == t.Armed && timer.At != t.Clock) {
+    reprogram(t, now);
+  }
+}
+
+void remove(CO_TMR& t, CO_TMR_MEM& timer) {
+  if (timer.Running == 0) {
+    return;
+  }
+  timer.Running = 0;
+  const bool is_next = *t.Armed == &timer;
+  CO_TMR_MEM** link = &t.First;
+  while (*link != &timer) {
+    link = &(*link)->Next;
+  }
+  *link = timer.Next;
+  if (t.Armed == &timer.Next) {
+    t.Armed = link;
+  }
+  if (t.End == &timer.Next) {
+    t.End = link;
+  }
+  if (is_next) {
+    reprogram(t, synchronise(t));
+  }
+}
+
+// Returns a timer to the pool and advances its id to the next generation, so that the old id is invalid.
+void release(CO_TMR& t, CO_TMR_MEM& timer) {
+  timer.Id = (timer.Id + t.IdStep) & INT16_MAX;
+  timer.Next = t.Free;
+  t.Free = &timer;
+}
+
+// Divides bit by bit: returns the quotient in the low word and the remainder in the high word. The quotient must fit
+// into 32 bits. The library's 64-bit division would add 270 bytes.
+uint64_t divide(uint64_t dividend, uint32_t divisor) {
+  auto rest = static_cast<uint32_t>(dividend >> 32);
+  auto low = static_cast<uint32_t>(dividend);
+  for (unsigned bit = 32; bit != 0; --bit) {
+    const bool carry = rest > INT32_MAX;
+    rest = (rest << 1) | (low >> 31);
+    low <<= 1;
+    if (carry || rest >= divisor) {
+      rest -= divisor;
+      ++low;
+    }
+  }
+  return (uint64_t{rest} << 32) | low;
+}
+
+uint32_t modulo(uint32_t ticks, uint32_t cycle) {
+  return ticks < cycle ? ticks : static_cast<uint32_t>(divide(ticks, cycle) >> 32);
+}
+
+// Arms an elapsed timer for its next expiry after now; expiries that were missed are skipped.
+void rearm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t cycle) {
+  const uint32_t now = synchronise(t);
+  insert(t, timer, now, cycle - modulo(now - timer.At, cycle));
+}
+
+void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
+  timer.Func = func;
+  timer.Para = para;
+  timer.Cycle = cycle;
+  insert(t, timer, synchronise(t), start == 0 ? cycle : start);
+}
+
+// Removes the elapsed timer at a link from the list; arms it again if it is cyclic, or releases it if it belongs to the
+// pool. The caller then runs its action.
+const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
+  CO_TMR_MEM& timer = *link;
+  link = timer.Next;
+  if (t.Armed == &timer.Next) {
+    t.Armed = &link;
+  }
+  if (timer.Cycle != 0) {
+    rearm(t, timer, timer.Cycle);
+    return timer;
+  }
+  timer.Running = 0;
+  if (timer.Pooled != 0) {
+    release(t, timer);
+  }
+  return timer;
+}
+
+// Calls take() for the timer that has elapsed first.
+const CO_TMR_MEM& take_due(CO_TMR& t) {
+  const Lock lock(t);
+  return take(t, t.First);
+}
+
+// Runs the actions of all elapsed timers. Timers that elapse while actions run are left to the next call.
+[[gnu::noinline]] void run_due(CO_TMR& t) {
+  const uint32_t first = t.First->At;
+  const uint32_t span = owner_of(first_armed(t)).At - first;
+  do {
+    const CO_TMR_MEM& timer = take_due(t);
+    timer.Func(timer.Para);
+    event::settle(*t.Node);
+  } while (has_due(t) && t.First->At - first <= span);
+}
+
+#if USE_REAL_TIME
+
+// Timers to be run: with a real-time thread, some belong to that thread, the others to the mainline.
+enum class Share : uint8_t { all, mainline, real_time };
+
+bool is_of(const CO_TMR_MEM& timer, Share share) {
+  const bool real_time = timer.Pooled == 0 && timer.Id != 0;
+  return share == Share::all || real_time == (share == Share::real_time);
+}
+
+Share share_of_mainline(const CO_TMR& t) { return t.Node->Ext->Mainline != nullptr ? Share::mainline : Share::all; }
+
+// Returns the link to the first elapsed timer of a share, or to the first armed timer if there is none.
+CO_TMR_MEM** first_due(CO_TMR& t, Share share) {
+  CO_TMR_MEM** link = &t.First;
+  while (link != t.Armed && !is_of(**link, share)) {
+    link = &(*link)->Next;
+  }
+  return link;
+}
+
+// Expiries that a call runs: from the first elapsed timer of its share to the last elapsed timer of all. Timers that
+// elapse meanwhile are behind them in the list and are left to the next call.
+struct Span {
+  uint32_t first;
+  uint32_t ticks;
+};
+
+// Sets the span of the elapsed timers of a share. Returns false if none has elapsed.
+bool find_span(CO_TMR& t, Share share, Span& span) {
+  const Lock lock(t);
+  CO_TMR_MEM** const link = first_due(t, share);
+  if (link == t.Armed) {
+    return false;
+  }
+  span.first = (*link)->At;
+  span.ticks = owner_of(t.Armed).At - span.first;
+  return true;
+}
+
+// Runs the first timer of a span. Returns false if none is left.
+bool run_one(CO_TMR& t, Share share, const Span& span) {
+  const CO_TMR_MEM* timer = nullptr;
+  {
+    const Lock lock(t);
+    CO_TMR_MEM** const link = first_due(t, share);
+    if (link == t.Armed || (*link)->At - span.first > span.ticks) {
+      return false;
+    }
+    timer = &take(t, *link);
+  }
+  timer->Func(timer->Para);
+  event::settle(*t.Node);
+  return true;
+}
+
+// Returns whether the node has a lock or a real-time thread.
+bool has_turns(const CO_TMR& t) {
+  const CO_NODE_EXT* const ext = t.Node == nullptr ? nullptr : t.Node->Ext;
+  return ext != nullptr && (ext->Enter != nullptr || ext->Mainline != nullptr);
+}
+
+// Runs each action with the node lock taken anew, so that other threads wait for one action at most.
+void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
+  const Share share = share_of_mainline(t);
+  Span span = {};
+  bool more = false;
+  {
+    const port::Turn turn(*t.Node);
+    before(*t.Node);
+    more = find_span(t, share, span);
+  }
+  while (more) {
+    const port::Turn turn(*t.Node);
+    more = run_one(t, share, span);
+  }
+}
+
+// Returns whether COTmrProcess() has actions to run.
+bool has_work(CO_TMR& t) { return has_turns(t) ? first_due(t, share_of_mainline(t)) != t.Armed : has_due(t); }
+
+#else
+
+bool has_work(const CO_TMR& t) { return has_due(t); }
+
+#endif
+
+CO_TMR_MEM* find(const CO_TMR& t, int16_t id) {
+  const uint32_t number = static_cast<uint32_t>(id) & (t.IdStep - 1U);
+  if (number >= t.Max) {
+    return nullptr;
+  }
+  CO_TMR_MEM& timer = t.Pool[number];
+  return timer.Running != 0 && timer.Id == id ? &timer : nullptr;
+}
+
+CO_TMR_MEM* take_free(CO_TMR& t) {
+  CO_TMR_MEM* const timer = t.Free;
+  if (timer != nullptr) {
+    t.Free = timer->Next;
+  }
+  return timer;
+}
+
+uint16_t power_of_two(unsigned num) {
+  unsigned power = 1;
+  while (power < num) {
+    power *= 2;
+  }
+  return static_cast<uint16_t>(power);
+}
+
+}  // namespace
+
+// Multiplies bit by bit: on the smallest CPUs a 64-bit product would need a library function.
+uint32_t ticks(const CO_TMR& timers, uint32_t time, uint32_t unit) {
+  uint64_t product = unit - 1U;
+  for (uint64_t part = timers.Freq; time != 0; time >>= 1, part *= 2) {
+    if ((time & 1U) != 0) {
+      product += part;
+    }
+  }
+  return product >> 32 >= unit ? 0 : static_cast<uint32_t>(divide(product, unit));
+}
+
+void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FUNC func, void* para) {
+  const Lock lock(timers);
+  remove(timers, timer);
+  arm(timers, timer, start, cycle, func, para);
+}
+
+void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks) {
+  const Lock lock(timers);
+  remove(timers, timer);
+  rearm(timers, timer, ticks);
+}
+
+void stop(CO_TMR& timers, CO_TMR_MEM& timer) {
+  const Lock lock(timers);
+  remove(timers, timer);
+}
+
+uint32_t now(CO_TMR& timers) {
+  if (port::has_clock(*timers.Node)) {
+    return port::now(*timers.Node);
+  }
+  const Lock lock(timers);
+  return synchronise(timers);
+}
+
+uint32_t next_deadline(CO_TMR& timers) {
+  const Lock lock(timers);
+  const uint32_t now = synchronise(timers);
+  if (has_work(timers) || is_pending(timers, now)) {
+    return 0;
+  }
+  const CO_TMR_MEM* const next = USE_REAL_TIME != 0 ? *timers.Armed : timers.First;
+  return next == nullptr ? UINT32_MAX : next->At - now;
+}
+
+void run(CO_TMR& timers, void (*before)(CO_NODE_T& node)) {
+#if USE_REAL_TIME
+  if (has_turns(timers)) {
+    run_in_turns(timers, before);
+    return;
+  }
+#endif
+  before(*timers.Node);
+  if (has_due(timers)) {
+    run_due(timers);
+  }
+}
+
+#if USE_REAL_TIME
+void run_real_time(CO_TMR& timers) {
+  Span span = {};
+  for (bool more = find_span(timers, Share::real_time, span); more;) {
+    more = run_one(timers, Share::real_time, span);
+  }
+}
+#endif
+
+}  // namespace co::tmr
+
+using namespace co;
+
+extern "C" {
+
+void COTmrInit(CO_TMR* tmr, CO_NODE* node, CO_TMR_MEM* mem, uint16_t num, uint32_t freq) {
+  ASSERT_PTR_FATAL(tmr);
+  ASSERT_PTR_FATAL(node);
+  *tmr = {};
+  tmr->Armed = &tmr->First;
+  tmr->Node = node;
+  tmr->Pool = mem;
+  tmr->Freq = freq;
+  const unsigned max = mem == nullptr ? 0U : (num > INT16_MAX ? INT16_MAX : num);
+  tmr->Max = static_cast<uint16_t>(max);
+  tmr->IdStep = tmr::power_of_two(max);
+  for (unsigned n = max; n != 0; --n) {
+    CO_TMR_MEM& timer = mem[n - 1];
+    timer = {};
+    timer.Id = static_cast<uint16_t>(n - 1U);
+    timer.Pooled = 1;
+    timer.Next = tmr->Free;
+    tmr->Free = &timer;
+  }
+  tmr->Clock = port::has_clock(*node) ? port::now(*node) : 0;
+}
+
+uint32_t COTmrGetTicks(CO_TMR* tmr, uint16_t time, uint32_t unit) {
+  ASSERT_PTR_ERR(tmr, 0);
+  return tmr::ticks(*tmr, time, unit);
+}
+
+uint16_t COTmrGetMinTime(CO_TMR* tmr, uint32_t unit) {
+  ASSERT_PTR_ERR(tmr, 0);
+  if (tmr->Freq == 0) {
+    return 0;
+  }
+  const uint32_t time = unit / tmr->Freq + (unit % tmr->Freq != 0 ? 1 : 0);
+  return static_cast<uint16_t>(time > UINT16_MAX ? 0 : time);
+}
+
+int16_t COTmrCreate(CO_TMR* tmr, uint32_t startTicks, uint32_t cycleTicks, CO_TMR_FUNC func, void* para) {
+  ASSERT_PTR_FATAL_ERR(tmr, -1);
+  ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
+  if (func == nullptr) {
+    error::report(*tmr->Node, CO_ERR_BAD_ARG);
+    return -1;
+  }
+  if (startTicks == 0 && cycleTicks == 0) {
+    return -1;
+  }
+  const tmr::Lock lock(*tmr);
+  CO_TMR_MEM* const timer = tmr::take_free(*tmr);
+  if (timer == nullptr) {
+    count(tmr->Node->Count.TimerExhausted);
+    error::report(*tmr->Node, CO_ERR_TMR_NO_ACT);
+    return -1;
+  }
+  tmr::arm(*tmr, *timer, startTicks, cycleTicks, func, para);
+  return static_cast<int16_t>(timer->Id);
+}
+
+int16_t COTmrDelete(CO_TMR* tmr, int16_t actId) {
+  ASSERT_PTR_FATAL_ERR(tmr, -1);
+  ASSERT_PTR_FATAL_ERR(tmr->Node, -1);
+  const tmr::Lock lock(*tmr);
+  CO_TMR_MEM* const timer = tmr::find(*tmr, actId);
+  if (timer == nullptr) {
+    return -1;
+  }
+  tmr::remove(*tmr, *timer);
+  tmr::release(*tmr, *timer);
+  return 0;
+}
+
+int16_t COTmrService(CO_TMR* tmr) {
+  ASSERT_PTR_ERR(tmr, -1);
+  ASSERT_PTR_ERR(tmr->Node, -1);
+  uint32_t now = tmr->Clock;
+  if (port::has_clock(*tmr->Node)) {
+    now = port::now(*tmr->Node);
+  } else if (!port::has_elapsed(*tmr->Node)) {
+    return tmr::has_to_send(*tmr->Node) ? 1 : 0;
+  }
+  tmr::advance(*tmr, now);
+  tmr::program(*tmr, now);
+  return tmr::has_due(*tmr) || tmr::has_to_send(*tmr->Node) ? 1 : 0;
+}
+
+}  // extern "C"

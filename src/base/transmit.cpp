@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/transmit.hpp"
+
+#include "base/count.hpp"
+#include "hal/port.hpp"
+
+namespace co::transmit {
+namespace {
+
+// Returns the rank of a frame in the arbitration on the bus, lowest first: an 11-bit identifier precedes the 29-bit
+// identifiers with the same base.
+uint32_t rank(const CO_IF_FRM& frame) {
+  const uint32_t id = frame.Identifier & CO_IF_FRM_ID;
+  const bool extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;
+  return extended ? (id << 1) | 1U : id << 19;
+}
+
+// Returns whether the next frame may be sent. In Initialisation only fixed frames are sent: frames from before a reset,
+// then the boot-up message. In CO_INVALID nothing is sent: while CONodeStop() stops one service, a callback may run the
+// timer of another one.
+bool may_send_next(const CO_NODE& node) {
+  return node.Held == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
+}
+
+void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
+  for (unsigned n = queue.Num; n > place; --n) {
+    queue.Frame[n] = queue.Frame[n - 1];
+  }
+  queue.Frame[place] = frame;
+  ++queue.Num;
+}
+
+unsigned place_of(const CO_TX_QUEUE& queue, uint32_t wanted) {
+  unsigned place = queue.Num;
+  while (place > queue.Fixed && rank(queue.Frame[place - 1]) > wanted) {
+    --place;
+  }
+  return place;
+}
+
+void remove_first(CO_TX_QUEUE& queue) {
+  --queue.Num;
+  for (unsigned n = 0; n < queue.Num; ++n) {
+    queue.Frame[n] = queue.Frame[n + 1];
+  }
+  queue.Fixed = static_cast<uint16_t>(queue.Fixed == 0 ? 0 : queue.Fixed - 1);
+}
+
+bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
+  if (node.TxQueue.Num >= places) {
+    count(node.Count.Dropped);
+    return false;
+  }
+  insert(node.TxQueue, place_of(node.TxQueue, rank(frame)), frame);
+  return true;
+}
+
+// Offers the queued frames to the driver, then this frame if none is left. Returns whether the driver has accepted it.
+bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (is_waiting(node)) {
+    flush(node);
+  }
+  return !is_waiting(node) && may_send_next(node) && port::can_send(node, frame);
+}
+
+// Returns the elements of the queue that frames of the application may use. The others are reserved for the node's own
+// frames: one of each SDO server and client, an EMCY message and a heartbeat, but at most half the queue.
+uint16_t places_for_application(const CO_TX_QUEUE& queue) {
+  constexpr uint16_t own = 2 + CO_SSDO_N + (USE_CSDO != 0 ? CO_CSDO_N : 0);
+  const auto half = static_cast<uint16_t>(queue.Len / 2);
+  return static_cast<uint16_t>(queue.Len - (own < half ? own : half));
+}
+
+// Replaces the queued frame of the same identifier. Returns false if there is none.
+bool replace(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!is_waiting(node)) {
+    return false;
+  }
+  CO_IF_FRM* const waiting = find_waiting(node, frame.Identifier);
+  if (waiting != nullptr) {
+    *waiting = frame;
+  }
+  return waiting != nullptr;
+}
+
+}  // namespace
+
+void init(CO_NODE& node) {
+  const CO_NODE_EXT& ext = *node.Ext;
+  const bool own = ext.TxQueue == nullptr || ext.TxQueueLen == 0;
+  node.TxQueue = {own ? node.TxFrame : ext.TxQueue, own ? static_cast<uint16_t>(CO_TX_QUEUE_N) : ext.TxQueueLen, 0, 0};
+}
+
+bool send(CO_NODE& node, const CO_IF_FRM& frame) {
+  return try_now(node, frame) || enqueue(node, frame, node.TxQueue.Len);
+}
+
+bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
+  return try_now(node, frame) || enqueue(node, frame, places_for_application(node.TxQueue));
+}
+
+void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  flush(node);
+  if (queue.Fixed == 0 && node.Held == 0 && port::can_send(node, frame)) {
+    return;
+  }
+  if (queue.Num == queue.Len) {
+    --queue.Num;
+    count(node.Count.Dropped);
+  }
+  queue.Fixed = queue.Fixed < queue.Num ? queue.Fixed : queue.Num;
+  insert(queue, queue.Fixed, frame);
+  ++queue.Fixed;
+}
+
+CO_IF_FRM* find_waiting(CO_NODE& node, uint32_t identifier) {
+  flush(node);
+  CO_TX_QUEUE& queue = node.TxQueue;
+  for (unsigned n = queue.Fixed; n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      return &queue.Frame[n];
+    }
+  }
+  return nullptr;
+}
+
+void send_latest(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (!replace(node, frame)) {
+    send(node, frame);
+  }
+}
+
+bool send_process_data(CO_NODE& node, const CO_IF_FRM& frame) {
+  return replace(node, frame) || send_for_application(node, frame);
+}
+
+bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
+  if (node.Burst == CO_SDO_BLOCK_PACE || !try_now(node, frame)) {
+    node.Paused = 1;
+    return false;
+  }
+  ++node.Burst;
+  return true;
+}
+
+void flush(CO_NODE& node) {
+  while (is_waiting(node) && may_send_next(node) && port::can_send(node, node.TxQueue.Frame[0])) {
+    remove_first(node.TxQueue);
+  }
+}
+
+bool is_full(CO_NODE& node) {
+  flush(node);
+  return node.TxQueue.Num == node.TxQueue.Len;
+}
+
+void withdraw(CO_NODE& node, uint32_t identifier) {
+  CO_TX_QUEUE& queue = node.TxQueue;
+  unsigned kept = queue.Fixed;
+  for (unsigned n = kept; n < queue.Num; ++n) {
+    if (queue.Frame[n].Identifier == identifier) {
+      count(node.Count.Dropped);
+    } else {
+      queue.Frame[kept++] = queue.Frame[n];
+    }
+  }
+  queue.Num = static_cast<uint16_t>(kept);
+}
+
+void clear(CO_NODE& node) {
+  for (; node.TxQueue.Num != 0; --node.TxQueue.Num) {
+    count(node.Count.Dropped);
+  }
+  node.TxQueue.Fixed = 0;
+}
+
+void fix(CO_NODE& node) {
+  if (node.Nmt.Mode != CO_INIT) {  // queued frames of Initialisation follow the boot-up message
+    node.TxQueue.Fixed = node.TxQueue.Num;
+  }
+}
+
+}  // namespace co::transmit

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dictionary/access.hpp"
+
+#include "base/error.hpp"
+#include "dictionary/dict.hpp"
+
+namespace co::access {
+namespace {
+
+// Returns the abort code for an access that the rights or the type of the object do not permit.
+uint32_t refusal(const CO_OBJ& obj, CO_OBJ_TRANSFER transfer) {
+  if ((obj.Key & CO_OBJ_____RW) == 0) {
+    return CO_SDO_ERR_UNSUP;
+  }
+  return transfer == CO_OBJ_UPLOAD ? CO_SDO_ERR_RD : CO_SDO_ERR_WR;
+}
+
+// Returns whether the entry of the channel's transfer is still at the same place in the dictionary.
+bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
+  const auto place = reinterpret_cast<uintptr_t>(channel.Obj) - reinterpret_cast<uintptr_t>(dict.Root);
+  return place < dict.Num * sizeof(CO_OBJ) && CO_GET_DEV(channel.Obj->Key) == channel.Key;
+}
+
+}  // namespace
+
+uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
+  CO_OBJ* const obj = dict::find(node.Dict, key);
+  if (obj == nullptr) {
+    return dict::has_index(node.Dict, key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
+  }
+  const CO_OBJ_TYPE& type = *obj->Type;
+  const bool is_permitted = transfer == CO_OBJ_UPLOAD ? CO_IS_READ(obj->Key) != 0 && type.Read != nullptr
+                                                      : CO_IS_WRITE(obj->Key) != 0 && type.Write != nullptr;
+  if (!is_permitted) {
+    return refusal(*obj, transfer);
+  }
+  node.Served = obj;
+  return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
+}
+
+void lose_moved(CO_NODE& node) {
+  for (CO_SDO& channel : node.Sdo) {
+    if (channel.Obj != nullptr && !is_in_place(node.Dict, channel)) {
+      channel.Obj = nullptr;
+    }
+  }
+}
+
+bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
+  for (const CO_SDO& channel : node.Sdo) {
+    if (&channel != by && channel.Obj == &obj) {
+      return true;
+    }
+  }
+  return false;
+}
+
+#if USE_OD
+uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj) {
+  for (const CO_SDO& channel : node.Sdo) {
+    if (channel.Obj == &obj) {
+      return channel.Size;
+    }
+  }
+  return 0;
+}
+#endif
+
+// Accepts length 0 for every stream: such a download empties it.
+uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length) {
+  if (length == 0 && obj::is_stream(obj)) {
+    return no_abort;
+  }
+  const uint32_t need = size(obj, node, length);
+  const bool failed = need == 0 && !obj::is_stream(obj);
+  return failed ? abort_for(node, CO_ERR_TYPE_WR) : compare_length(length, need);
+}
+
+uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
+  return node.UserAbort != no_abort ? node.UserAbort : abort_code(err);
+}
+
+uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
+  const uint32_t abort = abort_for(node, err);
+  if (abort == CO_SDO_ERR_HW_ACCESS) {
+    const uint32_t key = node.Served != nullptr ? node.Served->Key : 0;
+    error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, key);
+  }
+  return abort;
+}
+
+}  // namespace co::access
+
+extern "C" void COObjTypeUserSDOAbort(CO_OBJ* obj, CO_NODE_T* node, uint32_t abort) {
+  if (obj != nullptr && node != nullptr && node->Served == obj) {
+    node->UserAbort = abort;
+  }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Access of the network to the dictionary: for SDO servers, and for SDO clients that access their own node.
+#pragma once
+
+#include "co_core.h"
+#include "dictionary/abort_code.hpp"
+#include "dictionary/obj.hpp"
+
+namespace co::access {
+
+// Finds the object of a transfer, checks that its access rights and its type allow the transfer, and stores it in
+// node.Served. Returns an abort code; node.Served is unchanged if the object is not found or the access is refused.
+[[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer);
+
+// Returns the length in bytes of an object that open() has found; its type has a Size function, as open() has checked.
+// width: bytes of a download, 0 for an upload.
+[[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
+  return obj.Type->Size(&obj, &node, width);
+}
+
+// Sets the object for which COObjTypeUserSDOAbort() is accepted (null: none), and clears the abort code that was set.
+inline void serve(CO_NODE& node, CO_OBJ* obj) {
+  node.Served = obj;
+  node.UserAbort = no_abort;
+}
+
+// Scope in which node.Served is another object, or none; its end restores the object and its abort code. For an access
+// that begins in a type function of the object that is being accessed.
+class Nested {
+ public:
+  Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), served_(node.Served), abort_(node.UserAbort) { serve(node, obj); }
+  ~Nested() {
+    node_.Served = served_;
+    node_.UserAbort = abort_;
+  }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+
+ private:
+  CO_NODE& node_;
+  CO_OBJ* served_;
+  uint32_t abort_;
+};
+
+// Clears the object of each SDO server channel whose entry is no longer at the same place in the dictionary. The server
+// then aborts the transfer (0800 0022h).
+void lose_moved(CO_NODE& node);
+
+// Returns whether an SDO server channel other than by has the object open. by: null if every channel counts.
+[[nodiscard]] bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
+
+#if USE_OD
+// Returns the size in bytes of the download to the object that an SDO server channel has open; it is known once the
+// last piece arrives. 0: no channel has the object open.
+[[nodiscard]] uint32_t total_of(const CO_NODE& node, const CO_OBJ& obj);
+#endif
+
+// Compares the length of a transfer with need, the nearest length that the object allows. Returns an abort code.
+[[nodiscard]] constexpr uint32_t compare_length(uint32_t length, uint32_t need) {
+  if (length == need) {
+    return no_abort;
+  }
+  return length > need ? CO_SDO_ERR_LEN_HIGH : CO_SDO_ERR_LEN_SMALL;
+}
+
+// Checks whether the object can be written with this length in bytes. Returns an abort code.
+[[nodiscard]] uint32_t check_length(CO_NODE& node, CO_OBJ& obj, uint32_t length);
+
+// Returns the abort code for the result of a type function: the code that was set by COObjTypeUserSDOAbort(), else the
+// code of err.
+[[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
+// Returns the abort code for the result of a Read, Write or End function. Only a hardware error (0606 0000h) becomes
+// the node's error: any other is a refused request of the client.
+[[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
+
+}  // namespace co::access

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "co_domain.h"
+
+#include "dictionary/types/stream.hpp"
+#include "hal/port.hpp"
+#include "wire/bytes.hpp"
+
+namespace {
+
+using co::stream::clip;
+
+CO_OBJ_DOM* usable(const CO_OBJ& obj) {
+  auto* const domain = co::data_of<CO_OBJ_DOM>(obj);
+  return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
+}
+
+uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
+  const CO_OBJ_DOM* const domain = usable(*obj);
+  if (domain == nullptr) {
+    return 0;
+  }
+  return width != 0 && width < domain->Size ? width : domain->Size;
+}
+
+CO_ERR read(CO_OBJ* obj, CO_NODE*, void* buffer, uint32_t size) {
+  CO_OBJ_DOM* const domain = usable(*obj);
+  if (domain == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  const uint32_t n = clip(size, domain->Offset, domain->Size);
+  co::wire::copy(static_cast<uint8_t*>(buffer), domain->Start + domain->Offset, n);
+  domain->Offset += n;
+  return CO_ERR_NONE;
+}
+
+CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  CO_OBJ_DOM* const domain = usable(*obj);
+  if (domain == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (!co::port::is_writable(*node, domain->Start, domain->Size)) {
+    return CO_ERR_OBJ_ACC;
+  }
+  const uint32_t n = clip(size, domain->Offset, domain->Size);
+  co::wire::copy(domain->Start + domain->Offset, static_cast<const uint8_t*>(buffer), n);
+  domain->Offset += n;
+  return CO_ERR_NONE;
+}
+
+}  // namespace
+
+extern "C" const CO_OBJ_TYPE COTDomain = {size, co::stream::init, read, write, co::stream::reset};

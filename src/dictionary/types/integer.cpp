@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// INTEGERn and UNSIGNEDn of 8, 16 and 32 bits, REAL32 and BOOLEAN: values in a variable of 1, 2 or 4 bytes, or in the
+// entry.
+#include "dictionary/types/integer.hpp"
+
+#include "co_integer16.h"
+#include "co_integer32.h"
+#include "co_integer8.h"
+#include "co_real.h"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/number.hpp"
+
+namespace co::integer {
+namespace {
+
+// Reads a number of 1, 2 or 4 bytes from a variable of the same size; with flag N the node-ID is added.
+inline CO_ERR read_word(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned bytes) {
+  const void* const place = place_of(obj, bytes);
+  if (place == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  store(buffer, load<uint32_t>(place, bytes) + node_id_of(obj, node), bytes);
+  return CO_ERR_NONE;
+}
+
+// Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
+inline CO_ERR write_word(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
+  const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
+  return keep<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
+}
+
+template <uint8_t bytes>
+struct Word {
+  static constexpr rules::Rule rule = rules::integer(bytes);
+
+  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, bytes) == nullptr ? 0 : bytes; }
+  static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+    return size == bytes ? read_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  }
+  static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+    return size == bytes ? write_word(*obj, *node, buffer, size) : CO_ERR_BAD_ARG;
+  }
+  static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
+};
+
+using Byte = Word<1>;
+using Real32 = Word<4>;
+
+CO_ERR write_boolean(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+  if (size == 1 && *static_cast<const uint8_t*>(buffer) > 1) {
+    return CO_ERR_OBJ_RANGE;
+  }
+  return Byte::write(obj, node, buffer, size);
+}
+
+}  // namespace
+
+uint16_t get_u16(const void* from) { return static_cast<uint16_t>(load<uint32_t>(from, sizeof(uint16_t))); }
+uint32_t get_u32(const void* from) { return load<uint32_t>(from, sizeof(uint32_t)); }
+void put_u32(void* to, uint32_t value) { store(to, value, sizeof value); }
+
+}  // namespace co::integer
+
+using namespace co;
+using namespace co::integer;
+
+extern "C" {
+
+const CO_OBJ_TYPE COTInt8 = Byte::table;
+const CO_OBJ_TYPE COTInt16 = Word<2>::table;
+const CO_OBJ_TYPE COTInt32 = Word<4>::table;
+// Flag N has no meaning for these types, and is refused.
+const CO_OBJ_TYPE COTReal32 = {Real32::size, dict::checked_by<rules::variable>, Real32::read, Real32::write, nullptr};
+const CO_OBJ_TYPE COTBoolean = {Byte::size, dict::checked_by<rules::boolean>, Byte::read, write_boolean, nullptr};
+
+}  // extern "C"

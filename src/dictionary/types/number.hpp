@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Access to the variables of numbers of every width.
+#pragma once
+
+#include "base/events.hpp"
+#include "co_core.h"
+#include "dictionary/types/place.hpp"
+#include "hal/port.hpp"
+#include "wire/bytes.hpp"
+
+namespace co::integer {
+
+// T with which a variable of any type may be accessed.
+template <class T>
+struct Aliasing {
+  typedef T type __attribute__((may_alias));
+};
+
+// Returns whether a number of this many bytes can be accessed as one T, which requires alignment.
+template <class T>
+bool is_one_access(const void* address, unsigned bytes) {
+  return bytes == sizeof(T) && (reinterpret_cast<uintptr_t>(address) & (sizeof(T) - 1)) == 0;
+}
+
+template <class T>
+volatile typename Aliasing<T>::type& as(void* address) {
+  return *static_cast<volatile typename Aliasing<T>::type*>(address);
+}
+template <class T>
+const volatile typename Aliasing<T>::type& as(const void* address) {
+  return *static_cast<const volatile typename Aliasing<T>::type*>(address);
+}
+
+// Returns the offset of byte n, counted from the lowest, in a number in the byte order of the CPU.
+constexpr unsigned place_of_byte(unsigned n, unsigned bytes) { return wire::host_is_little_endian ? n : bytes - 1 - n; }
+
+// Reads a number, at any alignment: in one access where its alignment allows it, so that an interrupt sees the old or
+// the new value.
+template <class T>
+inline T load(const void* from, unsigned bytes) {
+  if (sizeof(T) == 8 && is_one_access<uint64_t>(from, bytes)) {
+    return static_cast<T>(as<uint64_t>(from));
+  }
+  if (is_one_access<uint32_t>(from, bytes)) {
+    return as<uint32_t>(from);
+  }
+  if (is_one_access<uint16_t>(from, bytes)) {
+    return as<uint16_t>(from);
+  }
+  T value = 0;
+  for (unsigned n = bytes; n != 0; --n) {
+    value = static_cast<T>(value << 8U) | static_cast<const uint8_t*>(from)[place_of_byte(n - 1, bytes)];
+  }
+  return value;
+}
+
+// Writes a number like load() reads it.
+template <class T>
+inline void store(void* to, T value, unsigned bytes) {
+  if (sizeof(T) == 8 && is_one_access<uint64_t>(to, bytes)) {
+    as<uint64_t>(to) = value;
+  } else if (is_one_access<uint32_t>(to, bytes)) {
+    as<uint32_t>(to) = static_cast<uint32_t>(value);
+  } else if (is_one_access<uint16_t>(to, bytes)) {
+    as<uint16_t>(to) = static_cast<uint16_t>(value);
+  } else {
+    for (unsigned n = 0; n < bytes; ++n, value = static_cast<T>(value >> 8U)) {
+      static_cast<uint8_t*>(to)[place_of_byte(n, bytes)] = static_cast<uint8_t>(value);
+    }
+  }
+}
+
+// Returns the address of an entry's value; with flag D the value is stored in the lowest bytes of Data.
+inline void* place_of(CO_OBJ& obj, unsigned storage) {
+  const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
+  return CO_IS_DIRECT(obj.Key) != 0 ? reinterpret_cast<uint8_t*>(&obj.Data) + above : data_of<void>(obj);
+}
+
+inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
+  return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U;
+}
+
+// Stores a value in the variable of an entry, and reports a change if its TPDOs are event-driven (flag A). With flag D
+// all bytes of Data are written.
+template <class T>
+inline CO_ERR keep(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
+  void* const place = place_of(obj, storage);
+  if (place == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  if (!port::is_writable(node, place, storage)) {
+    return CO_ERR_OBJ_ACC;
+  }
+  const bool is_watched = CO_IS_ASYNC(obj.Key) != 0;
+  if (is_watched && load<T>(place, storage) == value) {
+    return CO_ERR_NONE;
+  }
+  if (CO_IS_DIRECT(obj.Key) != 0) {
+    obj.Data = static_cast<uintptr_t>(value);
+  } else {
+    store<T>(place, value, storage);
+  }
+  if (is_watched) {
+    event::change_object(node, obj);
+  }
+  return CO_ERR_NONE;
+}
+
+}  // namespace co::integer

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dictionary/types/stream.hpp"
+
+#include "co_domain.h"
+#include "co_string.h"
+#include "dictionary/access.hpp"
+#include "dictionary/dict.hpp"
+#if USE_OD
+#include "co_od.h"
+
+// Weak: a comparison with its address does not link the function.
+#pragma weak ODTypeInit
+#endif
+
+namespace co::stream {
+
+static_assert(offsetof(CO_OBJ_DOM, Offset) == 0 && offsetof(CO_OBJ_STR, Offset) == 0);
+static_assert(offsetof(CO_OBJ_STR_RW, Offset) == 0);
+
+CO_ERR reset(CO_OBJ* obj, CO_NODE_T*, uint32_t position) { return seek(*obj, position); }
+
+namespace {
+
+// Returns whether the object is a stream of this library whose Data is null.
+bool is_missing(const CO_OBJ& obj) {
+  const CO_OBJ_TYPE* const type = original_type(obj);
+  return type != nullptr && type->Reset == reset && uintptr_t{obj.Data} == 0;
+}
+
+}  // namespace
+
+uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
+  const uint32_t abort = access::open(node, key, transfer);
+  return abort == no_abort && is_missing(*node.Served) ? CO_SDO_ERR_TOS : abort;
+}
+
+#if USE_OD
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) {
+  const bool is_extensible = obj.Type->Init != nullptr && obj.Type->Init == ODTypeInit;
+  return is_extensible ? reinterpret_cast<const OD_TYPE*>(obj.Type)->Original : obj.Type;
+}
+#else
+const CO_OBJ_TYPE* original_type(const CO_OBJ& obj) { return obj.Type; }
+#endif
+
+CO_ERR init(CO_OBJ* obj, CO_NODE_T* node) {
+  const CO_ERR err = dict::check_type(*obj, *node, rules::variable);
+  if (err != CO_ERR_NONE) {
+    return err;
+  }
+  return seek(*obj, 0) == CO_ERR_NONE ? CO_ERR_NONE : CO_ERR_TYPE_INIT;
+}
+
+}  // namespace co::stream

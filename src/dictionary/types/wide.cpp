@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of 24, 40, 48, 56 and 64 bits, and REAL64: values in a variable of 4 or 8 bytes, or in the entry.
+#include "co_integer32.h"
+#include "co_integer64.h"
+#include "co_real.h"
+#include "dictionary/dict.hpp"
+#include "dictionary/types/number.hpp"
+
+namespace co::integer {
+namespace {
+
+// Format of a number whose variable is wider than the number, or wider than 32 bits.
+struct Format {
+  uint8_t bytes;    // on the bus
+  uint8_t storage;  // bytes of the variable
+  bool is_signed;   // sign bit is extended to the variable
+};
+
+constexpr uint64_t modulo(uint64_t value, unsigned bytes) { return value & (UINT64_MAX >> (64U - 8U * bytes)); }
+
+// Returns the value modulo its width, with its sign extended to the width of the variable.
+constexpr uint64_t extend(uint64_t value, const Format& format) {
+  const uint64_t sign = format.is_signed ? uint64_t{1} << (8U * format.bytes - 1U) : 0;
+  return modulo((modulo(value, format.bytes) ^ sign) - sign, format.storage);
+}
+
+inline CO_ERR read_wide(CO_OBJ& obj, const CO_NODE& node, void* buffer, const Format& format) {
+  const void* const place = place_of(obj, format.storage);
+  if (place == nullptr) {
+    return CO_ERR_BAD_ARG;
+  }
+  store(buffer, load<uint64_t>(place, format.storage) + node_id_of(obj, node), format.bytes);
+  return CO_ERR_NONE;
+}
+
+inline CO_ERR write_wide(CO_OBJ& obj, CO_NODE& node, const void* buffer, const Format& format) {
+  const uint64_t value = load<uint64_t>(buffer, format.bytes) - node_id_of(obj, node);
+  return keep<uint64_t>(obj, node, extend(value, format), format.storage);
+}
+
+template <uint8_t bytes, uint8_t storage, bool is_signed = false>
+struct Wide {
+  static constexpr Format format = {bytes, storage, is_signed};
+  static constexpr rules::Rule rule = rules::integer(storage);
+
+  static uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) { return place_of(*obj, storage) == nullptr ? 0 : bytes; }
+  static CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+    return size == bytes ? read_wide(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
+  }
+  static CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
+    return size == bytes ? write_wide(*obj, *node, buffer, format) : CO_ERR_BAD_ARG;
+  }
+  static constexpr CO_OBJ_TYPE table = {size, dict::checked_by<rule>, read, write, nullptr};
+};
+
+using Real64 = Wide<8, 8>;
+
+}  // namespace
+}  // namespace co::integer
+
+using namespace co;
+using namespace co::integer;
+
+extern "C" {
+
+const CO_OBJ_TYPE COTInt64 = Wide<8, 8>::table;
+const CO_OBJ_TYPE COTUnsigned24 = Wide<3, 4>::table;
+const CO_OBJ_TYPE COTUnsigned40 = Wide<5, 8>::table;
+const CO_OBJ_TYPE COTUnsigned48 = Wide<6, 8>::table;
+const CO_OBJ_TYPE COTUnsigned56 = Wide<7, 8>::table;
+const CO_OBJ_TYPE COTSigned24 = Wide<3, 4, true>::table;
+const CO_OBJ_TYPE COTSigned40 = Wide<5, 8, true>::table;
+const CO_OBJ_TYPE COTSigned48 = Wide<6, 8, true>::table;
+const CO_OBJ_TYPE COTSigned56 = Wide<7, 8, true>::table;
+// Flag N has no meaning for this type, and is refused.
+const CO_OBJ_TYPE COTReal64 = {Real64::size, dict::checked_by<rules::variable>, Real64::read, Real64::write, nullptr};
+
+}  // extern "C"

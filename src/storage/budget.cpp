@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "storage/budget.hpp"
+
+#include "base/timer.hpp"
+
+#if USE_PARA && CO_PARA_BUDGET > 0
+
+namespace co::budget {
+namespace {
+
+constexpr uint32_t refill_time = 60000;  // ms
+
+void refill(void* node_pointer) {
+  CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
+  --node.StoresUsed;
+  if (node.StoresUsed == 0) {
+    stop(node);
+  }
+}
+
+// Starts the timer that refills the budget: each minute, or at the end of the timer's range if that is shorter.
+void start(CO_NODE& node) {
+  const uint32_t ticks = tmr::ticks(node.Tmr, refill_time, CO_TMR_UNIT_1MS);
+  tmr::start(node.Tmr, node.BudgetTmr, 0, ticks != 0 ? ticks : UINT32_MAX, refill, &node);
+}
+
+}  // namespace
+
+bool take(CO_NODE& node) {
+  if (node.StorePayer != bus) {
+    return true;
+  }
+  if (is_empty(node)) {
+    return false;
+  }
+  if (node.StoresUsed == 0) {
+    start(node);
+  }
+  ++node.StoresUsed;
+  node.StorePayer = bus_paid;
+  return true;
+}
+
+void stop(CO_NODE& node) { tmr::stop(node.Tmr, node.BudgetTmr); }
+
+}  // namespace co::budget
+
+#endif

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "storage/para.hpp"
+
+#if USE_PARA
+
+#include "base/error.hpp"
+#include "base/timer.hpp"
+#include "dictionary/dict.hpp"
+#include "dictionary/obj.hpp"
+#include "dictionary/types/place.hpp"
+#include "hal/port.hpp"
+#include "storage/budget.hpp"
+#include "storage/groups.hpp"
+#include "storage/store.hpp"
+
+namespace co::para {
+namespace {
+
+using store::Found;
+
+uint8_t* bytes(const CO_PARA& group) { return group.Start; }
+
+bool has_record(const CO_PARA& group) { return (group.Value & CO_PARA__AE) != 0; }
+
+bool overlap(const CO_NODE& node, const CO_PARA& a, const CO_PARA& b) {
+  return has_record(a) && has_record(b) &&
+         (a.Offset - b.Offset < store::space(node, b.Size) || b.Offset - a.Offset < store::space(node, a.Size));
+}
+
+// The record of a group; its sub-index of 1010h is part of the record's identity.
+struct Located {
+  store::Record record;
+  bool is_refused;  // the group overlaps one with a lower sub-index
+};
+
+// CO_PARA.Value may hold the version of the layout above its flags.
+uint32_t version_of(const CO_PARA& group) { return group.Version != 0 ? group.Version : group.Value >> version_bit; }
+
+// 1010h and 1011h may name a group by two CO_PARA.
+bool is_same(const CO_PARA& a, const CO_PARA& b) {
+  return a.Offset == b.Offset && a.Size == b.Size && bytes(a) == bytes(b) && a.Type == b.Type &&
+         version_of(a) == version_of(b);
+}
+
+Located locate(CO_NODE& node, const CO_PARA& group) {
+  Located located = {{group.Offset, group.Size, version_of(group), 0}, false};
+  Groups groups(node, store_index);
+  for (const CO_PARA* other = groups.next(); other != nullptr; other = groups.next()) {
+    if (is_same(*other, group)) {
+      located.record.group = CO_GET_SUB(groups.entry().Key);
+      break;
+    }
+    located.is_refused = located.is_refused || overlap(node, *other, group);
+  }
+  return located;
+}
+
+CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
+  if (static_cast<const uint8_t*>(group.Default) != nullptr) {
+    __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
+  }
+  // The callback of the application sets the whole group.
+  const bool asked = found == Found::defaults && size == group.Size;
+  return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
+}
+
+// Returns whether the group is stored when it has changed. Defaults that a "load" has asked for stay until the reset.
+bool is_followed(CO_NODE& node, const CO_PARA& group) {
+  return is_saved_autonomously(group) && store::is_atomic(node) &&
+         store::look(node, locate(node, group).record) != Found::defaults;
+}
+
+// A group that is not stored may have any Offset, so its record is not read. With a classic driver it is, as in
+// CANopen-Stack.
+store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Record& record, uint32_t size) {
+  const bool is_loaded = has_record(group) || !store::is_atomic(node);
+  return is_loaded ? store::load(node, record, bytes(group), size) : store::Loaded{Found::blank, false};
+}
+
+void report_recovered(CO_NODE& node, const CO_PARA& group) {
+  const CO_CALLBACKS* const callbacks = node.Ext->Callbacks;
+  if (callbacks != nullptr && callbacks->ParaRecovered != nullptr) {
+    callbacks->ParaRecovered(&node, node.Ext->User, &group);
+  }
+}
+
+// Loads the first size bytes of a group.
+CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
+  const Located located = locate(node, group);
+  if (located.is_refused) {
+    (void)use_defaults(group, size, Found::no_place);
+    return CO_ERR_PARA_OVERLAP;
+  }
+  const store::Loaded loaded = load_record(node, group, located.record, size);
+  const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : use_defaults(group, size, loaded.found);
+  if (loaded.is_older) {
+    report_recovered(node, group);
+  }
+  if (loaded.found == Found::lost) {
+    COParaLost(&node, &group);
+    return CO_ERR_PARA_LOAD;
+  }
+  return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
+}
+
+// A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
+void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
+  if (is_followed(node, group)) {
+    const CO_ERR err = save(node, group);
+    error::report(node, err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err, key);
+  }
+}
+
+// Returns whether a group keeps its values: it has a change that the budget has delayed, which is newer than the stored
+// values.
+bool must_stay(CO_NODE& node, const CO_PARA& group) { return budget::is_empty(node) && is_followed(node, group); }
+
+bool has_autonomous_group(CO_NODE& node) {
+  Groups groups(node, store_index);
+  const CO_PARA* group = groups.next();
+  while (group != nullptr && !is_saved_autonomously(*group)) {
+    group = groups.next();
+  }
+  return group != nullptr;
+}
+
+void on_time(void* node) { save_changes(*static_cast<CO_NODE*>(node)); }
+
+bool holds(const CO_PARA& group, const CO_OBJ& obj) {
+  const auto place = static_cast<uintptr_t>(obj.Data);
+  const auto start = reinterpret_cast<uintptr_t>(bytes(group));
+  return CO_IS_DIRECT(obj.Key) == 0 && place - start < group.Size;
+}
+
+// Returns whether an object is part of a group. Strings and domains always count, because only their types know where
+// their bytes are located.
+bool is_stored(CO_NODE& node, const CO_OBJ& obj) {
+  if (obj::is_stream(obj)) {
+    return true;
+  }
+  Groups groups(node, store_index);
+  const CO_PARA* group = groups.next();
+  while (group != nullptr && !holds(*group, obj)) {
+    group = groups.next();
+  }
+  return group != nullptr;
+}
+
+}  // namespace
+
+Groups::Groups(CO_NODE& node, uint16_t index) : node_(node), entry_(nullptr), index_(index), sub_(1), last_(0) {
+  constexpr uint8_t highest = 127;
+  if (CODictRdByte(&node.Dict, CO_DEV(index, 0), &last_) != CO_ERR_NONE) {
+    last_ = 1;
+  }
+  last_ = last_ < highest ? last_ : highest;
+  sub_ = last_ > 1 ? 2 : 1;
+}
+
+const CO_PARA* Groups::next() {
+  while (sub_ <= last_) {
+    const CO_OBJ* const obj = dict::find(node_.Dict, CO_DEV(index_, sub_++));
+    // Groups are loaded before the Init functions check their entries.
+    if (obj != nullptr && (obj->Type == CO_TPARA_STORE || obj->Type == CO_TPARA_RESTORE) &&
+        CO_IS_DIRECT(obj->Key) == 0 && data_of<const CO_PARA>(*obj) != nullptr) {
+      entry_ = obj;
+      return data_of<const CO_PARA>(*obj);
+    }
+  }
+  return nullptr;
+}
+
+CO_ERR save(CO_NODE& node, const CO_PARA& group) {
+  const Located located = locate(node, group);
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save(node, located.record, bytes(group));
+}
+
+CO_ERR restore(CO_NODE& node, const CO_PARA& group) {
+  const Located located = locate(node, group);
+  return located.is_refused ? CO_ERR_PARA_OVERLAP : store::save_defaults(node, located.record);
+}
+
+namespace {
+
+// Loads the groups of a reset. member: the number of bytes to load, CO_PARA.Size or CO_PARA.ComSize.
+CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
+  const bool is_part = member != &CO_PARA::Size;
+  CO_ERR last = CO_ERR_NONE;
+  Groups groups(node, store_index);
+  for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
+    const uint32_t size = group->*member;
+    const bool is_loaded = group->Type == type && size <= group->Size && !(is_part && size == 0);
+    const CO_ERR err = is_loaded && !must_stay(node, *group) ? load(node, *group, size) : CO_ERR_NONE;
+    if (err == CO_ERR_NONE) {
+      continue;
+    }
+    last = err;
+    error::report(node, err, groups.entry().Key);
+    if (err == CO_ERR_PARA_OVERLAP) {
+      (void)dict::refuse(groups.entry(), node, CO_DICT_PARA_OVERLAP);
+    }
+  }
+  return last;
+}
+
+}  // namespace
+
+CO_ERR load(CO_NODE& node, CO_NMT_RESET type) { return load(node, type, &CO_PARA::Size); }
+
+void load_communication(CO_NODE& node) { (void)load(node, CO_RESET_NODE, &CO_PARA::ComSize); }
+
+void save_changes(CO_NODE& node) {
+  const budget::Command command(node);
+  Groups groups(node, store_index);
+  for (const CO_PARA* group = groups.next(); group != nullptr; group = groups.next()) {
+    save_change(node, *group, groups.entry().Key);
+  }
+}
+
+void init(CO_NODE& node) {
+  const uint32_t period = tmr::ticks(node.Tmr, CO_PARA_PERIOD, CO_TMR_UNIT_1MS);
+  if (node.Nmt.Mode == CO_INIT && period != 0 && has_autonomous_group(node)) {
+    tmr::start(node.Tmr, node.ParaTmr, 0, period, on_time, &node);
+  } else {
+    tmr::stop(node.Tmr, node.ParaTmr);
+  }
+}
+
+void on_write(CO_NODE& node, const CO_OBJ& obj) {
+  if (CO_GET_IDX(obj.Key) == verify_index || !is_stored(node, obj)) {
+    return;
+  }
+  node.Verified = 0;
+  dict::write_u32(node.Dict, CO_DEV(verify_index, 1), 0);
+  dict::write_u32(node.Dict, CO_DEV(verify_index, 2), 0);
+}
+
+void on_mode(CO_NODE& node) {
+  if (node.Nmt.Mode == CO_INVALID) {
+    tmr::stop(node.Tmr, node.ParaTmr);
+    budget::stop(node);
+  }
+}
+
+}  // namespace co::para
+
+#endif
