@@ -2,6 +2,7 @@
 #include "base/transmit.hpp"
 
 #include "base/count.hpp"
+#include "base/error.hpp"
 #include "hal/port.hpp"
 
 namespace co::transmit {
@@ -55,12 +56,26 @@ bool enqueue(CO_NODE& node, const CO_IF_FRM& frame, uint16_t places) {
   return true;
 }
 
+// Offers a frame to the driver. Returns whether the driver has accepted it: accepted frames are counted, a fault of the
+// driver is reported as the node's error.
+bool offer_to_driver(CO_NODE& node, const CO_IF_FRM& frame) {
+  const int16_t result = port::can_send(node, frame);
+  if (result > 0) {
+    count(node.Count.Sent);
+    return true;
+  }
+  if (result < 0) {
+    error::report(node, CO_ERR_IF_CAN_SEND);
+  }
+  return false;
+}
+
 // Offers the queued frames to the driver, then this frame if none is left. Returns whether the driver has accepted it.
 bool try_now(CO_NODE& node, const CO_IF_FRM& frame) {
   if (is_waiting(node)) {
     flush(node);
   }
-  return !is_waiting(node) && may_send_next(node) && port::can_send(node, frame);
+  return !is_waiting(node) && may_send_next(node) && offer_to_driver(node, frame);
 }
 
 // Returns the elements of the queue that frames of the application may use. The others are reserved for the node's own
@@ -102,7 +117,7 @@ bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
 void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   CO_TX_QUEUE& queue = node.TxQueue;
   flush(node);
-  if (queue.Fixed == 0 && node.Held == 0 && port::can_send(node, frame)) {
+  if (queue.Fixed == 0 && node.Held == 0 && offer_to_driver(node, frame)) {
     return;
   }
   if (queue.Num == queue.Len) {
@@ -145,7 +160,7 @@ bool offer(CO_NODE& node, const CO_IF_FRM& frame) {
 }
 
 void flush(CO_NODE& node) {
-  while (is_waiting(node) && may_send_next(node) && port::can_send(node, node.TxQueue.Frame[0])) {
+  while (is_waiting(node) && may_send_next(node) && offer_to_driver(node, node.TxQueue.Frame[0])) {
     remove_first(node.TxQueue);
   }
 }

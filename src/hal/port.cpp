@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/port.hpp"
 
-#include "base/count.hpp"
-#include "base/transmit.hpp"
-#include "wire/cob_id.hpp"
-#include "wire/frame.hpp"
-
 namespace co::port {
 namespace {
 
@@ -86,22 +81,12 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num) {
   node.Ext->Can->Filter(node.Ext->CanCtx, ids, num);
 }
 
-bool can_send(CO_NODE& node, const CO_IF_FRM& frame) {
-  int16_t result = 0;
+int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame) {
   if (node.Ext->Can != nullptr) {
-    result = node.Ext->Can->Send(node.Ext->CanCtx, &frame);
-  } else {
-    CO_IF_FRM copy = frame;  // classic drivers may change the frame
-    result = node.If.Drv->Can->Send(&copy);
+    return node.Ext->Can->Send(node.Ext->CanCtx, &frame);
   }
-  if (result > 0) {
-    count(node.Count.Sent);
-    return true;
-  }
-  if (result < 0) {
-    error::report(node, CO_ERR_IF_CAN_SEND);
-  }
-  return false;
+  CO_IF_FRM copy = frame;  // classic drivers may change the frame
+  return node.If.Drv->Can->Send(&copy);
 }
 
 bool nvm_exists(const CO_NODE& node) { return node.Ext->Nvm != nullptr || node.If.Drv->Nvm != nullptr; }
@@ -128,86 +113,3 @@ uint32_t nvm_write(const CO_NODE& node, uint32_t start, uint8_t* buffer, uint32_
 }
 
 }  // namespace co::port
-
-using namespace co;
-
-extern "C" {
-
-void COIfInit(CO_IF* cif, CO_NODE* node, uint32_t freq) {
-  ASSERT_PTR_FATAL(cif);
-  ASSERT_PTR_FATAL(node);
-  cif->Node = node;
-  node->Tmr.Freq = freq;
-  port::init(*node);
-}
-
-void COIfCanInit(CO_IF* cif, CO_NODE* node) {
-  ASSERT_PTR_FATAL(cif);
-  ASSERT_PTR_FATAL(node);
-  cif->Node = node;
-  port::can_init(*node);
-}
-
-void COIfCanEnable(CO_IF* cif, uint32_t baud) {
-  ASSERT_PTR_FATAL(cif);
-  ASSERT_PTR_FATAL(cif->Node);
-  if (baud != 0) {
-    cif->Node->Baudrate = baud;
-  }
-  port::can_enable(*cif->Node, cif->Node->Baudrate);
-}
-
-int16_t COIfCanRead(CO_IF* cif, CO_IF_FRM* frm) {
-  ASSERT_PTR_ERR(cif, -1);
-  ASSERT_PTR_ERR(cif->Node, -1);
-  ASSERT_PTR_ERR(frm, -1);
-  int16_t result = port::can_read(*cif->Node, *frm);
-  while (result > 0 && !wire::normalise_length(*frm)) {
-    count(cif->Node->Count.Malformed);
-    result = port::can_read(*cif->Node, *frm);
-  }
-  return result;
-}
-
-int16_t COIfCanSend(CO_IF* cif, CO_IF_FRM* frm) {
-  ASSERT_PTR_ERR(cif, -1);
-  ASSERT_PTR_ERR(cif->Node, -1);
-  ASSERT_PTR_ERR(frm, -1);
-  ASSERT_NOT_ERR(cif->Node->Nmt.Mode, CO_INVALID, -1);
-  CO_IF_FRM frame = *frm;
-  frame.Identifier = wire::normalised(frame.Identifier);
-  if (!wire::normalise_length(frame)) {
-    count(cif->Node->Count.Malformed);
-    return -1;
-  }
-  return transmit::send_for_application(*cif->Node, frame) ? static_cast<int16_t>(sizeof frame)
-                                                           : static_cast<int16_t>(0);
-}
-
-void COIfCanReset(CO_IF* cif) {
-  ASSERT_PTR_FATAL(cif);
-  ASSERT_PTR_FATAL(cif->Node);
-  port::can_reset(*cif->Node);
-}
-
-void COIfCanClose(CO_IF* cif) {
-  ASSERT_PTR_FATAL(cif);
-  ASSERT_PTR_FATAL(cif->Node);
-  port::can_close(*cif->Node);
-}
-
-uint32_t COIfNvmRead(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size) {
-  ASSERT_PTR_ERR(cif, 0);
-  ASSERT_PTR_ERR(cif->Node, 0);
-  ASSERT_PTR_ERR(buffer, 0);
-  return port::nvm_read(*cif->Node, start, buffer, size);
-}
-
-uint32_t COIfNvmWrite(CO_IF* cif, uint32_t start, uint8_t* buffer, uint32_t size) {
-  ASSERT_PTR_ERR(cif, 0);
-  ASSERT_PTR_ERR(cif->Node, 0);
-  ASSERT_PTR_ERR(buffer, 0);
-  return port::nvm_write(*cif->Node, start, buffer, size);
-}
-
-}  // extern "C"

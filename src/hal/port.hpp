@@ -3,7 +3,6 @@
 // CANopen-Stack) or a driver with context argument (CO_NODE_EXT).
 #pragma once
 
-#include "base/error.hpp"
 #include "co_core.h"
 
 namespace co::port {
@@ -103,23 +102,14 @@ void can_close(const CO_NODE& node);
 void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
 [[nodiscard]] bool can_wants_filter(const CO_NODE& node);
 
-// Returns the driver's result: sizeof(CO_IF_FRM), 0, < 0.
-[[nodiscard]] inline int16_t can_read_unchecked(const CO_NODE& node, CO_IF_FRM& frame) {
+// Returns the driver's result: sizeof(CO_IF_FRM), 0 (no frame waits), < 0 (fault).
+[[nodiscard]] inline int16_t can_read(const CO_NODE& node, CO_IF_FRM& frame) {
   const CO_NODE_EXT& ext = *node.Ext;
   return ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
 }
 
-// Reads like can_read_unchecked(); a negative result is reported as the node's error.
-[[nodiscard]] inline int16_t can_read(CO_NODE& node, CO_IF_FRM& frame) {
-  const int16_t result = can_read_unchecked(node, frame);
-  if (result < 0) {
-    error::report(node, CO_ERR_IF_CAN_READ);
-  }
-  return result;
-}
-// Offers a frame to the driver. Returns whether the driver has accepted it; accepted frames are counted, a negative
-// result of the driver is reported as the node's error.
-[[nodiscard]] bool can_send(CO_NODE& node, const CO_IF_FRM& frame);
+// Returns the driver's result: sizeof(CO_IF_FRM) (accepted), 0 (not now), < 0 (fault).
+[[nodiscard]] int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame);
 
 [[nodiscard]] bool nvm_exists(const CO_NODE& node);
 [[nodiscard]] inline bool nvm_has_shape(const CO_NODE& node) {

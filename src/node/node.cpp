@@ -2,6 +2,7 @@
 #include "base/count.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
+#include "base/receive.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
@@ -286,7 +287,7 @@ bool receive(CO_NODE& node, CO_IF_FRM& frame) {
     return CORingGet(node.Ext->Mainline, &frame);
   }
 #endif
-  if (port::can_read(node, frame) <= 0) {
+  if (receive::read(node, frame) <= 0) {
     return false;
   }
   count(node.Count.Received);
@@ -301,7 +302,7 @@ void drop_received(CO_NODE& node) {
     return;
   }
   CO_IF_FRM frame = wire::empty_frame(0, 0);
-  if (port::can_read_unchecked(node, frame) > 0) {
+  if (port::can_read(node, frame) > 0) {
     count(node.Count.Received);
     count(node.Count.Unclaimed);
   }
@@ -468,7 +469,7 @@ void CONodeRealTime(CO_NODE* node) {
   const event::Serving serving(*node);
   transmit::flush(*node);
   CO_IF_FRM frame = wire::empty_frame(0, 0);
-  while ((node->State & event::running) != 0 && port::can_read(*node, frame) > 0) {
+  while ((node->State & event::running) != 0 && receive::read(*node, frame) > 0) {
     count(node->Count.Received);
     node::share_out(*node, frame);
   }

@@ -5,6 +5,7 @@ packages=("${build_packages[@]}")
 
 # Measures the time of the simulated bus, which is the same on every machine.
 lane() {
+  local targets=(lexican_speed)
   build_preset release || return
   local program=$build/release/tests/speed/lexican_speed page=$root/docs/speed.md
   [ -z "${update_numbers:-}" ] || "$program" --update "$page" || fail "the table is not written"

@@ -14,6 +14,7 @@ server=
 trap 'kill $server 2>/dev/null; rm -r "$work"' EXIT
 
 serve() {  # ARGUMENT... of the node
+  : >"$work/trace"  # await must not see the lines of the previous node
   "$node" --serve --pty "$@" >"$work/trace" 2>&1 &
   server=$!
   await "$work/trace" '^ *time/s'
