@@ -3,8 +3,8 @@
 """assemble.py ROOT PAGES
 
 Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict, the list of
-rules. Links between them are adapted; a link to another file of the repository becomes its path. Pictures are drawn
-from docs/pictures/*.dot by Graphviz.
+rules, the pages for contributors. Links between them are adapted; a link to another file of the repository becomes its
+path. Pictures are drawn from docs/pictures/*.dot by Graphviz.
 """
 import os.path
 import re
@@ -25,6 +25,8 @@ def pages_of(root):
         if (root / f"tools/codict/docs/{name}.md").exists():
             pages[Path(f"tools/codict/docs/{name}.md")] = Path(f"{name}.md")
     pages[Path("tests/conformance/RULES.md")] = Path("conformance.md")
+    pages[Path("CONTRIBUTING.md")] = Path("contributing.md")
+    pages[Path("tests/README.md")] = Path("tests.md")
     return pages
 
 
