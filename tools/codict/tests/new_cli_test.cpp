@@ -98,6 +98,21 @@ TEST_CASE("codict new: wrong use and descriptions with errors write nothing") {
   CHECK_FALSE(exists(directory, "pump"));
 }
 
+TEST_CASE("codict new --force: the build of the project accepts a description with errors, too") {
+  const Directory directory;
+  test::copy_to(directory, "limits.eds");
+  const Ran made = run_in(directory, "new pump --from limits.eds --force");
+  CHECK(made.status == 0);
+  CHECK(has(made.err, "error: mandatory object 1001h 'Error register' is missing [od-mandatory]"));
+  CHECK(has(test::bytes_of(directory / "pump/CMakeLists.txt"),
+            "generated\n    # The description has errors. Remove these options when they are corrected.\n"
+            "    VERIFY OFF OPTIONS --force)\n"));
+  CHECK(has(test::bytes_of(directory / "pump/README.md"),
+            "codict gen \"limits.eds\" -o generated --name limits --force`"));
+  CHECK(run_in(directory, "new correct --profile 301 --force").status == 0);
+  CHECK_FALSE(has(test::bytes_of(directory / "correct/CMakeLists.txt"), "--force"));
+}
+
 TEST_CASE("codict new: a description of another format is accepted, and what the application defines has a file") {
   const Directory directory;
   CHECK(run_in(directory, "new first --profile 401").status == 0);

@@ -101,7 +101,7 @@ std::vector<std::pair<std::string, unsigned>> settings_of(const std::string& hea
 }
 
 std::vector<project::File> files_of(const Options& options, const Input& input, const gen::Output& output,
-                                    const std::string& dictionary) {
+                                    const std::string& dictionary, bool is_forced) {
   const bool is_cpp = options.language == gen::Language::cpp;
   const std::string& header = output.files.front().bytes;
   project::Options project;
@@ -112,6 +112,7 @@ std::vector<project::File> files_of(const Options& options, const Input& input, 
   project.node_id = node_id_of(output.device, 0);
   project.has_storage = header.find(gen::upper(dictionary) + "_PARA_END") != std::string::npos;
   project.has_application = !output.stubs.empty();
+  project.is_forced = is_forced;
   project.settings = settings_of(header, gen::upper(dictionary));
   choose_tpdo(output.device, project);
 
@@ -189,7 +190,7 @@ int run(const Options& options) {
     complain("nothing is written: correct the description, or use --force");
     return found;
   }
-  return write_new(options.directory, files_of(options, *input, output, gen.name));
+  return write_new(options.directory, files_of(options, *input, output, gen.name, !is_right));
 }
 
 }  // namespace

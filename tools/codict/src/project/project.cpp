@@ -33,7 +33,7 @@ target_link_libraries(@NAME@_device PUBLIC lexican::lexican)
 find_program(LEXICAN_CODICT codict HINTS ${LEXICAN_CODICT_HINT} DOC "The program codict, for the machine that builds")
 if(LEXICAN_CODICT)
   lexican_generate(TARGET @NAME@_device DESCRIPTION "@CMAKE_DESCRIPTION@" NAME @DICT@ LANGUAGE @LANGUAGE@
-    OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/generated)
+    OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/generated@FORCED@)
 else()
   # Without codict, the generated files are compiled as they are; they do not follow changes of the description.
   target_sources(@NAME@_device PRIVATE generated/@DICT@_od.@EXT@)
@@ -155,7 +155,7 @@ With an installed Lexican (`find_package`), leave `-DLEXICAN` out; it has no dri
 | File | Content |
 |---|---|
 | `@DESCRIPTION@` | the description of the device; change objects here |
-| `generated/` | the object dictionary. The build runs `codict gen` again after a change if codict is found; by hand: `codict gen "@DESCRIPTION@" -o generated --name @DICT@@GEN_LANGUAGE@` |
+| `generated/` | the object dictionary. The build runs `codict gen` again after a change if codict is found; by hand: `codict gen "@DESCRIPTION@" -o generated --name @DICT@@GEN_LANGUAGE@@GEN_FORCE@` |
 | `main.@EXT@` | the node and its main loop; the application's code belongs into `RunApplication()` |
 @APPLICATION_ROW@| `CMakeLists.txt` | the build, and a test |
 
@@ -232,7 +232,12 @@ Words words_of(const Options& options) {
       {"TPDO_RUN", has_tpdo ? fmt::format("  COTPdoTrigPdo(Node.TPdo, {});\n", options.tpdo - 1) : ""},
       {"TPDO_WORDS", has_tpdo ? fmt::format(", TPDO {}", options.tpdo) : ""},
       {"RESULT", has_tpdo ? "HasBootUp && HasTpdo" : "HasBootUp"},
+      {"FORCED", options.is_forced
+                     ? "\n    # The description has errors. Remove these options when they are corrected.\n"
+                       "    VERIFY OFF OPTIONS --force"
+                     : ""},
       {"GEN_LANGUAGE", options.is_cpp ? " --language c++" : ""},
+      {"GEN_FORCE", options.is_forced ? " --force" : ""},
       {"NAME", options.name},
       {"DICT", options.dictionary},
       {"PREFIX", upper(options.dictionary)},

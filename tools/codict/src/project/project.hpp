@@ -24,6 +24,7 @@ struct Options {
   std::uint16_t tpdo = 0;         ///< number of the TPDO that the program triggers, 0: none
   std::uint32_t tpdo_cob_id = 0;  ///< its COB-ID
   bool has_storage = false;       ///< the dictionary has storage groups
+  bool is_forced = false;         ///< the description has errors: the build passes --force, and does not verify
   bool has_application = false;   ///< application.c defines symbols that the dictionary declares extern
   std::vector<std::pair<std::string, unsigned>> settings;  ///< minimum settings of co_cfg.h
 };
