@@ -36,14 +36,7 @@ all_cases() {
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
   check "installation with the manual page and completion" install_codict
-  static_codict
   run_tap "$root/tools/codict/tests/page_test.sh" "$build/codict/tools/codict/codict" "$root/tools/codict/tests/fixtures"
-}
-
-static_codict() {
-  local source=tools/codict targets=(codict)
-  build_tree codict-static -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_STATIC=ON || return
-  run_tap "$root/tools/codict/tests/static_test.sh" "$build/codict-static/codict" "$root/tools/codict/tests/fixtures"
 }
 
 install_codict() {

@@ -13,7 +13,7 @@ constexpr Nanoseconds longest_busy_period = Nanoseconds{600} * 1000 * 1000 * 100
 // Busy periods are treated as endless from this load on.
 constexpr double full_load = 1.0 - 1e-9;
 // Limit of the iteration steps for all streams, which bounds the time for hostile input.
-constexpr std::size_t most_steps = 200000000;
+constexpr std::size_t most_steps = 50000000;
 
 Nanoseconds ceiling(Nanoseconds dividend, Nanoseconds divisor) { return (dividend + divisor - 1) / divisor; }
 
