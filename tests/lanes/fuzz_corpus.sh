@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the fuzz targets of the stack with their committed inputs, clang with address and undefined behaviour sanitizers"
-minutes=2
+minutes=1
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${tool_packages[@]}")
 . "$root/tests/fuzz/build.sh"
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on the host, and that docs/speed.md tells them"
-minutes=2
+minutes=1
 packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 
 # Counts are the same on every host, as each instruction takes the same time on the clock of the emulated machine.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="small C and C++ projects that use the library in every way that is promised${full:+, and codict, also for another machine}"
-minutes=${full:+4}
+minutes=${full:+3}
 : "${minutes:=2}"
 packages=("${build_packages[@]}" pkg-config)
 [ -z "$full" ] || packages+=("${tool_packages[@]}" "${arm_packages[@]}" make)

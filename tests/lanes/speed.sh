@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="how fast SDO transfers are on a simulated bus, and that docs/speed.md tells it"
-minutes=4
+minutes=1
 packages=("${build_packages[@]}")
 
 # Measures the time of the simulated bus, which is the same on every machine.

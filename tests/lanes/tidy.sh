@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 about="clang-tidy over src and drivers, with the checks of .clang-tidy"
-minutes=3
+minutes=2
 packages=("${build_packages[@]}" "${clang_packages[@]}" clang-tidy-14)
 places=(src drivers)
 with_tools=OFF
