@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_cfg.h
-/// Configuration. Each value can be defined as a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of
-/// config/presets), or by a co_cfg.h of the application that is found first. A definition has priority over the preset.
-/// Library and application need the same values: the linker refuses different ones (co_configuration.h).
+/// Settings of the stack, with meaning, range and cost; the values below are the defaults. Each value can be defined as
+/// a compiler definition (-D), by a preset (CO_CFG_PRESET names a header of config/presets), or by a co_cfg.h of the
+/// application that is found first. A definition has priority over the preset. Library and application need the same
+/// values: the linker refuses different ones (co_configuration.h).
 #ifndef CO_CFG_H_
 #define CO_CFG_H_
 
@@ -51,10 +52,11 @@
 #error "USE_OD needs USE_OBJ_EX"
 #endif
 
-/// SDO clients (1280h, 1281h, …): 0 or 1, and how many: 1…100. Each costs 86 bytes of RAM (32-bit CPU).
+/// SDO clients (1280h, 1281h, …): 0 or 1.
 #ifndef USE_CSDO
 #define USE_CSDO 1
 #endif
+/// Number of SDO clients: 1…100. Each costs 86 bytes of RAM (32-bit CPU) with USE_CSDO.
 #ifndef CO_CSDO_N
 #define CO_CSDO_N 1
 #endif
@@ -87,10 +89,11 @@
 #error "CO_SDO_TIMEOUT: 0...60000 ms"
 #endif
 
-/// PDOs (1400h…, 1800h…): 0…512 of each. Each costs 78 bytes of RAM (32-bit CPU).
+/// RPDOs (1400h…): 0…512. Each costs 78 bytes of RAM (32-bit CPU).
 #ifndef CO_RPDO_N
 #define CO_RPDO_N 4
 #endif
+/// TPDOs (1800h…): 0…512. Each costs 78 bytes of RAM (32-bit CPU).
 #ifndef CO_TPDO_N
 #define CO_TPDO_N 4
 #endif

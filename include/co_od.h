@@ -332,8 +332,10 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
 ODR_t OD_extension_init(OD_entry_t* entry, OD_extension_t* extension) CO_NEEDS(USE_OD);
 
 /// \name Values of a known length
-/// Call OD_getSub(), then one read or write of \a len bytes. Access rights of the network are not checked. They return
-/// the errors of these functions, or:
+/// Call OD_getSub(), then one read or write of \a len bytes. Access rights of the network are not checked. For each C
+/// type there is a pair of functions with the width of the type: OD_get_i8(entry, subIndex, &value, odOrig) and
+/// OD_set_i8(entry, subIndex, value, odOrig), likewise i16, i32, i64, u8, u16, u32, u64, f32, f64, and r32 and r64, the
+/// names of f32 and f64 in the draft of 2020. All return the errors of OD_getSub() and of the read or write, or:
 /// \retval ODR_DEV_INCOMPAT   \a val is null, or an extension has accepted fewer bytes and returned ODR_OK
 /// \retval ODR_TYPE_MISMATCH  the variable has another length; nothing is read or written
 /// \{
@@ -359,7 +361,6 @@ ODR_t OD_set_value(const OD_entry_t* entry, uint8_t subIndex, void* val, OD_size
 #endif
 /// \endcond
 
-/// OD_get_i8(entry, subIndex, &value, odOrig), OD_set_i8(entry, subIndex, value, odOrig), and so on.
 OD_GET_SET(i8, int8_t, int8_t*)
 OD_GET_SET(i16, int16_t, int16_t*)
 OD_GET_SET(i32, int32_t, int32_t*)
@@ -370,7 +371,7 @@ OD_GET_SET(u32, uint32_t, uint32_t*)
 OD_GET_SET(u64, uint64_t, uint64_t*)
 OD_GET_SET(f32, float32_t, float32_t*)
 OD_GET_SET(f64, float64_t, float64_t*)
-OD_GET_SET(r32, float32_t, float32_t*)  ///< name in the draft of 2020
+OD_GET_SET(r32, float32_t, float32_t*)
 OD_GET_SET(r64, float64_t, float64_t*)
 #undef OD_GET_SET
 /// \}

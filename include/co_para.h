@@ -46,14 +46,14 @@
 #include "co_obj.h"
 #include "co_types.h"
 
-#if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
-#include "co/address.hpp"
-typedef co::Address CO_PARA_MEM;
-#else
 /// Memory of a parameter group. In C++ it is a class of the same size and layout (co/address.hpp) that can be
 /// initialised with the address of any object and is used like a uint8_t *; define CO_DATA_INTEGER to get the plain
 /// pointer there, too. In C write (uint8_t *)&structure: compilers warn about, or refuse, the address of a structure
 /// without the cast.
+#if defined(__cplusplus) && !defined(CO_DATA_INTEGER)
+#include "co/address.hpp"
+typedef co::Address CO_PARA_MEM;
+#else
 typedef uint8_t* CO_PARA_MEM;
 #endif
 
@@ -91,7 +91,7 @@ typedef struct CO_PARA_T {
   /// CO_RESET_NODE. Reset communication loads them, or copies their Default, without calling COParaDefault().
 #ifdef __cplusplus
   uint32_t ComSize = 0;
-  uint32_t Version = 0;
+  uint32_t Version = 0;  ///< of the layout; 0: the one of CO_PARA_VERSION() in Value
 #else
   uint32_t ComSize;
   uint32_t Version;  ///< of the layout; 0: the one of CO_PARA_VERSION() in Value

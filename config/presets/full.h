@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file presets/full.h
-/// Everything, for a node with memory to spare: several SDO servers and clients, every service, a long transmit queue.
+/// Preset for a node with much memory: several SDO servers and clients, every service, a long transmit queue. Settings
+/// that are not listed here have the defaults of co_cfg.h.
 #ifndef CO_PRESET_FULL_H_
 #define CO_PRESET_FULL_H_
 
+/// \cond internal
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 4
 #endif
@@ -49,5 +51,6 @@
 #ifndef CO_TX_QUEUE_N
 #define CO_TX_QUEUE_N 32
 #endif
+/// \endcond
 
 #endif

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file presets/minimal.h
-/// The smallest node: one SDO server without block transfer, no SDO client, a PDO in each direction, EMCY, little
-/// memory.
+/// Preset for the smallest node: one SDO server without block transfer, no SDO client, a PDO in each direction, EMCY,
+/// little memory. Settings that are not listed here have the defaults of co_cfg.h.
 #ifndef CO_PRESET_MINIMAL_H_
 #define CO_PRESET_MINIMAL_H_
 
+/// \cond internal
 #ifndef CO_SSDO_N
 #define CO_SSDO_N 1
 #endif
@@ -56,5 +57,6 @@
 #ifndef CO_SDO_BUF_SEG
 #define CO_SDO_BUF_SEG 8
 #endif
+/// \endcond
 
 #endif

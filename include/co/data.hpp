@@ -10,15 +10,19 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 #include <type_traits>
 
-/// Converts from and to the values of dictionary entries: `(CO_DATA)(&variable)`, `(CO_DATA)(5)`,
-/// `(CO_DATA)(&function)`; `(uint32_t *)obj->Data`, `(uint8_t)obj->Data`, `obj->Data == 0`. The conversion to addresses
-/// and enumerations is explicit, to integers implicit, as with the C type.
+/// The member CO_OBJ.Data: an address or a value. It converts from and to both like the C type:
+///
+///     (CO_DATA)(&variable)  (CO_DATA)(5)  (CO_DATA)(&function)
+///     (uint32_t *)obj->Data  (uint8_t)obj->Data  obj->Data == 0
+///
+/// The conversion to addresses and enumerations is explicit, to integers implicit.
 ///
 /// A table of entries is a constant expression: it is placed in read-only memory and needs no code at start-up. Casts
 /// between numbers and pointers are not constant expressions. Therefore the address of a register is written as
 /// `(CO_DATA)(0x40005400)`, and that of a variable without a cast to uintptr_t. In a constexpr table such a cast is a
 /// compile error; a const table would be initialised at start-up.
 union CO_DATA {
+  /// Leaves the content undefined; `CO_DATA{}` is 0.
   CO_DATA() = default;
 
   /// Constructs from a value (flag D).
@@ -37,14 +41,17 @@ union CO_DATA {
                                                                               : reinterpret_cast<uintptr_t>(function)) {
   }
 
+  /// Returns the content as a number; an implicit conversion. A constant expression if the content is a value.
   constexpr operator uintptr_t() const noexcept { return value_; }
 
+  /// Returns the content as an enumeration; only by a cast. A constant expression if the content is a value.
   template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
   constexpr explicit operator E() const noexcept {
     return static_cast<E>(value_);
   }
 
-  // Reads the member that a table was initialised with, so that the compiler can track an address through it.
+  /// Returns the content as the address of a variable or function; only by a cast. Reads the member that a table was
+  /// initialised with, so that the compiler can track an address through it.
   template <class T>
   explicit operator T*() const noexcept {
     if constexpr (std::is_function_v<T>) {
@@ -57,7 +64,10 @@ union CO_DATA {
   /// \name Content, for constant expressions
   /// One of the two is a constant expression, depending on the initialiser; neither is for a function.
   /// \{
+
+  /// Returns the content if it was initialised with a value.
   constexpr uintptr_t value() const noexcept { return value_; }
+  /// Returns the content if it was initialised with the address of a variable.
   constexpr const volatile void* address() const noexcept { return address_; }
   /// \}
 

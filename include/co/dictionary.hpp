@@ -68,53 +68,69 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 namespace co {
 
-/// \name Numbers that compilers print as hexadecimal digits
-/// \{
+/// An index as hexadecimal digits, for messages of the compiler: 1000h is `Index<'1', '0', '0', '0'>`.
 template <char... HexDigits>
 struct Index {};
+
+/// A sub-index as hexadecimal digits, for messages of the compiler: 0Ah is `Sub<'0', 'A'>`.
 template <char... HexDigits>
 struct Sub {};
-/// \}
 
 /// Compiles only for dictionaries without fault; the template arguments name the fault.
 template <CO_DICT_FAULT Fault, class Index, class Sub>
 struct Dictionary {
   static_assert(Fault == CO_DICT_OK,
                 "Dictionary<fault, index, sub-index>: this entry is wrong; CO_DICT_FAULT in co_dict.h says why");
-  static constexpr bool proved = true;
+  static constexpr bool proved = true;  ///< used in an expression, it makes the compiler check the assertion
 };
 
 /// Compiles only for entries that exist in their dictionary; the template arguments name the entry.
 template <class Index, class Sub, bool Exists>
 struct Entry {
   static_assert(Exists, "Entry<index, sub-index, false>: the dictionary has no such entry");
-  static constexpr bool proved = true;
+  static constexpr bool proved = true;  ///< used in an expression, it makes the compiler check the assertion
 };
 
+/// Checks of a table by the compiler, called by CO_OD_CHECK(), entry() and object(). Not for applications.
 namespace dictionary {
 
+/// Returns the number of elements of a table, including the end mark.
 template <std::size_t Length>
 constexpr std::size_t length(const CO_OBJ (&)[Length]) {
   return Length;
 }
 
+/// Returns the lower four bits of a number as an upper-case hexadecimal digit.
 constexpr char hex(unsigned number) { return "0123456789ABCDEF"[number & 0xFu]; }
 
+/// The Index of a number.
 template <std::uint16_t Number>
 using IndexOf = Index<hex(Number >> 12), hex(Number >> 8), hex(Number >> 4), hex(Number)>;
+/// The Sub of a number.
 template <std::uint8_t Number>
 using SubOf = Sub<hex(Number >> 4), hex(Number)>;
 
 /// Kind of the C++ type for the values of an object type.
-enum class Value : std::uint8_t { integer, unsigned_integer, signed_integer, boolean, real, bytes, of_application };
-
-struct Type {
-  const CO_OBJ_TYPE* type;
-  rules::Rule rule;
-  Value value;
-  std::uint8_t width;  // bytes on the bus, 0: varies
+enum class Value : std::uint8_t {
+  integer,           ///< signed or unsigned integer
+  unsigned_integer,  ///< unsigned integer
+  signed_integer,    ///< signed integer
+  boolean,           ///< bool
+  real,              ///< float or double
+  bytes,             ///< string, domain, or time of day: no C++ type
+  of_application     ///< defined by the application
 };
 
+/// Properties of an object type of the library.
+struct Type {
+  const CO_OBJ_TYPE* type;  ///< functions of the type
+  rules::Rule rule;         ///< indices, sub-indices and flags that the type allows
+  Value value;              ///< kind of the values
+  std::uint8_t width;       ///< bytes on the bus, 0: varies
+};
+
+/// Object types of the library, except those that the configuration excludes. A type whose rules or values depend
+/// on the sub-index has several elements.
 inline constexpr Type types[] = {
     {&COTBoolean, rules::boolean, Value::boolean, 1},
     {&COTInt8, rules::integer(1), Value::integer, 1},
@@ -189,10 +205,11 @@ constexpr bool is_same(const CO_OBJ_TYPE* a, const CO_OBJ_TYPE* b) { return __bu
 #if USE_OD
 /// A type of extensible entries (co_od.h), and the type whose rules it follows.
 struct Extensible {
-  const CO_OBJ_TYPE* type;
-  const CO_OBJ_TYPE* original;
+  const CO_OBJ_TYPE* type;      ///< type of extensible entries
+  const CO_OBJ_TYPE* original;  ///< type of the library with the same values
 };
 
+/// All types of extensible entries.
 inline constexpr Extensible extensible[] = {
     {&ODTBoolean.Ex.Type, &COTBoolean},
     {&ODTInt8.Ex.Type, &COTInt8},
@@ -230,7 +247,8 @@ constexpr const CO_OBJ_TYPE* original(const CO_OBJ_TYPE* type) {
   return type;
 }
 
-/// Returns the description of an entry's type: for a type with one for each of several index ranges, the matching one.
+/// Returns the properties of an entry's type. If the type has several, those whose rule allows the entry's index and
+/// sub-index are returned, or the last ones if none does.
 constexpr Type type_of(const CO_OBJ& entry) {
   const CO_OBJ_TYPE* const type = original(entry.Type);
   Type found{type, rules::variable, Value::of_application, 0};
@@ -246,10 +264,15 @@ constexpr Type type_of(const CO_OBJ& entry) {
   return found;
 }
 
-/// Initialiser of Data. Only an expression that names the table itself lets the compiler distinguish them: reading a
-/// value from the initialiser is a constant expression, reading an address as a number is not.
-enum class Content : std::uint8_t { null, value, address };
+/// Kind of the initialiser of Data. The compiler can distinguish the kinds only by an expression that names the table
+/// itself: reading a value from the initialiser is a constant expression, reading an address as a number is not.
+enum class Content : std::uint8_t {
+  null,    ///< 0 or a null pointer
+  value,   ///< a number other than 0
+  address  ///< the address of a variable or function
+};
 
+/// Returns the kind of the initialiser of Data in the element of the table at \a position.
 template <const auto& Od>
 constexpr Content content(std::size_t position) {
   if (__builtin_constant_p(Od[position].Data.value())) {
@@ -285,6 +308,9 @@ constexpr CO_DICT_FAULT check_unknown([[maybe_unused]] const CO_OBJ_TYPE* type, 
   return CO_DICT_OK;
 }
 
+/// Checks all rules of the entry at \a position, except whether a PDO may map it. \a previous: key of the previous
+/// entry, 0 for the first. An entry with a type of the application is checked by check_entry() and check_unknown()
+/// only.
 template <const auto& Od>
 constexpr CO_DICT_FAULT check(std::uint32_t previous, std::size_t position) {
   const CO_OBJ& entry = Od[position];
@@ -310,6 +336,7 @@ constexpr std::size_t position(const CO_OBJ (&od)[Length], std::uint32_t key) {
   return Length;
 }
 
+/// Returns the key of an entry, without flags.
 constexpr std::uint32_t key_of(std::uint16_t index, std::uint8_t sub) {
   return std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
 }
@@ -344,12 +371,13 @@ constexpr std::size_t find_unmappable(std::size_t place) {
   return mapped < length(Od) && !rules::has(Od[mapped].Key, CO_OBJ____P__) ? mapped : length(Od);
 }
 
+/// Result of a check.
 struct Finding {
-  CO_DICT_FAULT fault;
-  std::uint32_t key;
+  CO_DICT_FAULT fault;  ///< CO_DICT_OK: no fault
+  std::uint32_t key;    ///< key of the faulty entry, 0 without fault
 };
 
-/// Returns the first object that a PDO maps and that has no flag P.
+/// Checks whether all mapped objects have flag P. Returns the first mapped object without it.
 template <const auto& Od>
 constexpr Finding check_mappings() {
   for (std::size_t place = 0; place < length(Od); ++place) {
@@ -361,7 +389,7 @@ constexpr Finding check_mappings() {
   return {CO_DICT_OK, 0};
 }
 
-/// Returns the first fault of the table.
+/// Checks the complete table. Returns its first fault.
 template <const auto& Od>
 constexpr Finding check() {
   std::uint32_t previous = 0;
@@ -381,6 +409,7 @@ constexpr Finding check() {
   return check_mappings<Od>();
 }
 
+/// Returns true, or causes a compile error that names the first fault of the table.
 template <const auto& Od>
 constexpr bool is_proved() {
   constexpr Finding finding = check<Od>();
@@ -389,8 +418,9 @@ constexpr bool is_proved() {
 
 }  // namespace dictionary
 
-/// Finds an entry of a constexpr table by CO_DEV(index, sub); null if there is none. A linear search, for constant
+/// Finds an entry of a constexpr table. \a key: CO_DEV(index, sub); flags are ignored. A linear search, for constant
 /// expressions.
+/// \retval null  there is no such entry
 template <std::size_t Length>
 constexpr const CO_OBJ* find(const CO_OBJ (&od)[Length], std::uint32_t key) {
   const std::size_t position = dictionary::position(od, key);
@@ -398,7 +428,8 @@ constexpr const CO_OBJ* find(const CO_OBJ (&od)[Length], std::uint32_t key) {
 }
 
 /// Returns an entry of a constexpr dictionary. The compiler finds it: the address is a constant, and an entry that does
-/// not exist is a compile error. Pass the result to COObjRdValue() and similar functions; the entry itself is const.
+/// not exist is a compile error. The result is for COObjRdValue() and similar functions; the entry itself is constant
+/// and must not be written.
 ///
 ///     CO_OBJ *const speed = co::entry<od, 0x2100, 1>();
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>

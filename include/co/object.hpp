@@ -6,7 +6,7 @@
 ///     if (const auto now = speed.get()) { use(now.value()); }
 ///     const CO_ERR error = speed.set(1500);
 ///
-/// Access rights of the network are not checked.
+/// Access rights of the network are not checked. No heap is used, and no exception is thrown.
 ///
 /// Context: the loop (see co_obj.h).
 #pragma once
@@ -24,17 +24,22 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 namespace co {
 
-/// A value, or the error that explains why there is none.
+/// A value, or the error because of which there is none.
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// Constructs a result with a value.
   constexpr Result(T value) noexcept : value_(value) {}
+  /// Constructs a result without value. \a error: not CO_ERR_NONE.
   constexpr Result(CO_ERR error) noexcept : error_(error) {}
 
+  /// Returns true if there is a value.
   constexpr explicit operator bool() const noexcept { return error_ == CO_ERR_NONE; }
-  /// Returns T() if there is no value.
+  /// Returns the value, T() if there is none.
   constexpr T value() const noexcept { return value_; }
+  /// Returns the value, \a other if there is none.
   constexpr T value_or(T other) const noexcept { return error_ == CO_ERR_NONE ? value_ : other; }
+  /// Returns the error, CO_ERR_NONE if there is a value.
   constexpr CO_ERR error() const noexcept { return error_; }
 
  private:
@@ -42,7 +47,7 @@ class [[nodiscard]] Result {
   CO_ERR error_ = CO_ERR_NONE;
 };
 
-/// Like std::is_signed, also for enumerations.
+/// Returns std::is_signed of a T; of its underlying type if T is an enumeration.
 template <class T>
 constexpr bool is_signed() {
   if constexpr (std::is_enum_v<T>) {
@@ -52,9 +57,11 @@ constexpr bool is_signed() {
   }
 }
 
-/// Access to an entry of a node's dictionary as a T: bool, an integer, an enumeration, float or double. Integers of 3,
-/// and of 5, 6 and 7 bytes are accessed as integers of 4 and 8. An Object refers to the node and the entry: it is
-/// invalid after entries were moved.
+/// Access to an entry of a node's dictionary as a T: bool, an integer, an enumeration, float or double. Integers of 3
+/// bytes are accessed as integers of 4 bytes, integers of 5, 6 and 7 bytes as integers of 8 bytes.
+///
+/// An Object refers to the node and the entry, which must outlive it. It is invalid after entries of a table in RAM
+/// were moved. Context: the loop.
 template <class T>
 class Object {
   static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
@@ -63,7 +70,10 @@ class Object {
   using Stored = std::conditional_t<std::is_same_v<T, bool>, std::uint8_t, T>;
 
  public:
-  /// error() is CO_ERR_OBJ_NOT_FOUND if \a entry is null, and CO_ERR_OBJ_SIZE if its length is not that of a T.
+  /// Refers to \a entry of the dictionary of \a node; the length of the object is checked once, here. error() is then:
+  /// - CO_ERR_NONE: the object can be accessed;
+  /// - CO_ERR_OBJ_NOT_FOUND: \a entry is null;
+  /// - CO_ERR_OBJ_SIZE: the length of the object is not that of a T.
   Object(CO_NODE& node, CO_OBJ* entry) noexcept : node_(&node), entry_(entry) {
     const std::uint32_t width = COObjGetSize(entry, &node, sizeof(T));
     if (entry == nullptr) {
@@ -74,7 +84,8 @@ class Object {
     }
   }
 
-  /// For an entry whose length is known at compile time.
+  /// Refers to an entry whose length, \a width bytes, is known at compile time. \a entry must not be null. error() is
+  /// CO_ERR_NONE, or CO_ERR_OBJ_SIZE if \a width is not the length of a T.
   constexpr Object(CO_NODE& node, CO_OBJ* entry, std::uint8_t width) noexcept
       : node_(&node), entry_(entry), error_(is_width(width) ? CO_ERR_NONE : CO_ERR_OBJ_SIZE), width_(width) {}
 
@@ -84,11 +95,16 @@ class Object {
     return width == sizeof(T) || (has_odd_widths && width > sizeof(T) / 2 && width < sizeof(T));
   }
 
+  /// Returns true if the object can be accessed: error() is CO_ERR_NONE.
   constexpr explicit operator bool() const noexcept { return error_ == CO_ERR_NONE; }
+  /// Returns the error that the constructor has detected.
   constexpr CO_ERR error() const noexcept { return error_; }
+  /// Returns the entry, null if it was not found.
   constexpr CO_OBJ* entry() const noexcept { return entry_; }
 
-  /// Reads the value. Errors: error(), and those of COObjRdValue().
+  /// Reads the value. The result has the value, or the error of COObjRdValue(), or one of these:
+  /// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
+  /// \retval CO_ERR_OBJ_SIZE       the length of the object is not that of a T
   Result<T> get() const noexcept {
     Stored stored{};
     CO_ERR error = error_;
@@ -105,8 +121,10 @@ class Object {
     }
   }
 
-  /// Writes the value. Errors: error(), CO_ERR_OBJ_RANGE if the object has too few bytes for the value, and those of
-  /// COObjWrValue().
+  /// Writes the value. Returns the result of COObjWrValue(), or:
+  /// \retval CO_ERR_OBJ_NOT_FOUND  there is no such entry
+  /// \retval CO_ERR_OBJ_SIZE       the length of the object is not that of a T
+  /// \retval CO_ERR_OBJ_RANGE      the object has too few bytes for the value
   CO_ERR set(T value) const noexcept {
     auto stored = static_cast<Stored>(value);
     if (error_ != CO_ERR_NONE) {
@@ -153,7 +171,8 @@ class Object {
   std::uint8_t width_ = 0;
 };
 
-/// Finds an object. Object::error() and every access return the error, if any.
+/// Finds an object of the node's dictionary at run time. If it does not exist, or has another length than a T,
+/// Object::error() and every access return the error.
 template <class T>
 Object<T> object(CO_NODE& node, std::uint16_t index, std::uint8_t sub) noexcept {
   const std::uint32_t key = std::uint32_t{index} << 16 | std::uint32_t{sub} << 8;
@@ -162,16 +181,17 @@ Object<T> object(CO_NODE& node, std::uint16_t index, std::uint8_t sub) noexcept 
 
 #ifndef CO_DATA_INTEGER
 
-/// Compiles only if a T can hold the values of the entry.
+/// Compiles only if a T can hold the values of the entry; the template arguments name type and entry.
 template <class T, class Index, class Sub, bool Fits>
 struct ValueType {
   static_assert(Fits, "ValueType<T, index, sub-index, false>: the entry has values of another type");
-  static constexpr bool proved = true;
+  static constexpr bool proved = true;  ///< used in an expression, it makes the compiler check the assertion
 };
 
 namespace dictionary {
 
-/// Returns the C++ type for the values of an object type: unsigned for types that serve signed and unsigned integers.
+/// Returns a value of the C++ type for an object type; unsigned for types of signed and unsigned integers. Returns
+/// nothing for strings, domains, times of day and types of the application.
 template <Value Kind, std::uint8_t Width>
 constexpr auto natural() {
   if constexpr (Kind == Value::boolean) {
@@ -189,6 +209,7 @@ constexpr auto natural() {
   }
 }
 
+/// Returns whether a T is a C++ type for values of this kind, of any length; false for bytes and of_application.
 template <class T>
 constexpr bool is_kind(Value kind) {
   constexpr bool whole = (std::is_integral_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>;
@@ -204,7 +225,8 @@ constexpr bool is_kind(Value kind) {
   return false;
 }
 
-/// Accepts any T for types of the application; Object checks their length at run time.
+/// Returns whether a T can hold the values of an object type. True for types of the application, whose length Object
+/// checks at run time.
 template <class T>
 constexpr bool can_hold(const Type& type) {
   if constexpr (std::is_void_v<T>) {
@@ -214,16 +236,20 @@ constexpr bool can_hold(const Type& type) {
   }
 }
 
+/// Properties of the type of an entry, which must exist.
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>
 inline constexpr Type type_at = type_of(*co::entry<Od, Index, Sub>());
 
+/// C++ type for the values of an entry; void if the caller has to name one.
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub>
 using Natural = decltype(natural<type_at<Od, Index, Sub>.value, type_at<Od, Index, Sub>.width>());
 
 }  // namespace dictionary
 
-/// Returns access to an object of the node's constexpr dictionary. The compiler finds the entry and checks its type. T
-/// is needed only for signed values (one type object serves both), enumerations and types of the application.
+/// Returns access to an object of the node's constexpr dictionary, an Object<T>. The compiler finds the entry and
+/// checks its type: an entry that does not exist, or has values of another type, is a compile error. T is needed only
+/// for signed values of 8, 16, 32 and 64 bits (CO_TSIGNED16 and CO_TUNSIGNED16 are one type object, and so on), for
+/// enumerations and for types of the application.
 ///
 ///     const auto speed = co::object<od, 0x2100, 1>(node);
 template <const auto& Od, std::uint16_t Index, std::uint8_t Sub, class T = dictionary::Natural<Od, Index, Sub>>

@@ -19,9 +19,12 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co_cfg.h"
 #include "co_dict.h"
 
+/// Rules for the entries of a dictionary. Not for applications: CO_OD_CHECK() and CODictInit() apply them.
 namespace co::rules {
 
+/// Returns the index in the key of an entry.
 constexpr std::uint16_t index_of(std::uint32_t key) { return static_cast<std::uint16_t>(key >> 16); }
+/// Returns the sub-index in the key of an entry.
 constexpr std::uint8_t sub_of(std::uint32_t key) { return static_cast<std::uint8_t>((key >> 8) & 0xFFu); }
 
 /// Returns whether all \a flags are set in the key.
@@ -33,12 +36,13 @@ constexpr bool is_static_type(std::uint32_t key) { return index_of(key) >= 0x000
 
 /// Index range of a parameter object that exists once for each instance of a service.
 struct Instances {
-  std::uint16_t first;    // index
-  std::uint16_t last;     // index
-  std::uint8_t last_sub;  // sub-indices above belong to the application and are not checked
-  std::uint16_t configured;
+  std::uint16_t first;       ///< first index
+  std::uint16_t last;        ///< last index
+  std::uint8_t last_sub;     ///< sub-indices above belong to the application and are not checked
+  std::uint16_t configured;  ///< instances that co_cfg.h provides; the objects of others are refused
 };
 
+/// Services with several instances.
 inline constexpr Instances instances[] = {
     {0x1200, 0x127F, 3, CO_SSDO_N},                      // SDO servers [CiA 301, 7.5.2.33]
     {0x1280, 0x12FF, 3, USE_CSDO != 0 ? CO_CSDO_N : 0},  // SDO clients [CiA 301, 7.5.2.34]
@@ -62,6 +66,7 @@ constexpr bool is_in_array(std::uint32_t key) {
   return true;
 }
 
+/// Returns false for an object of a service instance, or an element of an array, that co_cfg.h does not provide.
 constexpr bool is_configured(std::uint32_t key) {
   const std::uint16_t index = index_of(key);
   for (const Instances& service : instances) {
@@ -73,6 +78,11 @@ constexpr bool is_configured(std::uint32_t key) {
 }
 
 /// Checks the rules that apply to entries of every type. \a previous: key of the previous entry, 0 for the first.
+/// \retval CO_DICT_OK              no fault
+/// \retval CO_DICT_RESERVED_INDEX  index 0000h, or a static data type with data
+/// \retval CO_DICT_NOT_ASCENDING   the index and sub-index are not above those of \a previous
+/// \retval CO_DICT_NO_TYPE         Type is null
+/// \retval CO_DICT_NOT_CONFIGURED  co_cfg.h does not provide the service instance or the element of the array
 constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, bool has_type, bool has_data) {
   if (index_of(key) == 0 || (is_static_type(key) && has_data)) {
     return CO_DICT_RESERVED_INDEX;
@@ -88,15 +98,16 @@ constexpr CO_DICT_FAULT check_entry(std::uint32_t previous, std::uint32_t key, b
 
 /// Requirements of a type on its entries. Costs 10 bytes of flash if it is used at run time.
 struct Rule {
-  std::uint16_t first_index;
-  std::uint16_t last_index;
-  std::uint8_t first_sub;
-  std::uint8_t last_sub;
-  std::uint8_t direct_width;  // bytes of a value in Data; 0: flag D is not allowed
-  bool node_id_relative;      // flag N is allowed
-  bool of_pdo;                // the indices are those of RPDOs; those of TPDOs are 400h higher
+  std::uint16_t first_index;  ///< lowest allowed index
+  std::uint16_t last_index;   ///< highest allowed index
+  std::uint8_t first_sub;     ///< lowest allowed sub-index
+  std::uint8_t last_sub;      ///< highest allowed sub-index
+  std::uint8_t direct_width;  ///< bytes of a value in Data; 0: flag D is not allowed
+  bool node_id_relative;      ///< flag N is allowed
+  bool of_pdo;                ///< the indices are those of RPDOs; those of TPDOs, 400h higher, are allowed, too
 };
 
+/// Returns the rule of a type that is allowed at every index. \a direct_width and \a node_id_relative: see Rule.
 constexpr Rule anywhere(std::uint8_t direct_width, bool node_id_relative) {
   return {0x0001, 0xFFFF, 0x00, 0xFF, direct_width, node_id_relative, false};
 }
@@ -105,50 +116,91 @@ constexpr Rule anywhere(std::uint8_t direct_width, bool node_id_relative) {
 /// stored in four).
 constexpr Rule integer(std::uint8_t width) { return anywhere(width, true); }
 
-inline constexpr Rule boolean = anywhere(1, false);
-inline constexpr Rule variable = anywhere(0, false);  // reals, times, strings, domains
-inline constexpr Rule heartbeat_consumers{0x1016, 0x1016, 0, 0, 1, false, false};
-inline constexpr Rule heartbeat_consumer{0x1016, 0x1016, 1, CO_HBCONS_N, 0, false, false};
-inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false, false};
-inline constexpr Rule error_behaviour{0x1029, 0x1029, 0, 254, 1, false, false};
-inline constexpr Rule parameter_group_number{0x1010, 0x1011, 0, 0, 1, false, false};
-inline constexpr Rule parameter_group{0x1010, 0x1011, 1, 127, 0, false, false};
-inline constexpr Rule verify_configuration{0x1020, 0x1020, 1, 2, 0, false, false};
-inline constexpr Rule nmt_startup{0x1F80, 0x1F80, 0, 0, 4, false, false};
-inline constexpr Rule emcy_history_number{0x1003, 0x1003, 0, 0, 1, false, false};
-inline constexpr Rule emcy_history{0x1003, 0x1003, 1, 254, 0, false, false};
-inline constexpr Rule emcy_cob_id{0x1014, 0x1014, 0, 0, 4, true, false};
-inline constexpr Rule emcy_consumer{0x1028, 0x1028, 1, 127, 4, false, false};
-inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
-inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
-inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
-inline constexpr Rule sync_cycle{0x1006, 0x1007, 0, 0, 4, false, false};
-inline constexpr Rule sync_counter{0x1019, 0x1019, 0, 0, 1, false, false};
-inline constexpr Rule pdo_cob_id{0x1400, 0x15FF, 1, 1, 4, true, true};
-inline constexpr Rule pdo_type{0x1400, 0x15FF, 2, 2, 1, false, true};
-inline constexpr Rule pdo_inhibit{0x1400, 0x15FF, 3, 3, 2, false, true};
-inline constexpr Rule pdo_event{0x1400, 0x15FF, 5, 5, 2, false, true};
-inline constexpr Rule pdo_start{0x1800, 0x19FF, 6, 6, 1, false, false};
-inline constexpr Rule pdo_number{0x1600, 0x17FF, 0, 0, 1, false, true};
-inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
-inline constexpr Rule pdo_scan{0x1FA0, 0x1FCF, 1, 254, 4, false, false};
-inline constexpr Rule pdo_dispatch{0x1FD0, 0x1FFF, 1, 254, 8, false, false};
+/// \name Rules of the types of the library
+/// \{
 
+/// BOOLEAN
+inline constexpr Rule boolean = anywhere(1, false);
+/// Reals, times of day, strings and domains
+inline constexpr Rule variable = anywhere(0, false);
+/// 1016h, sub 0: number of heartbeat consumers
+inline constexpr Rule heartbeat_consumers{0x1016, 0x1016, 0, 0, 1, false, false};
+/// 1016h, other sub-indices: a heartbeat consumer
+inline constexpr Rule heartbeat_consumer{0x1016, 0x1016, 1, CO_HBCONS_N, 0, false, false};
+/// 1017h: period of the heartbeat producer
+inline constexpr Rule heartbeat_producer{0x1017, 0x1017, 0, 0, 2, false, false};
+/// 1029h: error behaviour
+inline constexpr Rule error_behaviour{0x1029, 0x1029, 0, 254, 1, false, false};
+/// 1010h and 1011h, sub 0: number of parameter groups
+inline constexpr Rule parameter_group_number{0x1010, 0x1011, 0, 0, 1, false, false};
+/// 1010h and 1011h, other sub-indices: a parameter group
+inline constexpr Rule parameter_group{0x1010, 0x1011, 1, 127, 0, false, false};
+/// 1020h: date and time of the configuration
+inline constexpr Rule verify_configuration{0x1020, 0x1020, 1, 2, 0, false, false};
+/// 1F80h: NMT start-up
+inline constexpr Rule nmt_startup{0x1F80, 0x1F80, 0, 0, 4, false, false};
+/// 1003h, sub 0: number of errors in the history
+inline constexpr Rule emcy_history_number{0x1003, 0x1003, 0, 0, 1, false, false};
+/// 1003h, other sub-indices: an error
+inline constexpr Rule emcy_history{0x1003, 0x1003, 1, 254, 0, false, false};
+/// 1014h: COB-ID of the EMCY producer
+inline constexpr Rule emcy_cob_id{0x1014, 0x1014, 0, 0, 4, true, false};
+/// 1028h: COB-ID of an EMCY consumer
+inline constexpr Rule emcy_consumer{0x1028, 0x1028, 1, 127, 4, false, false};
+/// 1200h…12FFh, sub 1 and 2: COB-IDs of an SDO server or client
+inline constexpr Rule sdo_cob_id{0x1200, 0x12FF, 1, 2, 4, true, false};
+/// 1012h: COB-ID of TIME
+inline constexpr Rule time_cob_id{0x1012, 0x1012, 0, 0, 4, true, false};
+/// 1005h: COB-ID of SYNC
+inline constexpr Rule sync_cob_id{0x1005, 0x1005, 0, 0, 4, true, false};
+/// 1006h and 1007h: period of SYNC, and window of synchronous PDOs
+inline constexpr Rule sync_cycle{0x1006, 0x1007, 0, 0, 4, false, false};
+/// 1019h: overflow value of the SYNC counter
+inline constexpr Rule sync_counter{0x1019, 0x1019, 0, 0, 1, false, false};
+/// 1400h… and 1800h…, sub 1: COB-ID of a PDO
+inline constexpr Rule pdo_cob_id{0x1400, 0x15FF, 1, 1, 4, true, true};
+/// 1400h… and 1800h…, sub 2: transmission type
+inline constexpr Rule pdo_type{0x1400, 0x15FF, 2, 2, 1, false, true};
+/// 1400h… and 1800h…, sub 3: inhibit time
+inline constexpr Rule pdo_inhibit{0x1400, 0x15FF, 3, 3, 2, false, true};
+/// 1400h… and 1800h…, sub 5: event timer
+inline constexpr Rule pdo_event{0x1400, 0x15FF, 5, 5, 2, false, true};
+/// 1800h…, sub 6: SYNC start value
+inline constexpr Rule pdo_start{0x1800, 0x19FF, 6, 6, 1, false, false};
+/// 1600h… and 1A00h…, sub 0: number of mapped objects
+inline constexpr Rule pdo_number{0x1600, 0x17FF, 0, 0, 1, false, true};
+/// 1600h… and 1A00h…, other sub-indices: a mapped object
+inline constexpr Rule pdo_mapping{0x1600, 0x17FF, 1, 64, 4, false, true};
+/// 1FA0h…1FCFh: object scanner list
+inline constexpr Rule pdo_scan{0x1FA0, 0x1FCF, 1, 254, 4, false, false};
+/// 1FD0h…1FFFh: object dispatching list
+inline constexpr Rule pdo_dispatch{0x1FD0, 0x1FFF, 1, 254, 8, false, false};
+/// \}
+
+/// Returns whether an index is in the range of a rule; the indices of TPDOs are not considered.
 constexpr bool is_index(const Rule& rule, std::uint16_t index) {
   return index >= rule.first_index && index <= rule.last_index;
 }
 
+/// Returns whether a rule allows the index and the sub-index of a key.
 constexpr bool is_place(const Rule& rule, std::uint32_t key) {
   constexpr std::uint16_t from_rpdo_to_tpdo = 0x0400;
   const bool of_tpdo = rule.of_pdo && is_index(rule, static_cast<std::uint16_t>(index_of(key) - from_rpdo_to_tpdo));
   return (is_index(rule, index_of(key)) || of_tpdo) && sub_of(key) >= rule.first_sub && sub_of(key) <= rule.last_sub;
 }
 
+/// Returns whether a rule allows flag D on this CPU: the value has to fit into a pointer.
 constexpr bool may_be_direct(const Rule& rule) {
   return rule.direct_width != 0 && rule.direct_width <= sizeof(std::uintptr_t);
 }
 
 /// Checks the rules of a type, for an entry that has passed check_entry().
+/// \retval CO_DICT_OK              no fault
+/// \retval CO_DICT_RESERVED_INDEX  a static data type with data
+/// \retval CO_DICT_WRONG_PLACE     the type is not allowed at this index and sub-index
+/// \retval CO_DICT_DIRECT_TYPE     flag D is not allowed
+/// \retval CO_DICT_NODEID_TYPE     flag N is not allowed
+/// \retval CO_DICT_NO_DATA         Data is null, without flag D
 constexpr CO_DICT_FAULT check_type(const Rule& rule, std::uint32_t key, bool has_data) {
   if (is_static_type(key)) {
     return has_data ? CO_DICT_RESERVED_INDEX : CO_DICT_OK;
