@@ -36,15 +36,16 @@ struct BitTimingLimits {
 
 /// Bit timing; prescaler 0 means: no valid timing.
 struct BitTiming {
-  std::uint16_t prescaler;
-  std::uint16_t segment1;
-  std::uint16_t segment2;
-  std::uint16_t jump;
+  std::uint16_t prescaler;  ///< clock periods in a quantum
+  std::uint16_t segment1;   ///< quanta of PROP_SEG and PHASE_SEG1
+  std::uint16_t segment2;   ///< quanta of PHASE_SEG2
+  std::uint16_t jump;       ///< synchronisation jump width (SJW), quanta
 
+  /// Returns the quanta of a bit.
   constexpr unsigned quanta() const { return 1U + segment1 + segment2; }
   /// Returns the sample point in units of 0.01 % of the bit.
   constexpr unsigned sample_point() const { return (1U + segment1) * 10000U / quanta(); }
-  /// Returns the bit rate in bit/s, rounded down.
+  /// Returns the bit rate in bit/s, rounded down. \a clock: Hz. Only for a valid timing.
   constexpr std::uint32_t rate(std::uint32_t clock) const { return clock / (prescaler * quanta()); }
 };
 
@@ -100,7 +101,7 @@ constexpr bool is_better(const BitTiming& a, const BitTiming& b, std::uint32_t c
 }  // namespace timing
 /// \endcond
 
-/// Returns the bit timing for a clock or rate that is known only at run time; prescaler 0: there is none.
+/// Returns the bit timing for a clock (Hz) or rate (bit/s) that is known only at run time; prescaler 0: there is none.
 constexpr BitTiming find_bit_timing(std::uint32_t clock, std::uint32_t rate, const BitTimingLimits& limits) {
   BitTiming best = {};
   const unsigned most = 1U + limits.segment1 + limits.segment2;

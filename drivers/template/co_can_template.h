@@ -22,6 +22,7 @@
 extern "C" {
 #endif
 
+/// The driver, for CO_IF_DRV.Can.
 extern const CO_IF_CAN_DRV TemplateCanDriver;
 
 /// Moves received frames into the queue. Call it in the interrupt of the controller.

@@ -17,6 +17,7 @@
 extern "C" {
 #endif
 
+/// The driver, for CO_IF_DRV.Nvm.
 extern const CO_IF_NVM_DRV TemplateNvmDriver;
 
 #ifdef __cplusplus

@@ -24,6 +24,7 @@
 extern "C" {
 #endif
 
+/// The driver, for CO_IF_DRV.Timer.
 extern const CO_IF_TIMER_DRV TemplateTimerDriver;
 
 /// Processes a compare match. Call it in the compare interrupt, before COTmrService().

@@ -43,36 +43,40 @@ extern "C" {
 
 /// State of a controller. The application may write Baud; the driver owns all other members.
 typedef struct CO_SLCAN_T {
-  uint32_t Baud;             ///< bit/s if Enable is called with 0; 0: the rate that the adapter has
-  void (*Start)(void* ctx);  ///< called by Send, Enable and Close when there is text to send
-  void* Ctx;
-  CO_RING Frames;
-  uint16_t LostSeen;   // lost frames (ring full) that Read has reported
-  uint16_t Malformed;  // written by the receiving context only
-  uint16_t Refused;    // likewise
-  uint8_t Open;        // on the bus: frames are received; written by the loop only
-  uint8_t Busy;        // Send had too little space; written by the loop only
-  uint8_t TxHead;      // bytes written, modulo 256; written by the loop only
-  uint8_t TxTail;      // written by the transmitting context only
-  uint8_t LineLen;     // characters received; more than CO_SLCAN_LINE: not a frame
-  uint8_t Line[CO_SLCAN_LINE];
-  uint8_t Tx[CO_SLCAN_TX_BYTES];
+  uint32_t Baud;                  ///< bit/s if Enable is called with 0; 0: the rate that the adapter has
+  void (*Start)(void* ctx);       ///< called by Send, Enable and Close when there is text to send
+  void* Ctx;                      ///< argument of Start
+  CO_RING Frames;                 ///< received frames
+  uint16_t LostSeen;              ///< lost frames (ring full) that Read has reported
+  uint16_t Malformed;             ///< invalid lines; written by the receiving context only
+  uint16_t Refused;               ///< lines that the adapter has refused; written by the receiving context only
+  uint8_t Open;                   ///< 1: on the bus, frames are received; written by the loop only
+  uint8_t Busy;                   ///< 1: Send has found too little space; written by the loop only
+  uint8_t TxHead;                 ///< bytes written to Tx, modulo 256; written by the loop only
+  uint8_t TxTail;                 ///< bytes sent from Tx, modulo 256; written by the transmitting context only
+  uint8_t LineLen;                ///< characters in Line; more than CO_SLCAN_LINE: not a frame
+  uint8_t Line[CO_SLCAN_LINE];    ///< line that is being received
+  uint8_t Tx[CO_SLCAN_TX_BYTES];  ///< text to be sent, a circular buffer
 } CO_SLCAN;
 
-/// Initialises a controller with \a num frames at \a mem as its receive queue. No other context may use it meanwhile.
+/// Initialises a controller with \a num frames at \a mem as its receive queue. \a start and \a ctx (may be null) are
+/// the members Start and Ctx. No other context may use it meanwhile.
 /// \retval true   the controller is initialised
-/// \retval false  an argument is null, or \a num is 0 or above 32767; the driver receives nothing
+/// \retval false  \a can, \a mem or \a start is null, or \a num is 0 or above 32767; the driver receives nothing
 bool COSlcanInit(CO_SLCAN* can, CO_IF_FRM* mem, uint16_t num, void (*start)(void* ctx), void* ctx);
 
-/// Processes a received byte.
+/// Processes a received byte. Context: one, such as the receive interrupt.
 void COSlcanReceive(CO_SLCAN* can, uint8_t byte);
-/// Reports lost bytes (such as an overrun of the UART): the driver drops the line that it is receiving.
+/// Reports lost bytes (such as an overrun of the UART): the driver drops the line that it is receiving. Context: that
+/// of COSlcanReceive().
 void COSlcanBroken(CO_SLCAN* can);
 
 /// Returns the number of bytes at \a bytes that have to be sent, 0: none. The buffer is circular: call it again after
-/// COSlcanSent() for the bytes after its end.
+/// COSlcanSent() for the bytes at its begin. The bytes are the driver's, and valid until COSlcanSent(). Context: one,
+/// such as the transmit interrupt.
 uint32_t COSlcanPending(const CO_SLCAN* can, const uint8_t** bytes);
-/// Releases the first \a num of these bytes; they have been sent, or copied.
+/// Releases the first \a num of the bytes that COSlcanPending() has returned; they have been sent, or copied. Context:
+/// that of COSlcanPending().
 void COSlcanSent(CO_SLCAN* can, uint32_t num);
 
 /// Returns true if CONodeProcess() has work: a received frame, or free space for a frame that Send has refused. Call it

@@ -7,9 +7,9 @@
 ///     ext.Can = &COSocketCanDriver;  ext.CanCtx = can;              /* CO_NODE_EXT */
 ///     struct pollfd wait = {COSocketCanFd(can), POLLIN, 0};         /* then CONodeProcess() */
 ///
-/// The interface keeps its own bit rate (`ip link set can0 up type can bitrate 250000`). Send returns 0 while the
-/// transmit queue of the interface is full. After an error the driver opens the interface again, so ask for the file
-/// descriptor before each poll().
+/// The driver cannot set the bit rate of the interface (`ip link set can0 up type can bitrate 250000`). Send returns 0
+/// while the transmit queue of the interface is full. After an error the driver opens the interface again, so call
+/// COSocketCanFd() before each poll().
 ///
 /// Context: one thread. Owner: the caller; it must outlive the node.
 #ifndef CO_CAN_SOCKETCAN_H_
@@ -21,7 +21,7 @@
 extern "C" {
 #endif
 
-/// An interface; the members are private.
+/// A CAN interface; the members are private.
 typedef struct CO_SOCKETCAN_T CO_SOCKETCAN;
 
 /// Returns a closed interface; COSocketCanFree() releases it. Ends the program if there is no memory.
@@ -31,7 +31,7 @@ void COSocketCanFree(CO_SOCKETCAN* can);
 
 /// Opens the interface \a name, e.g. "can0". An interface that is down can be opened.
 /// \retval true   the interface is open
-/// \retval false  it cannot be used; COSocketCanError() says why
+/// \retval false  it cannot be used; COSocketCanError() returns the reason
 bool COSocketCanOpen(CO_SOCKETCAN* can, const char* name);
 
 /// Returns the last error in words, "" if there was none. The text is valid until the next call with \a can.

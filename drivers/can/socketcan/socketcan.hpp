@@ -38,30 +38,57 @@
 
 namespace co {
 
+/// A CAN interface of Linux: the context of SocketCanDriver. Not copyable: it owns a socket.
 class SocketCan {
  public:
+  /// Constructs a closed interface.
   SocketCan() = default;
+  /// Closes the interface. The node must not use it any more.
   ~SocketCan();
   SocketCan(const SocketCan&) = delete;
   SocketCan& operator=(const SocketCan&) = delete;
 
-  /// Returns false if the interface cannot be used, see error(). An interface that is down can be opened, see up().
+  /// Opens an interface, such as "can0", after closing the previous one. An interface that is down can be opened, see
+  /// up().
+  /// \retval true   the interface is open
+  /// \retval false  it cannot be used; error() returns the reason
   bool open(const std::string& interface);
+  /// Closes the socket. Read and Send do not open the interface again.
   void close();
 
-  bool up() const;                    ///< true if open, and the interface is up
-  int fd() const { return fd_; }      ///< for poll() and the like; -1: off the bus
-  int code() const { return code_; }  ///< errno of the last error, 0: none since open()
+  /// Returns true if the interface is open and up.
+  bool up() const;
+  /// Returns the file descriptor for poll() and epoll_wait(); -1: closed.
+  int fd() const { return fd_; }
+  /// Returns errno of the last error; 0: none since open().
+  int code() const { return code_; }
+  /// Returns the text of the last error; empty: none since open().
   const std::string& error() const { return error_; }
-  std::uint32_t lost() const { return lost_; }  ///< frames lost because the kernel's receive queue was full
+  /// Returns the number of frames lost since the construction because the kernel's receive queue was full.
+  std::uint32_t lost() const { return lost_; }
 
   /// \name Functions of CO_IF_CAN_DRV_EX
   /// \{
+
+  /// Discards the frames in the kernel's receive queue.
   void init();
+  /// Opens the interface of the last open() if it is closed, otherwise discards received frames. If it cannot be opened
+  /// now, Read and Send try again.
   void enable();
+  /// Reads the next received frame or error frame.
+  /// \retval sizeof(CO_IF_FRM)  \a frame holds it
+  /// \retval 0                  there is none, or the interface is missing
+  /// \retval -1                 receiving has failed, see error()
   std::int16_t read(CO_IF_FRM& frame);
+  /// Passes a frame to the kernel.
+  /// \retval sizeof(CO_IF_FRM)  the kernel has accepted the frame
+  /// \retval 0                  the transmit queue of the interface is full
+  /// \retval -1                 the interface is missing, or sending has failed, see error()
   std::int16_t send(const CO_IF_FRM& frame);
+  /// Discards the frames in the kernel's receive queue; opens the interface again if it had vanished.
   void reset();
+  /// Sets the identifiers that the kernel passes. \a ids: see CO_IF_CAN_DRV_EX.Filter. They are set again whenever the
+  /// interface is opened.
   void filter(const std::uint32_t* ids, std::uint16_t num);
   /// \}
 

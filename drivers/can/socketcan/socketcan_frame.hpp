@@ -35,7 +35,7 @@ enum class SocketCanStep {
   bind,       ///< binding to the interface
 };
 
-/// Returns a text that describes the fault and its remedy. \a error: errno.
+/// Returns a text that describes the fault and its remedy. \a error: errno; \a interface: name of the interface.
 std::string socketcan_error(SocketCanStep step, int error, const std::string& interface);
 
 }  // namespace co

@@ -23,11 +23,13 @@
 extern "C" {
 #endif
 
-/// A bus, and a controller on it; the members are private.
+/// A simulated bus; the members are private.
 typedef struct CO_VIRTUAL_BUS_T CO_VIRTUAL_BUS;
+/// A CAN controller at a bus; the members are private.
 typedef struct CO_VIRTUAL_PORT_T CO_VIRTUAL_PORT;
 
-/// Called for every frame on the bus, in the order of the bus. \a sender: name of the port, "" for none.
+/// Called for every frame on the bus, in the order of the bus. \a user: argument of COVirtualBusTrace(); \a sender:
+/// name of the port, "" for none. \a frame and \a sender are valid during the call only.
 typedef void (*CO_VIRTUAL_TRACE)(void* user, const CO_IF_FRM* frame, const char* sender);
 
 /// Returns an empty bus; COVirtualBusFree() releases it. Ends the program if there is no memory.
@@ -35,10 +37,10 @@ CO_VIRTUAL_BUS* COVirtualBusNew(void);
 /// Releases \a bus, which may be null, and its ports. No node may use them any more.
 void COVirtualBusFree(CO_VIRTUAL_BUS* bus);
 
-/// Returns a new port, off the bus. It belongs to the bus. \a name appears in traces.
+/// Returns a new port, off the bus. The bus owns it. \a name, which is copied, appears in traces.
 CO_VIRTUAL_PORT* COVirtualBusAttach(CO_VIRTUAL_BUS* bus, const char* name);
 
-/// Sets the function that is called for every frame; null ends it.
+/// Sets the function that is called for every frame, with \a user as its argument; null: none is called.
 void COVirtualBusTrace(CO_VIRTUAL_BUS* bus, CO_VIRTUAL_TRACE trace, void* user);
 
 /// Puts a port that no node uses on the bus. \a baud: bit/s; 0: sends to and receives from ports of every bit rate.

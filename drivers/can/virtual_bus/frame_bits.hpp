@@ -11,8 +11,8 @@ namespace co {
 /// Recessive bits between two frames.
 constexpr unsigned intermission_bits = 3;
 
-/// Returns the bits from the start of frame up to and including the end of frame, with the stuff bits of this frame. At
-/// that time the receivers have the frame; the bus is idle intermission_bits later.
+/// Returns the number of bits from the start of frame up to and including the end of frame, with the stuff bits of this
+/// frame. After them the receivers have the frame; the bus is idle intermission_bits later.
 unsigned frame_bits(const CO_IF_FRM& frame);
 
 }  // namespace co

@@ -12,14 +12,15 @@
 
 namespace co {
 
+/// A wire on which frames take time.
 class PacedWire {
  public:
-  using Time = std::chrono::microseconds;
+  using Time = std::chrono::microseconds;  ///< since any epoch
 
-  /// \a bit_rate: bit/s, not 0.
+  /// Constructs an idle wire. \a bit_rate: bit/s, not 0.
   explicit PacedWire(std::uint32_t bit_rate) : rate_(bit_rate) {}
 
-  /// Starts a frame at \a from, or at the end of the intermission if that is later.
+  /// Starts a frame at \a from, or at the end of the last intermission if that is later. \a bits: frame_bits().
   void occupy(Time from, unsigned bits) {
     if (from > free()) {
       begin_ = from;

@@ -6,8 +6,7 @@
 ///     co::VirtualBus::Port& port = bus.attach({"node 5"});
 ///     ext.Can = &co::VirtualBusDriver;  ext.CanCtx = &port;       // CO_NODE_EXT
 ///
-///     co::VirtualBus::Port& master = bus.attach({"master"});      // a test, a master, a monitor: a port without a
-///     node
+///     co::VirtualBus::Port& master = bus.attach({"master"});      // a port without node, such as a test
 ///     master.enable(); master.send(frame); while (auto answer = master.read()) { ... }
 ///
 /// The model. A port is on the bus between enable() and close(). Sent frames enter its transmit queue; among the first
@@ -36,7 +35,6 @@
 /// Context: one thread. The trace hook and rules may send, inject and add rules; a frame sent by them is queued behind
 /// the current one. A rule's match must not clear rules. Owner: the bus owns its ports; it must outlive the nodes at
 /// them.
-/// at them.
 #ifndef CO_DRIVERS_VIRTUAL_BUS_HPP_
 #define CO_DRIVERS_VIRTUAL_BUS_HPP_
 
@@ -55,12 +53,14 @@
 
 namespace co {
 
+/// A simulated CAN bus with fault injection. Not copyable: its ports refer to it.
 class VirtualBus {
  public:
   class Port;
-  using Time = std::chrono::microseconds;  ///< since any epoch; never decreases
-  static constexpr Time never = Time::max();
+  using Time = std::chrono::microseconds;     ///< time since any epoch; never decreases
+  static constexpr Time never = Time::max();  ///< later than every frame, see next_due()
 
+  /// Properties of a port.
   struct Options {
     std::string name;           ///< for traces
     std::size_t receive = 512;  ///< frames in the receive queue
@@ -70,20 +70,20 @@ class VirtualBus {
 
   /// A frame with sender and time.
   struct Traffic {
-    CO_IF_FRM frame;
+    CO_IF_FRM frame;       ///< the frame
     const Port* sender;    ///< null: inject()
     Time time;             ///< time of the call of send() (rules), of the arrival (trace)
     bool dropped = false;  ///< trace: a rule has discarded it for all receivers
   };
 
+  /// Fault of a Rule. The rules for refuse, error and bus_off count the calls of send(), the others the frames on the
+  /// bus.
   enum class Fault {
-    none,
-    // Seen by the sender; counted per call of send().
-    refuse,   ///< send() returns 0
-    error,    ///< send() returns -1
-    bus_off,  ///< send() returns -1, the port is in bus-off, see Port::bus_off()
-    // Seen by the receivers; counted per frame on the bus.
-    drop,
+    none,       ///< no fault
+    refuse,     ///< send() returns 0
+    error,      ///< send() returns -1
+    bus_off,    ///< send() returns -1, the port is in bus-off, see Port::bus_off()
+    drop,       ///< no port receives the frame
     duplicate,  ///< arrives twice
     delay,      ///< arrives Rule::delay later; others overtake it
     reorder,    ///< arrives behind the next frame of the same sender, or after Rule::delay (0: not before that frame)
@@ -93,44 +93,52 @@ class VirtualBus {
   /// starting with number `first` (1, 2, …). If several rules apply to a frame, the oldest one decides; every rule
   /// counts the frame.
   struct Rule {
-    Fault fault = Fault::none;
-    std::function<bool(const Traffic&)> match = {};
-    std::uint32_t first = 1;
-    std::uint32_t times = 1;
-    Time delay{0};
+    Fault fault = Fault::none;                       ///< fault of the affected frames
+    std::function<bool(const Traffic&)> match = {};  ///< selects the frames that are counted; empty: all
+    std::uint32_t first = 1;                         ///< number of the first affected frame, from 1 on
+    std::uint32_t times = 1;                         ///< number of affected frames
+    Time delay{0};                                   ///< for Fault::delay and Fault::reorder
   };
   static constexpr std::uint32_t always = UINT32_MAX;  ///< for Rule::times
 
+  /// Constructs a bus without ports and rules.
   VirtualBus();
+  /// Destroys the bus and its ports. No node may use them any more.
   ~VirtualBus();
   VirtualBus(const VirtualBus&) = delete;
   VirtualBus& operator=(const VirtualBus&) = delete;
 
-  /// Returns a new port, off the bus.
+  /// Adds a port. Returns it; it is off the bus, and the bus owns it.
   Port& attach(Options options);
+  /// Adds a port with default options and no name.
   Port& attach();
 
   /// Sends a frame from outside to all ports, at every bit rate. Error frames are reported to all ports.
   void inject(const CO_IF_FRM& frame);
 
-  /// Sets the function that is called for every frame, in the order of the bus.
+  /// Sets the function that is called for every frame, in the order of the bus; empty: none is called.
   void set_trace(std::function<void(const Traffic&)> trace);
+  /// Sets the time source, for delays and for a paced bus, for example VirtualClock::time(). It must never decrease.
   void set_time(std::function<Time()> source);
+  /// Returns the time of the time source; 0 if there is none.
   Time now() const;
-  /// Enables the timing of a wire; no frame may be queued. \a bit_rate: bit/s, 0: frames take no time.
+  /// Enables the timing of a wire; needs a time source, and no frame may be queued. \a bit_rate: bit/s, 0: frames take
+  /// no time.
   void pace(std::uint32_t bit_rate);
 
   /// Adds a rule. Returns its number for struck().
   std::size_t add_rule(Rule rule);
-  /// Returns the number of frames that a rule has affected.
+  /// Returns the number of frames that a rule has affected; 0 if there is no such rule.
   std::uint32_t struck(std::size_t rule) const;
   /// Removes all rules. Frames that are already delayed still arrive.
   void clear_rules();
 
+  /// Stops the bus: frames stay in the transmit queues of their ports until release().
   void hold();
+  /// Ends hold() and transmits the queued frames.
   void release();
 
-  /// Delivers the frames that are due.
+  /// Transmits and delivers the frames that are due. send() and Port::read() do so, too.
   void poll();
   /// Returns the time at which the next delayed or paced frame arrives; never if there is none.
   Time next_due() const;
@@ -191,6 +199,7 @@ class VirtualBus {
 /// A controller at the bus: the context of VirtualBusDriver, or used directly by a test.
 class VirtualBus::Port {
  public:
+  /// Constructs a port off the bus. Use VirtualBus::attach(), which also adds it to the bus.
   Port(VirtualBus& bus, Options options);
 
   /// Goes on the bus with empty queues. \a baud: bit/s; 0: communicates with ports of every bit rate.
@@ -204,8 +213,10 @@ class VirtualBus::Port {
   /// \retval 0                  the transmit queue is full, or a rule has refused the frame
   /// \retval -1                 the port is off the bus, in bus-off, or a rule applies
   std::int16_t send(const CO_IF_FRM& frame);
+  /// Removes the next frame from the receive queue. Returns it, or nothing if the queue is empty. Lost frames are
+  /// reported first, by an error frame.
   std::optional<CO_IF_FRM> read();
-  /// Sets the identifiers (with flags) that the port receives.
+  /// Sets the identifiers that the port receives. \a ids: \a num identifiers with CO_IF_FRM_EXT, in any order.
   void filter(const std::uint32_t* ids, std::uint16_t num);
 
   /// Simulates a report of the controller: puts an error frame into the receive queue.
@@ -215,15 +226,19 @@ class VirtualBus::Port {
   /// Simulates the end of bus-off and reports it.
   void recover();
 
+  /// Returns the name given to attach().
   const std::string& name() const { return options_.name; }
+  /// Returns true between enable() and close(), also in bus-off.
   bool enabled() const { return enabled_; }
+  /// Returns the bit rate of the last enable() in bit/s; 0: every bit rate.
   std::uint32_t baud() const { return baud_; }
   /// Returns the number of frames lost because the receive queue was full.
   std::uint32_t lost() const { return lost_; }
   /// Returns the number of frames in the receive queue.
   std::size_t waiting() const { return receive_.size(); }
-  /// Returns the identifiers set by filter(), ascending; empty, and filtered() false, before its first call.
+  /// Returns the identifiers set by filter(), ascending; empty before its first call.
   const std::vector<std::uint32_t>& accepted() const { return accepted_; }
+  /// Returns whether filter() was called; before, the port receives all frames.
   bool filtered() const { return filtered_; }
 
  private:

@@ -6,20 +6,22 @@
 
 #include <cstdint>
 
+/// Internals of the driver co_can_zynqmp.h. Not for applications.
 namespace co::zynqmp {
 
-inline constexpr unsigned filters_at_most = 4;
+inline constexpr unsigned filters_at_most = 4;  ///< acceptance filters of a controller
 
 /// Filter in the coding of the controller's registers. A frame passes if its identifier equals the word in all bits of
 /// the mask.
 struct AcceptanceFilter {
-  std::uint32_t mask;
-  std::uint32_t word;
+  std::uint32_t mask;  ///< AFMR: bits that are compared
+  std::uint32_t word;  ///< AFIR: their values
 };
 
+/// The acceptance filters of a controller.
 struct Acceptance {
-  AcceptanceFilter filter[filters_at_most + 1];  // the last one is used only during the computation
-  std::uint8_t number;                           // 0: all frames pass
+  AcceptanceFilter filter[filters_at_most + 1];  ///< the last one is used only during the computation
+  std::uint8_t number;                           ///< filters in use; 0: all frames pass
 };
 
 /// Returns filters for \a ids: coded like in CO_IF_CAN_DRV_EX.Filter, in any order.

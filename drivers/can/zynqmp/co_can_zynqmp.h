@@ -40,8 +40,7 @@
 /// boot-up message.
 ///
 /// Context: the loop, and one interrupt on the same CPU, COCanZynqmpInterrupt().
-/// Owner: the caller owns context and frames; they must outlive the node. One context per node.
-/// Owner: context and frames stay the caller's and must live as long as the node; one node for each context.
+/// Owner: the caller owns context, rates and frames; they must outlive the node. One context per node.
 #ifndef CO_CAN_ZYNQMP_H_
 #define CO_CAN_ZYNQMP_H_
 
@@ -54,9 +53,9 @@ extern "C" {
 
 /// A bit rate and the values of the registers BRPR and BTR for it.
 typedef struct CO_CAN_ZYNQMP_RATE_T {
-  uint32_t Baud;  ///< bit/s
-  uint16_t Prescaler;
-  uint16_t Timing;
+  uint32_t Baud;       ///< bit/s
+  uint16_t Prescaler;  ///< value of BRPR: clock periods in a quantum, less 1
+  uint16_t Timing;     ///< value of BTR: the segments and the jump width, each less 1
 } CO_CAN_ZYNQMP_RATE;
 
 /// \cond internal
@@ -66,7 +65,8 @@ typedef struct CO_CAN_ZYNQMP_RATE_T {
 
 /// \name Bit timing in C: \a clock in Hz, \a baud in bit/s, and the number of quanta in a bit, 8…10 or 14…20
 /// \{
-/// Initialises a CO_CAN_ZYNQMP_RATE; the sample point is as near to 87.5 % as these quanta allow.
+
+/// Initialises a CO_CAN_ZYNQMP_RATE. The sample point is as near to 87.5 % as these quanta allow.
 #define CO_CAN_ZYNQMP_RATE_OF(clock, baud, quanta)                                                               \
   {                                                                                                              \
     (baud), (uint16_t)((clock) / ((baud) * (quanta)) - 1u),                                                      \
@@ -83,9 +83,9 @@ typedef struct CO_CAN_ZYNQMP_RATE_T {
 typedef struct CO_CAN_ZYNQMP_T {
   volatile uint32_t* Registers;     ///< ZynqMP: FF06 0000h, FF07 0000h; Zynq-7000: E000 8000h, E000 9000h
   const CO_CAN_ZYNQMP_RATE* Rates;  ///< must live as long as the node
-  uint8_t RateNum;                  ///< length of that array
+  uint8_t RateNum;                  ///< elements of Rates
   CO_IF_FRM* Frames;  ///< queue between interrupt and loop: enough for the frames that arrive while the loop is busy
-  uint16_t FrameNum;  ///< length of that array, 1…32767
+  uint16_t FrameNum;  ///< elements of Frames, 1…32767
   bool Loopback;      ///< self-test: the controller receives its frames, and no others; it is off the bus
 
   /// \cond internal
@@ -93,12 +93,12 @@ typedef struct CO_CAN_ZYNQMP_T {
   const CO_CAN_ZYNQMP_RATE* Rate;  // null: off the bus
   uint32_t Overflows;              // overflows of the receive FIFO; written by the interrupt
   uint8_t IsBusOff;                // written by the interrupt
-  uint8_t Told;                    // last reported state: an error state of the controller, or bus-off
+  uint8_t Told;                    // state last reported to the node: error active, error passive, or bus-off
   uint8_t IsSending;               // a frame is in the transmit FIFO
   uint8_t FilterNum;               // 0: all frames are received
   uint32_t SendingWord;            // identifier of that frame, in the coding of the controller; 0: no frame may
                                    // overtake it
-  uint32_t ToldLost;
+  uint32_t ToldLost;               // lost frames already reported to the node
   uint32_t FilterMask[4];
   uint32_t FilterId[4];
   /// \endcond
@@ -107,15 +107,17 @@ typedef struct CO_CAN_ZYNQMP_T {
 /// The driver; its context is a CO_CAN_ZYNQMP.
 extern const CO_IF_CAN_DRV_EX ZynqmpCanDriver;
 
-/// Moves received frames into the queue and stores events. Call it in the interrupt of the controller.
+/// Moves received frames into the queue and stores events. Call it in the interrupt of the controller. Has no effect
+/// while the controller is off the bus.
 void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can);
 
 /// Enables the sleep mode of the controller, which lasts until a frame is sent or received; its end wakes the CPU by
-/// the interrupt. The controller may lose the frame that wakes it.
+/// the interrupt. The controller may lose the frame that wakes it. Has no effect while the controller is off the bus,
+/// in bus-off, or sends a frame. Context: the loop.
 void COCanZynqmpSleep(CO_CAN_ZYNQMP* can);
 
 /// Returns the number of received frames lost since Enable or a reset: because the queue was full, or because the
-/// receive FIFO was full (each overflow of the FIFO counts as one).
+/// receive FIFO was full (each overflow of the FIFO counts as one). Returns 0 if \a can is null. Context: the loop.
 uint32_t COCanZynqmpLost(const CO_CAN_ZYNQMP* can);
 
 #ifdef __cplusplus

@@ -9,62 +9,76 @@
 
 namespace co::zynqmp {
 
-enum class Register : std::uint8_t {  // byte offset
-  software_reset = 0x00,
-  mode_select = 0x04,
-  prescaler = 0x08,
-  bit_timing = 0x0C,
-  status = 0x18,
-  interrupt_status = 0x1C,
-  interrupt_enable = 0x20,
-  interrupt_clear = 0x24,
-  transmit = 0x30,        // identifier, DLC, data 1, data 2: writing the last one starts the transmission
-  transmit_first = 0x40,  // high priority transmit buffer; same layout
-  receive = 0x50,         // same layout; reading the last register removes the frame
-  filters_used = 0x60,
-  filters = 0x64,  // four pairs of mask and identifier
+/// Byte offset of a register. The name in UG585 follows in parentheses.
+enum class Register : std::uint8_t {
+  software_reset = 0x00,    ///< (SRR)
+  mode_select = 0x04,       ///< (MSR)
+  prescaler = 0x08,         ///< (BRPR)
+  bit_timing = 0x0C,        ///< (BTR)
+  status = 0x18,            ///< (SR)
+  interrupt_status = 0x1C,  ///< (ISR)
+  interrupt_enable = 0x20,  ///< (IER)
+  interrupt_clear = 0x24,   ///< (ICR)
+  transmit = 0x30,          ///< transmit FIFO: identifier, DLC, two words of data; writing the last one sends the frame
+  transmit_first = 0x40,    ///< high priority transmit buffer, with the layout of transmit
+  receive = 0x50,           ///< receive FIFO, with the layout of transmit; reading the last register removes the frame
+  filters_used = 0x60,      ///< a bit for each acceptance filter (AFR)
+  filters = 0x64,           ///< four pairs of mask and identifier (AFMR, AFIR)
 };
 
-/// Returns the register at a word offset in a group.
+/// Returns the register \a words words of 4 bytes behind \a first.
 constexpr Register operator+(Register first, unsigned words) {
   return static_cast<Register>(static_cast<unsigned>(first) + 4 * words);
 }
 
-// Software reset.
-inline constexpr std::uint32_t soft_reset = 1U << 0;
-inline constexpr std::uint32_t can_enable = 1U << 1;  // 0: configuration mode
+/// \name Bits of Register::software_reset
+/// \{
+inline constexpr std::uint32_t soft_reset = 1U << 0;  ///< resets the controller
+inline constexpr std::uint32_t can_enable = 1U << 1;  ///< 1: on the bus, 0: configuration mode
+/// \}
 
-// Mode select.
-inline constexpr std::uint32_t sleep_mode = 1U << 0;
-inline constexpr std::uint32_t loopback_mode = 1U << 1;
+/// \name Bits of Register::mode_select
+/// \{
+inline constexpr std::uint32_t sleep_mode = 1U << 0;     ///< sleep until a frame is sent or received
+inline constexpr std::uint32_t loopback_mode = 1U << 1;  ///< self-test off the bus
+/// \}
 
-// Status.
-inline constexpr std::uint32_t is_configuring = 1U << 0;
-inline constexpr std::uint32_t error_state = 3U << 7;
-inline constexpr std::uint32_t error_active = 1U << 7;
-inline constexpr std::uint32_t error_passive = 3U << 7;
-inline constexpr std::uint32_t first_is_full = 1U << 10;  // high priority transmit buffer
-inline constexpr std::uint32_t filters_busy = 1U << 11;
+/// \name Bits of Register::status
+/// \{
+inline constexpr std::uint32_t is_configuring = 1U << 0;  ///< configuration mode
+inline constexpr std::uint32_t error_state = 3U << 7;     ///< mask of the error state
+inline constexpr std::uint32_t error_active = 1U << 7;    ///< value of the error state: error active
+inline constexpr std::uint32_t error_passive = 3U << 7;   ///< value of the error state: error passive
+inline constexpr std::uint32_t first_is_full = 1U << 10;  ///< the high priority transmit buffer is in use
+inline constexpr std::uint32_t filters_busy = 1U << 11;   ///< the acceptance filters must not be written yet
+/// \}
 
-// Interrupts. They stay set until they are cleared, and are set again while their cause lasts.
-inline constexpr std::uint32_t arbitration_lost = 1U << 0;
-inline constexpr std::uint32_t sent = 1U << 1;
-inline constexpr std::uint32_t receive_overflow = 1U << 6;
-inline constexpr std::uint32_t received = 1U << 7;  // the receive FIFO is not empty
-inline constexpr std::uint32_t bus_off = 1U << 9;
-inline constexpr std::uint32_t woken = 1U << 11;
-inline constexpr std::uint32_t all_sent = 1U << 14;  // the transmit FIFO is empty
+/// \name Bits of the interrupt registers
+/// An interrupt stays set until it is cleared, and is set again while its cause lasts.
+/// \{
+inline constexpr std::uint32_t arbitration_lost = 1U << 0;  ///< a frame has lost the arbitration
+inline constexpr std::uint32_t sent = 1U << 1;              ///< a frame was sent
+inline constexpr std::uint32_t receive_overflow = 1U << 6;  ///< a frame was lost because the receive FIFO was full
+inline constexpr std::uint32_t received = 1U << 7;          ///< the receive FIFO is not empty
+inline constexpr std::uint32_t bus_off = 1U << 9;           ///< the controller is in bus-off
+inline constexpr std::uint32_t woken = 1U << 11;            ///< the sleep mode has ended
+inline constexpr std::uint32_t all_sent = 1U << 14;         ///< the transmit FIFO is empty
+/// \}
 
-// Identifier: the bits of the arbitration field in the order of transmission, so that the lower value wins.
-inline constexpr std::uint32_t standard_shift = 21;
-inline constexpr std::uint32_t standard_remote = 1U << 20;  // SRR in a frame with 29 bits
-inline constexpr std::uint32_t extended = 1U << 19;
-inline constexpr std::uint32_t extension_shift = 1;
-inline constexpr std::uint32_t extended_remote = 1U << 0;
+/// \name Layout of the words of a frame
+/// Identifier: the bits of the arbitration field in the order of transmission, so that the lower value wins.
+/// \{
+inline constexpr std::uint32_t standard_shift = 21;         ///< position of the 11 bits of the base identifier
+inline constexpr std::uint32_t standard_remote = 1U << 20;  ///< RTR of a frame with 11 bits, SRR of one with 29 bits
+inline constexpr std::uint32_t extended = 1U << 19;         ///< IDE: the identifier has 29 bits
+inline constexpr std::uint32_t extension_shift = 1;         ///< position of the other 18 bits
+inline constexpr std::uint32_t extended_remote = 1U << 0;   ///< RTR of a frame with 29 bits
+inline constexpr std::uint32_t dlc_shift = 28;              ///< position of the DLC in its word
+/// \}
 
-inline constexpr std::uint32_t dlc_shift = 28;
-
+/// Reads a register of the controller at \a registers.
 std::uint32_t read(const volatile std::uint32_t* registers, Register which);
+/// Writes a register of the controller at \a registers.
 void write(volatile std::uint32_t* registers, Register which, std::uint32_t value);
 
 }  // namespace co::zynqmp

@@ -16,8 +16,10 @@
 
 namespace co {
 
+/// Limits of the controllers' bit timing.
 inline constexpr BitTimingLimits zynqmp_limits = {256, 16, 8, 4};
 
+/// Returns an element of CO_CAN_ZYNQMP.Rates. \a baud: bit/s; \a timing: a valid timing for it.
 constexpr CO_CAN_ZYNQMP_RATE zynqmp_rate(std::uint32_t baud, const BitTiming& timing) {
   return {baud, static_cast<std::uint16_t>(timing.prescaler - 1),
           static_cast<std::uint16_t>(((timing.jump - 1) << 7) | ((timing.segment2 - 1) << 4) | (timing.segment1 - 1))};

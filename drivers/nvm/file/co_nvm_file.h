@@ -26,10 +26,10 @@ CO_FILE_NVM* COFileNvmNew(void);
 /// Closes the file and releases \a memory, which may be null. The node must not use it any more.
 void COFileNvmFree(CO_FILE_NVM* memory);
 
-/// Opens the file \a path, or creates it, filled with FFh to \a capacity bytes. A longer file keeps the bytes beyond
-/// the capacity.
+/// Opens the file \a path, or creates it, and fills it with FFh up to \a capacity bytes. A longer file keeps the bytes
+/// beyond the capacity. A file that was open is closed.
 /// \retval true   the file is open
-/// \retval false  it cannot be used; COFileNvmError() says why
+/// \retval false  it cannot be used; COFileNvmError() returns the reason
 bool COFileNvmOpen(CO_FILE_NVM* memory, const char* path, uint32_t capacity);
 
 /// Returns the last error in words, "" if there was none. The text is valid until the next call with \a memory.

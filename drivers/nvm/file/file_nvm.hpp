@@ -22,18 +22,29 @@
 
 namespace co {
 
+/// A parameter memory in a file: the context of FileNvmDriver. Not copyable: it owns a file descriptor.
 class FileNvm {
  public:
+  /// Constructs a memory without file; its capacity is 0.
   FileNvm() = default;
+  /// Closes the file. The node must not use it any more.
   ~FileNvm();
   FileNvm(const FileNvm&) = delete;
   FileNvm& operator=(const FileNvm&) = delete;
 
-  /// Opens or creates the file. \a capacity: bytes. Returns false if the file cannot be used, see error().
+  /// Opens or creates the file, after closing the previous one. \a capacity: bytes.
+  /// \retval true   the file is open
+  /// \retval false  it cannot be used; error() returns the reason
   bool open(const std::string& path, std::uint32_t capacity);
+  /// Closes the file; its capacity is then 0.
   void close();
 
+  /// Reads \a size bytes from position \a start into \a buffer. Returns the number of bytes read: less than \a size at
+  /// the end of the capacity or after an error.
   std::uint32_t read(std::uint32_t start, std::uint8_t* buffer, std::uint32_t size);
+  /// Writes \a size bytes from \a buffer to position \a start and waits until the storage device has them. Returns the
+  /// number of bytes written: less than \a size at the end of the capacity or after an error, 0 if the device has
+  /// reported a failure.
   std::uint32_t write(std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size);
 
   /// Returns the capacity in bytes, 0: not open.

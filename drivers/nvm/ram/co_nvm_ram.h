@@ -21,12 +21,13 @@
 extern "C" {
 #endif
 
+/// A memory in RAM. The caller sets the members; they must not change while a node uses the memory.
 typedef struct CO_NVM_RAM_T {
-  uint8_t* Mem;
+  uint8_t* Mem;   ///< content, owned by the caller
   uint32_t Size;  ///< bytes at Mem
 } CO_NVM_RAM;
 
-/// Sets all bytes to FFh, like erased memory.
+/// Sets all bytes to FFh, like erased memory. To be called before CONodeInit().
 void CONvmRamClear(CO_NVM_RAM* ram);
 
 /// The driver; its context is a CO_NVM_RAM.

@@ -25,7 +25,7 @@ extern "C" {
 /// A timer; the members are private.
 typedef struct CO_LINUX_TIMER_T CO_LINUX_TIMER;
 
-/// Returns a timer; COLinuxTimerFree() releases it. Ends the program if there is no memory.
+/// Creates a timer; COLinuxTimerFree() releases it. Ends the program if there is no memory.
 CO_LINUX_TIMER* COLinuxTimerNew(void);
 /// Releases \a timer, which may be null. The node must not use it any more.
 void COLinuxTimerFree(CO_LINUX_TIMER* timer);

@@ -36,19 +36,24 @@ std::uint64_t ns_from_ticks(std::uint64_t ticks, std::uint32_t frequency);
 /// Returns CLOCK_MONOTONIC in nanoseconds.
 std::uint64_t monotonic_ns();
 
+/// The timer of a node: the context of LinuxTimerDriver. Not copyable: it owns a file descriptor.
 class LinuxTimer {
  public:
-  using Clock = std::uint64_t (*)();
-  static constexpr std::uint32_t never = UINT32_MAX;  ///< UINT32_MAX, as in CONodeNextDeadline()
+  using Clock = std::uint64_t (*)();                  ///< function that returns a time in nanoseconds
+  static constexpr std::uint32_t never = UINT32_MAX;  ///< no alarm; the value that CONodeNextDeadline() returns
 
-  /// \a clock: returns nanoseconds since any epoch; must never decrease.
+  /// Constructs a timer whose tick stays 0 until start(). \a clock: returns nanoseconds since any epoch; must never
+  /// decrease.
   explicit LinuxTimer(Clock clock = monotonic_ns);
+  /// Closes the timerfd. The node must not use the timer any more.
   ~LinuxTimer();
   LinuxTimer(const LinuxTimer&) = delete;
   LinuxTimer& operator=(const LinuxTimer&) = delete;
 
-  /// Starts at tick 0. \a frequency: ticks per second; 0: the clock does not advance.
+  /// Starts at tick 0, without alarm. Called by the node. \a frequency: ticks per second; 0: the clock does not
+  /// advance.
   void start(std::uint32_t frequency);
+  /// Returns the ticks since start(); they wrap at 2^32.
   std::uint32_t now() const { return static_cast<std::uint32_t>(elapsed()); }
 
   /// Sets the alarm \a ticks from now; 0: no alarm. Replaces the previous alarm.

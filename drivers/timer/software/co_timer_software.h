@@ -22,6 +22,7 @@
 extern "C" {
 #endif
 
+/// The driver, for CO_IF_DRV.Timer.
 extern const CO_IF_TIMER_DRV SoftwareTimerDriver;
 
 #ifdef __cplusplus

@@ -24,8 +24,9 @@
 extern "C" {
 #endif
 
-/// A clock, and the timer of one node; the members are private.
+/// A clock; the members are private.
 typedef struct CO_VIRTUAL_CLOCK_T CO_VIRTUAL_CLOCK;
+/// The timer of one node; the members are private.
 typedef struct CO_VIRTUAL_TIMER_T CO_VIRTUAL_TIMER;
 
 /// Returns a clock at tick 0; COVirtualClockFree() releases it. Ends the program if there is no memory.
@@ -33,7 +34,7 @@ CO_VIRTUAL_CLOCK* COVirtualClockNew(void);
 /// Releases \a clock, which may be null. Its timers must have been released.
 void COVirtualClockFree(CO_VIRTUAL_CLOCK* clock);
 
-/// Advances the clock by \a ticks.
+/// Advances the clock by \a ticks, stopping at each alarm that is due meanwhile.
 void COVirtualClockAdvance(CO_VIRTUAL_CLOCK* clock, uint32_t ticks);
 /// Advances the clock to the earliest alarm of its timers.
 /// \retval true   the clock was advanced
@@ -42,7 +43,7 @@ bool COVirtualClockAdvanceToAlarm(CO_VIRTUAL_CLOCK* clock);
 /// Returns the ticks since COVirtualClockNew(); they wrap at 2^32.
 uint32_t COVirtualClockNow(const CO_VIRTUAL_CLOCK* clock);
 
-/// Returns a timer; COVirtualTimerFree() releases it. Ends the program if there is no memory.
+/// Creates a timer of \a clock; COVirtualTimerFree() releases it. Ends the program if there is no memory.
 CO_VIRTUAL_TIMER* COVirtualTimerNew(CO_VIRTUAL_CLOCK* clock);
 /// Releases \a timer, which may be null. The node must not use it any more.
 void COVirtualTimerFree(CO_VIRTUAL_TIMER* timer);

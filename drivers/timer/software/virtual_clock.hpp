@@ -28,15 +28,17 @@ namespace co {
 
 class VirtualTimer;
 
+/// A clock for any number of timers. Not copyable: its timers refer to it.
 class VirtualClock {
  public:
-  static constexpr std::uint32_t never = UINT32_MAX;
+  static constexpr std::uint32_t never = UINT32_MAX;  ///< no alarm is set, see next_alarm()
 
+  /// Constructs a clock without frequency. \a start: first value of now(), in ticks.
   explicit VirtualClock(std::uint32_t start = 0) : start_(start) {}
   VirtualClock(const VirtualClock&) = delete;
   VirtualClock& operator=(const VirtualClock&) = delete;
 
-  /// Returns the time of the nodes.
+  /// Returns the time of the nodes in ticks; wraps at 2^32.
   std::uint32_t now() const { return start_ + static_cast<std::uint32_t>(elapsed_); }
   /// Returns the ticks since the construction.
   std::uint64_t elapsed() const { return elapsed_; }
@@ -47,10 +49,14 @@ class VirtualClock {
   std::uint64_t ticks(std::chrono::microseconds time) const;
   /// Returns the ticks per second, 0: not yet set.
   std::uint32_t frequency() const { return frequency_; }
+  /// Sets the ticks per second. Called by the nodes; a program without nodes may call it.
   void set_frequency(std::uint32_t frequency) { frequency_ = frequency; }
 
+  /// Advances by \a ticks and calls the alarm functions that are due meanwhile, each with the clock at its tick.
   void advance(std::uint64_t ticks);
-  /// Advances to the earliest alarm. Returns false, without advancing, if none is set.
+  /// Advances to the earliest alarm.
+  /// \retval true   the clock was advanced
+  /// \retval false  no alarm is set; the clock has not moved
   bool advance_to_alarm();
   /// Returns the ticks until the earliest alarm; never if none is set.
   std::uint32_t next_alarm() const;
@@ -68,15 +74,19 @@ class VirtualClock {
 /// The timer of one node: the context of VirtualTimerDriver.
 class VirtualTimer {
  public:
-  /// \a on_alarm, which may be empty, is called on the tick of an alarm.
+  /// Adds a timer to \a clock, which must outlive it. \a on_alarm, which may be empty, is called on the tick of an
+  /// alarm.
   explicit VirtualTimer(VirtualClock& clock, std::function<void()> on_alarm = {});
+  /// Removes the timer from its clock. The node must not use it any more.
   ~VirtualTimer();
   VirtualTimer(const VirtualTimer&) = delete;
   VirtualTimer& operator=(const VirtualTimer&) = delete;
 
+  /// Returns the clock given to the constructor.
   VirtualClock& clock() const { return clock_; }
   /// Sets the alarm \a ticks from now; 0: no alarm. Replaces the previous alarm.
   void set_alarm(std::uint32_t ticks);
+  /// Returns true if an alarm is set and has not expired.
   bool armed() const { return armed_; }
   /// Returns the number of expired alarms.
   std::uint64_t alarms() const { return alarms_; }

@@ -10,11 +10,11 @@
 extern "C" {
 #endif
 
-/// A tick clock, updated by a driver; both counters wrap at 2^32.
+/// A tick clock, owned and updated by a driver; both counters wrap at 2^32.
 typedef struct CO_CYCLE_CLOCK_T {
-  uint32_t PerTick;  ///< cycles
+  uint32_t PerTick;  ///< cycles in a tick
   uint32_t Cycle;    ///< cycle at which Tick has begun
-  uint32_t Tick;
+  uint32_t Tick;     ///< ticks since the start, at the last update
 } CO_CYCLE_CLOCK;
 
 #ifdef __cplusplus

@@ -26,10 +26,10 @@ extern "C" {
 /// State of the timer. The caller sets the first three members; the driver owns the others.
 typedef struct CO_MTIME_T {
   volatile uint32_t* Time;     ///< mtime: two words, the low one first
-  volatile uint32_t* Compare;  ///< mtimecmp of the hart, likewise
+  volatile uint32_t* Compare;  ///< mtimecmp of the hart: two words, the low one first
   uint32_t Hz;                 ///< frequency of mtime
-  CO_CYCLE_CLOCK Clock;
-  uint32_t Turn;  // incremented when Clock changes
+  CO_CYCLE_CLOCK Clock;        ///< ticks, updated whenever an alarm is set
+  uint32_t Turn;               ///< number of changes of Clock, by which a reader detects one during its reading
 } CO_MTIME;
 
 /// The driver; its context is a CO_MTIME.

@@ -19,30 +19,31 @@
 extern "C" {
 #endif
 
-/// Registers of a TIMER that the driver uses.
+/// Registers of a TIMER that the driver uses. Writing 1 to a task register starts the task.
 typedef struct CO_NRF51_TIMER_REGS_T {
-  volatile uint32_t Start;  ///< 000h
-  volatile uint32_t Stop;
-  uint32_t Reserved1;
-  volatile uint32_t Clear;
-  uint32_t Reserved2[12];
-  volatile uint32_t Capture[4];  ///< 040h
-  uint32_t Reserved3[60];
-  volatile uint32_t Compared[4];  ///< 140h
-  uint32_t Reserved4[109];
-  volatile uint32_t InterruptsOn;  ///< 304h
-  volatile uint32_t InterruptsOff;
-  uint32_t Reserved5[126];
-  volatile uint32_t Mode;  ///< 504h
-  volatile uint32_t BitMode;
-  uint32_t Reserved6;
-  volatile uint32_t Prescaler;  ///< 510h
-  uint32_t Reserved7[11];
-  volatile uint32_t Compare[4];  ///< 540h
+  volatile uint32_t Start;          ///< 000h, task: starts the timer
+  volatile uint32_t Stop;           ///< 004h, task: stops the timer
+  uint32_t Reserved1;               ///< 008h
+  volatile uint32_t Clear;          ///< 00Ch, task: sets the timer to 0
+  uint32_t Reserved2[12];           ///< 010h
+  volatile uint32_t Capture[4];     ///< 040h, tasks: copy the timer to Compare
+  uint32_t Reserved3[60];           ///< 050h
+  volatile uint32_t Compared[4];    ///< 140h, events: the timer has reached Compare; cleared by writing 0
+  uint32_t Reserved4[109];          ///< 150h
+  volatile uint32_t InterruptsOn;   ///< 304h, INTENSET: enables interrupts
+  volatile uint32_t InterruptsOff;  ///< 308h, INTENCLR: disables interrupts
+  uint32_t Reserved5[126];          ///< 30Ch
+  volatile uint32_t Mode;           ///< 504h; 0: timer
+  volatile uint32_t BitMode;        ///< 508h; 3: 32 bits
+  uint32_t Reserved6;               ///< 50Ch
+  volatile uint32_t Prescaler;      ///< 510h: the frequency is 16 MHz / 2^Prescaler, 0…9
+  uint32_t Reserved7[11];           ///< 514h
+  volatile uint32_t Compare[4];     ///< 540h, CC: compare values, or captured times
 } CO_NRF51_TIMER_REGS;
 
+/// State of the timer: the context of Nrf51TimerDriver.
 typedef struct CO_NRF51_TIMER_T {
-  CO_NRF51_TIMER_REGS* Regs;
+  CO_NRF51_TIMER_REGS* Regs;  ///< address of the TIMER, set by the caller: 40008000h for TIMER0
 } CO_NRF51_TIMER;
 
 /// The driver; its context is a CO_NRF51_TIMER.

@@ -29,27 +29,27 @@ extern "C" {
 
 /// SysTick's registers.
 typedef struct CO_SYSTICK_REGS_T {
-  volatile uint32_t Control;
-  volatile uint32_t Reload;
-  volatile uint32_t Value;
+  volatile uint32_t Control;  ///< SYST_CSR
+  volatile uint32_t Reload;   ///< SYST_RVR
+  volatile uint32_t Value;    ///< SYST_CVR
 } CO_SYSTICK_REGS;
 
-#define CO_SYSTICK_REGISTERS ((CO_SYSTICK_REGS*)0xE000E010u)
+#define CO_SYSTICK_REGISTERS ((CO_SYSTICK_REGS*)0xE000E010u)  ///< SYST_CSR and the registers behind it
 #define CO_SYSTICK_CONTROL ((volatile uint32_t*)0xE000ED04u)  ///< ICSR: has the flag of a pending SysTick interrupt
 
 /// State of the timer. The caller sets the first three members; the driver owns the others.
 typedef struct CO_SYSTICK_T {
-  CO_SYSTICK_REGS* Regs;
-  volatile uint32_t* Icsr;
-  uint32_t Hz;  ///< frequency of the CPU's clock
-  CO_CYCLE_CLOCK Clock;
-  uint32_t Begin;  // cycle at which the current slice has begun
-  uint32_t Slice;  // length of the slice, cycles; the next one has 2^24
-  uint32_t Start;  // cycles that pass while SysTick is restarted
-  uint32_t Turn;   // incremented when the members above change
+  CO_SYSTICK_REGS* Regs;    ///< CO_SYSTICK_REGISTERS; a test may use a model
+  volatile uint32_t* Icsr;  ///< CO_SYSTICK_CONTROL
+  uint32_t Hz;              ///< frequency of the CPU's clock
+  CO_CYCLE_CLOCK Clock;     ///< ticks, updated whenever an alarm is set
+  uint32_t Begin;           ///< cycle at which the current count-down has begun
+  uint32_t Slice;           ///< length of the current count-down, cycles; the next one has 2^24
+  uint32_t Start;           ///< cycles that pass while SysTick is restarted
+  uint32_t Turn;            ///< number of changes of the members above, by which a reader detects one
 } CO_SYSTICK;
 
-/// Ends the current slice. Call it in the interrupt of SysTick, before COTmrService().
+/// Adds the count-down that has ended to the clock. Call it in the interrupt of SysTick, before COTmrService().
 void COSysTickInterrupt(CO_SYSTICK* timer);
 
 /// The driver; its context is a CO_SYSTICK.
