@@ -11,11 +11,15 @@ namespace co::sdo_server {
 namespace {
 
 constexpr bool has_time_out = CO_SDO_TIMEOUT != 0;
+
+// The time-out consists of 8 slices, counted in CO_SDO.Idle. A block download repeats its acknowledge after every
+// second slice without a segment.
 constexpr uint8_t slices = 8;
 constexpr uint8_t reminder_slices = 2;
 
 CO_OBJ_TRANSFER direction(const CO_SDO& channel) { return has(channel, download) ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD; }
 
+// Counts an elapsed slice of an open transfer; each frame of the transfer sets the counter to 0.
 void count_slice(CO_SDO& channel) {
   if (state_of(channel) == State::idle || channel.Idle == busy) {
     return;
@@ -37,7 +41,8 @@ void on_slice(void* node_pointer) {
 }
 
 // Sets the position of a piece. Positions of library streams are set before each piece, because the application may
-// have used the object in between. Types of the application are reset at the begin, and when an upload goes back.
+// have used the object in between. Types of the application keep their position: their Reset function is called at the
+// beginning (begin_data()), and here when a block upload repeats segments that the client has lost.
 [[gnu::always_inline]] inline CO_ERR seek_piece(const CO_SDO& channel, CO_OBJ& obj, uint32_t position) {
   if (obj.Type->Reset == stream::reset) {
     return stream::seek(obj, position);
@@ -45,7 +50,8 @@ void on_slice(void* node_pointer) {
   return position != channel.Read ? obj::seek(obj, *channel.Node, position) : CO_ERR_NONE;
 }
 
-// Updates the size after a Read of an object of unknown size, which may have filled only a part of the buffer.
+// Called after each Read of an object of unknown size. Once the Read has reached the end of the object, the type
+// reports the size: it becomes the size of the transfer, and limits Read to the bytes that the type has filled in.
 uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
@@ -75,7 +81,8 @@ inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n)
   return err;
 }
 
-// Calls the End function. Nested, because a type function of another transfer may have caused the call.
+// Calls the type's End function. access::Nested, because the call may be caused by a type function of another transfer
+// that has changed the NMT state. Returns the error of End as abort code, if it is the end of a complete download.
 uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   CO_NODE& node = *channel.Node;
   const access::Nested nested(node, &obj);
@@ -181,7 +188,7 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
     if (has_block && err == CO_ERR_TYPE_AGAIN) {
       return again;
     }
-    if (channel.Obj == nullptr) {
+    if (channel.Obj == nullptr) {  // the Reset function has moved the entry
       return CO_SDO_ERR_TOS_STATE;
     }
     if (err == CO_ERR_NONE) {

@@ -23,7 +23,7 @@ enum class State : uint8_t {
 
 // CO_SDO.Flags
 enum Flag : uint8_t {
-  sized = 0x01,      // a value: collected in Value, read or written as a whole
+  sized = 0x01,      // download: the client has announced the size
   whole = 0x02,      // a value: collected in Value, read or written in one piece
   too_long = 0x04,   // block download: more data than the object can hold
   download = 0x08,   // direction
