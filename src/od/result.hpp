@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conversion of abort codes and error codes to results.
+// Conversion of SDO abort codes and error codes to ODR_t, the result type of the OD access interface (co_od.h).
 #pragma once
 
 #include "co_core.h"
@@ -7,11 +7,11 @@
 
 namespace co::od {
 
-// Returns the result with this abort code; ODR_GENERAL if there is none.
+// Returns the result for an SDO abort code; ODR_GENERAL if no result stands for this code.
 [[nodiscard]] ODR_t result_of(uint32_t abort);
 
-// Returns the result for the error code of a type function of the object, or for the abort code that the function has
-// set.
+// Returns the result for the error code of a type function of the object. An abort code that the function has set by
+// COObjTypeUserSDOAbort() has priority over the error code.
 [[nodiscard]] ODR_t result_of(const CO_NODE& node, const CO_OBJ& obj, CO_ERR err);
 
 }  // namespace co::od

@@ -16,9 +16,9 @@
 namespace co::heartbeat {
 namespace {
 
-// Values of CO_HBCONS.Tmr without a state byte.
-constexpr int16_t unheard = -1;
-constexpr int16_t missing = -2;
+// Values of CO_HBCONS.Tmr in place of the state byte that was received last.
+constexpr int16_t unheard = -1;  // no heartbeat since the entry was configured: the node is not monitored yet
+constexpr int16_t missing = -2;  // the time has elapsed without a heartbeat
 
 constexpr bool is_active(uint16_t ms, uint8_t node_id) { return ms != 0 && node_id >= 1 && node_id <= 127; }
 
@@ -46,7 +46,7 @@ uint32_t ticks_left(const CO_HB_WATCH& watch, uint32_t now) {
 // Starts the timer with the shortest of the remaining times.
 void plan(CO_NODE& node) {
   const uint32_t now = tmr::now(node.Tmr);
-  uint32_t next = 0;
+  uint32_t next = 0;  // ticks; 0: no node is monitored
   for (const CO_HB_WATCH& watch : node.HbCons) {
     const uint32_t left = is_watching(watch) ? ticks_left(watch, now) : next;
     next = next == 0 || left < next ? left : next;
@@ -58,6 +58,8 @@ void plan(CO_NODE& node) {
   }
 }
 
+// Counts a period without heartbeat and calls the application. The first one is a fault and causes the reaction of
+// 1029h.
 void miss(CO_NODE& node, CO_HBCONS& cons) {
   const uint8_t node_id = cons.NodeId;
   cons.Event = static_cast<uint8_t>(cons.Event + (cons.Event < UINT8_MAX ? 1 : 0));
@@ -76,13 +78,14 @@ void check(void* node_pointer) {
   for (CO_HB_WATCH& watch : node.HbCons) {
     const uint32_t passed = now - watch.Seen;
     if (is_watching(watch) && passed >= watch.Period) {
-      watch.Seen = now - passed % watch.Period;
+      watch.Seen = now - passed % watch.Period;  // end of the last missed period
       miss(node, *watch.Cons);
     }
   }
   plan(node);
 }
 
+// Processes a state byte that differs from the previous one, or a boot-up message.
 void hear(CO_NODE& node, CO_HBCONS& cons, int16_t state) {
   const int16_t before = cons.Tmr;
   cons.Tmr = state;
@@ -98,6 +101,7 @@ void hear(CO_NODE& node, CO_HBCONS& cons, int16_t state) {
   }
 }
 
+// Stops monitoring. A node that was missing is no longer a fault, without an EMCY message.
 void stop(CO_NODE& node, CO_HB_WATCH& watch) {
   if (is_watching(watch) && watch.Cons->Tmr == missing) {
     event::forget(node, event::Fault::heartbeat);
@@ -105,7 +109,7 @@ void stop(CO_NODE& node, CO_HB_WATCH& watch) {
   watch.Period = 0;
 }
 
-// Starts monitoring; the first heartbeat was not received yet.
+// Configures an entry: its node is monitored from its first heartbeat on. The caller updates timer and routes.
 CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   const bool active = is_active(ms, node_id);
   const uint32_t period = active ? tmr::ticks(node.Tmr, ms, CO_TMR_UNIT_1MS) : 0;
@@ -125,6 +129,7 @@ CO_ERR start(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   return CO_ERR_NONE;
 }
 
+// Changes an entry. Equal values have no effect, unless the entry is valid and its monitoring was stopped.
 CO_ERR change(CO_NODE& node, CO_HB_WATCH& watch, uint16_t ms, uint8_t node_id) {
   const CO_HBCONS& cons = *watch.Cons;
   if (cons.Time == ms && cons.NodeId == node_id && is_active(ms, node_id) == (watch.Period != 0)) {
@@ -219,6 +224,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   CO_HB_WATCH& watch = node.HbCons[number - 1];
   const int16_t state = wire::state_of(frame);
   watch.Seen = tmr::now(node.Tmr);
+  // CONmtHbConsChange() is called for changes of the state, and for each boot-up message.
   if (state != watch.Cons->Tmr || state == wire::heartbeat_state(CO_INIT)) {
     hear(node, *watch.Cons, state);
   }

@@ -9,6 +9,7 @@
 namespace co::nmt {
 namespace {
 
+// Returns the value of 1029h:1, the reaction to a communication error; without the object the default.
 uint8_t communication_error(CO_NODE& node) {
   uint8_t behaviour = CO_ERROR_BEHAVIOUR_PREOP;
   const CO_ERR err = CODictRdByte(&node.Dict, CO_DEV(0x1029, 1), &behaviour);
@@ -29,6 +30,7 @@ void lose_communication(CO_NODE& node) {
   }
 }
 
+// The bit rate is switched by LSS. Unlike in lose_communication(), the node leaves Operational in any case.
 CO_MODE mode_for_switch(CO_NODE& node) {
   if (node.Nmt.Mode != CO_OPERATIONAL) {
     return node.Nmt.Mode;

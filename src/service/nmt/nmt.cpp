@@ -11,6 +11,8 @@
 namespace co::nmt {
 namespace {
 
+// Services that are allowed in each mode. [301:7.3.2.2.4] CO_NMT_ALLOWED includes error control: heartbeat and
+// guarding.
 constexpr uint8_t error_control = CO_NMT_ALLOWED | CO_LSS_ALLOWED;
 constexpr uint8_t configured = error_control | CO_SDO_ALLOWED | CO_SYNC_ALLOWED | CO_TIME_ALLOWED | CO_EMCY_ALLOWED;
 constexpr uint8_t permissions[CO_MODE_NUM] = {
@@ -36,6 +38,7 @@ constexpr Command commands[] = {
     {wire::NmtCommand::reset_communication, event::reset_communication, CO_INIT},
 };
 
+// Asks the access hook of the application, if there is one.
 bool is_permitted([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& frame) {
 #if USE_ACCESS_HOOK
   const CO_ACCESS_NMT access = {frame.Data[0], frame.Data[1]};
@@ -45,6 +48,7 @@ bool is_permitted([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_F
 #endif
 }
 
+// Executes a command; a reset takes effect after the frame was processed. Unknown commands are ignored.
 void obey(CO_NODE& node, const CO_IF_FRM& frame) {
   for (const Command& command : commands) {
     if (static_cast<uint8_t>(command.specifier) != frame.Data[0] || !is_permitted(node, frame)) {
@@ -78,7 +82,7 @@ void boot(CO_NODE& node) {
   const event::Serving serving(node);
   transmit::send_ahead(node, wire::boot_up(node.NodeId));
   event::change_mode(node, CO_PREOP);
-  event::forget_resets(node);
+  event::forget_resets(node);  // requested by callbacks: the node has just been initialised
 }
 
 }  // namespace co::nmt
@@ -103,9 +107,9 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   ASSERT_PTR_FATAL(nmt->Node);
   CO_NODE& node = *nmt->Node;
   const bool initialising = nmt->Next == CO_INIT && event::is_serving(node);
-  const bool nameless = !wire::is_node_id(node.NodeId);
+  const bool unconfigured = !wire::is_node_id(node.NodeId);
   const bool stopped = nmt->Mode == CO_INVALID || nmt->Next == CO_INVALID;
-  if (stopped || initialising || nameless || mode < CO_PREOP || mode >= CO_MODE_NUM) {
+  if (stopped || initialising || unconfigured || mode < CO_PREOP || mode >= CO_MODE_NUM) {
     error::report(node, CO_ERR_NMT_MODE);
     return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 1F80h: self-start. [302-2]
+// 1F80h, NMT startup: self-start. [302-2]
 #include "co_nmt_startup.h"
 
 #include "base/events.hpp"
@@ -9,6 +9,7 @@
 namespace co::nmt {
 namespace {
 
+// Returns whether 1F80h exists and requests the self-start.
 bool starts_itself(CO_NODE& node) {
   uint32_t startup = 0;
   return dict::read_u32(node.Dict, CO_DEV(0x1F80, 0), startup) == CO_ERR_NONE && (startup & CO_NMT_STARTUP_STAY) == 0;
@@ -16,8 +17,8 @@ bool starts_itself(CO_NODE& node) {
 
 }  // namespace
 
-// Executes the self-start, if the first mode after Initialisation is Pre-operational; otherwise the application has
-// requested another mode.
+// Executes the self-start if the first state after Initialisation is Pre-operational. It is another one if
+// CONmtModeChange() has requested it, which has priority over the self-start.
 void on_mode(CO_NODE& node) {
   CO_NMT& nmt = node.Nmt;
   const bool first = nmt.Booting != 0;
@@ -39,6 +40,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED32->Read(obj, node, buffer, size);
 }
 
+// Refuses a change of any bit except CO_NMT_STARTUP_STAY: the others belong to an NMT master.
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t before = 0;
   const CO_ERR err = read(obj, node, &before, size);
