@@ -18,12 +18,12 @@ constexpr std::uint32_t ticks_per_second = 1000000;
 // Length of the receive queue, frames: a block of 127 segments and the frames that other nodes send meanwhile.
 constexpr std::uint16_t frames_received = 160;
 
-std::uint8_t picture[48 * 32 * 3];
-const std::uint8_t hardware[] = LEXICAN_BOARD;
+std::uint8_t picture[48 * 32 * 3];              // object 2200h: 48 * 32 pixels of 3 bytes
+const std::uint8_t hardware[] = LEXICAN_BOARD;  // object 1009h: the name of the board, set by CMakeLists.txt
 
 CO_NODE node;
 CO_NODE_EXT extension;
-CO_TMR_MEM timers[1];
+CO_TMR_MEM timers[1];  // for clock_tick()
 std::uint8_t sdo_buffer[CO_SSDO_N * CO_SDO_BUF_BYTE];
 CO_SLCAN can;
 CO_IF_FRM frames[frames_received];
@@ -31,6 +31,8 @@ std::uint8_t memory_bytes[clock_memory_size];
 CO_NVM_RAM memory = {memory_bytes, sizeof memory_bytes};
 std::uint32_t interrupts_before_lock;
 
+// Called by the driver in the loop when there is text to send. Interrupts are disabled, because the interrupt handler
+// of the UART sends text, too.
 void start_sending(void* controller) {
   const std::uint32_t before = board::disable_interrupts();
   uart_send(*static_cast<CO_SLCAN*>(controller));
@@ -61,8 +63,8 @@ void make_node() {
   CONodeInitEx(&node, &spec, &extension);
 }
 
-// Prints the last error of the node, if there is one: its name, index and sub-index of the object as one number, and
-// its text.
+// Prints the last error of the node, if there is one: its name, the object, and its text. Index and sub-index are
+// printed as one hexadecimal number.
 void print_error() {
   const CO_ERR error = CONodeGetErr(&node);
   if (error == CO_ERR_NONE) {
@@ -89,6 +91,7 @@ void sleep_until_due() {
 
 }  // namespace demo
 
+// Objects that the generated dictionary refers to and the program defines (clock/dictionary.hpp).
 CO_OBJ_STR clock_1009_0 = {0, demo::hardware};
 CO_OBJ_DOM clock_2200_0 = {0, sizeof demo::picture, demo::picture};
 

@@ -19,6 +19,7 @@ BoardTimer board_timer() {
   return {&MtimeDriver, &timer};
 }
 
+// COTmrService(), which the interrupt handler calls next, sets the next alarm: that ends the request of the interrupt.
 void timer_interrupt() {}
 
 }  // namespace demo

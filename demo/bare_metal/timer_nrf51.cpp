@@ -15,6 +15,7 @@ BoardTimer board_timer() {
   return {&Nrf51TimerDriver, &timer};
 }
 
+// COTmrService(), which the interrupt handler calls next, sets the next alarm: that clears the event of the timer.
 void timer_interrupt() {}
 
 }  // namespace demo

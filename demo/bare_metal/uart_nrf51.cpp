@@ -6,7 +6,7 @@
 namespace demo {
 namespace {
 
-// Offsets of registers.
+// Offsets of registers: tasks, events, settings and data of the UART.
 constexpr std::uint32_t start_receiving = 0x000;
 constexpr std::uint32_t start_sending = 0x008;
 constexpr std::uint32_t received = 0x108;
@@ -32,9 +32,9 @@ volatile std::uint32_t& at(std::uint32_t offset) {
   return *reinterpret_cast<volatile std::uint32_t*>(board::uart_base + offset);
 }
 
-// Returns true and clears the event if it has occurred. It is not cleared otherwise, because it could occur between the
+// Clears an event and returns true if it has occurred. It is not cleared otherwise, because it could occur between the
 // two accesses; a received byte whose event is lost would block the queue.
-bool take(std::uint32_t event) {
+bool take_event(std::uint32_t event) {
   if (at(event) == 0) {
     return false;
   }
@@ -45,7 +45,7 @@ bool take(std::uint32_t event) {
 }  // namespace
 
 void uart_begin() {
-  at(transmit_pin) = 24;
+  at(transmit_pin) = 24;  // pins of the micro:bit
   at(receive_pin) = 25;
   at(speed) = speed_115200;
   at(enable) = enabled;
@@ -65,14 +65,14 @@ void uart_send(CO_SLCAN& can) {
 }
 
 void uart_interrupt(CO_SLCAN& can) {
-  if (take(failed)) {
-    at(error_source) = at(error_source);
+  if (take_event(failed)) {
+    at(error_source) = at(error_source);  // write 1 to clear
     COSlcanBroken(&can);
   }
-  while (take(received)) {
+  while (take_event(received)) {
     COSlcanReceive(&can, static_cast<std::uint8_t>(at(receive_data)));
   }
-  if (take(sent)) {
+  if (take_event(sent)) {
     sending = false;
     uart_send(can);
   }

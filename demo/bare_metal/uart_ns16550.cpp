@@ -44,7 +44,8 @@ void uart_begin() {
   board::enable_uart_interrupt();
 }
 
-// Enables the transmit interrupt while there is text; it is active as long as the transmit queue is empty.
+// Enables the transmit interrupt while the driver has text to send. The interrupt is active as long as the transmit
+// queue is empty: uart_interrupt() fills it.
 void uart_send(CO_SLCAN& can) {
   const std::uint8_t* bytes = nullptr;
   const bool has_text = COSlcanPending(&can, &bytes) != 0;

@@ -22,7 +22,7 @@ class LssMaster {
  public:
   struct Times {
     std::uint32_t timeout;  // ms, for the answer of a node
-    std::uint32_t listen;   // ms, for each request that searches for nodes
+    std::uint32_t listen;   // ms, to collect the answers of several nodes to a request that searches for nodes
   };
 
   /// \a node must be one of \a loop. Both must outlive this object.

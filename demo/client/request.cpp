@@ -13,9 +13,10 @@
 namespace demo {
 namespace {
 
-constexpr Micros last_frames = 100 * millisecond;  // time to transmit them
+// Limit of the time in which frames that are still queued, such as an abort, are transmitted before the program ends.
+constexpr Micros last_frames = 100 * millisecond;
 
-/// Prints the texts of a Progress; a bar stays in its line until the end.
+/// Prints the texts of a Progress. A bar overwrites the previous one in the same line, which end() ends.
 class ProgressLine {
  public:
   ProgressLine(std::ostream& err, Progress::Form form)
@@ -43,7 +44,7 @@ class ProgressLine {
 
   std::ostream& err_;
   bool is_bar_;
-  bool begun_ = false;  // the line has no end yet
+  bool begun_ = false;  // a bar was printed, and its line has not been ended
   Progress progress_;
   Amount last_{};
 };
@@ -112,6 +113,7 @@ Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::
   outcome.transfer = transfer(
       request, sdo, {request.capacity, request.timeout, [&](const Amount& amount) { progress.update(amount); }});
   progress.end();
+  // A lost bus interrupts the loop, too; it is reported as bus_fault.
   outcome.interrupted = !outcome.transfer.done() && loop.interrupted() && !host.bus_lost();
   loop.flush(last_frames);
   outcome.bus_fault = host.bus_fault();

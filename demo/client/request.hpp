@@ -19,7 +19,8 @@ struct Outcome {
   bool interrupted;
 };
 
-/// Goes on the bus as a node and transfers the object. Prints the progress to \a err.
+/// Starts a node with the node-ID own_id of the request and transfers the object with its SDO client. Prints the
+/// progress to \a err.
 Outcome carry_out(const Request& request, Host& host, Progress::Form form, std::ostream& err);
 
 /// Prints the value to \a out, or writes the bytes to the file; prints faults to \a err. Returns the exit code.

@@ -39,8 +39,9 @@ std::uint64_t number_of(const Bytes& bytes) {
   return number;
 }
 
-// --- Integers. A magnitude and a sign hold all numbers of all types.
+// --- Integers. They are converted as magnitude and sign, because no integer type has the range of both i64 and u64.
 
+/// Returns the highest number of an integer type.
 std::uint64_t largest(ValueType type) {
   const std::uint64_t ones = std::numeric_limits<std::uint64_t>::max() >> (64 - byte_bits * type.size);
   return type.kind == Kind::integer ? ones >> 1 : ones;
@@ -51,7 +52,8 @@ std::string range(ValueType type) {
   return (type.kind == Kind::integer ? '-' + std::to_string(largest(type) + 1) : "0") + "..." + highest;
 }
 
-/// Converts digits, decimal or after 0x. Returns invalid_argument if they are not all valid.
+/// Converts digits: decimal, or hexadecimal after 0x. Returns invalid_argument if one is invalid, result_out_of_range
+/// for more than 64 bits.
 std::errc magnitude(std::string_view digits, std::uint64_t& number) {
   const bool hex = digits.size() > 2 && digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X');
   digits.remove_prefix(hex ? 2 : 0);
@@ -78,6 +80,7 @@ std::string show_integer(ValueType type, const Bytes& bytes) {
   if (type.kind == Kind::unsigned_integer || number <= largest(type)) {
     return std::to_string(number);
   }
+  // Two's complement: the magnitude is 2^bits - number. 2^64 itself does not fit into 64 bits.
   const std::uint64_t modulus_less_one = largest({Kind::unsigned_integer, type.size});
   return '-' + std::to_string(modulus_less_one - number + 1);
 }

@@ -52,9 +52,10 @@ VirtualBusHost::VirtualBusHost(const Interruption& interruption) : LinuxHost(int
 }
 
 void VirtualBusHost::wait(Micros time) {
-  LinuxHost::wait(0);  // handles pending signals
+  LinuxHost::wait(0);  // unblocks the signals for a moment: note_signal() stores pending ones
   const auto next = static_cast<Micros>(bus_.next_due().count());
   const Micros until_next = next > now() ? next - now() : 0;
+  // One second at most, because time may be for_ever.
   const auto step = static_cast<std::int64_t>(std::min({time, until_next, second}));
   clock_.advance(clock_.ticks(std::chrono::microseconds{step}));
 }
@@ -72,7 +73,7 @@ std::string SocketCanHost::open(const std::string& interface, bool device, bool 
 }
 
 std::vector<pollfd> SocketCanHost::wake_ups() {
-  return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // poll() ignores -1
+  return {{device_.fd(), POLLIN, 0}, {master_.fd(), POLLIN, 0}};  // -1: not open, which poll() ignores
 }
 
 }  // namespace demo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file acceptance.hpp
-/// Computes up to four acceptance filters that pass the given identifiers, and few others.
+/// Computes up to four acceptance filters that accept all the given identifiers and few others.
 #ifndef CO_DRIVERS_ZYNQMP_ACCEPTANCE_HPP_
 #define CO_DRIVERS_ZYNQMP_ACCEPTANCE_HPP_
 
@@ -27,7 +27,7 @@ struct Acceptance {
 /// Returns filters for \a ids: coded like in CO_IF_CAN_DRV_EX.Filter, in any order.
 Acceptance acceptance_of(const std::uint32_t* ids, std::uint16_t num);
 
-/// Returns an identifier (with CO_IF_FRM_EXT) in the coding of the registers, without the bits of a remote frame.
+/// Returns an identifier of CO_IF_FRM in the coding of the registers; CO_IF_FRM_EXT: 29 bits. The remote bits are 0.
 std::uint32_t identifier_word(std::uint32_t identifier);
 
 }  // namespace co::zynqmp

@@ -7,7 +7,8 @@
 
 namespace board {
 
-/// Disables interrupts. Returns the argument for restore_interrupts(); pairs of the two may be nested.
+/// Disables interrupts: clears MIE, bit 3 of mstatus. Returns the argument for restore_interrupts(); pairs of the two
+/// may be nested.
 inline std::uint32_t disable_interrupts() {
   std::uint32_t status;
   asm volatile("csrrci %0, mstatus, 8" : "=r"(status) : : "memory");
