@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file gen.hpp
 /// Generates the source of a device's object dictionary: sorted table, variables, storage groups, limits, and
-/// compile-time checks. Equal devices and options give equal bytes.
+/// compile-time checks. The output depends on nothing but the device and the options.
 #pragma once
 
 #include <string>

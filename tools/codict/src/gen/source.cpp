@@ -37,8 +37,8 @@ std::string flags_text(std::uint32_t flags) {
 }
 
 constexpr const char* limited_functions = R"(
-// Type of a number of up to {0} bits with limits: Plain does the access, a value outside Low and High is refused.
-// Order says how Low and High are compared: 0 unsigned, 1 signed, 2 real.
+// Type of a number of up to {0} bits with limits. Values outside Low and High are refused; the functions of Plain, the
+// type without limits, read and write the others. Order: Low and High are compared as 0 unsigned, 1 signed, 2 real.
 typedef struct {{
   CO_OBJ_TYPE Type;
   const CO_OBJ_TYPE *Plain;
@@ -62,8 +62,8 @@ static CO_ERR limited{0}_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t
   return limited{0}(obj)->Plain->Read(obj, node, buffer, size);
 }}
 
-// Returns the rank of a number in the CPU's byte order; the lowest number has rank 0. The bits of a positive real grow
-// with its value, those of a negative one decrease; NaN has the highest rank.
+// Converts the bits of a number to an unsigned number with the same order, so that one comparison serves all types. The
+// bits of positive reals increase with the value, those of negative ones decrease; NaN is beyond all other numbers.
 static uint{0}_t limited{0}_rank(uint{0}_t bits, uint32_t size, uint8_t order) {{
   const uint{0}_t highest = (uint{0}_t)1 << {1};
   const uint{0}_t sign = (uint{0}_t)1 << (8u * size - 1u);
@@ -109,7 +109,8 @@ static CO_ERR limited{0}_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_
 )";
 
 constexpr const char* stored_string_functions = R"(
-// A string in a storage group: its length is stored, too.
+// A string in a storage group. Its length belongs to the group, too, and is copied to String before each access, because
+// the group may have been loaded since the last one.
 typedef struct {
   CO_OBJ_STR_RW String;
   uint32_t *Length;
@@ -148,7 +149,7 @@ static const CO_OBJ_TYPE stored_string_type = {stored_string_size, stored_string
 )";
 
 constexpr const char* stored_consumer_functions = R"(
-// A heartbeat consumer in a storage group: what is stored is the value of its entry.
+// A heartbeat consumer (1016h) in a storage group, which contains the value of the entry: time and node-ID.
 typedef struct {
   CO_HBCONS Consumer;
   uint32_t *Value;
@@ -169,7 +170,8 @@ static CO_ERR stored_consumer_read(CO_OBJ *obj, CO_NODE *node, void *buffer, uin
   return CO_THB_CONS->Read(obj, node, buffer, size);
 }
 
-// The stack does not see that the entry lies in a group: 1020h is made 0 here, where there is one.
+// Sets 1020h to 0 (the configuration has changed), where it exists: the stack does so only for entries whose data is in
+// a storage group.
 static CO_ERR stored_consumer_write(CO_OBJ *obj, CO_NODE *node, void *buffer, uint32_t size) {
   const CO_ERR error = CO_THB_CONS->Write(obj, node, buffer, size);
   stored_consumer_t *const stored = (stored_consumer_t *)obj->Data;
@@ -491,6 +493,10 @@ class SourceText {
     const std::string of_node = begin_of(Reset::node);
     const std::string of_communication = begin_of(Reset::communication);
     const bool is_same = of_node == of_communication;
+    out_.raw(
+        "  // Order of the variables: first those that the network cannot write, which are set only once; then those "
+        "that\n"
+        "  // \"reset node\" sets; then those that both resets set.\n");
     out_.add("  const size_t written = {};",
              is_same ? of_node : fmt::format("reset == CO_RESET_NODE ? {} : {}", of_node, of_communication));
     out_.raw("  const size_t first = has_defaults != 0 ? written : 0;\n");
@@ -498,7 +504,7 @@ class SourceText {
 
   void write_power_on_type() {
     out_.raw(
-        "\n// Called by CONodeInit() and at each NMT reset. Variables that the network cannot write are set once.\n"
+        "\n// Sets variables to their default values. Called by CONodeInit() and at each NMT reset.\n"
         "static CO_ERR set_power_on_values(CO_OBJ *end, CO_NODE *node, uint32_t reset) {\n");
     if (!plan_.groups.front().members.empty()) {
       write_first();
@@ -584,7 +590,7 @@ class SourceText {
   // Proofs -----------------------------------------------------------------------------------------------------------
 
   void write_proofs() {
-    out_.raw("\n// Checks by the compiler: the order of the table,\n");
+    out_.raw("\n// Compile-time checks of the table.\n");
     if (is_cpp()) {
       out_.add("CO_OD_CHECK({}_od);", options_.name);
     } else {
@@ -593,15 +599,15 @@ class SourceText {
                  macro_of(plan_.items[n], options_));
       }
     }
-    out_.raw("// the layout of what is stored,\n");
+    out_.raw("// Layout of the storage groups.\n");
     for (std::size_t n = 1; n < plan_.groups.size(); ++n) {
       prove_layout(plan_.groups[n]);
     }
-    out_.raw("// default values within their limits,\n");
+    out_.raw("// Default values are within their limits.\n");
     for (const Item* const item : those([](const Item& one) { return one.limited != 0 && one.limits.holds_default; })) {
       prove_limits(*item);
     }
-    out_.raw("// and what PDOs map.\n");
+    out_.raw("// The mapping of each PDO has at most 64 bits and CO_PDO_MAP_N objects.\n");
     for (const PdoSum& pdo : plan_.pdos) {
       prove_pdo(pdo);
     }
