@@ -16,7 +16,7 @@ const Rule limit{"od-limit", Severity::error, "default or configured value outsi
 const Rule pdo_count{"od-pdo-count", Severity::warning,
                      "NrOfRXPDO or NrOfTXPDO differs from the PDOs that are described"};
 const Rule identity{"od-identity", Severity::warning, "identity in DeviceInfo differs from object 1018h"};
-const Rule type_complex{"od-type-complex", Severity::warning, "data type of several values for a single value"};
+const Rule type_complex{"od-type-complex", Severity::warning, "VAR or sub-object whose data type is a structure"};
 const Rule unmappable{"od-unmappable", Severity::warning, "DOMAIN with PDO mapping"};
 const Rule array_types{"od-array-types", Severity::warning, "ARRAY with elements of different data types"};
 const Rule string_capacity{"od-string-capacity", Severity::warning, "default value longer than CO_byteLength"};

@@ -12,7 +12,8 @@ const Rule missing{"net-missing", Severity::error, "missing key in a plan"};
 const Rule node_id{"net-node-id", Severity::error, "node-ID that is missing, invalid or used twice"};
 const Rule object{"net-object", Severity::error, "configured object that the description lacks or that is read-only"};
 const Rule mapping{"net-mapping", Severity::error, "PDO mapping that the device cannot have"};
-const Rule bit_rate{"net-bit-rate", Severity::error, "bit rate that a device does not support, or that differs"};
+const Rule bit_rate{"net-bit-rate", Severity::error,
+                    "bit rate that a device does not support, or that differs between nodes"};
 const Rule cob_id{"net-cob-id", Severity::error, "COB-ID that two services of the network transmit"};
 const Rule pdo_no_consumer{"net-pdo-no-consumer", Severity::warning, "TPDO that no node receives"};
 const Rule pdo_no_producer{"net-pdo-no-producer", Severity::warning, "RPDO that no node transmits"};
@@ -24,12 +25,13 @@ const Rule heartbeat_producer{"net-heartbeat-producer", Severity::error,
 const Rule heartbeat_time{"net-heartbeat-time", Severity::error, "heartbeat consumer time not above the producer time"};
 const Rule heartbeat_twice{"net-heartbeat-guarding", Severity::warning, "heartbeat and node guarding on one node"};
 const Rule unmonitored{"net-unmonitored", Severity::note, "node that no other node monitors"};
-const Rule guarding{"net-guarding", Severity::warning, "node guarding and life guarding that do not fit"};
+const Rule guarding{"net-guarding", Severity::warning, "life guarding of a node that no master guards often enough"};
 const Rule sync_missing{"net-sync-missing", Severity::error, "synchronous PDO in a network without SYNC producer"};
-const Rule sync_period{"net-sync-period", Severity::warning, "SYNC period that is missing or differs"};
+const Rule sync_period{"net-sync-period", Severity::warning, "SYNC period that is missing or differs between nodes"};
 const Rule sync_producers{"net-sync-producers", Severity::error, "more than one SYNC producer"};
 const Rule sync_cob_id{"net-sync-cob-id", Severity::error, "SYNC consumer with another COB-ID than the producer"};
-const Rule sync_counter{"net-sync-counter", Severity::error, "SYNC counter overflow value or start value that differs"};
+const Rule sync_counter{"net-sync-counter", Severity::error,
+                        "SYNC counter overflow or start value that does not match the producer's"};
 const Rule event_unbounded{"net-event-unbounded", Severity::warning,
                            "event-driven TPDO without inhibit time: the bus load has no bound"};
 const Rule load{"net-load", Severity::warning, "worst-case bus load above the limit"};
