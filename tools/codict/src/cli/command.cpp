@@ -29,7 +29,8 @@ namespace lexican::codict::cli {
 
 namespace {
 
-// Returns true if the first character is an angle bracket, in any encoding: XML begins with one, an EDS never does.
+// Returns true if the first character is an angle bracket: XML begins with one, an EDS never does. Skips zero bytes
+// (UTF-16 without byte order mark), then a byte order mark and white space.
 bool is_xml(std::string_view bytes) {
   constexpr std::string_view before = "\xEF\xBB\xBF\xFE\xFF \t\r\n";
   const std::size_t first = bytes.find_first_not_of(std::string_view("\0", 1));
@@ -39,14 +40,15 @@ bool is_xml(std::string_view bytes) {
 
 template <typename Document>
 std::unique_ptr<const Document> document_of(Source source, Findings& findings) {
-  if constexpr (std::is_constructible_v<Document, Source>) {  // the document stores its fault itself
+  if constexpr (std::is_constructible_v<Document, Source>) {  // reports its fault by refusal(), not as a finding
     return std::make_unique<const Document>(std::move(source));
   } else {
     return std::make_unique<const Document>(std::move(source), findings);
   }
 }
 
-// Reads a description in one format. Returns the reason if that fails, else an empty string.
+// Reads a description in one format: refusal() checks the bytes, then the parsed document. Returns the reason if that
+// fails, else an empty string.
 template <typename Document, typename Refuse, typename Read>
 std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<const Document>& document, Input& input) {
   std::string why = refusal(source);

@@ -89,6 +89,7 @@ void Writer::add(std::uint16_t index, std::uint8_t sub_index, const Entry& entry
 
 void Writer::add_objects() {
   for_each_variable(node_.device, [this](std::uint16_t index, std::uint8_t sub_index, const Entry& entry) {
+    // A value that is written to 1010h or 1011h is a command, "save" or "load".
     const bool is_command = index == 0x1010 || index == 0x1011;
     if (!is_communication(index) && !is_mapping(index) && !is_command && is_configured(&entry)) {
       add(index, sub_index, entry);
@@ -124,6 +125,8 @@ void Writer::add_mapping(const Object& object) {
   }
 }
 
+// Disables the PDO (bit 31 of its COB-ID) while its parameters and its mapping change. [301: 7.5.2.36] The COB-ID that
+// is written at the end enables it, unless it is configured as disabled.
 void Writer::add_pdo(const Pdo& pdo) {
   const bool changes_mapping = pdo.mapping != nullptr && is_configured(*pdo.mapping);
   const bool is_changed = changes_mapping || (pdo.communication != nullptr && is_configured(*pdo.communication));

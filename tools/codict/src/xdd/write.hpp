@@ -14,10 +14,10 @@ enum class Edition : unsigned char {
   v11,  ///< CiA 311 1.1: elements that the schema declares globally are in the namespace, others in none
 };
 
-/// Returns the text in the order of the schema, with the type element of CiA 311 and the more precise data type of CiA
-/// 301. Kept parts of a description of CiA 311 are written at their places. Private parts of other formats are omitted:
-/// comments and modules of an EDS, elements of private dialects. The output depends on nothing but the device and the
-/// edition.
+/// Returns the text in the order of the schema. An entry with a parameter has both data types: the type element of the
+/// parameter (CiA 311) and, as attribute of the object, the more precise type of CiA 301. Parts that the model does not
+/// interpret (Kept) are written where a description of CiA 311 had them; those of other formats are omitted: comments
+/// and modules of an EDS, elements of private dialects. The output depends on nothing but the device and the edition.
 std::string write(const Device& device, Edition edition);
 
 }  // namespace lexican::codict::xdd
