@@ -112,9 +112,9 @@
 #define USE_PDO_RTR 1
 #endif
 
-/// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…): 0 or
-/// 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each PDO, and the memory
-/// of the two settings below.
+/// Multiplex PDOs with destination and source addressing (FFh and FEh in sub 0 of 1600h…, 1A00h…; 1FA0h…, 1FD0h…):
+/// 0 or 1. 1 costs 2.9 KB of flash, with both lists 4.2 KB (Cortex-M0+, -Os), 12 bytes of RAM, 4 in each PDO, and the
+/// memory of the two settings below.
 #ifndef USE_MPDO
 #define USE_MPDO 0
 #endif

@@ -77,7 +77,7 @@ extern "C" {
 #define CO_COBID_TPDO_DEFAULT(n) (0x40000000u + CO_COBID_TPDO_BASE + (uint32_t)(n)*CO_COBID_TPDO_INC)
 /// \}
 
-/// Maximum number of objects of a PDO.
+/// Maximum number of objects of a PDO: 8, with USE_PDO_BITS 64.
 #if USE_PDO_BITS
 #define CO_PDO_MAP_N 64
 #else

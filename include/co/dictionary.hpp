@@ -8,8 +8,10 @@
 ///         CO_OBJ_DICT_ENDMARK};
 ///     CO_OD_CHECK(od);
 ///
-/// A fault is a compile error. The message contains, for example, `Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1',
-/// '0', '0', '1'>, co::Sub<'0', '0'>>`: the CO_DICT_FAULT of co_dict.h, index and sub-index in hexadecimal digits.
+/// A fault is a compile error. The message contains the CO_DICT_FAULT of co_dict.h, index and sub-index in hexadecimal
+/// digits, for example:
+///
+///     Dictionary<CO_DICT_NOT_ASCENDING, co::Index<'1', '0', '0', '1'>, co::Sub<'0', '0'>>
 ///
 /// This file adds no code or data to the program. It is tested with gcc 11 and 12 and with clang 14 to 19. A table of
 /// more than some thousand entries may need a higher limit of the compiler (clang: -fconstexpr-steps, gcc:
@@ -68,11 +70,11 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 
 namespace co {
 
-/// An index as hexadecimal digits, for messages of the compiler: 1000h is `Index<'1', '0', '0', '0'>`.
+/// An index as hexadecimal digits, for messages of the compiler: 1000h is ``Index<'1', '0', '0', '0'>``.
 template <char... HexDigits>
 struct Index {};
 
-/// A sub-index as hexadecimal digits, for messages of the compiler: 0Ah is `Sub<'0', 'A'>`.
+/// A sub-index as hexadecimal digits, for messages of the compiler: 0Ah is ``Sub<'0', 'A'>``.
 template <char... HexDigits>
 struct Sub {};
 

@@ -22,6 +22,7 @@ extern "C++" {  // co_core.h may be included inside extern "C" { }
 #include "co/dictionary.hpp"
 #endif
 
+/// The C++ interface of the stack and of its drivers.
 namespace co {
 
 /// A value, or the error because of which there is none.
