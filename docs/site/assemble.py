@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""assemble.py ROOT PAGES
+"""assemble.py ROOT PAGES REFERENCE
 
 Copies the pages of the site to the directory PAGES, which must not exist: docs/, the pages of codict, the list of
-rules, the pages for contributors. Links between them are adapted; a link to another file of the repository becomes its
+rules, the pages for contributors, and the API reference that reference.sh has made in REFERENCE. Links between them are
+adapted; a link to a header leads to its page of the API reference, a link to another file of the repository becomes its
 path. Pictures are drawn from docs/pictures/*.dot by Graphviz.
 """
 import os.path
@@ -12,6 +13,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from xml.etree import ElementTree
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
@@ -30,7 +32,16 @@ def pages_of(root):
     return pages
 
 
-def adapt(text, source, pages, root):
+def headers_of(root, tags):
+    """The place of each header's page in the site, by the header's place in the repository."""
+    headers = {}
+    for file in ElementTree.parse(tags).iterfind("compound[@kind='file']"):
+        header = Path(file.findtext("path")) / Path(file.findtext("name")).name
+        headers[header.relative_to(root)] = Path("reference") / file.findtext("filename")
+    return headers
+
+
+def adapt(text, source, pages, headers, root):
     """The text of a page with links that hold within the site."""
 
     def link(match):
@@ -40,6 +51,8 @@ def adapt(text, source, pages, root):
         place = Path(os.path.normpath(source.parent / target))
         if place.suffix == ".svg":
             return match[0]
+        if place in headers:
+            return f"[{words}]({os.path.relpath(headers[place], pages[source].parent)})"
         if place in pages:
             return f"{picture}[{words}]({os.path.relpath(pages[place], pages[source].parent)}{anchor})"
         if not (root / place).exists():
@@ -56,14 +69,16 @@ def draw(root, to):
 
 
 def main():
-    root, to = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    root, to, reference = Path(sys.argv[1]).resolve(), Path(sys.argv[2]), Path(sys.argv[3])
     pages = pages_of(root)
+    headers = headers_of(root, reference / "tags.xml")
     listed = (root / "docs/site/mkdocs.yml").read_text()
     if missing := [str(place) for place in pages.values() if f": {place}\n" not in listed]:
         sys.exit(f"docs/site/mkdocs.yml, nav, does not list: {', '.join(missing)}")
     for source, place in pages.items():
         (to / place).parent.mkdir(parents=True, exist_ok=True)
-        (to / place).write_text(adapt((root / source).read_text(), source, pages, root))
+        (to / place).write_text(adapt((root / source).read_text(), source, pages, headers, root))
+    shutil.copytree(reference / "html", to / "reference")
     draw(root, to / "pictures")
     for file in sorted((root / "docs/pictures").glob("*.svg")):
         shutil.copy(file, to / "pictures")

@@ -30,7 +30,7 @@ class Page(HTMLParser):
                 continue
             parts = urlsplit(target)
             if parts.scheme or parts.netloc:
-                if (tag, name) in LOADING and parts.scheme != "data":
+                if (tag, name) in LOADING and parts.scheme not in ("data", "javascript"):
                     self.faults.append(f"loads {target}")
             elif parts.path and not self.exists(unquote(parts.path)):
                 self.faults.append(f"leads to {target}, which does not exist")
