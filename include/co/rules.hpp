@@ -2,8 +2,8 @@
 /// \file co/rules.hpp
 /// The rules for a dictionary, used by the compiler and by the node. [CiA 301, 7.4]
 ///
-/// - check_entry() needs the table only. Called by CO_OD_CHECK() and CODictInit(), which leaves the data of static data
-///   types to check_type().
+/// - check_entry() needs the table only. Called by CO_OD_CHECK() and CODictInit(). The latter does not check the
+///   data of static data types; check_type() does.
 /// - check_type() needs the rule of the entry's type. CO_OD_CHECK() finds the rule by the address of the type object,
 ///   which only the compiler may do: at run time, a list of all types would link all of them into a firmware that uses
 ///   three. At run time a type that is restricted to certain indices checks its rule in its Init function.

@@ -25,8 +25,9 @@
 /// full: Read reports that by an error frame in the coding of SocketCAN.
 /// Send queues a frame if there is space for all of its text, else it returns 0; it never blocks.
 ///
-/// Contexts: COSlcanReceive() and COSlcanBroken() in one context, say the receive interrupt; COSlcanPending() and
-/// COSlcanSent() in one, say the transmit interrupt; the driver in the loop, as is uart_start. All may be the same.
+/// Contexts: COSlcanReceive() and COSlcanBroken() in one context, such as the receive interrupt; COSlcanPending() and
+/// COSlcanSent() in one context, such as the transmit interrupt; the functions of the driver in the loop, which also
+/// calls uart_start. The three contexts may be the same.
 /// Owner: the structure and the frames are the caller's; they must outlive the node.
 #ifndef CO_SLCAN_H_
 #define CO_SLCAN_H_

@@ -14,7 +14,7 @@
 ///
 /// Units: ticks of the frequency given at Init (CO_NODE_SPEC.TmrFreq), starting at 0 there and wrapping at 2^32. They
 /// are always computed from the nanoseconds since Init, so no frequency drifts. Time-outs are rounded up: a wait never
-/// ends before its tick, and no loop spins in the last fraction of one.
+/// ends before its tick, and no loop polls without waiting in the last fraction of a tick.
 /// Instead of using a time-out, a loop can poll fd(), a timerfd that becomes readable at the alarm of the node.
 ///
 /// Context: one thread. Owner: the caller; must outlive the node.
