@@ -83,7 +83,7 @@ TEST_CASE("access hook, SDO: its abort code is sent, and a refused download chan
   CHECK(node.objects.u8 == 0x55);
 }
 
-TEST_CASE("access hook, SDO: segments belong to a transfer that was permitted; each further initiate is asked again") {
+TEST_CASE("access hook, SDO: segments of a permitted transfer are not checked; each further initiate is") {
   AccessLog log;
   Fixture node(log.setup());
   node.ask("601#2104200004000000", "581#6004200000000000");
@@ -104,7 +104,8 @@ TEST_CASE("access hook, SDO: a refused initiate ends the transfer that was open"
   node.ask("601#6000000000000000", "581#8000000001000405");
 }
 
-TEST_CASE("access hook, SDO: comes after index, sub-index and access right, before the length [D]") {
+TEST_CASE(
+    "access hook, SDO: called after the checks of index, sub-index and access right, before that of the length [D]") {
   AccessLog log;
   Fixture node(log.setup());
   log.on_sdo = [](CO_NODE&, const CO_ACCESS_SDO&) { return local_control; };
@@ -119,7 +120,7 @@ TEST_CASE("access hook, SDO: comes after index, sub-index and access right, befo
   CHECK(log.sdo.size() == 2);
 }
 
-TEST_CASE("access hook, SDO: the second server is channel 1") {
+TEST_CASE("access hook, SDO: requests to the second server are reported with channel 1") {
   if (CO_SSDO_N < 2) {
     return;
   }
@@ -136,7 +137,7 @@ TEST_CASE("access hook, SDO: the second server is channel 1") {
   CHECK(log.sdo[1].channel == 0);
 }
 
-TEST_CASE("access hook, SDO: any code is sent as it is, every time") {
+TEST_CASE("access hook, SDO: any abort code that it returns is sent unchanged, every time") {
   AccessLog log;
   Fixture node(log.setup());
   for (const std::uint32_t code : {1U, 0x06010000U, 0xFFFFFFFFU, 0x80000000U}) {
@@ -148,7 +149,7 @@ TEST_CASE("access hook, SDO: any code is sent as it is, every time") {
   }
 }
 
-TEST_CASE("access hook, SDO: the application's own access is not checked") {
+TEST_CASE("access hook, SDO: accesses of the application are not checked") {
   AccessLog log;
   Fixture node(log.setup().may_change(0x2001, 0));
   log.on_sdo = [](CO_NODE&, const CO_ACCESS_SDO&) { return local_control; };
@@ -172,7 +173,7 @@ TEST_CASE("access hook, SDO: the application's own access is not checked") {
 #if USE_CSDO
 std::uint32_t own_result;
 
-TEST_CASE("access hook, SDO: a client that accesses its own node is not checked") {
+TEST_CASE("access hook, SDO: accesses of an SDO client to its own node are not checked") {
   AccessLog log;
   Fixture node(log.setup()
                    .with({CO_KEY(0x1280, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 3})
@@ -194,7 +195,7 @@ TEST_CASE("access hook, SDO: a client that accesses its own node is not checked"
 }
 #endif
 
-TEST_CASE("access hook, SDO: it may reset the node, which happens after the answer") {
+TEST_CASE("access hook, SDO: a reset that it requests is carried out after the answer") {
   AccessLog log;
   Fixture node(log.setup());
   node.frames_per_call(2);
@@ -216,7 +217,7 @@ TEST_CASE("access hook, SDO: it may reset the node, which happens after the answ
   }
 }
 
-TEST_CASE("access hook, SDO: a node that it stops does not answer, and writes nothing") {
+TEST_CASE("access hook, SDO: a node that it stops sends no answer and writes nothing") {
   for (const char* request : {"601#2F01200055000000", "601#2104200004000000", "601#4008100000000000"}) {
     CAPTURE(request);
     AccessLog log;
@@ -233,7 +234,7 @@ TEST_CASE("access hook, SDO: a node that it stops does not answer, and writes no
   }
 }
 
-TEST_CASE("access hook, SDO: in Stopped, which it may enter, there is no SDO: no answer, nothing is written") {
+TEST_CASE("access hook, SDO: if it sets the state Stopped the request is not answered and nothing is written") {
   AccessLog log;
   Fixture node(log.setup());
   log.on_sdo = [](CO_NODE& self, const CO_ACCESS_SDO&) {
@@ -248,7 +249,7 @@ TEST_CASE("access hook, SDO: in Stopped, which it may enter, there is no SDO: no
   node.ask("601#2F01200055000000", "581#6001200000000000");
 }
 
-TEST_CASE("access hook, SDO: it may write the object and give the node another dictionary") {
+TEST_CASE("access hook, SDO: it may write the object and replace the dictionary of the node") {
   AccessLog log;
   static std::uint8_t other = 0x33;
   static std::uint8_t error_register = 0;
@@ -272,7 +273,7 @@ TEST_CASE("access hook, SDO: it may write the object and give the node another d
   node.ask("601#4002200000000000", "581#8002200000000206");
 }
 
-TEST_CASE("access hook, SDO: 1010h and 1011h are objects like any other") {
+TEST_CASE("access hook, SDO: it is called for 1010h and 1011h like for any other object") {
   AccessLog log;
   static std::uint32_t stored = 1;
   static const CO_PARA group = {0,       4,          reinterpret_cast<std::uint8_t*>(&stored), nullptr, CO_RESET_NODE,
@@ -313,7 +314,7 @@ TEST_CASE("access hook, NMT: a command that it refuses is ignored") {
   }
 }
 
-TEST_CASE("access hook, NMT: what it permits is carried out") {
+TEST_CASE("access hook, NMT: a command that it permits is carried out") {
   AccessLog log;
   Fixture node(log.setup());
   node.rx("000#0101");
@@ -322,7 +323,7 @@ TEST_CASE("access hook, NMT: what it permits is carried out") {
   CHECK(log.nmt.size() == 2);
 }
 
-TEST_CASE("access hook, NMT: it is not asked about commands of other nodes, of wrong length, or that do not exist") {
+TEST_CASE("access hook, NMT: not called for commands to other nodes, of wrong length or with an unknown specifier") {
   AccessLog log;
   Fixture node(log.setup());
   for (const char* command : {"000#0102", "000#01", "000#010100", "000#0001", "000#0301", "000#7F01", "000#8301"}) {
@@ -331,7 +332,7 @@ TEST_CASE("access hook, NMT: it is not asked about commands of other nodes, of w
   CHECK(log.nmt.empty());
 }
 
-TEST_CASE("access hook, NMT: the application's own commands are not checked") {
+TEST_CASE("access hook, NMT: commands of the application are not checked") {
   AccessLog log;
   Fixture node(log.setup().nmt_master());
   log.on_nmt = [](CO_NODE&, const CO_ACCESS_NMT&) { return std::uint8_t{1}; };
@@ -348,7 +349,7 @@ TEST_CASE("access hook, NMT: the application's own commands are not checked") {
 TEST_CASE("access hook, NMT: it may change the NMT state, reset and stop the node itself") {
   AccessLog log;
   Fixture node(log.setup());
-  SUBCASE("reset, and the command is refused") {
+  SUBCASE("reset in the hook, and the command is refused") {
     log.on_nmt = [](CO_NODE& self, const CO_ACCESS_NMT&) {
       CONmtReset(&self.Nmt, CO_RESET_COM);
       return std::uint8_t{1};
@@ -356,7 +357,7 @@ TEST_CASE("access hook, NMT: it may change the NMT state, reset and stop the nod
     node.ask("000#0101", "701#00");
     CHECK(node.mode() == CO_PREOP);
   }
-  SUBCASE("the command comes after the state that it has set") {
+  SUBCASE("the command is carried out after the state that the hook sets") {
     log.on_nmt = [](CO_NODE& self, const CO_ACCESS_NMT&) {
       CONmtSetMode(&self.Nmt, CO_STOP);
       return std::uint8_t{0};
@@ -364,7 +365,7 @@ TEST_CASE("access hook, NMT: it may change the NMT state, reset and stop the nod
     node.rx("000#0101");
     CHECK(node.mode() == CO_OPERATIONAL);
   }
-  SUBCASE("a stopped node stays stopped") {
+  SUBCASE("a node that the hook stops stays stopped") {
     log.on_nmt = [](CO_NODE& self, const CO_ACCESS_NMT&) {
       CONodeStop(&self);
       return std::uint8_t{0};

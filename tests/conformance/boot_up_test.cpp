@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("boot-up: one frame of one byte 00h when the node starts, none before [N4] [State 01]") {
+TEST_CASE("boot-up: one frame of one byte 00h is sent when the node starts, none before [N4] [State 01]") {
   Fixture node(Setup().node_id(0x7F).stay_in_init());
   node.after(1000ms);
   node.loop();
@@ -19,7 +19,7 @@ TEST_CASE("boot-up: one frame of one byte 00h when the node starts, none before 
   node.silent();
 }
 
-TEST_CASE("boot-up: everything else is held until it has been sent [N4]") {
+TEST_CASE("boot-up: all other frames are held until it has been sent [N4]") {
   Fixture node(Setup().stay_in_init().heartbeat(10));
   node.can.refuse_all();
   node.call([&] { CONodeStart(&node.node); });
@@ -86,7 +86,7 @@ TEST_CASE("boot-up: a frame that an object type sends while a reset initialises 
   }
 }
 
-TEST_CASE("boot-up: it is held through the commands of the master [N4]") {
+TEST_CASE("boot-up: it stays queued when the NMT master sends commands [N4]") {
   Fixture node(Setup().stay_in_init());
   node.can.refuse_all();
   node.call([&] { CONodeStart(&node.node); });
@@ -98,7 +98,7 @@ TEST_CASE("boot-up: it is held through the commands of the master [N4]") {
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("boot-up: frames of the life before a reset are not sent after it [N4]") {
+TEST_CASE("boot-up: frames that were queued before a reset are not sent after it [N4]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     Fixture node;
@@ -114,7 +114,7 @@ TEST_CASE("boot-up: frames of the life before a reset are not sent after it [N4]
   }
 }
 
-TEST_CASE("boot-up: two resets without a free controller give one boot-up for the last") {
+TEST_CASE("boot-up: two resets while the controller refuses frames give one boot-up message") {
   Fixture node;
   node.can.refuse_all();
   node.rx("000#8101");
@@ -126,7 +126,7 @@ TEST_CASE("boot-up: two resets without a free controller give one boot-up for th
   node.silent();
 }
 
-TEST_CASE("boot-up: a controller that reports errors delays it, no more [N4] [T12]") {
+TEST_CASE("boot-up: errors of the controller delay it but do not cancel it [N4] [T12]") {
   Fixture node(Setup().stay_in_init());
   node.can.refuse_next(3, -1);
   node.call([&] { CONodeStart(&node.node); });

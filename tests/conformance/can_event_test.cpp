@@ -25,7 +25,7 @@ Events events_of(const char* text) {
   return events;
 }
 
-TEST_CASE("CAN events: an error frame reports all that it holds, each event once") {
+TEST_CASE("CAN events: an error frame with several events reports each of them once") {
   CHECK(events_of("20000004#0011000000000000") == Events{CO_CAN_OVERRUN, CO_CAN_PASSIVE});
   CHECK(events_of("20000004#0021000000000000") == Events{CO_CAN_OVERRUN, CO_CAN_PASSIVE});
   CHECK(events_of("20000004#0030000000000000") == Events{CO_CAN_PASSIVE});
@@ -35,14 +35,14 @@ TEST_CASE("CAN events: an error frame reports all that it holds, each event once
   CHECK(events_of("20000140#0000000000000000") == Events{CO_CAN_BUS_OFF, CO_CAN_RECOVERED});
 }
 
-TEST_CASE("CAN events: bus-off, then recovered by a restart or by being error active again, reported once") {
+TEST_CASE("CAN events: bus-off and its recovery, by restart or by error active, are each reported once") {
   CHECK(events_of("20000040#0000000000000000") == Events{CO_CAN_BUS_OFF});
   CHECK(events_of("20000100#0000000000000000") == Events{CO_CAN_RECOVERED});
   CHECK(events_of("20000004#0040000000000000") == Events{CO_CAN_RECOVERED});
   CHECK(events_of("20000104#0040000000000000") == Events{CO_CAN_RECOVERED});
 }
 
-TEST_CASE("CAN events: details of other classes, and warnings, are none") {
+TEST_CASE("CAN events: details of other error classes and warnings raise no event") {
   CHECK(events_of("20000008#0011000000000000") == Events{});  // protocol
   CHECK(events_of("20000080#0071000000000000") == Events{});  // bus error
   CHECK(events_of("20000020#0040000000000000") == Events{});  // no acknowledgement
@@ -95,7 +95,7 @@ class BusOff : public Fixture {
   }
 };
 
-TEST_CASE("CAN events: CONmtReset at bus-off, with frames waiting, resets the controller at once") {
+TEST_CASE("CAN events: CONmtReset at bus-off with queued frames resets the controller at once") {
   for (const CO_NMT_RESET reset : {CO_RESET_NODE, CO_RESET_COM}) {
     BusOff by_frame(reset);
     by_frame.can.to_node.push_back(frame("20000040#0000000000000000"));

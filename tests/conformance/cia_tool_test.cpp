@@ -108,7 +108,7 @@ TEST_CASE("CiA tool: SDO, a block of 128 segments, and 128 segments acknowledged
 
 #endif
 
-TEST_CASE("CiA tool: SDO, a device without block transfer says so [SDO 19]-[SDO 27]") {
+TEST_CASE("CiA tool: SDO, a device without block transfer aborts block requests [SDO 19]-[SDO 27]") {
   Fixture node(USE_SDO_BLOCK != 0 ? Setup().without_sdo_buffer() : Setup());
   prepare(node);
   node.ask("601#A000100014000000", "581#8000100001000405");
@@ -128,7 +128,7 @@ TEST_CASE("CiA tool: SDO, servers and clients that do not exist [SDO 28]-[SDO 30
   node.ask("601#40FF120100000000", "581#80FF120100000206");
 }
 
-TEST_CASE("CiA tool: garbage written to every entry that takes it is survived [State 01]") {
+TEST_CASE("CiA tool: random data written to every writable entry does not stop the node [State 01]") {
   Fixture node(Setup().only_small());
   for (unsigned index = 0x1000; index < 0x2000; index += index < 0x1030 ? 1 : stride(41)) {
     if (index == 0x1017) continue;

@@ -98,7 +98,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("COB-ID sweep: all other CAN-IDs are taken, and read back [P1] [P5] [Y1] [E5]") {
+TEST_CASE("COB-ID sweep: all other CAN-IDs are accepted and read back [P1] [P5] [Y1] [E5]") {
   for (const Object& one : objects()) {
     CAPTURE(one.index);
     CAPTURE(unsigned{one.sub});
@@ -119,7 +119,7 @@ TEST_CASE("COB-ID sweep: all other CAN-IDs are taken, and read back [P1] [P5] [Y
   }
 }
 
-TEST_CASE("COB-ID sweep: a CAN-ID above 7FFh needs bit 29: 0609 0030h [P4] [Y2]") {
+TEST_CASE("COB-ID sweep: a CAN-ID above 7FFh without bit 29 is aborted with 0609 0030h [P4] [Y2]") {
   for (const Object& one : objects()) {
     CAPTURE(one.index);
     CAPTURE(unsigned{one.sub});
@@ -137,7 +137,7 @@ TEST_CASE("COB-ID sweep: a CAN-ID above 7FFh needs bit 29: 0609 0030h [P4] [Y2]"
   }
 }
 
-TEST_CASE("COB-ID sweep: a PDO that is off takes any CAN-ID [P5]") {
+TEST_CASE("COB-ID sweep: an invalid PDO (bit 31) accepts any CAN-ID [P5]") {
   std::uint32_t memory[3];
   Sweep node(memory);
   for (std::uint32_t id = 0; id <= 0x7FF; id += stride(31)) {
@@ -149,7 +149,7 @@ TEST_CASE("COB-ID sweep: a PDO that is off takes any CAN-ID [P5]") {
   }
 }
 
-TEST_CASE("COB-ID sweep: a PDO works on every CAN-ID that it takes, and is gone afterwards [P1]") {
+TEST_CASE("COB-ID sweep: a PDO works on every accepted CAN-ID, and not after it is switched off [P1]") {
   std::uint32_t memory[3];
   Sweep node(memory);
   CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);

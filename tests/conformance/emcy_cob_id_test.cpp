@@ -26,7 +26,7 @@ TEST_CASE("1014h: 80h + node-ID by default [E5] [EMCY 01]") {
   node.ask("601#4014100000000000", "581#4314100081000000");
 }
 
-TEST_CASE("1014h: while it is valid its other bits do not change [E5]") {
+TEST_CASE("1014h: while it is valid its other bits cannot be changed [E5]") {
   EmcyNode node;
   node.ask(write(0x00000081), done);
   for (const std::uint32_t value : {0x00000082U, 0x00000090U, 0x20000081U, 0x20012345U, 0x40000081U}) {
@@ -38,7 +38,7 @@ TEST_CASE("1014h: while it is valid its other bits do not change [E5]") {
   node.tx("081#0010010000000000");
 }
 
-TEST_CASE("1014h: by way of bit 31 it gets another CAN-ID, which holds at once [E5]") {
+TEST_CASE("1014h: a new CAN-ID that is written with and then without bit 31 takes effect at once [E5]") {
   EmcyNode node;
   node.ask(write(0x80000081), done);
   node.ask("601#4014100000000000", "581#4314100081000080");
@@ -51,7 +51,7 @@ TEST_CASE("1014h: by way of bit 31 it gets another CAN-ID, which holds at once [
   node.tx("00012345#0000000000000000");
 }
 
-TEST_CASE("1014h: with bit 31 nothing is sent, 1001h and 1003h go on [D45]") {
+TEST_CASE("1014h: with bit 31 nothing is sent; 1001h and 1003h are still updated [D45]") {
   EmcyNode node;
   node.ask(write(0x80000081), done);
   node.set(current);
@@ -84,7 +84,7 @@ TEST_CASE("1014h: restricted CAN-IDs are refused, with bit 31 and without [E5] [
   }
 }
 
-TEST_CASE("1014h: CAN-IDs that do not fit the frame format, and reserved bit 30, are refused") {
+TEST_CASE("1014h: CAN-IDs that do not fit the frame format and the reserved bit 30 are refused") {
   EmcyNode node;
   node.ask(write(0x80000081), done);
   for (const std::uint32_t value : {0x00000800U, 0x80001081U, 0x1FFFFFFFU, 0x40000085U, 0xC0000085U, 0x60012345U}) {
@@ -94,7 +94,7 @@ TEST_CASE("1014h: CAN-IDs that do not fit the frame format, and reserved bit 30,
   node.ask("601#4014100000000000", "581#4314100081000080");
 }
 
-TEST_CASE("1014h: stored relative to the node-ID, flags apart; another node-ID gives another CAN-ID [D56]") {
+TEST_CASE("1014h: stored relative to the node-ID without its flags; another node-ID gives another CAN-ID [D56]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).node_id(0x10));
   node.ask("610#2314100090000080", "590#6014100000000000");
   CHECK(std::uintptr_t{node.find(0x1014, 0)->Data} == 0x80000080);
@@ -104,7 +104,7 @@ TEST_CASE("1014h: stored relative to the node-ID, flags apart; another node-ID g
   node.tx("085#0010010000000000");
 }
 
-TEST_CASE("1014h: messages that wait when it is switched off are not sent any more [E5]") {
+TEST_CASE("1014h: messages queued for the inhibit time are dropped when it is switched off [E5]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
   node.tx("081#0020030000000000");
@@ -117,7 +117,8 @@ TEST_CASE("1014h: messages that wait when it is switched off are not sent any mo
   node.silent();
 }
 
-TEST_CASE("1014h: nor those that wait for the controller, under the old CAN-ID [E5] [D45]") {
+TEST_CASE(
+    "1014h: messages queued for the controller under the old CAN-ID are dropped when it is switched off [E5] [D45]") {
   EmcyNode node;
   node.can.refuse_all();
   node.may_change(0x1014, 0);
@@ -129,7 +130,7 @@ TEST_CASE("1014h: nor those that wait for the controller, under the old CAN-ID [
   CHECK(node.counters().Dropped == 1);
 }
 
-TEST_CASE("1014h: of a plain type, switched off while messages wait: they are not sent [D45]") {
+TEST_CASE("1014h: an entry of a basic type that is switched off drops queued messages [D45]") {
   std::uint32_t cob_id = 0x81;
   Fixture node(Setup()
                    .emergencies(errors_of_device())

@@ -38,7 +38,7 @@ class Consumer : public Fixture {
 
 using Heard = std::vector<std::string>;
 
-TEST_CASE("EMCY consumer: a message of a node that 1028h names, at its node-ID [301:7.5.2.30]") {
+TEST_CASE("EMCY consumer: a message of a node that 1028h lists is reported with its node-ID [301:7.5.2.30]") {
   Consumer node;
   node.rx("082#1081110102030405");
   CHECK(node.heard() == Heard{"2 8110 11 0102030405"});
@@ -51,7 +51,7 @@ TEST_CASE("EMCY consumer: a message of a node that 1028h names, at its node-ID [
   node.silent();
 }
 
-TEST_CASE("EMCY consumer: nodes that it does not name, or not validly, are not heard") {
+TEST_CASE("EMCY consumer: messages of nodes without a valid entry in 1028h are ignored") {
   Consumer node;
   for (const char* frame :
        {"081#1081110102030405", "083#1081110102030405", "00000082#1081110102030405", "345#1081110102030405"}) {
@@ -62,8 +62,7 @@ TEST_CASE("EMCY consumer: nodes that it does not name, or not validly, are not h
   CHECK(node.counters().Unclaimed == 4);
 }
 
-TEST_CASE(
-    "EMCY consumer: frames of another length, and remote frames, are malformed and not passed to the application") {
+TEST_CASE("EMCY consumer: frames of another length and remote frames are malformed and not passed to the application") {
   Consumer node;
   std::uint32_t malformed = 0;
   for (const char* frame : {"082#", "082#10", "082#10811101020304", "082#R"}) {
@@ -77,7 +76,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("EMCY consumer: in Pre-operational and Operational, not in Stopped [N3]") {
+TEST_CASE("EMCY consumer: messages are received in Pre-operational and Operational, not in Stopped [N3]") {
   Consumer node;
   node.rx("000#0101");
   node.rx("082#1081110102030405");
@@ -90,7 +89,7 @@ TEST_CASE("EMCY consumer: in Pre-operational and Operational, not in Stopped [N3
   CHECK(node.heard().size() == 1);
 }
 
-TEST_CASE("EMCY consumer: a new COB-ID holds at once, in the driver's filter too [E9] [N7]") {
+TEST_CASE("EMCY consumer: a new COB-ID takes effect at once, also in the filter of the driver [E9] [N7]") {
   Consumer node;
   CHECK(std::count(node.can.filter.begin(), node.can.filter.end(), 0x82U) == 1);
   node.ask("601#2328100282000080", "581#6028100200000000");
@@ -106,7 +105,7 @@ TEST_CASE("EMCY consumer: a new COB-ID holds at once, in the driver's filter too
   CHECK(node.heard() == Heard{"1 8110 11 0102030405"});
 }
 
-TEST_CASE("EMCY consumer: while an entry is valid its other bits do not change; restricted ones are refused [E9]") {
+TEST_CASE("EMCY consumer: bits 0 to 30 of a valid entry cannot be changed; restricted CAN-IDs are refused [E9]") {
   Consumer node;
   node.ask("601#2328100282000000", "581#6028100200000000");
   for (const char* value : {"83000000", "82000020", "F0000000"}) {
@@ -133,7 +132,7 @@ TEST_CASE("EMCY consumer: a message on a COB-ID of two entries is reported for b
   CHECK(node.heard() == Heard{"2 8110 11 0102030405", "3 8110 11 0102030405"});
 }
 
-TEST_CASE("EMCY consumer: it goes on after both resets, with one route each [T14]") {
+TEST_CASE("EMCY consumer: after both resets it receives messages, with one route for each entry [T14]") {
   Consumer node;
   for (const char* reset : {"000#8101", "000#8201", "000#8201"}) {
     node.rx(reset);
@@ -144,7 +143,7 @@ TEST_CASE("EMCY consumer: it goes on after both resets, with one route each [T14
   }
 }
 
-TEST_CASE("EMCY consumer: entries written before the start, and after the stop of the node [T14]") {
+TEST_CASE("EMCY consumer: entries may be written before the start and after the stop of the node [T14]") {
   Consumer node(0x82, Setup().stay_in_init());
   const auto write = [&](std::uint32_t value) {
     node.call([&] { CHECK(CODictWrLong(&node->Dict, CO_DEV(0x1028, 1), value) == CO_ERR_NONE); });
@@ -176,7 +175,7 @@ TEST_CASE("EMCY consumer: the callback may write 1028h, read objects, and reset 
   CHECK(heard == 1);
 }
 
-TEST_CASE("EMCY consumer: a flood of messages is heard frame by frame, the node answers as ever [T16]") {
+TEST_CASE("EMCY consumer: in a flood of messages each one is reported, and the node answers requests [T16]") {
   Consumer node;
   unsigned heard = 0;
   callbacks().emcy_received = [&](CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*) {
@@ -187,7 +186,7 @@ TEST_CASE("EMCY consumer: a flood of messages is heard frame by frame, the node 
   node.ask("601#4000100000000000", "581#4300100091010F00");
 }
 
-TEST_CASE("EMCY consumer: without 1028h nothing is heard") {
+TEST_CASE("EMCY consumer: without 1028h no message is reported") {
   Fixture node;
   unsigned heard = 0;
   callbacks().emcy_received = [&](CO_NODE*, std::uint8_t, std::uint16_t, std::uint8_t, const std::uint8_t*) {
@@ -202,7 +201,7 @@ TEST_CASE("EMCY consumer: without 1028h nothing is heard") {
 
 #if USE_DICT_CHECK
 
-TEST_CASE("EMCY consumer: 1028h in a wrong place, or beyond CO_EMCY_CONS_N, is named") {
+TEST_CASE("EMCY consumer: 1028h at a wrong index or beyond CO_EMCY_CONS_N is reported by CODictGetFault()") {
   const struct {
     CO_OBJ entry;
     CO_DICT_FAULT fault;

@@ -9,7 +9,8 @@ namespace {
 using namespace test;
 using co::event::Fault;
 
-TEST_CASE("EMCY: each fault has its code; the third of the five bytes is the node-ID or PDO number [E7] [E11]") {
+TEST_CASE(
+    "EMCY: each fault has its error code; byte 3 of the manufacturer data is the node-ID or PDO number [E7] [E11]") {
   const struct {
     Fault fault;
     const char* sent;
@@ -30,8 +31,7 @@ TEST_CASE("EMCY: each fault has its code; the third of the five bytes is the nod
   }
 }
 
-TEST_CASE(
-    "EMCY: of a fault that is there several times each is sent, and the register lasts until the last [E1] [E2]") {
+TEST_CASE("EMCY: each occurrence of a fault is sent; the register bit is cleared with the last one [E1] [E2]") {
   EmcyNode node{Setup()};
   node.raise_fault(Fault::heartbeat, 3);
   node.raise_fault(Fault::heartbeat, 4);
@@ -43,7 +43,7 @@ TEST_CASE(
   CHECK(node.errors() == std::vector<std::uint32_t>{0x8130, 0x8130});
 }
 
-TEST_CASE("EMCY: 512 PDOs at once") {
+TEST_CASE("EMCY: faults of 512 PDOs at once are all sent") {
   EmcyNode node(Setup().only_small());
   for (unsigned n = 0; n < 512; ++n) node.raise_fault(Fault::pdo_timeout, static_cast<std::uint8_t>(n));
   for (unsigned n = 0; n < 512; ++n) {
@@ -83,7 +83,7 @@ TEST_CASE("EMCY: errors of the application and of the stack share the register [
 
 #if CO_RPDO_N > 0
 
-TEST_CASE("EMCY: an RPDO without data in Operational: 8210h is sent, and stands in 1001h and 1003h [EMCY 04-06]") {
+TEST_CASE("EMCY: an RPDO without data in Operational sends 8210h and is entered in 1001h and 1003h [EMCY 04-06]") {
   EmcyNode node(Setup()
                     .with({CO_KEY(0x1400, 1, CO_OBJ_DN__R_), CO_TPDO_ID, 0x200})
                     .with({CO_KEY(0x1400, 2, CO_OBJ_D___R_), CO_TPDO_TYPE, 254})
@@ -100,7 +100,7 @@ TEST_CASE("EMCY: an RPDO without data in Operational: 8210h is sent, and stands 
 
 // CAN controller ------------------------------------------------------------------------------------------------------
 
-TEST_CASE("EMCY: a lost frame is 8110h until a second without another one has passed [E7]") {
+TEST_CASE("EMCY: a lost frame is 8110h, resolved after a second without another lost frame [E7]") {
   for (const std::uint32_t rate : clock_rates) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -115,7 +115,7 @@ TEST_CASE("EMCY: a lost frame is 8110h until a second without another one has pa
   }
 }
 
-TEST_CASE("EMCY: a flood of lost frames, or of frames with our CAN-ID, sends one message [E7]") {
+TEST_CASE("EMCY: many lost frames or frames with the node's own CAN-ID send one message [E7]") {
   for (const Fault fault : {Fault::overrun, Fault::collision}) {
     EmcyNode node(Setup().only_small());
     for (int n = 0; n < 3000; ++n) {
@@ -134,7 +134,7 @@ TEST_CASE("EMCY: a flood of lost frames, or of frames with our CAN-ID, sends one
   }
 }
 
-TEST_CASE("EMCY: lost frames and collisions end each in their own time") {
+TEST_CASE("EMCY: lost frames and CAN-ID collisions are resolved independently") {
   EmcyNode node{Setup()};
   node.raise_fault(Fault::overrun);
   node.after(400ms);
@@ -145,7 +145,7 @@ TEST_CASE("EMCY: lost frames and collisions end each in their own time") {
   node.tx_at(1s, "081#0000000000000000");
 }
 
-TEST_CASE("EMCY: error passive is 8120h until the controller has recovered, once [E7]") {
+TEST_CASE("EMCY: error passive sends 8120h once, until the controller has recovered [E7]") {
   EmcyNode node{Setup()};
   node.rx("20000004#0010000000000000");
   node.tx("081#2081110000000000");
@@ -158,14 +158,14 @@ TEST_CASE("EMCY: error passive is 8120h until the controller has recovered, once
   node.silent();
 }
 
-TEST_CASE("EMCY: a controller that recovers from nothing is no news") {
+TEST_CASE("EMCY: a recovery of the controller without a previous error sends nothing") {
   EmcyNode node{Setup()};
   node.can_event(CO_CAN_RECOVERED);
   node.silent();
   CHECK(node.errors().empty());
 }
 
-TEST_CASE("EMCY: at bus-off 1001h changes at once; after recovery the node sends 8140h and then 0000h [E7] [Q5]") {
+TEST_CASE("EMCY: bus-off changes 1001h at once; after recovery the node sends 8140h and then 0000h [E7] [Q5]") {
   EmcyNode node{Setup()};
   node.rx("20000040#0000000000000000");
   node.silent();
@@ -180,7 +180,7 @@ TEST_CASE("EMCY: at bus-off 1001h changes at once; after recovery the node sends
   CHECK(node.errors() == std::vector<std::uint32_t>{0x8140});
 }
 
-TEST_CASE("EMCY: error passive before a bus-off ends with it, other errors stay [E2]") {
+TEST_CASE("EMCY: error passive before a bus-off is resolved with it; other errors stay [E2]") {
   EmcyNode node;
   node.can_event(CO_CAN_PASSIVE);
   node.set(hot);
@@ -193,13 +193,13 @@ TEST_CASE("EMCY: error passive before a bus-off ends with it, other errors stay 
   node.tx({"081#2081190000000000", "081#0000090000000000"});
 }
 
-TEST_CASE("EMCY: bus-off and recovery in one error frame") {
+TEST_CASE("EMCY: bus-off and recovery in one error frame are both reported") {
   EmcyNode node{Setup()};
   node.rx("20000140#0000000000000000");
   node.tx({"081#4081110000000000", "081#0000000000000000"});
 }
 
-TEST_CASE("EMCY: errors found during bus-off are sent after it, in their order [T12]") {
+TEST_CASE("EMCY: errors detected during bus-off are sent after it in their order [T12]") {
   EmcyNode node;
   node.can.refuse_all();
   node.can_event(CO_CAN_BUS_OFF);
@@ -211,7 +211,7 @@ TEST_CASE("EMCY: errors found during bus-off are sent after it, in their order [
   node.tx({"081#0040190000000000", "081#4081190000000000", "081#0000090000000000"});
 }
 
-TEST_CASE("EMCY: with 8140h and 0000h the inhibit time is kept [E6]") {
+TEST_CASE("EMCY: 8140h and 0000h keep the inhibit time [E6]") {
   EmcyNode node(Setup(), 500);
   node.can_event(CO_CAN_BUS_OFF);
   node.can_event(CO_CAN_RECOVERED);
@@ -220,7 +220,7 @@ TEST_CASE("EMCY: with 8140h and 0000h the inhibit time is kept [E6]") {
   node.tx_at(50ms, "081#0000000000000000");
 }
 
-TEST_CASE("EMCY: controller states before the start and after the stop of the node are harmless") {
+TEST_CASE("EMCY: controller states before the start and after the stop of the node have no effect") {
   EmcyNode node(Setup().stay_in_init());
   node.can_event(CO_CAN_OVERRUN);
   node.can_event(CO_CAN_PASSIVE);

@@ -21,7 +21,7 @@ TEST_CASE("1003h: empty at first; an entry that is not in use has no data [E4] [
   node.ask("601#4003100500000000", "581#8003100511000906");
 }
 
-TEST_CASE("1003h: reading an entry that is not in use by the API returns CO_ERR_TYPE_RD") {
+TEST_CASE("1003h: COObjRd functions return CO_ERR_TYPE_RD for an entry that is not in use") {
   EmcyNode node;
   std::uint32_t entry = 0x12345678;
   node.call([&] {
@@ -31,7 +31,7 @@ TEST_CASE("1003h: reading an entry that is not in use by the API returns CO_ERR_
   CHECK(entry == 0x12345678);
 }
 
-TEST_CASE("1003h: the newest error is at sub-index 1, the oldest falls out [E4]") {
+TEST_CASE("1003h: the newest error is at sub-index 1; the oldest one is dropped from a full history [E4]") {
   EmcyNode node;
   node.set(general);
   CHECK(node.errors() == Errors{0x1000});
@@ -42,7 +42,7 @@ TEST_CASE("1003h: the newest error is at sub-index 1, the oldest falls out [E4]"
   node.ask("601#4003100400000000", "581#8003100424000008");
 }
 
-TEST_CASE("1003h: it keeps the order over many turns of a full history [E4]") {
+TEST_CASE("1003h: the order is kept when a full history is overwritten many times [E4]") {
   EmcyNode node;
   Errors expected;
   for (unsigned n = 0; n < 50; ++n) {
@@ -59,7 +59,7 @@ TEST_CASE("1003h: it keeps the order over many turns of a full history [E4]") {
   node.ask("601#4003100400000000", "581#4303100400202E00");
 }
 
-TEST_CASE("1003h: code in the low word, the user's information in the high word [EMCY 06]") {
+TEST_CASE("1003h: the error code is in the low word, the information of the user in the high word [EMCY 06]") {
   EmcyNode node;
   const CO_EMCY_USR usr{0xA2A1, {0xA1, 0xA2, 0xA3, 0xA4, 0xA5}};
   node.set(current, &usr);
@@ -67,14 +67,14 @@ TEST_CASE("1003h: code in the low word, the user's information in the high word 
   node.ask("601#4003100100000000", "581#430310010020A1A2");
 }
 
-TEST_CASE("1003h: errors of the stack have 0 in the high word and in the first two of the five bytes [E11]") {
+TEST_CASE("1003h: errors of the stack have 0 in the high word and in bytes 1 and 2 of the manufacturer data [E11]") {
   EmcyNode node;
   node.raise_fault(co::event::Fault::pdo_short, 3);
   node.tx("081#1082110000030000");
   node.ask("601#4003100100000000", "581#4303100110820000");
 }
 
-TEST_CASE("1003h: errors that are gone are not entered [E8] [N8]") {
+TEST_CASE("1003h: resolved errors are not entered [E8] [N8]") {
   EmcyNode node;
   node.set(current);
   node.clr(current);
@@ -84,7 +84,7 @@ TEST_CASE("1003h: errors that are gone are not entered [E8] [N8]") {
   CHECK(node.errors() == Errors{0x8130, 0x2000});
 }
 
-TEST_CASE("1003h: errors come in their order, whatever waits for the inhibit time [E8]") {
+TEST_CASE("1003h: errors are entered in their order, independent of the inhibit time [E8]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
   node.set(hot);
@@ -95,7 +95,7 @@ TEST_CASE("1003h: errors come in their order, whatever waits for the inhibit tim
   CHECK(node.trace().size() == 2);
 }
 
-TEST_CASE("1003h: writing 0 to sub-index 0 empties it, anything else is refused [E4] [SDO 10]") {
+TEST_CASE("1003h: writing 0 to sub-index 0 empties it; any other value is refused [E4] [SDO 10]") {
   EmcyNode node;
   node.set(current);
   node.set(hot);
@@ -114,7 +114,7 @@ TEST_CASE("1003h: writing 0 to sub-index 0 empties it, anything else is refused 
   CHECK(node.errors() == Errors{0x4200});
 }
 
-TEST_CASE("1003h: COEmcyHistReset and a write of the application empty it as well") {
+TEST_CASE("1003h: COEmcyHistReset and a write by the application empty it") {
   EmcyNode node;
   node.set(current);
   node.call([&] { COEmcyHistReset(&node->Emcy); });
@@ -127,7 +127,7 @@ TEST_CASE("1003h: COEmcyHistReset and a write of the application empty it as wel
   node.trace();
 }
 
-TEST_CASE("1003h: its entries cannot be written, even if they are writable in the table [E4]") {
+TEST_CASE("1003h: entries cannot be written, even with write access in the table [E4]") {
   std::uint32_t entry = 0;
   EmcyNode node(
       Setup().emergencies(errors_of_device()).with({CO_KEY(0x1003, 5, CO_OBJ_____RW), CO_TEMCY_HIST, &entry}));
@@ -147,7 +147,7 @@ TEST_CASE("1003h: a wrong length is refused") {
   CHECK(COObjWrValue(node.find(0x1003, 0), &node.node, &word, 2) == CO_ERR_BAD_ARG);
 }
 
-TEST_CASE("1003h: a history of 254 entries") {
+TEST_CASE("1003h: a history of 254 entries works") {
   std::vector<std::uint32_t> memory(254);
   Setup setup = Setup().only_small().emergencies(errors_of_device());
   for (unsigned sub = 5; sub <= 254; ++sub) {
@@ -186,7 +186,7 @@ TEST_CASE("1003h: a node without it works without an error") {
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("1003h: without entries it is a fault of the type, and the node runs") {
+TEST_CASE("1003h: without entries Init of the type fails, and the node runs") {
   EmcyNode node(Setup()
                     .emergencies(errors_of_device())
                     .without(0x1003, 1)
@@ -200,7 +200,7 @@ TEST_CASE("1003h: without entries it is a fault of the type, and the node runs")
   CHECK(node.errors().empty());
 }
 
-TEST_CASE("1003h: memory that cannot be written is the node's error") {
+TEST_CASE("1003h: memory that cannot be written sets the node error") {
   EmcyNode node(
       Setup().emergencies(errors_of_device()).writable([&](const void*, std::uint32_t size) { return size != 4; }));
   node.set(current);
@@ -224,7 +224,7 @@ TEST_CASE("1003h: sub-index 0 may have flag D") {
 
 #if USE_DICT_CHECK
 
-TEST_CASE("1003h, 1014h: a table with their types or flags in a wrong place is named") {
+TEST_CASE("1003h and 1014h: an entry with their types or flags at a wrong index is reported by CODictGetFault()") {
   static std::uint32_t variable;
   const struct {
     CO_OBJ entry;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("1015h: messages keep their distance, with 1001h as of their event [E6]") {
+TEST_CASE("1015h: messages keep the inhibit time and carry 1001h of the time of their event [E6]") {
   for (const std::uint32_t rate : clock_rates) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -27,7 +27,7 @@ TEST_CASE("1015h: messages keep their distance, with 1001h as of their event [E6
   }
 }
 
-TEST_CASE("1015h: after a quiet time the next message goes out at once [E6]") {
+TEST_CASE("1015h: after a pause the next message is sent at once [E6]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
   node.tx("081#0020030000000000");
@@ -43,7 +43,7 @@ TEST_CASE("1015h: after a quiet time the next message goes out at once [E6]") {
   node.tx("081#0040090000000000");
 }
 
-TEST_CASE("1015h: a fraction of a tick is rounded up, the longest time is kept [E6]") {
+TEST_CASE("1015h: a fraction of a tick is rounded up; the longest time is kept [E6]") {
   EmcyNode shortest(Setup().emergencies(errors_of_device()), 1);
   shortest.set(current);
   shortest.clr(current);
@@ -58,7 +58,7 @@ TEST_CASE("1015h: a fraction of a tick is rounded up, the longest time is kept [
   longest.tx_at(6554ms, "081#0000000000000000");
 }
 
-TEST_CASE("1015h: a new value holds from the next message on [E6]") {
+TEST_CASE("1015h: a new value applies from the next message [E6]") {
   EmcyNode node;
   node.ask("601#2B15100064000000", "581#6015100000000000");
   node.set(current);
@@ -74,7 +74,7 @@ TEST_CASE("1015h: a new value holds from the next message on [E6]") {
   node.tx("081#0000000000000000");
 }
 
-TEST_CASE("1015h: a full queue keeps the first ones and the present state, and counts what is lost [E6]") {
+TEST_CASE("1015h: a full queue keeps the first messages and the latest state, and counts lost messages [E6]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(general);
   node.tx("081#0010010000000000");
@@ -99,7 +99,7 @@ TEST_CASE("1015h: a full queue keeps the first ones and the present state, and c
   CHECK(node.error_register() == 0x81);
 }
 
-TEST_CASE("1015h: no message waits into Stopped, nor comes out of it [E9] [N3]") {
+TEST_CASE("1015h: queued messages are neither sent in Stopped nor after it [E9] [N3]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 10000);
   node.set(current);
   node.tx("081#0020030000000000");
@@ -114,7 +114,7 @@ TEST_CASE("1015h: no message waits into Stopped, nor comes out of it [E9] [N3]")
   CHECK(node.error_register() == 0x0B);
 }
 
-TEST_CASE("1015h: the inhibit time goes on in Stopped [E6]") {
+TEST_CASE("1015h: the inhibit time runs in Stopped [E6]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 10000);
   node.set(current);
   node.tx("081#0020030000000000");
@@ -127,7 +127,7 @@ TEST_CASE("1015h: the inhibit time goes on in Stopped [E6]") {
   node.tx_at(600ms, "081#0000000000000000");
 }
 
-TEST_CASE("1015h: a time that the timer cannot hold is as long as it can") {
+TEST_CASE("1015h: a time beyond the range of the timer is limited to the longest one") {
   EmcyNode node(Setup().emergencies(errors_of_device()).rate(1000000000), 0xFFFF);
   node.set(current);
   node.clr(current);
@@ -138,7 +138,7 @@ TEST_CASE("1015h: a time that the timer cannot hold is as long as it can") {
   node.tx("081#0000000000000000");
 }
 
-TEST_CASE("1015h: a late loop sends one message, the next an inhibit time later [Q8]") {
+TEST_CASE("1015h: a late main loop sends one message, and the next one an inhibit time later [Q8]") {
   EmcyNode node(Setup().emergencies(errors_of_device()), 1000);
   node.set(current);
   node.set(hot);
@@ -150,7 +150,7 @@ TEST_CASE("1015h: a late loop sends one message, the next an inhibit time later 
   node.tx_at(100ms, "081#00FF8B0000000000");
 }
 
-TEST_CASE("1015h: missing, or of another length, it is 0") {
+TEST_CASE("1015h: a missing entry, or one of another length, means an inhibit time of 0") {
   for (const bool missing : {false, true}) {
     CAPTURE(missing);
     Setup setup = Setup().emergencies(errors_of_device());
@@ -168,7 +168,7 @@ TEST_CASE("1015h: missing, or of another length, it is 0") {
 
 // CAN controller ------------------------------------------------------------------------------------------------------
 
-TEST_CASE("EMCY: none is lost, whichever frame the driver refuses [T12]") {
+TEST_CASE("EMCY: no message is lost, whichever frame the driver refuses [T12]") {
   const std::vector<std::string> expected = {"081#0020030000000000", "081#00400B0000000000", "081#0000090000000000",
                                              "081#0000000000000000"};
   for (const std::int16_t refusal : {std::int16_t{0}, std::int16_t{-1}}) {
@@ -192,7 +192,7 @@ TEST_CASE("EMCY: none is lost, whichever frame the driver refuses [T12]") {
   }
 }
 
-TEST_CASE("EMCY: what finds the transmit queue full waits and is sent later [T12]") {
+TEST_CASE("EMCY: a message that is raised while the transmit queue is full is sent later [T12]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).tx_queue(2));
   node.can.refuse_all();
   node.set(current);
@@ -212,7 +212,7 @@ TEST_CASE("EMCY: what finds the transmit queue full waits and is sent later [T12
   node.silent();
 }
 
-TEST_CASE("EMCY: the queue is full of other frames; an emergency takes the place that gets free first [T12] [Q4]") {
+TEST_CASE("EMCY: in a transmit queue full of other frames it gets the first free slot [T12] [Q4]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).tx_queue(1));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -224,7 +224,7 @@ TEST_CASE("EMCY: the queue is full of other frames; an emergency takes the place
   node.tx({"581#4300100091010F00", "081#0020030000000000"});
 }
 
-TEST_CASE("EMCY: while the controller takes nothing the present state survives any number of errors [T12]") {
+TEST_CASE("EMCY: while the controller refuses frames the latest state survives any number of errors [T12]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).tx_queue(1));
   node.can.refuse_all();
   for (int n = 0; n < 100; ++n) {
@@ -241,7 +241,7 @@ TEST_CASE("EMCY: while the controller takes nothing the present state survives a
   CHECK(sent.back() == "081#00FF810000000000");
 }
 
-TEST_CASE("EMCY: a message that waits for the controller is not sent in Stopped [N3] [E9]") {
+TEST_CASE("EMCY: a message queued for the controller is not sent in Stopped [N3] [E9]") {
   EmcyNode node(Setup().emergencies(errors_of_device()));
   node.can.refuse_all();
   node.set(current);
@@ -254,7 +254,7 @@ TEST_CASE("EMCY: a message that waits for the controller is not sent in Stopped 
   node.silent();
 }
 
-TEST_CASE("EMCY: a node without EMCY takes nothing out of the transmit queue, no NMT command either") {
+TEST_CASE("EMCY: a node without EMCY withdraws no frame from the transmit queue, such as NMT commands") {
   Fixture node(Setup().with({CO_KEY(0x1014, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x80000081}));
   node.can.refuse_all();
   CO_IF_FRM command = frame("000#0102");
@@ -263,7 +263,7 @@ TEST_CASE("EMCY: a node without EMCY takes nothing out of the transmit queue, no
   CHECK(node.node.TxQueue.Num == 1);
 }
 
-TEST_CASE("EMCY: a message overtakes what is less important in the transmit queue [Q4]") {
+TEST_CASE("EMCY: a message is sent before queued frames of lower priority [Q4]") {
   EmcyNode node(Setup().emergencies(errors_of_device()));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -273,7 +273,7 @@ TEST_CASE("EMCY: a message overtakes what is less important in the transmit queu
   node.tx({"081#0020030000000000", "581#4300100091010F00"});
 }
 
-TEST_CASE("EMCY: a flood of errors for a minute, at 10 ms of inhibit time: every message in its time, nothing grows") {
+TEST_CASE("EMCY: errors for a minute at an inhibit time of 10 ms: every message is on time and no memory grows") {
   EmcyNode node(Setup().only_small().emergencies(errors_of_device()), 100);
   std::size_t sent = 0;
   constexpr unsigned total = 60000 / stride(30);

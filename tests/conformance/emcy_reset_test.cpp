@@ -20,8 +20,7 @@ void disturb(EmcyNode& node) {
   CHECK(node.error_register() == 0x1B);
 }
 
-TEST_CASE(
-    "EMCY: reset node takes back all errors without a message, and empties 1003h [N6] [EMCY 02] [EMCY 03] [T14]") {
+TEST_CASE("EMCY: reset node resolves all errors without a message and empties 1003h [N6] [EMCY 02] [EMCY 03] [T14]") {
   for (const std::uint16_t inhibit : {std::uint16_t{0}, std::uint16_t{100}}) {
     CAPTURE(inhibit);
     const EmcyNode fresh(Setup().emergencies(errors_of_device()), inhibit);
@@ -41,7 +40,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("EMCY: reset communication takes back the errors of the stack; those of the application stay [D46] [N6]") {
+TEST_CASE("EMCY: reset communication resolves the errors of the stack; those of the application stay [D46] [N6]") {
   EmcyNode node;
   disturb(node);
   const std::vector<std::uint32_t> errors = node.errors();
@@ -66,7 +65,7 @@ TEST_CASE("EMCY: reset communication takes back the errors of the stack; those o
   node.silent();
 }
 
-TEST_CASE("EMCY: messages that wait for the inhibit time do not survive a reset, and it begins anew [T14] [N4]") {
+TEST_CASE("EMCY: a reset drops messages queued for the inhibit time, which starts anew [T14] [N4]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     EmcyNode node(Setup().emergencies(errors_of_device()), 10000);
@@ -85,7 +84,7 @@ TEST_CASE("EMCY: messages that wait for the inhibit time do not survive a reset,
   }
 }
 
-TEST_CASE("EMCY: a reset that the application asks for is no different") {
+TEST_CASE("EMCY: a reset by the application has the effect of one by the NMT master") {
   EmcyNode node;
   disturb(node);
   node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
@@ -97,7 +96,7 @@ TEST_CASE("EMCY: a reset that the application asks for is no different") {
   CHECK(node.errors().empty());
 }
 
-TEST_CASE("EMCY: after CONodeInit nothing is left, whatever was before") {
+TEST_CASE("EMCY: CONodeInit clears all errors") {
   EmcyNode node;
   disturb(node);
   node.call([&] { CONodeStop(&node.node); });
@@ -113,14 +112,14 @@ TEST_CASE("EMCY: after CONodeInit nothing is left, whatever was before") {
   node.silent();
 }
 
-TEST_CASE("EMCY: an error that the application finds in CONmtResetRequest is sent after the boot-up [N4]") {
+TEST_CASE("EMCY: an error that the application sets in CONmtResetRequest is sent after the boot-up [N4]") {
   EmcyNode node;
   callbacks().reset_request = [&](CO_NMT*, CO_NMT_RESET) { COEmcySet(&node->Emcy, hot, nullptr); };
   node.rx("000#8101");
   node.tx({"701#00", "081#0040090000000000"});
 }
 
-TEST_CASE("EMCY: a history that has got another length is empty after the next reset") {
+TEST_CASE("EMCY: a history whose length has changed is empty after the next reset") {
   EmcyNode node;
   disturb(node);
   node.find(0x1003, 4)->Type = CO_TUNSIGNED32;
@@ -136,7 +135,7 @@ TEST_CASE("EMCY: a history that has got another length is empty after the next r
 
 #if USE_DICT_CHECK
 
-TEST_CASE("EMCY: calls after an initialisation that failed are harmless") {
+TEST_CASE("EMCY: calls after a failed initialisation have no effect") {
   EmcyNode node(
       Setup().emergencies(errors_of_device()).with({CO_KEY(0x1FFF, 0, CO_OBJ_____R_), nullptr, 0}).stay_in_init());
   CHECK(node.error() == CO_ERR_DICT_INIT);

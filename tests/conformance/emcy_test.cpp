@@ -20,7 +20,7 @@ TEST_CASE("EMCY: an error is sent with its code, the error register and the five
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("EMCY: without bytes of the user they are 0 [E1]") {
+TEST_CASE("EMCY: without information of the user the five bytes are 0 [E1]") {
   EmcyNode node;
   node.set(no_disk);
   node.tx("081#00FF810000000000");
@@ -42,7 +42,7 @@ TEST_CASE("EMCY: an error that stays is sent once [E1]") {
   node.tx("081#0020030000000000");
 }
 
-TEST_CASE("EMCY: of several errors each is taken back, with the register of those that are left [E2] [E3]") {
+TEST_CASE("EMCY: each of several errors is resolved with the register of the remaining ones [E2] [E3]") {
   EmcyNode node;
   node.set(current);
   node.set(hot);
@@ -57,8 +57,7 @@ TEST_CASE("EMCY: of several errors each is taken back, with the register of thos
   CHECK(node.error_register() == 0x00);
 }
 
-TEST_CASE(
-    "EMCY: every class has its bit, with the generic one; bit 6 and unknown classes have none [E3] [301:7.5.2.2]") {
+TEST_CASE("EMCY: each class sets its bit and the generic one; bit 6 and unknown classes set none [E3] [301:7.5.2.2]") {
   const unsigned bits[] = {0x01, 0x03, 0x05, 0x09, 0x11, 0x21, 0x01, 0x81};
   for (unsigned reg = 0; reg <= 0xFF; ++reg) {
     CAPTURE(reg);
@@ -78,7 +77,7 @@ TEST_CASE("EMCY: the identifier follows the node-ID [E5] [EMCY 01]") {
   node.tx("0FF#0010010000000000");
 }
 
-TEST_CASE("EMCY: it is sent in Pre-operational and Operational [N3]") {
+TEST_CASE("EMCY: messages are sent in Pre-operational and Operational [N3]") {
   EmcyNode node;
   node.set(general);
   node.tx("081#0010010000000000");
@@ -87,7 +86,7 @@ TEST_CASE("EMCY: it is sent in Pre-operational and Operational [N3]") {
   node.tx("081#0000000000000000");
 }
 
-TEST_CASE("EMCY: errors that arise in Stopped are in 1001h and 1003h, and are never sent [E9] [N9] [301:7.3.2.2.4]") {
+TEST_CASE("EMCY: errors set in Stopped are entered in 1001h and 1003h and never sent [E9] [N9] [301:7.3.2.2.4]") {
   EmcyNode node;
   node.rx("000#0201");
   node.set(current);
@@ -104,7 +103,7 @@ TEST_CASE("EMCY: errors that arise in Stopped are in 1001h and 1003h, and are ne
   CHECK(node.counters().Dropped == 0);
 }
 
-TEST_CASE("EMCY: errors that arise before the boot-up are in 1001h and 1003h, and are not sent [N4]") {
+TEST_CASE("EMCY: errors set before the boot-up are entered in 1001h and 1003h and not sent [N4]") {
   EmcyNode node(Setup().emergencies(errors_of_device()).stay_in_init());
   node.set(current);
   node.silent();
@@ -115,7 +114,7 @@ TEST_CASE("EMCY: errors that arise before the boot-up are in 1001h and 1003h, an
   node.ask("601#4001100000000000", "581#4F01100003000000");
 }
 
-TEST_CASE("EMCY: identifiers beyond the table are refused, and read nothing behind it [D16]") {
+TEST_CASE("EMCY: identifiers beyond the table are refused and read no memory behind it [D16]") {
   EmcyNode node;
   for (const unsigned err : {last_error + 1U, 31U, 32U, 254U, 255U}) {
     CAPTURE(err);
@@ -132,7 +131,7 @@ TEST_CASE("EMCY: identifiers beyond the table are refused, and read nothing behi
   CHECK(node.errors().empty());
 }
 
-TEST_CASE("EMCY: a table longer than CO_EMCY_N is used up to that [D16]") {
+TEST_CASE("EMCY: a table longer than CO_EMCY_N is used up to CO_EMCY_N entries [D16]") {
   EmcyNode node(Setup().emergencies(std::vector<CO_EMCY_TBL>(CO_EMCY_N + 1, {CO_EMCY_REG_CURRENT, 0x2000})));
   node.set(CO_EMCY_N - 1);
   node.tx("081#0020030000000000");
@@ -144,7 +143,7 @@ TEST_CASE("EMCY: a table longer than CO_EMCY_N is used up to that [D16]") {
 #endif
 }
 
-TEST_CASE("EMCY: without a table nothing can be set") {
+TEST_CASE("EMCY: without a table no error can be set") {
   EmcyNode node{Setup()};
   node.set(0);
   CHECK(node.error() == CO_ERR_EMCY_BAD_ROOT);
@@ -154,7 +153,7 @@ TEST_CASE("EMCY: without a table nothing can be set") {
   node.silent();
 }
 
-TEST_CASE("EMCY: COEmcyGet, COEmcyCnt and COEmcyReset, silent and not [D17]") {
+TEST_CASE("EMCY: COEmcyGet, COEmcyCnt and COEmcyReset work with and without messages [D17]") {
   EmcyNode node;
   for (std::uint8_t err = 0; err <= last_error; ++err) {
     CHECK(COEmcyGet(&node->Emcy, err) == 0);
@@ -175,7 +174,7 @@ TEST_CASE("EMCY: COEmcyGet, COEmcyCnt and COEmcyReset, silent and not [D17]") {
   CHECK(COEmcyGet(&node->Emcy, hot) == 0);
 }
 
-TEST_CASE("EMCY: COEmcyReset leaves the errors of the stack alone") {
+TEST_CASE("EMCY: COEmcyReset does not resolve the errors of the stack") {
   EmcyNode node;
   node.set(hot);
   node.raise_fault(co::event::Fault::heartbeat, 3);
@@ -186,7 +185,7 @@ TEST_CASE("EMCY: COEmcyReset leaves the errors of the stack alone") {
   node.tx("081#0000000000030000");
 }
 
-TEST_CASE("EMCY: null pointers end in CONodeFatalError(), questions answer -1") {
+TEST_CASE("EMCY: null pointers call CONodeFatalError(); COEmcyGet and COEmcyCnt return -1") {
   EmcyNode node;
   COEmcySet(nullptr, 0, nullptr);
   COEmcyClr(nullptr, 0);
@@ -217,7 +216,7 @@ TEST_CASE("EMCY: without 1001h the messages are right, and the node reports the 
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("EMCY: 1001h in the entry itself (flag D) is left alone, it may lie in read-only memory") {
+TEST_CASE("EMCY: 1001h with its value in the entry (flag D) is not written, because it may be in read-only memory") {
   EmcyNode node(Setup().emergencies(errors_of_device()).with({CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0x00}));
   node.set(current);
   node.tx("081#0020030000000000");
@@ -226,7 +225,7 @@ TEST_CASE("EMCY: 1001h in the entry itself (flag D) is left alone, it may lie in
   node.tx("081#0000000000000000");
 }
 
-TEST_CASE("EMCY: 1001h that cannot be written is the node's error, and the message is right") {
+TEST_CASE("EMCY: 1001h that cannot be written sets the node error; the message is correct") {
   const std::uint8_t* protected_byte = nullptr;
   EmcyNode node(Setup().emergencies(errors_of_device()).writable([&](const void* address, std::uint32_t) {
     return address != protected_byte;
@@ -259,7 +258,7 @@ TEST_CASE("EMCY: 1001h is written only when it changes") {
   CHECK(node.trace().size() == 4);
 }
 
-TEST_CASE("EMCY: without 1014h nothing is sent; a node with a table of errors reports the missing object") {
+TEST_CASE("EMCY: without 1014h nothing is sent; a node with an error table reports the missing object") {
   Fixture node(Setup().emergencies(errors_of_device()).without(0x1014, 0));
   CHECK(node.error() == (USE_DICT_CHECK != 0 ? CO_ERR_CFG_1014_0 : CO_ERR_NONE));
   node.call([&] { COEmcySet(&node->Emcy, current, nullptr); });
@@ -269,7 +268,7 @@ TEST_CASE("EMCY: without 1014h nothing is sent; a node with a table of errors re
   CHECK(plain.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("EMCY: 1014h of a plain UNSIGNED32 is obeyed: its CAN-ID, its frame format, and bit 31 [E5] [D45]") {
+TEST_CASE("EMCY: 1014h of type UNSIGNED32 sets CAN-ID, frame format and bit 31 [E5] [D45]") {
   const struct {
     std::uint32_t value;
     const char* sent;
@@ -293,7 +292,7 @@ TEST_CASE("EMCY: 1014h of a plain UNSIGNED32 is obeyed: its CAN-ID, its frame fo
   }
 }
 
-TEST_CASE("EMCY: an application that has all errors of a table of CO_EMCY_N, in any order [E3]") {
+TEST_CASE("EMCY: all CO_EMCY_N errors of the application can be set, in any order [E3]") {
   std::vector<CO_EMCY_TBL> table;
   for (unsigned n = 0; n < CO_EMCY_N; ++n) {
     table.push_back({static_cast<std::uint8_t>(n % 6), static_cast<std::uint16_t>(0x1000 + n)});

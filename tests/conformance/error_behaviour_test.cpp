@@ -31,7 +31,7 @@ CO_MODE after_bus_off(std::uint8_t behaviour, const char* state) {
   return device.node.mode();
 }
 
-TEST_CASE("1029h: from every state, with every value [B1] [B2] [State 03]") {
+TEST_CASE("1029h: the reaction from every state with every value [B1] [B2] [State 03]") {
   constexpr const char* preop = "000#8001";
   constexpr const char* operational = "000#0101";
   constexpr const char* stop = "000#0201";
@@ -46,7 +46,7 @@ TEST_CASE("1029h: from every state, with every value [B1] [B2] [State 03]") {
   CHECK(after_bus_off(2, stop) == CO_STOP);
 }
 
-TEST_CASE("1029h: without the object, and with a value of the table that is none, as 0 [B1]") {
+TEST_CASE("1029h: a missing object or an undefined value of the table means 0 [B1]") {
   Fixture node;
   node.rx("000#0101");
   lose(node);
@@ -85,7 +85,7 @@ TEST_CASE("1029h: every value of every sub-index: 0, 1 and 2 are accepted [B1] [
   }
 }
 
-TEST_CASE("1029h: a written value counts for the next loss") {
+TEST_CASE("1029h: a written value applies to the next loss") {
   Behaviour device(0);
   Fixture& node = device.node;
   node.rx("000#0101");
@@ -97,7 +97,7 @@ TEST_CASE("1029h: a written value counts for the next loss") {
   CHECK(node.mode() == CO_STOP);
 }
 
-TEST_CASE("1029h: the other classes are the application's [B2]") {
+TEST_CASE("1029h: the other error classes have no effect in the stack [B2]") {
   Behaviour device(1);
   device.node.ask("601#2F29100202000000", "581#6029100200000000");
   device.node.rx("000#0101");
@@ -105,7 +105,7 @@ TEST_CASE("1029h: the other classes are the application's [B2]") {
   CHECK(device.node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("1029h: the application may choose another state in CONmtModeChange [Q9]") {
+TEST_CASE("1029h: the application may set another state in CONmtModeChange [Q9]") {
   Behaviour device(0);
   Fixture& node = device.node;
   node.rx("000#0101");
@@ -116,7 +116,7 @@ TEST_CASE("1029h: the application may choose another state in CONmtModeChange [Q
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("1029h: only there, and one byte") {
+TEST_CASE("1029h: its type is accepted at 1029h only, and with one byte") {
   Behaviour device(0);
   device.node.ask("601#2B29100100000000", "581#8029100112000706");
   std::uint16_t two = 0x0505;
@@ -130,7 +130,7 @@ TEST_CASE("1029h: only there, and one byte") {
 
 #if CO_HBCONS_N > 0
 
-TEST_CASE("1029h: heartbeats of two nodes missing: a reaction each, none while they stay away [B2]") {
+TEST_CASE("1029h: two nodes with missing heartbeats cause one reaction each, none while they stay missing [B2]") {
   Monitor node({{5, 100}, {6, 150}});
   node.rx("000#0101");
   node.rx("705#05");

@@ -31,7 +31,7 @@ const std::string no_error = "CO_ERR_NONE -";
 
 // Reading ------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("error key: the key can be read before the error or after it, until the error is read as none") {
+TEST_CASE("error key: can be read before or after the error, until CONodeGetErr() has returned CO_ERR_NONE") {
   for (const bool key_first : {false, true}) {
     CAPTURE(key_first);
     Fixture node(Setup().without(0x1018, 1));
@@ -54,7 +54,7 @@ TEST_CASE("error key: an error without an object replaces the key of the error b
 // The dictionary -----------------------------------------------------------------------------------------------------
 
 #if USE_DICT_CHECK
-TEST_CASE("error key: missing mandatory objects are named [X1]") {
+TEST_CASE("error key: a missing mandatory object is the key [X1]") {
   Fixture without_register(Setup().without(0x1001, 0));
   CHECK(told(without_register) == "CO_ERR_CFG_1001_0 1001:0");
   Fixture without_both(Setup().without(0x1001, 0).without(0x1018, 1));
@@ -85,7 +85,7 @@ struct Refused {
   CO_NODE node;
 };
 
-TEST_CASE("error key: a refused dictionary: the entry that CODictGetFault() names") {
+TEST_CASE("error key: for a refused dictionary it is the entry that CODictGetFault() returns") {
   Refused unsorted({CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
   CHECK(told(unsorted.node) == "CO_ERR_DICT_INIT 1000:0");
   CHECK(CODictGetFault(&unsorted.node.Dict, nullptr) == CO_DICT_NOT_ASCENDING);
@@ -93,20 +93,20 @@ TEST_CASE("error key: a refused dictionary: the entry that CODictGetFault() name
   CHECK(told(misplaced.node) == (USE_SYNC != 0 ? "CO_ERR_DICT_INIT 2000:3" : no_error));
 }
 
-TEST_CASE("error key: CONodeInit() forgets the key of the node's former life") {
+TEST_CASE("error key: CONodeInit() clears the key of the previous run") {
   Refused unsorted({CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
   const CO_NODE_SPEC spec = {};
   CONodeInit(&unsorted.node, &spec);
   CHECK(told(unsorted.node) == "CO_ERR_NODE_CAN -");
 }
 
-TEST_CASE("error key: of a node that does not run stays when its controller fails") {
+TEST_CASE("error key: the key of a node that does not run is kept when its controller fails") {
   Refused unsorted({CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0});
   CONodeProcess(&unsorted.node);
   CHECK(told(unsorted.node) == "CO_ERR_DICT_INIT 1000:0");
 }
 
-TEST_CASE("error key: the first entry whose Init function fails") {
+TEST_CASE("error key: the first entry whose Init function fails is the key") {
   const CO_OBJ no_variable = {CO_KEY(0x2001, 0, CO_OBJ_____RW), CO_TUNSIGNED8, 0};
   Fixture node(Setup().with(no_variable).with({CO_KEY(0x2002, 0, CO_OBJ_____RW), CO_TUNSIGNED16, 0}));
   CHECK(told(node) == "CO_ERR_OBJ_INIT 2001:0");
@@ -116,7 +116,7 @@ TEST_CASE("error key: the first entry whose Init function fails") {
 }
 #endif
 
-TEST_CASE("error key: an entry whose type of the application cannot be initialised") {
+TEST_CASE("error key: an entry whose application-defined type cannot be initialised is the key") {
   static const CO_OBJ_TYPE failing = {[](CO_OBJ*, CO_NODE_T*, std::uint32_t) { return std::uint32_t{1}; },
                                       [](CO_OBJ*, CO_NODE_T*) { return CO_ERR_TYPE_INIT; }, nullptr, nullptr, nullptr};
   Fixture node(Setup().with({CO_KEY(0x3000, 7, CO_OBJ_____RW), &failing, 0}));
@@ -124,7 +124,7 @@ TEST_CASE("error key: an entry whose type of the application cannot be initialis
 }
 
 #if CO_HBCONS_N > 1
-TEST_CASE("error key: a heartbeat consumer that monitors a node that another one monitors [H7]") {
+TEST_CASE("error key: a heartbeat consumer entry for a node that another entry monitors is the key [H7]") {
   CO_HBCONS consumers[2] = {};
   consumers[0].Time = consumers[1].Time = 100;
   consumers[0].NodeId = consumers[1].NodeId = 9;
@@ -158,7 +158,7 @@ PdoEntries pdo(std::uint32_t cob_id, std::uint8_t type, std::initializer_list<st
 
 constexpr std::uint32_t byte = 0x22010108;
 
-TEST_CASE("error key: COB-ID or transmission type of a PDO [M9]") {
+TEST_CASE("error key: a wrong COB-ID or transmission type of a PDO is the key [M9]") {
   if (fixture_rpdos > 1) {
     CHECK(told_of(false, 1, pdo(0x0, 255, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:1");
     CHECK(told_of(false, 1, pdo(0x301, 241, {byte})) == "CO_ERR_RPDO_COM_OBJ 1401:2");
@@ -172,7 +172,7 @@ TEST_CASE("error key: COB-ID or transmission type of a PDO [M9]") {
   }
 }
 
-TEST_CASE("error key: the mapping entry of a PDO that is wrong [M9]") {
+TEST_CASE("error key: a wrong mapping entry of a PDO is the key [M9]") {
   const struct {
     PdoEntries entries;
     const char* sub;
@@ -198,7 +198,7 @@ TEST_CASE("error key: the mapping entry of a PDO that is wrong [M9]") {
   }
 }
 
-TEST_CASE("error key: a number of mapped objects that is too large, or missing [M9]") {
+TEST_CASE("error key: sub-index 0 of a mapping is the key if the number is too large or missing [M9]") {
   if (fixture_tpdos == 0) {
     return;
   }
@@ -223,7 +223,7 @@ struct Failing {
   LoggedStream log;
 };
 
-TEST_CASE("error key: the object of a PDO that could not be read or written") {
+TEST_CASE("error key: an object of a PDO that could not be read or written is the key") {
   Failing failing;
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {byte, 0x30000008});
@@ -244,7 +244,7 @@ TEST_CASE("error key: the object of a PDO that could not be read or written") {
   }
 }
 
-TEST_CASE("error key: triggers name the TPDO or the object") {
+TEST_CASE("error key: failed TPDO triggers set the TPDO or the object as key") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {byte});
   PdoNode node(table);
@@ -267,7 +267,7 @@ TEST_CASE("error key: triggers name the TPDO or the object") {
 
 // Other services -----------------------------------------------------------------------------------------------------
 
-TEST_CASE("error key: the object of an SDO transfer that failed for the platform, 0606 0000h") {
+TEST_CASE("error key: an object whose SDO transfer failed with 0606 0000h is the key") {
   LoggedStream value;
   value.data = {1, 2, 3, 4};
   value.on_piece = [](CO_OBJ*, CO_NODE*) { return CO_ERR_IF_NVM_READ; };
@@ -279,7 +279,7 @@ TEST_CASE("error key: the object of an SDO transfer that failed for the platform
 }
 
 #if USE_SYNC
-TEST_CASE("error key: a SYNC producer whose period is too short") {
+TEST_CASE("error key: 1006h is the key if the period of a SYNC producer is too short") {
   Setup setup;
   setup.with({CO_KEY(0x1005, 0, CO_OBJ_D___R_), CO_TSYNC_ID, 0x40000080});
   setup.with({CO_KEY(0x1006, 0, CO_OBJ_D___R_), CO_TSYNC_CYCLE, CO_SYNC_PERIOD_MIN - 1});
@@ -289,14 +289,14 @@ TEST_CASE("error key: a SYNC producer whose period is too short") {
 #endif
 
 #if USE_EMCY && USE_DICT_CHECK
-TEST_CASE("error key: errors of the application without 1014h") {
+TEST_CASE("error key: an error of the application without 1014h sets 1014h as key") {
   Fixture node(Setup().emergencies({{CO_EMCY_REG_TEMP, CO_EMCY_CODE_TEMP_ERR}}).without(0x1014, 0));
   CHECK(told(node) == "CO_ERR_CFG_1014_0 1014:0");
 }
 #endif
 
 #if USE_EMCY
-TEST_CASE("error key: an error that the application does not have is about no object") {
+TEST_CASE("error key: an error identifier beyond the error table sets no key") {
   EmcyNode node;
   node.call([&] { COEmcySet(&node->Emcy, 255, nullptr); });
   CHECK(told(node) == "CO_ERR_BAD_ARG -");
@@ -304,7 +304,7 @@ TEST_CASE("error key: an error that the application does not have is about no ob
 #endif
 
 #if USE_PARA
-TEST_CASE("error key: the parameter group that overlaps another, or whose record is damaged") {
+TEST_CASE("error key: a parameter group that overlaps another one or has a damaged record is the key") {
   {
     GroupDevice device;
     device.second.Offset = 0;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("fixture: the notation of frames, there and back") {
+TEST_CASE("fixture: the notation of frames is parsed and printed") {
   for (const std::string text : {"123#", "601#2100", "7FF#1122334455667788", "00000601#11", "1FFFFFFF#", "123#R",
                                  "00000123#R", "20000040#0000000000000000", "123#1122334455667788_9"}) {
     CHECK(notation(frame(text)) == text);
@@ -73,7 +73,7 @@ TEST_CASE("fixture: heap requests count inside the stack only") {
   CHECK(heap_requests() == before + 1);
 }
 
-TEST_CASE("fixture: another frame than expected fails" * doctest::should_fail()) {
+TEST_CASE("fixture: an unexpected frame fails" * doctest::should_fail()) {
   Fixture node;
   node.ask("601#4000100000000000", "581#4300100091010F01");
 }
@@ -103,7 +103,7 @@ TEST_CASE("fixture: a frame at another time fails" * doctest::should_fail()) {
   node.tx_at(9ms, "701#7F");
 }
 
-TEST_CASE("fixture: a frame that the test has not checked fails" * doctest::should_fail()) {
+TEST_CASE("fixture: a frame that the test does not check fails" * doctest::should_fail()) {
   Fixture node;
   node.rx("601#4000100000000000");
 }
@@ -131,7 +131,7 @@ TEST_CASE("fixture: heap use while the stack runs fails" * doctest::should_fail(
   });
 }
 
-TEST_CASE("fixture: a second frame in one call fails" * doctest::should_fail()) {
+TEST_CASE("fixture: a second frame processed in one call fails" * doctest::should_fail()) {
   Fixture node;
   callbacks().can_receive = [&](CO_IF_FRM*) {
     CO_IF_FRM frm = frame("181#01");
@@ -142,7 +142,7 @@ TEST_CASE("fixture: a second frame in one call fails" * doctest::should_fail()) 
   node.tx({"181#01", "181#01"});
 }
 
-TEST_CASE("fixture: an NMT command by the node fails" * doctest::should_fail()) {
+TEST_CASE("fixture: an NMT command sent by the node fails" * doctest::should_fail()) {
   Fixture node;
   CO_IF_FRM frm = frame("000#0100");
   node.call([&] { COIfCanSend(&node->If, &frm); });
@@ -191,12 +191,12 @@ TEST_CASE("fixture: a timer that is neither armed nor free fails" * doctest::sho
   node.call([&] { node->Tmr.Free = node->Tmr.Free->Next; });
 }
 
-TEST_CASE("fixture: a timer of the stack that is armed without a use fails" * doctest::should_fail()) {
+TEST_CASE("fixture: a stack timer that is armed although unused fails" * doctest::should_fail()) {
   Fixture node(Setup().heartbeat(100));
   node.call([&] { node->Nmt.Mode = CO_INIT; });
 }
 
-TEST_CASE("fixture: an open transfer that no timer watches fails" * doctest::should_fail()) {
+TEST_CASE("fixture: an open transfer without a running time-out fails" * doctest::should_fail()) {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.call([&] {

@@ -8,7 +8,8 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("frames: a remote frame on an identifier of the node is malformed, on other identifiers unclaimed [Q1]") {
+TEST_CASE(
+    "frames: a remote frame on an identifier of the node is malformed; on other identifiers it is unclaimed [Q1]") {
   Fixture node;
   std::vector<std::string> passed_on;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
@@ -24,7 +25,7 @@ TEST_CASE("frames: a remote frame on an identifier of the node is malformed, on 
   node.silent();
 }
 
-TEST_CASE("frames: a 29-bit identifier is not the 11-bit one of the same number [Q1]") {
+TEST_CASE("frames: a 29-bit identifier does not match the 11-bit identifier of the same value [Q1]") {
   Fixture node;
   std::vector<std::string> passed_on;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { passed_on.push_back(notation(*frm)); };
@@ -37,7 +38,7 @@ TEST_CASE("frames: a 29-bit identifier is not the 11-bit one of the same number 
   CHECK(passed_on == std::vector<std::string>{"00000601#4000100000000000", "00000000#0101", "1FFFFFFF#00"});
 }
 
-TEST_CASE("frames: a length code of 9 to 15 means 8 bytes [Q1]") {
+TEST_CASE("frames: a DLC of 9 to 15 means 8 bytes [Q1]") {
   Fixture node;
   node.ask("601#4000100000000000_9", "581#4300100091010F00");
   node.ask("601#4000100000000000_F", "581#4300100091010F00");
@@ -53,7 +54,7 @@ CO_IF_FRM with_dlc(std::string_view text, unsigned dlc) {
   return frm;
 }
 
-TEST_CASE("frames: a DLC above 15 is malformed: counted, neither served nor passed on [ISO 11898-1]") {
+TEST_CASE("frames: a DLC above 15 is malformed: counted, neither processed nor passed on [ISO 11898-1]") {
   Fixture node;
   unsigned passed_on = 0;
   unsigned events = 0;
@@ -92,7 +93,7 @@ TEST_CASE("frames: the application sends 8 bytes for a DLC of 9 to 15; a DLC abo
   CHECK(node.counters().Malformed == malformed + 3);
 }
 
-TEST_CASE("frames: COIfCanRead() gives at most 8 bytes, and skips and counts frames with a DLC above 15") {
+TEST_CASE("frames: COIfCanRead() returns at most 8 bytes, and skips and counts frames with a DLC above 15") {
   Fixture node;
   const std::uint32_t malformed = node.counters().Malformed;
   node.can.to_node.push_back(with_dlc("123#01", 16));
@@ -122,7 +123,7 @@ TEST_CASE("frames: an unclaimed frame is passed to the application unchanged, an
   node.silent();
 }
 
-TEST_CASE("frames: what is served is not passed on") {
+TEST_CASE("frames: a processed frame is not passed to the application") {
   Fixture node;
   unsigned passed_on = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
@@ -133,7 +134,7 @@ TEST_CASE("frames: what is served is not passed on") {
   CHECK(passed_on == 0);
 }
 
-TEST_CASE("frames: every identifier, only those of the node are answered") {
+TEST_CASE("frames: of all identifiers only those of the node are answered") {
   Fixture node(Setup().only_small().node_id(0x35).without(0x1014, 0));  // no EMCY at 735h
   unsigned answered = 0;
   for (unsigned id = 0x001; id < 0x800; ++id) {
@@ -148,7 +149,7 @@ TEST_CASE("frames: every identifier, only those of the node are answered") {
   CHECK(answered == 1);
 }
 
-TEST_CASE("frames: error frames of SocketCAN become events of the controller") {
+TEST_CASE("frames: SocketCAN error frames become events of the controller") {
   Fixture node(Setup().without(0x1014, 0));  // no EMCY
   std::vector<CO_CAN_EVENT> events;
   unsigned passed_on = 0;
@@ -173,7 +174,7 @@ TEST_CASE("frames: error frames of SocketCAN become events of the controller") {
   node.silent();
 }
 
-TEST_CASE("frames: an error frame is never taken for a command") {
+TEST_CASE("frames: an error frame is never processed as a command") {
   Fixture node;
   node.rx("20000000#0101000000000000");
   node.rx("20000601#4000100000000000");
@@ -181,7 +182,7 @@ TEST_CASE("frames: an error frame is never taken for a command") {
   node.silent();
 }
 
-TEST_CASE("frames: events of the controller come from the driver, too; unknown ones do nothing") {
+TEST_CASE("frames: drivers report events of the controller; unknown events have no effect") {
   Fixture node;
   unsigned events = 0;
   callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
@@ -225,7 +226,7 @@ TEST_CASE("frames: all counters saturate [Q10]") {
   CHECK(counters.CanEvents[CO_CAN_PASSIVE] == most);
 }
 
-TEST_CASE("frames: a driver that cannot read is reported, and served again") {
+TEST_CASE("frames: a driver that fails to read is reported and read again") {
   Fixture node;
   node.can.read_result = -1;
   node.loop();
@@ -234,7 +235,7 @@ TEST_CASE("frames: a driver that cannot read is reported, and served again") {
   node.ask("601#4000100000000000", "581#4300100091010F00");
 }
 
-TEST_CASE("frames: one is processed in each call") {
+TEST_CASE("frames: each call processes one frame") {
   Fixture node;
   for (int i = 0; i < 3; ++i) node.can.to_node.push_back(frame("601#4000100000000000"));
   node.call([&] { CONodeProcess(&node.node); });

@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("own identifier: a data frame of another node is reported with EMCY 8150h, and malformed [H5] [E7]") {
+TEST_CASE("own identifier: a data frame of another node is malformed and reported with EMCY 8150h [H5] [E7]") {
   for (const std::string data : {"7F", "00", "", "0102030405060708"}) {
     CAPTURE(data);
     Fixture node;
@@ -43,7 +43,7 @@ TEST_CASE(
   node.ask("701#R1", "701#FF");
 }
 
-TEST_CASE("guarding: the length of a remote frame does not matter") {
+TEST_CASE("guarding: a remote frame of any length is answered") {
   Fixture node;
   bool toggle = false;
   for (const char dlc : std::string("012345678")) {
@@ -65,7 +65,7 @@ TEST_CASE("guarding: only the own identifier is answered [Guarding 04]") {
   node.silent();
 }
 
-TEST_CASE("guarding: only a reset puts the toggle bit back to 0 [G2] [Guarding 03]") {
+TEST_CASE("guarding: only a reset sets the toggle bit to 0 [G2] [Guarding 03]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     Fixture node;
@@ -87,7 +87,7 @@ TEST_CASE("guarding: only a reset puts the toggle bit back to 0 [G2] [Guarding 0
   node.ask("701#R1", "701#FF");
 }
 
-TEST_CASE("guarding: no answer while initialising, and after a stop of the node [N3]") {
+TEST_CASE("guarding: no answer in Initialisation and after a stop of the node [N3]") {
   Fixture node(Setup().stay_in_init());
   node.rx("701#R1");
   node.silent();
@@ -99,7 +99,7 @@ TEST_CASE("guarding: no answer while initialising, and after a stop of the node 
   node.silent();
 }
 
-TEST_CASE("guarding: it needs no object, and guard time 0 or life time factor 0 is answered, too [G2]") {
+TEST_CASE("guarding: requests are answered without the objects, with guard time 0 or life time factor 0 [G2]") {
   for (const unsigned which : {0U, 1U, 2U, 3U}) {
     std::uint16_t time = which == 1 ? 0 : 100;
     std::uint8_t factor = which == 2 ? 0 : 3;
@@ -118,7 +118,7 @@ TEST_CASE("guarding: it needs no object, and guard time 0 or life time factor 0 
   }
 }
 
-TEST_CASE("guarding: the boot-up message goes first [N4]") {
+TEST_CASE("guarding: the boot-up message is sent before an answer [N4]") {
   Fixture node(Setup().stay_in_init());
   node.can.refuse_all();
   node.call([&] { CONodeStart(&node.node); });
@@ -131,8 +131,7 @@ TEST_CASE("guarding: the boot-up message goes first [N4]") {
   node.ask("701#R1", "701#85");
 }
 
-TEST_CASE(
-    "guarding: while an answer waits for the controller it answers further requests, with the latest state [T12]") {
+TEST_CASE("guarding: while an answer is queued further requests are answered with the latest state [T12]") {
   Fixture node;
   node.ask("701#R1", "701#7F");
   node.can.refuse_all();
@@ -147,7 +146,7 @@ TEST_CASE(
   node.ask("701#R1", "701#85");
 }
 
-TEST_CASE("guarding: requests without end fill no queue that is needed for other answers [T12] [Q4]") {
+TEST_CASE("guarding: continuous requests do not fill the transmit queue for other answers [T12] [Q4]") {
   Fixture node;
   node.can.refuse_all();
   for (int n = 0; n < 1000; ++n) node.rx("701#R1");
@@ -158,7 +157,7 @@ TEST_CASE("guarding: requests without end fill no queue that is needed for other
   CHECK(node.counters().Dropped == 0);
 }
 
-TEST_CASE("guarding: a request that finds the queue full is not answered, and the toggle bit not lost [T12]") {
+TEST_CASE("guarding: a request while the queue is full is not answered and keeps the toggle bit [T12]") {
   Fixture node(Setup().tx_queue(1));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -169,7 +168,7 @@ TEST_CASE("guarding: a request that finds the queue full is not answered, and th
   node.ask("701#R1", "701#7F");
 }
 
-TEST_CASE("guarding: whichever sending fails, the toggle bit alternates on the bus [T12]") {
+TEST_CASE("guarding: the toggle bit alternates on the bus, whichever frame the driver refuses [T12]") {
   for (unsigned failing = 1; failing <= 6; ++failing) {
     for (const bool error : {false, true}) {
       CAPTURE(failing);
@@ -190,7 +189,7 @@ TEST_CASE("guarding: whichever sending fails, the toggle bit alternates on the b
 
 #else
 
-TEST_CASE("guarding: a node without it ignores remote frames, and counts them") {
+TEST_CASE("guarding: a node without guarding ignores and counts remote frames") {
   Fixture node;
   node.rx("701#R1");
   node.silent();

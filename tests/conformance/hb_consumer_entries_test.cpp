@@ -12,7 +12,7 @@ using namespace test;
 
 constexpr const char* five_missing = "081#3081110000050000";
 
-TEST_CASE("1016h: read and write, by SDO and by the application [H2]") {
+TEST_CASE("1016h: entries are read and written by SDO and by the application [H2]") {
   Monitor node({{5, 100}});
   node.ask("601#4016100000000000", "581#4F161000" + std::string(CO_HBCONS_N == 16 ? "10" : "08") + "000000");
   node.ask("601#4016100100000000", "581#4316100164000500");
@@ -36,7 +36,7 @@ TEST_CASE("1016h: a length other than four bytes is refused") {
   node.ask("601#2316100000000000", "581#8016100002000106");
 }
 
-TEST_CASE("1016h: the application reads and writes exactly four bytes of an entry; 1016h:0 has one byte") {
+TEST_CASE("1016h: the application reads and writes an entry as four bytes and 1016h:0 as one byte") {
   Monitor node({{5, 100}});
   CO_OBJ* const entry = node.find(0x1016, 1);
   CO_OBJ* const number = node.find(0x1016, 0);
@@ -56,7 +56,7 @@ TEST_CASE("1016h: the application reads and writes exactly four bytes of an entr
   }
 }
 
-TEST_CASE("1016h: node-ID 0 or above 127, or time 0, is an unused entry, and accepted [H2] [H6] [N4]") {
+TEST_CASE("1016h: an entry with node-ID 0, node-ID above 127 or time 0 is accepted and unused [H2] [H6] [N4]") {
   Monitor node({});
   const std::uint32_t identifiers = node->Routes.Start[17];
   for (const std::uint32_t value : {0x00000064U, 0x00800064U, 0x00C80064U, 0x00FF0064U, 0x00050000U, 0x007FU << 16}) {
@@ -70,7 +70,7 @@ TEST_CASE("1016h: node-ID 0 or above 127, or time 0, is an unused entry, and acc
   }
 }
 
-TEST_CASE("1016h: every node-ID, monitored or not [H2] [N4]") {
+TEST_CASE("1016h: every node-ID is accepted, whether monitored or not [H2] [N4]") {
   Monitor node({}, Setup().only_small());
   for (unsigned id = 0; id < 256; ++id) {
     CAPTURE(id);
@@ -85,13 +85,13 @@ TEST_CASE("1016h: every node-ID, monitored or not [H2] [N4]") {
   node.silent();
 }
 
-TEST_CASE("1016h: the reserved byte is not kept [N4]") {
+TEST_CASE("1016h: the reserved byte is not stored [N4]") {
   Monitor node({});
   CHECK(node.configure(1, 0xAB050064) == 0);
   node.ask("601#4016100100000000", "581#4316100164000500");
 }
 
-TEST_CASE("1016h: a node that another entry monitors is refused, in whatever entry [H2] [Heartbeat 04]") {
+TEST_CASE("1016h: a node that another entry monitors is refused in every entry [H2] [Heartbeat 04]") {
   Monitor node({{5, 100}, {6, 100}});
   CHECK(node.configure(2, 0x000500C8) == 0x06040043);
   CHECK(node.configure(3, 0x00050001) == 0x06040043);
@@ -105,7 +105,7 @@ TEST_CASE("1016h: a node that another entry monitors is refused, in whatever ent
   CHECK(node.configure(1, 0x00050064) == 0x06040043);
 }
 
-TEST_CASE("1016h: refused writes leave a monitored node alone [H2]") {
+TEST_CASE("1016h: refused writes do not affect a monitored node [H2]") {
   Monitor node({{5, 100}, {6, 100}});
   node.rx("705#05");
   node.after(50ms);
@@ -116,7 +116,7 @@ TEST_CASE("1016h: refused writes leave a monitored node alone [H2]") {
   node.emergency(five_missing);
 }
 
-TEST_CASE("1016h: the value that an entry has may be written again, and changes nothing [H2] [H6]") {
+TEST_CASE("1016h: writing the present value of an entry changes nothing [H2] [H6]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.after(60ms);
@@ -127,7 +127,7 @@ TEST_CASE("1016h: the value that an entry has may be written again, and changes 
   node.emergency(five_missing);
 }
 
-TEST_CASE("1016h: another time for the same node: nothing has been heard, until the next heartbeat [H6]") {
+TEST_CASE("1016h: a new time for a monitored node stops monitoring until its next heartbeat [H6]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.told("5 OPERATIONAL");
@@ -143,7 +143,7 @@ TEST_CASE("1016h: another time for the same node: nothing has been heard, until 
   node.emergency(five_missing);
 }
 
-TEST_CASE("1016h: another node in an active entry; heartbeats of both go on [D8]") {
+TEST_CASE("1016h: an active entry accepts another node while both nodes send heartbeats [D8]") {
   Monitor node({{5, 100}, {7, 100}});
   node.rx("705#05");
   node.rx("707#05");
@@ -161,7 +161,7 @@ TEST_CASE("1016h: another node in an active entry; heartbeats of both go on [D8]
   CHECK(CONmtGetHbEvents(&node->Nmt, 7) == 0);
 }
 
-TEST_CASE("1016h: time 0 for a node that another entry monitors leaves that one and all others alone [D9]") {
+TEST_CASE("1016h: time 0 for a node that another entry monitors affects no other entry [D9]") {
   Monitor node({{5, 100}, {6, 100}, {7, 100}});
   for (const char* beat : {"705#05", "706#05", "707#05"}) node.rx(beat);
   CHECK(node.configure(3, 0x00050000) == 0);
@@ -173,7 +173,7 @@ TEST_CASE("1016h: time 0 for a node that another entry monitors leaves that one 
 #endif
 }
 
-TEST_CASE("1016h: an entry that is changed while its node is missing forgets the error without a message [H6]") {
+TEST_CASE("1016h: changing an entry while its node is missing clears the error without a message [H6]") {
   for (const std::uint32_t value : {0x000500C8U, 0x00060064U, 0x00000000U}) {
     CAPTURE(value);
     Monitor node({{5, 100}});
@@ -189,7 +189,7 @@ TEST_CASE("1016h: an entry that is changed while its node is missing forgets the
   }
 }
 
-TEST_CASE("1016h: changed when the time has elapsed and the loop has not noticed yet [D11]") {
+TEST_CASE("1016h: an entry may be changed after its time has elapsed and before the timer runs [D11]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.told("5 OPERATIONAL");
@@ -201,7 +201,7 @@ TEST_CASE("1016h: changed when the time has elapsed and the loop has not noticed
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("1016h: a time that the timer cannot hold is refused, and the old entry stays") {
+TEST_CASE("1016h: a time beyond the range of the timer is refused, and the old entry stays") {
   Monitor node({{5, 100}}, Setup().rate(1000000000));
   CHECK(node.configure(1, 0x0005FFFF) == 0x06090030);
   node.ask("601#4016100100000000", "581#4316100164000500");
@@ -211,7 +211,7 @@ TEST_CASE("1016h: a time that the timer cannot hold is refused, and the old entr
   node.emergency(five_missing);
 }
 
-TEST_CASE("1016h: of two entries of the table for one node the first is used, and the node reports the duplicate") {
+TEST_CASE("1016h: the first of two entries for one node is used; CONodeGetErr() reports the duplicate") {
   Monitor node({{5, 100}, {5, 10}, {6, 100}});
   CHECK(node.error() == CO_ERR_OBJ_INIT);
   node.rx("705#05");
@@ -227,7 +227,7 @@ TEST_CASE("1016h: of two entries of the table for one node the first is used, an
   CHECK(CONmtGetHbEvents(&node->Nmt, 5) == 0);
 }
 
-TEST_CASE("1016h: an entry that the table lacks, and 1016h:0 as a variable") {
+TEST_CASE("1016h: entries missing in the table, and 1016h:0 as a variable, are handled") {
   std::uint8_t number = 2;
   MonitorEntries memory({{5, 100}, {6, 100}});
   Fixture node(Setup()
@@ -244,8 +244,7 @@ TEST_CASE("1016h: an entry that the table lacks, and 1016h:0 as a variable") {
 
 #if USE_DICT_CHECK
 
-TEST_CASE(
-    "1016h: entries at the wrong place, or with the value in themselves, are refused at start; others are named") {
+TEST_CASE("1016h: entries at a wrong index or with flag D are refused at start; others are reported") {
   static CO_HBCONS entry{nullptr, nullptr, CO_INVALID, 0, 100, 5, 0};
   const auto fault = [](CO_OBJ obj) {
     Fixture node(Setup().with(obj).stay_in_init());
@@ -286,7 +285,7 @@ static_assert(co::dictionary::check<value_in_entry>().fault == CO_DICT_DIRECT_TY
 static_assert(co::dictionary::check<too_many>().fault == CO_DICT_NOT_CONFIGURED);
 static_assert(co::dictionary::check<elsewhere>().fault == CO_DICT_WRONG_PLACE);
 
-TEST_CASE("1016h: firmware sets an entry by position, and activates it") {
+TEST_CASE("1016h: the application sets an entry by its position and activates it") {
   Monitor node({});
   node.entry[1] = {&node.node, nullptr, (CO_MODE)0, 0, 0, 0, 0};
   CO_HBCONS* const second = &node.entry[1];
@@ -319,7 +318,7 @@ TEST_CASE("heartbeat consumer: missed heartbeats are counted up to 255") {
   node.record.clear();
 }
 
-TEST_CASE("heartbeat consumer: nodes that are not monitored, null, and an NMT object without a node") {
+TEST_CASE("heartbeat consumer: unmonitored nodes, null and an NMT object without node are handled") {
   Monitor node({{5, 0}});
   for (const unsigned id : {0U, 5U, 6U, 127U, 128U, 255U}) {
     CHECK(CONmtGetHbEvents(&node->Nmt, static_cast<std::uint8_t>(id)) == -1);
@@ -333,7 +332,7 @@ TEST_CASE("heartbeat consumer: nodes that are not monitored, null, and an NMT ob
   CHECK(callbacks().fatal_errors == 4);
 }
 
-TEST_CASE("heartbeat consumer: a callback that changes the entry wins over the heartbeat that called it [Q9]") {
+TEST_CASE("heartbeat consumer: a callback may change the entry of the heartbeat that is being processed [Q9]") {
   Monitor node({{5, 100}});
   callbacks().heartbeat_change = [&](CO_NMT*, std::uint8_t, CO_MODE) {
     node.record.push_back("changed");
@@ -348,7 +347,7 @@ TEST_CASE("heartbeat consumer: a callback that changes the entry wins over the h
   CHECK(CONmtLastHbState(&node->Nmt, 6) == CO_OPERATIONAL);
 }
 
-TEST_CASE("heartbeat consumer: a callback that ends the monitoring of all [Q9]") {
+TEST_CASE("heartbeat consumer: a callback may end the monitoring of all nodes [Q9]") {
   Monitor node({{5, 100}, {6, 100}});
   callbacks().heartbeat_event = [&](CO_NMT*, std::uint8_t id) {
     node.record.push_back(std::to_string(id) + " missing");
@@ -363,7 +362,7 @@ TEST_CASE("heartbeat consumer: a callback that ends the monitoring of all [Q9]")
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("heartbeat consumer: a callback that resets or stops the node [Q9] [T14]") {
+TEST_CASE("heartbeat consumer: a callback may reset or stop the node [Q9] [T14]") {
   for (const bool stop : {false, true}) {
     CAPTURE(stop);
     Monitor node({{5, 100}, {6, 100}});

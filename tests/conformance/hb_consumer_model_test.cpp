@@ -130,7 +130,7 @@ class Walk {
   Model model_;
 };
 
-TEST_CASE("heartbeat consumer: as a model of it, whatever happens [H1-H6] [T14] [T15]") {
+TEST_CASE("heartbeat consumer: random heartbeats, times and writes give the events of the model [H1-H6] [T14] [T15]") {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     CAPTURE(seed);
     Walk walk(seed, clock_starts[seed % 3]);

@@ -23,7 +23,7 @@ TEST_CASE("heartbeat consumer: nothing happens before the first heartbeat [H3] [
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("heartbeat consumer: the time starts with the first heartbeat, or with the boot-up message [H3]") {
+TEST_CASE("heartbeat consumer: the time starts with the first heartbeat or boot-up message [H3]") {
   for (const std::string first : {"00", "7F", "05", "04"}) {
     CAPTURE(first);
     Monitor node({{5, 100}});
@@ -39,7 +39,7 @@ TEST_CASE("heartbeat consumer: the time starts with the first heartbeat, or with
   }
 }
 
-TEST_CASE("heartbeat consumer: a node that is faster than its time is never missing [Heartbeat 05]") {
+TEST_CASE("heartbeat consumer: a node whose heartbeat is faster than its time is never missing [Heartbeat 05]") {
   Monitor node({{5, 100}});
   node.rx("000#0101");
   node.told("mode OPERATIONAL");
@@ -52,7 +52,8 @@ TEST_CASE("heartbeat consumer: a node that is faster than its time is never miss
   CHECK(CONmtGetHbEvents(&node->Nmt, 5) == 0);
 }
 
-TEST_CASE("heartbeat consumer: a slower node gives EMCY 8130h for every miss, 0000h when it is back [Heartbeat 06]") {
+TEST_CASE(
+    "heartbeat consumer: a slower node causes EMCY 8130h for every miss and 0000h when it is back [Heartbeat 06]") {
   Monitor node({{5, 100}});
   node.rx("705#7F");
   node.told("5 PREOP");
@@ -67,7 +68,7 @@ TEST_CASE("heartbeat consumer: a slower node gives EMCY 8130h for every miss, 00
   }
 }
 
-TEST_CASE("heartbeat consumer: error and reaction come once, callback and count every period [H3] [B2]") {
+TEST_CASE("heartbeat consumer: error and reaction occur once; callback and count every period [H3] [B2]") {
   Monitor node({{5, 100}});
   node.rx("000#0101");
   node.rx("705#05");
@@ -96,7 +97,7 @@ TEST_CASE("heartbeat consumer: error and reaction come once, callback and count 
   CHECK(CONmtGetHbEvents(&node->Nmt, 5) == 1);
 }
 
-TEST_CASE("heartbeat consumer: after a missed one the time runs from the next heartbeat [H3]") {
+TEST_CASE("heartbeat consumer: after a missing heartbeat the time starts with the next heartbeat [H3]") {
   Monitor node({{5, 100}});
   node.rx("705#7F");
   node.after(130ms);
@@ -111,7 +112,7 @@ TEST_CASE("heartbeat consumer: after a missed one the time runs from the next he
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: it works in Pre-operational, Operational and Stopped, there without EMCY [H4] [N9]") {
+TEST_CASE("heartbeat consumer: it monitors in Pre-operational, Operational and, without EMCY, in Stopped [H4] [N9]") {
   for (const std::string command : {"000#8001", "000#0101", "000#0201"}) {
     CAPTURE(command);
     Monitor node({{5, 100}}, Setup().with({CO_KEY(0x1029, 1, CO_OBJ_D___R_), CO_TUNSIGNED8, 1}));
@@ -129,7 +130,7 @@ TEST_CASE("heartbeat consumer: it works in Pre-operational, Operational and Stop
   }
 }
 
-TEST_CASE("heartbeat consumer: a change of the NMT state of this node leaves the time alone [H4]") {
+TEST_CASE("heartbeat consumer: a change of the own NMT state does not affect the time [H4]") {
   Monitor node({{5, 100}}, Setup().with({CO_KEY(0x1029, 1, CO_OBJ_D___R_), CO_TUNSIGNED8, 1}));
   node.rx("705#05");
   node.after(30ms);
@@ -154,7 +155,7 @@ TEST_CASE("heartbeat consumer: each change of the state is reported, and every b
   node.told("5 INIT, 5 INIT, 5 PREOP, 5 OPERATIONAL, 5 STOP, 5 INIT, 5 INIT");
 }
 
-TEST_CASE("heartbeat consumer: a node that is back in the same state is reported, too [H3]") {
+TEST_CASE("heartbeat consumer: a missing node that returns in the same state is reported [H3]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.after(100ms);
@@ -166,7 +167,7 @@ TEST_CASE("heartbeat consumer: a node that is back in the same state is reported
   node.emergency(five_back);
 }
 
-TEST_CASE("heartbeat consumer: within the callback of a change, the last state is still the old one") {
+TEST_CASE("heartbeat consumer: within the callback of a change CONmtLastHbState returns the previous state") {
   Monitor node({{5, 100}});
   std::vector<CO_MODE> before;
   callbacks().heartbeat_change = [&](CO_NMT* nmt, std::uint8_t id, CO_MODE) {
@@ -179,7 +180,7 @@ TEST_CASE("heartbeat consumer: within the callback of a change, the last state i
   CHECK(CONmtLastHbState(&node->Nmt, 5) == CO_STOP);
 }
 
-TEST_CASE("heartbeat consumer: the toggle bit of a node that is guarded is not looked at [H4]") {
+TEST_CASE("heartbeat consumer: the toggle bit of a guarded node is ignored [H4]") {
   Monitor node({{5, 100}});
   node.rx("705#85");
   node.told("5 OPERATIONAL");
@@ -193,7 +194,7 @@ TEST_CASE("heartbeat consumer: the toggle bit of a node that is guarded is not l
   node.told("");
 }
 
-TEST_CASE("heartbeat consumer: a remote frame is no heartbeat, and malformed") {
+TEST_CASE("heartbeat consumer: a remote frame is malformed and no heartbeat") {
   Monitor node({{5, 100}});
   node.rx("705#7F");
   node.told("5 PREOP");
@@ -206,7 +207,7 @@ TEST_CASE("heartbeat consumer: a remote frame is no heartbeat, and malformed") {
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: heartbeats of other nodes and 29-bit frames are not for it") {
+TEST_CASE("heartbeat consumer: heartbeats of other nodes and 29-bit frames are not processed") {
   Monitor node({{5, 100}});
   node.rx("705#7F");
   const std::uint32_t before = node.counters().Unclaimed;
@@ -235,7 +236,7 @@ std::string expected_of(unsigned byte, unsigned dlc, CO_MODE& state) {
   return "5 " + name_of(mode);
 }
 
-TEST_CASE("heartbeat consumer: every state byte in frames of every length [H4] [N5]") {
+TEST_CASE("heartbeat consumer: every state byte in frames of every length has the defined effect [H4] [N5]") {
   for (unsigned dlc = 0; dlc <= 8; ++dlc) {
     for (unsigned byte = 0; byte < 256; byte += dlc == 1 ? 1 : stride(31)) {
       CAPTURE(dlc);
@@ -256,7 +257,7 @@ TEST_CASE("heartbeat consumer: every state byte in frames of every length [H4] [
   }
 }
 
-TEST_CASE("heartbeat consumer: a reserved state is a sign of life [H3]") {
+TEST_CASE("heartbeat consumer: a heartbeat with a reserved state restarts the time [H3]") {
   Monitor node({{5, 100}});
   node.rx("705#11");
   node.told("5 INVALID");
@@ -268,7 +269,7 @@ TEST_CASE("heartbeat consumer: a reserved state is a sign of life [H3]") {
   node.told("5 INVALID");
 }
 
-TEST_CASE("heartbeat consumer: after reset node and reset communication it starts anew [D21] [T14] [Heartbeat 07]") {
+TEST_CASE("heartbeat consumer: reset node and reset communication restart it [D21] [T14] [Heartbeat 07]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     for (const int moment : {0, 1, 2}) {  // before the first heartbeat, after it, after a heartbeat event
       CAPTURE(reset);
@@ -301,7 +302,7 @@ TEST_CASE("heartbeat consumer: after reset node and reset communication it start
   }
 }
 
-TEST_CASE("heartbeat consumer: it ends with the node, and starts anew with it") {
+TEST_CASE("heartbeat consumer: it ends with CONodeStop and restarts with the node") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.call([&] { CONodeStop(&node.node); });
@@ -321,7 +322,7 @@ TEST_CASE("heartbeat consumer: it ends with the node, and starts anew with it") 
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: the driver's filter has the identifiers of the monitored nodes, as they change") {
+TEST_CASE("heartbeat consumer: the filter of the driver follows the monitored nodes") {
   Monitor node({{5, 100}});
   const auto passes = [&](std::uint32_t id) {
     return std::find(node.can.filter.begin(), node.can.filter.end(), id) != node.can.filter.end();

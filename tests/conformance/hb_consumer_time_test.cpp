@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr const char* five_missing = "081#3081110000050000";
 
-TEST_CASE("heartbeat consumer: several nodes, each with its time") {
+TEST_CASE("heartbeat consumer: several nodes are each monitored with their own time") {
   Monitor node({{5, 100}, {6, 250}, {127, 70}});
   node.rx("705#05");
   node.rx("706#05");
@@ -38,7 +38,7 @@ TEST_CASE("heartbeat consumer: several nodes, each with its time") {
   node.told("6 OPERATIONAL, 5 OPERATIONAL, 127 OPERATIONAL");
 }
 
-TEST_CASE("heartbeat consumer: a new node with a shorter time is not waited for too long") {
+TEST_CASE("heartbeat consumer: a new node with a shorter time than the others is reported on time") {
   Monitor node({{5, 1000}, {6, 10}});
   node.rx("705#05");
   node.after(100ms);
@@ -55,7 +55,7 @@ TEST_CASE("heartbeat consumer: a new node with a shorter time is not waited for 
   node.emergency(five_missing);
 }
 
-TEST_CASE("heartbeat consumer: a late loop reports a missing node once, and keeps the phase of the periods [Q8]") {
+TEST_CASE("heartbeat consumer: a late main loop reports a missing node once, and keeps the phase of the periods [Q8]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.jump(1050ms);
@@ -68,7 +68,7 @@ TEST_CASE("heartbeat consumer: a late loop reports a missing node once, and keep
   node.told("5 missing");
 }
 
-TEST_CASE("heartbeat consumer: a heartbeat that is processed before the late timer counts [Q8]") {
+TEST_CASE("heartbeat consumer: a heartbeat that is processed before the late timer prevents the report [Q8]") {
   Monitor node({{5, 100}});
   node.rx("705#05");
   node.elapse_only(120ms);
@@ -82,7 +82,7 @@ TEST_CASE("heartbeat consumer: a heartbeat that is processed before the late tim
   node.told("");
 }
 
-TEST_CASE("heartbeat consumer: times of 1 ms and of 65535 ms") {
+TEST_CASE("heartbeat consumer: times of 1 ms and of 65535 ms are kept") {
   Monitor node({{5, 1}, {6, 65535}});
   node.rx("706#05");
   node.after(65534ms);
@@ -95,7 +95,7 @@ TEST_CASE("heartbeat consumer: times of 1 ms and of 65535 ms") {
 #endif
 }
 
-TEST_CASE("heartbeat consumer: the same at every start of the clock and at every rate of it [T15]") {
+TEST_CASE("heartbeat consumer: the events do not depend on start and rate of the clock [T15]") {
   for (const std::uint32_t rate : {1000U, 1000000U}) {
     std::vector<std::string> first;
     for (const std::uint32_t start : clock_starts) {
@@ -119,7 +119,7 @@ TEST_CASE("heartbeat consumer: the same at every start of the clock and at every
   }
 }
 
-TEST_CASE("heartbeat consumer: it needs no timer of the application's pool, nor an alarm of the driver") {
+TEST_CASE("heartbeat consumer: it needs neither a timer of the application's pool nor an alarm of the driver") {
   for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
     Monitor node({{5, 100}}, Setup().timers(0).wake(wake));
     node.rx("705#05");
@@ -141,7 +141,7 @@ std::int16_t read_beat(CO_IF_FRM* frm) {
   return sizeof *frm;
 }
 
-TEST_CASE("heartbeat consumer: drivers without context, whose timer has no clock, cyclic and tickless") {
+TEST_CASE("heartbeat consumer: works with classic drivers whose timer has no clock, cyclic and tickless") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     CO_HBCONS entry{nullptr, nullptr, (CO_MODE)0, 0, 100, 5, 0};

@@ -29,7 +29,7 @@ void process_timers(Fixture& node) {
   node.call([&] { COTmrProcess(&node->Tmr); });
 }
 
-TEST_CASE("heartbeat change: over the network while one has elapsed and is not yet sent [H1]") {
+TEST_CASE("heartbeat change: by SDO while a period has elapsed and its heartbeat is not sent [H1]") {
   for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
     for (const std::uint32_t start : clock_starts) {
       for (const Change& change : changes) {
@@ -48,7 +48,7 @@ TEST_CASE("heartbeat change: over the network while one has elapsed and is not y
   }
 }
 
-TEST_CASE("heartbeat change: by the application while one has elapsed, several periods late [H1]") {
+TEST_CASE("heartbeat change: by the application several periods after the last heartbeat [H1]") {
   for (const Change& change : changes) {
     CAPTURE(change.ms);
     Fixture node(Setup().only_small().heartbeat(100));
@@ -66,7 +66,7 @@ unsigned runs;
 
 void count_run(void*) { ++runs; }
 
-TEST_CASE("heartbeat change: timers of the application that have elapsed with it run all the same [H1]") {
+TEST_CASE("heartbeat change: timers of the application that have elapsed with it are run [H1]") {
   for (const Change& change : changes) {
     for (const bool before : {true, false}) {
       CAPTURE(change.ms);
@@ -86,7 +86,7 @@ TEST_CASE("heartbeat change: timers of the application that have elapsed with it
   }
 }
 
-TEST_CASE("heartbeat change: a reset while one has elapsed begins with the boot-up [N6] [H1]") {
+TEST_CASE("heartbeat change: after a reset with an elapsed heartbeat the boot-up is the first frame [N6] [H1]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     Fixture node(Setup().only_small().heartbeat(100));

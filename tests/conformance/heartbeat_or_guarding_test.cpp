@@ -30,7 +30,7 @@ struct Both {
   }
 };
 
-TEST_CASE("heartbeat or guarding: both configured, the heartbeat wins [H1] [G1]") {
+TEST_CASE("heartbeat or guarding: if both are configured the heartbeat is used [H1] [G1]") {
   Both both(200);
   Fixture& node = both.node;
   node.rx("701#R1");
@@ -46,7 +46,7 @@ TEST_CASE("heartbeat or guarding: both configured, the heartbeat wins [H1] [G1]"
   CHECK(both.lost == 0);
 }
 
-TEST_CASE("heartbeat or guarding: without a heartbeat time it is guarding") {
+TEST_CASE("heartbeat or guarding: without a heartbeat time guarding is used") {
   Both both(0);
   Fixture& node = both.node;
   node.ask("701#R1", "701#7F");
@@ -58,7 +58,7 @@ TEST_CASE("heartbeat or guarding: without a heartbeat time it is guarding") {
   CHECK(both.lost == 0);
 }
 
-TEST_CASE("heartbeat or guarding: 1017h ends guarding at once, life guarding without an event [H1]") {
+TEST_CASE("heartbeat or guarding: writing 1017h ends guarding at once, and life guarding without an event [H1]") {
   Both both(0);
   Fixture& node = both.node;
   node.ask("701#R1", "701#7F");
@@ -71,7 +71,7 @@ TEST_CASE("heartbeat or guarding: 1017h ends guarding at once, life guarding wit
   CHECK(both.lost == 0);
 }
 
-TEST_CASE("heartbeat or guarding: 1017h = 0 lets it guard again; the toggle bit goes on [G2]") {
+TEST_CASE("heartbeat or guarding: 1017h = 0 enables guarding again; the toggle bit continues [G2]") {
   Both both(200);
   Fixture& node = both.node;
   node.ask(off, written);
@@ -88,7 +88,7 @@ TEST_CASE("heartbeat or guarding: 1017h = 0 lets it guard again; the toggle bit 
   node.trace();
 }
 
-TEST_CASE("heartbeat or guarding: a remote frame that is not answered starts no life guarding [G1]") {
+TEST_CASE("heartbeat or guarding: a remote frame that is not answered does not start life guarding [G1]") {
   Both both(200);
   Fixture& node = both.node;
   node.rx("701#R1");
@@ -98,7 +98,7 @@ TEST_CASE("heartbeat or guarding: a remote frame that is not answered starts no 
   CHECK(both.lost == 0);
 }
 
-TEST_CASE("heartbeat or guarding: a missing master is back with its remote frame, for any value of 1017h [G2]") {
+TEST_CASE("heartbeat or guarding: a remote frame resolves a lost master for any value of 1017h [G2]") {
   Both both(0);
   Fixture& node = both.node;
   node.ask("701#R1", "701#7F");
@@ -118,7 +118,7 @@ TEST_CASE("heartbeat or guarding: a missing master is back with its remote frame
   CHECK(both.lost == 1);
 }
 
-TEST_CASE("heartbeat or guarding: without 1017h, or with a plain 1017h that the next reset will take, it guards") {
+TEST_CASE("heartbeat or guarding: guarding is used without 1017h and before the reset that applies a plain 1017h") {
   Fixture without(Setup().without(0x1017, 0));
   without.ask("701#R1", "701#7F");
   Fixture plain(Setup().with({CO_KEY(0x1017, 0, CO_OBJ_D___RW), CO_TUNSIGNED16, 0}));
@@ -130,7 +130,7 @@ TEST_CASE("heartbeat or guarding: without 1017h, or with a plain 1017h that the 
   plain.silent();
 }
 
-TEST_CASE("heartbeat or guarding: random settings, requests and times never give both [H1] [G1]") {
+TEST_CASE("heartbeat or guarding: random settings, requests and times never activate both [H1] [G1]") {
   std::uint32_t random = 12345;
   const auto below = [&](std::uint32_t end) { return (random = random * 1664525 + 1013904223) / 65536 % end; };
   Both both(0);

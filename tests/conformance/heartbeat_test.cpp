@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("heartbeat: every period after boot-up, which counts as the first one [H1] [Heartbeat 02]") {
+TEST_CASE("heartbeat: sent every period after the boot-up, which counts as the first one [H1] [Heartbeat 02]") {
   Fixture node(Setup().heartbeat(1000));
   node.after(3500ms);
   node.tx_at(1000ms, "701#7F");
@@ -30,7 +30,7 @@ TEST_CASE("heartbeat: it transmits the NMT state [N5] [Transition 01-04]") {
   node.tx("722#7F");
 }
 
-TEST_CASE("heartbeat: a change of the NMT state leaves its phase alone [H1]") {
+TEST_CASE("heartbeat: a change of the NMT state does not change its phase [H1]") {
   Fixture node(Setup().heartbeat(100));
   node.after(30ms);
   node.rx("000#0101");
@@ -42,7 +42,7 @@ TEST_CASE("heartbeat: a change of the NMT state leaves its phase alone [H1]") {
   node.tx_at(10ms, "701#7F");
 }
 
-TEST_CASE("heartbeat: 1017h = 0 means none [H1] [Heartbeat 03]") {
+TEST_CASE("heartbeat: 1017h = 0 disables it [H1] [Heartbeat 03]") {
   Fixture node;
   node.after(70000ms);
   node.silent();
@@ -72,7 +72,7 @@ TEST_CASE("heartbeat: a new time in 1017h takes effect immediately [H1]") {
   node.silent();
 }
 
-TEST_CASE("heartbeat: the application changes the time through the dictionary as well [H1]") {
+TEST_CASE("heartbeat: the application changes the time through the dictionary [H1]") {
   Fixture node;
   node.may_change(0x1017, 0);
   node.call([&] { CHECK(CODictWrWord(&node->Dict, CO_DEV(0x1017, 0), 20) == CO_ERR_NONE); });
@@ -84,7 +84,7 @@ TEST_CASE("heartbeat: the application changes the time through the dictionary as
   CHECK(time == 20);
 }
 
-TEST_CASE("heartbeat: it goes on after both resets [N6]") {
+TEST_CASE("heartbeat: it continues after both resets [N6]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     Fixture node(Setup().heartbeat(100));
@@ -99,7 +99,7 @@ TEST_CASE("heartbeat: it goes on after both resets [N6]") {
   }
 }
 
-TEST_CASE("heartbeat: none before the node is started [N3]") {
+TEST_CASE("heartbeat: none is sent before the node is started [N3]") {
   Fixture node(Setup().heartbeat(100).stay_in_init());
   node.after(1000ms);
   node.silent();
@@ -109,7 +109,7 @@ TEST_CASE("heartbeat: none before the node is started [N3]") {
   node.tx_at(100ms, "701#7F");
 }
 
-TEST_CASE("heartbeat: none after a stop of the node") {
+TEST_CASE("heartbeat: none is sent after a stop of the node") {
   Fixture node(Setup().heartbeat(100));
   node.call([&] { CONodeStop(&node.node); });
   node.after(1000ms);
@@ -131,7 +131,7 @@ TEST_CASE("heartbeat: it needs no timer of the application's pool") {
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("heartbeat: time 1 ms and time 65535 ms [H1]") {
+TEST_CASE("heartbeat: times of 1 ms and of 65535 ms are kept [H1]") {
   Fixture node;
   node.ask("601#2B17100001000000", "581#6017100000000000");
   node.after(3ms);
@@ -143,7 +143,7 @@ TEST_CASE("heartbeat: time 1 ms and time 65535 ms [H1]") {
   node.tx("701#7F");
 }
 
-TEST_CASE("heartbeat: a time that the timer cannot hold is refused and the old one stays [H1]") {
+TEST_CASE("heartbeat: a time beyond the range of the timer is refused, and the old one stays [H1]") {
   Fixture node(Setup().heartbeat(100).rate(1000000000));
   node.ask("601#2B171000FFFF0000", "581#8017100030000906");
   node.ask("601#4017100000000000", "581#4B17100064000000");
@@ -151,7 +151,7 @@ TEST_CASE("heartbeat: a time that the timer cannot hold is refused and the old o
   node.tx("701#7F");
 }
 
-TEST_CASE("heartbeat: a late loop sends one and keeps the phase [Q8]") {
+TEST_CASE("heartbeat: a late main loop sends one heartbeat and keeps the phase [Q8]") {
   Fixture node(Setup().heartbeat(100));
   node.jump(1050ms);
   node.tx("701#7F");
@@ -160,7 +160,7 @@ TEST_CASE("heartbeat: a late loop sends one and keeps the phase [Q8]") {
   node.silent();
 }
 
-TEST_CASE("heartbeat: the time may lie in the dictionary itself (flag D)") {
+TEST_CASE("heartbeat: the time may be stored in the entry (flag D)") {
   Fixture node(Setup().with({CO_KEY(0x1017, 0, CO_OBJ_D___RW), CO_THB_PROD, 50}));
   node.after(50ms);
   node.tx("701#7F");
@@ -171,7 +171,7 @@ TEST_CASE("heartbeat: the time may lie in the dictionary itself (flag D)") {
   node.ask("601#4017100000000000", "581#4B17100000000000");
 }
 
-TEST_CASE("heartbeat: without 1017h there is none") {
+TEST_CASE("heartbeat: without 1017h none is sent") {
   Fixture node(Setup().without(0x1017, 0));
   node.after(5000ms);
   node.silent();

@@ -79,7 +79,7 @@ TEST_CASE("LED: ERR has a pattern for each error [LED1] [LED3]") {
   CHECK(patterns({CO_OPERATIONAL, CO_LED_CONFIG}) == Shown{on, red_blinking});
 }
 
-TEST_CASE("LED: of several errors the worst is shown, in every combination [LED3]") {
+TEST_CASE("LED: the most serious of several errors is shown, in every combination [LED3]") {
   const std::pair<unsigned, std::string> by_priority[] = {
       {CO_LED_BUS_OFF, on},          {CO_LED_LSS, red_flickering}, {CO_LED_PDO, red_quadruple},
       {CO_LED_SYNC, red_triple},     {CO_LED_CONTROL, red_double}, {CO_LED_WARNING, red_single},
@@ -98,7 +98,7 @@ TEST_CASE("LED: of several errors the worst is shown, in every combination [LED3
   }
 }
 
-TEST_CASE("LED: red and green are never lit together, except where one of them is steady [LED1]") {
+TEST_CASE("LED: red and green are never on together, except where one of them is steady [LED1]") {
   for (const CO_MODE mode : {CO_INIT, CO_PREOP, CO_OPERATIONAL, CO_STOP}) {
     for (unsigned what = 0; what <= 0xFF; what += stride(13)) {
       const CO_LED_STATE state{mode, static_cast<std::uint8_t>(what)};
@@ -114,7 +114,7 @@ TEST_CASE("LED: red and green are never lit together, except where one of them i
   }
 }
 
-TEST_CASE("LED: a pattern goes on at any time, and has no other answers [LED1]") {
+TEST_CASE("LED: each pattern is defined at any time and has only the states on and off [LED1]") {
   CHECK(patterns({CO_PREOP, CO_LED_CONTROL}, 24000) == Shown{blinking, red_double});
   CHECK(patterns({CO_STOP, CO_LED_PDO}, 4294944000) == Shown{single_flash, red_quadruple});
   const CO_LED_STATE state{CO_PREOP, 0};
@@ -176,7 +176,7 @@ struct LedNode : Fixture {
   }
 };
 
-TEST_CASE("LED: the node shows its states, from the moment on at which one is entered") {
+TEST_CASE("LED: each state of the node is shown from the moment when it is entered") {
   LedNode node;
   node.start();
   CHECK(node.changes == 1);
@@ -194,7 +194,7 @@ TEST_CASE("LED: the node shows its states, from the moment on at which one is en
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("LED: the callback comes with changes only") {
+TEST_CASE("LED: the callback is called for changes only") {
   LedNode node;
   node.rx("000#0101");
   node.start();
@@ -232,7 +232,7 @@ TEST_CASE("LED: nothing is shown and no timer runs before COLedStart() and after
 }
 
 #if USE_LSS
-TEST_CASE("LED: both flicker in the LSS state configuration, and while a node without node-ID waits for one") {
+TEST_CASE("LED: both flicker in the LSS state configuration and while an unconfigured node has no node-ID") {
   const auto slave = [] {
     Setup setup;
     setup.with({CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4});
@@ -259,7 +259,7 @@ TEST_CASE("LED: both flicker in the LSS state configuration, and while a node wi
 }
 #endif
 
-TEST_CASE("LED: started in Initialisation, dark until the boot-up") {
+TEST_CASE("LED: started in Initialisation, both are off until the boot-up") {
   LedNode node(Setup().stay_in_init());
   node.start();
   CHECK(node.changes == 1);
@@ -269,7 +269,7 @@ TEST_CASE("LED: started in Initialisation, dark until the boot-up") {
   CHECK(node.leds == 0x01);
 }
 
-TEST_CASE("LED: the CAN controller: error passive, bus-off, recovered [LED3]") {
+TEST_CASE("LED: error passive, bus-off and recovery of the CAN controller are shown [LED3]") {
   LedNode node;
   node.start();
   node.report(CO_CAN_OVERRUN);
@@ -284,7 +284,7 @@ TEST_CASE("LED: the CAN controller: error passive, bus-off, recovered [LED3]") {
   CHECK(node.err() == off);
 }
 
-TEST_CASE("LED: error control, SYNC and late RPDOs, each until the last one has gone [LED3]") {
+TEST_CASE("LED: error control, SYNC and late RPDO errors are each shown until the last one is resolved [LED3]") {
   using co::event::Fault;
   LedNode node;
   node.start();
@@ -314,7 +314,7 @@ CO_OBJ entry(std::uint16_t index, std::uint8_t sub, const CO_OBJ_TYPE* type, std
   return {CO_KEY(index, sub, CO_OBJ_D___R_), type, value};
 }
 
-TEST_CASE("LED: a late RPDO, until the next one comes [LED3]") {
+TEST_CASE("LED: a late RPDO is shown until the next one is received [LED3]") {
   LedNode node(Setup()
                    .with(entry(0x1400, 0, CO_TUNSIGNED8, 5))
                    .with(entry(0x1400, 1, CO_TPDO_ID, 0x201))
@@ -339,7 +339,7 @@ TEST_CASE("LED: a late RPDO, until the next one comes [LED3]") {
   CHECK(node.changes == changes);
 }
 
-TEST_CASE("LED: a SYNC of a wrong length, until the next right one [LED3]") {
+TEST_CASE("LED: a SYNC of a wrong length is shown until one of the right length is received [LED3]") {
   LedNode node(Setup().with(entry(0x1005, 0, CO_TSYNC_ID, 0x80)));
   node.rx("000#0101");
   node.start();
@@ -352,7 +352,7 @@ TEST_CASE("LED: a SYNC of a wrong length, until the next right one [LED3]") {
 }
 #endif
 
-TEST_CASE("LED: an error in Operational, and a pattern that goes on for a minute [LED3]") {
+TEST_CASE("LED: an error in Operational is shown, and its pattern is kept for a minute [LED3]") {
   LedNode node;
   node.rx("000#0101");
   node.start();
@@ -368,7 +368,7 @@ TEST_CASE("LED: an error in Operational, and a pattern that goes on for a minute
   CHECK(all == expected);
 }
 
-TEST_CASE("LED: faults that it does not show, and faults that were never raised, change nothing") {
+TEST_CASE("LED: faults without a pattern and faults that were never raised change nothing") {
   using co::event::Fault;
   LedNode node;
   node.start();
@@ -382,7 +382,7 @@ TEST_CASE("LED: faults that it does not show, and faults that were never raised,
   CHECK(node.err() == red_double);
 }
 
-TEST_CASE("LED: states set by the application survive resets, states detected by the node end with them") {
+TEST_CASE("LED: states set by the application survive resets; states detected by the node end with them") {
   LedNode node;
   node.start();
   node.set(CO_LED_CONFIG, true);
@@ -409,7 +409,7 @@ TEST_CASE("LED: LSS and a program download, set by the application [LED2]") {
   CHECK(node.watch() == Shown{on, off});
 }
 
-TEST_CASE("LED: at every frequency and start of the clock [T15]") {
+TEST_CASE("LED: the patterns do not depend on frequency and start of the clock [T15]") {
   for (const std::uint32_t rate : {1000U, 300U, 1000000U}) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -420,7 +420,7 @@ TEST_CASE("LED: at every frequency and start of the clock [T15]") {
   }
 }
 
-TEST_CASE("LED: a loop that was late goes on with the pattern") {
+TEST_CASE("LED: after a late main loop the pattern continues in phase") {
   LedNode node;
   node.start();
   node.jump(10s);
@@ -429,7 +429,7 @@ TEST_CASE("LED: a loop that was late goes on with the pattern") {
   CHECK(node.leds == 0);
 }
 
-TEST_CASE("LED: the callback may change what is shown, and stop the node") {
+TEST_CASE("LED: the callback may change the shown states and stop the node") {
   LedNode node;
   callbacks().led_change = [&](CO_NODE* of, std::uint8_t leds) {
     ++node.changes;

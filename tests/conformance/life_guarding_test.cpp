@@ -84,7 +84,7 @@ TEST_CASE("life guarding: it starts with the first remote frame [G1] [Guarding 0
   node.expect("lost ");
 }
 
-TEST_CASE("life guarding: every remote frame starts the time anew [G1]") {
+TEST_CASE("life guarding: every remote frame restarts the time [G1]") {
   Guarded node(100, 3);
   for (int request = 0; request < 100; ++request) {
     node.guard();
@@ -132,7 +132,7 @@ TEST_CASE("life guarding: the reaction is that of 1029h:1 [B1] [State 03]") {
   }
 }
 
-TEST_CASE("life guarding: it goes on in Stopped, where no EMCY is sent [N3] [N9]") {
+TEST_CASE("life guarding: it continues in Stopped, where no EMCY is sent [N3] [N9]") {
   Guarded node(100, 1);
   node.rx("000#0201");
   node.guard();
@@ -143,7 +143,7 @@ TEST_CASE("life guarding: it goes on in Stopped, where no EMCY is sent [N3] [N9]
   node.expect("found ");
 }
 
-TEST_CASE("life guarding: 100Ch and 100Dh count when the remote frame comes [Guarding 01] [Guarding 05]") {
+TEST_CASE("life guarding: 100Ch and 100Dh are read when the remote frame is received [Guarding 01] [Guarding 05]") {
   Guarded node(100, 3);
   node.guard();
   node.ask("601#2B0C10000A000000", "581#600C100000000000");
@@ -162,7 +162,7 @@ TEST_CASE("life guarding: 100Ch and 100Dh count when the remote frame comes [Gua
   node.silent();
 }
 
-TEST_CASE("life guarding: ended by guard time 0 after a loss, the loss is resolved by the next remote frame [G2]") {
+TEST_CASE("life guarding: a loss before guard time 0 is resolved by the next remote frame [G2]") {
   Guarded node(10, 1);
   node.guard();
   node.after(10ms);
@@ -173,7 +173,7 @@ TEST_CASE("life guarding: ended by guard time 0 after a loss, the loss is resolv
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("life guarding: a reset ends it, until the next remote frame [G2] [T14]") {
+TEST_CASE("life guarding: a reset ends it until the next remote frame [G2] [T14]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     for (const bool lost : {false, true}) {
       CAPTURE(reset);
@@ -202,7 +202,7 @@ TEST_CASE("life guarding: a reset ends it, until the next remote frame [G2] [T14
   }
 }
 
-TEST_CASE("life guarding: it ends with the node") {
+TEST_CASE("life guarding: CONodeStop ends it") {
   Guarded node(100, 1);
   node.guard();
   node.call([&] { CONodeStop(&node.node); });
@@ -226,7 +226,7 @@ TEST_CASE("life guarding: the application may reset or stop the node in the call
   }
 }
 
-TEST_CASE("life guarding: the longest life time, and one that the timer cannot hold") {
+TEST_CASE("life guarding: the longest life time, and one beyond the range of the timer, are handled") {
   Guarded node(65535, 255);
   node.guard();
   node.after(std::chrono::milliseconds{65535 * 255 - 1});
@@ -239,7 +239,7 @@ TEST_CASE("life guarding: the longest life time, and one that the timer cannot h
   CHECK(fast.armed_timers() == 0);
 }
 
-TEST_CASE("life guarding: the same at every start of the clock and at every rate of it [T15]") {
+TEST_CASE("life guarding: the loss does not depend on start and rate of the clock [T15]") {
   for (const std::uint32_t rate : clock_rates) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -259,7 +259,7 @@ TEST_CASE("life guarding: the same at every start of the clock and at every rate
   }
 }
 
-TEST_CASE("life guarding: a late loop reports the loss once; a request that it reads first counts [Q8]") {
+TEST_CASE("life guarding: a late main loop reports the loss once, unless it reads a request first [Q8]") {
   Guarded node(100, 1);
   node.guard();
   node.jump(1000ms);

@@ -43,7 +43,7 @@ struct Slave {
   }
 };
 
-TEST_CASE("access hook, LSS: switch state global, in both directions") {
+TEST_CASE("access hook, LSS: called for switch state global in both directions") {
   Slave slave;
   slave.refuse(CO_LSS_SERVICE_SWITCH_GLOBAL);
   slave.node.rx(lss_to_configuration);
@@ -61,7 +61,7 @@ TEST_CASE("access hook, LSS: switch state global, in both directions") {
   CHECK(slave.log.lss.size() == 3);
 }
 
-TEST_CASE("access hook, LSS: switch state selective is asked once the address has matched, and then silent") {
+TEST_CASE("access hook, LSS: called for switch state selective once the address matches; a refusal is not answered") {
   Slave slave;
   slave.refuse(CO_LSS_SERVICE_SWITCH_SELECTIVE);
   slave.node.rx("7E5#4019030000000000");
@@ -90,7 +90,7 @@ void scan_to_the_end(Fixture& node) {
   node.rx("7E5#5144000000000300");
 }
 
-TEST_CASE("access hook, LSS: the end of a fastscan, which would switch the node to configuration") {
+TEST_CASE("access hook, LSS: called at the end of a fastscan, which would switch the node to configuration") {
   Slave slave(no_node_id);
   slave.refuse(CO_LSS_SERVICE_FASTSCAN);
   scan_to_the_end(slave.node);
@@ -105,7 +105,7 @@ TEST_CASE("access hook, LSS: the end of a fastscan, which would switch the node 
   slave.is_in_configuration();
 }
 
-TEST_CASE("access hook, LSS: configure node-ID: the error code is answered, the pending node-ID stays") {
+TEST_CASE("access hook, LSS: configure node-ID that is refused is answered with the error code and changes nothing") {
   Slave slave;
   slave.node.rx(lss_to_configuration);
   slave.refuse(CO_LSS_SERVICE_NODE_ID, 1);
@@ -124,7 +124,8 @@ TEST_CASE("access hook, LSS: configure node-ID: the error code is answered, the 
   slave.node.ask("000#8201", "705#00");
 }
 
-TEST_CASE("access hook, LSS: configure bit timing: the error code is answered, the pending bit rate stays") {
+TEST_CASE(
+    "access hook, LSS: configure bit timing that is refused is answered with the error code and changes nothing") {
   Slave slave;
   slave.node.rx(lss_to_configuration);
   slave.refuse(CO_LSS_SERVICE_BIT_TIMING, 255, 9);
@@ -137,7 +138,8 @@ TEST_CASE("access hook, LSS: configure bit timing: the error code is answered, t
   CHECK(slave.log.lss.size() == asked);
 }
 
-TEST_CASE("access hook, LSS: activate bit timing: silence, nothing is switched, and the NMT state stays") {
+TEST_CASE(
+    "access hook, LSS: activate bit timing that is refused changes neither bit rate nor NMT state, without answer") {
   Slave slave;
   slave.node.rx("000#0101");
   slave.node.rx(lss_to_configuration);
@@ -154,7 +156,7 @@ TEST_CASE("access hook, LSS: activate bit timing: silence, nothing is switched, 
   CHECK(slave.node.can.init_calls == 1);
 }
 
-TEST_CASE("access hook, LSS: store: the error code is answered, and nothing is stored") {
+TEST_CASE("access hook, LSS: store that is refused is answered with the error code and stores nothing") {
   Slave slave;
   unsigned stores = 0;
   callbacks().lss_store = [&](std::uint32_t, std::uint8_t) { return ++stores, CO_ERR_NONE; };
@@ -170,7 +172,7 @@ TEST_CASE("access hook, LSS: store: the error code is answered, and nothing is s
   CHECK(stores == 1);
 }
 
-TEST_CASE("access hook, LSS: services that change nothing are not asked") {
+TEST_CASE("access hook, LSS: not called for services that change nothing") {
   Slave slave;
   slave.node.rx("7E5#4619030000000000");
   slave.node.rx("7E5#4778563412000000");
@@ -186,7 +188,7 @@ TEST_CASE("access hook, LSS: services that change nothing are not asked") {
   CHECK(slave.log.lss.size() == 1);
 }
 
-TEST_CASE("access hook, LSS: the NMT state of the switch is the application's choice") {
+TEST_CASE("access hook, LSS: the bit rate is switched in the NMT state that the hook sets in CO_ACCESS_LSS.Mode") {
   struct Case {
     const char* before;
     CO_MODE offered;
@@ -216,7 +218,7 @@ TEST_CASE("access hook, LSS: the NMT state of the switch is the application's ch
   }
 }
 
-TEST_CASE("access hook, LSS: a node without node-ID stays in Initialisation, whatever is chosen") {
+TEST_CASE("access hook, LSS: a node without node-ID stays in Initialisation for any NMT state that it sets") {
   Slave slave(no_node_id);
   slave.node.rx(lss_to_configuration);
   slave.log.on_lss = [](CO_NODE&, CO_ACCESS_LSS& access) {
@@ -231,7 +233,7 @@ TEST_CASE("access hook, LSS: a node without node-ID stays in Initialisation, wha
   slave.is_in_configuration();
 }
 
-TEST_CASE("access hook, LSS: it may stop the node: no answer, no timer, nothing held") {
+TEST_CASE("access hook, LSS: if it stops the node there is no answer, no timer and no queued frame") {
   for (const char* request : {lss_to_waiting, "7E5#1105000000000000", "7E5#1300020000000000", "7E5#1500000000000000",
                               "7E5#1564000000000000", "7E5#1700000000000000"}) {
     CAPTURE(request);
@@ -254,7 +256,7 @@ TEST_CASE("access hook, LSS: it may stop the node: no answer, no timer, nothing 
   }
 }
 
-TEST_CASE("access hook, LSS: a reset that it asks for comes after the answer") {
+TEST_CASE("access hook, LSS: a reset that it requests is carried out after the answer") {
   Slave slave;
   slave.node.rx(lss_to_configuration);
   slave.node.frames_per_call(2);

@@ -52,7 +52,7 @@ Identity find(Fixture& node) {
   return found;
 }
 
-TEST_CASE("LSS fastscan: finds each identity, and leaves its node in the state configuration") {
+TEST_CASE("LSS fastscan: finds each identity and switches its node to the state configuration") {
   const Identity identities[] = {{0, 0, 0, 0},
                                  {0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF},
                                  {0x00000319, 0x12345678, 0x00010002, 0x80000001},
@@ -71,14 +71,14 @@ TEST_CASE("LSS fastscan: only nodes without node-ID answer") {
   CHECK_FALSE(answers(node, scan(1, 0, 0, 1)));
 }
 
-TEST_CASE("LSS fastscan: a node that has been given a node-ID takes part no more") {
+TEST_CASE("LSS fastscan: a node that has been given a node-ID no longer takes part") {
   Fixture node(slave({1, 2, 3, 4}));
   node.rx("7E5#0401000000000000");
   node.ask("7E5#1107000000000000", "7E4#1100000000000000");
   CHECK_FALSE(answers(node, scan(0, 0x80, 0, 0)));
 }
 
-TEST_CASE("LSS fastscan: a part out of turn, and impossible requests, are not answered") {
+TEST_CASE("LSS fastscan: parts in the wrong order and invalid requests are not answered") {
   Fixture node(slave({1, 2, 3, 4}));
   REQUIRE(answers(node, scan(0, 0x80, 0, 0)));
   CHECK_FALSE(answers(node, scan(2, 0, 1, 2)));
@@ -92,7 +92,7 @@ TEST_CASE("LSS fastscan: a part out of turn, and impossible requests, are not an
   CHECK(answers(node, scan(2, 0, 1, 2)));
 }
 
-TEST_CASE("LSS fastscan: begins anew at each start request of the master") {
+TEST_CASE("LSS fastscan: each start request of the master restarts it") {
   Fixture node(slave({1, 2, 3, 4}));
   REQUIRE(answers(node, scan(0, 0x80, 0, 0)));
   REQUIRE(answers(node, scan(1, 0, 0, 1)));
@@ -101,7 +101,7 @@ TEST_CASE("LSS fastscan: begins anew at each start request of the master") {
   CHECK(answers(node, scan(1, 0, 0, 1)));
 }
 
-TEST_CASE("LSS fastscan: of identities one bit apart, only the one that matches is selected") {
+TEST_CASE("LSS fastscan: only the matching one of identities that differ by one bit is selected") {
   for (unsigned bit = 0; bit < 128; ++bit) {
     Identity own = {0x00000319, 0x12345678, 0x00010002, 0x80000001};
     const Identity looked_for = own;

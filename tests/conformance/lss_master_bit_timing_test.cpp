@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 // The initialisation of a controller may clear its filters.
-TEST_CASE("LSS master, slave: after the switch of the bit rate the driver has its filters again") {
+TEST_CASE("LSS master and slave: after the switch of the bit rate the driver's filters are set again") {
   Setup setup;
   for (std::uint8_t sub = 1; sub <= 4; ++sub) {
     setup.with({CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, sub});
@@ -51,7 +51,7 @@ TEST_CASE("LSS master: activate bit timing: this node is silent for the delay, s
   CHECK(node->Baudrate == 500000);
 }
 
-TEST_CASE("LSS master: activate bit timing with delay 0: a millisecond each; with 65535 as long as that") {
+TEST_CASE("LSS master: activate bit timing: delay 0 takes 1 ms each; a delay of 65535 ms is kept") {
   LssMaster node;
   node.run("7E5#1500000000000000", COLssmActivateBitTiming, std::uint16_t{0}, 1000000U);
   node.after(1ms);
@@ -68,7 +68,8 @@ TEST_CASE("LSS master: activate bit timing with delay 0: a millisecond each; wit
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: activate bit timing without an own one leaves the controller alone, but is silent") {
+TEST_CASE(
+    "LSS master: activate bit timing without bit rate of its own node: the controller is not changed, but silent") {
   LssMaster node(Setup().heartbeat(30));
   node.run("7E5#1514000000000000", COLssmActivateBitTiming, std::uint16_t{20}, 0U);
   node.after(39ms);
@@ -80,7 +81,7 @@ TEST_CASE("LSS master: activate bit timing without an own one leaves the control
   CHECK(node.can.init_calls == 1);
 }
 
-TEST_CASE("LSS master: activate bit timing goes on through a reset, and ends with a stop") {
+TEST_CASE("LSS master: activate bit timing continues over a reset and ends with a stop") {
   LssMaster node;
   node.run("7E5#150A000000000000", COLssmActivateBitTiming, std::uint16_t{10}, 500000U);
   SUBCASE("reset") {
@@ -92,7 +93,7 @@ TEST_CASE("LSS master: activate bit timing goes on through a reset, and ends wit
     node.end(CO_LSSM_OK);
     CHECK(node.can.baud == 500000);
   }
-  SUBCASE("stop, before and behind the switch") {
+  SUBCASE("stop before and after the switch") {
     node.after(10ms);
     node.call([&] { CONodeStop(&node.node); });
     node.end(CO_LSSM_STOPPED);
@@ -102,7 +103,7 @@ TEST_CASE("LSS master: activate bit timing goes on through a reset, and ends wit
   }
 }
 
-TEST_CASE("LSS master: activate bit timing, cancelled: the node sends again, at the bit rate that it has") {
+TEST_CASE("LSS master: activate bit timing that is cancelled: the node sends again at its present bit rate") {
   LssMaster node(Setup().heartbeat(5));
   node.run("7E5#150A000000000000", COLssmActivateBitTiming, std::uint16_t{10}, 500000U);
   node.after(6ms);
@@ -114,7 +115,7 @@ TEST_CASE("LSS master: activate bit timing, cancelled: the node sends again, at 
   CHECK(node.can.baud == 250000);
 }
 
-TEST_CASE("LSS master: activate bit timing does not begin while frames wait for the controller") {
+TEST_CASE("LSS master: activate bit timing does not start while frames are queued for the controller") {
   LssMaster node;
   node.can.refuse_all();
   CHECK(node.start(COLssmActivateBitTiming, std::uint16_t{10}, 500000U) == CO_ERR_IF_CAN_SEND);

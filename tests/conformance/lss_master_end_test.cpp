@@ -28,7 +28,7 @@ TEST_CASE("LSS master: one service at a time") {
   CHECK(node.end(CO_LSSM_OK).value == 5);
 }
 
-TEST_CASE("LSS master: cancelled, a service lss_ends at once, and its answer is ignored") {
+TEST_CASE("LSS master: a cancelled service ends at once, and its answer is ignored") {
   std::vector<LssDialogue> all = lss_dialogues();
   all.insert(all.end(), lss_searches().begin(), lss_searches().end());
   for (const LssDialogue& dialogue : all) {
@@ -50,7 +50,7 @@ TEST_CASE("LSS master: cancelled, a service lss_ends at once, and its answer is 
   }
 }
 
-TEST_CASE("LSS master: the callback starts the next service, as often as there is one") {
+TEST_CASE("LSS master: the callback may start the next service, repeatedly") {
   LssMaster node;
   unsigned left = 1000;
   lss_next = [&](CO_LSSM* lssm) {
@@ -69,7 +69,7 @@ TEST_CASE("LSS master: the callback starts the next service, as often as there i
   CHECK(lss_ends.size() == 1001);
 }
 
-TEST_CASE("LSS master: a chain from every end: answer, silence, cancel") {
+TEST_CASE("LSS master: the callback may start the next service after every result") {
   LssMaster node;
   bool first = true;
   lss_next = [&](CO_LSSM* lssm) {
@@ -112,7 +112,7 @@ TEST_CASE("LSS master: a chain from every end: answer, silence, cancel") {
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: arguments out of range start nothing") {
+TEST_CASE("LSS master: arguments out of range are refused and start no service") {
   LssMaster node;
   for (const unsigned id : {0U, 128U, 200U, 254U}) {
     CHECK(node.start(COLssmConfigureNodeId, static_cast<std::uint8_t>(id)) == CO_ERR_BAD_ARG);
@@ -134,7 +134,7 @@ TEST_CASE("LSS master: arguments out of range start nothing") {
   node.goes_on();
 }
 
-TEST_CASE("LSS master: null pointers, and a node that was never initialised, are refused") {
+TEST_CASE("LSS master: null pointers and a node that was never initialised are refused") {
   LssMaster node;
   CO_LSSM nobody{};
   for (CO_LSSM* const lssm : {static_cast<CO_LSSM*>(nullptr), &nobody}) {
@@ -157,7 +157,7 @@ TEST_CASE("LSS master: null pointers, and a node that was never initialised, are
   node.silent();
 }
 
-TEST_CASE("LSS master: works in every NMT state but Initialisation") {
+TEST_CASE("LSS master: works in every NMT state except Initialisation") {
   for (const char* state : {"000#8001", "000#0101", "000#0201"}) {
     LssMaster node;
     node.rx(state);
@@ -172,7 +172,7 @@ TEST_CASE("LSS master: works in every NMT state but Initialisation") {
   starting.silent();
 }
 
-TEST_CASE("LSS master: a service outlives a change between Pre-operational, Operational and Stopped") {
+TEST_CASE("LSS master: a service continues when the node changes between Pre-operational, Operational and Stopped") {
   LssMaster node;
   node.run("7E5#5E00000000000000", COLssmInquireNodeId);
   for (const char* state : {"000#0101", "000#0201", "000#8001"}) {
@@ -183,7 +183,7 @@ TEST_CASE("LSS master: a service outlives a change between Pre-operational, Oper
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: a reset and a stop of the node end the service, and its callback can start no other") {
+TEST_CASE("LSS master: a reset and a stop of the node end the service, whose callback cannot start another one") {
   lss_next = nullptr;
   LssMaster node;
   CO_ERR err = CO_ERR_NONE;
@@ -228,7 +228,7 @@ TEST_CASE("LSS master: a callback may stop the node") {
   node.silent();
 }
 
-TEST_CASE("LSS master: times last over a reset") {
+TEST_CASE("LSS master: the configured times are kept over a reset") {
   LssMaster node;
   node.times(20, 30);
   node.ask("000#8101", "701#00");
@@ -243,7 +243,7 @@ TEST_CASE("LSS master: times last over a reset") {
 TEST_CASE("LSS master: a full transmit queue is reported") {
   LssMaster node(Setup().tx_queue(2));  // the application may use one of the two entries
   node.can.refuse_all();
-  SUBCASE("at the start: nothing begins") {
+  SUBCASE("at the start: no service begins") {
     node.call([&] { CHECK(COLssmStore(&node->Lssm, note_lss) == CO_ERR_NONE); });
     node.cancel();
     node.end(CO_LSSM_CANCELLED);
@@ -256,7 +256,7 @@ TEST_CASE("LSS master: a full transmit queue is reported") {
     node.after(2000ms);
     node.goes_on();
   }
-  SUBCASE("in the middle of a request: it lss_ends") {
+  SUBCASE("within a request: the service ends") {
     CHECK(node.start(COLssmSwitchSelective, lss_address) == CO_ERR_NONE);
     node.after(1ms);
     node.end(CO_LSSM_NOT_SENT);
@@ -265,7 +265,7 @@ TEST_CASE("LSS master: a full transmit queue is reported") {
     node.tx("7E5#4019030000000000");
     node.silent();
   }
-  SUBCASE("in the middle of a fastscan: it lss_ends") {
+  SUBCASE("within a fastscan: the service ends") {
     CHECK(node.start(COLssmFastscan, nullptr, std::uint8_t{0}) == CO_ERR_NONE);
     node.rx("7E4#4F00000000000000");
     node.after(50ms);
@@ -276,7 +276,7 @@ TEST_CASE("LSS master: a full transmit queue is reported") {
   }
 }
 
-TEST_CASE("LSS master: answers are received from the first service on, until a reset") {
+TEST_CASE("LSS master: answers are received from the first service until a reset") {
   LssMaster node;
   const std::vector<std::uint32_t> without = node.can.filter;
   std::vector<std::uint32_t> with = without;
@@ -296,7 +296,7 @@ TEST_CASE("LSS master: answers are received from the first service on, until a r
   }
 }
 
-TEST_CASE("LSS master: the answers to the last request are counted, those after its end as well") {
+TEST_CASE("LSS master: the answers to the last request are counted, also after its end") {
   LssMaster node;
   node.run("7E5#1105000000000000", COLssmConfigureNodeId, std::uint8_t{5});
   node.rx("7E4#1300000000000000");  // response of another service

@@ -80,7 +80,7 @@ class Slaves {
   unsigned answers_ = 0;
 };
 
-TEST_CASE("LSS master fastscan: without an answer there is no slave without node-ID") {
+TEST_CASE("LSS master fastscan: without an answer there is no unconfigured slave") {
   LssMaster node;
   node.run("7E5#5100000000800000", COLssmFastscan, nullptr, std::uint8_t{0});
   node.after(49ms);
@@ -90,7 +90,7 @@ TEST_CASE("LSS master fastscan: without an answer there is no slave without node
   node.silent();
 }
 
-TEST_CASE("LSS master fastscan: bits from the highest, answered ones are 0; then the whole number leads to the next") {
+TEST_CASE("LSS master fastscan: tests each part from the highest bit, then its complete number, then the next part") {
   LssMaster node;
   node.run("7E5#5100000000800000", COLssmFastscan, nullptr, std::uint8_t{0});
   node.rx(identified);
@@ -116,7 +116,7 @@ TEST_CASE("LSS master fastscan: bits from the highest, answered ones are 0; then
   node.tx("7E5#51000000001F0101");
 }
 
-TEST_CASE("LSS master fastscan: finds each address in 133 requests, and leads from the last part to the first") {
+TEST_CASE("LSS master fastscan: finds each address in 133 requests, from the first part to the last") {
   const LssNumbers addresses[] = {{0, 0, 0, 0},
                                   {0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF},
                                   {0x00000319, 0x12345678, 0x00010002, 0x80000001},
@@ -133,7 +133,7 @@ TEST_CASE("LSS master fastscan: finds each address in 133 requests, and leads fr
   }
 }
 
-TEST_CASE("LSS master fastscan: of several slaves the lowest address is found, and no answer counts twice") {
+TEST_CASE("LSS master fastscan: the lowest address of several slaves is found; repeated answers count once") {
   LssMaster node;
   Slaves slaves(
       {{5, 7, 8, 0xFFFFFFFF}, {5, 7, 8, 0xFFFFFFFE}, {5, 6, 9, 1}, {5, 6, 9, 0x80000001}, {0x80000005, 0, 0, 0}});
@@ -143,7 +143,7 @@ TEST_CASE("LSS master fastscan: of several slaves the lowest address is found, a
   CHECK(slaves.selected == std::vector<std::size_t>{2});
 }
 
-TEST_CASE("LSS master fastscan: known parts are asked for once") {
+TEST_CASE("LSS master fastscan: known parts are requested once") {
   const LssNumbers one = {0x00000319, 0x12345678, 0x00010002, 0x80000001};
   for (unsigned num = 0; num <= 4; ++num) {
     LssMaster node;
@@ -156,7 +156,7 @@ TEST_CASE("LSS master fastscan: known parts are asked for once") {
   }
 }
 
-TEST_CASE("LSS master fastscan: no slave has the known parts") {
+TEST_CASE("LSS master fastscan: no slave has the known parts: the result is not found") {
   for (unsigned num = 1; num <= 4; ++num) {
     LssMaster node;
     Slaves slaves({{1, 2, 3, 4}, {5, 6, 7, 8}});
@@ -170,25 +170,25 @@ TEST_CASE("LSS master fastscan: no slave has the known parts") {
   }
 }
 
-TEST_CASE("LSS master fastscan: the known part is typed") {
+TEST_CASE("LSS master fastscan: the known part of an address is sent unchanged") {
   LssMaster node;
   node.run("7E5#5100000000800000", COLssmFastscan, lss_address, std::uint8_t{1});
   node.rx(identified);
   node.after(50ms);
   node.tx("7E5#5119030000000001");
-  SUBCASE("nobody has it") {
+  SUBCASE("no slave has it") {
     node.after(50ms);
     node.end(CO_LSSM_NOT_FOUND);
     node.silent();
   }
-  SUBCASE("somebody has it") {
+  SUBCASE("a slave has it") {
     node.rx(identified);
     node.after(50ms);
     node.tx("7E5#51000000001F0101");
   }
 }
 
-TEST_CASE("LSS master fastscan: a slave that is silent when its number is complete is lost") {
+TEST_CASE("LSS master fastscan: a slave that does not answer to its complete number is lost") {
   for (unsigned part = 0; part < 4; ++part) {
     LssMaster node;
     CHECK(node.start(COLssmFastscan, nullptr, std::uint8_t{0}) == CO_ERR_NONE);
@@ -205,7 +205,7 @@ TEST_CASE("LSS master fastscan: a slave that is silent when its number is comple
   }
 }
 
-TEST_CASE("LSS master fastscan: can be cancelled at each request") {
+TEST_CASE("LSS master fastscan: it can be cancelled at each request") {
   for (unsigned requests = 0; requests < 133; requests += stride(12)) {
     LssMaster node;
     CHECK(node.start(COLssmFastscan, nullptr, std::uint8_t{0}) == CO_ERR_NONE);

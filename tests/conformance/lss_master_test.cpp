@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("LSS master: each service sends its request, and ends with the answer of the slave") {
+TEST_CASE("LSS master: each service sends its request and ends with the answer of the slave") {
   for (const LssDialogue& dialogue : lss_dialogues()) {
     CAPTURE(dialogue.name);
     LssMaster node;
@@ -38,7 +38,7 @@ TEST_CASE("LSS master: an inquired value is passed to the callback") {
   CHECK(node.end(CO_LSSM_OK).value == 127);
 }
 
-TEST_CASE("LSS master: switch state global: no answer, the service lss_ends after 1 ms") {
+TEST_CASE("LSS master: switch state global has no answer and ends after 1 ms") {
   LssMaster node;
   node.run("7E5#0401000000000000", COLssmSwitchGlobal, lss_configuration);
   node.goes_on();
@@ -51,7 +51,7 @@ TEST_CASE("LSS master: switch state global: no answer, the service lss_ends afte
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: configure bit timing: table 0, its index for the bit rate") {
+TEST_CASE("LSS master: configure bit timing sends table 0 and the index of the bit rate") {
   const std::pair<std::uint32_t, const char*> rates[] = {
       {1000000, "7E5#1300000000000000"}, {800000, "7E5#1300010000000000"}, {500000, "7E5#1300020000000000"},
       {250000, "7E5#1300030000000000"},  {125000, "7E5#1300040000000000"}, {50000, "7E5#1300060000000000"},
@@ -64,7 +64,7 @@ TEST_CASE("LSS master: configure bit timing: table 0, its index for the bit rate
   }
 }
 
-TEST_CASE("LSS master: a refusal is reported with its error code, and that of the manufacturer") {
+TEST_CASE("LSS master: a refusal is reported with its error code and the manufacturer-specific one") {
   const char* refusals[][2] = {
       {"7E5#1120000000000000", "7E4#11"}, {"7E5#1300040000000000", "7E4#13"}, {"7E5#1700000000000000", "7E4#17"}};
   for (std::size_t n = 0; n < 3; ++n) {
@@ -84,7 +84,7 @@ TEST_CASE("LSS master: a refusal is reported with its error code, and that of th
   }
 }
 
-TEST_CASE("LSS master: without an answer a service lss_ends after its time, neither sooner nor later") {
+TEST_CASE("LSS master: without an answer a service ends exactly after its time-out") {
   for (const LssDialogue& dialogue : lss_dialogues()) {
     CAPTURE(dialogue.name);
     LssMaster node;
@@ -108,7 +108,7 @@ TEST_CASE("LSS master: without an answer a service lss_ends after its time, neit
   }
 }
 
-TEST_CASE("LSS master: times that the timer cannot count are its longest") {
+TEST_CASE("LSS master: times beyond the range of the timer are limited to the longest one") {
   LssMaster node(Setup().rate(1000000));
   node.times(UINT32_MAX, UINT32_MAX);
   node.run("7E5#1700000000000000", COLssmStore);
@@ -118,7 +118,7 @@ TEST_CASE("LSS master: times that the timer cannot count are its longest") {
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: no other command is taken for the answer") {
+TEST_CASE("LSS master: a frame with another command specifier is not accepted as the answer") {
   std::vector<LssDialogue> all = lss_dialogues();
   all.insert(all.end(), lss_searches().begin(), lss_searches().end());
   for (const LssDialogue& dialogue : all) {
@@ -139,7 +139,7 @@ TEST_CASE("LSS master: no other command is taken for the answer") {
   }
 }
 
-TEST_CASE("LSS master: frames of a wrong length and remote frames are no answers, and counted as malformed") {
+TEST_CASE("LSS master: frames of a wrong length and remote frames are malformed and no answers") {
   LssMaster node;
   node.run("7E5#5E00000000000000", COLssmInquireNodeId);
   const std::uint32_t before = node.counters().Malformed;
@@ -154,7 +154,7 @@ TEST_CASE("LSS master: frames of a wrong length and remote frames are no answers
   CHECK(node.end(CO_LSSM_OK).value == 5);
 }
 
-TEST_CASE("LSS master: what comes when nothing is awaited is ignored: late, double and unasked answers") {
+TEST_CASE("LSS master: late, repeated and unrequested answers are ignored") {
   for (const LssDialogue& dialogue : lss_dialogues()) {
     CAPTURE(dialogue.name);
     LssMaster node;
@@ -174,7 +174,7 @@ TEST_CASE("LSS master: what comes when nothing is awaited is ignored: late, doub
   }
 }
 
-TEST_CASE("LSS master: a late answer is none to the next service") {
+TEST_CASE("LSS master: a late answer is not accepted by the next service") {
   LssMaster node;
   for (std::size_t n = 4; n + 1 < lss_dialogues().size(); ++n) {
     start_all(node, lss_dialogues()[n]);
@@ -188,7 +188,7 @@ TEST_CASE("LSS master: a late answer is none to the next service") {
   }
 }
 
-TEST_CASE("LSS master: an answer before the request is complete is none") {
+TEST_CASE("LSS master: an answer before the request is complete is ignored") {
   LssMaster node;
   const LssDialogue& selective = lss_dialogues()[0];
   start(node, selective);
@@ -204,7 +204,7 @@ TEST_CASE("LSS master: an answer before the request is complete is none") {
   node.end(CO_LSSM_OK);
 }
 
-TEST_CASE("LSS master: identify: answers are awaited for the whole time, however many come") {
+TEST_CASE("LSS master: identify waits for the whole time, however many answers are received") {
   for (const LssDialogue& dialogue : lss_searches()) {
     CAPTURE(dialogue.name);
     LssMaster node;
@@ -227,7 +227,7 @@ TEST_CASE("LSS master: identify: answers are awaited for the whole time, however
 }
 
 #if USE_LSS
-TEST_CASE("LSS master: a node is slave and master at the same time") {
+TEST_CASE("LSS master: a node can be slave and master at the same time") {
   Setup setup;
   for (std::uint8_t sub = 1; sub <= 4; ++sub) {
     setup.with({CO_KEY(0x1018, sub, CO_OBJ_D___R_), CO_TUNSIGNED32, sub});

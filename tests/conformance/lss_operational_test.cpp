@@ -65,7 +65,7 @@ class Device {
 };
 
 #if USE_LSS && CO_LSS_IN_OPERATIONAL
-TEST_CASE("LSS, activate bit timing in Operational: the node leaves it first, by 1029h:1 to Stopped") {
+TEST_CASE("LSS, activate bit timing in Operational: the node first enters the state of 1029h:1") {
   struct Case {
     std::uint8_t behaviour;
     CO_MODE mode;
@@ -92,7 +92,7 @@ TEST_CASE("LSS, activate bit timing in Operational: the node leaves it first, by
   }
 }
 
-TEST_CASE("LSS, activate bit timing with delay 0 in Operational: the node leaves it, too") {
+TEST_CASE("LSS, activate bit timing with delay 0 in Operational: the node leaves Operational") {
   Device device;
   device.node.rx(start);
   device.node.rx(lss_to_configuration);
@@ -102,7 +102,7 @@ TEST_CASE("LSS, activate bit timing with delay 0 in Operational: the node leaves
   device.applies_nothing();
 }
 
-TEST_CASE("LSS, activate bit timing: Pre-operational and Stopped do not change, for any value of 1029h:1") {
+TEST_CASE("LSS, activate bit timing: Pre-operational and Stopped are kept for any value of 1029h:1") {
   for (const std::uint8_t behaviour : {std::uint8_t{0}, std::uint8_t{2}}) {
     for (const char* command : {"000#8001", "000#0201"}) {
       Device device(behaviour);
@@ -116,7 +116,7 @@ TEST_CASE("LSS, activate bit timing: Pre-operational and Stopped do not change, 
   }
 }
 
-TEST_CASE("LSS, activate bit timing: in a node that is started during the switch no RPDO is applied") {
+TEST_CASE("LSS, activate bit timing: a node that is started during the switch applies no RPDO") {
   Device device;
   SyncNode& node = device.node;
   device.take_over();
@@ -133,7 +133,7 @@ TEST_CASE("LSS, activate bit timing: in a node that is started during the switch
   device.applies_both();
 }
 
-TEST_CASE("LSS, activate bit timing: CONmtModeChange() may stop the node: nothing is switched") {
+TEST_CASE("LSS, activate bit timing: if CONmtModeChange() stops the node the bit rate is not switched") {
   for (const char* request : {"7E5#1564000000000000", "7E5#1500000000000000"}) {
     Device device;
     SyncNode& node = device.node;
@@ -155,7 +155,7 @@ TEST_CASE("LSS, activate bit timing: CONmtModeChange() may stop the node: nothin
 #endif
 
 #if USE_LSS
-TEST_CASE("LSS in Operational: served or not, by CO_LSS_IN_OPERATIONAL; in the other states always") {
+TEST_CASE("LSS in Operational: served if CO_LSS_IN_OPERATIONAL; in the other states always") {
   const std::vector<std::string> node_id = {"7E4#5E01000000000000"};
   const std::vector<std::string> nothing;
   for (const char* command : {"000#8001", start, "000#0201"}) {
@@ -172,7 +172,7 @@ TEST_CASE("LSS in Operational: served or not, by CO_LSS_IN_OPERATIONAL; in the o
   }
 }
 
-TEST_CASE("LSS in Operational: a node that is started in the state configuration stays in it") {
+TEST_CASE("LSS in Operational: a node that is started in the state configuration stays in that state") {
   Device device;
   device.node.rx(lss_to_configuration);
   device.node.rx(start);
@@ -182,7 +182,7 @@ TEST_CASE("LSS in Operational: a node that is started in the state configuration
   CHECK(device.node.frames().empty() == (CO_LSS_IN_OPERATIONAL != 0));
 }
 
-TEST_CASE("LSS: a node without node-ID is served") {
+TEST_CASE("LSS: a node without node-ID processes LSS services") {
   Device device(Device::absent, [](Setup& setup) { setup.node_id(255); });
   select_lss_slave(device.node);
   device.node.tx("7E4#4400000000000000");
@@ -192,7 +192,7 @@ TEST_CASE("LSS: a node without node-ID is served") {
 #endif
 
 #if USE_LSS_MASTER
-TEST_CASE("LSS master in Operational: while it switches the bit rate no RPDO is applied") {
+TEST_CASE("LSS master in Operational: no RPDO is applied while it switches the bit rate") {
   Device device;
   SyncNode& node = device.node;
   node.rx(start);

@@ -51,7 +51,7 @@ TEST_CASE("LSS: in the state waiting, configuration services are ignored [L1]") 
   CHECK(node.can.init_calls == 1);
 }
 
-TEST_CASE("LSS: switch state global: no answer; configuration and back [L2]") {
+TEST_CASE("LSS: switch state global is not answered and switches to configuration and back [L2]") {
   Fixture node(slave());
   node.rx(to_configuration);
   node.silent();
@@ -63,14 +63,14 @@ TEST_CASE("LSS: switch state global: no answer; configuration and back [L2]") {
   node.silent();
 }
 
-TEST_CASE("LSS: switch state selective: answered after the whole address [L2]") {
+TEST_CASE("LSS: switch state selective is answered after the whole address [L2]") {
   Fixture node(slave());
   select(node);
   node.tx("7E4#4400000000000000");
   node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
 }
 
-TEST_CASE("LSS: switch state selective: each part has to match, in the order of the address [L2]") {
+TEST_CASE("LSS: switch state selective: each part must match, in the order of the address [L2]") {
   const char* parts[] = {"7E5#4019030000000000", "7E5#4178563412000000", "7E5#4202000100000000",
                          "7E5#4344000000000000"};
   for (unsigned wrong = 0; wrong < 4; ++wrong) {
@@ -98,7 +98,7 @@ TEST_CASE("LSS: in the state configuration, switch state selective is ignored") 
   device.node.silent();
 }
 
-TEST_CASE("LSS: configure node-ID: 1…127 and 255 are taken, any other is refused with 1 and changes nothing [L3]") {
+TEST_CASE("LSS: configure node-ID: 1…127 and 255 are accepted, any other value is refused with 1 [L3]") {
   for (unsigned id = 0; id <= 255; ++id) {
     CAPTURE(id);
     Configured device;
@@ -112,7 +112,7 @@ TEST_CASE("LSS: configure node-ID: 1…127 and 255 are taken, any other is refus
   }
 }
 
-TEST_CASE("LSS: a new node-ID is the node's after NMT reset communication, and not before [L7]") {
+TEST_CASE("LSS: a new node-ID becomes active with NMT reset communication, not before [L7]") {
   Configured device;
   Fixture& node = device.node;
   node.ask("7E5#1105000000000000", "7E4#1100000000000000");
@@ -124,7 +124,7 @@ TEST_CASE("LSS: a new node-ID is the node's after NMT reset communication, and n
   node.silent();
 }
 
-TEST_CASE("LSS: a node-ID that was not stored is gone after NMT reset node [L7]") {
+TEST_CASE("LSS: a node-ID that was not stored is lost with NMT reset node [L7]") {
   Configured device;
   Fixture& node = device.node;
   node.ask("7E5#1105000000000000", "7E4#1100000000000000");
@@ -136,7 +136,7 @@ TEST_CASE("LSS: a node-ID that was not stored is gone after NMT reset node [L7]"
     node.ask("000#8201", "705#00");
     node.ask("000#8105", "701#00");
   }
-  SUBCASE("a node without one of its own waits for one again") {
+  SUBCASE("a node without an active node-ID becomes unconfigured again") {
     Configured nameless(no_node_id);
     nameless.node.ask("7E5#1105000000000000", "7E4#1100000000000000");
     nameless.node.ask(to_waiting, "705#00");
@@ -146,7 +146,7 @@ TEST_CASE("LSS: a node-ID that was not stored is gone after NMT reset node [L7]"
   }
 }
 
-TEST_CASE("LSS: a stored node-ID stays after NMT reset node, and so does one that the application has set [L7]") {
+TEST_CASE("LSS: a node-ID that was stored or set by the application is kept by NMT reset node [L7]") {
   SUBCASE("stored") {
     std::uint8_t stored = 1;
     callbacks().lss_store = [&](std::uint32_t, std::uint8_t id) { return stored = id, CO_ERR_NONE; };
@@ -158,7 +158,7 @@ TEST_CASE("LSS: a stored node-ID stays after NMT reset node, and so does one tha
     callbacks().lss_store = nullptr;
     callbacks().lss_load = nullptr;
   }
-  SUBCASE("of the application") {
+  SUBCASE("set by the application") {
     Fixture node(slave().stay_in_init());
     node.call([&] {
       CONmtSetNodeId(&node->Nmt, 7);
@@ -170,7 +170,7 @@ TEST_CASE("LSS: a stored node-ID stays after NMT reset node, and so does one tha
   }
 }
 
-TEST_CASE("LSS: configure bit timing: table 0, index 0…8 without 5; any other is refused with 1 [L4]") {
+TEST_CASE("LSS: configure bit timing: table 0 and index 0…8 without 5 are accepted, others are refused with 1 [L4]") {
   const std::map<unsigned, std::uint32_t> rates = {{0, 1000000}, {1, 800000}, {2, 500000}, {3, 250000},
                                                    {4, 125000},  {6, 50000},  {7, 20000},  {8, 10000}};
   for (const unsigned table : {0U, 1U, 128U, 255U}) {
@@ -188,7 +188,7 @@ TEST_CASE("LSS: configure bit timing: table 0, index 0…8 without 5; any other 
   }
 }
 
-TEST_CASE("LSS: activate bit timing: nothing is sent for the delay, the switch, and the delay again [L4]") {
+TEST_CASE("LSS: activate bit timing: nothing is sent for the delay, the switch and a second delay [L4]") {
   Fixture node(slave().heartbeat(30));
   node.rx(to_configuration);
   node.ask("7E5#1300020000000000", "7E4#1300000000000000");
@@ -217,7 +217,7 @@ TEST_CASE("LSS: activate bit timing with delay 0 switches at once [L4] [D50]") {
   device.node.ask("601#4000100000000000", "581#4300100091010F00");
 }
 
-TEST_CASE("LSS: activate bit timing, and the node is stopped or reset meanwhile: it goes on") {
+TEST_CASE("LSS: activate bit timing is completed if the node is stopped or reset meanwhile") {
   Configured device;
   Fixture& node = device.node;
   node.ask("7E5#1300020000000000", "7E4#1300000000000000");
@@ -229,7 +229,7 @@ TEST_CASE("LSS: activate bit timing, and the node is stopped or reset meanwhile:
   CHECK(node.can.baud == 500000);
 }
 
-TEST_CASE("LSS: frames of other than 8 bytes are malformed: counted, without effect [L1]") {
+TEST_CASE("LSS: frames of other than 8 bytes are malformed: counted and without effect [L1]") {
   Fixture node(slave());
   for (const char* request : {"7E5#04010000000000", "7E5#0401", "7E5#"}) {
     const std::uint32_t before = node.counters().Malformed;
@@ -240,7 +240,7 @@ TEST_CASE("LSS: frames of other than 8 bytes are malformed: counted, without eff
   node.silent();
 }
 
-TEST_CASE("LSS: while the bit rate is switched LSS requests are ignored, not answered afterwards [L4]") {
+TEST_CASE("LSS: requests during the switch of the bit rate are ignored and not answered afterwards [L4]") {
   Configured device;
   device.node.rx("7E5#1564000000000000");
   device.node.rx("7E5#5E00000000000000");
@@ -252,7 +252,7 @@ TEST_CASE("LSS: while the bit rate is switched LSS requests are ignored, not ans
   device.node.ask("7E5#5E00000000000000", "7E4#5E01000000000000");
 }
 
-TEST_CASE("LSS: a node that is stopped while the bit rate is switched leaves its controller alone") {
+TEST_CASE("LSS: a node that is stopped during the switch of the bit rate does not change its controller") {
   for (const Time elapsed : {Time{50ms}, Time{150ms}}) {
     Configured device;
     device.node.rx("7E5#1564000000000000");
@@ -266,7 +266,7 @@ TEST_CASE("LSS: a node that is stopped while the bit rate is switched leaves its
   }
 }
 
-TEST_CASE("LSS: store: the pending values are passed to the application, whose result is sent [L5]") {
+TEST_CASE("LSS: store passes the pending values to the application, whose result is sent [L5]") {
   Configured device;
   Fixture& node = device.node;
   std::uint32_t baud = 0;
@@ -286,7 +286,7 @@ TEST_CASE("LSS: store: the pending values are passed to the application, whose r
   CHECK(node.error() == CO_ERR_LSS_STORE);
 }
 
-TEST_CASE("LSS: what was stored is loaded at power-on: node-ID and bit rate") {
+TEST_CASE("LSS: stored node-ID and bit rate are loaded at power-on") {
   callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t* id) {
     CHECK(*baud == 250000);
     CHECK(*id == 1);
@@ -300,7 +300,7 @@ TEST_CASE("LSS: what was stored is loaded at power-on: node-ID and bit rate") {
   node.tx("709#00");
 }
 
-TEST_CASE("LSS: store: a node without storage answers that it is not supported [L5]") {
+TEST_CASE("LSS: store is answered with not supported by a node without storage [L5]") {
   CO_NODE* device = nullptr;
   callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(device, 0, baud, id); };
   Configured slave;
@@ -310,7 +310,7 @@ TEST_CASE("LSS: store: a node without storage answers that it is not supported [
   callbacks().lss_store = nullptr;
 }
 
-TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
+TEST_CASE("LSS: node-ID and bit rate are kept over power off in the memory of the node") {
   FailingNvm nvm({64, 1, 0});
   CO_NODE* device = nullptr;
   callbacks().lss_store = [&](std::uint32_t baud, std::uint8_t id) { return COLssNvmStore(device, 0, baud, id); };
@@ -343,7 +343,7 @@ TEST_CASE("LSS: node-ID and bit rate survive power off in the node's memory") {
   CHECK(COLssNvmStore(nullptr, 0, baud, id) == CO_ERR_BAD_ARG);
 }
 
-TEST_CASE("LSS: a failure to load is reported, and the node keeps node-ID and bit rate") {
+TEST_CASE("LSS: a failed load is reported; node-ID and bit rate are kept") {
   SUBCASE("error") {
     callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) {
       *baud = 5;
@@ -363,7 +363,7 @@ TEST_CASE("LSS: a failure to load is reported, and the node keeps node-ID and bi
   callbacks().lss_load = nullptr;
 }
 
-TEST_CASE("LSS: inquire: the four parts of the address and the node-ID [L6]") {
+TEST_CASE("LSS: inquire returns the four parts of the address and the node-ID [L6]") {
   Configured device(0x7F);
   Fixture& node = device.node;
   node.ask("7E5#5A00000000000000", "7E4#5A19030000000000");
@@ -402,7 +402,7 @@ TEST_CASE("LSS: identify remote slave: equal vendor-ID and product code, revisio
   }
 }
 
-TEST_CASE("LSS: identify non-configured: answered by nodes without node-ID alone [L6] [D50]") {
+TEST_CASE("LSS: identify non-configured is answered only by nodes without node-ID [L6] [D50]") {
   Fixture with(slave());
   with.rx("7E5#4C00000000000000");
   with.silent();
@@ -425,7 +425,7 @@ TEST_CASE("LSS: a node without node-ID sends no boot-up and no heartbeat, and pr
   node.silent();
 }
 
-TEST_CASE("LSS: a node without node-ID gets to work when it is switched to waiting with one [L7]") {
+TEST_CASE("LSS: an unconfigured node boots when it is switched to waiting with a pending node-ID [L7]") {
   Fixture node(slave(no_node_id));
   node.rx(to_configuration);
   node.ask("7E5#5E00000000000000", "7E4#5EFF000000000000");
@@ -450,7 +450,7 @@ TEST_CASE("LSS: node-ID 255 makes a node unconfigured at the next reset communic
   node.ask(to_waiting, "703#00");
 }
 
-TEST_CASE("LSS: frames of the application wait for the boot-up message of a node without node-ID") {
+TEST_CASE("LSS: frames of the application are queued until the boot-up message of an unconfigured node") {
   Fixture node(slave(no_node_id));
   const auto send = [&] {
     CO_IF_FRM frm = frame("123#AA");
@@ -481,7 +481,7 @@ TEST_CASE("LSS: a node that its application stops in COLssLoad() or COLssStore()
   CHECK(other.node.mode() == CO_INVALID);
 }
 
-TEST_CASE("LSS: the bit rate that is activated is the one of that moment, whatever a reset loads meanwhile") {
+TEST_CASE("LSS: the bit rate pending at the time of activation is used, whatever a reset loads meanwhile") {
   callbacks().lss_load = [](std::uint32_t* baud, std::uint8_t*) { return *baud = 500000, CO_ERR_NONE; };
   Fixture node(slave());
   callbacks().lss_load = nullptr;
@@ -497,7 +497,7 @@ TEST_CASE("LSS: the bit rate that is activated is the one of that moment, whatev
   CHECK(node.can.baud == 250000);
 }
 
-TEST_CASE("LSS: the longest switch delay is longer than a fast timer can count, and does not end at once") {
+TEST_CASE("LSS: the longest switch delay works with a fast timer that cannot count it at once") {
   Fixture node(slave().rate(72000000));
   node.rx(to_configuration);
   node.ask("7E5#1300030000000000", "7E4#1300000000000000");
@@ -507,7 +507,7 @@ TEST_CASE("LSS: the longest switch delay is longer than a fast timer can count, 
   CHECK(node.can.init_calls == 1);
 }
 
-TEST_CASE("LSS: a node that waits is given a node-ID by its application: LSS goes on, and starts it") {
+TEST_CASE("LSS: a node-ID that the application sets starts an unconfigured node, and LSS continues") {
   Fixture node(slave(no_node_id));
   node.rx(to_configuration);
   node.call([&] { CONmtSetNodeId(&node->Nmt, 5); });
@@ -516,7 +516,7 @@ TEST_CASE("LSS: a node that waits is given a node-ID by its application: LSS goe
   node.ask("605#4000100000000000", "585#4300100091010F00");
 }
 
-TEST_CASE("LSS: before CONodeStart() a node is silent") {
+TEST_CASE("LSS: before CONodeStart() a node does not answer") {
   for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
     Fixture node(slave(id).stay_in_init());
     node.rx("7E5#4C00000000000000");
@@ -526,7 +526,7 @@ TEST_CASE("LSS: before CONodeStart() a node is silent") {
   }
 }
 
-TEST_CASE("LSS: without the whole address in 1018h there is no LSS") {
+TEST_CASE("LSS: without the complete address in 1018h no LSS request is answered") {
   for (std::uint8_t sub = 1; sub <= 4; ++sub) {
     Fixture node(slave().without(0x1018, sub));
     node.rx(to_configuration);
@@ -545,7 +545,7 @@ TEST_CASE("LSS: frames of a wrong length, remote frames and unknown commands are
 }
 
 // Sends every command byte in each LSS state, with and without node-ID.
-TEST_CASE("LSS: no command byte but those of CiA 305 is answered [L1]") {
+TEST_CASE("LSS: only command specifiers of CiA 305 are answered [L1]") {
   for (const std::uint8_t id : {std::uint8_t{1}, no_node_id}) {
     for (const bool configuration : {false, true}) {
       for (unsigned command = 0; command <= 255; ++command) {
@@ -565,7 +565,7 @@ TEST_CASE("LSS: no command byte but those of CiA 305 is answered [L1]") {
   }
 }
 
-TEST_CASE("LSS: services are served in every NMT state, in Operational by CO_LSS_IN_OPERATIONAL") {
+TEST_CASE("LSS: services are processed in every NMT state; in Operational if CO_LSS_IN_OPERATIONAL") {
   for (const char* state : {"000#8001", "000#0101", "000#0201"}) {
     Fixture node(slave());
     node.rx(state);

@@ -25,7 +25,7 @@ void receive(Fixture& node, const char* text) { node.can.to_node.push_back(frame
 constexpr const char* request = "601#4000100000000000";
 constexpr const char* answer = "581#4300100091010F00";
 
-TEST_CASE("mode change: CONodeProcess within CONmtModeChange does nothing, the frame is served by the next call") {
+TEST_CASE("mode change: CONodeProcess within CONmtModeChange reads no frame; the next call processes it") {
   for (const CO_MODE mode : {CO_OPERATIONAL, CO_PREOP}) {
     CAPTURE(mode);
     Fixture node;
@@ -41,7 +41,7 @@ TEST_CASE("mode change: CONodeProcess within CONmtModeChange does nothing, the f
   }
 }
 
-TEST_CASE("mode change: a request that CONodeProcess finds on the way to Stopped goes to the application afterwards") {
+TEST_CASE("mode change: a frame read by CONodeProcess before Stopped is passed to the application after the change") {
   Fixture node;
   const Nested nested(node);
   unsigned received = 0;
@@ -54,7 +54,7 @@ TEST_CASE("mode change: a request that CONodeProcess finds on the way to Stopped
   CHECK(received == 1);
 }
 
-TEST_CASE("mode change: an NMT command that CONodeProcess finds within the change is obeyed after it, not instead") {
+TEST_CASE("mode change: an NMT command that CONodeProcess reads within the change is carried out after it") {
   Fixture node;
   const Nested nested(node);
   receive(node, "000#0201");
@@ -88,7 +88,7 @@ TEST_CASE("mode change: CONodeProcess within the change to Pre-operational and i
   node.tx(answer);
 }
 
-TEST_CASE("mode change: CONodeProcess within a change that a frame has commanded does nothing") {
+TEST_CASE("mode change: CONodeProcess within a change that an NMT command has caused does nothing") {
   Fixture node;
   const Nested nested(node);
   receive(node, "000#0101");
@@ -101,7 +101,7 @@ TEST_CASE("mode change: CONodeProcess within a change that a frame has commanded
   node.tx(answer);
 }
 
-TEST_CASE("mode change: CONodeProcess within CONodeStop serves nothing, then or later") {
+TEST_CASE("mode change: CONodeProcess within CONodeStop processes no frame, then or later") {
   Fixture node;
   const Nested nested(node);
   receive(node, request);
@@ -112,7 +112,7 @@ TEST_CASE("mode change: CONodeProcess within CONodeStop serves nothing, then or 
   CHECK(node.mode() == CO_INVALID);
 }
 
-TEST_CASE("mode change: frames that wait for the controller are not offered within CONmtModeChange, but afterwards") {
+TEST_CASE("mode change: queued frames are sent after CONmtModeChange, not within it") {
   Fixture node;
   node.can.refuse_all();
   node.rx(request);

@@ -28,7 +28,7 @@ void without_lists(Setup& setup) {
 
 // Sub 0 ---------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("MPDO configuration: the whole procedure, for all four kinds [M1]") {
+TEST_CASE("MPDO configuration: the re-mapping procedure works for all four kinds [M1]") {
   MpdoNode node;
   node.start();
   CHECK(node.set(0x1FD0, 1, 8, 0x0122010160000105) == 0);
@@ -63,7 +63,7 @@ TEST_CASE("MPDO configuration: the whole procedure, for all four kinds [M1]") {
   node.tx("181#C1");
 }
 
-TEST_CASE("MPDO configuration: without lists there is no source addressing: 0604 0042h, and sub 0 is 0 [M6] [M7]") {
+TEST_CASE("MPDO configuration: without lists source addressing is refused with 0604 0042h and sub 0 is 0 [M6] [M7]") {
   MpdoNode node({}, without_lists);
   node.ask("601#2F001600FE000000", "581#8000160042000406");
   node.ask("601#2F001A00FE000000", "581#80001A0042000406");
@@ -73,7 +73,7 @@ TEST_CASE("MPDO configuration: without lists there is no source addressing: 0604
   node.ask("601#2F001A00FF000000", "581#60001A0000000000");
 }
 
-TEST_CASE("MPDO configuration: numbers between those of objects and FEh are refused with 0604 0042h [M6]") {
+TEST_CASE("MPDO configuration: numbers between CO_PDO_MAP_N and FEh are refused with 0604 0042h [M6]") {
   MpdoNode node;
   for (unsigned number = CO_PDO_MAP_N + 1; number < 0xFE; ++number) {
     CAPTURE(number);
@@ -82,7 +82,7 @@ TEST_CASE("MPDO configuration: numbers between those of objects and FEh are refu
   }
 }
 
-TEST_CASE("MPDO configuration: only event-driven PDOs: 0604 0043h, and sub 0 is 0 [301:7.2.3]") {
+TEST_CASE("MPDO configuration: PDOs that are not event-driven are refused with 0604 0043h and sub 0 is 0 [301:7.2.3]") {
   MpdoNode node;
   for (unsigned type = 0; type <= 255; ++type) {
     CAPTURE(type);
@@ -101,7 +101,7 @@ TEST_CASE("MPDO configuration: only event-driven PDOs: 0604 0043h, and sub 0 is 
   }
 }
 
-TEST_CASE("MPDO configuration: the type may change while the PDO does not exist, which then cannot [301:7.2.3] [P6]") {
+TEST_CASE("MPDO configuration: switching on a PDO with a type that is not event-driven is refused [301:7.2.3] [P6]") {
   if (USE_SYNC == 0) {
     return;
   }
@@ -123,7 +123,7 @@ TEST_CASE("MPDO configuration: the type may change while the PDO does not exist,
   CHECK(node.set(0x1800, 2, 1, 254) == 0);
 }
 
-TEST_CASE("MPDO configuration: sub 0 and entries are written as those of any PDO [M2] [M3]") {
+TEST_CASE("MPDO configuration: sub 0 and entries are written like those of any PDO [M2] [M3]") {
   MpdoTable table;
   table.rpdo[0].on(0x201, 255, {}).number = dam;
   MpdoNode node(table);
@@ -137,7 +137,7 @@ TEST_CASE("MPDO configuration: sub 0 and entries are written as those of any PDO
   CHECK(node.set(0x1600, 0, 1, dam) == 0);
 }
 
-TEST_CASE("MPDO configuration: one TPDO has the scanner list; a second is refused [301:7.2.3]") {
+TEST_CASE("MPDO configuration: a second TPDO with the scanner list is refused [301:7.2.3]") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -161,7 +161,7 @@ TEST_CASE("MPDO configuration: one TPDO has the scanner list; a second is refuse
   node.tx("181#0101220111000000");
 }
 
-TEST_CASE("MPDO configuration: of two TPDOs with source addressing in the table the first exists, after resets, too") {
+TEST_CASE("MPDO configuration: the first of two TPDOs with source addressing in the table exists, also after resets") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -181,7 +181,7 @@ TEST_CASE("MPDO configuration: of two TPDOs with source addressing in the table 
   }
 }
 
-TEST_CASE("MPDO configuration: after a reset another TPDO may have the scanner list") {
+TEST_CASE("MPDO configuration: after a reset another TPDO may use the scanner list") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -202,7 +202,7 @@ TEST_CASE("MPDO configuration: after a reset another TPDO may have the scanner l
   node.tx("181#0101220111000000");
 }
 
-TEST_CASE("MPDO configuration: CODictInit() with another table gives the scanner list to a TPDO, or takes it") {
+TEST_CASE("MPDO configuration: CODictInit() with another table adds or removes the TPDO of the scanner list") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -267,7 +267,7 @@ struct Row {
   std::uint32_t abort;
 };
 
-TEST_CASE("MPDO scanner list: entries name objects that a TPDO could map, of up to 4 bytes [301:7.5.2.39] [M4] [M5]") {
+TEST_CASE("MPDO scanner list: entries must be objects that a TPDO can map, of up to 4 bytes [301:7.5.2.39] [M4] [M5]") {
   const Row rows[] = {
       {0x01220101, 0},                   // UNSIGNED8
       {0x00220301, 0},                   // UNSIGNED24; block size 0 is one object
@@ -298,7 +298,8 @@ TEST_CASE("MPDO scanner list: entries name objects that a TPDO could map, of up 
   CHECK(node.set(0x1FA0, 1, 2, 0x2201) == 0x06070013);
 }
 
-TEST_CASE("MPDO dispatching list: own objects are those that an RPDO could map, of up to 4 bytes [301:7.5.2.40] [M4]") {
+TEST_CASE(
+    "MPDO dispatching list: local objects must be objects that an RPDO can map, of up to 4 bytes [301:7.5.2.40] [M4]") {
   const Row rows[] = {
       {0x0122010160000105, 0},
       {0x0022030160000101, 0},
@@ -329,7 +330,7 @@ TEST_CASE("MPDO dispatching list: own objects are those that an RPDO could map, 
   }
 }
 
-TEST_CASE("MPDO scanner list: not more objects than the node can hold: 0604 0042h [301:7.5.2.39]") {
+TEST_CASE("MPDO scanner list: more objects than the node can store are refused with 0604 0042h [301:7.5.2.39]") {
   static_assert(CO_MPDO_SCAN_N == 16);
   MpdoNode node;
   CHECK(node.set(0x1FA0, 1, 4, 0x08220101) == 0);
@@ -341,7 +342,7 @@ TEST_CASE("MPDO scanner list: not more objects than the node can hold: 0604 0042
   CHECK(node.set(0x1FA0, 2, 4, 0x01220401) == 0);
 }
 
-TEST_CASE("MPDO scanner list: what does not fit leaves the list as it was [301:7.5.2.39]") {
+TEST_CASE("MPDO scanner list: a refused entry leaves the list unchanged [301:7.5.2.39]") {
   MpdoTable table;
   table.scan = {0x08220101, 0x04220201, 0x04220401};
   table.tpdo[0].on(0x40000181, 255, {}).number = sam;
@@ -364,7 +365,7 @@ TEST_CASE("MPDO scanner list: missing space is reported before any other error [
   CHECK(node.get(0x1FA0, 4) == 0);
 }
 
-TEST_CASE("MPDO dispatching list: not more entries than the node can hold: 0604 0042h [301:7.5.2.40]") {
+TEST_CASE("MPDO dispatching list: more entries than the node can store are refused with 0604 0042h [301:7.5.2.40]") {
   static_assert(CO_MPDO_DISPATCH_N == 16);
   std::array<std::uint64_t, 17> list{};
   MpdoNode node({}, [&](Setup& setup) {
@@ -381,7 +382,7 @@ TEST_CASE("MPDO dispatching list: not more entries than the node can hold: 0604 
   CHECK(node.set(0x1FD0, 17, 8, 0x0122010260006005) == 0);
 }
 
-TEST_CASE("MPDO lists: with plain types they are read when the PDO is switched on") {
+TEST_CASE("MPDO lists: entries of basic types are read when the PDO is switched on") {
   MpdoTable table;
   table.tpdo[0].on(0x40000181, 255, {}).number = sam;
   table.rpdo[0].on(0x201, 255, {}).number = sam;
@@ -403,7 +404,7 @@ TEST_CASE("MPDO lists: with plain types they are read when the PDO is switched o
   CHECK(node.u8[1] == 0xA1);
 }
 
-TEST_CASE("MPDO lists: 1FCFh and 1FFFh are the last of them; the next index is none [301:7.5.2.39-40]") {
+TEST_CASE("MPDO lists: 1FCFh and 1FFFh are the last indices; the next one is no list [301:7.5.2.39-40]") {
   MpdoTable table;
   table.tpdo[0].on(0x40000181, 255, {}).number = sam;
   table.rpdo[0].on(0x201, 255, {}).number = sam;
@@ -478,7 +479,7 @@ constexpr CO_OBJ constant_table[] = {
 };
 CO_OD_CHECK(constant_table);
 
-TEST_CASE("MPDO lists: values in the entries themselves (flag D)") {
+TEST_CASE("MPDO lists: values may be stored in the entries (flag D)") {
   MpdoTable table;
   table.tpdo[0].on(0x40000181, 255, {}).number = sam;
   MpdoNode node(table, [](Setup& setup) {
@@ -491,7 +492,7 @@ TEST_CASE("MPDO lists: values in the entries themselves (flag D)") {
 
 #if USE_DICT_CHECK
 
-TEST_CASE("MPDO lists: their types belong to their places") {
+TEST_CASE("MPDO lists: their types are accepted at their indices only") {
   std::uint32_t word = 0;
   std::uint64_t longer = 0;
   const CO_OBJ wrong[] = {

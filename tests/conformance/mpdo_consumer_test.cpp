@@ -39,7 +39,7 @@ bool was_received(PdoNode& node, std::uint16_t index, std::uint8_t sub) {
 
 // Destination address mode --------------------------------------------------------------------------------------------
 
-TEST_CASE("MPDO destination: an object of 1, 2, 3 and 4 bytes takes the first bytes of the data [301:7.2.3]") {
+TEST_CASE("MPDO destination: an object of 1 to 4 bytes is written from the first bytes of the data [301:7.2.3]") {
   MpdoNode node(to_destination());
   node.start();
   node.rx("201#81012201A1A2A3A4");
@@ -59,7 +59,7 @@ TEST_CASE("MPDO destination: an object of 1, 2, 3 and 4 bytes takes the first by
   node.silent();
 }
 
-TEST_CASE("MPDO destination: node-ID 0 is every node [301:7.2.3]") {
+TEST_CASE("MPDO destination: node-ID 0 addresses every node [301:7.2.3]") {
   MpdoNode node(to_destination(), [](Setup& setup) { setup.node_id(5); });
   node.rx("000#0105");
   node.rx("201#80012201A1000000");
@@ -71,7 +71,7 @@ TEST_CASE("MPDO destination: node-ID 0 is every node [301:7.2.3]") {
   node.silent();
 }
 
-TEST_CASE("MPDO destination: what is meant for another node is as if it did not come [301:7.2.3]") {
+TEST_CASE("MPDO destination: a frame for another node is ignored [301:7.2.3]") {
   MpdoTable table = to_destination();
   table.rpdo[0].event = 100;
   MpdoNode node(table);
@@ -100,7 +100,7 @@ TEST_CASE("MPDO destination: a frame with source addressing is malformed [301:7.
   CHECK_FALSE(was_received(node, 0));
 }
 
-TEST_CASE("MPDO destination: an object that is not there is not written: EMCY 8230h [301:7.2.7.1]") {
+TEST_CASE("MPDO destination: a missing object is reported with EMCY 8230h [301:7.2.7.1]") {
   const char* const frames[] = {
       "201#81003001A1000000",  // no such index
       "201#80012209A1000000",  // no such sub-index
@@ -127,7 +127,7 @@ TEST_CASE("MPDO destination: an object that is not there is not written: EMCY 82
   }
 }
 
-TEST_CASE("MPDO destination: 8230h is sent once, until an object is written, which resolves it [E1] [E2]") {
+TEST_CASE("MPDO destination: 8230h is sent once and resolved when an object is written [E1] [E2]") {
   MpdoNode node(to_destination());
   node.start();
   node.rx("201#8100300100000000");
@@ -144,7 +144,7 @@ TEST_CASE("MPDO destination: 8230h is sent once, until an object is written, whi
   CHECK(node.objects.error_register == 0);
 }
 
-TEST_CASE("MPDO destination: several PDOs have their faults independently") {
+TEST_CASE("MPDO destination: faults of several PDOs are reported and resolved independently") {
   if (fixture_rpdos < 2) {
     return;
   }
@@ -160,7 +160,7 @@ TEST_CASE("MPDO destination: several PDOs have their faults independently") {
   CHECK(node.u8[1] == 0xA2);
 }
 
-TEST_CASE("MPDO destination: every frame has 8 bytes, shorter ones are not processed: EMCY 8210h [X5]") {
+TEST_CASE("MPDO destination: frames of less than 8 bytes are not processed: EMCY 8210h [X5]") {
   for (std::uint8_t dlc = 0; dlc < 8; ++dlc) {
     CAPTURE(unsigned{dlc});
     MpdoNode node(to_destination());
@@ -175,7 +175,7 @@ TEST_CASE("MPDO destination: every frame has 8 bytes, shorter ones are not proce
   }
 }
 
-TEST_CASE("MPDO destination: only in Operational [X9]") {
+TEST_CASE("MPDO destination: frames are processed only in Operational [X9]") {
   MpdoNode node(to_destination());
   node.rx("201#81012201A1000000");
   node.rx("201#8100300100000000");
@@ -185,7 +185,7 @@ TEST_CASE("MPDO destination: only in Operational [X9]") {
   CHECK(node.u8[0] == 0x11);
 }
 
-TEST_CASE("MPDO destination: transmission type 254, and a 29-bit CAN-ID") {
+TEST_CASE("MPDO destination: transmission type 254 and a 29-bit CAN-ID work") {
   MpdoTable table;
   table.rpdo[0].on(0x20012345, 254, {}).number = dam;
   MpdoNode node(table);
@@ -194,7 +194,7 @@ TEST_CASE("MPDO destination: transmission type 254, and a 29-bit CAN-ID") {
   CHECK(node.u8[0] == 0xA1);
 }
 
-TEST_CASE("MPDO destination: words of the mapping mean nothing while sub 0 is FFh [301:7.5.2.36]") {
+TEST_CASE("MPDO destination: mapping entries are ignored while sub 0 is FFh [301:7.5.2.36]") {
   MpdoTable table = to_destination();
   table.rpdo[0].map = {0x22010108, 0x30000108, 0xFFFFFFFF};
   MpdoNode node(table);
@@ -205,7 +205,7 @@ TEST_CASE("MPDO destination: words of the mapping mean nothing while sub 0 is FF
   CHECK(node.get(0x1600, 0) == 0xFF);
 }
 
-TEST_CASE("MPDO destination: what has passed is the PDO, and the object that was written last") {
+TEST_CASE("MPDO destination: a write marks the PDO and the written object as received") {
   MpdoNode node(to_destination());
   node.start();
   CHECK_FALSE(was_received(node, 0));
@@ -221,7 +221,7 @@ TEST_CASE("MPDO destination: what has passed is the PDO, and the object that was
   CHECK(was_received(node, 0x2201, 2));
 }
 
-TEST_CASE("MPDO destination: the deadline begins with a frame for this node [P11]") {
+TEST_CASE("MPDO destination: the deadline starts with a frame for this node [P11]") {
   MpdoTable table = to_destination();
   table.rpdo[0].event = 100;
   MpdoNode node(table);
@@ -238,7 +238,7 @@ TEST_CASE("MPDO destination: the deadline begins with a frame for this node [P11
   CHECK(node.frames() == reports({emcy(0, 1)}));
 }
 
-TEST_CASE("MPDO destination: a change of an object with flag A sends the TPDO that has it") {
+TEST_CASE("MPDO destination: a changed object with flag A sends the TPDO that maps it") {
   MpdoTable table = to_destination();
   table.tpdo[0].on(0x40000181, 255, {0x22110108});
   MpdoNode node(table);
@@ -270,7 +270,7 @@ std::uint32_t two_bytes(CO_OBJ*, CO_NODE*, std::uint32_t) { return 2; }
 const CO_OBJ_TYPE noted = {two_bytes, nullptr, nullptr, note_write<CO_ERR_NONE>, nullptr};
 const CO_OBJ_TYPE refusing = {two_bytes, nullptr, nullptr, note_write<CO_ERR_OBJ_RANGE>, nullptr};
 
-TEST_CASE("MPDO destination: a type of the application is called as for PDOs: locked, a number of the CPU [X10]") {
+TEST_CASE("MPDO destination: an application-defined type is called locked, with a value in CPU byte order [X10]") {
   MpdoNode node(to_destination(), [](Setup& setup) { setup.with({CO_KEY(0x22FF, 0, CO_OBJ____P_W), &noted, 0}); });
   node.start();
   log().clear();
@@ -288,7 +288,7 @@ TEST_CASE("MPDO destination: a type of the application is called as for PDOs: lo
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO destination: an entry of a static data type in the dictionary is no object [301:7.4.1]") {
+TEST_CASE("MPDO destination: an entry of a static data type in the dictionary is not writable [301:7.4.1]") {
   MpdoNode node(to_destination(), [](Setup& setup) {
     setup.with({CO_KEY(0x0003, 0, CO_OBJ____PRW), &noted, 0});
     setup.with({CO_KEY(0x0005, 0, CO_OBJ____PRW), CO_TUNSIGNED8, 0});
@@ -302,7 +302,7 @@ TEST_CASE("MPDO destination: an entry of a static data type in the dictionary is
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("MPDO destination: what the type refuses is the node's error, and no EMCY") {
+TEST_CASE("MPDO destination: a write that the type refuses sets the node error and sends no EMCY") {
   MpdoNode node(to_destination(), [](Setup& setup) { setup.with({CO_KEY(0x22FF, 0, CO_OBJ____P_W), &refusing, 0}); });
   node.start();
   node.rx("201#81FF220034120000");
@@ -310,7 +310,7 @@ TEST_CASE("MPDO destination: what the type refuses is the node's error, and no E
   node.silent();
 }
 
-TEST_CASE("MPDO destination: COPdoReceive can take the frame, and can change it") {
+TEST_CASE("MPDO destination: COPdoReceive may consume or change the frame") {
   MpdoNode node(to_destination());
   node.start();
   callbacks().pdo_receive = [](CO_IF_FRM*) { return std::int16_t{1}; };
@@ -343,7 +343,7 @@ CO_ERR write_and_act(CO_OBJ*, CO_NODE* node, void*, std::uint32_t) {
 
 const CO_OBJ_TYPE acting = {two_bytes, nullptr, nullptr, write_and_act, nullptr};
 
-TEST_CASE("MPDO destination: a type function may stop or reset the node, and change the PDO that is being written") {
+TEST_CASE("MPDO destination: a type function may stop or reset the node and change the PDO that is being processed") {
   for (const Deed what : {Deed::stop, Deed::reset, Deed::off, Deed::remap}) {
     CAPTURE(static_cast<int>(what));
     deed = what;
@@ -384,7 +384,7 @@ TEST_CASE("MPDO source: the dispatching list selects the object that is written 
   node.silent();
 }
 
-TEST_CASE("MPDO source: what is not in the list is ignored [301:7.2.3]") {
+TEST_CASE("MPDO source: a frame without entry in the list is ignored [301:7.2.3]") {
   MpdoNode node(from_source({0x0122010160000105}));
   node.start();
   unsigned updates = 0;
@@ -401,7 +401,7 @@ TEST_CASE("MPDO source: what is not in the list is ignored [301:7.2.3]") {
   CHECK_FALSE(was_received(node, 0));
 }
 
-TEST_CASE("MPDO source: destination addressing and node-ID 0, which is reserved, are malformed [301:7.2.3]") {
+TEST_CASE("MPDO source: destination addressing and the reserved node-ID 0 are malformed [301:7.2.3]") {
   MpdoNode node(from_source({0x0122010160000105}));
   node.start();
   node.rx("201#81012201A1000000");
@@ -412,7 +412,7 @@ TEST_CASE("MPDO source: destination addressing and node-ID 0, which is reserved,
   CHECK(node.counters().Malformed == 3);
 }
 
-TEST_CASE("MPDO source: a block is as many consecutive sub-indices on both sides [301:7.5.2.40]") {
+TEST_CASE("MPDO source: a block maps consecutive sub-indices of both nodes [301:7.5.2.40]") {
   MpdoNode node(from_source({0x032201036000FD05}));
   node.start();
   for (const char* const frame : {"201#050060FCA1000000", "201#050060FDA2000000", "201#050060FEA3000000",
@@ -427,7 +427,7 @@ TEST_CASE("MPDO source: a block is as many consecutive sub-indices on both sides
   node.silent();
 }
 
-TEST_CASE("MPDO source: the first entry for an object counts; unused entries in between do not [301:7.5.2.40]") {
+TEST_CASE("MPDO source: the first matching entry is used; unused entries before it are skipped [301:7.5.2.40]") {
   MpdoNode node(from_source({0, 0x0122010160000105, 0, 0x0122010260000105, 0, 0x0122010360000205}));
   node.start();
   node.rx("201#05006001A1000000");
@@ -437,7 +437,7 @@ TEST_CASE("MPDO source: the first entry for an object counts; unused entries in 
   CHECK(node.u8[2] == 0xA2);
 }
 
-TEST_CASE("MPDO source: a change of the list holds from the next frame on [301:7.5.2.40]") {
+TEST_CASE("MPDO source: a change of the list applies from the next frame [301:7.5.2.40]") {
   MpdoNode node(from_source({0x0122010160000105}));
   node.start();
   CHECK(node.set(0x1FD0, 1, 8, 0x0122010260000105) == 0);
@@ -452,7 +452,7 @@ TEST_CASE("MPDO source: a change of the list holds from the next frame on [301:7
   CHECK(node.u8[1] == 0xA1);
 }
 
-TEST_CASE("MPDO source: several RPDOs use the list, beside others of the same CAN-ID") {
+TEST_CASE("MPDO source: several RPDOs use the list, also with other RPDOs of the same CAN-ID") {
   if (fixture_rpdos < 3) {
     return;
   }
@@ -479,7 +479,7 @@ TEST_CASE("MPDO source: shorter frames are not processed: EMCY 8210h [X5]") {
   CHECK(node.u8[0] == 0x11);
 }
 
-TEST_CASE("MPDO: both kinds after a reset of the communication, and of the node") {
+TEST_CASE("MPDO: both kinds work after reset communication and reset node") {
   MpdoTable table = from_source({0x0122010160000105});
   table.rpdo[1].on(0x301, 254, {}).number = dam;
   MpdoNode node(table);
@@ -495,7 +495,7 @@ TEST_CASE("MPDO: both kinds after a reset of the communication, and of the node"
   }
 }
 
-TEST_CASE("MPDO: CODictInit() with another table makes a PDO of another kind") {
+TEST_CASE("MPDO: CODictInit() with another table may change the kind of a PDO") {
   for (const bool multiplexed : {true, false}) {
     CAPTURE(multiplexed);
     MpdoTable table;

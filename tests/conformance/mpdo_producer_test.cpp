@@ -48,7 +48,7 @@ void write(PdoNode& node, std::uint16_t index, std::uint8_t value) {
 
 // Destination address mode --------------------------------------------------------------------------------------------
 
-TEST_CASE("MPDO to a destination: address, multiplexer, data, eight bytes always [301:7.2.3]") {
+TEST_CASE("MPDO to a destination: address, multiplexer and data in eight bytes [301:7.2.3]") {
   MpdoNode node(to_destination());
   node.start();
   CHECK(node.send_to(0, 5, CO_DEV(0x6200, 0x01), 0x44332211) == CO_ERR_NONE);
@@ -61,7 +61,7 @@ TEST_CASE("MPDO to a destination: address, multiplexer, data, eight bytes always
   CHECK_FALSE(was_sent(node, 0));
 }
 
-TEST_CASE("MPDO to a destination: the result is the reason why nothing is sent") {
+TEST_CASE("MPDO to a destination: the result is the reason if nothing is sent") {
   MpdoTable table = to_destination();
   table.tpdo[1].on(0x40000281, 255, {0x22010108});
   MpdoNode node(table);
@@ -78,7 +78,7 @@ TEST_CASE("MPDO to a destination: the result is the reason why nothing is sent")
   node.silent();
 }
 
-TEST_CASE("MPDO to a destination: within the inhibit time nothing is sent, then or later [X6]") {
+TEST_CASE("MPDO to a destination: a request within the inhibit time is refused and not sent later [X6]") {
   MpdoNode node(to_destination(100));  // 10 ms
   node.start();
   CHECK(node.send_to(0, 5, CO_DEV(0x6200, 1), 1) == CO_ERR_NONE);
@@ -92,7 +92,7 @@ TEST_CASE("MPDO to a destination: within the inhibit time nothing is sent, then 
   node.tx("181#8600620104000000");
 }
 
-TEST_CASE("MPDO to a destination: what waits for the controller is not replaced, each node gets its own") {
+TEST_CASE("MPDO to a destination: a queued frame is not replaced by one to another node") {
   MpdoNode node(to_destination());
   node.start();
   node.can.refuse_all();
@@ -105,7 +105,7 @@ TEST_CASE("MPDO to a destination: what waits for the controller is not replaced,
   node.tx({"181#8500620101000000", "181#8600620102000000", "181#8500620103000000"});
 }
 
-TEST_CASE("MPDO to a destination: a full transmit queue is reported: nothing is sent later") {
+TEST_CASE("MPDO to a destination: a full transmit queue is reported and nothing is sent later") {
   MpdoNode node(to_destination(), [](Setup& setup) { setup.tx_queue(4); });
   node.start();
   node.can.refuse_all();
@@ -121,7 +121,7 @@ TEST_CASE("MPDO to a destination: a full transmit queue is reported: nothing is 
   node.tx({"181#8500620100000000", "181#8500620101000000"});
 }
 
-TEST_CASE("MPDO to a destination: it has no events, no event timer, no start and no remote requests") {
+TEST_CASE("MPDO to a destination: it has no events, event timer, start value or remote requests") {
   MpdoTable table = to_destination();
   table.tpdo[0].cob_id = 0x181;
   table.tpdo[0].event = 10;
@@ -139,7 +139,7 @@ TEST_CASE("MPDO to a destination: it has no events, no event timer, no start and
   node.silent();
 }
 
-TEST_CASE("MPDO to a destination: COPdoTransmit may change the frame, and may end all of it") {
+TEST_CASE("MPDO to a destination: COPdoTransmit may change the frame, stop the node and switch the PDO off") {
   MpdoNode node(to_destination());
   node.start();
   callbacks().pdo_transmit = [](CO_IF_FRM* frm) { frm->Data[7] = 0xEE; };
@@ -154,7 +154,7 @@ TEST_CASE("MPDO to a destination: COPdoTransmit may change the frame, and may en
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO to a destination: several TPDOs, each with its inhibit time") {
+TEST_CASE("MPDO to a destination: several TPDOs each have their inhibit time") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -170,7 +170,7 @@ TEST_CASE("MPDO to a destination: several TPDOs, each with its inhibit time") {
 
 // Source address mode -------------------------------------------------------------------------------------------------
 
-TEST_CASE("MPDO from a source: a request sends all objects of the scanner list, in its order [301:7.5.2.39]") {
+TEST_CASE("MPDO from a source: a request sends all objects of the scanner list in its order [301:7.5.2.39]") {
   MpdoNode node(from_source());
   node.frames_per_call(5);
   node.start();
@@ -180,7 +180,7 @@ TEST_CASE("MPDO from a source: a request sends all objects of the scanner list, 
   CHECK(node.frames() == all_objects);
 }
 
-TEST_CASE("MPDO from a source: objects of 1, 2, 3 and 4 bytes; the rest of the data is 0 [301:7.2.3]") {
+TEST_CASE("MPDO from a source: objects of 1 to 4 bytes are padded with 0 [301:7.2.3]") {
   MpdoTable table = from_source();
   table.scan = {0x01220101, 0x01220201, 0x01220301, 0x01220401, 0x01225401, 0x01225001};
   MpdoNode node(table, [](Setup& setup) { setup.node_id(0x7F); });
@@ -191,7 +191,7 @@ TEST_CASE("MPDO from a source: objects of 1, 2, 3 and 4 bytes; the rest of the d
            "181#7F5422010000803F", "181#7F50220100000000"});
 }
 
-TEST_CASE("MPDO from a source: a change of an object with flag A sends that object alone [301:7.2.3]") {
+TEST_CASE("MPDO from a source: a changed object with flag A is sent alone [301:7.2.3]") {
   MpdoNode node(from_source());
   node.start();
   write(node, 0x2211, 0x42);
@@ -216,7 +216,7 @@ TEST_CASE("MPDO from a source: COTPdoTrigObj() sends the object") {
   CHECK(node.error() == CO_ERR_TPDO_OBJ_TRIGGER);
 }
 
-TEST_CASE("MPDO from a source: an object may be mapped into other TPDOs as well") {
+TEST_CASE("MPDO from a source: an object may also be mapped into other TPDOs") {
   MpdoTable table = from_source();
   table.tpdo[1].on(0x40000281, 255, {0x22110108, 0x22110208});
   MpdoNode node(table);
@@ -225,7 +225,7 @@ TEST_CASE("MPDO from a source: an object may be mapped into other TPDOs as well"
   node.tx({"181#0111220142000000", "281#4221"});
 }
 
-TEST_CASE("MPDO from a source: what has passed is the PDO, and each object") {
+TEST_CASE("MPDO from a source: a sent frame marks the PDO and its object as sent") {
   MpdoNode node(from_source());
   node.start();
   CHECK_FALSE(was_sent(node, 0));
@@ -239,8 +239,7 @@ TEST_CASE("MPDO from a source: what has passed is the PDO, and each object") {
   node.frames();
 }
 
-TEST_CASE(
-    "MPDO from a source: an inhibit time between two frames; queued objects are sent with their current values [X6]") {
+TEST_CASE("MPDO from a source: frames keep the inhibit time; queued objects are sent with their current values [X6]") {
   MpdoNode node(from_source(100));  // 10 ms
   node.start();
   write(node, 0x2211, 0x42);
@@ -255,7 +254,7 @@ TEST_CASE(
   CHECK(node.frames() == std::vector<std::string>{"181#0112220144450000", "181#0111220144000000"});
 }
 
-TEST_CASE("MPDO from a source: all objects, an inhibit time apart [X6]") {
+TEST_CASE("MPDO from a source: all objects are sent at intervals of the inhibit time [X6]") {
   MpdoNode node(from_source(100));
   node.start();
   CHECK(node.request(0) == CO_ERR_NONE);
@@ -269,7 +268,7 @@ TEST_CASE("MPDO from a source: all objects, an inhibit time apart [X6]") {
 
 #if USE_SDO_BLOCK
 
-TEST_CASE("MPDO from a source: a block upload that goes on does not shorten the inhibit time [X6]") {
+TEST_CASE("MPDO from a source: a running block upload does not shorten the inhibit time [X6]") {
   MpdoNode node(from_source(100));
   node.start();
   node.ask("601#A008100014000000", "581#C608100011000000");
@@ -314,7 +313,7 @@ TEST_CASE("MPDO from a source: the event timer sends all objects [X7]") {
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: event and inhibit time: all objects are sent in rotation [X7]") {
+TEST_CASE("MPDO from a source: with event and inhibit time all objects are sent in rotation [X7]") {
   for (const std::uint16_t event : {std::uint16_t{5}, std::uint16_t{10}, std::uint16_t{25}}) {
     CAPTURE(event);
     MpdoTable table = from_source(100);
@@ -330,7 +329,7 @@ TEST_CASE("MPDO from a source: event and inhibit time: all objects are sent in r
   }
 }
 
-TEST_CASE("MPDO from a source: only in Operational; what waits is forgotten with it [X8]") {
+TEST_CASE("MPDO from a source: objects are sent only in Operational; leaving it drops queued ones [X8]") {
   MpdoNode node(from_source(100));
   CHECK(node.request(0) == CO_ERR_NMT_MODE);
   write(node, 0x2211, 0x42);
@@ -352,7 +351,7 @@ TEST_CASE("MPDO from a source: only in Operational; what waits is forgotten with
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: what changes outside Operational is not even made, whatever waits for the controller") {
+TEST_CASE("MPDO from a source: changes outside Operational are not queued while the controller is busy") {
   if (USE_SDO_BLOCK == 0) {
     return;
   }
@@ -377,7 +376,7 @@ TEST_CASE("MPDO from a source: what changes outside Operational is not even made
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO from a source: a PDO that is switched off, or whose list changes, forgets what waits [X8]") {
+TEST_CASE("MPDO from a source: switching the PDO off or changing its list drops queued objects [X8]") {
   MpdoNode node(from_source(100));
   node.start();
   CHECK(node.request(0) == CO_ERR_NONE);
@@ -396,7 +395,7 @@ TEST_CASE("MPDO from a source: a PDO that is switched off, or whose list changes
   node.tx("181#0101220881000000");
 }
 
-TEST_CASE("MPDO from a source: an empty list sends nothing, and this is reported") {
+TEST_CASE("MPDO from a source: an empty list sends nothing and is reported") {
   MpdoTable table = from_source();
   table.scan = {};
   MpdoNode node(table);
@@ -405,7 +404,7 @@ TEST_CASE("MPDO from a source: an empty list sends nothing, and this is reported
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: there are no remote requests") {
+TEST_CASE("MPDO from a source: remote requests are not answered") {
   MpdoTable table = from_source();
   table.tpdo[0].cob_id = 0x181;
   MpdoNode node(table);
@@ -414,7 +413,7 @@ TEST_CASE("MPDO from a source: there are no remote requests") {
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: refused frames are sent when the controller is free, with their current values") {
+TEST_CASE("MPDO from a source: refused frames are sent later with their current values") {
   MpdoNode node(from_source());
   node.frames_per_call(6);
   node.start();
@@ -432,7 +431,7 @@ TEST_CASE("MPDO from a source: refused frames are sent when the controller is fr
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: other frames pass between its own, and none is lost, however short the queue") {
+TEST_CASE("MPDO from a source: other frames are sent between its frames and none is lost, for any queue size") {
   MpdoTable table = from_source();
   table.tpdo[1].on(0x40000081, 255, {0x22010808});
   table.tpdo[1].cob_id = 0x40000182;
@@ -470,7 +469,7 @@ CO_ERR give(CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t size) {
 const CO_OBJ_TYPE giving = {two_bytes, nullptr, give<CO_ERR_NONE>, nullptr, nullptr};
 const CO_OBJ_TYPE failing = {two_bytes, nullptr, give<CO_ERR_TYPE_RD>, nullptr, nullptr};
 
-TEST_CASE("MPDO from a source: a type of the application is called as for PDOs: locked, a number of the CPU [X10]") {
+TEST_CASE("MPDO from a source: an application-defined type is called locked, with a value in CPU byte order [X10]") {
   MpdoTable table = from_source();
   table.scan = {0x01226001};
   MpdoNode node(table, [](Setup& setup) { setup.with({CO_KEY(0x2260, 1, CO_OBJ____PR_), &giving, 0}); });
@@ -485,7 +484,7 @@ TEST_CASE("MPDO from a source: a type of the application is called as for PDOs: 
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO from a source: an object that cannot be read is not sent, the others are [X12]") {
+TEST_CASE("MPDO from a source: an object that cannot be read is not sent; the others are [X12]") {
   MpdoTable table = from_source();
   table.scan = {0x01220101, 0x01226001, 0x01220102};
   MpdoNode node(table, [](Setup& setup) { setup.with({CO_KEY(0x2260, 1, CO_OBJ____PR_), &failing, 0}); });
@@ -499,7 +498,7 @@ TEST_CASE("MPDO from a source: an object that cannot be read is not sent, the ot
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: an object that cannot be read costs no inhibit time") {
+TEST_CASE("MPDO from a source: an object that cannot be read starts no inhibit time") {
   MpdoTable table = from_source(100);
   table.scan = {0x01226001, 0x01220102};
   MpdoNode node(table, [](Setup& setup) { setup.with({CO_KEY(0x2260, 1, CO_OBJ____PR_), &failing, 0}); });
@@ -519,7 +518,7 @@ CO_ERR switch_off(CO_OBJ*, CO_NODE* node, void*, std::uint32_t) {
 
 const CO_OBJ_TYPE ending = {two_bytes, nullptr, switch_off, nullptr, nullptr};
 
-TEST_CASE("MPDO from a source: a Read function may switch the PDO off, which sends nothing and reads nothing more") {
+TEST_CASE("MPDO from a source: a Read function may switch the PDO off, which ends sending and reading") {
   MpdoTable table = from_source();
   table.scan = {0x02226001, 0x01220102};
   MpdoNode node(table, [](Setup& setup) {
@@ -538,7 +537,7 @@ TEST_CASE("MPDO from a source: a Read function may switch the PDO off, which sen
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO from a source: an object whose frame finds the queue full is sent later") {
+TEST_CASE("MPDO from a source: an object whose frame is refused by a full queue is sent later") {
   MpdoNode node(from_source(), [](Setup& setup) { setup.tx_queue(4); });
   node.frames_per_call(8);
   node.start();
@@ -559,7 +558,7 @@ TEST_CASE("MPDO from a source: an object whose frame finds the queue full is sen
   CHECK(std::count(sent.begin(), sent.end(), "181#0101220221000000") == 1);
 }
 
-TEST_CASE("MPDO from a source: COPdoTransmit is called once for each frame, whatever the controller takes") {
+TEST_CASE("MPDO from a source: COPdoTransmit is called once for each frame, however often the controller refuses it") {
   MpdoNode node(from_source());
   node.frames_per_call(5);
   node.start();
@@ -577,7 +576,7 @@ TEST_CASE("MPDO from a source: COPdoTransmit is called once for each frame, what
   callbacks() = Callbacks{};
 }
 
-TEST_CASE("MPDO from a source: a callback that asks for more does not keep the node from anything else") {
+TEST_CASE("MPDO from a source: a callback that triggers more objects does not block other services") {
   MpdoNode node(from_source());
   node.frames_per_call(6);
   node.start();
@@ -597,7 +596,7 @@ TEST_CASE("MPDO from a source: a callback that asks for more does not keep the n
   node.silent();
 }
 
-TEST_CASE("MPDO from a source: a callback may switch the PDO off, change its list, and stop the node") {
+TEST_CASE("MPDO from a source: a callback may switch the PDO off, change its list and stop the node") {
   for (unsigned what = 0; what < 4; ++what) {
     CAPTURE(what);
     MpdoNode node(from_source());

@@ -19,7 +19,7 @@ CO_IF_FRM frame_of(unsigned address, std::uint32_t key, std::uint32_t data) {
   return frm;
 }
 
-TEST_CASE("MPDO sweep: every address byte against own, foreign and missing objects, destination addressing") {
+TEST_CASE("MPDO sweep: destination addressing: every address byte with existing and missing objects") {
   for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{64}, std::uint8_t{127}}) {
     MpdoTable table;
     table.rpdo[0].on(0x201, 255, {}).number = dam;
@@ -71,7 +71,7 @@ TEST_CASE("MPDO sweep: every address byte and sub-index against a block of the d
   node.silent();
 }
 
-TEST_CASE("MPDO sweep: every index and sub-index of the dictionary: written is what may be mapped, and has 4 bytes") {
+TEST_CASE("MPDO sweep: of every index and sub-index only mappable objects of up to 4 bytes are written") {
   MpdoTable table;
   table.rpdo[0].on(0x201, 255, {}).number = dam;
   MpdoNode node(table);
@@ -89,7 +89,7 @@ TEST_CASE("MPDO sweep: every index and sub-index of the dictionary: written is w
   }
 }
 
-TEST_CASE("MPDO sweep: random frames, lists, kinds and calls: nothing is written that must not be") {
+TEST_CASE("MPDO sweep: random frames, lists, kinds and calls never write an object that is not allowed") {
   std::mt19937 random(301);
   const auto any_word = [&] { return static_cast<std::uint32_t>(random()); };
   const auto any = [&](std::uint32_t below) { return any_word() % below; };

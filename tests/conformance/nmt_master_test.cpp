@@ -21,7 +21,7 @@ class Master : public Fixture {
   }
 };
 
-TEST_CASE("NMT master: a command to another node is sent, and not obeyed here [N1] [N2]") {
+TEST_CASE("NMT master: a command to another node is sent and not carried out here [N1] [N2]") {
   const std::string bytes[] = {"01", "02", "80", "81", "82"};
   for (std::size_t n = 0; n < 5; ++n) {
     Master node;
@@ -35,7 +35,7 @@ TEST_CASE("NMT master: a command to another node is sent, and not obeyed here [N
   }
 }
 
-TEST_CASE("NMT master: a command to itself is obeyed, and not sent") {
+TEST_CASE("NMT master: a command to the own node is carried out and not sent") {
   constexpr CO_MODE after[] = {CO_OPERATIONAL, CO_STOP, CO_PREOP, CO_PREOP, CO_PREOP};
   for (std::size_t n = 0; n < 5; ++n) {
     for (const char* state : {"000#8022", "000#0122", "000#0222"}) {
@@ -50,7 +50,7 @@ TEST_CASE("NMT master: a command to itself is obeyed, and not sent") {
   }
 }
 
-TEST_CASE("NMT master: a command to all nodes is sent, then obeyed here [N1]") {
+TEST_CASE("NMT master: a command to all nodes is sent and then carried out here [N1]") {
   Master node;
   CHECK(node.command(CO_NMT_COMMAND_START, 0) == CO_ERR_NONE);
   node.tx("000#0100");
@@ -68,7 +68,7 @@ TEST_CASE("NMT master: a command to all nodes is sent, then obeyed here [N1]") {
   CHECK(node.mode() == CO_PREOP);
 }
 
-TEST_CASE("NMT master: a reset of all nodes that waits for the controller goes out before the own boot-up message") {
+TEST_CASE("NMT master: a queued reset of all nodes is sent before the own boot-up message") {
   Master node;
   node.can.refuse_all();
   CHECK(node.command(CO_NMT_COMMAND_RESET_COM, 0) == CO_ERR_NONE);
@@ -78,7 +78,7 @@ TEST_CASE("NMT master: a reset of all nodes that waits for the controller goes o
   CHECK(node.counters().Dropped == 0);
 }
 
-TEST_CASE("NMT master: commands that wait for the controller keep their order") {
+TEST_CASE("NMT master: queued commands keep their order") {
   Master node;
   node.can.refuse_all();
   CHECK(node.command(CO_NMT_COMMAND_RESET_NODE, 9) == CO_ERR_NONE);
@@ -89,7 +89,7 @@ TEST_CASE("NMT master: commands that wait for the controller keep their order") 
   node.tx({"000#8109", "000#0109"});
 }
 
-TEST_CASE("NMT master: what is no command, and no node-ID, is refused") {
+TEST_CASE("NMT master: unknown commands and node-IDs above 127 are refused") {
   Master node;
   for (unsigned command = 0; command < 256; ++command) {
     const bool known = command == 1 || command == 2 || (command >= 128 && command <= 130);
@@ -101,7 +101,7 @@ TEST_CASE("NMT master: what is no command, and no node-ID, is refused") {
   node.silent();
 }
 
-TEST_CASE("NMT master: null, and an NMT object without a node, are refused") {
+TEST_CASE("NMT master: null and an NMT object without a node are refused") {
   CO_NMT without_node = {};
   for (CO_NMT* const nmt : {static_cast<CO_NMT*>(nullptr), &without_node}) {
     for (const CO_NMT_COMMAND command : commands) {
@@ -112,7 +112,7 @@ TEST_CASE("NMT master: null, and an NMT object without a node, are refused") {
   CHECK(callbacks().fatal_errors == 0);
 }
 
-TEST_CASE("NMT master: not while initialising, and not after a stop of the node") {
+TEST_CASE("NMT master: commands are refused in Initialisation and after a stop of the node") {
   Master node(Setup().stay_in_init());
   CHECK(node.command(CO_NMT_COMMAND_START, 5) == CO_ERR_NMT_MODE);
   CHECK(node.command(CO_NMT_COMMAND_START, 1) == CO_ERR_NMT_MODE);
@@ -123,7 +123,7 @@ TEST_CASE("NMT master: not while initialising, and not after a stop of the node"
   node.silent();
 }
 
-TEST_CASE("NMT master: it works in Stopped, too [N3]") {
+TEST_CASE("NMT master: commands are sent in Stopped [N3]") {
   Master node;
   node.rx("000#0201");
   CHECK(node.command(CO_NMT_COMMAND_START, 5) == CO_ERR_NONE);
@@ -131,7 +131,7 @@ TEST_CASE("NMT master: it works in Stopped, too [N3]") {
   CHECK(node.mode() == CO_STOP);
 }
 
-TEST_CASE("NMT master: with a full transmit queue nothing is sent and nothing obeyed") {
+TEST_CASE("NMT master: with a full transmit queue a command is neither sent nor carried out") {
   Master node(Setup().tx_queue(1));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -142,7 +142,7 @@ TEST_CASE("NMT master: with a full transmit queue nothing is sent and nothing ob
   node.tx("581#4300100091010F00");
 }
 
-TEST_CASE("NMT master: commands from callbacks [Q9]") {
+TEST_CASE("NMT master: callbacks may send commands [Q9]") {
   Master node;
   callbacks().can_receive = [&](CO_IF_FRM*) {
     CHECK(CONmtCommand(&node->Nmt, CO_NMT_COMMAND_RESET_NODE, 0) == CO_ERR_NONE);

@@ -29,7 +29,7 @@ Outcome outcome(CO_MODE before, unsigned command, unsigned target) {
 
 void enter(Fixture& node, std::uint8_t command) { node.rx(CO_IF_FRM{0, {command, own}, 2}); }
 
-TEST_CASE("NMT: every command to every target from every state [N1] [N2]") {
+TEST_CASE("NMT: every command to every target from every state has the defined effect [N1] [N2]") {
   unsigned round = 0;
   for (const std::uint8_t state : state_commands) {
     Fixture node(Setup().node_id(own).only_small());
@@ -48,7 +48,7 @@ TEST_CASE("NMT: every command to every target from every state [N1] [N2]") {
   }
 }
 
-TEST_CASE("NMT: no content of another length has any effect, from every state [N1]") {
+TEST_CASE("NMT: frames of another length have no effect from any state [N1]") {
   Fixture node(Setup().node_id(own).only_small());
   std::uint32_t number = 0;
   unsigned wrong = 0;

@@ -26,7 +26,7 @@ TEST_CASE("NMT: start, stop and enter pre-operational change the state [N2] [N5]
   node.silent();
 }
 
-TEST_CASE("NMT: node-ID 0 addresses all nodes, another node-ID does not address this node [N1]") {
+TEST_CASE("NMT: node-ID 0 addresses all nodes; another node-ID does not address this node [N1]") {
   Fixture node(Setup().node_id(5));
   node.rx("000#0100");
   CHECK(node.mode() == CO_OPERATIONAL);
@@ -50,7 +50,7 @@ TEST_CASE("NMT: a command whose length is not 2 is ignored and counted [N1]") {
   }
 }
 
-TEST_CASE("NMT: the second byte of a command of one byte is not taken from an older frame [N1]") {
+TEST_CASE("NMT: a command of one byte does not use the second byte of an earlier frame [N1]") {
   Fixture node;
   CO_IF_FRM frm = frame("000#0101");
   frm.DLC = 1;
@@ -58,7 +58,7 @@ TEST_CASE("NMT: the second byte of a command of one byte is not taken from an ol
   CHECK(node.mode() == CO_PREOP);
 }
 
-TEST_CASE("NMT: remote frames and 29-bit frames are no commands [N1] [Q1]") {
+TEST_CASE("NMT: remote frames and 29-bit frames are not commands [N1] [Q1]") {
   Fixture node;
   node.rx("000#R2");
   node.rx("00000000#0101");
@@ -66,7 +66,7 @@ TEST_CASE("NMT: remote frames and 29-bit frames are no commands [N1] [Q1]") {
   node.silent();
 }
 
-TEST_CASE("NMT: in Stopped the SDO server does not answer, and the request goes to the application [N3] [D17]") {
+TEST_CASE("NMT: in Stopped the SDO server does not answer, and the request is passed to the application [N3] [D17]") {
   Fixture node;
   unsigned passed_on = 0;
   callbacks().can_receive = [&](CO_IF_FRM* frm) {
@@ -86,7 +86,7 @@ TEST_CASE("NMT: in Stopped the SDO server does not answer, and the request goes 
   CHECK(passed_on == 1);
 }
 
-TEST_CASE("NMT: while initialising nothing is answered and no command obeyed [N3] [N4] [D17]") {
+TEST_CASE("NMT: in Initialisation no request is answered and no command carried out [N3] [N4] [D17]") {
   Fixture node(Setup().stay_in_init());
   unsigned passed_on = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
@@ -98,7 +98,7 @@ TEST_CASE("NMT: while initialising nothing is answered and no command obeyed [N3
   CHECK(passed_on == 0);
 }
 
-TEST_CASE("NMT: what each state allows [N3]") {
+TEST_CASE("NMT: each state allows the services of CiA 301 [N3]") {
   constexpr unsigned configured =
       CO_LSS_ALLOWED | CO_NMT_ALLOWED | CO_EMCY_ALLOWED | CO_TIME_ALLOWED | CO_SYNC_ALLOWED | CO_SDO_ALLOWED;
   Fixture node(Setup().stay_in_init());
@@ -129,7 +129,7 @@ TEST_CASE("NMT: reset node and reset communication end in Pre-operational after 
   }
 }
 
-TEST_CASE("NMT: the reset callback comes after the reset, and callbacks of changes of state before it") {
+TEST_CASE("NMT: the reset callback is called after the reset, callbacks of state changes before it") {
   Fixture node;
   std::vector<int> told;
   callbacks().reset_request = [&](CO_NMT* nmt, CO_NMT_RESET reset) {
@@ -151,7 +151,7 @@ TEST_CASE("NMT: the reset callback comes after the reset, and callbacks of chang
   CHECK(told == std::vector<int>{CO_INIT, CO_PREOP, 100 + CO_RESET_COM});
 }
 
-TEST_CASE("NMT: a reset by the application is announced by boot-up, but not to itself") {
+TEST_CASE("NMT: a reset by the application sends a boot-up message and does not call the reset callback") {
   Fixture node;
   unsigned told = 0;
   callbacks().reset_request = [&](CO_NMT*, CO_NMT_RESET) { ++told; };
@@ -165,7 +165,7 @@ TEST_CASE("NMT: a reset by the application is announced by boot-up, but not to i
   CHECK(told == 0);
 }
 
-TEST_CASE("NMT: a reset while initialising waits for the start") {
+TEST_CASE("NMT: a reset in Initialisation is carried out at the start") {
   Fixture node(Setup().stay_in_init());
   node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
   node.silent();
@@ -174,7 +174,7 @@ TEST_CASE("NMT: a reset while initialising waits for the start") {
   node.tx("701#00");
 }
 
-TEST_CASE("NMT: timers of the application go on through a reset") {
+TEST_CASE("NMT: timers of the application continue over a reset") {
   Fixture node;
   static unsigned ran;
   ran = 0;
@@ -203,7 +203,7 @@ TEST_CASE("NMT: a command to enter the present state has no effect [N7]") {
   CHECK(changes == 0);
 }
 
-TEST_CASE("NMT: an open SDO transfer ends without a word when SDO becomes unavailable [N8]") {
+TEST_CASE("NMT: an open SDO transfer ends without a frame when SDO becomes unavailable [N8]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.rx("000#0201");
@@ -214,7 +214,7 @@ TEST_CASE("NMT: an open SDO transfer ends without a word when SDO becomes unavai
   node.ask("601#6001020300000000", "581#8001020301000405");
 }
 
-TEST_CASE("NMT: an SDO answer that still waits when the node is stopped is not sent [D17] [N8]") {
+TEST_CASE("NMT: a queued SDO answer is withdrawn when the node is stopped [D17] [N8]") {
   Fixture node;
   node.can.refuse_all();
   node.rx(read_1000);
@@ -225,7 +225,7 @@ TEST_CASE("NMT: an SDO answer that still waits when the node is stopped is not s
   node.silent();
 }
 
-TEST_CASE("NMT: an open SDO transfer survives start and enter pre-operational [N8]") {
+TEST_CASE("NMT: an open SDO transfer continues after start and enter pre-operational [N8]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.rx("000#0101");
@@ -235,7 +235,7 @@ TEST_CASE("NMT: an open SDO transfer survives start and enter pre-operational [N
   node.ask("601#6000000000000000", "581#096F646500000000");
 }
 
-TEST_CASE("NMT: every command to every node, exactly as in the table of the standard [N1] [N2]") {
+TEST_CASE("NMT: every command to every node has the effect of the table of CiA 301 [N1] [N2]") {
   Fixture node(Setup().node_id(5).only_small());
   std::vector<std::string> wrong;
   for (unsigned command = 0; command < 256; ++command) {
@@ -257,7 +257,7 @@ TEST_CASE("NMT: every command to every node, exactly as in the table of the stan
   CHECK_MESSAGE(wrong.empty(), wrong.size(), " wrong, the first is ", wrong.empty() ? "" : wrong[0]);
 }
 
-TEST_CASE("NMT: no command of another length has any effect [N1]") {
+TEST_CASE("NMT: commands of another length have no effect [N1]") {
   Fixture node(Setup().node_id(5).only_small());
   const std::uint32_t before = node.counters().Malformed;
   std::uint32_t number = 0;
@@ -277,7 +277,7 @@ TEST_CASE("NMT: no command of another length has any effect [N1]") {
   CHECK(node.counters().Malformed == before + number);
 }
 
-TEST_CASE("NMT: the application changes the state itself") {
+TEST_CASE("NMT: the application may change the state") {
   Fixture node(Setup().stay_in_init());
   node.call([&] { CONmtSetMode(&node->Nmt, CO_OPERATIONAL); });
   node.tx("701#00");
@@ -295,7 +295,7 @@ TEST_CASE("NMT: the application changes the state itself") {
   node.silent();
 }
 
-TEST_CASE("NMT: the node-ID is set while initialising, and identifiers follow it after a reset") {
+TEST_CASE("NMT: the node-ID is set in Initialisation, and CAN-IDs follow it after a reset") {
   Fixture node(Setup().stay_in_init());
   node.call([&] { CONmtSetNodeId(&node->Nmt, 0); });
   CHECK(node.error() == CO_ERR_BAD_ARG);
@@ -317,7 +317,7 @@ TEST_CASE("NMT: the node-ID is set while initialising, and identifiers follow it
   CHECK(CONmtGetNodeId(&node->Nmt) == 0x42);
 }
 
-TEST_CASE("NMT: state byte of a heartbeat [N5]") {
+TEST_CASE("NMT: the heartbeat has the byte of each state [N5]") {
   CHECK(CONmtModeDecode(0) == CO_INIT);
   CHECK(CONmtModeDecode(4) == CO_STOP);
   CHECK(CONmtModeDecode(5) == CO_OPERATIONAL);
@@ -333,7 +333,7 @@ TEST_CASE("NMT: state byte of a heartbeat [N5]") {
   CHECK(CONmtModeEncode(CO_MODE_NUM) == 255);
 }
 
-TEST_CASE("NMT: null arguments stop the device or are reported") {
+TEST_CASE("NMT: null arguments call CONodeFatalError() or return an error") {
   Fixture node;
   CONmtReset(nullptr, CO_RESET_NODE);
   CONmtSetMode(nullptr, CO_STOP);

@@ -23,7 +23,7 @@ void check_refused(Fixture& node, const char* request) {
 }
 
 #if USE_EMCY
-TEST_CASE("node error: refused requests to 1003h and 1014h do not change it") {
+TEST_CASE("node error: refused requests to 1003h and 1014h do not set it") {
   EmcyNode node;
   for (const char* request : {"601#2F03100001000000",     // number of errors: only 0 may be written
                               "601#2303100101000000",     // an entry, which is read-only
@@ -37,7 +37,7 @@ TEST_CASE("node error: refused requests to 1003h and 1014h do not change it") {
 }
 #endif
 
-TEST_CASE("node error: requests refused by the server itself do not change it") {
+TEST_CASE("node error: requests refused by the SDO server do not set it") {
   Fixture node(Setup().only_small());
   for (const char* request : {"601#40DEADBE00000000", "601#4030200000000000", "601#2331200001000000",
                               "601#4032200000000000", "601#4001200900000000", "601#2B01200001000000",
@@ -53,7 +53,7 @@ CO_ERR refuse_with_code(CO_OBJ* obj, CO_NODE* node) {
   return CO_ERR_TYPE_WR;
 }
 
-TEST_CASE("node error: a type of the application that refuses a value or a piece does not change it") {
+TEST_CASE("node error: an application-defined type that refuses a value or a segment does not set it") {
   for (CO_ERR (*const answer)(CO_OBJ*, CO_NODE*) : {refuse, refuse_generally, refuse_with_code}) {
     LoggedStream value;
     LoggedStream stream;
@@ -72,7 +72,7 @@ TEST_CASE("node error: a type of the application that refuses a value or a piece
 }
 
 #if USE_CSDO
-TEST_CASE("node error: a refused request of a client to the own node is reported only to its callback") {
+TEST_CASE("node error: a refused request of an SDO client to its own node is reported only to its callback") {
   LoggedStream value;
   value.data = {1, 2, 3, 4};
   value.on_piece = refuse;
@@ -88,7 +88,7 @@ TEST_CASE("node error: a refused request of a client to the own node is reported
 }
 #endif
 
-TEST_CASE("node error: a transfer that failed for the platform, 0606 0000h, is an error of the node") {
+TEST_CASE("node error: a transfer that failed with 0606 0000h sets it") {
   LoggedStream value;
   value.data = {1, 2, 3, 4};
   value.on_piece = [](CO_OBJ*, CO_NODE*) { return CO_ERR_IF_NVM_READ; };

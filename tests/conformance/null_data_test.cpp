@@ -169,7 +169,7 @@ TEST_CASE("null Data: a communication object refuses every transfer with 0800 00
   }
 }
 
-TEST_CASE("null Data: all communication objects at once; the node runs") {
+TEST_CASE("null Data: all communication objects at once do not stop the node") {
   Setup setup;
   setup.only_small();
   for (const Null& null : placed) {
@@ -183,7 +183,7 @@ TEST_CASE("null Data: all communication objects at once; the node runs") {
 }
 
 #if USE_EMCY
-TEST_CASE("null Data: an entry of 1003h refuses every transfer with 0800 0020h; it ends the history") {
+TEST_CASE("null Data: an entry of 1003h refuses every transfer with 0800 0020h and limits the history") {
   static std::uint32_t first;
   static std::uint8_t number;
   Setup setup = Setup().only_small().emergencies({{CO_EMCY_REG_GENERAL, 0x1000}});
@@ -204,7 +204,7 @@ TEST_CASE("null Data: an entry of 1003h refuses every transfer with 0800 0020h; 
 
 #if USE_DICT_CHECK
 
-TEST_CASE("null Data: CODictGetFault() names the first entry, and the node's error is CO_ERR_OBJ_INIT") {
+TEST_CASE("null Data: CODictGetFault() returns the first entry, and the node error is CO_ERR_OBJ_INIT") {
   for (const Null& null : basic) {
     CAPTURE(null.index);
     Fixture node(Setup().only_small().with(entry_of(null)).with({CO_KEY(0x4FFF, 0, CO_OBJ_____RW), CO_TUNSIGNED8, 0}));
@@ -215,7 +215,7 @@ TEST_CASE("null Data: CODictGetFault() names the first entry, and the node's err
   }
 }
 
-TEST_CASE("dictionary: flag N where it means nothing, or data behind a static data type, is named; the node runs") {
+TEST_CASE("dictionary: flag N without meaning, or data of a static data type, is reported; the node runs") {
   static std::uint32_t variable;
   const struct {
     CO_OBJ entry;
@@ -237,7 +237,7 @@ TEST_CASE("dictionary: flag N where it means nothing, or data behind a static da
   }
 }
 
-TEST_CASE("dictionary: a fault that stops the node is named before one that does not") {
+TEST_CASE("dictionary: a fault that stops the node is reported before one that does not") {
   static std::uint32_t variable;
   Setup setup;
   setup.with({CO_KEY(0x4000, 0, CO_OBJ_____RW), CO_TUNSIGNED8, 0});
@@ -255,7 +255,7 @@ TEST_CASE("dictionary: a fault that stops the node is named before one that does
 #endif
 
 #if CO_RPDO_N > 1 && CO_TPDO_N > 1
-TEST_CASE("null Data: a PDO that maps the entry does not exist, the others do") {
+TEST_CASE("null Data: a PDO that maps the entry does not exist; other PDOs do") {
   for (const CO_OBJ_TYPE* const type : {CO_TUNSIGNED8, CO_TBOOLEAN, CO_TVISIBLE_STRING, CO_TDOMAIN}) {
     PdoTable table;
     table.rpdo[0].on(0x201, 255, {0x40000008});

@@ -41,7 +41,7 @@ Bytes letters(std::size_t size) {
 }
 
 TEST_CASE(
-    "OD block loss: an upload goes back beyond the buffer: the function begins anew and what is known is dropped") {
+    "OD block loss: an upload that repeats data beyond the buffer restarts the function and discards known bytes") {
   Node node;
   node.extension.data = counting(1000);
   node.ask("601#A400300064000000", "581#C400300000000000");
@@ -88,7 +88,7 @@ void upload_to_the_end(Node& node, const Bytes& data) {
   node.extension.take_log();
 }
 
-TEST_CASE("OD block loss: a call of CONodeProcess() reads no more again than a block has, however long the stream is") {
+TEST_CASE("OD block loss: a call of CONodeProcess() repeats at most one block of reads, for any length of the stream") {
   Node node;
   const Bytes data = letters(20000);
   upload_to_the_end(node, data);
@@ -107,7 +107,7 @@ TEST_CASE("OD block loss: a call of CONodeProcess() reads no more again than a b
   node.rx("601#8000300000000008");
 }
 
-TEST_CASE("OD block loss: while it reads again other channels and the application are served, and a new request, too") {
+TEST_CASE("OD block loss: during repeated reads other channels, the application and new requests are served") {
   Node node;
   const Bytes data = letters(20000);
   upload_to_the_end(node, data);
@@ -127,7 +127,7 @@ TEST_CASE("OD block loss: while it reads again other channels and the applicatio
   CHECK(node.upload(0x3000, 0) == counting(20));
 }
 
-TEST_CASE("OD block loss: the application goes back by COObjReset() at once") {
+TEST_CASE("OD block loss: COObjReset() by the application restarts the stream at once") {
   Node node;
   node.extension.data = letters(5000);
   Bytes bytes(5000);
@@ -140,7 +140,7 @@ TEST_CASE("OD block loss: the application goes back by COObjReset() at once") {
   CHECK(bytes[0] == letters(5000)[4000]);
 }
 
-TEST_CASE("OD block loss: uploads that lose any one frame have the right bytes, or are aborted") {
+TEST_CASE("OD block loss: uploads that lose any one frame have the right bytes or are aborted") {
   for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x3000, 0x3001, 0x3002}) {
     for (const std::uint8_t blksize : std::initializer_list<std::uint8_t>{20, 100, 127}) {
       Node node;
@@ -161,7 +161,7 @@ TEST_CASE("OD block loss: uploads that lose any one frame have the right bytes, 
   }
 }
 
-TEST_CASE("OD block loss: an extension that gives other bytes the second time is found out by the CRC") {
+TEST_CASE("OD block loss: an extension that returns other bytes in a repeated read is detected by the CRC") {
   Node node;
   node.extension.data = letters(1000);
   node.ask("601#A404300064000000", "581#8004300000000206");
@@ -178,7 +178,7 @@ TEST_CASE("OD block loss: an extension that gives other bytes the second time is
   node.rx("601#8000300004000405");
 }
 
-TEST_CASE("OD block loss: a function that does not come as far as before, or refuses to begin anew, ends the upload") {
+TEST_CASE("OD block loss: a function that returns fewer bytes than before or refuses the restart aborts the upload") {
   for (const bool shorter : {true, false}) {
     Node node;
     node.extension.data = counting(1000);
@@ -200,7 +200,7 @@ TEST_CASE("OD block loss: a function that does not come as far as before, or ref
   }
 }
 
-TEST_CASE("OD block loss: downloads that lose any one frame reach the extension once, whole and in order") {
+TEST_CASE("OD block loss: downloads that lose any one frame reach the extension once, complete and in order") {
   for (const bool announced : {true, false}) {
     Node node;
     const Bytes data = counting(1900, 5);
@@ -218,7 +218,7 @@ TEST_CASE("OD block loss: downloads that lose any one frame reach the extension 
   }
 }
 
-TEST_CASE("OD block loss: after a wrong CRC or a wrong length the extension is never called with the last piece") {
+TEST_CASE("OD block loss: after a wrong CRC or length the extension is not called with the last piece") {
   Node node;
   node.extension.data = {1};
   BlockOptions options;

@@ -65,7 +65,7 @@ TEST_CASE("OD disabled: the object cannot be read or written: 0601 0001h and 060
   check_disabled(node);
 }
 
-TEST_CASE("OD disabled: an extension enables it, taking that away disables it again") {
+TEST_CASE("OD disabled: an extension enables the object; removing it disables the object again") {
   Node node;
   LoggedExtension extension;
   for (unsigned times = 0; times < 2; ++times) {
@@ -86,7 +86,7 @@ TEST_CASE("OD disabled: an extension enables it, taking that away disables it ag
   }
 }
 
-TEST_CASE("OD disabled: the original functions reach the memory behind it, where there is one") {
+TEST_CASE("OD disabled: the original functions access the memory of the object if there is any") {
   Node node;
   OD_extension_t extension{nullptr, OD_readOriginal, OD_writeOriginal, {}};
   for (std::uint16_t index = 0x3000; index <= 0x3003; ++index) {
@@ -102,7 +102,7 @@ TEST_CASE("OD disabled: the original functions reach the memory behind it, where
   node.rx("601#8003300000000008");
 }
 
-TEST_CASE("OD disabled: a stream of no length may be both, empty and refused [301:7.2.4.3.17]") {
+TEST_CASE("OD disabled: a stream of length 0 refuses a download; an extension accepts an empty one [301:7.2.4.3.17]") {
   Node node;
   node.ask("601#2103300000000000", "581#8003300002000106");
   LoggedExtension extension;
@@ -113,7 +113,7 @@ TEST_CASE("OD disabled: a stream of no length may be both, empty and refused [30
   CHECK(extension.data.empty());
 }
 
-TEST_CASE("OD disabled: a node without an index takes extensible types for their originals") {
+TEST_CASE("OD disabled: a node without an index uses the original types of extensible ones") {
   Node node;
   const_cast<CO_NODE_EXT*>(node->Ext)->Od = nullptr;
   check_disabled(node);
@@ -134,7 +134,7 @@ TEST_CASE("OD disabled: a node without an index takes extensible types for their
 #if USE_DICT_CHECK
 
 // A C compiler does not detect this error.
-TEST_CASE("OD disabled: an OD_TYPE in front of an OD_TYPE keeps the node from starting, and is named") {
+TEST_CASE("OD disabled: an OD_TYPE around an OD_TYPE prevents the start of the node and is reported") {
   static const CO_OBJ_TYPE* const number = OD_TUNSIGNED32;
   static const OD_TYPE twice = OD_VALUE(number, OD_ORIGINAL);
   static const OD_TYPE itself = OD_VALUE(&itself.Ex.Type, OD_DISABLED);

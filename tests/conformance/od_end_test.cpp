@@ -81,7 +81,7 @@ const std::vector<Open>& open_transfers() {
 }
 
 TEST_CASE(
-    "OD end: another extension aborts an open transfer at its next frame, and End of the type is called at once") {
+    "OD end: replacing the extension aborts an open transfer at its next frame and calls End of the type at once") {
   for (const Open& open : open_transfers()) {
     for (const unsigned from : {0U, 1U, 2U}) {  // extension replaced, removed, set for the first time
       CAPTURE(std::string(open.name));
@@ -153,7 +153,7 @@ unsigned run_frames(Node& node, const std::vector<std::string>& frames) {
   return aborts;
 }
 
-TEST_CASE("OD end: an extension that gives way to another in any call: one abort, one end, and it is the abort") {
+TEST_CASE("OD end: an extension that replaces itself in any call causes one abort and one End with its code") {
   for (const std::vector<std::string>& frames : transfers()) {
     for (unsigned call = 0; call < 3; ++call) {
       for (const bool back : {false, true}) {
@@ -197,7 +197,7 @@ TEST_CASE("OD end: an extension that gives way to another in any call: one abort
   }
 }
 
-TEST_CASE("OD end: the type behind it gives the object another extension in any of its calls") {
+TEST_CASE("OD end: the original type may replace the extension of the object in any of its calls") {
   for (const std::vector<std::string>& frames : transfers()) {
     for (unsigned which = 0; which < 5; ++which) {
       CAPTURE(frames.front());
@@ -234,7 +234,7 @@ TEST_CASE("OD end: the type behind it gives the object another extension in any 
   }
 }
 
-TEST_CASE("OD end: a partial access of the application is over with the extension that it has begun with") {
+TEST_CASE("OD end: a partial access of the application ends when its extension is replaced") {
   Node node;
   node.give(&node.extension.extension);
   std::uint8_t bytes[20] = {};
@@ -252,7 +252,7 @@ TEST_CASE("OD end: a partial access of the application is over with the extensio
 
 #if USE_CSDO
 
-TEST_CASE("OD end: a client to the own node, too, is aborted, and End of the type is called") {
+TEST_CASE("OD end: an access of an SDO client to its own node is aborted, and End of the type is called") {
   for (const bool uploads : {true, false}) {
     Variables variables;
     SdoClient node(variables.setup(), local_entries());

@@ -58,7 +58,7 @@ bool has_block() { return USE_SDO_BLOCK != 0; }
 
 // Without an extension ----------------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, stream: without one the objects are what their original types make of them") {
+TEST_CASE("OD extension, stream: without an extension the original types are used") {
   Node node;
   CHECK(node.upload(0x3000, 0) == bytes_of("text"));
   CHECK(node.upload(0x3001, 0) == Bytes{1, 2, 3});
@@ -76,8 +76,7 @@ TEST_CASE("OD extension, stream: without one the objects are what their original
   }
 }
 
-TEST_CASE(
-    "OD extension, stream: without one, each piece of a transfer is at its place, whatever the application reads") {
+TEST_CASE("OD extension, stream: without an extension an access of the application does not move an SDO transfer") {
   Node node;
   node.ask("601#4003300000000000", "581#4103300014000000");
   std::uint8_t other[20] = {};
@@ -91,7 +90,7 @@ TEST_CASE(
 
 // Uploads -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, stream: an upload of unknown length names none and goes by pieces until the function ends") {
+TEST_CASE("OD extension, stream: an upload of unknown length announces none and reads until the function ends") {
   Node node(0x3004, counting(9));
   node.ask("601#4004300000000000", "581#4004300000000000");
   CHECK(node.extension.take_log().empty());
@@ -101,7 +100,7 @@ TEST_CASE("OD extension, stream: an upload of unknown length names none and goes
   CHECK(node.extension.take_log() == Log{"read 7 at 7 of 0"});
 }
 
-TEST_CASE("OD extension, stream: an upload of known length is announced, and has it") {
+TEST_CASE("OD extension, stream: an upload of known length announces its length and has it") {
   Node node(0x3005, counting(10));
   node.ask("601#4005300000000000", "581#410530000A000000");
   node.ask("601#6000000000000000", "581#0001020304050607");
@@ -114,7 +113,7 @@ TEST_CASE("OD extension, stream: an upload of known length is announced, and has
   CHECK(domain.domain_memory == counting(20));
 }
 
-TEST_CASE("OD extension, stream: an announced length that the function does not keep is 0604 0047h or 0607 0012h") {
+TEST_CASE("OD extension, stream: a function that returns another length than announced is 0604 0047h or 0607 0012h") {
   Node shorter(0x3005, counting(9));
   shorter.ask("601#4005300000000000", "581#410530000A000000");
   shorter.ask("601#6000000000000000", "581#0001020304050607");
@@ -125,7 +124,7 @@ TEST_CASE("OD extension, stream: an announced length that the function does not 
   longer.ask("601#7000000000000000", "581#8005300012000706");
 }
 
-TEST_CASE("OD extension, stream: uploads of unknown length have any, in segments and blocks") {
+TEST_CASE("OD extension, stream: uploads of unknown length work for any length, in segments and blocks") {
   for (const std::uint32_t size : {0U, 1U, 6U, 7U, 8U, 13U, 14U, 15U, 888U, 889U, 890U, 1777U, 1778U, 1779U}) {
     CAPTURE(size);
     Node node(0x3004, counting(size));
@@ -142,7 +141,8 @@ TEST_CASE("OD extension, stream: uploads of unknown length have any, in segments
   }
 }
 
-TEST_CASE("OD extension, stream: a function that gives fewer bytes than fit is called until they are all there") {
+TEST_CASE(
+    "OD extension, stream: a function that returns fewer bytes than requested is called again until all are read") {
   for (const std::uint32_t at_once : {1U, 2U, 3U, 5U, 6U}) {
     CAPTURE(at_once);
     Node node(0x3004, counting(30));
@@ -154,7 +154,7 @@ TEST_CASE("OD extension, stream: a function that gives fewer bytes than fit is c
   }
 }
 
-TEST_CASE("OD extension, stream: a length that the function finds out in the first call stays with the transfer") {
+TEST_CASE("OD extension, stream: a length that the function sets in the first call is kept for the transfer") {
   Node node(0x3004, counting(20));
   std::vector<OD_size_t> seen;
   node.extension.on_read = [&](OD_stream_t* stream) {
@@ -166,7 +166,7 @@ TEST_CASE("OD extension, stream: a length that the function finds out in the fir
   CHECK(seen == std::vector<OD_size_t>{0, 20, 20});
 }
 
-TEST_CASE("OD extension, stream: an error in any piece aborts with its code") {
+TEST_CASE("OD extension, stream: an error in any call aborts the transfer with its code") {
   for (unsigned good = 0; good < 3; ++good) {
     CAPTURE(good);
     Node node(0x3004, counting(20));
@@ -184,7 +184,7 @@ TEST_CASE("OD extension, stream: an error in any piece aborts with its code") {
   }
 }
 
-TEST_CASE("OD extension, stream: a transfer that is broken off does not move the next one") {
+TEST_CASE("OD extension, stream: an aborted transfer does not change the position of the next one") {
   Node node(0x3004, counting(20));
   for (const char* end : {"601#8004300000000008", "601#4000100000000000", "601#4004300000000000"}) {
     node.ask("601#4004300000000000", "581#4004300000000000");
@@ -203,7 +203,7 @@ TEST_CASE("OD extension, stream: a transfer that is broken off does not move the
 
 // Texts -------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, stream: a text ends at its first zero, what the function puts behind it is not shown") {
+TEST_CASE("OD extension, stream: a text ends at its first zero; later bytes of the function are not sent") {
   struct {
     Bytes data, shown;
   } const table[] = {{bytes_of("abc"), bytes_of("abc")},
@@ -235,7 +235,7 @@ Bytes utf16(std::initializer_list<std::uint16_t> characters) {
   return data;
 }
 
-TEST_CASE("OD extension, stream: a UNICODE_STRING ends at a zero character, wherever pieces end [301:7.1.6.4]") {
+TEST_CASE("OD extension, stream: a UNICODE_STRING ends at a zero character in any piece [301:7.1.6.4]") {
   struct {
     Bytes data, shown;
   } const table[] = {
@@ -274,7 +274,7 @@ TEST_CASE("OD extension, stream: a UNICODE_STRING ends at a zero character, wher
   }
 }
 
-TEST_CASE("OD extension, stream: a text through the original function, wrapped") {
+TEST_CASE("OD extension, stream: an extension may wrap the original function of a text") {
   Node node;
   OD_extension_t loud{nullptr, nullptr, OD_writeOriginal, {}};
   loud.read = [](OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* passed) {
@@ -306,7 +306,7 @@ TEST_CASE("OD extension, stream: a text through the original function, wrapped")
   CHECK(node.octets.Size == 5);
 }
 
-TEST_CASE("OD extension, stream: both functions are the original ones: nothing is different") {
+TEST_CASE("OD extension, stream: an extension with both original functions behaves like no extension") {
   Node node;
   OD_extension_t same{nullptr, OD_readOriginal, OD_writeOriginal, {}};
   node.call([&] {
@@ -338,7 +338,8 @@ TEST_CASE("OD extension, stream: an expedited download is passed in one call wit
   CHECK(node.extension.data == Bytes{0x11, 0x22});
 }
 
-TEST_CASE("OD extension, stream: a segmented download passes its length with the last piece, announced or not") {
+TEST_CASE(
+    "OD extension, stream: a segmented download passes its length with the last piece, whether announced or not") {
   for (const bool announced : {true, false}) {
     Node node(0x3004);
     node.ask(announced ? "601#2104300009000000" : "601#2004300000000000", "581#6004300000000000");
@@ -351,7 +352,7 @@ TEST_CASE("OD extension, stream: a segmented download passes its length with the
   }
 }
 
-TEST_CASE("OD extension, stream: downloads of any length, in segments and blocks, announced or not") {
+TEST_CASE("OD extension, stream: downloads of any length work in segments and blocks, whether announced or not") {
   for (const std::uint32_t size : {0U, 1U, 4U, 6U, 7U, 8U, 14U, 15U, 888U, 889U, 890U, 1778U, 1779U}) {
     for (const bool announced : {true, false}) {
       CAPTURE(size);
@@ -369,7 +370,7 @@ TEST_CASE("OD extension, stream: downloads of any length, in segments and blocks
   }
 }
 
-TEST_CASE("OD extension, stream: an empty last segment ends what came before, also nothing [301:7.2.4.3.4]") {
+TEST_CASE("OD extension, stream: an empty last segment ends a download of any length, also 0 [301:7.2.4.3.4]") {
   Node node(0x3004, Bytes{0xEE});
   node.ask("601#2004300000000000", "581#6004300000000000");
   node.ask("601#0F00000000000000", "581#2000000000000000");
@@ -383,7 +384,7 @@ TEST_CASE("OD extension, stream: an empty last segment ends what came before, al
   CHECK(node.extension.data == counting(7));
 }
 
-TEST_CASE("OD extension, stream: an extension that refuses the end refuses the download") {
+TEST_CASE("OD extension, stream: an extension that refuses the last piece aborts the download") {
   Node node(0x3004, Bytes{0xEE});
   node.extension.on_write = [](OD_stream_t* stream) { return stream->dataLength != 0 ? ODR_INVALID_VALUE : ODR_OK; };
   node.ask("601#2004300000000000", "581#6004300000000000");
@@ -395,7 +396,8 @@ TEST_CASE("OD extension, stream: an extension that refuses the end refuses the d
   CHECK(node.extension.data == Bytes{0xEE});
 }
 
-TEST_CASE("OD extension, stream: too long and too short: the function is not called for the last piece") {
+TEST_CASE(
+    "OD extension, stream: for a download that is too long or too short the function does not get the last piece") {
   Node node(0x3005, counting(10));
   node.ask("601#2105300009000000", "581#8005300013000706");
   node.ask("601#210530000B000000", "581#8005300012000706");
@@ -426,7 +428,7 @@ TEST_CASE("OD extension, stream: too long and too short: the function is not cal
   }
 }
 
-TEST_CASE("OD extension, stream: a function that ends too early is 0607 0012h, one that requires more 0607 0013h") {
+TEST_CASE("OD extension, stream: a function that ends too early is 0607 0012h; one that requires more is 0607 0013h") {
   Node node;
   static OD_size_t wants = 0;
   static OD_size_t has = 0;
@@ -450,7 +452,7 @@ TEST_CASE("OD extension, stream: a function that ends too early is 0607 0012h, o
   node.ask("601#2B04300001020000", "581#8004300013000706");
 }
 
-TEST_CASE("OD extension, stream: a text shorter than its capacity comes with its zero") {
+TEST_CASE("OD extension, stream: a text shorter than its capacity is passed with its zero") {
   for (unsigned size = 0; size <= 16; ++size) {
     CAPTURE(size);
     Node node(0x3000);
@@ -483,7 +485,7 @@ ODR_t read_with_late_end(OD_stream_t* stream, void* buf, OD_size_t count, OD_siz
   return *passed == 0 ? ODR_OK : ODR_PARTIAL;
 }
 
-TEST_CASE("OD extension, stream: a UNICODE_STRING that ends with half a character gets no byte that was not read") {
+TEST_CASE("OD extension, stream: a UNICODE_STRING with half a character at its end gets no uninitialised byte") {
   for (const bool late : {false, true}) {
     CAPTURE(late);
     Node node(0x3002, {0x41, 0x00, 0x42, 0x00, 0x43, 0x00, 0x44});
@@ -494,7 +496,7 @@ TEST_CASE("OD extension, stream: a UNICODE_STRING that ends with half a characte
   }
 }
 
-TEST_CASE("OD extension, stream: a zero character behind a short UNICODE_STRING has two bytes") {
+TEST_CASE("OD extension, stream: a short UNICODE_STRING is passed with a zero character of two bytes") {
   for (unsigned size = 0; size <= 16; size += 2) {
     CAPTURE(size);
     Node node(0x3002);
@@ -504,7 +506,7 @@ TEST_CASE("OD extension, stream: a zero character behind a short UNICODE_STRING 
   }
 }
 
-TEST_CASE("OD extension, stream: octets and domains may be shorter, and have nothing behind them") {
+TEST_CASE("OD extension, stream: shorter OCTET_STRINGs and domains are passed without terminator") {
   Node octets(0x3001);
   CHECK(octets.download(0x3001, 0, counting(5)) == 0);
   CHECK(octets.extension.data == counting(5));
@@ -518,7 +520,7 @@ TEST_CASE("OD extension, stream: octets and domains may be shorter, and have not
 
 // The application ---------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, stream: the application reads it in pieces, by COObj functions and by OD_IO_t") {
+TEST_CASE("OD extension, stream: the application reads it in pieces by COObj functions and by OD_IO_t") {
   Node node(0x3004, counting(20));
   std::uint8_t buffer[20] = {};
   node.call([&] {
@@ -540,7 +542,7 @@ TEST_CASE("OD extension, stream: the application reads it in pieces, by COObj fu
   });
 }
 
-TEST_CASE("OD extension, stream: what the application writes is all there is, where the length may vary") {
+TEST_CASE("OD extension, stream: a partial write of the application sets the length where it may vary") {
   Node node(0x3000);
   std::uint8_t text[] = {'a', 'b', 'c'};
   node.call([&] { CHECK(CODictWrBuffer(&node->Dict, CO_DEV(0x3000, 0), text, 3) == CO_ERR_NONE); });
@@ -558,7 +560,7 @@ TEST_CASE("OD extension, stream: what the application writes is all there is, wh
   CHECK(domain.extension.data == Bytes(20));
 }
 
-TEST_CASE("OD extension, stream: of a fixed length it may be written in pieces") {
+TEST_CASE("OD extension, stream: an object of fixed length may be written in pieces") {
   Node node(0x3005);
   Bytes data = counting(10);
   node.call([&] {
@@ -573,7 +575,7 @@ TEST_CASE("OD extension, stream: of a fixed length it may be written in pieces")
   CHECK(node.extension.take_log() == Log{"write 4 at 0 of 10", "write 5 at 4 of 10", "write 1 at 9 of 10"});
 }
 
-TEST_CASE("OD extension, stream: the application sets the position within what has passed, and not beyond") {
+TEST_CASE("OD extension, stream: the application may set the position up to the present one, not beyond") {
   Node node(0x3004, counting(100));
   std::uint8_t buffer[100] = {};
   node.call([&] {
@@ -588,7 +590,7 @@ TEST_CASE("OD extension, stream: the application sets the position within what h
   CHECK(Bytes(buffer, buffer + 5) == counting(5, 71));
 }
 
-TEST_CASE("OD extension, stream: the continuation of an access that was not begun is refused, not begun anew") {
+TEST_CASE("OD extension, stream: a continued access without a begin is refused") {
   Node node(0x3004, counting(20));
   node.extension.put_at(node, 0x3005);
   std::uint8_t buffer[20] = {};
@@ -605,7 +607,7 @@ TEST_CASE("OD extension, stream: the continuation of an access that was not begu
   });
 }
 
-TEST_CASE("OD extension, stream: a length that the application has found out is not the network's") {
+TEST_CASE("OD extension, stream: a length found by the application does not change the length of SDO transfers") {
   Node node(0x3000, bytes_of("short"));
   std::uint8_t buffer[20] = {};
   node.call([&] { CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x3000, 0), buffer, 20) == CO_ERR_NONE); });
@@ -671,7 +673,7 @@ struct ImageNode : Fixture {
   }
 };
 
-TEST_CASE("OD extension, stream: a type of the application sees the whole transfer, extended or not") {
+TEST_CASE("OD extension, stream: an application-defined type gets the whole transfer, whether extended or not") {
   ImageNode node;
   image.data = counting(9);
   CHECK(node.upload(0x3000, 0) == counting(9));
@@ -689,7 +691,7 @@ TEST_CASE("OD extension, stream: a type of the application sees the whole transf
   CHECK(image.data == counting(10, 3));
 }
 
-TEST_CASE("OD extension, stream: the original functions of such a type within the extension") {
+TEST_CASE("OD extension, stream: the extension may call the original functions of an application-defined type") {
   ImageNode node;
   OD_extension_t counted{nullptr, nullptr, nullptr, {}};
   static unsigned calls = 0;
@@ -712,7 +714,8 @@ TEST_CASE("OD extension, stream: the original functions of such a type within th
   CHECK(node.download(0x3000, 0, counting(20)) == 0x08000022);
 }
 
-TEST_CASE("OD extension, stream: an empty download through the original functions empties such a type") {
+TEST_CASE(
+    "OD extension, stream: an empty download through the original functions empties an application-defined type") {
   ImageNode node;
   OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
   node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3000), &original) == ODR_OK); });
@@ -723,7 +726,8 @@ TEST_CASE("OD extension, stream: an empty download through the original function
   }
 }
 
-TEST_CASE("OD extension, stream: an end that the extension refuses is an abort for the type behind it") {
+TEST_CASE(
+    "OD extension, stream: a last piece that the extension refuses calls End of the original type with an abort") {
   ImageNode node;
   LoggedExtension extension;
   extension.put_at(node, 0x3000);

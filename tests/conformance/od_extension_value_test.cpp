@@ -63,7 +63,7 @@ std::string hex(const Bytes& data, std::size_t n) {
 
 // Accesses that reach the extension --------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, value: without one the object is what its original type makes of it") {
+TEST_CASE("OD extension, value: without an extension the original type is used") {
   Node node;
   node.ask("601#4000300000000000", "581#4300300011223344");
   node.ask("601#2300300001020304", "581#6000300000000000");
@@ -73,7 +73,7 @@ TEST_CASE("OD extension, value: without one the object is what its original type
   CHECK(node.u8 == 0x55);
 }
 
-TEST_CASE("OD extension, value: with one, SDO reads and writes by its functions, and not the variable") {
+TEST_CASE("OD extension, value: SDO reads and writes by the functions of the extension, not the variable") {
   Node node;
   LoggedExtension extension;
   extension.put_at(node, 0x3000);
@@ -86,7 +86,7 @@ TEST_CASE("OD extension, value: with one, SDO reads and writes by its functions,
   CHECK(node.word == 0x44332211);
 }
 
-TEST_CASE("OD extension, value: CODict and COObj functions, OD_get and OD_set reach it, odOrig passes by it") {
+TEST_CASE("OD extension, value: CODict and COObj functions, OD_get and OD_set use it; odOrig bypasses it") {
   Node node;
   LoggedExtension extension;
   extension.put_at(node, 0x3000);
@@ -110,7 +110,7 @@ TEST_CASE("OD extension, value: CODict and COObj functions, OD_get and OD_set re
   CHECK(extension.take_log().empty());
 }
 
-TEST_CASE("OD extension, value: numbers of every width come whole, in one call, expedited or in segments") {
+TEST_CASE("OD extension, value: numbers of every width are passed in one call, expedited or in segments") {
   for (unsigned width = 1; width <= 8; ++width) {
     CAPTURE(width);
     Node node;
@@ -130,7 +130,7 @@ TEST_CASE("OD extension, value: numbers of every width come whole, in one call, 
   }
 }
 
-TEST_CASE("OD extension, value: a number by block transfer comes whole, too") {
+TEST_CASE("OD extension, value: a number by block transfer is passed in one call") {
   Node node;
   LoggedExtension extension;
   extension.put_at(node, 0x3008);
@@ -142,7 +142,7 @@ TEST_CASE("OD extension, value: a number by block transfer comes whole, too") {
   }
 }
 
-TEST_CASE("OD extension, value: the variable in the arguments of the extension") {
+TEST_CASE("OD extension, value: its arguments contain the variable") {
   Node node;
   LoggedExtension extension;
   OD_stream_t seen{};
@@ -162,7 +162,7 @@ TEST_CASE("OD extension, value: the variable in the arguments of the extension")
   CHECK(seen.attribute == (ODA_SDO_RW | ODA_MB));
 }
 
-TEST_CASE("OD extension, value: a length that is not the object's never reaches it [301:7.2.4.3.17]") {
+TEST_CASE("OD extension, value: a transfer of a wrong length is refused before it is called [301:7.2.4.3.17]") {
   Node node;
   LoggedExtension extension;
   extension.put_at(node, 0x3000);
@@ -196,7 +196,7 @@ constexpr Row rows[] = {{1, "05000405"},  {2, "00000106"},  {3, "01000106"},  {4
                         {21, "20000008"}, {22, "21000008"}, {23, "22000008"}, {24, "23000008"},     {25, "24000008"},
                         {26, "47000406"}, {99, "47000406"}, {-2, "47000406"}, {largest, "47000406"}};
 
-TEST_CASE("OD extension, value: each result but ODR_OK is an SDO abort with its code, up and down") {
+TEST_CASE("OD extension, value: each result except ODR_OK aborts uploads and downloads with its code") {
   for (const Row& row : rows) {
     CAPTURE(row.result);
     Node node;
@@ -219,7 +219,7 @@ TEST_CASE("OD extension, value: each result but ODR_OK is an SDO abort with its 
   }
 }
 
-TEST_CASE("OD extension, value: ODR_PARTIAL is no answer of a number: 0604 0047h up, 0607 0013h down") {
+TEST_CASE("OD extension, value: ODR_PARTIAL for a number is 0604 0047h in uploads and 0607 0013h in downloads") {
   Node node;
   LoggedExtension extension;
   extension.put_at(node, 0x3000);
@@ -240,7 +240,7 @@ TEST_CASE("OD extension, value: ODR_OK with another number of bytes is 0604 0047
   node.ask("601#4000300000000000", "581#8000300047000406");
 }
 
-TEST_CASE("OD extension, value: the arguments of the application's own functions") {
+TEST_CASE("OD extension, value: its arguments in calls of the application") {
   struct {
     ODR_t result;
     CO_ERR read, write;
@@ -283,7 +283,7 @@ TEST_CASE("OD extension, value: a null function refuses with 0601 0000h") {
   CHECK(node.word == 0x44332211);
 }
 
-TEST_CASE("OD extension, value: rights are the entry's: the network is refused before the extension is asked") {
+TEST_CASE("OD extension, value: access rights are checked before it is called") {
   Values values;
   Fixture node(values.setup()
                    .with({CO_KEY(0x3000, 0, CO_OBJ_____R_), OD_TUNSIGNED32, CO_DATA(&values.word)})
@@ -318,7 +318,7 @@ struct Even {
   }
 };
 
-TEST_CASE("OD extension, value: it checks before it commits, and the original function does the rest") {
+TEST_CASE("OD extension, value: it may check a value and then call the original function") {
   Node node;
   Even even;
   node.call([&] { CHECK(node.extend(0x3000, &even.extension) == ODR_OK); });
@@ -347,7 +347,7 @@ ODR_t read_doubled(OD_stream_t* stream, void* buf, OD_size_t count, OD_size_t* p
   return result;
 }
 
-TEST_CASE("OD extension, value: the original functions with the node-ID (flag N) and the value in the entry (flag D)") {
+TEST_CASE("OD extension, value: the original functions handle flag N (node-ID) and flag D (value in the entry)") {
   Node node;
   OD_extension_t doubled{nullptr, read_doubled, OD_writeOriginal, {}};
   node.call([&] {
@@ -373,8 +373,7 @@ uint32_t own_size(CO_OBJ*, CO_NODE*, uint32_t) { return 2; }
 const CO_OBJ_TYPE own_type = {own_size, nullptr, own_read, own_write, nullptr};
 const OD_TYPE own_extensible = OD_VALUE(&own_type, OD_ORIGINAL);
 
-TEST_CASE(
-    "OD extension, value: a code that an original type names itself reaches the client, whatever stands between") {
+TEST_CASE("OD extension, value: an abort code of the original type is sent to the client through the extension") {
   Fixture node(Setup().only_small().with({CO_KEY(0x3000, 0, CO_OBJ_____RW), &own_extensible.Ex.Type, CO_DATA(1)}));
   node.ask("601#4000300000000000", "581#8000300004000405");
   OD_extension_t extension{nullptr, OD_readOriginal, OD_writeOriginal, {}};
@@ -396,7 +395,7 @@ TEST_CASE(
 
 // Adding and removing extensions ------------------------------------------------------------------------------------
 
-TEST_CASE("OD extension, value: it acts from the next access on, until it is taken away or changed for another") {
+TEST_CASE("OD extension, value: it applies from the next access until it is removed or replaced") {
   Node node;
   LoggedExtension one;
   LoggedExtension other;
@@ -410,7 +409,7 @@ TEST_CASE("OD extension, value: it acts from the next access on, until it is tak
   node.ask("601#4000300000000000", "581#4300300011223344");
 }
 
-TEST_CASE("OD extension, value: one for several objects and all sub-indexes gets index and sub-index") {
+TEST_CASE("OD extension, value: one for several objects and all sub-indices gets index and sub-index") {
   Node node;
   LoggedExtension extension;
   std::vector<std::uint32_t> seen;
@@ -427,7 +426,7 @@ TEST_CASE("OD extension, value: one for several objects and all sub-indexes gets
   CHECK(seen == std::vector<std::uint32_t>{CO_DEV(0x3008, 1), CO_DEV(0x3000, 0), CO_DEV(0x3001, 1)});
 }
 
-TEST_CASE("OD extension, value: what cannot be extended is refused, unless nothing would change") {
+TEST_CASE("OD extension, value: objects that cannot be extended are refused, unless nothing would change") {
   Node node;
   LoggedExtension extension;
   OD_extension_t original{nullptr, OD_readOriginal, OD_writeOriginal, {}};
@@ -440,7 +439,7 @@ TEST_CASE("OD extension, value: what cannot be extended is refused, unless nothi
   node.ask("601#4004200000000000", "581#4304200011223344");
 }
 
-TEST_CASE("OD extension, value: a REAL32, CPU order in the function, the bus has it little-endian [301:7.1.6.8]") {
+TEST_CASE("OD extension, value: a REAL32 has CPU byte order in the function, little-endian on the bus [301:7.1.6.8]") {
   Node node;
   static float seen = 0;
   OD_extension_t extension{nullptr, nullptr, nullptr, {}};
@@ -454,7 +453,7 @@ TEST_CASE("OD extension, value: a REAL32, CPU order in the function, the bus has
   CHECK(seen == 1.5F);
 }
 
-TEST_CASE("OD extension, value: all 26 results and codes are there") {
+TEST_CASE("OD extension, value: all 26 results and abort codes are translated") {
   static_assert(ODR_COUNT == 26);
   for (const Row& row : rows) {
     const std::uint32_t code = OD_getSDOabCode(static_cast<ODR_t>(row.result));

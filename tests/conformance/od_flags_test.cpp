@@ -43,7 +43,7 @@ class FlagNode : public SyncNode {
   }
 };
 
-TEST_CASE("OD flags: bit 0 is set by every reception, and stays until the application clears it") {
+TEST_CASE("OD flags: bit 0 is set by every reception and stays set until the application clears it") {
   FlagNode node;
   node.start();
   CHECK(node.flags(1) == 0);
@@ -60,7 +60,7 @@ TEST_CASE("OD flags: bit 0 is set by every reception, and stays until the applic
   CHECK(node.flags(3) == 0);
 }
 
-TEST_CASE("OD flags: TPDO n sets bit n when it is sent, from 1") {
+TEST_CASE("OD flags: TPDO n sets bit n when it is sent, beginning with 1") {
   FlagNode node;
   node.start();
   CHECK(node.flags(3) == 0);
@@ -75,7 +75,7 @@ TEST_CASE("OD flags: TPDO n sets bit n when it is sent, from 1") {
   CHECK(node.flags(1) == 0);
 }
 
-TEST_CASE("OD flags: clearing bit n lets TPDO n be sent, and no other") {
+TEST_CASE("OD flags: clearing bit n requests TPDO n and no other") {
   FlagNode node;
   node.start();
   node.clear(3, 2);
@@ -97,7 +97,7 @@ TEST_CASE("OD flags: clearing bit n lets TPDO n be sent, and no other") {
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("OD flags: a cleared bit stays cleared until the inhibit time lets the TPDO be sent [301:7.2.2.6]") {
+TEST_CASE("OD flags: a cleared bit stays cleared until the TPDO is sent after its inhibit time [301:7.2.2.6]") {
   SyncTable table = both();
   table.tpdo[0].inhibit = 1000;
   FlagNode node(table);
@@ -112,7 +112,7 @@ TEST_CASE("OD flags: a cleared bit stays cleared until the inhibit time lets the
   CHECK(node.flags(3) == 2);
 }
 
-TEST_CASE("OD request: every TPDO of type 254 or 255 that maps the variable is sent, and then it is transmitted") {
+TEST_CASE("OD request: every TPDO of type 254 or 255 that maps the variable is sent and reported as transmitted") {
   FlagNode node;
   node.start();
   CHECK_FALSE(node.transmitted(3));
@@ -126,7 +126,7 @@ TEST_CASE("OD request: every TPDO of type 254 or 255 that maps the variable is s
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("OD request: it is transmitted only when it was sent after the request") {
+TEST_CASE("OD request: it is reported as transmitted only if it was sent after the request") {
   SyncTable table = both();
   table.tpdo[0].inhibit = 1000;
   table.tpdo[1] = {};
@@ -169,7 +169,7 @@ TEST_CASE("OD request: a TPDO of type 0 is sent at the next SYNC, one of type 1 
   node.tx({"181#31", "281#3141"});
 }
 
-TEST_CASE("OD flags: a synchronous RPDO has passed at the SYNC") {
+TEST_CASE("OD flags: a synchronous RPDO is marked as received at the SYNC") {
   SyncTable table = both();
   table.rpdo[0].type = 1;
   FlagNode node(table);
@@ -182,7 +182,7 @@ TEST_CASE("OD flags: a synchronous RPDO has passed at the SYNC") {
 
 #endif
 
-TEST_CASE("OD request: what keeps a TPDO from being sent is the node's error") {
+TEST_CASE("OD request: the reason why a TPDO is not sent is the node error") {
   FlagNode node;
   node.request(3);
   CHECK(node.error() == CO_ERR_NMT_MODE);
@@ -196,7 +196,7 @@ TEST_CASE("OD request: what keeps a TPDO from being sent is the node's error") {
   node.silent();
 }
 
-TEST_CASE("OD request: no extension is needed, nor a sub-index below the size of its flags") {
+TEST_CASE("OD request: it needs neither an extension nor a sub-index within the size of its flags") {
   SyncTable table = both();
   static std::uint8_t high = 0x5A;
   table.tpdo[0].on(0x40000181, 255, {0x2400C808});
@@ -213,7 +213,7 @@ TEST_CASE("OD request: no extension is needed, nor a sub-index below the size of
 
 #if OD_FLAGS_PDO_SIZE >= 1
 
-TEST_CASE("OD request: the flag in an extension is 0 from the request until the TPDO was seen sent") {
+TEST_CASE("OD request: the flag in an extension is 0 from the request until the TPDO has been sent") {
   SyncTable table = both();
   table.tpdo[1].on(0x40000281, 255, {0x2400C808});
   static std::uint8_t high = 0x5A;
@@ -241,7 +241,7 @@ TEST_CASE("OD request: the flag in an extension is 0 from the request until the 
 
 #endif
 
-TEST_CASE("OD flags: what is not there has none") {
+TEST_CASE("OD flags: missing objects have no flags") {
   FlagNode node;
   node.start();
   OD_entry_t memory{};
@@ -262,7 +262,7 @@ TEST_CASE("OD flags: what is not there has none") {
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("OD flags: a dictionary that the node does not use has none") {
+TEST_CASE("OD flags: objects of a dictionary that the node does not use have no flags") {
   FlagNode node;
   node.start();
   static OD_entry_t list[4];
@@ -293,7 +293,7 @@ TEST_CASE("OD flags: they are those of CORPdoObjWasReceived and COTPdoObjWasSent
   CHECK_FALSE(node.transmitted(4));
 }
 
-TEST_CASE("OD request: while objects are locked it waits until they are not") {
+TEST_CASE("OD request: a request while objects are locked is carried out after the unlock") {
   FlagNode node;
   node.start();
   node.call([&] {
@@ -306,8 +306,7 @@ TEST_CASE("OD request: while objects are locked it waits until they are not") {
   CHECK(node.transmitted(4));
 }
 
-TEST_CASE(
-    "OD lock: it is OdLock and OdUnlock, once however often it is taken; unlocking what is not locked is nothing") {
+TEST_CASE("OD lock: nested locks call OdLock and OdUnlock once; unlocking unlocked objects does nothing") {
   FlagNode node;
   node.start();
   unsigned locks = 0;
@@ -328,7 +327,7 @@ TEST_CASE(
   CHECK(unlocks == 1);
 }
 
-TEST_CASE("OD request: a callback of the TPDO that maps it anew ends it") {
+TEST_CASE("OD request: a callback that maps its TPDO anew ends the request") {
   FlagNode node;
   node.start();
   callbacks().pdo_transmit = [&](CO_IF_FRM*) { CONodeStop(&node.node); };
@@ -339,7 +338,7 @@ TEST_CASE("OD request: a callback of the TPDO that maps it anew ends it") {
 
 #if USE_MPDO
 
-TEST_CASE("OD flags: objects of a scanner list have those of the TPDO that sends them [301:7.2.3]") {
+TEST_CASE("OD flags: objects of a scanner list have the flags of the TPDO that sends them [301:7.2.3]") {
   MpdoTable table;
   table.tpdo[1].on(0x40000281, 255, {}).number = sam;
   table.scan[0] = 0x03220101;

@@ -88,7 +88,7 @@ ODR_t restore(Fixture& node, unsigned group) {
   return result;
 }
 
-TEST_CASE("OD groups: a name is found at its sub-index of 1010h, and returned for it") {
+TEST_CASE("OD groups: a name is found at its sub-index of 1010h and returned for it") {
   Device device;
   Fixture node(device.setup());
   CHECK(OD_findStorageGroup(&node.od, "PERSIST_COMM") == 2);
@@ -104,7 +104,7 @@ TEST_CASE("OD groups: a name is found at its sub-index of 1010h, and returned fo
   }
 }
 
-TEST_CASE("OD groups: a group whose Ident is null is found by no name, and keeps none from being found") {
+TEST_CASE("OD groups: a group whose Ident is null has no name and does not hide the others") {
   Device device;
   for (CO_PARA* const group : {&device.everything, &device.first, &device.nameless}) group->Ident = nullptr;
   Fixture node(device.setup());
@@ -118,7 +118,7 @@ TEST_CASE("OD groups: a group whose Ident is null is found by no name, and keeps
   CHECK(OD_getStorageName(&node.od, 2) == nullptr);
 }
 
-TEST_CASE("OD groups: an object is in the group that its memory lies in; what has none is not stored") {
+TEST_CASE("OD groups: an object belongs to the group that contains its memory; other objects are not stored") {
   Device device;
   Fixture node(device.setup());
   const auto group_of = [&](std::uint16_t index, std::uint8_t sub) {
@@ -135,7 +135,7 @@ TEST_CASE("OD groups: an object is in the group that its memory lies in; what ha
   CHECK(group_of(0x3000, 0) == 0);
 }
 
-TEST_CASE("OD groups: sub-index 1 alone is a group; where others follow it, it is none of an object") {
+TEST_CASE("OD groups: sub-index 1 alone is a group; with other sub-indices no object belongs to it") {
   Device device;
   {
     Fixture node(device.single());
@@ -149,7 +149,7 @@ TEST_CASE("OD groups: sub-index 1 alone is a group; where others follow it, it i
   CHECK(OD_getStorageGroup(OD_find(&node.od, 0x2300), 3) == 3);
 }
 
-TEST_CASE("OD groups: OD_storeGroup is \"save\": its values come back, those of other groups do not") {
+TEST_CASE("OD groups: OD_storeGroup stores like \"save\"; values of other groups are not stored") {
   Device device;
   {
     Fixture node(device.setup());
@@ -166,7 +166,7 @@ TEST_CASE("OD groups: OD_storeGroup is \"save\": its values come back, those of 
   CHECK(device.application.limit == 20);
 }
 
-TEST_CASE("OD groups: 1 stores and restores all, as the network's command does") {
+TEST_CASE("OD groups: group 1 stores and restores all, like the SDO commands") {
   Device device;
   {
     Fixture node(device.setup());
@@ -187,7 +187,7 @@ TEST_CASE("OD groups: 1 stores and restores all, as the network's command does")
   CHECK(device.application.limit == 20);
 }
 
-TEST_CASE("OD groups: OD_restoreGroup is \"load\": the defaults come at the reset of the group's type") {
+TEST_CASE("OD groups: OD_restoreGroup works like \"load\": the defaults apply after the reset of the group's type") {
   Device device;
   Fixture node(device.setup());
   device.communication.number = 11;
@@ -204,8 +204,7 @@ TEST_CASE("OD groups: OD_restoreGroup is \"load\": the defaults come at the rese
   CHECK(device.application.limit == 20);
 }
 
-TEST_CASE(
-    "OD groups: what cannot be done has a result: no such group, not on command, a memory that does not hold it") {
+TEST_CASE("OD groups: failures have a result: no such group, not stored on command, memory failure") {
   Device device;
   Fixture node(device.setup());
   for (const unsigned group : {0U, 6U, 255U}) {
@@ -221,7 +220,7 @@ TEST_CASE(
   device.nvm.deaf_to = 0;
 }
 
-TEST_CASE("OD groups: without an index, without a name, or with objects that are nothing but memory, there is none") {
+TEST_CASE("OD groups: without an index, a name or an entry of the dictionary there is no group") {
   OD_t none{};
   CHECK(OD_findStorageGroup(nullptr, "PERSIST_COMM") == 0);
   CHECK(OD_findStorageGroup(&none, "PERSIST_COMM") == 0);
@@ -258,7 +257,7 @@ TEST_CASE("OD groups: a dictionary that the node does not use is not stored") {
 }
 
 // Checks the values that a device finds at its next start after a power failure at each step of storing.
-TEST_CASE("OD groups: power off at every byte of OD_storeGroup and OD_restoreGroup: old or new values, never others") {
+TEST_CASE("OD groups: power off at every byte of OD_storeGroup and OD_restoreGroup gives old or new values") {
   std::uint64_t cuts = 0;
   for (const bool restores : {false, true}) {
     for (const FailingNvm::Torn torn :

@@ -85,7 +85,7 @@ void upload(Node& node, std::uint16_t index) {
   node.rx("601#8000000000000008");
 }
 
-TEST_CASE("OD nonsense: whatever an extension answers, each request has its answer and the node goes on") {
+TEST_CASE("OD nonsense: for any result of an extension each request is answered and the node runs") {
   for (Nonsense nonsense : all_nonsense()) {
     CAPTURE(nonsense.result);
     CAPTURE(nonsense.more);
@@ -126,7 +126,7 @@ TEST_CASE("OD nonsense: whatever an extension answers, each request has its answ
   }
 }
 
-TEST_CASE("OD nonsense: ODR_PARTIAL without a byte, or with more than asked for, is 0604 0047h") {
+TEST_CASE("OD nonsense: ODR_PARTIAL with no byte or more bytes than requested is 0604 0047h") {
   for (const std::int64_t more : std::initializer_list<std::int64_t>{-7, 1, 1000}) {
     Nonsense nonsense{ODR_PARTIAL, more, 0, 0};
     Node node;
@@ -155,7 +155,7 @@ TEST_CASE("OD nonsense: a write that reports another number of bytes is 0604 004
   }
 }
 
-TEST_CASE("OD nonsense: bytes that an extension writes behind its reported length are not transmitted") {
+TEST_CASE("OD nonsense: bytes that an extension writes behind its reported length are not sent") {
   Node node;
   OD_extension_t extension{nullptr, nullptr, nullptr, {}};
   extension.read = [](OD_stream_t*, void* buf, OD_size_t count, OD_size_t* passed) {
@@ -197,7 +197,7 @@ struct Watched {
   }
 };
 
-TEST_CASE("OD nonsense: any command in any state of a transfer of an extended object") {
+TEST_CASE("OD nonsense: any command in any state of a transfer of an extended object is handled") {
   const std::vector<std::vector<const char*>> states = {
       {},
       {"601#4001300000000000"},

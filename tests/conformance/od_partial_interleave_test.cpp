@@ -244,7 +244,7 @@ void forget_pieces(LoggedExtension& extension) {
   };
 }
 
-TEST_CASE("OD interleaved: an upload, two readers and COObj functions on one extended stream, every order") {
+TEST_CASE("OD interleaved: an upload, two readers and COObj functions on one extended stream, in every order") {
   Node node;
   Upload upload(node, 1, 0x3000);
   Reader first(node, 0x3000);
@@ -255,7 +255,7 @@ TEST_CASE("OD interleaved: an upload, two readers and COObj functions on one ext
   CHECK(run_all_orders({&first, &second, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: two servers with two streams, and the application in both, every order") {
+TEST_CASE("OD interleaved: two servers with two streams and the application in both, in every order") {
   Node node;
   Upload upload(node, 1, 0x3000);
   Upload other_upload(node, 2, 0x3001);
@@ -266,7 +266,7 @@ TEST_CASE("OD interleaved: two servers with two streams, and the application in 
   CHECK(run_all_orders({&other_upload, &reader, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: a download on one server, an upload on the other, readers of both, every order") {
+TEST_CASE("OD interleaved: a download on one server, an upload on the other and readers of both, in every order") {
   Node node;
   Upload upload(node, 2, 0x3000);
   Download download(node, 1, 0x3001);
@@ -279,7 +279,7 @@ TEST_CASE("OD interleaved: a download on one server, an upload on the other, rea
   CHECK(node.other.data == counting(12, 51));
 }
 
-TEST_CASE("OD interleaved: writers of one stream: a download, an OD_IO_t, COObj functions, every order") {
+TEST_CASE("OD interleaved: a download, an OD_IO_t and COObj functions that write one stream, in every order") {
   Node node;
   forget_pieces(node.other);
   Download download(node, 1, 0x3001);
@@ -290,7 +290,7 @@ TEST_CASE("OD interleaved: writers of one stream: a download, an OD_IO_t, COObj 
   CHECK(run_all_orders({&download, &writer, &second}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: texts with their zero, every order") {
+TEST_CASE("OD interleaved: texts with their zero, in every order") {
   Node node;
   Upload upload(node, 1, 0x3003);
   Upload other(node, 2, 0x3000);
@@ -300,7 +300,7 @@ TEST_CASE("OD interleaved: texts with their zero, every order") {
   CHECK(run_all_orders({&upload, &reader, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: a domain without an extension: transfers, OD_IO_t and COObj functions, every order") {
+TEST_CASE("OD interleaved: transfers, OD_IO_t and COObj functions on a domain without an extension, in every order") {
   Node node;
   Upload upload(node, 1, 0x3002);
   Upload other(node, 2, 0x3001);
@@ -316,7 +316,7 @@ TEST_CASE("OD interleaved: a domain without an extension: transfers, OD_IO_t and
   CHECK(run_all_orders({&download, &reader, &obj}) == orders_of_three);
 }
 
-TEST_CASE("OD interleaved: all at once, in many orders") {
+TEST_CASE("OD interleaved: all accesses at once, in many orders") {
   Node node;
   Upload upload(node, 1, 0x3000);
   Download download(node, 2, 0x3001);
@@ -342,7 +342,7 @@ TEST_CASE("OD interleaved: all at once, in many orders") {
   }
 }
 
-TEST_CASE("OD interleaved: a stream belongs to one server, the second is refused with 0800 0022h") {
+TEST_CASE("OD interleaved: a stream that is open on one server is refused to the second with 0800 0022h") {
   Node node;
   Upload upload(node, 1, 0x3000);
   upload.begin();

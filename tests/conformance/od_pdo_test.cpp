@@ -49,7 +49,7 @@ PdoTable table_of(std::initializer_list<std::uint32_t> words, std::uint8_t type 
   return table;
 }
 
-TEST_CASE("OD PDO: without an extension they pass as what their original types make of them") {
+TEST_CASE("OD PDO: without an extension the original types are used") {
   Node node(table_of({0x30000008, 0x30010010, 0x30020020}));
   node.start();
   node.rx("201#01020304050607");
@@ -60,7 +60,7 @@ TEST_CASE("OD PDO: without an extension they pass as what their original types m
   node.tx("181#01020304050607");
 }
 
-TEST_CASE("OD PDO: an extension is called for each PDO, with the whole value, and the others in it are as ever") {
+TEST_CASE("OD PDO: an extension is called with the whole value; other objects of the PDO are as before") {
   Node node(table_of({0x30000008, 0x30010010, 0x30020020}));
   LoggedExtension extension;
   extension.put_at(node, 0x3001);
@@ -77,7 +77,7 @@ TEST_CASE("OD PDO: an extension is called for each PDO, with the whole value, an
   CHECK(node.word == 0x07060504);
 }
 
-TEST_CASE("OD PDO: it acts whether it was given before the PDOs were configured, in Operational, or is taken away") {
+TEST_CASE("OD PDO: an extension takes effect before the configuration and in Operational, until it is removed") {
   Node node(table_of({0x30020020}));
   node.start();
   node.trigger(0);
@@ -96,7 +96,7 @@ TEST_CASE("OD PDO: it acts whether it was given before the PDOs were configured,
   node.tx("181#11223344");
 }
 
-TEST_CASE("OD PDO: numbers of 64 bits, of the extension alone, BOOLEAN as a byte, streams of a fixed length") {
+TEST_CASE("OD PDO: numbers of 64 bits, objects without variable, BOOLEAN as a byte and streams of fixed length work") {
   LoggedExtension extension;
   struct {
     std::uint32_t word;
@@ -119,7 +119,7 @@ TEST_CASE("OD PDO: numbers of 64 bits, of the extension alone, BOOLEAN as a byte
   }
 }
 
-TEST_CASE("OD PDO: what has no known length cannot be mapped: 0604 0041h [301:7.5.2.36]") {
+TEST_CASE("OD PDO: an object of unknown length cannot be mapped: 0604 0041h [301:7.5.2.36]") {
   Node node(table_of({}));
   LoggedExtension extension;
   extension.put_at(node, 0x3006);
@@ -132,7 +132,7 @@ TEST_CASE("OD PDO: what has no known length cannot be mapped: 0604 0041h [301:7.
   CHECK(node.set(0x1A00, 1, 4, 0x30020010) == 0x06040041);
 }
 
-TEST_CASE("OD PDO: what read refuses keeps the TPDO from being sent, and is the node's error; later it is sent again") {
+TEST_CASE("OD PDO: a refused read prevents the transmission and sets the node error; the next TPDO is sent") {
   Node node(table_of({0x30000008, 0x30020020}));
   LoggedExtension extension;
   extension.put_at(node, 0x3002);
@@ -154,7 +154,7 @@ TEST_CASE("OD PDO: what read refuses keeps the TPDO from being sent, and is the 
   node.tx("181#1101020304");
 }
 
-TEST_CASE("OD PDO: what write refuses is the node's error, the rest of the RPDO is applied") {
+TEST_CASE("OD PDO: a refused write sets the node error; the rest of the RPDO is applied") {
   Node node(table_of({0x30000008, 0x30020020, 0x30010010}));
   LoggedExtension extension;
   extension.put_at(node, 0x3002);
@@ -169,7 +169,7 @@ TEST_CASE("OD PDO: what write refuses is the node's error, the rest of the RPDO 
   CHECK(extension.data.empty());
 }
 
-TEST_CASE("OD PDO: a null function: a TPDO is not sent, an RPDO writes nothing") {
+TEST_CASE("OD PDO: with a null function a TPDO is not sent and an RPDO is not written") {
   Node node(table_of({0x30020020}));
   OD_extension_t nothing{};
   node.call([&] { CHECK(OD_extension_init(OD_find(&node.od, 0x3002), &nothing) == ODR_OK); });
@@ -180,7 +180,7 @@ TEST_CASE("OD PDO: a null function: a TPDO is not sent, an RPDO writes nothing")
   CHECK(node.word == 0x44332211);
 }
 
-TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO, the original function only on a change") {
+TEST_CASE("OD PDO: flag A: a write through the extension sends the TPDO; the original function only on a change") {
   Node node(table_of({0x30070020}));
   node.frames_per_call(3);
   LoggedExtension extension;
@@ -218,7 +218,7 @@ struct Checking {
   }
 };
 
-TEST_CASE("OD PDO: flag A: an extension that writes the original sends the TPDO once, and only by a change") {
+TEST_CASE("OD PDO: flag A: an extension that calls the original function sends the TPDO once, and only on a change") {
   for (const bool as_application : {false, true}) {
     Node node(table_of({0x30070020}));
     node.frames_per_call(3);
@@ -242,7 +242,7 @@ TEST_CASE("OD PDO: flag A: an extension that writes the original sends the TPDO 
   }
 }
 
-TEST_CASE("OD PDO: flag A: the TPDO is sent once the write function is over: it has the value that read then gives") {
+TEST_CASE("OD PDO: flag A: the TPDO is sent after the write function, with the value that read then returns") {
   Node node(table_of({0x30070020}));
   node.frames_per_call(3);
   Checking checking;
@@ -266,7 +266,7 @@ TEST_CASE("OD PDO: flag A: the TPDO is sent once the write function is over: it 
   node.tx({"181#77777777", "581#6007300000000000"});
 }
 
-TEST_CASE("OD PDO: flag A: what the original has changed before the extension refuses is sent as it is") {
+TEST_CASE("OD PDO: flag A: a change by the original function is sent although the extension then refuses the write") {
   Node node(table_of({0x30070020}));
   node.frames_per_call(3);
   Checking checking;
@@ -278,7 +278,7 @@ TEST_CASE("OD PDO: flag A: what the original has changed before the extension re
   node.ask("601#2307300001020304", "581#8007300000000606");
 }
 
-TEST_CASE("OD PDO: flag A: an extension that keeps the value elsewhere: each write that it accepts is a change") {
+TEST_CASE("OD PDO: flag A: each accepted write is a change if the extension stores the value elsewhere") {
   Node node(table_of({0x30070020}));
   node.frames_per_call(3);
   LoggedExtension extension;
@@ -308,7 +308,7 @@ TEST_CASE("OD PDO: flag A: an extension that writes another object triggers the 
   node.tx({"281#01020304", "181#09000000", "581#6007300000000000"});
 }
 
-TEST_CASE("OD PDO: synchronous ones sample and apply through the extension [301:7.2.2.3]") {
+TEST_CASE("OD PDO: synchronous PDOs sample and apply through the extension [301:7.2.2.3]") {
   PdoTable table = table_of({0x30020020}, 1);
   LoggedExtension extension;
   Variables variables;
@@ -328,7 +328,7 @@ TEST_CASE("OD PDO: synchronous ones sample and apply through the extension [301:
   CHECK(extension.data == number_of({5, 6, 7, 8}));
 }
 
-TEST_CASE("OD PDO: an extension that stops the node, or changes the dictionary, within a PDO") {
+TEST_CASE("OD PDO: an extension may stop the node or change the dictionary within a PDO") {
   for (const unsigned what : {0U, 1U, 2U, 3U}) {
     for (const bool receives : {true, false}) {
       PdoTable table = table_of({0x30020020, 0x30000008});
@@ -411,7 +411,7 @@ struct StreamNode : Streams, PdoNode {
   }
 };
 
-TEST_CASE("OD PDO: between two pieces of the application's access a PDO passes a stream: both are whole") {
+TEST_CASE("OD PDO: a PDO of a stream between two partial accesses of the application disturbs neither") {
   for (const std::uint32_t word :
        std::initializer_list<std::uint32_t>{0x30050020, 0x30110020, 0x30120020, 0x30130020}) {
     for (const bool receives : {true, false}) {
@@ -445,7 +445,7 @@ TEST_CASE("OD PDO: between two pieces of the application's access a PDO passes a
   }
 }
 
-TEST_CASE("OD PDO: within the read function of a PDO the application reads another stream, and goes on with its own") {
+TEST_CASE("OD PDO: within the read function of a PDO the application may continue reading another stream") {
   StreamNode node(0x30050020);
   std::uint8_t other[20] = {};
   node.mapped.on_read = [&](OD_stream_t*) {
@@ -463,7 +463,7 @@ TEST_CASE("OD PDO: within the read function of a PDO the application reads anoth
   CHECK(Bytes(other, other + 20) == counting(20));
 }
 
-TEST_CASE("OD PDO: an access whose object gets another extension within a PDO is over all the same") {
+TEST_CASE("OD PDO: a partial access ends if its object gets another extension within a PDO") {
   StreamNode node(0x30050020);
   node.mapped.on_read = [&](OD_stream_t*) {
     CHECK(OD_extension_init(OD_find(&node.od, 0x3010), &node.original) == ODR_OK);

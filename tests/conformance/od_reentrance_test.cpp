@@ -178,7 +178,7 @@ const std::vector<std::vector<std::string>>& transfers() {
   return all;
 }
 
-TEST_CASE("OD re-entrance: an extension acts in any call of any transfer, and what comes afterwards is right") {
+TEST_CASE("OD re-entrance: an extension may act in any call of any transfer, and the following transfers are right") {
   for (const Named& one : acts()) {
     for (const std::vector<std::string>& frames : transfers()) {
       for (unsigned call = 0; call < 4; ++call) {
@@ -213,7 +213,7 @@ TEST_CASE("OD re-entrance: an extension acts in any call of any transfer, and wh
   }
 }
 
-TEST_CASE("OD re-entrance: an extension acts in calls of the application") {
+TEST_CASE("OD re-entrance: an extension may act in calls of the application") {
   for (const Named& one : acts()) {
     for (unsigned call = 0; call < 3; ++call) {
       CAPTURE(std::string(one.name));
@@ -244,7 +244,7 @@ TEST_CASE("OD re-entrance: an extension acts in calls of the application") {
   }
 }
 
-TEST_CASE("OD re-entrance: it reads its own object within a transfer, which goes on where it was") {
+TEST_CASE("OD re-entrance: it may read its own object within a transfer, which continues at its position") {
   Node node;
   node.extension.on_read = [&, depth = 0](OD_stream_t* stream) mutable {
     if (depth++ == 0) {
@@ -266,7 +266,7 @@ TEST_CASE("OD re-entrance: it reads its own object within a transfer, which goes
   CHECK(Bytes(bytes, bytes + 20) == counting(20));
 }
 
-TEST_CASE("OD re-entrance: it reads another extended object in between, both go on where they were") {
+TEST_CASE("OD re-entrance: it may read another extended object within a transfer; both continue at their positions") {
   Node node;
   node.extension.on_read = [&, depth = 0](OD_stream_t* stream) mutable {
     if (depth++ == 0 && stream->index == 0x3001) {
@@ -287,7 +287,7 @@ TEST_CASE("OD re-entrance: it reads another extended object in between, both go 
   CHECK(Bytes(bytes, bytes + 20) == counting(20));
 }
 
-TEST_CASE("OD re-entrance: it writes its own object within a download: both are whole") {
+TEST_CASE("OD re-entrance: it may write its own object within a download: both are complete") {
   Node node;
   unsigned depth = 0;
   Log inner;
@@ -309,7 +309,7 @@ TEST_CASE("OD re-entrance: it writes its own object within a download: both are 
   CHECK(node.extension.take_log() == Log{"write 1 at 14 of 15"});
 }
 
-TEST_CASE("OD re-entrance: once it has taken itself away it is not called again, not for the rest of a piece either") {
+TEST_CASE("OD re-entrance: an extension that has removed itself is not called again, also not within a piece") {
   Node node;
   node.extension.at_once = 3;
   do_at(node, 0, acts()[4].act);
@@ -318,7 +318,7 @@ TEST_CASE("OD re-entrance: once it has taken itself away it is not called again,
   CHECK(node.extension.take_log() == Log{"read 7 at 0 of 20"});
 }
 
-TEST_CASE("OD re-entrance: it takes itself away within a transfer: that is aborted with 0800 0022h") {
+TEST_CASE("OD re-entrance: an extension that removes itself within a transfer aborts it with 0800 0022h") {
   Node node;
   do_at(node, 0, acts()[4].act);
   node.ask("601#4001300000000000", "581#4001300000000000");
@@ -332,7 +332,7 @@ TEST_CASE("OD re-entrance: it takes itself away within a transfer: that is abort
   node.rx("601#8001300000000008");
 }
 
-TEST_CASE("OD re-entrance: OD_extension_init aborts open transfers of the object, and only these") {
+TEST_CASE("OD re-entrance: OD_extension_init aborts open transfers of the object and no others") {
   Node node;
   node.ask("601#4001300000000000", "581#4001300000000000");
   node.ask("601#6000000000000000", "581#0001020304050607");
@@ -350,7 +350,7 @@ TEST_CASE("OD re-entrance: OD_extension_init aborts open transfers of the object
   node.rx("601#8001300000000008");
 }
 
-TEST_CASE("OD re-entrance: OD_extension_init leaves entries of the object alone that cannot be extended") {
+TEST_CASE("OD re-entrance: OD_extension_init does not change entries of the object that cannot be extended") {
   Bytes memory = counting(20);
   CO_OBJ_DOM domain{0, 20, memory.data()};
   Fixture node(Setup()
@@ -365,7 +365,7 @@ TEST_CASE("OD re-entrance: OD_extension_init leaves entries of the object alone 
   node.ask("601#6000000000000000", "581#030F101112131400");
 }
 
-TEST_CASE("OD re-entrance: OD_init in the middle of transfers: what has not moved goes on") {
+TEST_CASE("OD re-entrance: OD_init during transfers lets those of unmoved entries continue") {
   Node node;
   node.ask("601#4001300000000000", "581#4001300000000000");
   node.ask("601#6000000000000000", "581#0001020304050607");
@@ -374,8 +374,7 @@ TEST_CASE("OD re-entrance: OD_init in the middle of transfers: what has not move
   node.ask("601#6000000000000000", "581#030F101112131400");
 }
 
-TEST_CASE(
-    "OD re-entrance: a node that is initialised in the middle of a transfer has forgotten it, also what it ended") {
+TEST_CASE("OD re-entrance: CONodeInit discards an open transfer; the next one has the right data") {
   Node node;
   node.extension.data = counting(5);
   node.ask("601#4001300000000000", "581#4001300000000000");
@@ -390,7 +389,7 @@ TEST_CASE(
 #if CO_RPDO_N > 0 && CO_TPDO_N > 0
 
 // The download of an extended stream with flag A (4 bytes, mapped to an event-driven TPDO) sends the TPDO.
-TEST_CASE("OD re-entrance: a TPDO reads the stream while its download ends, and that ends once") {
+TEST_CASE("OD re-entrance: a TPDO may read the stream within End of its download, which is called once") {
   LoggedExtension extension;
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x30000020});
@@ -412,7 +411,7 @@ TEST_CASE("OD re-entrance: a TPDO reads the stream while its download ends, and 
 
 #if USE_CSDO
 
-TEST_CASE("OD re-entrance: a client to the own node, within it the application reads the same object") {
+TEST_CASE("OD re-entrance: within an access of an SDO client to its own node the application may read the object") {
   LoggedExtension extension;
   SdoClient node(Setup().only_small().with({CO_KEY(0x3000, 0, CO_OBJ_____RW), OD_TSTREAM, CO_DATA(0)}),
                  local_entries());

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("OD_set: COB-IDs of an SDO server that the application writes are used at once [301:7.5.2.33]") {
+TEST_CASE("OD_set: COB-IDs of an SDO server that the application writes take effect at once [301:7.5.2.33]") {
   Fixture node;
   node.may_change(0x1201, 1);
   node.may_change(0x1201, 2);

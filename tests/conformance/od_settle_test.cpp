@@ -50,21 +50,21 @@ class SettlingNode : public PdoNode {
   std::uint8_t memory = 0;
 };
 
-TEST_CASE("OD settle: OD_requestTPDO sends the PDO, and does what its objects ask for") {
+TEST_CASE("OD deferred work: OD_requestTPDO sends the PDO and carries out the requests of its objects") {
   SettlingNode node;
   node.call([&] { OD_requestTPDO(node.entry(), 0); });
   node.tx("181#77");
   CHECK(node.is_settled());
 }
 
-TEST_CASE("OD settle: OD_clearFlagsPDO sends the PDO, and does what its objects ask for") {
+TEST_CASE("OD deferred work: OD_clearFlagsPDO sends the PDO and carries out the requests of its objects") {
   SettlingNode node;
   node.call([&] { OD_clearFlagsPDO(node.entry(), 0, 2); });
   node.tx("181#77");
   CHECK(node.is_settled());
 }
 
-TEST_CASE("OD settle: what is requested while the objects are locked is done when they no longer are") {
+TEST_CASE("OD deferred work: requests while the objects are locked are carried out after the unlock") {
   SettlingNode node;
   node.call([&] {
     CO_LOCK_OD(&node.node);
@@ -80,7 +80,7 @@ TEST_CASE("OD settle: what is requested while the objects are locked is done whe
 }
 
 #if USE_REAL_TIME
-TEST_CASE("OD settle: the end of a turn settles, in the turn") {
+TEST_CASE("OD deferred work: run before the node lock is released") {
   SettlingNode node([](Setup& setup) { setup.turns(); });
   bool was_settled = false;
   callbacks().leave = [&] { was_settled = node.is_settled(); };
@@ -94,7 +94,7 @@ TEST_CASE("OD settle: the end of a turn settles, in the turn") {
   CHECK(was_settled);
 }
 
-TEST_CASE("OD settle: a TPDO that is requested in a turn is sent in it") {
+TEST_CASE("OD deferred work: a TPDO that is requested with the node lock held is sent before its release") {
   SettlingNode node([](Setup& setup) { setup.turns(); });
   for (const bool cleared : {false, true}) {
     node.call([&] {
@@ -108,7 +108,7 @@ TEST_CASE("OD settle: a TPDO that is requested in a turn is sent in it") {
 }
 
 #if USE_PARA
-TEST_CASE("OD settle: a reset that another thread asks for while a group is stored, or restored, comes then") {
+TEST_CASE("OD deferred work: a reset that another thread requests while a group is stored or restored follows it") {
   static Fixture* reset_by_other_thread;
   CO_IF_NVM_DRV_EX slow = FailingNvm::driver;
   slow.Write = [](void* ctx, std::uint32_t start, const std::uint8_t* buffer, std::uint32_t size) {

@@ -17,7 +17,7 @@ Setup streams() {
       .with({CO_KEY(0x3001, 0, CO_OBJ_____RW), OD_TNUMBER, CO_DATA(4)});
 }
 
-TEST_CASE("OD several nodes: each has its extensions, and transfers side by side do not meet") {
+TEST_CASE("OD several nodes: each has its own extensions, and simultaneous transfers are independent") {
   Fixture one(streams());
   Fixture other(streams().node_id(2));
   LoggedExtension of_one;
@@ -37,7 +37,7 @@ TEST_CASE("OD several nodes: each has its extensions, and transfers side by side
   one.ask("601#4001300000000000", "581#8001300001000106");
 }
 
-TEST_CASE("OD several nodes: one constant table, an index for each") {
+TEST_CASE("OD several nodes: one constant table is used with an index for each") {
   static std::uint16_t memory = 0;
   static const CO_OBJ table[] = {{CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, CO_DATA(0)},
                                  {CO_KEY(0x3000, 0, CO_OBJ_____RW), OD_TUNSIGNED16, CO_DATA(&memory)}};

@@ -34,7 +34,7 @@ struct BudgetDevice : GroupDevice {
   }
 };
 
-TEST_CASE("budget: beyond it \"save\" is aborted with 0800 0022h, and nothing is written") {
+TEST_CASE("budget: a \"save\" beyond it is aborted with 0800 0022h and writes nothing") {
   BudgetDevice device;
   Fixture node(device.setup());
   device.use_up(node);
@@ -46,7 +46,7 @@ TEST_CASE("budget: beyond it \"save\" is aborted with 0800 0022h, and nothing is
   CHECK(device.nvm.steps == steps);
 }
 
-TEST_CASE("budget: one more store each minute, up to the whole budget") {
+TEST_CASE("budget: each minute allows one more store, up to the whole budget") {
   BudgetDevice device;
   Fixture node(device.setup());
   device.use_up(node);
@@ -65,7 +65,7 @@ TEST_CASE("budget: one more store each minute, up to the whole budget") {
   device.save_new(node, second_refused);
 }
 
-TEST_CASE("budget: 1000 \"save\" with new values in a row are as many stores as the budget has") {
+TEST_CASE("budget: of 1000 \"save\" with new values in a row as many are stored as the budget allows") {
   BudgetDevice device({1024, 8, 128});
   device.first.Offset = 512;
   device.second.Offset = 0;
@@ -83,7 +83,7 @@ TEST_CASE("budget: 1000 \"save\" with new values in a row are as many stores as 
   CHECK(erases == budget);
 }
 
-TEST_CASE("budget: a \"save\" that changes nothing is free, and answered also when the budget is used up") {
+TEST_CASE("budget: a \"save\" that changes nothing is not counted, and succeeds with a used-up budget") {
   BudgetDevice device;
   Fixture node(device.setup());
   device.save_new(node);
@@ -93,7 +93,7 @@ TEST_CASE("budget: a \"save\" that changes nothing is free, and answered also wh
   device.save_new(node, second_refused);
 }
 
-TEST_CASE("budget: \"save\" to all groups is one store, however many have changed") {
+TEST_CASE("budget: \"save\" of all groups counts as one store, however many have changed") {
   BudgetDevice device;
   Fixture node(device.setup());
   for (int n = 0; n < budget; ++n) {
@@ -106,7 +106,7 @@ TEST_CASE("budget: \"save\" to all groups is one store, however many have change
   CHECK(device.nvm.steps == steps);
 }
 
-TEST_CASE("budget: \"load\" is a store; a \"load\" that was asked for already is free") {
+TEST_CASE("budget: \"load\" counts as a store; a repeated \"load\" is not counted") {
   BudgetDevice device;
   Fixture node(device.setup());
   for (int n = 0; n < budget; n += 2) {
@@ -120,7 +120,7 @@ TEST_CASE("budget: \"load\" is a store; a \"load\" that was asked for already is
   node.ask(load_second, "581#8011100322000008");
 }
 
-TEST_CASE("budget: NMT resets and their commands do not refill it; a power-on does") {
+TEST_CASE("budget: NMT resets do not refill it; a power-on does") {
   BudgetDevice device;
   {
     Fixture node(device.setup());
@@ -140,7 +140,7 @@ TEST_CASE("budget: NMT resets and their commands do not refill it; a power-on do
   device.use_up(node);
 }
 
-TEST_CASE("budget: the application's own COParaStore() and COParaRestore() are not counted, nor limited") {
+TEST_CASE("budget: COParaStore() and COParaRestore() by the application are neither counted nor limited") {
   BudgetDevice device;
   Fixture node(device.setup());
   const auto store = [&] {
@@ -154,7 +154,7 @@ TEST_CASE("budget: the application's own COParaStore() and COParaRestore() are n
   store();
 }
 
-TEST_CASE("budget: a \"save\" that fails has been written in part, and is counted") {
+TEST_CASE("budget: a \"save\" that fails after a partial write is counted") {
   BudgetDevice device;
   Fixture node(device.setup());
   for (int n = 0; n < budget; ++n) {
@@ -166,7 +166,7 @@ TEST_CASE("budget: a \"save\" that fails has been written in part, and is counte
   device.save_new(node, second_refused);
 }
 
-TEST_CASE("budget: what does not get as far as the memory is not counted") {
+TEST_CASE("budget: a \"save\" that fails before it writes is not counted") {
   BudgetDevice device;
   SUBCASE("no place") { device.second.Offset = 1020; }
   SUBCASE("overlap") { device.second.Offset = 1; }
@@ -176,7 +176,7 @@ TEST_CASE("budget: what does not get as far as the memory is not counted") {
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("budget: without a memory it is not counted") {
+TEST_CASE("budget: without a memory nothing is counted") {
   BudgetDevice device;
   Fixture node(device.setup().no_nvm());
   for (int n = 0; n < 2 * budget; ++n) {
@@ -185,7 +185,7 @@ TEST_CASE("budget: without a memory it is not counted") {
   }
 }
 
-TEST_CASE("budget: it holds for a driver without Shape function, too") {
+TEST_CASE("budget: it applies to a driver without Shape function") {
   BudgetDevice device;
   CO_IF_NVM_DRV_EX driver = FailingNvm::driver;
   driver.Shape = nullptr;
@@ -226,7 +226,7 @@ struct AutonomousDevice : BudgetDevice {
   }
 };
 
-TEST_CASE("budget: an autonomous group is stored later when it is used up, without an error") {
+TEST_CASE("budget: an autonomous group is stored later without an error when it is used up") {
   AutonomousDevice device;
   Fixture node(device.setup());
   node.after(period);
@@ -243,7 +243,7 @@ TEST_CASE("budget: an autonomous group is stored later when it is used up, witho
   CHECK(device.ram[1].number == 21);
 }
 
-TEST_CASE("budget: a group that changes all the time is stored once a minute in the long run") {
+TEST_CASE("budget: a group that changes continuously is stored once a minute on average") {
   AutonomousDevice device;
   Fixture node(device.setup());
   Bytes before = device.nvm.bytes;
@@ -264,7 +264,7 @@ TEST_CASE("budget: a group that changes all the time is stored once a minute in 
   CHECK(stores_in(hour) >= std::min(59, hour - 1));
 }
 
-TEST_CASE("budget: an NMT reset does not lose a change that the budget has delayed, and writes nothing") {
+TEST_CASE("budget: an NMT reset keeps a change that the budget has delayed and writes nothing") {
   AutonomousDevice device;
   Fixture node(device.setup());
   node.after(period);
@@ -287,7 +287,7 @@ TEST_CASE("budget: an NMT reset does not lose a change that the budget has delay
   CHECK(device.ram[1].number == number);
 }
 
-TEST_CASE("budget: NMT resets with an autonomous group that changes are as many stores as the budget has") {
+TEST_CASE("budget: NMT resets while an autonomous group changes cause as many stores as the budget allows") {
   AutonomousDevice device;
   Fixture node(device.setup());
   Bytes before = device.nvm.bytes;
@@ -301,7 +301,7 @@ TEST_CASE("budget: NMT resets with an autonomous group that changes are as many 
   CHECK(stores == budget);
 }
 
-TEST_CASE("budget: defaults that were asked for are loaded by the reset, also when it is used up") {
+TEST_CASE("budget: requested defaults are loaded by the reset even when it is used up") {
   AutonomousDevice device;
   Fixture node(device.setup());
   device.change(node);
@@ -311,7 +311,7 @@ TEST_CASE("budget: defaults that were asked for are loaded by the reset, also wh
   CHECK(device.ram[1].number == 20);
 }
 
-TEST_CASE("budget: a node that is stopped does not refill it") {
+TEST_CASE("budget: a stopped node does not refill it") {
   BudgetDevice device;
   Fixture node(device.setup());
   device.save_new(node);
@@ -320,7 +320,7 @@ TEST_CASE("budget: a node that is stopped does not refill it") {
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("budget: a timer too fast to count a minute refills it later") {
+TEST_CASE("budget: a timer that is too fast to count a minute refills it later") {
   BudgetDevice device;
   Fixture node(device.setup().rate(100000000));
   device.use_up(node);
@@ -331,7 +331,7 @@ TEST_CASE("budget: a timer too fast to count a minute refills it later") {
 
 #if USE_LSS
 
-TEST_CASE("budget: LSS store is a store; beyond the budget it answers 255 with 22h") {
+TEST_CASE("budget: LSS store counts as a store; beyond the budget it is answered with 255 and 22h") {
   BudgetDevice device;
   CO_NODE* slave = nullptr;
   Setup setup = device.setup().with({CO_KEY(0x1018, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 4});

@@ -25,7 +25,7 @@ void store_one_and_two(GroupDevice& device) {
   node.ask(save_all, all_saved);
 }
 
-TEST_CASE("parameters: two groups of equal size whose offsets were exchanged do not load each other's values") {
+TEST_CASE("parameters: two groups of equal size whose offsets are exchanged do not load each other's values") {
   GroupDevice device;
   store_one_and_two(device);
   std::swap(device.first.Offset, device.second.Offset);
@@ -38,14 +38,14 @@ TEST_CASE("parameters: two groups of equal size whose offsets were exchanged do 
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE("parameters: a group does not load the record of another sub-index, or of another place") {
+TEST_CASE("parameters: a group does not load the record of another sub-index or another offset") {
   GroupDevice device;
   store_one_and_two(device);
   SUBCASE("another sub-index") {
     device.first.Value = CO_PARA____;
     device.second.Offset = 0;
   }
-  SUBCASE("another place: the memory was moved as a whole") {
+  SUBCASE("another offset: the whole memory was moved") {
     device.nvm.bytes.insert(device.nvm.bytes.begin(), 4, 0xFF);
     device.nvm.bytes.resize(1024);
     device.second.Offset = 104;
@@ -65,7 +65,7 @@ TEST_CASE("parameters: the version of a layout is CO_PARA.Version, or CO_PARA_VE
     device.second.Version = 5;
     is_loaded = true;
   }
-  SUBCASE("both: the member counts") {
+  SUBCASE("both: the member is used") {
     device.second.Version = 5;
     device.second.Value = CO_PARA___E | CO_PARA_VERSION(6);
     is_loaded = true;
@@ -78,7 +78,7 @@ TEST_CASE("parameters: the version of a layout is CO_PARA.Version, or CO_PARA_VE
   node.ask("601#4000230200000000", is_loaded ? "581#4300230202000000" : "581#4300230214000000");
 }
 
-TEST_CASE("parameters: a group that is not stored loads no record, whatever lies at its Offset") {
+TEST_CASE("parameters: a group that is not stored loads no record, whatever its Offset contains") {
   GroupDevice device;
   store_one_and_two(device);
   device.second.Value = CO_PARA____;
@@ -100,7 +100,7 @@ unsigned refused_entry(const Fixture& node, bool expected) {
 
 // Overlapping groups -----------------------------------------------------------------------------------------------
 
-TEST_CASE("parameters: a group that overlaps the memory of one before it is refused; the other works") {
+TEST_CASE("parameters: a group that overlaps the memory of an earlier one is refused; the earlier one works") {
   constexpr std::uint32_t space = CO_PARA_SPACE(8, 1, 1);
   for (const std::uint32_t distance : std::initializer_list<std::uint32_t>{0U, 1U, space - 1, space}) {
     CAPTURE(distance);
@@ -129,7 +129,7 @@ TEST_CASE("parameters: a group that overlaps the memory of one before it is refu
   }
 }
 
-TEST_CASE("parameters: two groups of the same bytes and the same Offset overlap if their reset or version differs") {
+TEST_CASE("parameters: groups of the same bytes and Offset overlap if their reset or version differs") {
   for (const bool has_version : {false, true}) {
     GroupDevice device;
     device.second = device.first;
@@ -146,7 +146,7 @@ TEST_CASE("parameters: two groups of the same bytes and the same Offset overlap 
 
 #if USE_DICT_CHECK
 
-TEST_CASE("parameters: groups that overlap do not hide a fault that keeps the node from starting") {
+TEST_CASE("parameters: groups that overlap do not hide a fault that prevents the start of the node") {
   GroupDevice device;
   device.second.Offset = 0;
   Fixture node(device.setup().with({CO_KEY(0x1017, 0, CO_OBJ_D___RW), CO_TSYNC_ID, 0x80}).stay_in_init());
@@ -157,7 +157,7 @@ TEST_CASE("parameters: groups that overlap do not hide a fault that keeps the no
 
 #endif
 
-TEST_CASE("parameters: nothing is loaded for a group that overlaps another, not even its own record") {
+TEST_CASE("parameters: a group that overlaps another one loads nothing, not even its own record") {
   GroupDevice device;
   store_one_and_two(device);
   device.first.Offset = 99;
@@ -165,14 +165,14 @@ TEST_CASE("parameters: nothing is loaded for a group that overlaps another, not 
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE("parameters: without a memory, groups at the same Offset are no overlap") {
+TEST_CASE("parameters: without a memory groups at the same Offset do not overlap") {
   GroupDevice device;
   device.second.Offset = 0;
   Fixture node(device.setup().no_nvm());
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("parameters: groups whose variables overlap are accepted: each has its own record") {
+TEST_CASE("parameters: groups whose variables overlap are accepted, each with its own record") {
   GroupDevice device;
   device.second.Start = device.first.Start;
   Fixture node(device.setup());
@@ -205,7 +205,7 @@ unsigned old_records(const GroupDevice& device) {
   }
 }
 
-TEST_CASE("parameters: a record of version 0.1.0 is loaded, and rewritten so that it names its group") {
+TEST_CASE("parameters: a record of version 0.1.0 is loaded and rewritten so that it contains its group") {
   GroupDevice device;
   const char* value = "581#430023022A000000";
   SUBCASE("stored once") { device.put(100, old_record); }
@@ -215,7 +215,7 @@ TEST_CASE("parameters: a record of version 0.1.0 is loaded, and rewritten so tha
     device.put(100 + slot, newer_old_record);
     value = "581#430023022B000000";
   }
-  SUBCASE("defaults asked for") {
+  SUBCASE("defaults requested") {
     device.put(100, old_record);
     device.put(100 + slot, old_defaults);
     value = "581#4300230214000000";
@@ -256,7 +256,7 @@ TEST_CASE("parameters: a record of version 0.1.0 of another size, layout version
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is rewritten costs nothing") {
+TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is rewritten loses no value") {
   for (std::uint64_t step = 1; step <= 2 * slot; ++step) {
     GroupDevice device;
     device.put(100, old_record);
@@ -274,7 +274,7 @@ TEST_CASE("parameters: a memory that fails while a record of version 0.1.0 is re
 
 #if USE_LSS
 
-TEST_CASE("LSS: node-ID and bit rate that version 0.1.0 has stored are loaded, and rewritten") {
+TEST_CASE("LSS: node-ID and bit rate stored by version 0.1.0 are loaded and rewritten") {
   constexpr std::array<std::uint8_t, 28> record = {0x4C, 0x58, 0x4E, 0x31, 0x31, 0x53, 0x53, 0x4C, 0x08, 0x00,
                                                    0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0xF8, 0x62, 0xB0, 0xEA,
                                                    0x90, 0xD0, 0x03, 0x00, 0x05, 0x00, 0x00, 0x00};
@@ -325,7 +325,7 @@ GroupDevice stored_twice(std::uint32_t older = 1, std::uint32_t newer = 2) {
   return device;
 }
 
-TEST_CASE("parameters: if the newest record is damaged, the one before it is loaded and ParaRecovered() is called") {
+TEST_CASE("parameters: if the newest record is damaged the previous one is loaded and ParaRecovered() is called") {
   const Bytes image = stored_twice().nvm.bytes;
   constexpr std::uint32_t size = CO_PARA_SPACE(8, 1, 1) / 2;
   for (std::uint32_t bit = 0; bit < 8 * size; ++bit) {
@@ -340,7 +340,7 @@ TEST_CASE("parameters: if the newest record is damaged, the one before it is loa
   }
 }
 
-TEST_CASE("parameters: ParaRecovered() is not called for a damaged older record, or where nothing is damaged") {
+TEST_CASE("parameters: ParaRecovered() is not called for a damaged older record or without damage") {
   const Bytes image = stored_twice().nvm.bytes;
   GroupDevice device;
   device.nvm.bytes = image;
@@ -354,7 +354,7 @@ TEST_CASE("parameters: ParaRecovered() is not called for a damaged older record,
   CHECK(Recovered::take().empty());
 }
 
-TEST_CASE("parameters: ParaRecovered() is not called after a firmware update that has changed the layout") {
+TEST_CASE("parameters: ParaRecovered() is not called after a firmware update that changes the layout") {
   GroupDevice device;
   device.nvm.bytes = stored_twice().nvm.bytes;
   device.second.Value |= CO_PARA_VERSION(7);
@@ -370,7 +370,7 @@ TEST_CASE("parameters: ParaRecovered() is not called after a firmware update tha
   CHECK(Recovered::take().empty());
 }
 
-TEST_CASE("parameters: ParaRecovered() is called for defaults that were asked for before the damaged record") {
+TEST_CASE("parameters: ParaRecovered() is called for defaults that were requested before the damaged record") {
   GroupDevice device;
   {
     Fixture node(device.setup());
@@ -384,7 +384,7 @@ TEST_CASE("parameters: ParaRecovered() is called for defaults that were asked fo
   CHECK(Recovered::take() == std::vector<const CO_PARA*>{&device.second});
 }
 
-TEST_CASE("parameters: a damaged record without callback is no fault: the table or its entry may be null") {
+TEST_CASE("parameters: without callback a damaged record is handled: the table or its entry may be null") {
   const Bytes image = stored_twice().nvm.bytes;
   const CO_CALLBACKS none{};
   for (const bool table : {false, true}) {

@@ -90,7 +90,7 @@ TEST_CASE("parameters: 1011h shows what can be restored (bit 0) [S1]") {
   node.ask("601#4011100400000000", "581#4311100400000000");
 }
 
-TEST_CASE("parameters: any word but \"save\" and \"load\" is refused with 0800 0020h, and stores nothing [S2]") {
+TEST_CASE("parameters: any word except \"save\" and \"load\" is refused with 0800 0020h and stores nothing [S2]") {
   Device device;
   Fixture node(device.setup());
   for (const char* request : {"601#231010016C6F6164", "601#2310100200000000", "601#2310100265766173",
@@ -117,7 +117,7 @@ TEST_CASE("parameters: a wrong length is refused; 1010h:0 is read-only") {
   node.ask("601#2F10100001000000", "581#8010100002000106");
 }
 
-TEST_CASE("parameters: before anything was stored a group has its default values") {
+TEST_CASE("parameters: before the first store a group has its default values") {
   Device device;
   Fixture node(device.setup());
   CHECK(device.ram[0].number == 10);
@@ -126,7 +126,7 @@ TEST_CASE("parameters: before anything was stored a group has its default values
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("parameters: \"save\" to sub-index 1 stores all groups; they are there after power off [S3] [S4]") {
+TEST_CASE("parameters: \"save\" to sub-index 1 stores all groups, which are kept over power off [S3] [S4]") {
   Device device;
   {
     Fixture node(device.setup());
@@ -153,7 +153,7 @@ TEST_CASE("parameters: \"save\" to one sub-index stores that group alone [S3]") 
   node.ask("601#4000230200000000", "581#4300230222000000");
 }
 
-TEST_CASE("parameters: a single group at sub-index 1 is stored by it [S3]") {
+TEST_CASE("parameters: a single group is stored by sub-index 1 [S3]") {
   Device device;
   {
     Fixture node(device.single());
@@ -165,7 +165,7 @@ TEST_CASE("parameters: a single group at sub-index 1 is stored by it [S3]") {
   node.ask("601#4000230200000000", "581#4300230222000000");
 }
 
-TEST_CASE("parameters: a reset loads what was stored: communication its groups, node all [N6]") {
+TEST_CASE("parameters: reset communication loads its stored groups, reset node all of them [N6]") {
   Device device;
   Fixture node(device.setup());
   node.ask("601#2300230111000000", "581#6000230100000000");
@@ -216,7 +216,7 @@ struct MixedGroup {
   CO_PARA group{0, sizeof(Memory), &ram, &defaults, CO_RESET_NODE, nullptr, CO_PARA___E};
 };
 
-TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a group of reset node, and no others") {
+TEST_CASE("parameters: reset communication loads 1000h to 1FFFh of a group of type reset node, and no other objects") {
   const CO_NVM_SHAPE bytes = {1024, 1, 0};
   const CO_NVM_SHAPE pages = {1024, 8, 128};
   for (const CO_NVM_SHAPE* shape : {&bytes, &pages, static_cast<const CO_NVM_SHAPE*>(nullptr)}) {
@@ -255,7 +255,7 @@ TEST_CASE("parameters: reset communication loads the objects 1000h to 1FFFh of a
   }
 }
 
-TEST_CASE("parameters: without such a part, or with one that is larger than the group, nothing is loaded") {
+TEST_CASE("parameters: without a part for 1000h to 1FFFh, or with one larger than the group, nothing is loaded") {
   for (const std::uint32_t size : std::initializer_list<std::uint32_t>{0U, 9U, UINT32_MAX}) {
     const CO_NVM_SHAPE bytes = {1024, 1, 0};
     MixedGroup device(&bytes);
@@ -271,7 +271,7 @@ TEST_CASE("parameters: without such a part, or with one that is larger than the 
 }
 
 TEST_CASE(
-    "parameters: a part that is damaged in the memory gets its default values, and COParaLost() names the group") {
+    "parameters: a damaged part in the memory gets its default values, and COParaLost() is called with the group") {
   const CO_NVM_SHAPE bytes = {1024, 1, 0};
   MixedGroup device(&bytes);
   device.group.ComSize = offsetof(MixedGroup::Memory, number);
@@ -287,7 +287,7 @@ TEST_CASE(
   CHECK(node.error() == CO_ERR_PARA_LOAD);
 }
 
-TEST_CASE("parameters: \"load\" changes nothing before the reset that the group names [S5]") {
+TEST_CASE("parameters: \"load\" changes nothing before the reset of the group's type [S5]") {
   Device device;
   Fixture node(device.setup());
   node.ask("601#2300230111000000", "581#6000230100000000");
@@ -303,7 +303,7 @@ TEST_CASE("parameters: \"load\" changes nothing before the reset that the group 
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE("parameters: \"load\" survives power off before the reset; \"save\" after it counts [S5]") {
+TEST_CASE("parameters: \"load\" survives power off before the reset; a later \"save\" replaces it [S5]") {
   Device device;
   {
     Fixture node(device.setup());
@@ -322,7 +322,7 @@ TEST_CASE("parameters: \"load\" survives power off before the reset; \"save\" af
   node.ask("601#4000230200000000", "581#4300230233000000");
 }
 
-TEST_CASE("parameters: COParaDefault() is asked at the reset after \"load\", after Default was copied") {
+TEST_CASE("parameters: COParaDefault() is called at the reset after \"load\", after Default was copied") {
   Device device;
   Fixture node(device.setup());
   unsigned asked = 0;
@@ -343,7 +343,7 @@ TEST_CASE("parameters: COParaDefault() is asked at the reset after \"load\", aft
   CHECK(node.error() == CO_ERR_PARA_RESTORE);
 }
 
-TEST_CASE("parameters: a memory that fails aborts \"save\" with 0606 0000h; what was stored stays [S4]") {
+TEST_CASE("parameters: a memory that fails aborts \"save\" with 0606 0000h and keeps the stored values [S4]") {
   Device device;
   {
     Fixture node(device.setup());
@@ -358,7 +358,7 @@ TEST_CASE("parameters: a memory that fails aborts \"save\" with 0606 0000h; what
   node.ask("601#4000230200000000", "581#4300230222000000");
 }
 
-TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tells the failure [S3]") {
+TEST_CASE("parameters: \"save\" of all continues after a group that fails, and reports the failure [S3]") {
   Device device;
   device.own.Offset = 1000;  // the record exceeds the memory
   {
@@ -371,7 +371,7 @@ TEST_CASE("parameters: \"save\" of all goes on after a group that fails, and tel
   node.ask("601#4000230200000000", "581#4300230222000000");
 }
 
-TEST_CASE("parameters: damaged records are reported, and the group has its default values") {
+TEST_CASE("parameters: damaged records are reported, and their groups have the default values") {
   Device device;
   {
     Fixture node(device.setup());
@@ -389,7 +389,7 @@ TEST_CASE("parameters: damaged records are reported, and the group has its defau
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE("parameters: values of another layout or size are not loaded") {
+TEST_CASE("parameters: records of another layout version, size or offset are not loaded") {
   Device device;
   {
     Fixture node(device.setup());
@@ -398,13 +398,13 @@ TEST_CASE("parameters: values of another layout or size are not loaded") {
   }
   SUBCASE("version") { device.application.Value |= CO_PARA_VERSION(1); }
   SUBCASE("size") { device.application.Size = 4; }
-  SUBCASE("place") { device.application.Offset = 104; }
+  SUBCASE("offset") { device.application.Offset = 104; }
   Fixture node(device.setup());
   CHECK(node.error() == CO_ERR_PARA_LOAD);
   CHECK(device.ram[1].number == 20);
 }
 
-TEST_CASE("parameters: what is stored already is not written again") {
+TEST_CASE("parameters: values that are stored already are not written again") {
   Device device;
   Fixture node(device.setup());
   node.ask(save_all, all_saved);
@@ -418,7 +418,7 @@ TEST_CASE("parameters: what is stored already is not written again") {
   CHECK(before < 3 * 40);
 }
 
-TEST_CASE("parameters: an autonomous group is stored when it has changed, at most once in the period [S1]") {
+TEST_CASE("parameters: an autonomous group is stored after a change, at most once in its period [S1]") {
   Device device;
   {
     Fixture node(device.setup());
@@ -438,7 +438,7 @@ TEST_CASE("parameters: an autonomous group is stored when it has changed, at mos
   node.ask("601#4000230300000000", "581#4300230344000000");
 }
 
-TEST_CASE("parameters: an NMT reset loses nothing of an autonomous group") {
+TEST_CASE("parameters: an NMT reset loses no change of an autonomous group") {
   Device device;
   Fixture node(device.setup());
   node.ask("601#2300230344000000", "581#6000230300000000");
@@ -446,7 +446,7 @@ TEST_CASE("parameters: an NMT reset loses nothing of an autonomous group") {
   node.ask("601#4000230300000000", "581#4300230344000000");
 }
 
-TEST_CASE("parameters: COB-IDs are loaded before anything uses them") {
+TEST_CASE("parameters: COB-IDs are loaded before a service uses them") {
   Device device;
   std::uint32_t cob_id = 0x80;
   CO_PARA group = {300, sizeof cob_id, &cob_id, nullptr, CO_RESET_COM, nullptr, CO_PARA___E};
@@ -468,7 +468,7 @@ TEST_CASE("parameters: COB-IDs are loaded before anything uses them") {
   CHECK(std::find(filter.begin(), filter.end(), 0x80) == filter.end());
 }
 
-TEST_CASE("parameters: without a memory a node runs with its default values, and \"save\" fails") {
+TEST_CASE("parameters: without a memory a node runs with its default values and \"save\" fails") {
   Device device;
   Fixture node(device.setup().no_nvm());
   CHECK(node.error() == CO_ERR_NONE);
@@ -491,7 +491,7 @@ const CO_IF_NVM_DRV_EX raw_driver = {[](void*) {},
                                      },
                                      nullptr, nullptr};
 
-TEST_CASE("parameters: with a driver without geometry the bytes of a group are stored plainly at Offset") {
+TEST_CASE("parameters: with a driver without geometry the bytes of a group are stored at Offset without a header") {
   std::fill(std::begin(raw_memory), std::end(raw_memory), std::uint8_t{0xFF});
   raw_writes = 0;
   Device device;
@@ -519,8 +519,7 @@ TEST_CASE("parameters: with a driver without geometry the bytes of a group are s
   node.ask("601#4000230200000000", "581#4300230214000000");
 }
 
-TEST_CASE(
-    "parameters: a group has no place in a memory that is too small, or on another border than that of its units") {
+TEST_CASE("parameters: a group does not fit in a memory that is too small or whose units do not divide its Offset") {
   const CO_NVM_SHAPE shapes[] = {{0, 1, 0},
                                  {90, 1, 0},
                                  {0xFFFFFFFF, 1, 0x80000000},
@@ -547,7 +546,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("parameters: a group may fill the whole memory; a byte less is too little") {
+TEST_CASE("parameters: a group may fill the whole memory; one byte less is too small") {
   for (const std::uint32_t missing : {0U, 1U}) {
     Device device({CO_PARA_SPACE(sizeof(Device::Memory), 1, 1) - missing, 1, 0});
     device.application.Offset = 0;
@@ -581,7 +580,7 @@ TEST_CASE("parameters: a memory that cannot be erased aborts \"save\" with 0606 
 
 #if USE_DICT_CHECK
 
-TEST_CASE("parameters: an entry of 1010h that names no group is a fault of the dictionary") {
+TEST_CASE("parameters: an entry of 1010h without a group is a fault of the dictionary") {
   for (const CO_OBJ& wrong : {CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_D___RW), CO_TPARA_STORE, 5},
                               CO_OBJ{CO_KEY(0x1010, 1, CO_OBJ_____RW), CO_TPARA_STORE, 0}}) {
     Device device;
@@ -636,7 +635,7 @@ struct ClassicDevice : Device {
   }
 };
 
-TEST_CASE("parameters: a classic driver that cannot read: default values, CO_ERR_PARA_LOAD, COParaLost()") {
+TEST_CASE("parameters: a classic driver that cannot read gives default values, CO_ERR_PARA_LOAD and COParaLost()") {
   for (const unsigned read : {1U, 2U}) {  // the first read checks whether a record is stored
     ClassicDevice device;
     device.hold(0x44);
@@ -650,7 +649,7 @@ TEST_CASE("parameters: a classic driver that cannot read: default values, CO_ERR
   }
 }
 
-TEST_CASE("parameters: a reset that COParaLost() requests follows when CONodeParaLoad() is done") {
+TEST_CASE("parameters: a reset that COParaLost() requests is carried out after CONodeParaLoad()") {
   ClassicDevice device;
   device.hold(0x44);
   unsigned lost = 0;
@@ -678,7 +677,7 @@ TEST_CASE("parameters: a classic driver that cannot write aborts \"save\" and \"
   CHECK(ClassicDevice::held() == 0x44);
 }
 
-TEST_CASE("parameters: with a classic driver, a group whose old bytes cannot be read is written all the same") {
+TEST_CASE("parameters: with a classic driver a group whose stored bytes cannot be read is written") {
   ClassicDevice device;
   Fixture node(device.setup());
   refusing.refuse_read = refusing.reads + 1;
@@ -689,7 +688,7 @@ TEST_CASE("parameters: with a classic driver, a group whose old bytes cannot be 
   CHECK(ClassicDevice::held() == 0xFFFFFFFF);
 }
 
-TEST_CASE("parameters: with a classic driver, what is stored already is not written again") {
+TEST_CASE("parameters: with a classic driver values that are stored already are not written again") {
   ClassicDevice device;
   Fixture node(device.setup());
   node.ask("601#2310100173617665", "581#6010100100000000");
@@ -701,7 +700,7 @@ TEST_CASE("parameters: with a classic driver, what is stored already is not writ
   CHECK(refusing.writes == writes);
 }
 
-TEST_CASE("parameters: with a classic driver, a group that is not stored is loaded and refuses to be saved") {
+TEST_CASE("parameters: with a classic driver a group that is not stored on command is loaded and refuses \"save\"") {
   ClassicDevice device;
   device.hold(0x44);
   device.application.Value = CO_PARA____;
@@ -712,7 +711,7 @@ TEST_CASE("parameters: with a classic driver, a group that is not stored is load
   CHECK(refusing.writes == 0);
 }
 
-TEST_CASE("parameters: with a classic driver, groups overlap where their bytes do") {
+TEST_CASE("parameters: with a classic driver groups overlap where their bytes overlap") {
   for (const std::uint32_t distance : {7U, 8U}) {
     ClassicDevice device;
     device.own.Offset = 100;
@@ -740,7 +739,7 @@ TEST_CASE("parameters: a node that is stopped while it loads stores nothing afte
   CHECK(device.nvm.steps == steps);
 }
 
-TEST_CASE("1020h: a string or a domain that the network writes counts as part of the configuration [S7]") {
+TEST_CASE("1020h: a download to a string or a domain makes both values 0 [S7]") {
   Device device;
   device.date = 5;
   Fixture node(device.setup());
@@ -748,7 +747,7 @@ TEST_CASE("1020h: a string or a domain that the network writes counts as part of
   node.ask("601#4020100100000000", "581#4320100100000000");
 }
 
-TEST_CASE("parameters: without default values a group keeps what the memory holds") {
+TEST_CASE("parameters: without default values a group keeps the values of its variables") {
   Device device;
   device.application.Default = nullptr;
   device.ram[1].number = 0x77;
@@ -756,7 +755,7 @@ TEST_CASE("parameters: without default values a group keeps what the memory hold
   node.ask("601#4000230200000000", "581#4300230277000000");
 }
 
-TEST_CASE("1020h: a write to an object of a group makes both values 0; any other write does not [S7]") {
+TEST_CASE("1020h: a write to an object of a group makes both values 0; other writes do not [S7]") {
   Device device;
   Fixture node(device.setup());
   const auto verify = [&] {
@@ -774,7 +773,7 @@ TEST_CASE("1020h: a write to an object of a group makes both values 0; any other
   node.ask("601#4020100100000000", "581#4320100134120000");
 }
 
-TEST_CASE("1020h: values that the node has at start are held to the same rule [S7]") {
+TEST_CASE("1020h: a write to an object of a group clears values that were present at start [S7]") {
   Device device;
   device.date = 5;
   device.time = 6;

@@ -69,7 +69,7 @@ Mapped number(unsigned bytes, unsigned sub) {
   return {0x22000000U | bytes << 16 | sub << 8 | bytes * 8, value};
 }
 
-TEST_CASE("PDO bits: numbers of 1 to 4 bytes behind 0 to 8 single bits [M10]") {
+TEST_CASE("PDO bits: numbers of 1 to 4 bytes behind 0 to 8 single bits are transferred [M10]") {
   std::mt19937 random(1);
   for (unsigned bits = 0; bits <= 8; ++bits) {
     for (unsigned bytes = 1; bytes <= 4; ++bytes) {
@@ -85,7 +85,7 @@ TEST_CASE("PDO bits: numbers of 1 to 4 bytes behind 0 to 8 single bits [M10]") {
   }
 }
 
-TEST_CASE("PDO bits: any mixture of bits and numbers [M10]") {
+TEST_CASE("PDO bits: random mixtures of bits and numbers are transferred [M10]") {
   std::mt19937 random(2);
   for (int i = 0; i < 500; ++i) {
     CAPTURE(i);
@@ -103,7 +103,7 @@ TEST_CASE("PDO bits: any mixture of bits and numbers [M10]") {
   }
 }
 
-TEST_CASE("PDO bits: neighbouring variables on whole bytes") {
+TEST_CASE("PDO bits: adjacent variables on whole bytes are transferred") {
   std::mt19937 random(3);
   check(
       {number(1, 1), number(1, 2), number(1, 3), number(1, 4), number(1, 5), number(1, 6), number(1, 7), number(1, 8)},
@@ -112,7 +112,7 @@ TEST_CASE("PDO bits: neighbouring variables on whole bytes") {
   check({number(4, 1), number(4, 2)}, random);
 }
 
-TEST_CASE("PDO bits: each of 64 bits is one object's, sent and received") {
+TEST_CASE("PDO bits: each of 64 bits is sent and received as one object") {
   for (unsigned bit = 0; bit < 64; ++bit) {
     PdoTable table;
     PdoEntries& rpdo = table.rpdo[0].on(0x201, 255, {});
@@ -140,7 +140,7 @@ TEST_CASE("PDO bits: each of 64 bits is one object's, sent and received") {
   }
 }
 
-TEST_CASE("PDO bits: an object of 8 bytes, and larger ones behind bits") {
+TEST_CASE("PDO bits: an object of 8 bytes and larger ones behind bits are transferred") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {boolean(1), 0x22070138, boolean(2)});
   PdoNode node(table);
@@ -151,7 +151,7 @@ TEST_CASE("PDO bits: an object of 8 bytes, and larger ones behind bits") {
   CHECK(node.boolean[1] == 1);
 }
 
-TEST_CASE("PDO bits: a frame is too short below its last bit's byte only: EMCY 8210h [X5]") {
+TEST_CASE("PDO bits: a frame is too short only without the byte of its last mapped bit: EMCY 8210h [X5]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, boolean(1), boolean(2)});
   PdoNode node(table);
@@ -165,7 +165,7 @@ TEST_CASE("PDO bits: a frame is too short below its last bit's byte only: EMCY 8
   CHECK(node.frames() == reports({emcy(0, 1), emcy(0x8220, 1)}));
 }
 
-TEST_CASE("PDO bits: the flag of each of 64 objects shows whether it was transferred") {
+TEST_CASE("PDO bits: each of 64 objects has its own flag for received and sent") {
   PdoTable table;
   PdoEntries& rpdo = table.rpdo[0].on(0x201, 255, {});
   for (unsigned n = 0; n < 63; ++n) rpdo.map[rpdo.number++] = boolean(1);

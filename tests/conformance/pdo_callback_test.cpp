@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("PDO callback: COPdoTransmit sees each TPDO and may change it") {
+TEST_CASE("PDO callback: COPdoTransmit is called for each TPDO and may change it") {
   SyncNode node(asynchronous());
   node.start();
   std::vector<std::string> seen;
@@ -36,7 +36,7 @@ TEST_CASE("PDO callback: COPdoTransmit may trigger other TPDOs [Q9]") {
   CHECK(sent == std::vector<std::string>{"181#31", "281#41"});
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that triggers the PDO that is being sent ends [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may trigger the PDO that is being sent, without an endless loop [Q9]") {
   SyncTable table = asynchronous();
   table.tpdo[0].inhibit = 100;
   SyncNode node(table);
@@ -55,7 +55,7 @@ TEST_CASE("PDO callback: COPdoTransmit that triggers the PDO that is being sent 
   CHECK(node.frames().size() <= 12);
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that changes an object of the PDO (flag A) does not recurse without end [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may change an object of the PDO (flag A) without endless recursion [Q9]") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x22110108}).inhibit = 100;
   SyncNode node(table);
@@ -71,7 +71,7 @@ TEST_CASE("PDO callback: COPdoTransmit that changes an object of the PDO (flag A
   CHECK(node.frames().size() <= 12);
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that leaves Operational: this PDO and all others end there [Q9] [N3]") {
+TEST_CASE("PDO callback: if COPdoTransmit leaves Operational neither this PDO nor another one is sent [Q9] [N3]") {
   for (const std::string& what : commands) {
     CAPTURE(what);
     SyncTable table = asynchronous();
@@ -86,7 +86,7 @@ TEST_CASE("PDO callback: COPdoTransmit that leaves Operational: this PDO and all
   }
 }
 
-TEST_CASE("PDO callback: the same in the event timer's turn [Q9] [N3]") {
+TEST_CASE("PDO callback: if COPdoTransmit leaves Operational at an event timer no PDO is sent [Q9] [N3]") {
   for (const std::string& what : commands) {
     CAPTURE(what);
     SyncTable table = asynchronous();
@@ -100,7 +100,7 @@ TEST_CASE("PDO callback: the same in the event timer's turn [Q9] [N3]") {
   }
 }
 
-TEST_CASE("PDO callback: the same at a SYNC, of which the rest is not sent either [Q9] [N3]") {
+TEST_CASE("PDO callback: if COPdoTransmit leaves Operational at a SYNC the remaining PDOs are not sent [Q9] [N3]") {
   for (const std::string& what : commands) {
     if (what.compare(0, 5, "reset") == 0) {
       continue;  // a reset is deferred until the SYNC is processed
@@ -120,7 +120,7 @@ TEST_CASE("PDO callback: the same at a SYNC, of which the rest is not sent eithe
   }
 }
 
-TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a SYNC comes after all of it [Q9]") {
+TEST_CASE("PDO callback: a reset requested by COPdoTransmit at a SYNC is carried out after all PDOs [Q9]") {
   SyncNode node(table_of(1));
   node.start();
   node.rx("201#55");
@@ -131,7 +131,8 @@ TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a SYNC comes aft
   check_left(node);
 }
 
-TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a produced SYNC comes after all of it [Q9] [Y9]") {
+TEST_CASE(
+    "PDO callback: a reset requested by COPdoTransmit at a produced SYNC is carried out after all PDOs [Q9] [Y9]") {
   SyncTable table = table_of(1);
   table.sync_id = 0x40000080;
   table.cycle = 10000;
@@ -144,7 +145,7 @@ TEST_CASE("PDO callback: a reset that COPdoTransmit asks for at a produced SYNC 
   CHECK(node.u8[0] == 0x55);
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that switches the PDO off [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may switch the PDO off [Q9]") {
   SyncTable table = asynchronous();
   table.tpdo[0].event = 100;
   SyncNode node(table);
@@ -157,7 +158,7 @@ TEST_CASE("PDO callback: COPdoTransmit that switches the PDO off [Q9]") {
   check_left(node);
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that gives the PDO another identifier: nothing is sent under the old one [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may change the CAN-ID of the PDO: nothing is sent with the old one [Q9]") {
   SyncNode node(asynchronous());
   node.may_change(0x1800, 1);
   node.start();
@@ -172,7 +173,7 @@ TEST_CASE("PDO callback: COPdoTransmit that gives the PDO another identifier: no
   node.tx("191#31");
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that makes the PDO anew in the event timer's turn leaves one timer [Q9] [D38]") {
+TEST_CASE("PDO callback: COPdoTransmit may switch the PDO off and on at its event timer: one timer runs [Q9] [D38]") {
   for (const std::uint16_t inhibit : std::initializer_list<std::uint16_t>{0, 20, 200}) {
     SyncTable table = asynchronous();
     table.tpdo[0].event = 10;
@@ -200,7 +201,7 @@ TEST_CASE("PDO callback: COPdoTransmit that makes the PDO anew in the event time
   }
 }
 
-TEST_CASE("PDO callback: COPdoTransmit that switches PDOs at a SYNC off and on ends, and sends the others [Q9]") {
+TEST_CASE("PDO callback: COPdoTransmit may switch PDOs off and on at a SYNC: the others are sent once [Q9]") {
   SyncNode node(table_of(1));
   node.may_change(0x1800, 1);
   node.may_change(0x1801, 1);

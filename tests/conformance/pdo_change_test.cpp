@@ -55,7 +55,7 @@ void may_be_mapped_anew(PdoNode& node, std::uint16_t index) {
   for (std::uint8_t sub = 0; sub <= 8; ++sub) node.may_change(static_cast<std::uint16_t>(index + 0x200), sub);
 }
 
-TEST_CASE("PDO change: a Write function switches the RPDO off: what is left of it is not written, nothing has passed") {
+TEST_CASE("PDO change: a Write function that switches the RPDO off ends it; the PDO is not marked as received") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, acting, 0x22010208, 0x22020110});
   PdoNode node(table, add_acting);
@@ -70,7 +70,7 @@ TEST_CASE("PDO change: a Write function switches the RPDO off: what is left of i
   CHECK(!CORPdoObjWasReceived(&node.node, CODictFind(&node->Dict, CO_DEV(0x2201, 1))));
 }
 
-TEST_CASE("PDO change: a Write function maps the RPDO anew, with other lengths: the frame is not written into it") {
+TEST_CASE("PDO change: a Write function that maps the RPDO anew ends it; the frame is not written to the new mapping") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22040120, acting, 0x22010108, 0x22010208, 0x22010308});
   PdoNode node(table, add_acting);
@@ -89,7 +89,7 @@ TEST_CASE("PDO change: a Write function maps the RPDO anew, with other lengths: 
   CHECK(CORPdoWasReceived(&node.node, 0));
 }
 
-TEST_CASE("PDO change: a Read function switches the TPDO off, or maps it anew: it is not sent") {
+TEST_CASE("PDO change: a Read function that switches the TPDO off or maps it anew prevents its transmission") {
   for (const bool anew : {false, true}) {
     CAPTURE(anew);
     PdoTable table;
@@ -110,7 +110,7 @@ TEST_CASE("PDO change: a Read function switches the TPDO off, or maps it anew: i
 }
 
 TEST_CASE(
-    "PDO change: a Read function that ends Operational: the TPDO is not sent, its timers do not run [301:7.3.2]") {
+    "PDO change: a Read function that ends Operational prevents the transmission and stops the timers [301:7.3.2]") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {acting, 0x22010108}).event = 100;
   PdoNode node(table, add_acting);
@@ -122,7 +122,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("PDO change: COTPdoTrigObj() in a Write function: the TPDO is sent after all objects are written [X10]") {
+TEST_CASE("PDO change: COTPdoTrigObj() in a Write function sends the TPDO after all objects are written [X10]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {acting, 0x22010108});
   table.tpdo[0].on(0x40000181, 255, {0x22010108});
@@ -135,8 +135,7 @@ TEST_CASE("PDO change: COTPdoTrigObj() in a Write function: the TPDO is sent aft
 
 #if USE_SYNC && USE_PDO_RTR
 
-TEST_CASE(
-    "PDO change: what a TPDO has sampled for remote requests is not its times: 252, then 254 with an event timer") {
+TEST_CASE("PDO change: type 252 changed to 254 with an event timer: sampled data do not affect the timer") {
   SyncTable table;
   table.tpdo[0].on(0x181, 252, {0x22040120, 0x22040220}).event = 100;
   SyncNode node(table);

@@ -29,7 +29,7 @@ struct Relative : PdoNode {
         }) {}
 };
 
-TEST_CASE("PDO COB-ID: relative to the node-ID it works, and is shown, absolute [D56]") {
+TEST_CASE("PDO COB-ID: a relative one works and is read with the node-ID added [D56]") {
   PdoTable memory = relative();
   Relative node(memory);
   node.rx("000#017F");
@@ -41,7 +41,7 @@ TEST_CASE("PDO COB-ID: relative to the node-ID it works, and is shown, absolute 
   node.tx("1FF#1112");
 }
 
-TEST_CASE("PDO COB-ID: an identifier below the node-ID leaves the flags alone [D56]") {
+TEST_CASE("PDO COB-ID: a CAN-ID below the node-ID does not change the flags [D56]") {
   PdoTable memory = relative();
   Relative node(memory);
   node.rx("000#017F");
@@ -67,7 +67,7 @@ TEST_CASE("PDO COB-ID: an identifier below the node-ID leaves the flags alone [D
   CHECK(node.get(0x1800, 1) == 0x40000191);
 }
 
-TEST_CASE("PDO COB-ID: while it exists, a relative one keeps its identifier, too [P2] [P3] [D56]") {
+TEST_CASE("PDO COB-ID: a relative one cannot be changed while the PDO exists [P2] [P3] [D56]") {
   PdoTable memory = relative();
   Relative node(memory);
   CHECK(node.set(0x1400, 1, 4, 0x200) == abort_range);

@@ -41,7 +41,7 @@ TEST_CASE("PDO COB-ID: 1400h:1 and 1800h:1 of every PDO are read [P1] [PDO 01] [
   }
 }
 
-TEST_CASE("PDO COB-ID: it is 4 bytes long [D5]") {
+TEST_CASE("PDO COB-ID: its length is 4 bytes [D5]") {
   PdoNode node;
   CHECK(node.set(0x1400, 1, 2, 0x0201) == 0x06070013);
   CHECK(node.set(0x1800, 1, 1, 0x81) == 0x06070013);
@@ -63,8 +63,7 @@ TEST_CASE("PDO COB-ID: a PDO that is switched on in Pre-operational works in Ope
   node.tx("181#1112");
 }
 
-TEST_CASE(
-    "PDO COB-ID: a PDO that is switched on in Operational works at once, and one switched off stops at once [P1]") {
+TEST_CASE("PDO COB-ID: switching a PDO on or off in Operational takes effect at once [P1]") {
   PdoNode node(both_off());
   node.start();
   CHECK_FALSE(is_accepted(node, 0x201));
@@ -89,7 +88,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("PDO COB-ID: a PDO works on the identifier that it was switched on with, and on no other [P1]") {
+TEST_CASE("PDO COB-ID: a PDO uses the CAN-ID with which it was switched on, and no other [P1]") {
   PdoNode node(both_off());
   node.start();
   CHECK(node.set(0x1400, 1, 4, 0x80000333) == 0);
@@ -103,7 +102,7 @@ TEST_CASE("PDO COB-ID: a PDO works on the identifier that it was switched on wit
   node.tx("480#1112");
 }
 
-TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the RPDO exists: 0609 0030h [P2]") {
+TEST_CASE("PDO COB-ID: bits 0 to 29 cannot be changed while the RPDO exists: 0609 0030h [P2]") {
   PdoNode node(both_on());
   node.start();
   node.ask("601#2300140102020000", "581#8000140130000906");
@@ -118,7 +117,7 @@ TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the RPDO exists: 0609 003
   CHECK(node.u8[0] == 0x2B);
 }
 
-TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the TPDO exists: 0609 0030h [P2]") {
+TEST_CASE("PDO COB-ID: bits 0 to 29 cannot be changed while the TPDO exists: 0609 0030h [P2]") {
   PdoNode node(both_on());
   node.start();
   node.ask("601#2300180182010040", "581#8000180130000906");
@@ -131,7 +130,7 @@ TEST_CASE("PDO COB-ID: no bit of 0 to 29 changes while the TPDO exists: 0609 003
   node.tx("181#1112");
 }
 
-TEST_CASE("PDO COB-ID: the value that is there may be written while the PDO exists [P3]") {
+TEST_CASE("PDO COB-ID: the present value may be written while the PDO exists [P3]") {
   PdoNode node(both_on());
   node.start();
   node.ask("601#2300140101020000", "581#6000140100000000");
@@ -142,7 +141,7 @@ TEST_CASE("PDO COB-ID: the value that is there may be written while the PDO exis
   node.tx("181#1112");
 }
 
-TEST_CASE("PDO COB-ID: bit 31 may be set together with another identifier [P3]") {
+TEST_CASE("PDO COB-ID: bit 31 may be set together with another CAN-ID [P3]") {
   PdoNode node(both_on());
   node.start();
   node.ask("601#2300140134020080", "581#6000140100000000");
@@ -156,7 +155,7 @@ TEST_CASE("PDO COB-ID: bit 31 may be set together with another identifier [P3]")
   node.silent();
 }
 
-TEST_CASE("PDO COB-ID: bits 11 to 28 without bit 29 are refused where the PDO shall exist: 0609 0030h [P4]") {
+TEST_CASE("PDO COB-ID: bits 11 to 28 without bit 29 are refused with 0609 0030h if the PDO is switched on [P4]") {
   PdoNode node(both_off());
   node.ask("601#2300140101120000", "581#8000140130000906");
   for (unsigned bit = 11; bit < 29; ++bit) {
@@ -180,7 +179,7 @@ TEST_CASE("PDO COB-ID: an RPDO with bit 29 receives 29-bit frames only [P1] [P4]
   CHECK(node.u8[0] == 0x2B);
 }
 
-TEST_CASE("PDO COB-ID: a 29-bit identifier below 800h is not the 11-bit one of the same value [P1] [P4]") {
+TEST_CASE("PDO COB-ID: a 29-bit CAN-ID below 800h does not match the 11-bit one of the same value [P1] [P4]") {
   PdoTable table = both_off();
   table.rpdo[0].cob_id = 0x20000201;
   PdoNode node(table);
@@ -209,7 +208,7 @@ TEST_CASE("PDO COB-ID: a TPDO with bit 29 sends 29-bit frames [P1] [P4]") {
   node.tx("00000181#1112");
 }
 
-TEST_CASE("PDO COB-ID: bit 30 means nothing in an RPDO, and reads back [P4]") {
+TEST_CASE("PDO COB-ID: bit 30 of an RPDO has no effect and is read back [P4]") {
   PdoNode node(both_off());
   node.start();
   node.ask("601#2300140101020040", "581#6000140100000000");
@@ -224,7 +223,7 @@ TEST_CASE("PDO COB-ID: bit 30 means nothing in an RPDO, and reads back [P4]") {
 
 #if USE_PDO_RTR
 
-TEST_CASE("PDO COB-ID: bit 30 of a TPDO may be changed while it exists, and takes effect at once [P2]") {
+TEST_CASE("PDO COB-ID: bit 30 of a TPDO may be changed while it exists and takes effect at once [P2]") {
   PdoNode node(both_on());
   node.start();
   for (int times = 0; times < 3; ++times) {
@@ -240,7 +239,7 @@ TEST_CASE("PDO COB-ID: bit 30 of a TPDO may be changed while it exists, and take
   }
 }
 
-TEST_CASE("PDO COB-ID: without bit 30 a TPDO answers remote requests, with it none [P4] [X11] [X13]") {
+TEST_CASE("PDO COB-ID: a TPDO answers remote requests without bit 30 and ignores them with it [P4] [X11] [X13]") {
   PdoNode node(both_off());
   node.start();
   CHECK(node.set(0x1800, 1, 4, 0x181) == 0);
@@ -278,7 +277,7 @@ TEST_CASE("PDO COB-ID: a PDO without mapping cannot be switched on: 0609 0030h [
   node.silent();
 }
 
-TEST_CASE("PDO COB-ID: a PDO whose mapping was taken away cannot be switched on again: 0609 0030h [P6]") {
+TEST_CASE("PDO COB-ID: a PDO whose mapping was removed cannot be switched on again: 0609 0030h [P6]") {
   PdoNode node(both_on());
   CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
   CHECK(node.set(0x1600, 0, 1, 0) == 0);
@@ -287,7 +286,7 @@ TEST_CASE("PDO COB-ID: a PDO whose mapping was taken away cannot be switched on 
   CHECK(node.set(0x1400, 1, 4, 0x201) == 0);
 }
 
-TEST_CASE("PDO COB-ID: a TPDO that does not exist is not sent, under no identifier [D36]") {
+TEST_CASE("PDO COB-ID: a TPDO that does not exist is not sent under any CAN-ID [D36]") {
   PdoNode node(both_off());
   node.start();
   node.trigger(0);
@@ -296,7 +295,7 @@ TEST_CASE("PDO COB-ID: a TPDO that does not exist is not sent, under no identifi
   node.silent();
 }
 
-TEST_CASE("PDO COB-ID: PDOs that no entry describes do not exist, and nothing is sent at 000h [D36]") {
+TEST_CASE("PDO COB-ID: PDOs without entries in the table do not exist, and nothing is sent at 000h [D36]") {
   PdoNode node({}, [](Setup& setup) {
     for (std::uint8_t sub = 0; sub <= CO_PDO_MAP_N; ++sub) {
       setup.without(0x1400, sub).without(0x1800, sub).without(0x1600, sub).without(0x1A00, sub);
@@ -312,7 +311,7 @@ TEST_CASE("PDO COB-ID: PDOs that no entry describes do not exist, and nothing is
   node.silent();
 }
 
-TEST_CASE("PDO COB-ID: the entry may hold the value itself [P1]") {
+TEST_CASE("PDO COB-ID: the value may be stored in the entry (flag D) [P1]") {
   PdoNode node(both_on(), [](Setup& setup) {
     setup.with({CO_KEY(0x1400, 1, CO_OBJ_DN__RW), CO_TPDO_ID, 0x80000300});
     setup.with({CO_KEY(0x1800, 1, CO_OBJ_DN__R_), CO_TPDO_ID, CO_COBID_TPDO_DEFAULT(0)});
@@ -328,7 +327,7 @@ TEST_CASE("PDO COB-ID: the entry may hold the value itself [P1]") {
   CHECK(node.u8[0] == 0x2A);
 }
 
-TEST_CASE("PDO COB-ID: after a reset communication the configuration is that of the dictionary again") {
+TEST_CASE("PDO COB-ID: after a reset communication the configuration is that of the dictionary") {
   PdoNode node(both_on());
   node.start();
   node.rpdo[0].cob_id = 0x234;
@@ -348,7 +347,7 @@ TEST_CASE("PDO COB-ID: after a reset communication the configuration is that of 
   CHECK_FALSE(is_accepted(node, 0x201));
 }
 
-TEST_CASE("PDO COB-ID: the rules hold for the application as well [P2] [P6]") {
+TEST_CASE("PDO COB-ID: the rules apply to writes of the application [P2] [P6]") {
   PdoNode node(both_on());
   node.may_change(0x1400, 1);
   const auto write = [&](std::uint32_t value) {
@@ -367,7 +366,7 @@ TEST_CASE("PDO COB-ID: the rules hold for the application as well [P2] [P6]") {
 
 #if CO_RPDO_N >= 4
 
-TEST_CASE("PDO COB-ID: RPDOs with one identifier all get its frames, until they are switched off") {
+TEST_CASE("PDO COB-ID: several RPDOs with one CAN-ID all receive its frames until they are switched off") {
   PdoTable table;
   for (unsigned n = 0; n < 4; ++n) {
     table.rpdo[n].on(0x222, 255, {0x22010008U | (n + 1) << 8});

@@ -28,14 +28,14 @@ void switch_on(PdoNode& node) {
 
 // Lengths and access rights -------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO communication: sub 0 is the highest sub-index, and read-only") {
+TEST_CASE("PDO communication: sub 0 is the highest sub-index and read-only") {
   PdoNode node;
   node.ask("601#4000140000000000", "581#4F00140005000000");
   node.ask("601#4000180000000000", "581#4F00180006000000");
   node.ask("601#2F00140005000000", "581#8000140002000106");
 }
 
-TEST_CASE("PDO communication: every parameter has its length [D5]") {
+TEST_CASE("PDO communication: a wrong length is refused for every parameter [D5]") {
   struct Parameter {
     std::uint16_t index;
     std::uint8_t sub;
@@ -90,7 +90,7 @@ TEST_CASE("PDO communication: reserved transmission types are refused with 0609 
 }
 
 TEST_CASE(
-    "PDO communication: reserved transmission types are refused, all others taken while the PDO exists [P7] [P8]") {
+    "PDO communication: reserved transmission types are refused, others accepted while the PDO exists [P7] [P8]") {
   PdoNode node(both_on());
   check_types(node);
   node.start();
@@ -98,7 +98,7 @@ TEST_CASE(
   node.frames();
 }
 
-TEST_CASE("PDO communication: the transmission type is typed and read on the bus [P7]") {
+TEST_CASE("PDO communication: the transmission type is written and read by SDO [P7]") {
   PdoNode node(both_on());
   node.ask("601#2F001402F1000000", "581#8000140230000906");
   node.ask("601#2F001402FD000000", "581#8000140230000906");
@@ -112,7 +112,7 @@ TEST_CASE("PDO communication: the transmission type is typed and read on the bus
 
 #if USE_PDO_RTR
 
-TEST_CASE("PDO communication: 252 and 253 do not depend on bit 30 of the COB-ID, in either order [P8]") {
+TEST_CASE("PDO communication: 252 and 253 may be written before and after bit 30 of the COB-ID [P8]") {
   for (const unsigned type : {252U, 253U}) {
     CAPTURE(type);
     PdoNode node(both_on());
@@ -148,7 +148,7 @@ TEST_CASE("PDO communication: the transmission type of an RPDO takes effect at o
   CHECK(node.u8[0] == 0x2D);
 }
 
-TEST_CASE("PDO communication: what waited for the SYNC is not written by one after the type has changed [P7]") {
+TEST_CASE("PDO communication: data received before a change of type is not written by the next SYNC [P7]") {
   PdoNode node(both_on(1), add_sync);
   node.start();
   node.rx("201#2A");
@@ -183,7 +183,7 @@ TEST_CASE("PDO communication: the transmission type of a TPDO takes effect at on
   node.tx("181#1112");
 }
 
-TEST_CASE("PDO communication: an event that waited for the SYNC is not sent by one after the type has changed [P7]") {
+TEST_CASE("PDO communication: an event before a change of type is not sent by the next SYNC [P7]") {
   PdoNode node(both_on(255, 0), add_sync);
   node.start();
   node.rx("080#");
@@ -200,8 +200,7 @@ TEST_CASE("PDO communication: an event that waited for the SYNC is not sent by o
 
 // Sub 3, inhibit time -------------------------------------------------------------------------------------------------
 
-TEST_CASE(
-    "PDO communication: the inhibit time of a TPDO that exists is not changed: 0609 0030h; the same is taken [P9]") {
+TEST_CASE("PDO communication: the inhibit time of an existing TPDO cannot be changed: 0609 0030h [P9]") {
   PdoTable table = both_on();
   table.tpdo[0].inhibit = 100;
   PdoNode node(table);
@@ -230,7 +229,7 @@ TEST_CASE(
   node.after(50ms);
 }
 
-TEST_CASE("PDO communication: a plain number in its place is taken when the TPDO is switched on [P9]") {
+TEST_CASE("PDO communication: an inhibit time of a basic type is read when the TPDO is switched on [P9]") {
   std::uint16_t inhibit = 0;
   PdoNode node(both_on(), [&](Setup& setup) {
     setup.with({CO_KEY(0x1800, 3, CO_OBJ_____RW), CO_TUNSIGNED16, &inhibit});
@@ -253,7 +252,7 @@ TEST_CASE("PDO communication: a plain number in its place is taken when the TPDO
 
 // Sub 4 ---------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO communication: there is no sub 4: 0609 0011h [P10]") {
+TEST_CASE("PDO communication: sub 4 does not exist: 0609 0011h [P10]") {
   for (const PdoTable& table : {PdoTable(), both_on()}) {
     PdoNode node(table);
     node.ask("601#4000140400000000", "581#8000140411000906");
@@ -267,7 +266,7 @@ TEST_CASE("PDO communication: there is no sub 4: 0609 0011h [P10]") {
 
 // Sub 5, event timer --------------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO communication: the event timer is written at any time [P11]") {
+TEST_CASE("PDO communication: the event timer may be written at any time [P11]") {
   PdoNode node(both_on());
   for (int states = 0; states < 2; ++states) {
     for (const unsigned value : {0U, 1U, 1000U, 65535U, 0U}) {
@@ -286,7 +285,7 @@ TEST_CASE("PDO communication: the event timer is written at any time [P11]") {
   node.silent();
 }
 
-TEST_CASE("PDO communication: the event timer of a TPDO takes effect at once, and 0 stops it [P11] [D39]") {
+TEST_CASE("PDO communication: the event timer of a TPDO takes effect at once; 0 stops it [P11] [D39]") {
   PdoNode node(both_on());
   node.start();
   node.ask("601#2B00180564000000", "581#6000180500000000");
@@ -303,7 +302,7 @@ TEST_CASE("PDO communication: the event timer of a TPDO takes effect at once, an
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("PDO communication: thirty changes of the event timer leave one timer [P11] [D38] [D39]") {
+TEST_CASE("PDO communication: thirty changes of the event timer leave one running timer [P11] [D38] [D39]") {
   PdoNode node(both_on());
   node.start();
   for (unsigned times = 0; times < 30; ++times) {
@@ -338,7 +337,7 @@ TEST_CASE("PDO communication: SYNC start values above 240 are refused with 0609 
   node.ask("601#2F001806F1000000", "581#8000180630000906");
 }
 
-TEST_CASE("PDO communication: the SYNC start value of a TPDO that exists is not changed; the same is taken [P12]") {
+TEST_CASE("PDO communication: the SYNC start value of an existing TPDO cannot be changed [P12]") {
   PdoTable table = both_on();
   table.tpdo[0].start = 3;
   PdoNode node(table);
@@ -357,7 +356,7 @@ TEST_CASE("PDO communication: the SYNC start value of a TPDO that exists is not 
 
 // All sub-indexes -----------------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO communication: entries that are missing mean 0, but for the COB-ID") {
+TEST_CASE("PDO communication: missing entries mean 0, except for the COB-ID") {
   PdoNode node(both_on(), [](Setup& setup) {
     for (const std::uint8_t sub : {std::uint8_t{3}, std::uint8_t{5}, std::uint8_t{6}}) {
       setup.without(0x1400, sub).without(0x1800, sub);
@@ -374,7 +373,7 @@ TEST_CASE("PDO communication: entries that are missing mean 0, but for the COB-I
   node.silent();
 }
 
-TEST_CASE("PDO communication: after a reset communication the parameters are those of the dictionary again") {
+TEST_CASE("PDO communication: after a reset communication the parameters are those of the dictionary") {
   PdoNode node(both_on());
   node.start();
   node.tpdo[0].event = 100;

@@ -68,7 +68,7 @@ class LargeNode : public SyncEntries {
   Fixture fixture_;
 };
 
-TEST_CASE("large: each of 512 RPDOs writes its object, and none other") {
+TEST_CASE("large: each of 512 RPDOs writes its object and no other one") {
   LargeNode node;
   for (unsigned n = 0; n < all; ++n) {
     const auto value = static_cast<std::uint16_t>(0x8000 + n);
@@ -81,7 +81,7 @@ TEST_CASE("large: each of 512 RPDOs writes its object, and none other") {
   CHECK(node->counters().Unclaimed == 0);
 }
 
-TEST_CASE("large: each of 512 TPDOs is sent when it is asked for; the synchronous ones all with one SYNC, in order") {
+TEST_CASE("large: each of 512 TPDOs is sent on a trigger; one SYNC sends all synchronous ones in order") {
   LargeNode node;
   for (unsigned n = 0; n < all; n += 2) {
     node->call([&] { CHECK(COTPdoRequest(&node->node, static_cast<std::uint16_t>(n)) == CO_ERR_NONE); });
@@ -95,7 +95,7 @@ TEST_CASE("large: each of 512 TPDOs is sent when it is asked for; the synchronou
   CHECK(node->frames() == expected);
 }
 
-TEST_CASE("large: 256 event timers at once, no period lost") {
+TEST_CASE("large: 256 event timers run at once without a lost period") {
   LargeNode node;
   for (unsigned n = 0; n < all; ++n) node.event[n] = 10;
   node->rx("000#8201");
@@ -109,7 +109,7 @@ TEST_CASE("large: 256 event timers at once, no period lost") {
 }
 
 TEST_CASE(
-    "large: the last PDOs are switched off and on by SDO; an unrelated frame among 1024 identifiers is not consumed") {
+    "large: the last PDOs are switched off and on by SDO; an unrelated frame among 1024 CAN-IDs is not consumed") {
   LargeNode node;
   node->ask("601#23FF1501FF010180", "581#60FF150100000000");
   node->rx(LargeNode::rpdo(511, 0x1234));
@@ -127,7 +127,7 @@ TEST_CASE(
   CHECK(node->counters().Unclaimed == before + 2);
 }
 
-TEST_CASE("large: all 1024 PDOs end at a stop and begin again at a start") {
+TEST_CASE("large: all 1024 PDOs end at a stop and start again at a start") {
   LargeNode node;
   node->rx("000#0201");
   node->rx(LargeNode::rpdo(0, 7));

@@ -57,7 +57,8 @@ void add_noted(Setup& setup) { setup.with({CO_KEY(0x22FF, 0, CO_OBJ____PRW), not
 
 constexpr std::uint32_t noted = 0x22FF0008;
 
-TEST_CASE("PDO lock: around the copies of an RPDO, once; callbacks are outside, types inside [X10]") {
+TEST_CASE(
+    "PDO lock: the objects of an RPDO are copied with one lock; callbacks are called without it, types with it [X10]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, noted, 0x22020110, noted});
   PdoNode node(table, add_noted);
@@ -67,7 +68,7 @@ TEST_CASE("PDO lock: around the copies of an RPDO, once; callbacks are outside, 
   CHECK(Diary::take() == Entries{"receive", "lock", "write", "write", "unlock", "update"});
 }
 
-TEST_CASE("PDO lock: around the copies of a TPDO, once; it is sent outside [X10]") {
+TEST_CASE("PDO lock: the objects of a TPDO are copied with one lock; it is sent without the lock [X10]") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108, noted, 0x22020110, noted});
   PdoNode node(table, add_noted);
@@ -78,7 +79,7 @@ TEST_CASE("PDO lock: around the copies of a TPDO, once; it is sent outside [X10]
   node.tx("181#115A11125A");
 }
 
-TEST_CASE("PDO lock: not for frames that write nothing, and not for events that send nothing") {
+TEST_CASE("PDO lock: frames that write nothing and events that send nothing do not lock") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   table.tpdo[0].on(0x40000181, 255, {0x22010108}).inhibit = 1000;
@@ -98,7 +99,7 @@ TEST_CASE("PDO lock: not for frames that write nothing, and not for events that 
   CHECK(Diary::take() == Entries{"can"});
 }
 
-TEST_CASE("PDO lock: a frame that COPdoReceive takes does not lock") {
+TEST_CASE("PDO lock: a frame that COPdoReceive consumes does not lock") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   PdoNode node(table);
@@ -111,7 +112,7 @@ TEST_CASE("PDO lock: a frame that COPdoReceive takes does not lock") {
 
 #if USE_SYNC
 
-TEST_CASE("PDO lock: once around all RPDOs of one SYNC, once around each TPDO, callbacks outside [X3] [X10]") {
+TEST_CASE("PDO lock: all RPDOs of a SYNC have one lock, each TPDO has its own, callbacks have none [X3] [X10]") {
   if (fixture_rpdos < 3 || fixture_tpdos < 2) {
     return;
   }
@@ -135,7 +136,7 @@ TEST_CASE("PDO lock: once around all RPDOs of one SYNC, once around each TPDO, c
   node.frames();
 }
 
-TEST_CASE("PDO lock: an RPDO that waits for the SYNC does not lock") {
+TEST_CASE("PDO lock: storing an RPDO until the SYNC does not lock") {
   SyncTable table;
   table.rpdo[0].on(0x201, 1, {noted});
   SyncNode node(table, add_noted);
@@ -147,7 +148,7 @@ TEST_CASE("PDO lock: an RPDO that waits for the SYNC does not lock") {
 
 #endif
 
-TEST_CASE("PDO lock: an event that an RPDO causes (flag A) locks again, after its objects are unlocked [X10]") {
+TEST_CASE("PDO lock: a TPDO that an RPDO causes (flag A) locks after the objects of the RPDO are unlocked [X10]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22110108, 0x22110208});
   table.tpdo[0].on(0x40000181, 255, {0x22110108, 0x22110208});
@@ -159,7 +160,7 @@ TEST_CASE("PDO lock: an event that an RPDO causes (flag A) locks again, after it
   node.tx("181#4243");
 }
 
-TEST_CASE("PDO lock: a driver without lock hooks is asked for none") {
+TEST_CASE("PDO lock: a driver without lock hooks works") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   table.tpdo[0].on(0x40000181, 255, {0x22010108});
@@ -177,7 +178,7 @@ TEST_CASE("PDO lock: a driver without lock hooks is asked for none") {
   node->Ext = with;
 }
 
-TEST_CASE("PDO lock: the application may use the dictionary in every callback of PDOs") {
+TEST_CASE("PDO lock: the application may access the dictionary in every callback of PDOs") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   table.tpdo[0].on(0x40000181, 255, {0x22010208});

@@ -49,7 +49,7 @@ const Layout layouts[] = {
     {{0x22580140}, "000000000000F03F"},
 };
 
-TEST_CASE("PDO layout: a TPDO holds its objects in the order of the mapping, each little-endian [M10]") {
+TEST_CASE("PDO layout: a TPDO contains its objects in the order of the mapping, each little-endian [M10]") {
   PdoNode node;
   node.start();
   for (const Layout& one : layouts) {
@@ -85,7 +85,7 @@ TEST_CASE("PDO layout: an RPDO writes its objects in the order of the mapping, e
   }
 }
 
-TEST_CASE("PDO layout: an RPDO writes nothing but its objects") {
+TEST_CASE("PDO layout: an RPDO writes only its objects") {
   const PdoVariables before;
   for (const Layout& one : layouts) {
     CAPTURE(one.sampled);
@@ -111,7 +111,7 @@ TEST_CASE("PDO layout: an RPDO writes nothing but its objects") {
   }
 }
 
-TEST_CASE("PDO layout: variables at any address are reached, aligned or not") {
+TEST_CASE("PDO layout: aligned and unaligned variables are transferred") {
   for (unsigned offset = 0; offset < 8; ++offset) {
     CAPTURE(offset);
     alignas(8) std::uint8_t memory[24] = {};

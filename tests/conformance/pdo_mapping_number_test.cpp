@@ -24,8 +24,7 @@ PdoTable eight_bytes() {
 
 #if !USE_PDO_BITS
 
-TEST_CASE(
-    "PDO mapping: a number above that of the objects that fit is refused with 0604 0042h, and leaves 0 [M6] [PDO 25]") {
+TEST_CASE("PDO mapping: a number above the possible one is refused with 0604 0042h and sets 0 [M6] [PDO 25]") {
   PdoNode node(eight_bytes());
   node.ask("601#2F001600FD000000", "581#8000160042000406");
   for (unsigned number = 9; number <= 0xFD; ++number) {
@@ -43,7 +42,7 @@ TEST_CASE(
 
 #if !USE_MPDO
 
-TEST_CASE("PDO mapping: FEh and FFh, which mean MPDOs, are refused with 0604 0042h where there are none [M7]") {
+TEST_CASE("PDO mapping: FEh and FFh (MPDO) are refused with 0604 0042h by a node without MPDOs [M7]") {
   PdoNode node(eight_bytes());
   node.ask("601#2F001600FE000000", "581#8000160042000406");
   node.ask("601#2F001600FF000000", "581#8000160042000406");
@@ -53,7 +52,7 @@ TEST_CASE("PDO mapping: FEh and FFh, which mean MPDOs, are refused with 0604 004
 
 #endif
 
-TEST_CASE("PDO mapping: more than 64 bits are refused with 0604 0042h, and leave 0 [M6] [PDO 26]") {
+TEST_CASE("PDO mapping: more than 64 bits are refused with 0604 0042h and set 0 [M6] [PDO 26]") {
   struct Sum {
     std::vector<std::uint32_t> words;
     unsigned fitting;
@@ -85,7 +84,7 @@ TEST_CASE("PDO mapping: more than 64 bits are refused with 0604 0042h, and leave
   }
 }
 
-TEST_CASE("PDO mapping: a number that counts an empty entry is refused with 0604 0042h, and leaves 0 [M6]") {
+TEST_CASE("PDO mapping: a number that includes an empty entry is refused with 0604 0042h and sets 0 [M6]") {
   PdoTable table = eight_bytes();
   table.rpdo[0].map[2] = table.tpdo[0].map[0] = 0;
   PdoNode node(table);
@@ -100,7 +99,7 @@ TEST_CASE("PDO mapping: a number that counts an empty entry is refused with 0604
   CHECK(node.set(0x1800, 1, 4, 0x40000181) == 0x06090030);
 }
 
-TEST_CASE("PDO mapping: a number that counts an entry which is not in the table is refused, and leaves 0 [M6]") {
+TEST_CASE("PDO mapping: a number that includes a missing entry is refused and sets 0 [M6]") {
   PdoNode node(eight_bytes(), [](Setup& setup) {
     for (std::uint8_t sub = 5; sub <= CO_PDO_MAP_N; ++sub) {
       setup.without(0x1600, sub).without(0x1A00, sub);
@@ -115,7 +114,7 @@ TEST_CASE("PDO mapping: a number that counts an entry which is not in the table 
   }
 }
 
-TEST_CASE("PDO mapping: sub 0 checks every entry again: 0604 0041h, and it leaves 0 [M6]") {
+TEST_CASE("PDO mapping: sub 0 checks every entry again: 0604 0041h sets 0 [M6]") {
   PdoTable table = eight_bytes();
   PdoNode node(table);
   struct Wrong {
@@ -142,7 +141,7 @@ TEST_CASE("PDO mapping: sub 0 checks every entry again: 0604 0041h, and it leave
   }
 }
 
-TEST_CASE("PDO mapping: an object whose rights have gone since is refused when sub 0 is written [M6]") {
+TEST_CASE("PDO mapping: an object that has lost its access rights is refused when sub 0 is written [M6]") {
   PdoNode node(eight_bytes());
   CHECK(node.set(0x1600, 0, 1, 8) == 0);
   CHECK(node.set(0x1600, 0, 1, 0) == 0);
@@ -164,7 +163,7 @@ std::uint32_t tpdo_word(PdoNode& node, std::uint32_t word) { return node.set(0x1
 
 constexpr std::uint32_t dummies[] = {0x00020008, 0x00030010, 0x00040020, 0x00050008, 0x00060010, 0x00070020};
 
-TEST_CASE("PDO mapping: 0002h to 0007h are mapped into RPDOs without entries of the dictionary [M8] [PDO 33]") {
+TEST_CASE("PDO mapping: 0002h to 0007h can be mapped into RPDOs without entries of the dictionary [M8] [PDO 33]") {
   PdoNode node;
   REQUIRE(node.find(0x0002, 0) == nullptr);
   node.start();
@@ -181,7 +180,7 @@ TEST_CASE("PDO mapping: 0002h to 0007h are mapped into RPDOs without entries of 
   }
 }
 
-TEST_CASE("PDO mapping: a dummy is not mapped into a TPDO: 0604 0041h [M8]") {
+TEST_CASE("PDO mapping: a dummy cannot be mapped into a TPDO: 0604 0041h [M8]") {
   PdoNode node;
   node.ask("601#23001A0108000200", "581#80001A0141000406");
   for (const std::uint32_t dummy : dummies) {
@@ -191,7 +190,7 @@ TEST_CASE("PDO mapping: a dummy is not mapped into a TPDO: 0604 0041h [M8]") {
   CHECK(tpdo_word(node, 0x00010001) == abort_not_mappable);
 }
 
-TEST_CASE("PDO mapping: a dummy has its length and sub 0, and no other: 0604 0041h [M8]") {
+TEST_CASE("PDO mapping: a dummy with another length or sub-index than 0 is refused with 0604 0041h [M8]") {
   PdoNode node;
   constexpr unsigned lengths[] = {USE_PDO_BITS ? 1U : 256U, 8, 16, 32, 8, 16, 32};
   for (unsigned index = 1; index <= 7; ++index) {
@@ -207,7 +206,7 @@ TEST_CASE("PDO mapping: a dummy has its length and sub 0, and no other: 0604 004
   }
 }
 
-TEST_CASE("PDO mapping: dummies take no more places than they have [M8]") {
+TEST_CASE("PDO mapping: dummies occupy their lengths in the frame [M8]") {
   PdoNode node;
   node.start();
   REQUIRE(node.remap_rpdo(
@@ -225,7 +224,7 @@ TEST_CASE("PDO mapping: dummies take no more places than they have [M8]") {
   CHECK(node.u8[2] == 0x31);
 }
 
-TEST_CASE("PDO mapping: the bits of dummies count [M6] [M8]") {
+TEST_CASE("PDO mapping: the bits of dummies are included in the sum [M6] [M8]") {
   PdoTable table;
   table.rpdo[0].map = {0x00070020, 0x00040020, 0x00020008};
   PdoNode node(table);
@@ -253,7 +252,7 @@ TEST_CASE("PDO mapping: entries of static data types in the dictionary change no
 
 #if USE_PDO_BITS
 
-TEST_CASE("PDO mapping: BOOLEAN takes one bit, from bit 0 of byte 0 on [M10]") {
+TEST_CASE("PDO mapping: BOOLEAN occupies one bit, beginning with bit 0 of byte 0 [M10]") {
   PdoNode node;
   node.start();
   REQUIRE(node.remap_tpdo(0, {0x22500101, 0x22500201, 0x22500301, 0x22010108}, 0x40000181) == 0);
@@ -280,7 +279,7 @@ TEST_CASE("PDO mapping: BOOLEAN takes one bit, from bit 0 of byte 0 on [M10]") {
   CHECK(node.u16[0] == 0xFFFF);
 }
 
-TEST_CASE("PDO mapping: 64 single bits fill a PDO, 65 do not [M6] [M10]") {
+TEST_CASE("PDO mapping: 64 single bits fit into a PDO, 65 do not [M6] [M10]") {
   std::vector<std::uint32_t> words(64, 0x00010001);
   words[0] = 0x22500101;
   words[63] = 0x22500201;
@@ -297,7 +296,7 @@ TEST_CASE("PDO mapping: 64 single bits fill a PDO, 65 do not [M6] [M10]") {
   CHECK(node.remap_rpdo(0, words, 0x201) == abort_too_long);
 }
 
-TEST_CASE("PDO mapping: the length of a frame is in bytes, rounded up [M10]") {
+TEST_CASE("PDO mapping: the length of a frame is rounded up to bytes [M10]") {
   PdoNode node;
   node.start();
   node.boolean[0] = 1;
@@ -313,7 +312,7 @@ TEST_CASE("PDO mapping: the length of a frame is in bytes, rounded up [M10]") {
 
 #else
 
-TEST_CASE("PDO mapping: without mapping of single bits 0001h is no dummy, and BOOLEAN takes a byte [M5] [M8]") {
+TEST_CASE("PDO mapping: without mapping of single bits 0001h is no dummy and BOOLEAN occupies a byte [M5] [M8]") {
   PdoNode node;
   CHECK(rpdo_word(node, 0x00010001) == abort_not_mappable);
   CHECK(rpdo_word(node, 0x00010008) == abort_not_mappable);

@@ -64,7 +64,7 @@ TEST_CASE("PDO mapping: a TPDO is mapped anew by the procedure [M1] [PDO 21] [PD
   node.tx("181#1112131481");
 }
 
-TEST_CASE("PDO mapping: sub 0 may name fewer entries than there are, and more again [M1] [M6]") {
+TEST_CASE("PDO mapping: sub 0 may be set to fewer entries and to more again [M1] [M6]") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 254, {0x22010108, 0x22010208, 0x22010308, 0x22010408});
   PdoNode node(table);
@@ -80,14 +80,14 @@ TEST_CASE("PDO mapping: sub 0 may name fewer entries than there are, and more ag
   }
 }
 
-TEST_CASE("PDO mapping: sub 0 need not be 0 before it gets another number, while the PDO does not exist [M1]") {
+TEST_CASE("PDO mapping: sub 0 may be changed without writing 0 before while the PDO does not exist [M1]") {
   PdoNode node(both_off());
   CHECK(node.set(0x1600, 0, 1, 1) == 0);
   CHECK(node.set(0x1600, 0, 1, 2) == 0);
   CHECK(node.set(0x1600, 0, 1, 2) == 0);
 }
 
-TEST_CASE("PDO mapping: nothing of the mapping is written while the PDO exists, the same value neither [M2] [PDO 24]") {
+TEST_CASE("PDO mapping: no entry can be written while the PDO exists, nor its present value [M2] [PDO 24]") {
   PdoNode node(both_on());
   for (int states = 0; states < 2; ++states) {
     node.ask("601#2300160108010122", "581#8000160100000106");
@@ -112,7 +112,7 @@ TEST_CASE("PDO mapping: nothing of the mapping is written while the PDO exists, 
   node.tx("181#11122122");
 }
 
-TEST_CASE("PDO mapping: no entry is written while sub 0 is not 0, the same value neither [M3] [PDO 23]") {
+TEST_CASE("PDO mapping: no entry can be written while sub 0 is not 0, nor its present value [M3] [PDO 23]") {
   PdoNode node(both_off());
   node.ask("601#2300160108010122", "581#8000160100000106");
   node.ask("601#2300160108030122", "581#8000160100000106");
@@ -122,8 +122,7 @@ TEST_CASE("PDO mapping: no entry is written while sub 0 is not 0, the same value
   CHECK(node.get(0x1600, 1) == 0x22010108);
 }
 
-TEST_CASE(
-    "PDO mapping: while bit 31 is 0 nothing is written, even where a wrong table keeps the PDO from existing [M2]") {
+TEST_CASE("PDO mapping: while bit 31 is 0 no entry can be written, also if a wrong table disables the PDO [M2]") {
   PdoTable table;
   table.rpdo[0].cob_id = 0x201;
   table.tpdo[0].cob_id = 0x40000181;
@@ -138,7 +137,7 @@ TEST_CASE(
   CHECK(node.u8[0] == 0x2A);
 }
 
-TEST_CASE("PDO mapping: the other PDOs do not matter to one that is being mapped [M2] [M3]") {
+TEST_CASE("PDO mapping: the state of other PDOs does not affect the procedure [M2] [M3]") {
   PdoNode node(both_on());
   CHECK(node.set(0x1400, 1, 4, 0x80000201) == 0);
   CHECK(node.set(0x1600, 0, 1, 0) == 0);
@@ -158,7 +157,7 @@ struct Ready : PdoNode {
   std::uint32_t tpdo_word(std::uint32_t word) { return set(0x1A00, 1, 4, word); }
 };
 
-TEST_CASE("PDO mapping: an index without object is refused with 0602 0000h [M4]") {
+TEST_CASE("PDO mapping: an index without an object is refused with 0602 0000h [M4]") {
   Ready node;
   node.ask("601#2300160108000030", "581#8000160100000206");
   node.ask("601#23001A0108000030", "581#80001A0100000206");
@@ -170,7 +169,7 @@ TEST_CASE("PDO mapping: an index without object is refused with 0602 0000h [M4]"
   }
 }
 
-TEST_CASE("PDO mapping: a sub-index that an object does not have is refused with 0604 0041h [M4]") {
+TEST_CASE("PDO mapping: a missing sub-index is refused with 0604 0041h [M4]") {
   Ready node;
   node.ask("601#2300160108090122", "581#8000160141000406");
   for (const std::uint32_t word : {0x22010908U, 0x2201FF08U, 0x22040920U, 0x20010108U, 0x20330020U}) {
@@ -191,7 +190,7 @@ TEST_CASE("PDO mapping: an object that cannot be mapped is refused with 0604 004
   }
 }
 
-TEST_CASE("PDO mapping: an RPDO takes objects with write access only, a TPDO with read access [M5] [PDO 27] [PDO 28]") {
+TEST_CASE("PDO mapping: an RPDO needs objects with write access, a TPDO with read access [M5] [PDO 27] [PDO 28]") {
   struct Width {
     std::uint32_t read;
     std::uint32_t write;
@@ -227,7 +226,7 @@ TEST_CASE(
   node.tx("181#1112131415161718");
 }
 
-TEST_CASE("PDO mapping: a length in bits that is not the object's is refused with 0604 0041h [M5] [D37]") {
+TEST_CASE("PDO mapping: a length that differs from the object is refused with 0604 0041h [M5] [D37]") {
   struct Object {
     std::uint32_t word;
     unsigned bits;
@@ -245,7 +244,7 @@ TEST_CASE("PDO mapping: a length in bits that is not the object's is refused wit
   }
 }
 
-TEST_CASE("PDO mapping: an entry may be emptied with 0000 0000h while sub 0 is 0 [M6]") {
+TEST_CASE("PDO mapping: an entry may be cleared with 0000 0000h while sub 0 is 0 [M6]") {
   Ready node;
   CHECK(node.rpdo_word(0x22010108) == 0);
   node.ask("601#2300160100000000", "581#6000160100000000");
@@ -265,8 +264,7 @@ TEST_CASE("PDO mapping: a refused entry keeps its value [M5]") {
 
 // Precedence of abort codes -------------------------------------------------------------------------------------------
 
-TEST_CASE(
-    "PDO mapping: a PDO that exists is the first reason, sub 0 the second, a missing index the third [M2] [M3] [M4]") {
+TEST_CASE("PDO mapping: checks are ordered: existing PDO, sub 0, missing index [M2] [M3] [M4]") {
   {
     PdoNode node(both_on());
     for (const std::uint32_t word : {0x30000108U, 0x22010908U, 0x22410108U, 0x22010100U}) {
@@ -299,13 +297,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("PDO mapping: the length of the download is a reason before any of them [M2] [D5]") {
+TEST_CASE("PDO mapping: the length of the download is checked first [M2] [D5]") {
   PdoNode node(both_on());
   CHECK(node.set(0x1600, 1, 2, 0x0108) == 0x06070013);
   CHECK(node.set(0x1600, 0, 2, 0) == 0x06070012);
 }
 
-TEST_CASE("PDO mapping: the rules hold for the application as well [M2] [M3] [M5] [M6]") {
+TEST_CASE("PDO mapping: the rules apply to writes of the application [M2] [M3] [M5] [M6]") {
   PdoNode node(both_on());
   for (std::uint8_t sub = 1; sub <= 8; ++sub) {
     node.may_change(0x1600, sub);
@@ -341,7 +339,7 @@ TEST_CASE("PDO mapping: the rules hold for the application as well [M2] [M3] [M5
 
 // Repetition ----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO mapping: thirty new mappings leave one, and one frame for one change [D41]") {
+TEST_CASE("PDO mapping: after thirty new mappings one change sends one frame [D41]") {
   PdoNode node;
   node.start();
   for (unsigned times = 0; times < 30; ++times) {
@@ -360,7 +358,7 @@ TEST_CASE("PDO mapping: thirty new mappings leave one, and one frame for one cha
   CHECK(node.error() == CO_ERR_TPDO_OBJ_TRIGGER);
 }
 
-TEST_CASE("PDO mapping: an object may be mapped twice into one PDO, and into several [M5]") {
+TEST_CASE("PDO mapping: an object may be mapped twice into one PDO and into several PDOs [M5]") {
   PdoNode node;
   node.start();
   REQUIRE(node.remap_tpdo(0, {0x22020110, 0x22020110, 0x22020110, 0x22020110}, 0x40000181) == 0);
@@ -371,8 +369,7 @@ TEST_CASE("PDO mapping: an object may be mapped twice into one PDO, and into sev
   CHECK(node.u8[0] == 0xA2);
 }
 
-TEST_CASE(
-    "PDO mapping: a mapping that is changed while the PDO is off is that of the dictionary after a reset, too [M1]") {
+TEST_CASE("PDO mapping: a mapping that is changed while the PDO is off is kept by a reset communication [M1]") {
   PdoNode node(both_on());
   node.start();
   REQUIRE(node.remap_rpdo(0, {0x22040120}, 0x201) == 0);

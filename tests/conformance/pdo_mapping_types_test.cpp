@@ -194,7 +194,7 @@ void for_each_type(const Function& function) {
   }
 }
 
-TEST_CASE("PDO layout: an RPDO writes what an SDO upload reads, for objects of every type of 1 to 8 bytes") {
+TEST_CASE("PDO layout: an RPDO writes the bytes that an SDO upload reads, for every type of 1 to 8 bytes") {
   for_each_type([](PdoNode& node, const Case& one, const Around& around) {
     REQUIRE(node.remap_rpdo(0, around.words, 0x201) == 0);
     for (const Bytes& value : {one.values.first, one.values.second, one.values.first}) {
@@ -206,7 +206,7 @@ TEST_CASE("PDO layout: an RPDO writes what an SDO upload reads, for objects of e
   });
 }
 
-TEST_CASE("PDO layout: a TPDO holds what an SDO download has written, for objects of every type of 1 to 8 bytes") {
+TEST_CASE("PDO layout: a TPDO contains the bytes of an SDO download, for every type of 1 to 8 bytes") {
   for_each_type([](PdoNode& node, const Case& one, const Around& around) {
     REQUIRE(node.remap_tpdo(0, around.words, 0x40000181) == 0);
     for (const Bytes& value : {one.values.first, one.values.second, one.values.first}) {
@@ -217,7 +217,7 @@ TEST_CASE("PDO layout: a TPDO holds what an SDO download has written, for object
   });
 }
 
-TEST_CASE("PDO layout: an SDO upload in segments and a PDO of the same stream do not disturb one another [D25]") {
+TEST_CASE("PDO layout: a segmented SDO upload and a PDO of one stream are independent [D25]") {
   std::uint8_t memory[8] = {1, 2, 3, 4, 5, 6, 7, 8};
   CO_OBJ_DOM domain{0, 8, memory};
   PdoNode node({}, [&](Setup& setup) { setup.with({CO_KEY(0x2300, 0, CO_OBJ____PRW), CO_TDOMAIN, &domain}); });
@@ -233,7 +233,7 @@ TEST_CASE("PDO layout: an SDO upload in segments and a PDO of the same stream do
   }
 }
 
-TEST_CASE("PDO layout: a stream has to have exactly the length that is mapped [M5]") {
+TEST_CASE("PDO layout: a stream must have the mapped length [M5]") {
   std::uint8_t memory[9] = {};
   for (std::uint8_t size = 1; size <= 9; ++size) {
     CO_OBJ_DOM domain{0, size, memory};
@@ -253,7 +253,7 @@ TEST_CASE("PDO layout: a stream has to have exactly the length that is mapped [M
   }
 }
 
-TEST_CASE("PDO layout: numbers of 3, 5, 6 and 7 bytes take their sign to the bytes of the variable above") {
+TEST_CASE("PDO layout: signed numbers of 3, 5, 6 and 7 bytes are sign-extended to their variable") {
   struct Signed {
     std::uint8_t width;
     const CO_OBJ_TYPE* type;
@@ -275,7 +275,7 @@ TEST_CASE("PDO layout: numbers of 3, 5, 6 and 7 bytes take their sign to the byt
   }
 }
 
-TEST_CASE("PDO layout: a user type sees each frame as one Read or one Write of its length") {
+TEST_CASE("PDO layout: an application-defined type gets one Read or Write of its length for each frame") {
   for (std::uint8_t width = 1; width <= 8; ++width) {
     CAPTURE(unsigned{width});
     UserType user;
@@ -296,7 +296,7 @@ TEST_CASE("PDO layout: a user type sees each frame as one Read or one Write of i
   }
 }
 
-TEST_CASE("PDO layout: a BOOLEAN takes nothing but 0 and 1 from an RPDO") {
+TEST_CASE("PDO layout: a BOOLEAN accepts only 0 and 1 from an RPDO") {
   PdoNode node;
   node.start();
   const std::uint32_t word = USE_PDO_BITS != 0 ? 0x22500101 : 0x22500108;

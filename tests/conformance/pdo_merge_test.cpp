@@ -105,7 +105,7 @@ std::vector<Variable> row(const std::vector<unsigned>& widths, std::size_t offse
   return all;
 }
 
-TEST_CASE("PDO merge: 8 u8, 4 u16, 2 u32, at every alignment") {
+TEST_CASE("PDO merge: 8 u8, 4 u16 or 2 u32 are copied at every alignment") {
   for (std::size_t offset = guard; offset < guard + 8; ++offset) {
     CAPTURE(offset);
     MergeNode(row(std::vector<unsigned>(8, 1), offset), as_they_are(8));
@@ -114,7 +114,7 @@ TEST_CASE("PDO merge: 8 u8, 4 u16, 2 u32, at every alignment") {
   }
 }
 
-TEST_CASE("PDO merge: every mixture of widths that fits into a PDO, side by side, at every alignment") {
+TEST_CASE("PDO merge: every mixture of widths that fits into a PDO is copied at every alignment") {
   const auto extend = [](const auto& self, std::vector<unsigned>& widths, unsigned used) -> void {
     if (!widths.empty()) {
       for (std::size_t offset = guard + widths.size() % stride(4); offset < guard + 4; offset += stride(4)) {
@@ -134,7 +134,7 @@ TEST_CASE("PDO merge: every mixture of widths that fits into a PDO, side by side
   extend(extend, widths, 0);
 }
 
-TEST_CASE("PDO merge: adjacent variables in every order") {
+TEST_CASE("PDO merge: adjacent variables are copied in every order") {
   for (const std::vector<unsigned>& widths :
        {std::vector<unsigned>{1, 1, 1, 1, 1}, std::vector<unsigned>{2, 2, 2, 2}, std::vector<unsigned>{4, 4},
         std::vector<unsigned>{1, 1, 2, 4}, std::vector<unsigned>{2, 1, 1, 2}}) {
@@ -148,7 +148,7 @@ TEST_CASE("PDO merge: adjacent variables in every order") {
   }
 }
 
-TEST_CASE("PDO merge: adjacent variables of which one is omitted, or mapped elsewhere in the PDO") {
+TEST_CASE("PDO merge: adjacent variables with one omitted or mapped elsewhere in the PDO are copied") {
   const std::vector<Variable> variables = row({1, 1, 1, 1, 1, 1}, guard);
   for (const std::vector<std::size_t>& order :
        {std::vector<std::size_t>{0, 1, 3, 4}, std::vector<std::size_t>{0, 2, 4},
@@ -158,14 +158,14 @@ TEST_CASE("PDO merge: adjacent variables of which one is omitted, or mapped else
   }
 }
 
-TEST_CASE("PDO merge: gaps between variables stay as they are") {
+TEST_CASE("PDO merge: gaps between variables are not written") {
   for (std::size_t gap = 0; gap < 5; ++gap) {
     const std::size_t at[] = {guard, guard + 1 + gap, guard + 4 + 2 * gap};
     MergeNode({{at[0], 1}, {at[1], 2}, {at[2], 4}}, {0, 1, 2});
   }
 }
 
-TEST_CASE("PDO merge: members of a structure with mixed widths") {
+TEST_CASE("PDO merge: members of a structure with mixed widths are copied") {
   struct Record {
     std::uint16_t a, b;
     std::uint8_t c, d;
@@ -194,7 +194,7 @@ TEST_CASE("PDO merge: members of a structure with mixed widths") {
   CHECK(record.e == 0x2827);
 }
 
-TEST_CASE("PDO merge: a user type, a dummy or a stored value in between ends a row, and is served [M8]") {
+TEST_CASE("PDO merge: an application-defined type, a dummy or flag D in between ends a merged copy [M8]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, 0x22010208, 0x00050008, 0x22010308, 0x22030118, 0x22010408});
   table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x22010208, 0x22030118, 0x22010308, 0x22010408});
@@ -210,7 +210,7 @@ TEST_CASE("PDO merge: a user type, a dummy or a stored value in between ends a r
   node.tx("181#01020506FF0408");
 }
 
-TEST_CASE("PDO merge: one variable in several entries, and rows that overlap") {
+TEST_CASE("PDO merge: one variable in several entries and overlapping runs are copied") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x22010208, 0x22010108, 0x22010208, 0x22010308});
   table.rpdo[0].on(0x201, 255, {0x22010108, 0x22010208, 0x22010108, 0x22010208, 0x22010308});
@@ -224,7 +224,7 @@ TEST_CASE("PDO merge: one variable in several entries, and rows that overlap") {
   CHECK(node.u8[2] == 5);
 }
 
-TEST_CASE("PDO merge: adjacent variables of which one may not be written are not merged with it") {
+TEST_CASE("PDO merge: a variable that must not be written is not merged with adjacent ones") {
   PdoTable table;
   table.rpdo[0].on(0x80000201, 255, {0x22010108, 0x22010208, 0x22010308});
   const std::uint8_t* closed = nullptr;
@@ -245,7 +245,7 @@ TEST_CASE("PDO merge: adjacent variables of which one may not be written are not
 
 // Flag A --------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("PDO merge: an RPDO that changes several objects with flag A sends one TPDO of them, with all new values") {
+TEST_CASE("PDO merge: an RPDO that changes several objects with flag A sends one TPDO with all new values") {
   PdoTable table;
   const std::initializer_list<std::uint32_t> words = {0x22110108, 0x22110208, 0x22120110, 0x22140120};
   table.rpdo[0].on(0x201, 255, words);
@@ -261,7 +261,7 @@ TEST_CASE("PDO merge: an RPDO that changes several objects with flag A sends one
 }
 
 #if USE_SYNC
-TEST_CASE("PDO merge: all RPDOs of a SYNC that change objects with flag A send each TPDO once, after all are written") {
+TEST_CASE("PDO merge: RPDOs of a SYNC that change objects with flag A send each TPDO once, after all writes") {
   if (fixture_rpdos < 2 || fixture_tpdos < 2) {
     return;
   }
@@ -279,7 +279,7 @@ TEST_CASE("PDO merge: all RPDOs of a SYNC that change objects with flag A send e
   node.tx({"181#01020304", "281#04"});
 }
 
-TEST_CASE("PDO merge: a type 0 TPDO of objects that the RPDOs of a SYNC change goes with the next SYNC [X3]") {
+TEST_CASE("PDO merge: a TPDO of type 0 whose objects are changed by RPDOs of a SYNC is sent with the next SYNC [X3]") {
   SyncTable table;
   table.rpdo[0].on(0x201, 1, {0x22110108});
   table.tpdo[0].on(0x40000181, 0, {0x22110108});
@@ -313,7 +313,7 @@ const CO_OBJ_TYPE* meddling_type() {
 
 void add_meddling(Setup& setup) { setup.with({CO_KEY(0x22FF, 0, CO_OBJ____PR_), meddling_type(), 0}); }
 
-TEST_CASE("PDO merge: what a Read function changes while a TPDO is filled is an event for the others (flag A)") {
+TEST_CASE("PDO merge: an object (flag A) that a Read function changes while a TPDO is filled triggers other TPDOs") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -333,7 +333,7 @@ TEST_CASE("PDO merge: what a Read function changes while a TPDO is filled is an 
 }
 
 #if USE_SYNC && USE_PDO_RTR
-TEST_CASE("PDO merge: the same for a TPDO that is sampled for remote requests (flag A)") {
+TEST_CASE("PDO merge: an object (flag A) that a Read function changes during sampling (RTR) triggers other TPDOs") {
   SyncTable table;
   table.tpdo[0].on(0x181, 252, {0x22FF0008});
   table.tpdo[1].on(0x40000281, 255, {0x22110108});
@@ -345,7 +345,7 @@ TEST_CASE("PDO merge: the same for a TPDO that is sampled for remote requests (f
 #endif
 
 #if USE_SYNC
-TEST_CASE("PDO merge: what a Read function changes of the TPDO that is being filled is part of it (flag A)") {
+TEST_CASE("PDO merge: an object (flag A) that a Read function changes is sent with the TPDO that is being filled") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 0, {0x22FF0008, 0x22110108});
   SyncNode node(table, add_meddling);

@@ -36,7 +36,7 @@ bool sent(PdoNode& node, std::uint16_t index, std::uint8_t sub) {
   return was;
 }
 
-TEST_CASE("PDO passed: an RPDO and each of its objects, once each, independently") {
+TEST_CASE("PDO flags: an RPDO and each of its objects are marked as received once, independently") {
   PdoNode node(both());
   node.start();
   CHECK_FALSE(received(node, 0));
@@ -56,7 +56,7 @@ TEST_CASE("PDO passed: an RPDO and each of its objects, once each, independently
   CHECK_FALSE(received(node, 0));
 }
 
-TEST_CASE("PDO passed: a TPDO and each of its objects, once each, independently") {
+TEST_CASE("PDO flags: a TPDO and each of its objects are marked as sent once, independently") {
   PdoNode node(both());
   node.start();
   CHECK_FALSE(sent(node, 0));
@@ -73,7 +73,7 @@ TEST_CASE("PDO passed: a TPDO and each of its objects, once each, independently"
   CHECK_FALSE(received(node, 0x2201, 3));
 }
 
-TEST_CASE("PDO passed: what does not exist has not passed") {
+TEST_CASE("PDO flags: missing PDOs and objects are not marked") {
   PdoNode node(both());
   node.start();
   CHECK_FALSE(CORPdoWasReceived(nullptr, 0));
@@ -90,7 +90,7 @@ TEST_CASE("PDO passed: what does not exist has not passed") {
   CHECK_FALSE(sent(node, 0x1000, 0));
 }
 
-TEST_CASE("PDO passed: what is refused has not passed: short frames, full queues, Pre-operational, COPdoReceive") {
+TEST_CASE("PDO flags: short frames, full queues, Pre-operational and consumed frames are not marked") {
   PdoNode node(both(), [](Setup& setup) { setup.tx_queue(1); });
   node.rx("201#010203");
   CHECK_FALSE(received(node, 0));
@@ -114,7 +114,7 @@ TEST_CASE("PDO passed: what is refused has not passed: short frames, full queues
   node.tx("123#01");
 }
 
-TEST_CASE("PDO passed: a TPDO that waits for the controller is sent") {
+TEST_CASE("PDO flags: a TPDO that is queued for the controller is marked as sent") {
   PdoNode node(both());
   node.start();
   node.can.refuse_all();
@@ -126,7 +126,7 @@ TEST_CASE("PDO passed: a TPDO that waits for the controller is sent") {
   CHECK_FALSE(sent(node, 0));
 }
 
-TEST_CASE("PDO passed: an event that waits for the inhibit time is not sent yet") {
+TEST_CASE("PDO flags: an event within the inhibit time is not marked as sent") {
   PdoTable table = both();
   table.tpdo[0].inhibit = 1000;
   PdoNode node(table);
@@ -141,7 +141,7 @@ TEST_CASE("PDO passed: an event that waits for the inhibit time is not sent yet"
   CHECK(sent(node, 0));
 }
 
-TEST_CASE("PDO passed: an object of several PDOs, and twice in one") {
+TEST_CASE("PDO flags: an object in several PDOs or twice in one is marked") {
   if (fixture_rpdos < 2 || fixture_tpdos < 2) {
     return;
   }
@@ -168,7 +168,7 @@ TEST_CASE("PDO passed: an object of several PDOs, and twice in one") {
   CHECK_FALSE(sent(node, 0x2201, 1));
 }
 
-TEST_CASE("PDO passed: switching a PDO off and on, or mapping it anew, forgets") {
+TEST_CASE("PDO flags: switching a PDO off and on or mapping it anew clears them") {
   PdoNode node(both());
   node.start();
   node.rx("201#010203");
@@ -182,7 +182,7 @@ TEST_CASE("PDO passed: switching a PDO off and on, or mapping it anew, forgets")
   CHECK_FALSE(sent(node, 0x2201, 3));
 }
 
-TEST_CASE("PDO passed: a reset forgets") {
+TEST_CASE("PDO flags: a reset clears them") {
   PdoNode node(both());
   node.start();
   node.rx("201#010203");
@@ -197,7 +197,7 @@ TEST_CASE("PDO passed: a reset forgets") {
 }
 
 #if USE_SYNC
-TEST_CASE("PDO passed: synchronous ones have passed at the SYNC") {
+TEST_CASE("PDO flags: synchronous PDOs are marked at the SYNC") {
   SyncTable table;
   table.rpdo[0].on(0x201, 1, {0x22010108});
   table.tpdo[0].on(0x40000181, 1, {0x22010308});
@@ -220,7 +220,7 @@ TEST_CASE("PDO passed: synchronous ones have passed at the SYNC") {
 }
 #endif
 
-TEST_CASE("PDO passed: every object of a PDO of eight") {
+TEST_CASE("PDO flags: every object of a PDO of eight is marked") {
   PdoTable table;
   const std::initializer_list<std::uint32_t> eight = {0x22010108, 0x22010208, 0x22010308, 0x22010408,
                                                       0x22010508, 0x22010608, 0x22010708, 0x22010808};

@@ -11,7 +11,7 @@ using namespace test;
 
 #if CO_RPDO_N < 512 && CO_TPDO_N < 512
 
-TEST_CASE("PDO place: an entry of a PDO beyond the configuration keeps the node from starting [D6]") {
+TEST_CASE("PDO place: an entry of a PDO beyond the configuration prevents the start of the node [D6]") {
   struct Beyond {
     std::uint16_t index;
     std::uint8_t sub;
@@ -43,7 +43,7 @@ TEST_CASE("PDO place: an entry of a PDO beyond the configuration keeps the node 
 
 #endif
 
-TEST_CASE("PDO place: a type of a PDO entry at a wrong place keeps the node from starting [D6]") {
+TEST_CASE("PDO place: a type of a PDO entry at a wrong index prevents the start of the node [D6]") {
   struct Wrong {
     std::uint16_t index;
     std::uint8_t sub;
@@ -68,7 +68,7 @@ TEST_CASE("PDO place: a type of a PDO entry at a wrong place keeps the node from
 
 #else
 
-TEST_CASE("PDO place: without USE_DICT_CHECK entries of PDOs that do not exist reach no PDO") {
+TEST_CASE("PDO place: without USE_DICT_CHECK entries of PDOs beyond the configuration access no PDO") {
   struct Beyond {
     std::uint16_t index;
     std::uint8_t sub;

@@ -127,18 +127,18 @@ void try_all(const char* command, bool busy) {
   }
 }
 
-TEST_CASE("PDO reset: after reset communication, wherever it comes, as switched on [T14]") {
+TEST_CASE("PDO reset: reset communication at any time gives the state after power-on [T14]") {
   try_all("000#8201", false);
 }
 
-TEST_CASE("PDO reset: after reset node, wherever it comes, as switched on [T14]") { try_all("000#8101", false); }
+TEST_CASE("PDO reset: reset node at any time gives the state after power-on [T14]") { try_all("000#8101", false); }
 
-TEST_CASE("PDO reset: the same with frames that wait for the controller, which are of the old life [T14]") {
+TEST_CASE("PDO reset: a reset drops frames that are queued for the controller [T14]") {
   try_all("000#8201", true);
   try_all("000#8101", true);
 }
 
-TEST_CASE("PDO reset: a stop, wherever it comes, leaves no timer and no frame; CONodeInit begins anew [T14]") {
+TEST_CASE("PDO reset: a stop at any time leaves no timer and no frame; CONodeInit starts anew [T14]") {
   for (const Scenario& scenario : scenarios()) {
     for (const bool busy : {false, true}) {
       for (std::size_t steps = 0; steps <= scenario.frames.size(); steps += stride(5)) {
@@ -163,7 +163,7 @@ TEST_CASE("PDO reset: a stop, wherever it comes, leaves no timer and no frame; C
   }
 }
 
-TEST_CASE("PDO reset: a reset that the application asks for leaves PDO timers of one life only [T14] [D38]") {
+TEST_CASE("PDO reset: a reset by the application leaves no timer from before it [T14] [D38]") {
   SyncNode node(table_of(true));
   configure_as(node);
   node.start();

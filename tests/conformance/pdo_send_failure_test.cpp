@@ -44,7 +44,7 @@ std::vector<std::string> session(SyncNode& node) {
   return all;
 }
 
-TEST_CASE("PDO send failure: nothing is lost, whichever frame the driver refuses, once or a few times [T12]") {
+TEST_CASE("PDO send failure: no PDO is lost, whichever frames the driver refuses [T12]") {
   SyncNode undisturbed(table_of());
   const std::vector<std::string> expected = session(undisturbed);
   CHECK(expected.size() == 5 + 3 + 3 + 1);
@@ -65,7 +65,7 @@ TEST_CASE("PDO send failure: nothing is lost, whichever frame the driver refuses
   }
 }
 
-TEST_CASE("PDO send failure: a TPDO that waits is overtaken by its own newer values, not doubled [T12]") {
+TEST_CASE("PDO send failure: a queued TPDO is replaced by its newer values [T12]") {
   SyncNode node(table_of());
   node.frames_per_call(16);
   node.start();
@@ -79,7 +79,7 @@ TEST_CASE("PDO send failure: a TPDO that waits is overtaken by its own newer val
   node.tx("181#64");
 }
 
-TEST_CASE("PDO send failure: one SYNC waits at most, and it is the newest; PDOs wait behind it [T12] [Q4]") {
+TEST_CASE("PDO send failure: at most one SYNC, the newest, is queued, before the PDOs [T12] [Q4]") {
   SyncTable table = table_of();
   table.counter = 10;
   table.tpdo[2].event = 0;
@@ -94,7 +94,7 @@ TEST_CASE("PDO send failure: one SYNC waits at most, and it is the newest; PDOs 
   node.tx({"080#03", "281#21"});
 }
 
-TEST_CASE("PDO send failure: SDO answers, EMCY and heartbeats find a place where TPDOs have filled theirs [T12] [Q4]") {
+TEST_CASE("PDO send failure: SDO answers, EMCY and heartbeats are queued although TPDOs fill their part [T12] [Q4]") {
   for (const std::uint16_t queue : std::initializer_list<std::uint16_t>{1, 2, 4, 8, 32}) {
     CAPTURE(queue);
     SyncTable table = table_of();
@@ -127,8 +127,7 @@ TEST_CASE("PDO send failure: SDO answers, EMCY and heartbeats find a place where
   }
 }
 
-TEST_CASE(
-    "PDO send failure: TPDOs that a full queue refuses are counted, and come again with the next event [T12] [X12]") {
+TEST_CASE("PDO send failure: TPDOs that a full queue refuses are counted and sent with the next event [T12] [X12]") {
   SyncNode node(table_of(), [](Setup& setup) { setup.tx_queue(2); });
   node.frames_per_call(16);
   node.start();
@@ -149,7 +148,7 @@ TEST_CASE(
   node.tx("181#43");
 }
 
-TEST_CASE("PDO send failure: type 0 that a full queue refuses stays marked for the next SYNC [X1] [T12]") {
+TEST_CASE("PDO send failure: type 0 that a full queue refuses is sent with the next SYNC [X1] [T12]") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 0, {0x22110108});
   SyncNode node(table, [](Setup& setup) { setup.tx_queue(1); });
@@ -167,7 +166,7 @@ TEST_CASE("PDO send failure: type 0 that a full queue refuses stays marked for t
   node.silent();
 }
 
-TEST_CASE("PDO send failure: when the queue is empty again the node has no deadline") {
+TEST_CASE("PDO send failure: an empty queue requires no deadline") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22110108});
   SyncNode node(table);

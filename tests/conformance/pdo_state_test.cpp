@@ -49,18 +49,18 @@ void stir(SyncNode& node) {
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("PDO state: nothing moves in Pre-operational [N3] [X9] [PDO 15] [PDO 16] [PDO 20]") {
+TEST_CASE("PDO state: no PDO is processed in Pre-operational [N3] [X9] [PDO 15] [PDO 16] [PDO 20]") {
   SyncNode node(all_kinds());
   stir(node);
 }
 
-TEST_CASE("PDO state: nothing moves in Stopped [N3] [X9] [PDO 09] [PDO 14] [State 04]") {
+TEST_CASE("PDO state: no PDO is processed in Stopped [N3] [X9] [PDO 09] [PDO 14] [State 04]") {
   SyncNode node(all_kinds());
   node.rx("000#0201");
   stir(node);
 }
 
-TEST_CASE("PDO state: nothing moves after Operational, in either state [N3] [N11]") {
+TEST_CASE("PDO state: no PDO is processed after leaving Operational for either state [N3] [N11]") {
   for (const char* command : {"000#8001", "000#0201", "000#8201", "000#8101"}) {
     CAPTURE(std::string(command));
     SyncNode node(all_kinds());
@@ -78,7 +78,7 @@ TEST_CASE("PDO state: nothing moves after Operational, in either state [N3] [N11
   }
 }
 
-TEST_CASE("PDO state: entering Operational again begins as the first time, from wherever [N11]") {
+TEST_CASE("PDO state: entering Operational again has the effect of the first time, from every state [N11]") {
   const auto play = [](SyncNode& node) {
     std::vector<std::string> all;
     const auto note = [&] {
@@ -118,7 +118,7 @@ TEST_CASE("PDO state: entering Operational again begins as the first time, from 
   }
 }
 
-TEST_CASE("PDO state: commands to the state that the node has change nothing [N7]") {
+TEST_CASE("PDO state: commands to the present state change nothing [N7]") {
   SyncNode node(all_kinds());
   node.start();
   node.rx("080#");
@@ -137,8 +137,7 @@ TEST_CASE("PDO state: commands to the state that the node has change nothing [N7
   node.tx_at(110ms, "181#11");  // the inhibit time continues outside of Operational
 }
 
-TEST_CASE(
-    "PDO state: TPDOs that wait for the controller are withdrawn, in every direction; other frames are not [N3]") {
+TEST_CASE("PDO state: leaving Operational withdraws queued TPDOs and no other frames [N3]") {
   for (const char* command : {"000#8001", "000#0201"}) {
     CAPTURE(std::string(command));
     SyncNode node(all_kinds(), [](Setup& setup) { setup.heartbeat(1000); });
@@ -156,7 +155,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("PDO state: a reset withdraws TPDOs that wait; nothing of the old life follows the boot-up [N3] [T14]") {
+TEST_CASE("PDO state: a reset withdraws queued TPDOs; no earlier frame follows the boot-up [N3] [T14]") {
   for (const char* command : {"000#8101", "000#8201"}) {
     SyncNode node(all_kinds());
     node.start();
@@ -191,7 +190,7 @@ TEST_CASE("PDO state: a stop of the node leaves no timer and no frame") {
   node.silent();
 }
 
-TEST_CASE("PDO state: before CONodeStart nothing moves, and no timer runs [N3]") {
+TEST_CASE("PDO state: before CONodeStart no PDO is processed and no timer runs [N3]") {
   SyncTable table = all_kinds();
   table.sync_id = 0x40000080;
   table.cycle = 10000;
@@ -202,7 +201,7 @@ TEST_CASE("PDO state: before CONodeStart nothing moves, and no timer runs [N3]")
   node.silent();
 }
 
-TEST_CASE("PDO state: bus-off withdraws synchronous TPDOs, not the event-driven ones [Q5]") {
+TEST_CASE("PDO state: bus-off withdraws synchronous TPDOs, not event-driven ones [Q5]") {
   SyncNode node(all_kinds());
   node.start();
   node.can.refuse_all();

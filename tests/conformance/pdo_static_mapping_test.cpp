@@ -88,7 +88,7 @@ constexpr std::uint32_t two_bytes[] = {0x22010108, 0x22010208};
 const Constant right_rpdo{0x1600, 2, {two_bytes[0], two_bytes[1]}};
 const Constant right_tpdo{0x1A00, 2, {two_bytes[0], two_bytes[1]}};
 
-TEST_CASE("PDO static: a right one works [M9]") {
+TEST_CASE("PDO static: a correct one works [M9]") {
   Static node({right_rpdo, right_tpdo});
   CHECK(node.error() == CO_ERR_NONE);
   node.check_others();
@@ -102,7 +102,7 @@ TEST_CASE("PDO static: a right one works [M9]") {
   CHECK(node.set(0x1A00, 1, 4, 0) == 0x06010002);
 }
 
-TEST_CASE("PDO static: one with bit 31 is off, and not an error [M9]") {
+TEST_CASE("PDO static: one with bit 31 is off and not an error [M9]") {
   Static node({{0x1600, 0, {}}, {0x1A00, 200, {0x30000108}}}, 0x80000201, 0xC0000181);
   CHECK(node.error() == CO_ERR_NONE);
   node.check_others();
@@ -145,7 +145,7 @@ const Constant wrong_mappings[] = {
     {0, 1, {0xFFFFFFFF}},
 };
 
-TEST_CASE("PDO static: a wrong mapping of an RPDO makes it not exist, and is the node's error [M9] [D37]") {
+TEST_CASE("PDO static: a wrong mapping disables the RPDO and sets the node error [M9] [D37]") {
   std::vector<Constant> wrong(std::begin(wrong_mappings), std::end(wrong_mappings));
   wrong.push_back({0, 1, {0x22210108}});  // read-only
   wrong.push_back({0, 2, {0x22010108, 0x22220110}});
@@ -164,7 +164,7 @@ TEST_CASE("PDO static: a wrong mapping of an RPDO makes it not exist, and is the
   }
 }
 
-TEST_CASE("PDO static: a wrong mapping of a TPDO makes it not exist, and is the node's error [M9] [D36] [D37]") {
+TEST_CASE("PDO static: a wrong mapping disables the TPDO and sets the node error [M9] [D36] [D37]") {
   std::vector<Constant> wrong(std::begin(wrong_mappings), std::end(wrong_mappings));
   wrong.push_back({0, 1, {0x22310108}});  // write-only
   wrong.push_back({0, 2, {0x22010108, 0x22320110}});
@@ -212,7 +212,7 @@ TEST_CASE("PDO static: without entries of the mapping a PDO does not exist [M9]"
   }
 }
 
-TEST_CASE("PDO static: a COB-ID that the network must not write makes the PDO not exist [M9] [P4] [P5]") {
+TEST_CASE("PDO static: a COB-ID that cannot be written by SDO disables the PDO [M9] [P4] [P5]") {
   for (const std::uint32_t id : {0x00000000U, 0x00000001U, 0x0000007FU, 0x00000101U, 0x00000180U, 0x00000581U,
                                  0x00000601U, 0x0000067FU, 0x000006E0U, 0x000006FFU, 0x00000701U, 0x000007FFU,
                                  0x00000800U, 0x00000A01U, 0x10000201U, 0x1FFFFFFFU, 0x20000000U}) {
@@ -239,7 +239,7 @@ TEST_CASE("PDO static: a COB-ID that the network must not write makes the PDO no
   }
 }
 
-TEST_CASE("PDO static: relative to the node-ID, a COB-ID that comes out as restricted is wrong [M9] [P5]") {
+TEST_CASE("PDO static: a COB-ID that is restricted with the node-ID added disables the PDO [M9] [P5]") {
   if (CO_RESTRICTED_IDS != 0) {
     return;
   }
@@ -255,7 +255,7 @@ TEST_CASE("PDO static: relative to the node-ID, a COB-ID that comes out as restr
   CHECK(node.u8[0] == 0x11);
 }
 
-TEST_CASE("PDO static: a transmission type that the network must not write makes the PDO not exist [M9] [P7] [P8]") {
+TEST_CASE("PDO static: a transmission type that cannot be written by SDO disables the PDO [M9] [P7] [P8]") {
   for (unsigned type = 241; type <= 253; ++type) {
     CAPTURE(type);
     Static node({right_rpdo, right_tpdo}, 0x201, 0x40000181, static_cast<std::uint8_t>(type));
@@ -303,7 +303,7 @@ TEST_CASE("PDO static: constant entries may map objects without flag P") {
   check_works(node);
 }
 
-TEST_CASE("PDO static: objects without flag P work after resets, and when the PDO was off meanwhile") {
+TEST_CASE("PDO static: objects without flag P work after resets and after the PDO was off") {
   PdoNode node(without_flag_p());
   CHECK(node.error() == CO_ERR_NONE);
   check_works(node);
@@ -323,7 +323,7 @@ TEST_CASE("PDO static: objects without flag P work after resets, and when the PD
   }
 }
 
-TEST_CASE("PDO static: the network does not map objects without flag P, also where the table did: 0604 0041h [M5]") {
+TEST_CASE("PDO static: SDO cannot map objects without flag P, also if the table maps them: 0604 0041h [M5]") {
   for (const std::string reset : {"", "000#8201", "000#8101"}) {
     CAPTURE(reset);
     PdoNode node(without_flag_p());
@@ -354,7 +354,7 @@ TEST_CASE("PDO static: the network does not map objects without flag P, also whe
   }
 }
 
-TEST_CASE("PDO static: another number of entries is the network's mapping, the same number is the table's [M1]") {
+TEST_CASE("PDO static: sub 0 accepts the number of the table; another number needs objects with flag P [M1]") {
   PdoNode node(without_flag_p());
   node.start();
   CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
@@ -367,7 +367,7 @@ TEST_CASE("PDO static: another number of entries is the network's mapping, the s
   CHECK(node.get(0x1A00, 0) == 0);
 }
 
-TEST_CASE("PDO static: without flag P, access rights and lengths are checked as with it [M9]") {
+TEST_CASE("PDO static: access rights and lengths of objects without flag P are checked [M9]") {
   for (const std::uint32_t word : {0x22410110U, 0x22410104U, 0x22410208U, 0x30000108U}) {
     CAPTURE(word);
     CHECK(Static({{0x1600, 1, {word}}, right_tpdo}).error() == CO_ERR_RPDO_MAP_OBJ);
@@ -390,7 +390,7 @@ TEST_CASE("PDO static: without flag P, access rights and lengths are checked as 
   CHECK(error_with(CO_OBJ_____R_, {0x1A00, 1, {0x21000008}}) == CO_ERR_NONE);
 }
 
-TEST_CASE("PDO static: an object without flag P is an event for the TPDOs that map it") {
+TEST_CASE("PDO static: a change of an object without flag P triggers the TPDOs that map it") {
   PdoNode node(without_flag_p());
   node.start();
   node.call([&] { COTPdoTrigObj(node->TPdo, node.find(0x2241, 1)); });
@@ -401,7 +401,7 @@ TEST_CASE("PDO static: an object without flag P is an event for the TPDOs that m
   node.tx("181#111277");
 }
 
-TEST_CASE("PDO static: dummies are mapped in the table as by the network [M8]") {
+TEST_CASE("PDO static: dummies may be mapped in the table like by SDO [M8]") {
   Static node(
       {{0x1600, 8, {0x00020008, 0x00050008, 0x00020008, 0x00050008, 0x00020008, 0x00050008, 0x00020008, 0x22010108}}});
   CHECK(node.error() == CO_ERR_TPDO_MAP_OBJ);  // TPDO 0 has no mapping
@@ -410,7 +410,7 @@ TEST_CASE("PDO static: dummies are mapped in the table as by the network [M8]") 
   CHECK(node.u8[0] == 0xA8);
 }
 
-TEST_CASE("PDO static: what was wrong at start is found again after a reset communication [M9]") {
+TEST_CASE("PDO static: a fault at start is detected again after a reset communication [M9]") {
   Static node({right_rpdo, {0x1A00, 1, {0x22020108}}});
   CHECK(node.error() == CO_ERR_TPDO_MAP_OBJ);
   CHECK(node.error() == CO_ERR_NONE);
@@ -421,7 +421,7 @@ TEST_CASE("PDO static: what was wrong at start is found again after a reset comm
   node.check_no_tpdo();
 }
 
-TEST_CASE("PDO static: a PDO with a wrong mapping cannot be switched on by the network: 0609 0030h [M9] [P6]") {
+TEST_CASE("PDO static: a PDO with a wrong mapping cannot be switched on by SDO: 0609 0030h [M9] [P6]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22020108});
   table.tpdo[0].on(0x40000181, 254, {0x22020108});
@@ -437,7 +437,7 @@ TEST_CASE("PDO static: a PDO with a wrong mapping cannot be switched on by the n
   node.silent();
 }
 
-TEST_CASE("PDO static: the procedure repairs a mapping that was wrong at start [M1] [M9]") {
+TEST_CASE("PDO static: the re-mapping procedure repairs a mapping that was wrong at start [M1] [M9]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22020108});
   table.tpdo[0].on(0x40000181, 254, {0x22020108});
@@ -451,7 +451,7 @@ TEST_CASE("PDO static: the procedure repairs a mapping that was wrong at start [
   node.tx("181#2122");
 }
 
-TEST_CASE("PDO static: entries may be plain numbers") {
+TEST_CASE("PDO static: entries may have basic types") {
   PdoNode node({}, [](Setup& setup) {
     setup.with({CO_KEY(0x1400, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x201});
     setup.with({CO_KEY(0x1400, 2, CO_OBJ_D___R_), CO_TUNSIGNED8, 255});

@@ -48,7 +48,7 @@ std::vector<std::string> play(std::uint32_t rate, std::uint32_t clock, Wake wake
   return all;
 }
 
-TEST_CASE("PDO time: identical traces at every frequency and at every start of the clock [T15]") {
+TEST_CASE("PDO time: the trace does not depend on frequency and start of the clock [T15]") {
   const std::vector<std::string> expected = play(1000, 0, Wake::alarm);
   CHECK(expected.size() >= 25);
   for (const std::uint32_t rate : clock_rates) {
@@ -60,7 +60,7 @@ TEST_CASE("PDO time: identical traces at every frequency and at every start of t
   }
 }
 
-TEST_CASE("PDO time: identical traces whether the loop polls, or sleeps until the alarm or the next deadline [T15]") {
+TEST_CASE("PDO time: the trace is identical for a polling loop and one that sleeps until alarm or deadline [T15]") {
   const std::vector<std::string> expected = play(1000, 0, Wake::alarm);
   for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
     for (const std::uint32_t start : clock_starts) {
@@ -72,7 +72,7 @@ TEST_CASE("PDO time: identical traces whether the loop polls, or sleeps until th
   }
 }
 
-TEST_CASE("PDO time: jumps of 1 ms to 10 s: one frame of each kind at most, no phase lost [T15] [Q8]") {
+TEST_CASE("PDO time: after jumps of 1 ms to 10 s at most one frame of each kind is sent, in phase [T15] [Q8]") {
   for (const auto jump : {1ms, 249ms, 250ms, 251ms, 500ms, 1000ms, 1001ms, 9999ms, 10000ms}) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(jump.count());
@@ -99,7 +99,7 @@ TEST_CASE("PDO time: jumps of 1 ms to 10 s: one frame of each kind at most, no p
   }
 }
 
-TEST_CASE("PDO time: the next deadline is the next thing that PDOs and SYNC have to do") {
+TEST_CASE("PDO time: CONodeNextDeadline is the next action of PDOs and SYNC") {
   SyncTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108}).event = 70;
   table.tpdo[0].on(0x40000181, 255, {0x22110108}).event = 100;

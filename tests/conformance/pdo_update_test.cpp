@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("PDO callback: COPdoReceive sees each RPDO and may change its data") {
+TEST_CASE("PDO callback: COPdoReceive is called for each RPDO and may change its data") {
   SyncNode node(asynchronous());
   node.start();
   std::vector<std::string> seen;
@@ -24,7 +24,7 @@ TEST_CASE("PDO callback: COPdoReceive sees each RPDO and may change its data") {
   CHECK(node.u8[1] == 0xEE);
 }
 
-TEST_CASE("PDO callback: what COPdoReceive takes is not written, now or at the SYNC") {
+TEST_CASE("PDO callback: a frame that COPdoReceive consumes is not written, then or at the SYNC") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     for (const std::int16_t answer : std::initializer_list<std::int16_t>{1, -1}) {
       SyncNode node(table_of(type));
@@ -43,7 +43,7 @@ TEST_CASE("PDO callback: what COPdoReceive takes is not written, now or at the S
   }
 }
 
-TEST_CASE("PDO callback: COPdoReceive does not see what is too short, or comes in another state [X5] [X9]") {
+TEST_CASE("PDO callback: COPdoReceive is not called for frames that are too short or in another state [X5] [X9]") {
   SyncNode node(asynchronous());
   unsigned calls = 0;
   callbacks().pdo_receive = [&](CO_IF_FRM*) { return ++calls, std::int16_t{0}; };
@@ -54,7 +54,7 @@ TEST_CASE("PDO callback: COPdoReceive does not see what is too short, or comes i
   CHECK(calls == 0);
 }
 
-TEST_CASE("PDO callback: COPdoReceive that leaves Operational: nothing is written after that [Q9] [X9]") {
+TEST_CASE("PDO callback: if COPdoReceive leaves Operational nothing is written [Q9] [X9]") {
   for (const std::string& what : commands) {
     if (what.compare(0, 5, "reset") == 0) {
       continue;  // a reset is deferred until the frame is processed
@@ -81,7 +81,7 @@ TEST_CASE("PDO callback: COPdoReceive that leaves Operational: nothing is writte
   }
 }
 
-TEST_CASE("PDO callback: COPdoReceive that switches the PDO off, or maps it anew [Q9]") {
+TEST_CASE("PDO callback: COPdoReceive may switch the PDO off or map it anew [Q9]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     SyncNode node(table_of(type));
     node.may_change(0x1400, 1);
@@ -99,7 +99,7 @@ TEST_CASE("PDO callback: COPdoReceive that switches the PDO off, or maps it anew
   }
 }
 
-TEST_CASE("PDO callback: COPdoUpdate gets the written RPDO, COPdoSyncUpdate only synchronous ones") {
+TEST_CASE("PDO callback: COPdoUpdate is called for written RPDOs, COPdoSyncUpdate for synchronous ones only") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     SyncNode node(table_of(type));
     node.start();
@@ -119,7 +119,7 @@ TEST_CASE("PDO callback: COPdoUpdate gets the written RPDO, COPdoSyncUpdate only
   }
 }
 
-TEST_CASE("PDO callback: COPdoUpdate may trigger TPDOs, write objects, and ask for any state [Q9]") {
+TEST_CASE("PDO callback: COPdoUpdate may trigger TPDOs, write objects and request any state [Q9]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     for (const std::string& what : commands) {
       CAPTURE(what);
@@ -141,7 +141,7 @@ TEST_CASE("PDO callback: COPdoUpdate may trigger TPDOs, write objects, and ask f
   }
 }
 
-TEST_CASE("PDO callback: COPdoSyncUpdate that switches RPDOs off and on loses none and repeats none [Q9]") {
+TEST_CASE("PDO callback: COPdoSyncUpdate that switches RPDOs off and on loses and repeats none [Q9]") {
   SyncNode node(table_of(1));
   node.may_change(0x1400, 1);
   node.may_change(0x1401, 1);
@@ -167,7 +167,7 @@ TEST_CASE("PDO callback: COPdoSyncUpdate that switches RPDOs off and on loses no
   CHECK(updates <= 6);
 }
 
-TEST_CASE("PDO callback: COPdoUpdate may answer with an SDO client's request or an application frame [Q9]") {
+TEST_CASE("PDO callback: COPdoUpdate may start an SDO client request or send a frame [Q9]") {
   SyncNode node(asynchronous());
   node.start();
   callbacks().pdo_update = [&](CO_RPDO*) {

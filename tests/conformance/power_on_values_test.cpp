@@ -70,7 +70,7 @@ struct Device {
                          CO_DEFAULTS_END};
 };
 
-TEST_CASE("power-on values: CONodeInit() sets them before a service uses them [301:7.3.2.2.1]") {
+TEST_CASE("power-on values: CONodeInit() sets them before a service reads them [301:7.3.2.2.1]") {
   Device device;
   Fixture node(device.setup());
   node.after(100ms);
@@ -80,7 +80,7 @@ TEST_CASE("power-on values: CONodeInit() sets them before a service uses them [3
   node.ask("601#4000230300000000", "581#4F00230300000000");
 }
 
-TEST_CASE("power-on values: reset communication sets 1017h, and the heartbeat has its default period") {
+TEST_CASE("power-on values: reset communication sets 1017h to its default period") {
   Device device;
   Fixture node(device.setup());
   node.rx("601#2B171000FA000000");
@@ -110,7 +110,7 @@ TEST_CASE("power-on values: objects of the application keep their values at rese
   node.ask("601#4000230300000000", "581#4F00230300000000");
 }
 
-TEST_CASE("power-on values: reset node sets those of reset communication, too, and a string with its length") {
+TEST_CASE("power-on values: reset node also sets those of reset communication, and a string with its length") {
   Device device;
   Fixture node(device.setup());
   node.frames();
@@ -123,7 +123,7 @@ TEST_CASE("power-on values: reset node sets those of reset communication, too, a
   node.ask("601#4017100000000000", "581#4B17100064000000");
 }
 
-TEST_CASE("power-on values: the application's resets are like those of the network") {
+TEST_CASE("power-on values: resets by the application set them like those of the NMT master") {
   Device device;
   Fixture node(device.setup());
   node.frames();
@@ -140,7 +140,7 @@ TEST_CASE("power-on values: the application's resets are like those of the netwo
 }
 
 #if CO_RPDO_N > 0
-TEST_CASE("power-on values: a PDO that the network has mapped anew is mapped as by default after reset communication") {
+TEST_CASE("power-on values: a PDO that was mapped anew by SDO has its default mapping after reset communication") {
   Device device;
   Fixture node(device.setup());
   node.rx("000#0101");
@@ -167,7 +167,7 @@ TEST_CASE("power-on values: a PDO that the network has mapped anew is mapped as 
 #endif
 
 #if USE_PARA
-TEST_CASE("power-on values: what a parameter group has stored comes after the default values") {
+TEST_CASE("power-on values: a parameter group is loaded after the default values are set") {
   Device device;
   FailingNvm nvm{{1024, 1, 0}};
   CO_PARA group = {0, sizeof device.app.value, &device.app.value, nullptr, CO_RESET_NODE, nullptr, CO_PARA___E};
@@ -202,7 +202,7 @@ CO_ERR note_reset(CO_OBJ* end, CO_NODE* node, std::uint32_t type) {
   return CO_ERR_NONE;
 }
 
-TEST_CASE("power-on values: a type of the application in the end mark is called at power-on and by each NMT reset") {
+TEST_CASE("power-on values: an application-defined type in the end mark is called at power-on and by each NMT reset") {
   const CO_OBJ_TYPE type = {nullptr, nullptr, nullptr, nullptr, note_reset};
   Calls calls;
   Fixture node(Setup()
@@ -223,7 +223,7 @@ TEST_CASE("power-on values: a type of the application in the end mark is called 
   CHECK(calls.found[1] == 250);
 }
 
-TEST_CASE("power-on values: an end mark with what is left of an entry, or without a list, sets nothing") {
+TEST_CASE("power-on values: an end mark with members of an entry or without a list sets nothing") {
   Device device;
   const CO_OBJ_TYPE without_reset = {nullptr, nullptr, nullptr, nullptr, nullptr};
   std::uint8_t byte = 0;
@@ -242,7 +242,7 @@ TEST_CASE("power-on values: an end mark with what is left of an entry, or withou
   }
 }
 
-TEST_CASE("power-on values: an end mark that DictLen does not count is not read") {
+TEST_CASE("power-on values: an end mark beyond DictLen is not read") {
   Device device;
   device.com.heartbeat = 0;
   device.com.number = 0;

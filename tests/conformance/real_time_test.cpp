@@ -19,7 +19,7 @@ SyncTable pdos() {
 
 std::uint64_t waiting(const RealTimeNode& node) { return CORingCount(&node.ring); }
 
-TEST_CASE("real time: RPDOs and SYNC are served by CONodeRealTime, which reads all frames, and nothing by the other") {
+TEST_CASE("real time: CONodeRealTime processes RPDOs and SYNC and reads all frames; CONodeProcess reads none") {
   RealTimeNode node(pdos());
   node.start();
   for (const char* text : {"201#AA", "301#BB", "080#"}) node.arrive(text);
@@ -34,7 +34,7 @@ TEST_CASE("real time: RPDOs and SYNC are served by CONodeRealTime, which reads a
   CHECK(node.counters().Received == 4);
 }
 
-TEST_CASE("real time: frames of other services wait for CONodeProcess, in their order") {
+TEST_CASE("real time: frames of other services are stored for CONodeProcess in their order") {
   RealTimeNode node(pdos(), [](Setup& setup) { setup.foreign(); });
   for (const char* text : {"601#4000100000000000", "000#0101", "601#4001100000000000", "123#"}) node.arrive(text);
   node.real_time();
@@ -52,7 +52,7 @@ TEST_CASE("real time: frames of other services wait for CONodeProcess, in their 
   CHECK(node.counters().Unclaimed == 1);
 }
 
-TEST_CASE("real time: unrelated frames do not enter the ring") {
+TEST_CASE("real time: unrelated frames are not stored in the ring") {
   RealTimeNode node(pdos());
   unsigned seen = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++seen; };
@@ -69,7 +69,7 @@ TEST_CASE("real time: unrelated frames do not enter the ring") {
   CHECK(node.counters().CanEvents[CO_CAN_OVERRUN] == 0);
 }
 
-TEST_CASE("real time: COIfCanReceive() gets them in the mainline if the node is configured to leave them there") {
+TEST_CASE("real time: COIfCanReceive() gets unrelated frames in the mainline if the node is configured for it") {
   RealTimeNode node(pdos(), [](Setup& setup) { setup.foreign(); });
   std::vector<std::string> seen;
   callbacks().can_receive = [&](CO_IF_FRM* frm) { seen.push_back(notation(*frm)); };
@@ -82,7 +82,7 @@ TEST_CASE("real time: COIfCanReceive() gets them in the mainline if the node is 
   CHECK(node.counters().Unclaimed == 4);
 }
 
-TEST_CASE("real time: a PDO that the NMT state forbids is lost, and comes at no later time behind a newer one") {
+TEST_CASE("real time: a PDO that the NMT state forbids is lost and never processed after a newer one") {
   RealTimeNode node(pdos());
   for (const char* text : {"000#0101", "201#AA"}) node.arrive(text);
   node.real_time();
@@ -97,7 +97,7 @@ TEST_CASE("real time: a PDO that the NMT state forbids is lost, and comes at no 
   CHECK(node.u8[0] == 0xBB);
 }
 
-TEST_CASE("real time: the mainline need not sleep while frames or a reset wait for it") {
+TEST_CASE("real time: CONodeNextDeadline is 0 while frames or a reset are pending for the mainline") {
   RealTimeNode node(pdos());
   node.start();
   CHECK(CONodeNextDeadline(&node.node) != 0);
@@ -115,7 +115,7 @@ TEST_CASE("real time: the mainline need not sleep while frames or a reset wait f
   node.tx("701#00");
 }
 
-TEST_CASE("real time: a node that is stopped forgets the frames that wait: the mainline comes to an end") {
+TEST_CASE("real time: a stopped node discards pending frames and has no deadline") {
   RealTimeNode node(pdos());
   node.start();
   callbacks().pdo_update = [&](CO_RPDO*) { CONodeStop(&node.node); };
@@ -128,7 +128,7 @@ TEST_CASE("real time: a node that is stopped forgets the frames that wait: the m
 }
 
 #if CO_EMCY_CONS_N >= 2
-TEST_CASE("real time: an identifier that a PDO shares with another service is not real-time") {
+TEST_CASE("real time: a CAN-ID that a PDO shares with another service is processed by the mainline") {
   SyncTable table;
   table.rpdo[0].on(0x301, 255, {0x22010108});
   RealTimeNode node(table, [](Setup& setup) {
@@ -153,7 +153,7 @@ TEST_CASE("real time: an identifier that a PDO shares with another service is no
 
 #endif
 
-TEST_CASE("real time: identifiers of 29 bits, remote frames, and a DLC beyond 8") {
+TEST_CASE("real time: 29-bit identifiers, remote frames and a DLC above 8 are handled") {
   SyncTable table;
   table.rpdo[0].on(0x20012345, 255, {0x22080140});
   table.tpdo[0].on(0x181, 253, {0x22010308});
@@ -175,7 +175,7 @@ TEST_CASE("real time: identifiers of 29 bits, remote frames, and a DLC beyond 8"
   node.frames();
 }
 
-TEST_CASE("real time: a frame with a DLC above 15 is counted and dropped; the mainline does not see it") {
+TEST_CASE("real time: a frame with a DLC above 15 is counted and dropped before the ring") {
   SyncTable table;
   table.rpdo[0].on(0x201, 255, {0x22080140});
   RealTimeNode node(table, [](Setup& setup) { setup.foreign(); });
@@ -198,7 +198,7 @@ TEST_CASE("real time: a frame with a DLC above 15 is counted and dropped; the ma
   CHECK(passed_on == 0);
 }
 
-TEST_CASE("real time: reports of the controller are for CONodeProcess") {
+TEST_CASE("real time: events of the controller are processed by CONodeProcess") {
   RealTimeNode node(pdos());
   unsigned events = 0;
   callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
@@ -213,7 +213,7 @@ TEST_CASE("real time: reports of the controller are for CONodeProcess") {
   node.frames();
 }
 
-TEST_CASE("real time: frames that find the ring full are lost, and CONodeProcess reports it, once") {
+TEST_CASE("real time: frames lost by a full ring are reported once by CONodeProcess") {
   RealTimeNode node(pdos());
   unsigned events = 0;
   callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT event) { events += event == CO_CAN_OVERRUN ? 1U : 100U; };
@@ -245,7 +245,7 @@ TEST_CASE("real time: frames that find the ring full are lost, and CONodeProcess
   node.frames();
 }
 
-TEST_CASE("real time: an overrun and a reset that wait are both carried out, and a stopped node waits for neither") {
+TEST_CASE("real time: a pending overrun and a pending reset are both processed; a stopped node has neither") {
   RealTimeNode node(pdos());
   node.start();
   unsigned events = 0;
@@ -271,7 +271,7 @@ TEST_CASE("real time: an overrun and a reset that wait are both carried out, and
   node.silent();
 }
 
-TEST_CASE("real time: COPdoTransmit is called in the context of the event: SYNC and timers, or the mainline") {
+TEST_CASE("real time: COPdoTransmit is called by the thread of the event: SYNC and timers, or mainline") {
   SyncTable table = pdos();
   table.tpdo[2].on(0x40000381, 255, {0x22110108});
   RealTimeNode node(table);
@@ -290,7 +290,7 @@ TEST_CASE("real time: COPdoTransmit is called in the context of the event: SYNC 
   CHECK(node.frames().size() == 3);
 }
 
-TEST_CASE("real time: the SYNC producer and the window are timers of CONodeRealTime [301:7.2.5]") {
+TEST_CASE("real time: CONodeRealTime runs the timers of the SYNC producer and the window [301:7.2.5]") {
   SyncTable table = pdos();
   table.sync_id = 0x40000080;
   table.cycle = 10000;
@@ -310,7 +310,7 @@ TEST_CASE("real time: the SYNC producer and the window are timers of CONodeRealT
   CHECK(node->WindowOver == 1);
 }
 
-TEST_CASE("real time: event time, inhibit time and deadline of PDOs are timers of CONodeRealTime [301:7.2.2.6]") {
+TEST_CASE("real time: CONodeRealTime runs event timer, inhibit time and deadline of PDOs [301:7.2.2.6]") {
   SyncTable table = pdos();
   table.tpdo[0].event = 20;
   table.tpdo[0].inhibit = 50;
@@ -342,7 +342,7 @@ TEST_CASE("real time: event time, inhibit time and deadline of PDOs are timers o
   CHECK(node.frames() == reports({emcy(0x8250, 1)}));
 }
 
-TEST_CASE("real time: all other timers are COTmrProcess()'s, in their order, whatever elapses between them") {
+TEST_CASE("real time: COTmrProcess() runs all other timers in their order") {
   SyncTable table = pdos();
   table.tpdo[0].event = 1;
   RealTimeNode node(table, [](Setup& setup) { setup.heartbeat(3); });
@@ -373,7 +373,7 @@ TEST_CASE("real time: all other timers are COTmrProcess()'s, in their order, wha
   CHECK(runs == std::vector<int>{1, 2, 3});
 }
 
-TEST_CASE("real time: timers of PDOs do not depend on how long the mainline has been away") {
+TEST_CASE("real time: timers of PDOs do not depend on a late mainline") {
   SyncTable table = pdos();
   table.tpdo[0].event = 10;
   table.tpdo[2].on(0x40000381, 255, {0x22010508}).event = 10;
@@ -403,7 +403,7 @@ TEST_CASE("real time: timers of PDOs do not depend on how long the mainline has 
   node.tx({"381#51", "181#31"});
 }
 
-TEST_CASE("real time: the deadline is that of the mainline; what has elapsed for the other thread does not count") {
+TEST_CASE("real time: CONodeNextDeadline ignores elapsed timers of the other thread") {
   SyncTable table = pdos();
   table.tpdo[0].event = 5;
   RealTimeNode node(table, [](Setup& setup) { setup.heartbeat(50); });
@@ -427,7 +427,7 @@ TEST_CASE("real time: the deadline is that of the mainline; what has elapsed for
   node.frames();
 }
 
-TEST_CASE("real time: PDOs that wait for the controller are sent by CONodeRealTime, too") {
+TEST_CASE("real time: CONodeRealTime sends queued PDOs") {
   RealTimeNode node(pdos());
   node.start();
   node.can.refuse_all();
@@ -438,7 +438,7 @@ TEST_CASE("real time: PDOs that wait for the controller are sent by CONodeRealTi
   node.tx("181#31");
 }
 
-TEST_CASE("real time: a reset that a callback of a PDO asks for waits for CONodeProcess") {
+TEST_CASE("real time: a reset that a callback of a PDO requests is carried out by CONodeProcess") {
   RealTimeNode node(pdos());
   node.start();
   callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
@@ -450,7 +450,7 @@ TEST_CASE("real time: a reset that a callback of a PDO asks for waits for CONode
   node.tx("701#00");
 }
 
-TEST_CASE("real time: only CONodeProcess carries out a reset, whatever the threads call meanwhile") {
+TEST_CASE("real time: only CONodeProcess carries out a reset, whatever functions the threads call meanwhile") {
   RealTimeNode node(pdos());
   node.start();
   callbacks().pdo_update = [&](CO_RPDO*) { CONmtReset(&node->Nmt, CO_RESET_COM); };
@@ -475,7 +475,8 @@ TEST_CASE("real time: only CONodeProcess carries out a reset, whatever the threa
   node.tx("701#00");
 }
 
-TEST_CASE("real time: a reset that is asked for outside of the threads' functions, or by a timer, waits, too") {
+TEST_CASE(
+    "real time: a reset that is requested outside of the two threads or by a timer is carried out by CONodeProcess") {
   RealTimeNode node(pdos());
   node.start();
   node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); });
@@ -494,7 +495,7 @@ TEST_CASE("real time: a reset that is asked for outside of the threads' function
   node.tx("701#00");
 }
 
-TEST_CASE("real time: a reset that is left to CONodeProcess does not keep other things waiting") {
+TEST_CASE("real time: a reset that is pending for CONodeProcess does not delay other work") {
   RealTimeNode node(pdos());
   node.start();
   node.may_change(0x1201, 1);
@@ -526,7 +527,7 @@ TEST_CASE("real time: a callback of a PDO that stops the node ends it at once") 
   node.silent();
 }
 
-TEST_CASE("real time: timers of the application go on in a node that was stopped, as with a single thread") {
+TEST_CASE("real time: timers of the application run in a stopped node, as with a single thread") {
   RealTimeNode node(pdos());
   node.start();
   static unsigned runs;
@@ -547,7 +548,7 @@ TEST_CASE("real time: timers of the application go on in a node that was stopped
   CHECK(node.can.to_node.empty());
 }
 
-TEST_CASE("real time: a reset forgets the frames that wait, as the controller does") {
+TEST_CASE("real time: a reset discards stored frames, as the controller does") {
   RealTimeNode node(pdos());
   for (const char* text : {"000#8201", "601#4000100000000000"}) node.arrive(text);
   node.real_time();
@@ -557,7 +558,7 @@ TEST_CASE("real time: a reset forgets the frames that wait, as the controller do
   CHECK(waiting(node) == 0);
 }
 
-TEST_CASE("real time: without a ring CONodeRealTime does nothing, and CONodeProcess everything") {
+TEST_CASE("real time: without a ring CONodeRealTime does nothing and CONodeProcess everything") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   table.tpdo[0].on(0x40000181, 255, {0x22010308}).event = 5;

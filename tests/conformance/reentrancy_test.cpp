@@ -75,7 +75,7 @@ constexpr unsigned plenty = 20;  // limits a recursion, so that it fails the tes
 
 // Resets that are requested during a reset ----------------------------------------------------------------------------
 
-TEST_CASE("re-entrancy: CONmtModeChange asks for a reset during a reset: it is part of it, one boot-up") {
+TEST_CASE("re-entrancy: a reset requested by CONmtModeChange within a reset is part of it: one boot-up") {
   for (const char* command : {"000#8101", "000#8201"}) {
     for (const CO_NMT_RESET asked_for : {CO_RESET_NODE, CO_RESET_COM}) {
       for (const CO_MODE at : {CO_INIT, CO_PREOP}) {
@@ -102,7 +102,7 @@ TEST_CASE("re-entrancy: CONmtModeChange asks for a reset during a reset: it is p
   }
 }
 
-TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset: it is part of it, one boot-up") {
+TEST_CASE("re-entrancy: a reset requested by Init of a type within a reset is part of it: one boot-up") {
   for (const char* command : {"000#8101", "000#8201"}) {
     for (const CO_NMT_RESET asked_for : {CO_RESET_NODE, CO_RESET_COM}) {
       CAPTURE(std::string(command));
@@ -121,7 +121,7 @@ TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset: it is par
   }
 }
 
-TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset of the application: it is part of it") {
+TEST_CASE("re-entrancy: a reset requested by Init of a type within a reset by the application is part of it") {
   Fixture node(scripted());
   script.on_init = [](CO_NODE* n) {
     if (script.inits < plenty) CONmtReset(&n->Nmt, CO_RESET_COM);
@@ -133,7 +133,7 @@ TEST_CASE("re-entrancy: a type's Init asks for a reset during a reset of the app
   check_serves(node);
 }
 
-TEST_CASE("re-entrancy: a reset asked for while the node is initialised or started sends no second boot-up") {
+TEST_CASE("re-entrancy: a reset requested while the node is initialised or started sends no second boot-up") {
   Setup setup = scripted().stay_in_init();
   script.on_init = [](CO_NODE* n) {
     if (script.inits < plenty) CONmtReset(&n->Nmt, CO_RESET_NODE);
@@ -153,7 +153,7 @@ TEST_CASE("re-entrancy: a reset asked for while the node is initialised or start
   check_serves(node);
 }
 
-TEST_CASE("re-entrancy: a reset asked for when the master changes the state follows the change") {
+TEST_CASE("re-entrancy: a reset requested while an NMT command changes the state follows the change") {
   Fixture node;
   std::vector<CO_MODE> modes;
   callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
@@ -173,7 +173,8 @@ void send(Fixture& node, const char* text) {
   node.call([&] { COIfCanSend(&node->If, &frm); });
 }
 
-TEST_CASE("re-entrancy: a write resets the node, the controller is busy: answers, boot-up, then the rest [Q3]") {
+TEST_CASE(
+    "re-entrancy: a write that resets the node while the controller is busy: answer, boot-up, other frames [Q3]") {
   for (const CO_NMT_RESET reset : {CO_RESET_NODE, CO_RESET_COM}) {
     Fixture node(scripted().heartbeat(100).tx_queue(20));
     node.frames_per_call(4);
@@ -194,7 +195,7 @@ TEST_CASE("re-entrancy: a write resets the node, the controller is busy: answers
   }
 }
 
-TEST_CASE("re-entrancy: a reset by the master throws away even what a reset of the application has let through [N4]") {
+TEST_CASE("re-entrancy: a reset by the master drops frames that a reset by the application has kept [N4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -235,7 +236,7 @@ const std::vector<std::vector<Step>>& slow_transfers() {
   return all;
 }
 
-TEST_CASE("re-entrancy: a transfer goes on although its type function works for longer than the time-out [D18]") {
+TEST_CASE("re-entrancy: a transfer continues although its type function runs longer than the time-out [D18]") {
   for (const std::vector<Step>& steps : slow_transfers()) {
     CAPTURE(std::string(steps.back().request));
     Fixture node(scripted());
@@ -247,7 +248,7 @@ TEST_CASE("re-entrancy: a transfer goes on although its type function works for 
   }
 }
 
-TEST_CASE("re-entrancy: after a slow type function the client has its whole time again [D18]") {
+TEST_CASE("re-entrancy: after a slow type function the client has its complete time-out again [D18]") {
   Fixture node(scripted());
   script.on_write = [&](CO_NODE*) { wait(node, 2 * node.sdo_time_out()); };
   node.ask("601#2000300000000000", "581#6000300000000000");
@@ -258,7 +259,7 @@ TEST_CASE("re-entrancy: after a slow type function the client has its whole time
   node.ask("601#1101020304050607", "581#3000000000000000");
 }
 
-TEST_CASE("re-entrancy: a type function that stops and starts SDO leaves a transfer that is still timed out [D18]") {
+TEST_CASE("re-entrancy: a type function that stops and starts SDO leaves a transfer with a running time-out [D18]") {
   for (const std::vector<Step>& steps : {slow_transfers().front(), slow_transfers().back()}) {
     CAPTURE(std::string(steps.back().request));
     Fixture node(scripted());
@@ -277,7 +278,7 @@ TEST_CASE("re-entrancy: a type function that stops and starts SDO leaves a trans
 
 // Stops and changes of state within callbacks -------------------------------------------------------------------------
 
-TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange: the node stays in CO_INVALID, no frame afterwards") {
+TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange: the node stays in CO_INVALID and sends no frame") {
   struct Case {
     const char* command;
     CO_MODE at;
@@ -299,7 +300,7 @@ TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange: the node stays in CO_
   }
 }
 
-TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange after the boot-up: that frame is the last one") {
+TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange after the boot-up: the boot-up is the last frame") {
   Fixture node(Setup().heartbeat(100));
   callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
     if (mode == CO_PREOP) CONodeStop(nmt->Node);
@@ -309,7 +310,7 @@ TEST_CASE("re-entrancy: CONodeStop within CONmtModeChange after the boot-up: tha
   check_stopped(node);
 }
 
-TEST_CASE("re-entrancy: CONodeStop within a type's Init during a reset: no boot-up, the node stays in CO_INVALID") {
+TEST_CASE("re-entrancy: CONodeStop within Init of a type in a reset: no boot-up, the node stays in CO_INVALID") {
   for (const char* command : {"000#8101", "000#8201"}) {
     CAPTURE(std::string(command));
     Fixture node(scripted().heartbeat(100));
@@ -319,7 +320,7 @@ TEST_CASE("re-entrancy: CONodeStop within a type's Init during a reset: no boot-
   }
 }
 
-TEST_CASE("re-entrancy: CONodeStop within a type's Init during CONodeInit: the controller stays off the bus") {
+TEST_CASE("re-entrancy: CONodeStop within Init of a type in CONodeInit: the controller stays off the bus") {
   Setup setup = scripted().heartbeat(100).stay_in_init();
   script.on_init = [](CO_NODE* n) { CONodeStop(n); };
   Fixture node(setup);
@@ -334,7 +335,7 @@ TEST_CASE("re-entrancy: CONodeStop within a write: no answer, the node stays in 
   check_stopped(node);
 }
 
-TEST_CASE("re-entrancy: CONmtSetMode within CONmtModeChange wins") {
+TEST_CASE("re-entrancy: CONmtSetMode within CONmtModeChange determines the final state") {
   Fixture node(Setup().heartbeat(100));
   std::vector<CO_MODE> told;
   callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
@@ -350,7 +351,7 @@ TEST_CASE("re-entrancy: CONmtSetMode within CONmtModeChange wins") {
   node.tx("701#04");
 }
 
-TEST_CASE("re-entrancy: CONmtSetMode within a type's Init is refused with CO_ERR_NMT_MODE") {
+TEST_CASE("re-entrancy: CONmtSetMode within Init of a type is refused with CO_ERR_NMT_MODE") {
   for (const CO_MODE mode : {CO_PREOP, CO_OPERATIONAL, CO_STOP}) {
     CAPTURE(mode);
     Setup setup = scripted().stay_in_init();
@@ -368,7 +369,7 @@ TEST_CASE("re-entrancy: CONmtSetMode within a type's Init is refused with CO_ERR
   }
 }
 
-TEST_CASE("re-entrancy: CONodeStart within a type's Init does nothing") {
+TEST_CASE("re-entrancy: CONodeStart within Init of a type does nothing") {
   Setup setup = scripted().stay_in_init();
   script.on_init = [](CO_NODE* n) { CONodeStart(n); };
   Fixture node(setup);
@@ -399,20 +400,20 @@ class Moved : public Fixture {
   std::vector<CO_OBJ> table_;
 };
 
-TEST_CASE("re-entrancy: the table moves during a transfer: a segment is aborted with 0800 0022h") {
+TEST_CASE("re-entrancy: a table that is moved during a transfer: a segment is aborted with 0800 0022h") {
   Moved node;
   node.ask("601#0001020304050607", "581#8008200022000008");
   node.ask("601#0011223300000000", "581#8011223301000405");
 }
 
-TEST_CASE("re-entrancy: the table moves during a transfer: the client's abort is not answered [D6]") {
+TEST_CASE("re-entrancy: a table that is moved during a transfer: the abort of the client is not answered [D6]") {
   Moved node;
   node.rx("601#8008200000000405");
   node.silent();
   node.ask("601#0011223300000000", "581#8011223301000405");
 }
 
-TEST_CASE("re-entrancy: the table moves during a transfer: a new initiate is served [D8]") {
+TEST_CASE("re-entrancy: a table that is moved during a transfer: a new initiate is processed [D8]") {
   Moved one;
   check_serves(one);
   Moved two;
@@ -433,7 +434,7 @@ struct Resetting {
   unsigned resets = 0;
 };
 
-TEST_CASE("reentrancy: a reset asked for while a function changes the mode is done when that returns") {
+TEST_CASE("re-entrancy: a reset requested while a function changes the mode is carried out after that function") {
   Fixture node;
   Resetting application(CO_OPERATIONAL);
   node.call([&] {
@@ -444,7 +445,7 @@ TEST_CASE("reentrancy: a reset asked for while a function changes the mode is do
   CHECK(node.mode() == CO_PREOP);
 }
 
-TEST_CASE("reentrancy: a reset requested at a bus-off is done after the callback") {
+TEST_CASE("re-entrancy: a reset requested at a bus-off is carried out after the callback") {
   Fixture node;
   node.rx("000#0101");
   Resetting application(CO_PREOP);
@@ -457,7 +458,7 @@ TEST_CASE("reentrancy: a reset requested at a bus-off is done after the callback
 
 #if CO_HBCONS_N > 0
 
-TEST_CASE("reentrancy: a reset asked for in a timer's action is done when that is over") {
+TEST_CASE("re-entrancy: a reset requested in the action of a timer is carried out after the action") {
   CO_HBCONS entry{nullptr, nullptr, CO_INVALID, 0, 100, 5, 0};
   Fixture node(Setup().with({CO_KEY(0x1016, 1, CO_OBJ_____RW), CO_THB_CONS, &entry}));
   node.rx("705#05");
@@ -476,7 +477,7 @@ TEST_CASE("reentrancy: a reset asked for in a timer's action is done when that i
 
 #if CO_TPDO_N > 0
 
-TEST_CASE("reentrancy: when CODictInit() returns, PDOs find their objects again") {
+TEST_CASE("re-entrancy: after CODictInit() PDOs use the objects of the new table") {
   std::uint8_t value = 0x12;
   std::vector<CO_OBJ> table = {{CO_KEY(0x1800, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0x40000181},
                                {CO_KEY(0x1A00, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 1},

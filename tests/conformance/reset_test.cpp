@@ -198,7 +198,7 @@ void at_every_step(const Function& function) {
   }
 }
 
-TEST_CASE("reset: after reset node and reset communication at any moment the node is as fresh [T14] [N6] [N8]") {
+TEST_CASE("reset: reset node and reset communication at any time give the state after power-on [T14] [N6] [N8]") {
   for (const std::string reset : {"000#8101", "000#8201"}) {
     CAPTURE(reset);
     at_every_step([&](Fixture& node, const Scenario& scenario) {
@@ -212,7 +212,8 @@ TEST_CASE("reset: after reset node and reset communication at any moment the nod
   }
 }
 
-TEST_CASE("reset: the same when the application resets the node; what still waits goes out before the boot-up [T14]") {
+TEST_CASE(
+    "reset: a reset by the application at any time sends queued frames and gives the state after power-on [T14]") {
   for (const CO_NMT_RESET reset : {CO_RESET_NODE, CO_RESET_COM}) {
     CAPTURE(reset);
     at_every_step([&](Fixture& node, const Scenario& scenario) {
@@ -228,7 +229,7 @@ TEST_CASE("reset: the same when the application resets the node; what still wait
   }
 }
 
-TEST_CASE("reset: after stop and start, or enter pre-operational, at any moment no transfer is open [T14] [N8]") {
+TEST_CASE("reset: after stop and start or enter pre-operational at any time no transfer is open [T14] [N8]") {
   for (const std::string on : {"000#8001", "000#0101"}) {
     CAPTURE(on);
     at_every_step([&](Fixture& node, const Scenario& scenario) {
@@ -247,7 +248,7 @@ TEST_CASE("reset: after stop and start, or enter pre-operational, at any moment 
   }
 }
 
-TEST_CASE("reset: after CONodeStop at any moment nothing is left and nothing is sent [T14]") {
+TEST_CASE("reset: after CONodeStop at any time nothing is queued and nothing is sent [T14]") {
   at_every_step([](Fixture& node, const Scenario& scenario) {
     node.call([&] { CONodeStop(&node.node); });
     CHECK(node.mode() == CO_INVALID);
@@ -262,7 +263,7 @@ TEST_CASE("reset: after CONodeStop at any moment nothing is left and nothing is 
   });
 }
 
-TEST_CASE("reset: CONodeStop, CONodeInit and CONodeStart at any moment make a fresh node [T14]") {
+TEST_CASE("reset: CONodeStop, CONodeInit and CONodeStart at any time give the state after power-on [T14]") {
   at_every_step([](Fixture& node, const Scenario& scenario) {
     node.call([&] { CONodeStop(&node.node); });
     node.can.accept_all();

@@ -14,7 +14,7 @@ PdoTable watched(std::uint16_t ms, std::uint8_t type = 255) {
   return table;
 }
 
-TEST_CASE("RPDO deadline: it is not watched before the first frame [P11]") {
+TEST_CASE("RPDO deadline: it does not start before the first frame [P11]") {
   PdoNode node(watched(100));
   node.start();
   node.after(70000ms);
@@ -22,7 +22,7 @@ TEST_CASE("RPDO deadline: it is not watched before the first frame [P11]") {
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("RPDO deadline: 8250h when the time has passed since the last frame, once [P11] [N11]") {
+TEST_CASE("RPDO deadline: 8250h is sent once when the time since the last frame has elapsed [P11] [N11]") {
   for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
     PdoNode node(watched(100), [=](Setup& setup) { setup.wake(wake); });
     node.start();
@@ -34,7 +34,7 @@ TEST_CASE("RPDO deadline: 8250h when the time has passed since the last frame, o
   }
 }
 
-TEST_CASE("RPDO deadline: each frame starts it anew, the last moment included [P11]") {
+TEST_CASE("RPDO deadline: each frame restarts it, also at the last moment [P11]") {
   PdoNode node(watched(100));
   node.start();
   for (int i = 0; i < 20; ++i) {
@@ -46,7 +46,7 @@ TEST_CASE("RPDO deadline: each frame starts it anew, the last moment included [P
   node.tx(emcy(0x8250, 1));
 }
 
-TEST_CASE("RPDO deadline: the next frame resolves it, and is watched again [P11] [E2]") {
+TEST_CASE("RPDO deadline: the next frame resolves and restarts it [P11] [E2]") {
   PdoNode node(watched(100));
   node.start();
   for (int i = 0; i < 3; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("RPDO deadline: the next frame resolves it, and is watched again [P11]
   }
 }
 
-TEST_CASE("RPDO deadline: a frame that is too short is none, one that is too long is one [X5]") {
+TEST_CASE("RPDO deadline: a frame that is too short does not restart it; one that is too long does [X5]") {
   PdoNode node(watched(100));
   node.frames_per_call(3);
   node.start();
@@ -79,7 +79,7 @@ TEST_CASE("RPDO deadline: a frame that is too short is none, one that is too lon
   node.tx(emcy(0x8250, 1));
 }
 
-TEST_CASE("RPDO deadline: a synchronous RPDO is watched when it arrives, whatever SYNC does") {
+TEST_CASE("RPDO deadline: a synchronous RPDO restarts it when it is received, independent of SYNC") {
   if (USE_SYNC == 0) {
     return;
   }
@@ -95,7 +95,7 @@ TEST_CASE("RPDO deadline: a synchronous RPDO is watched when it arrives, whateve
   node.tx(emcy(0x8250, 1));
 }
 
-TEST_CASE("RPDO deadline: a new time restarts it, 0 ends it and resolves what was reported [P11]") {
+TEST_CASE("RPDO deadline: a new time restarts it; 0 ends it and resolves a reported error [P11]") {
   PdoNode node(watched(100));
   node.start();
   node.rx("201#01");
@@ -116,7 +116,7 @@ TEST_CASE("RPDO deadline: a new time restarts it, 0 ends it and resolves what wa
   node.tx(emcy(0x8250, 1));
 }
 
-TEST_CASE("RPDO deadline: leaving Operational ends it, and it is not watched again before a frame [E10] [X9]") {
+TEST_CASE("RPDO deadline: leaving Operational ends it until the next frame [E10] [X9]") {
   for (const std::string command : {"000#8001", "000#0201"}) {
     CAPTURE(command);
     PdoNode node(watched(100));
@@ -138,7 +138,7 @@ TEST_CASE("RPDO deadline: leaving Operational ends it, and it is not watched aga
   }
 }
 
-TEST_CASE("RPDO deadline: an RPDO that is switched off is not missed") {
+TEST_CASE("RPDO deadline: an RPDO that is switched off is not reported") {
   PdoNode node(watched(100));
   node.start();
   node.rx("201#01");
@@ -153,7 +153,7 @@ TEST_CASE("RPDO deadline: an RPDO that is switched off is not missed") {
 #if USE_LED
 
 // The callback is COLedChange(): the error LED is switched off when the RPDO is received again.
-TEST_CASE("RPDO deadline: a callback that ends the PDO when it is received again ends that reception, too") {
+TEST_CASE("RPDO deadline: a callback at the next frame that ends the PDO prevents writing that frame") {
   const std::function<void(PdoNode&)> ends[] = {
       [](PdoNode& node) { (void)CODictWrLong(&node->Dict, CO_DEV(0x1400, 1), 0x80000201); },
       [](PdoNode& node) { CONmtSetMode(&node->Nmt, CO_PREOP); },
@@ -203,7 +203,7 @@ TEST_CASE("RPDO deadline: a callback that ends the PDO when it is received again
 
 #endif
 
-TEST_CASE("RPDO deadline: the longest time, and the shortest") {
+TEST_CASE("RPDO deadline: the longest and the shortest time are kept") {
   for (const std::uint16_t ms : {std::uint16_t{1}, std::uint16_t{65535}}) {
     PdoNode node(watched(ms));
     node.start();
@@ -215,7 +215,7 @@ TEST_CASE("RPDO deadline: the longest time, and the shortest") {
   }
 }
 
-TEST_CASE("RPDO deadline: a late loop reports it once [Q8]") {
+TEST_CASE("RPDO deadline: a late main loop reports it once [Q8]") {
   PdoNode node(watched(10));
   node.start();
   node.rx("201#01");
@@ -225,7 +225,7 @@ TEST_CASE("RPDO deadline: a late loop reports it once [Q8]") {
   node.silent();
 }
 
-TEST_CASE("RPDO deadline: all PDOs at once, each with its own number") {
+TEST_CASE("RPDO deadline: all PDOs at once are reported with their numbers") {
   PdoTable table;
   for (unsigned n = 0; n < fixture_rpdos; ++n) {
     table.rpdo[n].on(0x201 + n * 0x100, 255, {0x22010108}).event = 100;

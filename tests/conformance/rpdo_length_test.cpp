@@ -22,7 +22,7 @@ CO_IF_FRM pdo(std::uint32_t id, std::uint8_t dlc) {
   return frm;
 }
 
-TEST_CASE("RPDO length: a frame of fewer bytes than mapped writes nothing: EMCY 8210h [X5] [D44] [Emergency 04]") {
+TEST_CASE("RPDO length: a frame with fewer bytes than mapped writes nothing: EMCY 8210h [X5] [D44] [Emergency 04]") {
   for (std::uint8_t dlc = 0; dlc < 4; ++dlc) {
     CAPTURE(unsigned{dlc});
     PdoNode node(of_four_bytes());
@@ -39,7 +39,7 @@ TEST_CASE("RPDO length: a frame of fewer bytes than mapped writes nothing: EMCY 
   }
 }
 
-TEST_CASE("RPDO length: of a frame of more bytes than mapped the first are used: EMCY 8220h [X5] [D44]") {
+TEST_CASE("RPDO length: a frame with more bytes than mapped writes the first ones: EMCY 8220h [X5] [D44]") {
   for (std::uint8_t dlc = 5; dlc <= 8; ++dlc) {
     CAPTURE(unsigned{dlc});
     PdoNode node(of_four_bytes());
@@ -54,7 +54,7 @@ TEST_CASE("RPDO length: of a frame of more bytes than mapped the first are used:
   }
 }
 
-TEST_CASE("RPDO length: every mapped length against every DLC [X5] [T12]") {
+TEST_CASE("RPDO length: every mapped length with every DLC has the defined effect [X5] [T12]") {
   for (std::uint8_t mapped = 1; mapped <= 8; ++mapped) {
     for (std::uint8_t dlc = 0; dlc <= 8; ++dlc) {
       CAPTURE(unsigned{mapped});
@@ -76,7 +76,7 @@ TEST_CASE("RPDO length: every mapped length against every DLC [X5] [T12]") {
   }
 }
 
-TEST_CASE("RPDO length: DLC codes 9 to 15 mean eight bytes [ISO 11898-1]") {
+TEST_CASE("RPDO length: a DLC of 9 to 15 means eight bytes [ISO 11898-1]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22080140});
   PdoNode node(table);
@@ -88,7 +88,7 @@ TEST_CASE("RPDO length: DLC codes 9 to 15 mean eight bytes [ISO 11898-1]") {
   }
 }
 
-TEST_CASE("RPDO length: a fault is reported once until a good frame comes, which resolves it: 0000h [X5] [E1]") {
+TEST_CASE("RPDO length: short frames are reported once until a correct frame resolves it: 0000h [X5] [E1]") {
   PdoNode node(of_four_bytes());
   node.start();
   node.rx("201#AABB");
@@ -108,7 +108,7 @@ TEST_CASE("RPDO length: a fault is reported once until a good frame comes, which
   CHECK(node.frames() == reports({emcy(0, 1)}));
 }
 
-TEST_CASE("RPDO length: the same for frames that are too long [X5] [E1]") {
+TEST_CASE("RPDO length: long frames are reported once until a correct frame resolves it: 0000h [X5] [E1]") {
   PdoNode node(of_four_bytes());
   node.start();
   node.rx("201#0102030405");
@@ -119,7 +119,7 @@ TEST_CASE("RPDO length: the same for frames that are too long [X5] [E1]") {
   CHECK(node.frames() == reports({emcy(0, 1)}));
 }
 
-TEST_CASE("RPDO length: from too short to too long, the one is resolved and the other reported [X5] [E2]") {
+TEST_CASE("RPDO length: a change from too short to too long resolves one fault and reports the other [X5] [E2]") {
   PdoNode node(of_four_bytes());
   node.start();
   node.rx("201#01");
@@ -132,7 +132,7 @@ TEST_CASE("RPDO length: from too short to too long, the one is resolved and the 
 }
 
 #if USE_EMCY
-TEST_CASE("RPDO length: PDOs have their faults independently; the last that goes clears the register [E2] [E3]") {
+TEST_CASE("RPDO length: faults of PDOs are independent; resolving the last one clears the register [E2] [E3]") {
   if (fixture_rpdos < 2) {
     return;
   }
@@ -152,8 +152,7 @@ TEST_CASE("RPDO length: PDOs have their faults independently; the last that goes
 }
 #endif
 
-TEST_CASE(
-    "RPDO length: a synchronous RPDO is checked when it arrives, and a short one does not replace a good one [X5]") {
+TEST_CASE("RPDO length: a synchronous RPDO is checked when received; a short one does not replace a correct one [X5]") {
   if (USE_SYNC == 0) {
     return;
   }
@@ -174,7 +173,7 @@ TEST_CASE(
   CHECK(node.u8[1] == 0xC2);
 }
 
-TEST_CASE("RPDO length: leaving Operational resolves what was reported [E10]") {
+TEST_CASE("RPDO length: leaving Operational resolves reported faults [E10]") {
   for (const std::string command : {"000#8001", "000#0201"}) {
     CAPTURE(command);
     PdoNode node(of_four_bytes());
@@ -191,7 +190,7 @@ TEST_CASE("RPDO length: leaving Operational resolves what was reported [E10]") {
   }
 }
 
-TEST_CASE("RPDO length: switching the PDO off resolves what was reported of it") {
+TEST_CASE("RPDO length: switching the PDO off resolves its reported faults") {
   PdoNode node(of_four_bytes());
   node.start();
   node.rx("201#01");
@@ -201,7 +200,7 @@ TEST_CASE("RPDO length: switching the PDO off resolves what was reported of it")
   CHECK(node.objects.error_register == 0);
 }
 
-TEST_CASE("RPDO length: a reset forgets what was reported, without a message") {
+TEST_CASE("RPDO length: a reset clears reported faults without a message") {
   for (const std::string command : {"000#8101", "000#8201"}) {
     CAPTURE(command);
     PdoNode node(of_four_bytes());
@@ -217,7 +216,7 @@ TEST_CASE("RPDO length: a reset forgets what was reported, without a message") {
   }
 }
 
-TEST_CASE("RPDO length: in Pre-operational and Stopped nothing is reported [X9]") {
+TEST_CASE("RPDO length: faults are not reported in Pre-operational and Stopped [X9]") {
   PdoNode node(of_four_bytes());
   node.rx("201#01");
   node.silent();

@@ -14,7 +14,7 @@ SyncTable with_type(std::uint8_t type) {
   return table;
 }
 
-TEST_CASE("synchronous RPDO: every type 0 to 240 is written at the next SYNC, regardless of the number [X2]") {
+TEST_CASE("synchronous RPDO: every type 0 to 240 is written at the next SYNC [X2]") {
   for (unsigned type = 0; type <= 240; type += stride(16)) {
     CAPTURE(type);
     SyncNode node(with_type(static_cast<std::uint8_t>(type)));
@@ -36,7 +36,7 @@ TEST_CASE("synchronous RPDO: a SYNC before any frame writes nothing [D43]") {
   CHECK(node.u8[0] == 0x11);
 }
 
-TEST_CASE("synchronous RPDO: a frame is written once, values of the application stay [X2] [D43]") {
+TEST_CASE("synchronous RPDO: a frame is written once; later values of the application stay [X2] [D43]") {
   SyncNode node(with_type(1));
   node.start();
   node.rx("201#42");
@@ -47,7 +47,7 @@ TEST_CASE("synchronous RPDO: a frame is written once, values of the application 
   CHECK(node.u8[0] == 0x99);
 }
 
-TEST_CASE("synchronous RPDO: of several frames before the SYNC the last is written [X2]") {
+TEST_CASE("synchronous RPDO: the last of several frames before the SYNC is written [X2]") {
   SyncNode node(with_type(1));
   node.start();
   for (const char* text : {"201#01", "201#02", "201#03"}) node.rx(text);
@@ -58,7 +58,7 @@ TEST_CASE("synchronous RPDO: of several frames before the SYNC the last is writt
   CHECK(updates == 1);
 }
 
-TEST_CASE("synchronous RPDO: all of one SYNC are written, in the order of their arrival") {
+TEST_CASE("synchronous RPDO: all frames of one SYNC are written in the order of their reception") {
   SyncTable table;
   for (unsigned n = 0; n < fixture_rpdos; ++n) {
     table.rpdo[n].on(0x201 + n * 0x100, 1, {0x22010108, 0x22020010U | (n + 1) << 8});
@@ -82,7 +82,7 @@ TEST_CASE("synchronous RPDO: all of one SYNC are written, in the order of their 
   }
 }
 
-TEST_CASE("synchronous RPDO: event-driven ones in between do not wait") {
+TEST_CASE("synchronous RPDO: event-driven RPDOs in between are written at once") {
   if (fixture_rpdos < 2) {
     return;
   }
@@ -98,7 +98,7 @@ TEST_CASE("synchronous RPDO: event-driven ones in between do not wait") {
   CHECK(node.u8[0] == 0x42);
 }
 
-TEST_CASE("synchronous RPDO: what waits is forgotten when the node leaves Operational [X9] [N11]") {
+TEST_CASE("synchronous RPDO: leaving Operational discards received frames [X9] [N11]") {
   for (const char* command : {"000#8001", "000#0201"}) {
     CAPTURE(std::string(command));
     SyncNode node(with_type(1));
@@ -116,8 +116,7 @@ TEST_CASE("synchronous RPDO: what waits is forgotten when the node leaves Operat
   }
 }
 
-TEST_CASE(
-    "synchronous RPDO: what waits is forgotten when the PDO is switched off, and its place in the list is not lost") {
+TEST_CASE("synchronous RPDO: switching the PDO off discards its frame and frees its position in the list") {
   SyncTable table = with_type(1);
   const unsigned last = fixture_rpdos - 1;
   table.rpdo[last].on(0x501, 1, {0x22010808});
@@ -135,7 +134,7 @@ TEST_CASE(
   CHECK(node.u8[0] == 0x43);
 }
 
-TEST_CASE("synchronous RPDO: one that is made anew while it waits loses none of those that wait behind it") {
+TEST_CASE("synchronous RPDO: one that is switched off and on with a pending frame loses no frames of later ones") {
   if (fixture_rpdos < 2) {
     return;
   }
@@ -153,7 +152,7 @@ TEST_CASE("synchronous RPDO: one that is made anew while it waits loses none of 
   CHECK(node.u8[1] == 0x42);
 }
 
-TEST_CASE("synchronous RPDO: a new mapping while a frame waits does not get the frame of the old one") {
+TEST_CASE("synchronous RPDO: a pending frame is not written to a new mapping") {
   SyncNode node(with_type(1));
   node.start();
   node.rx("201#42");
@@ -163,7 +162,7 @@ TEST_CASE("synchronous RPDO: a new mapping while a frame waits does not get the 
   CHECK(node.u8[1] == 0x21);
 }
 
-TEST_CASE("synchronous RPDO: after the window frames are discarded until the next SYNC [X4] [301:7.5.2.7]") {
+TEST_CASE("synchronous RPDO: frames after the window are discarded until the next SYNC [X4] [301:7.5.2.7]") {
   SyncTable table = with_type(1);
   table.window = 20000;
   SyncNode node(table);
@@ -199,7 +198,7 @@ TEST_CASE("synchronous RPDO: the window does not apply to event-driven RPDOs [X4
   CHECK(node.u8[0] == 0x42);
 }
 
-TEST_CASE("synchronous RPDO: without a window, and after it has been written 0, frames are taken at any time [X4]") {
+TEST_CASE("synchronous RPDO: without a window, and after writing 0 to it, frames are accepted at any time [X4]") {
   SyncTable table = with_type(1);
   table.window = 20000;
   SyncNode node(table);
@@ -212,7 +211,7 @@ TEST_CASE("synchronous RPDO: without a window, and after it has been written 0, 
   CHECK(node.u8[0] == 0x42);
 }
 
-TEST_CASE("synchronous RPDO: a window that is over is open again when 1007h is written 0, and after Stopped [X4]") {
+TEST_CASE("synchronous RPDO: an elapsed window is open again after writing 0 to 1007h and after Stopped [X4]") {
   for (const bool stop : {false, true}) {
     CAPTURE(stop);
     SyncTable table = with_type(1);

@@ -24,7 +24,7 @@ TEST_CASE("RPDO: types 254 and 255 are written at once [X2]") {
   }
 }
 
-TEST_CASE("RPDO: each frame is written, the same data again as well") {
+TEST_CASE("RPDO: each frame is written, also with unchanged data") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   PdoNode node(table);
@@ -55,7 +55,7 @@ TEST_CASE("RPDO: a frame is written only to the objects that its PDO maps") {
   CHECK(node.counters().Unclaimed == 0);
 }
 
-TEST_CASE("RPDO: its slot depends neither on number nor on type of the RPDO: the last works alone [D7]") {
+TEST_CASE("RPDO: its slot depends neither on number nor on type of the RPDO: the last one works alone [D7]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 255}) {
     for (unsigned n = 0; n < fixture_rpdos; ++n) {
       if (USE_SYNC == 0 && type == 1) {
@@ -75,7 +75,7 @@ TEST_CASE("RPDO: its slot depends neither on number nor on type of the RPDO: the
   }
 }
 
-TEST_CASE("RPDO: two with one identifier both write their objects") {
+TEST_CASE("RPDO: two RPDOs with one CAN-ID both write their objects") {
   if (fixture_rpdos < 2) {
     return;
   }
@@ -90,7 +90,7 @@ TEST_CASE("RPDO: two with one identifier both write their objects") {
   CHECK(node.frames() == reports({emcy(0x8220, 1)}));
 }
 
-TEST_CASE("RPDO: an RPDO that does not exist takes nothing [301:7.5.2.35]") {
+TEST_CASE("RPDO: an RPDO that does not exist receives no frame [301:7.5.2.35]") {
   PdoTable table;
   table.rpdo[0].on(0x80000201, 255, {0x22010108});
   PdoNode node(table);
@@ -100,7 +100,7 @@ TEST_CASE("RPDO: an RPDO that does not exist takes nothing [301:7.5.2.35]") {
   CHECK(node.counters().Unclaimed == 1);
 }
 
-TEST_CASE("RPDO: remote frames and 29-bit frames of its identifier are none of its frames [Q1]") {
+TEST_CASE("RPDO: remote frames and 29-bit frames of its CAN-ID are ignored [Q1]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108});
   PdoNode node(table);
@@ -113,7 +113,7 @@ TEST_CASE("RPDO: remote frames and 29-bit frames of its identifier are none of i
   node.silent();
 }
 
-TEST_CASE("RPDO: dummies take their places in the frame and write nothing [M8] [D44]") {
+TEST_CASE("RPDO: dummies occupy their bytes in the frame and write nothing [M8] [D44]") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x00050008, 0x22010108, 0x00060010, 0x22010208, 0x00020008, 0x22020110});
   PdoNode node(table);
@@ -125,7 +125,7 @@ TEST_CASE("RPDO: dummies take their places in the frame and write nothing [M8] [
   CHECK(node.u8[2] == 0x31);
 }
 
-TEST_CASE("RPDO: an RPDO of nothing but dummies is received, and asks for its length") {
+TEST_CASE("RPDO: an RPDO of dummies only is received and its length is checked") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x00070020, 0x00040020});
   PdoNode node(table);
@@ -139,7 +139,7 @@ TEST_CASE("RPDO: an RPDO of nothing but dummies is received, and asks for its le
   CHECK(node.frames() == reports({emcy(0x8210, 1)}));
 }
 
-TEST_CASE("RPDO: what a type refuses keeps its value, the rest of the frame is written") {
+TEST_CASE("RPDO: a value that its type refuses is not written; the rest of the frame is") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22010108, 0x22010208});
   const void* closed = nullptr;
@@ -155,7 +155,7 @@ TEST_CASE("RPDO: what a type refuses keeps its value, the rest of the frame is w
   CHECK(node.error() == CO_ERR_OBJ_ACC);
 }
 
-TEST_CASE("RPDO: an object of an RPDO with flag D gets its value in the dictionary") {
+TEST_CASE("RPDO: an object with flag D is written in the dictionary") {
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22FF0010});
   PdoNode node(table, [](Setup& setup) {
@@ -167,7 +167,7 @@ TEST_CASE("RPDO: an object of an RPDO with flag D gets its value in the dictiona
   CHECK(node.get(0x22FF, 0) == 0x5678);
 }
 
-TEST_CASE("RPDO: an object of an RPDO with flag N gets the value relative to the node-ID, as from an SDO client") {
+TEST_CASE("RPDO: an object with flag N is written relative to the node-ID, as by SDO") {
   std::uint32_t stored = 0;
   PdoTable table;
   table.rpdo[0].on(0x201, 255, {0x22FF0020});
@@ -181,7 +181,7 @@ TEST_CASE("RPDO: an object of an RPDO with flag N gets the value relative to the
   CHECK(node.get(0x22FF, 0) == 0x181);
 }
 
-TEST_CASE("RPDO: 29-bit identifiers [P1]") {
+TEST_CASE("RPDO: a 29-bit CAN-ID works [P1]") {
   PdoTable table;
   table.rpdo[0].on(0x20000000U | 0x12345678U, 255, {0x22010108});
   PdoNode node(table);

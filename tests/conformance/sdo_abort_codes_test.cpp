@@ -95,7 +95,7 @@ void check_refusals(Fixture& node, const Script& how, const std::string& code) {
   node.ask("601#E0AABBCC00000000", "581#80AABBCC01000405");
 }
 
-TEST_CASE("SDO abort codes: all 31 through COObjTypeUserSDOAbort, expedited and segmented, up and down") {
+TEST_CASE("SDO abort codes: COObjTypeUserSDOAbort sends each of 31, expedited and segmented, in both directions") {
   CHECK(std::size(codes) == 31);
   for (const std::string code : codes) {
     CAPTURE(code);
@@ -107,7 +107,7 @@ TEST_CASE("SDO abort codes: all 31 through COObjTypeUserSDOAbort, expedited and 
   }
 }
 
-TEST_CASE("SDO abort codes: each that an error code stands for, expedited and segmented, up and down") {
+TEST_CASE("SDO abort codes: each error code is sent as its abort code, expedited and segmented, in both directions") {
   struct Row {
     CO_ERR error;
     const char* code;

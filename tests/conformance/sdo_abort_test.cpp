@@ -107,7 +107,7 @@ TEST_CASE("SDO abort 0609 0011h: the index exists, the sub-index does not [SDO 0
   node.ask("601#401810FF00000000", "581#801810FF11000906");
 }
 
-TEST_CASE("SDO abort 0609 0011h: also where sub-index 0 is the one that is missing") {
+TEST_CASE("SDO abort 0609 0011h: also if sub-index 0 is missing") {
   Fixture node;
   node.ask("601#4033200000000000", "581#8033200011000906");
   node.ask("601#4033200200000000", "581#8033200211000906");
@@ -137,7 +137,7 @@ TEST_CASE("SDO abort 0504 0001h: unknown command, with the transfer's multiplexe
   node.ask("601#0011223300000000", "581#8011223301000405");
 }
 
-TEST_CASE("SDO abort: what a type function returns becomes a code, reading and writing alike") {
+TEST_CASE("SDO abort: each error code of a type function is sent as an abort code, for reading and writing") {
   struct Row {
     CO_ERR error;
     const char* code;
@@ -172,7 +172,7 @@ TEST_CASE("SDO abort: what a type function returns becomes a code, reading and w
   }
 }
 
-TEST_CASE("SDO abort: the application's own code, expedited, and only for that transfer") {
+TEST_CASE("SDO abort: the application's own code is used expedited and only for that transfer") {
   Fixture node(scripted_setup());
   script.read = CO_ERR_TYPE_RD;
   script.write = CO_ERR_TYPE_WR;
@@ -184,7 +184,7 @@ TEST_CASE("SDO abort: the application's own code, expedited, and only for that t
   node.ask("601#2300300000000000", "581#8000300020000008");
 }
 
-TEST_CASE("SDO abort: the application's own code without an error has no effect, now or later") {
+TEST_CASE("SDO abort: the application's own code without an error has no effect, then or later") {
   Fixture node(scripted_setup());
   script.write_abort = 0x12345678;
   node.ask("601#2300300000000000", "581#6000300000000000");
@@ -194,7 +194,7 @@ TEST_CASE("SDO abort: the application's own code without an error has no effect,
   node.ask("601#2300300000000000", "581#8000300020000008");
 }
 
-TEST_CASE("SDO abort: the application's own code in segmented transfers of values") {
+TEST_CASE("SDO abort: the application's own code is used in segmented transfers of values") {
   Fixture node(scripted_setup());
   script.size = 8;
   script.read = CO_ERR_TYPE_RD;
@@ -206,7 +206,7 @@ TEST_CASE("SDO abort: the application's own code in segmented transfers of value
   node.ask("601#4000300000000000", "581#8000300078563412");
 }
 
-TEST_CASE("SDO abort: the application's own code in segmented transfers of streams, at any segment") {
+TEST_CASE("SDO abort: the application's own code is used in segmented transfers of streams at any segment") {
   for (unsigned segment = 1; segment <= 3; ++segment) {
     CAPTURE(segment);
     Fixture node(scripted_setup());
@@ -226,7 +226,7 @@ TEST_CASE("SDO abort: the application's own code in segmented transfers of strea
   }
 }
 
-TEST_CASE("SDO abort: the application's own code while a stream is read") {
+TEST_CASE("SDO abort: the application's own code is used while a stream is read") {
   Fixture node(scripted_setup());
   script.size = 20;
   script.read = CO_ERR_TYPE_RD;
@@ -271,7 +271,7 @@ TEST_CASE("SDO abort 0800 0020h: a value whose length is 0") {
   node.ask("601#2100300004000000", "581#8000300020000008");
 }
 
-TEST_CASE("SDO abort: access right wins over length, length over the type's own rule, index over all") {
+TEST_CASE("SDO abort: checks are ordered: index, access right, length, rule of the type") {
   Fixture node(scripted_setup());
   script.write = CO_ERR_OBJ_RANGE;
   node.ask("601#2F31200000000000", "581#8031200002000106");
@@ -283,7 +283,7 @@ TEST_CASE("SDO abort: access right wins over length, length over the type's own 
   CHECK(script.calls == 0);
 }
 
-TEST_CASE("SDO abort 0504 0000h: an abandoned transfer is ended after the time-out, not before 7/8 of it [D18]") {
+TEST_CASE("SDO abort 0504 0000h: an abandoned transfer is aborted after the time-out, not before 7/8 of it [D18]") {
   for (const std::string initiate : {"601#4008200000000000", "601#2108200008000000", "601#4008100000000000"}) {
     CAPTURE(initiate);
     Fixture node;
@@ -300,7 +300,7 @@ TEST_CASE("SDO abort 0504 0000h: an abandoned transfer is ended after the time-o
   }
 }
 
-TEST_CASE("SDO abort 0504 0000h: each frame of the transfer starts the time anew [D18]") {
+TEST_CASE("SDO abort 0504 0000h: each frame of the transfer restarts the time-out [D18]") {
   Fixture node;
   const auto nearly = std::chrono::milliseconds{CO_SDO_TIMEOUT} * 7 / 8 - 1ms;
   node.ask("601#4008100000000000", "581#4108100011000000");
@@ -314,7 +314,7 @@ TEST_CASE("SDO abort 0504 0000h: each frame of the transfer starts the time anew
   node.silent();
 }
 
-TEST_CASE("SDO abort 0504 0000h: not because of frames of others [D18]") {
+TEST_CASE("SDO abort 0504 0000h: unrelated frames do not restart the time-out [D18]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   std::vector<std::string> sent;
@@ -358,7 +358,7 @@ TEST_CASE("SDO: a write that resets the node is answered first, even if the cont
   node.tx({"581#6000300000000000", "701#00"});
 }
 
-TEST_CASE("SDO: a write that stops the node leaves nothing behind [Q9]") {
+TEST_CASE("SDO: a write that stops the node leaves no frame and no open transfer [Q9]") {
   Fixture node(scripted_setup());
   script.on_write = [](CO_NODE* n) { CONmtSetMode(&n->Nmt, CO_STOP); };
   node.rx("601#2300300000000000");
@@ -368,7 +368,7 @@ TEST_CASE("SDO: a write that stops the node leaves nothing behind [Q9]") {
   node.ask("601#0011223300000000", "581#8011223301000405");
 }
 
-TEST_CASE("SDO: a write may use the dictionary itself [Q9]") {
+TEST_CASE("SDO: a write may access the dictionary [Q9]") {
   Fixture node(scripted_setup());
   node.may_change(0x2004, 0);
   script.on_write = [](CO_NODE* n) { CODictWrLong(&n->Dict, CO_DEV(0x2004, 0), 0x01020304); };

@@ -39,7 +39,7 @@ std::vector<std::string> session(Fixture& node) {
   return all;
 }
 
-TEST_CASE("SDO block: no frame is lost or comes twice, whichever the controller refuses, once or more [D20] [T12]") {
+TEST_CASE("SDO block: no frame is lost or repeated, whichever ones the controller refuses [D20] [T12]") {
   Fixture undisturbed;
   const std::vector<std::string> expected = session(undisturbed);
   REQUIRE(expected.size() == 8);
@@ -60,7 +60,7 @@ TEST_CASE("SDO block: no frame is lost or comes twice, whichever the controller 
   }
 }
 
-TEST_CASE("SDO block upload: it pauses at any segment and goes on with the next one [D20]") {
+TEST_CASE("SDO block upload: it pauses at any segment and resumes with the next one [D20]") {
   for (std::uint64_t taken = 0; taken < 127; ++taken) {
     CAPTURE(taken);
     Fixture node;
@@ -84,7 +84,7 @@ TEST_CASE("SDO block upload: it pauses at any segment and goes on with the next 
   }
 }
 
-TEST_CASE("SDO block upload: a controller that takes a few frames at a time [D20]") {
+TEST_CASE("SDO block upload: it works with a controller that accepts a few frames at a time [D20]") {
   for (const std::uint64_t places : {1U, 2U, 3U, 16U}) {
     CAPTURE(places);
     Fixture node;
@@ -108,7 +108,7 @@ TEST_CASE("SDO block upload: a controller that takes a few frames at a time [D20
   }
 }
 
-TEST_CASE("SDO block upload: other frames get out in between, and first [D20] [Q4]") {
+TEST_CASE("SDO block upload: other frames are sent between its segments, and first [D20] [Q4]") {
   Fixture node(Setup().heartbeat(100));
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(50);
@@ -129,7 +129,7 @@ TEST_CASE("SDO block upload: other frames get out in between, and first [D20] [Q
   CHECK(rest.back().substr(0, 6) == "581#7F");
 }
 
-TEST_CASE("SDO block upload: heartbeats keep their time during a paused upload [D20]") {
+TEST_CASE("SDO block upload: heartbeats keep their period during a paused upload [D20]") {
   Fixture node(Setup().heartbeat(50));
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(0);
@@ -149,7 +149,7 @@ TEST_CASE("SDO block upload: heartbeats keep their time during a paused upload [
   node.can.accept_all();
 }
 
-TEST_CASE("SDO block upload: the queue of the node does not fill with segments [D20]") {
+TEST_CASE("SDO block upload: segments do not fill the transmit queue [D20]") {
   Fixture node(Setup().tx_queue(4));
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.refuse_all();
@@ -166,8 +166,7 @@ TEST_CASE("SDO block upload: the queue of the node does not fill with segments [
   CHECK(sent.back().substr(0, 6) == "581#7F");
 }
 
-TEST_CASE(
-    "SDO block upload: a paused one resumes without a call, in a loop that sleeps until CONodeNextDeadline() [D20]") {
+TEST_CASE("SDO block upload: a paused one resumes in a loop that sleeps until CONodeNextDeadline() [D20]") {
   Fixture node(Setup().wake(Wake::deadline));
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(5);
@@ -180,7 +179,7 @@ TEST_CASE(
   CHECK(CONodeNextDeadline(&node.node) > 1);
 }
 
-TEST_CASE("SDO block upload: a slow controller is no silent client [D18] [D20]") {
+TEST_CASE("SDO block upload: a slow controller does not cause a time-out of the client [D18] [D20]") {
   Fixture node;
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(1);
@@ -199,7 +198,7 @@ TEST_CASE("SDO block upload: a slow controller is no silent client [D18] [D20]")
   finish_upload(node, 127);
 }
 
-TEST_CASE("SDO block upload: a controller that takes nothing for long leaves nothing open [D18] [D20]") {
+TEST_CASE("SDO block upload: a controller that refuses frames for long ends the transfer [D18] [D20]") {
   Fixture node;
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.refuse_all();
@@ -215,7 +214,8 @@ TEST_CASE("SDO block upload: a controller that takes nothing for long leaves not
   CHECK(node.block_upload(0x2104, 0).data == counting(890));
 }
 
-TEST_CASE("SDO block upload: an acknowledge while segments are still to be sent [D12] [D20]") {
+TEST_CASE(
+    "SDO block upload: an acknowledge before all segments are sent begins the next block after them [D12] [D20]") {
   Fixture node;
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(10);
@@ -231,7 +231,7 @@ TEST_CASE("SDO block upload: an acknowledge while segments are still to be sent 
   finish_upload(node, 104);
 }
 
-TEST_CASE("SDO block upload: more acknowledged than the controller has taken [D12] [D20]") {
+TEST_CASE("SDO block upload: an acknowledge of more segments than sent is aborted [D12] [D20]") {
   Fixture node;
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.can.accept_next(10);
@@ -243,7 +243,7 @@ TEST_CASE("SDO block upload: more acknowledged than the controller has taken [D1
   node.tx("581#8004210003000405");
 }
 
-TEST_CASE("SDO block upload: its end waits in the queue like any answer [T12]") {
+TEST_CASE("SDO block upload: its end is queued like other answers [T12]") {
   Fixture node;
   node.ask("601#A40010007F000000", "581#C600100004000000");
   node.ask("601#A300000000000000", "581#8191010F00000000");
@@ -257,7 +257,7 @@ TEST_CASE("SDO block upload: its end waits in the queue like any answer [T12]") 
   node.silent();
 }
 
-TEST_CASE("SDO block download: answers that the controller refuses come later, nothing is taken twice [T12]") {
+TEST_CASE("SDO block download: refused answers are sent later and no segment counts twice [T12]") {
   for (const bool sized : {true, false}) {
     Fixture node;
     const Bytes data = counting(890, 31);
@@ -296,8 +296,7 @@ std::vector<std::string> call_once(Fixture& node, std::string_view received = {}
 
 constexpr std::size_t pace = CO_SDO_BLOCK_PACE;
 
-TEST_CASE(
-    "SDO block upload: a call sends some segments, however many the controller takes; the rest is due [T17] [Q2]") {
+TEST_CASE("SDO block upload: each call sends a limited number of segments; the rest is due at once [T17] [Q2]") {
   Fixture node(Setup().only_small().with_mebibyte());
   node.ask("601#A40521007F000000", "581#C605210000001000");
   std::vector<std::string> sent = call_once(node, "601#A300000000000000");
@@ -315,7 +314,7 @@ TEST_CASE(
   node.rx("601#8005210000000008");
 }
 
-TEST_CASE("SDO block upload: what is sent between two of its calls does not wait for its end [T17] [Q4]") {
+TEST_CASE("SDO block upload: frames sent between two of its calls are not delayed until its end [T17] [Q4]") {
   Fixture node(Setup().only_small().with_mebibyte());
   node.ask("601#A40521007F000000", "581#C605210000001000");
   CHECK(call_once(node, "601#A300000000000000").size() == pace);
@@ -328,7 +327,7 @@ TEST_CASE("SDO block upload: what is sent between two of its calls does not wait
 }
 
 #if CO_SSDO_N > 1
-TEST_CASE("SDO block upload: servers share the segments of a call, and take turns [T17] [D20]") {
+TEST_CASE("SDO block upload: servers share the segments of a call in rotation [T17] [D20]") {
   Fixture node(Setup().before_init([](Objects& objects) {
     objects.sdo2_rx = 0x640;
     objects.sdo2_tx = 0x5C0;

@@ -21,7 +21,7 @@ CO_IF_FRM on_second(CO_IF_FRM frm) {
   return frm;
 }
 
-TEST_CASE("SDO block channels: two downloads, segment by segment in turns") {
+TEST_CASE("SDO block channels: two downloads alternate segment by segment") {
   Fixture node(two());
   const Bytes one = counting(890, 3);
   const Bytes other = counting(889, 200);
@@ -46,7 +46,7 @@ TEST_CASE("SDO block channels: two downloads, segment by segment in turns") {
   CHECK(node.objects.memory[889] == other);
 }
 
-TEST_CASE("SDO block channels: an upload that is paused, and a download in between [D20]") {
+TEST_CASE("SDO block channels: a download is possible during a paused upload [D20]") {
   Fixture node(two());
   const Bytes other = counting(889, 200);
   node.ask("601#A40421007F000000", "581#C60421007A030000");
@@ -76,7 +76,7 @@ TEST_CASE("SDO block channels: an upload that is paused, and a download in betwe
   node.rx("601#A100000000000000");
 }
 
-TEST_CASE("SDO block channels: two paused uploads both go on [D20]") {
+TEST_CASE("SDO block channels: two paused uploads both resume [D20]") {
   Fixture node(two());
   node.ask("601#A40421007F000000", "581#C60421007A030000");
   node.ask("690#A40121007F000000", "6A0#C601210079030000");
@@ -102,7 +102,7 @@ TEST_CASE("SDO block channels: two paused uploads both go on [D20]") {
   node.tx(notation(end));
 }
 
-TEST_CASE("SDO block channels: a stream belongs to one channel, the second is refused with 0800 0022h") {
+TEST_CASE("SDO block channels: a stream open in one channel is refused to the second with 0800 0022h") {
   for (const char* first :
        {"601#C60421007A030000", "601#A40421007F000000", "601#210421007A030000", "601#4004210000000000"}) {
     CAPTURE(std::string(first));
@@ -118,7 +118,7 @@ TEST_CASE("SDO block channels: a stream belongs to one channel, the second is re
   }
 }
 
-TEST_CASE("SDO block channels: a value is open to both, the last one to end wins") {
+TEST_CASE("SDO block channels: a value may be downloaded by both; the last end determines it") {
   Fixture node(two());
   node.ask("601#C604200004000000", "581#A40420007F000000");
   node.ask("690#C604200004000000", "6A0#A40420007F000000");
@@ -146,7 +146,7 @@ TEST_CASE("SDO block channels: silence is monitored and answered separately on e
         std::vector<std::string>{"500 581#A2017E0000000000", "1000 581#A2017E0000000000", "1000 6A0#8001210000000405"});
 }
 
-TEST_CASE("SDO block channels: a channel whose COB-ID changes ends its transfer, the other one goes on [D16]") {
+TEST_CASE("SDO block channels: changing the COB-ID of a channel ends its transfer; the other one continues [D16]") {
   Fixture node(two());
   node.ask("690#C60421007A030000", "6A0#A40421007F000000");
   node.ask("601#A40121007F000000", "581#C601210079030000");

@@ -36,14 +36,14 @@ struct Download : Fixture {
 
 // Lost segments ------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: the first segment is lost, none of the sub-block counts [D11]") {
+TEST_CASE("SDO block download: with the first segment lost the sub-block counts as empty [D11]") {
   Download node;
   node.segments(1, 126, 2);
   node.tx("581#A2007F0000000000");
   node.finish(0, 127);
 }
 
-TEST_CASE("SDO block download: a segment in the middle is lost, the next block is what the buffer has room for [D11]") {
+TEST_CASE("SDO block download: with a middle segment lost the next blksize is the free part of the buffer [D11]") {
   Download node;
   node.segments(0, 2, 1);
   node.segments(3, 124, 4);
@@ -51,7 +51,7 @@ TEST_CASE("SDO block download: a segment in the middle is lost, the next block i
   node.finish(2, 125);
 }
 
-TEST_CASE("SDO block download: the last but one is lost [D11]") {
+TEST_CASE("SDO block download: the last but one segment is lost and repeated [D11]") {
   Download node;
   node.segments(0, 125, 1);
   node.segments(126, 1, 127);
@@ -59,7 +59,8 @@ TEST_CASE("SDO block download: the last but one is lost [D11]") {
   node.finish(125, 2);
 }
 
-TEST_CASE("SDO block download: the last segment of a sub-block is lost, the acknowledge comes after a quarter [D11]") {
+TEST_CASE(
+    "SDO block download: with the last segment of a sub-block lost the acknowledge follows after a quarter [D11]") {
   Download node;
   node.segments(0, 126);
   node.after(500ms);
@@ -67,7 +68,7 @@ TEST_CASE("SDO block download: the last segment of a sub-block is lost, the ackn
   node.finish(126, 1);
 }
 
-TEST_CASE("SDO block download: the last segment of all is lost [D11]") {
+TEST_CASE("SDO block download: the last segment of all is lost and repeated [D11]") {
   Download node;
   node.segments(0, 127);
   node.tx("581#A27F7F0000000000");
@@ -76,7 +77,7 @@ TEST_CASE("SDO block download: the last segment of all is lost [D11]") {
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: the last segment of a short object is lost [D11]") {
+TEST_CASE("SDO block download: the last segment of a short object is lost and repeated [D11]") {
   Fixture node;
   node.ask("601#C600210F0F000000", "581#A400210F7F000000");
   node.rx("601#0101020304050607");
@@ -88,14 +89,14 @@ TEST_CASE("SDO block download: the last segment of a short object is lost [D11]"
   node.ask("601#D93D510000000000", "581#A100000000000000");
 }
 
-TEST_CASE("SDO block download: a whole sub-block is lost [D11]") {
+TEST_CASE("SDO block download: a whole sub-block is lost and repeated [D11]") {
   Download node;
   node.after(500ms);
   node.tx_at(500ms, "581#A40421007F000000");
   node.finish(0, 127);
 }
 
-TEST_CASE("SDO block download: lost again and again, always another one [D11]") {
+TEST_CASE("SDO block download: different segments are lost repeatedly [D11]") {
   Download node;
   node.segments(0, 10);
   node.segments(11, 116, 12);
@@ -111,7 +112,7 @@ TEST_CASE("SDO block download: lost again and again, always another one [D11]") 
   node.finish(126, 1);
 }
 
-TEST_CASE("SDO block download: the last flag after a gap ends the sub-block and not the transfer [D22]") {
+TEST_CASE("SDO block download: the last flag after a gap ends the sub-block, not the transfer [D22]") {
   Fixture node;
   node.ask("601#C600210F0F000000", "581#A400210F7F000000");
   node.rx("601#0101020304050607");
@@ -126,7 +127,7 @@ TEST_CASE("SDO block download: the last flag after a gap ends the sub-block and 
 
 // Repeated and reordered segments ------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: segments that come twice count once [D11]") {
+TEST_CASE("SDO block download: repeated segments count once [D11]") {
   Download node;
   for (unsigned n = 0; n < 126; ++n) {
     node.segments(n, 1, n + 1);
@@ -137,7 +138,7 @@ TEST_CASE("SDO block download: segments that come twice count once [D11]") {
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: the last segment of a sub-block comes again after its acknowledge [D11]") {
+TEST_CASE("SDO block download: the last segment of a sub-block repeated after its acknowledge is ignored [D11]") {
   Download node;
   node.segments(0, 127);
   node.tx("581#A27F7F0000000000");
@@ -146,7 +147,7 @@ TEST_CASE("SDO block download: the last segment of a sub-block comes again after
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: the last segment of all comes again, whatever its command looks like [D11] [D27]") {
+TEST_CASE("SDO block download: the repeated last segment of all is ignored for every command byte [D11] [D27]") {
   for (const unsigned segments : {1U, 2U, 0x20U, 0x21U, 0x24U, 0x40U, 0x41U, 0x42U, 0x45U, 0x46U, 0x7FU}) {
     CAPTURE(segments);
     Fixture node;
@@ -173,7 +174,7 @@ TEST_CASE("SDO block download: an initiate with the command of the last segment 
   node.ask("601#A300000000000000", "581#8191010F00000000");
 }
 
-TEST_CASE("SDO block download: segments in another order, from the gap on they are not taken [D11]") {
+TEST_CASE("SDO block download: in a wrong order the segments from the gap are not accepted [D11]") {
   Download node;
   node.segments(0, 1, 1);
   node.segments(2, 1, 3);
@@ -183,7 +184,7 @@ TEST_CASE("SDO block download: segments in another order, from the gap on they a
   node.finish(2, 125);
 }
 
-TEST_CASE("SDO block download: the last two of a sub-block change places, the late one is of no block [D11] [D23]") {
+TEST_CASE("SDO block download: with the last two of a sub-block swapped the late one is ignored [D11] [D23]") {
   Download node;
   node.segments(0, 125);
   node.segments(126, 1, 127);
@@ -193,7 +194,7 @@ TEST_CASE("SDO block download: the last two of a sub-block change places, the la
   node.finish(125, 2);
 }
 
-TEST_CASE("SDO block download: number 0, and numbers beyond the block, are ignored [D23]") {
+TEST_CASE("SDO block download: sequence number 0 and numbers above blksize are ignored [D23]") {
   Download node;
   node.segments(0, 2);
   node.rx("601#0055555555555555");
@@ -212,7 +213,7 @@ TEST_CASE("SDO block download: number 0, and numbers beyond the block, are ignor
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: a number beyond the block with the last flag does not end the block [D22] [D23]") {
+TEST_CASE("SDO block download: a number above blksize with the last flag does not end the sub-block [D22] [D23]") {
   Download node;
   node.segments(0, 2);
   node.segments(3, 124, 4);
@@ -227,7 +228,7 @@ TEST_CASE("SDO block download: a number beyond the block with the last flag does
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: the only segment of all comes again, and counts once [D11] [D27]") {
+TEST_CASE("SDO block download: the only segment of all repeated counts once [D11] [D27]") {
   Fixture node(Setup().only_small());
   node.ask("601#C600210505000000", "581#A40021057F000000");
   node.ask("601#8101020304050000", "581#A2017E0000000000");
@@ -238,7 +239,7 @@ TEST_CASE("SDO block download: the only segment of all comes again, and counts o
   CHECK(node.objects.memory[5] == Bytes{1, 2, 3, 4, 5});
 }
 
-TEST_CASE("SDO block download: a segment without a number is none: what was sent last is repeated [D11] [D23]") {
+TEST_CASE("SDO block download: a segment without a number repeats the last answer [D11] [D23]") {
   Download node;
   node.rx("601#0055555555555555");
   node.after(500ms);
@@ -248,7 +249,7 @@ TEST_CASE("SDO block download: a segment without a number is none: what was sent
 
 // Lost answers -------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: the answer to the initiate is lost, it comes again [D11]") {
+TEST_CASE("SDO block download: a lost answer to the initiate is repeated [D11]") {
   Download node;
   node.after(1500ms);
   node.tx_at(500ms, "581#A40421007F000000");
@@ -257,7 +258,7 @@ TEST_CASE("SDO block download: the answer to the initiate is lost, it comes agai
   node.finish(0, 127);
 }
 
-TEST_CASE("SDO block download: an acknowledge is lost, it comes again [D11]") {
+TEST_CASE("SDO block download: a lost acknowledge is repeated [D11]") {
   Download node;
   node.segments(0, 127);
   node.tx("581#A27F7F0000000000");
@@ -268,7 +269,7 @@ TEST_CASE("SDO block download: an acknowledge is lost, it comes again [D11]") {
   node.finish(127, 127);
 }
 
-TEST_CASE("SDO block download: an acknowledge after a gap is lost, it comes again [D11]") {
+TEST_CASE("SDO block download: a lost acknowledge after a gap is repeated [D11]") {
   Download node;
   node.segments(0, 2);
   node.segments(3, 124, 4);
@@ -278,7 +279,7 @@ TEST_CASE("SDO block download: an acknowledge after a gap is lost, it comes agai
   node.finish(2, 125);
 }
 
-TEST_CASE("SDO block download: an acknowledge of nothing is lost, it comes again [D11]") {
+TEST_CASE("SDO block download: a lost acknowledge of no segment is repeated [D11]") {
   Download node;
   node.segments(1, 126, 2);
   node.tx("581#A2007F0000000000");
@@ -287,7 +288,7 @@ TEST_CASE("SDO block download: an acknowledge of nothing is lost, it comes again
   node.finish(0, 127);
 }
 
-TEST_CASE("SDO block download: the last acknowledge is lost, it comes again, and so when the end is lost [D11]") {
+TEST_CASE("SDO block download: a lost last acknowledge is repeated, also if the end is lost [D11]") {
   Fixture node;
   node.ask("601#C204200004000000", "581#A40420007F000000");
   node.rx("601#8101020304000000");
@@ -301,7 +302,7 @@ TEST_CASE("SDO block download: the last acknowledge is lost, it comes again, and
   CHECK(node.objects.u32 == 0x04030201);
 }
 
-TEST_CASE("SDO block download: the answer to the end is lost, the repeated end is stray and changes nothing [D7]") {
+TEST_CASE("SDO block download: after a lost answer to the end the repeated end is stray and changes nothing [D7]") {
   Fixture node;
   node.ask("601#C204200004000000", "581#A40420007F000000");
   node.rx("601#8101020304000000");
@@ -313,7 +314,7 @@ TEST_CASE("SDO block download: the answer to the end is lost, the repeated end i
 
 // Time-out -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: each new segment starts the time anew, in order or behind a gap [D11] [D18]") {
+TEST_CASE("SDO block download: each new segment restarts the time-out, in order or behind a gap [D11] [D18]") {
   Download node;
   for (unsigned n = 0; n < 10; ++n) {
     node.after(250ms);
@@ -330,7 +331,7 @@ TEST_CASE("SDO block download: each new segment starts the time anew, in order o
   node.finish(10, 117);
 }
 
-TEST_CASE("SDO block download: a segment that comes again does not start the time anew [D11] [D18]") {
+TEST_CASE("SDO block download: a repeated segment does not restart the time-out [D11] [D18]") {
   Download node;
   node.segments(0, 10);
   std::vector<std::string> sent;
@@ -343,7 +344,7 @@ TEST_CASE("SDO block download: a segment that comes again does not start the tim
   CHECK(sent.back() == "581#8004210000000405");
 }
 
-TEST_CASE("SDO block download: a second block of which nothing is in order does not start the time anew [D18]") {
+TEST_CASE("SDO block download: a second sub-block without a segment in order does not restart the time-out [D18]") {
   Download node;
   for (unsigned n = 1; n < 126; ++n) {  // number 1 is lost
     node.after(250ms);
@@ -364,7 +365,7 @@ TEST_CASE("SDO block download: a second block of which nothing is in order does 
   CHECK(sent.back() == "581#8004210000000405");
 }
 
-TEST_CASE("SDO block download: after the acknowledge for a silence, numbers begin with 1 again [D11]") {
+TEST_CASE("SDO block download: after the acknowledge for a silence the sequence number restarts at 1 [D11]") {
   Download node;
   node.segments(0, 5);
   node.after(600ms);
@@ -375,8 +376,7 @@ TEST_CASE("SDO block download: after the acknowledge for a silence, numbers begi
   node.finish(10, 117);
 }
 
-TEST_CASE(
-    "SDO block download: a segment beyond a gap has been seen, too: the silence is answered with the last good one") {
+TEST_CASE("SDO block download: silence after a gap is answered with the last segment in order") {
   Download node;
   node.segments(0, 127);
   node.tx("581#A27F7F0000000000");

@@ -17,7 +17,7 @@ TEST_CASE("SDO block download: two bytes without CRC [D11] [SDO 20] [SDO 21]") {
   CHECK(node.objects.heartbeat == 1000);
 }
 
-TEST_CASE("SDO block download: two bytes with CRC, for the value 0 it is 0 [D14] [SDO 24] [SDO 25]") {
+TEST_CASE("SDO block download: two bytes with CRC, which is 0 for the value 0 [D14] [SDO 24] [SDO 25]") {
   Fixture node;
   node.ask("601#C617100002000000", "581#A41710007F000000");
   node.rx("601#8100000000000000");
@@ -78,7 +78,7 @@ TEST_CASE("SDO block download: the four forms of the initiate, with and without 
   }
 }
 
-TEST_CASE("SDO block download: a client without CRC may send anything in its place [D14]") {
+TEST_CASE("SDO block download: the CRC of a client without CRC is ignored [D14]") {
   Fixture node;
   for (const char* initiate : {"601#C004200000000000", "601#C204200004000000"}) {
     node.ask(initiate, "581#A40420007F000000");
@@ -89,7 +89,7 @@ TEST_CASE("SDO block download: a client without CRC may send anything in its pla
   CHECK(node.objects.u32 == 0x12345678);
 }
 
-TEST_CASE("SDO block download: bytes that mean nothing do not matter [D11]") {
+TEST_CASE("SDO block download: reserved bytes are ignored [D11]") {
   Fixture node;
   node.ask("601#C0042000FFFFFFFF", "581#A40420007F000000");
   node.rx("601#8178563412FFFFFF");
@@ -98,7 +98,7 @@ TEST_CASE("SDO block download: bytes that mean nothing do not matter [D11]") {
   CHECK(node.objects.u32 == 0x12345678);
 }
 
-TEST_CASE("SDO block download: the CRC is of the data, without the unused bytes of the last segment [D14] [D24]") {
+TEST_CASE("SDO block download: the CRC excludes the unused bytes of the last segment [D14] [D24]") {
   Fixture node;
   node.ask("601#C604200004000000", "581#A40420007F000000");
   node.rx("601#8178563412AABBCC");
@@ -183,7 +183,7 @@ TEST_CASE("SDO block download: an empty object is one segment without data [D19]
 
 // Sizes and blocks ----------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: data of every size arrive as they are, with and without CRC and size [D11]") {
+TEST_CASE("SDO block download: data of every size are written unchanged, with and without CRC and size [D11]") {
   for (const std::uint32_t size : {0U, 1U, 4U, 7U, 8U, 14U, 15U, 888U, 889U, 890U, 70000U}) {
     CAPTURE(size);
     for (unsigned form = 0; form<4; form += size> 1000 ? stride(4) : 1) {
@@ -199,7 +199,7 @@ TEST_CASE("SDO block download: data of every size arrive as they are, with and w
   }
 }
 
-TEST_CASE("SDO block download: a mebibyte [D11]") {
+TEST_CASE("SDO block download: one mebibyte is written [D11]") {
   Fixture node(Setup().only_small().with_mebibyte());
   Bytes data(mebibyte / stride(16));
   for (std::uint32_t i = 0; i < data.size(); ++i) {
@@ -209,7 +209,7 @@ TEST_CASE("SDO block download: a mebibyte [D11]") {
   CHECK(std::equal(data.begin(), data.end(), node.objects.memory[mebibyte].begin()));
 }
 
-TEST_CASE("SDO block download: each length of the last segment after each number of segments [D11]") {
+TEST_CASE("SDO block download: each length of the last segment works after each number of segments [D11]") {
   Fixture node;
   for (std::uint32_t size = 1; size <= 890; size += stride(37)) {
     CAPTURE(size);
@@ -219,7 +219,7 @@ TEST_CASE("SDO block download: each length of the last segment after each number
   }
 }
 
-TEST_CASE("SDO block download: an end that looks like the last segment is an end [D27]") {
+TEST_CASE("SDO block download: an end that resembles the last segment is processed as an end [D27]") {
   for (unsigned unused = 0; unused < 7; ++unused) {
     CAPTURE(unused);
     Fixture node;
@@ -233,7 +233,7 @@ TEST_CASE("SDO block download: an end that looks like the last segment is an end
   }
 }
 
-TEST_CASE("SDO block download: the last block is exactly full, the object is not touched before the end [D10] [D11]") {
+TEST_CASE("SDO block download: a last block that fills the buffer is not written before the end [D10] [D11]") {
   Fixture node;
   const Bytes data = counting(889, 7);
   node.ask("601#C601210079030000", "581#A40121007F000000");
@@ -245,7 +245,7 @@ TEST_CASE("SDO block download: the last block is exactly full, the object is not
   CHECK(node.objects.memory[889] == data);
 }
 
-TEST_CASE("SDO block download: one byte more than the buffer goes in a second block [D11]") {
+TEST_CASE("SDO block download: one byte more than the buffer is sent in a second block [D11]") {
   Fixture node;
   const Bytes data = counting(890, 7);
   node.ask("601#C60421007A030000", "581#A40421007F000000");
@@ -258,7 +258,7 @@ TEST_CASE("SDO block download: one byte more than the buffer goes in a second bl
   CHECK(node.objects.memory[890] == data);
 }
 
-TEST_CASE("SDO block download: what fits into the buffer reaches the object after the end only [D10]") {
+TEST_CASE("SDO block download: data that fit into the buffer are written after the end [D10]") {
   Fixture node;
   node.ask("601#C400210F00000000", "581#A400210F7F000000");
   node.rx("601#01A1A2A3A4A5A6A7");
@@ -269,7 +269,7 @@ TEST_CASE("SDO block download: what fits into the buffer reaches the object afte
   CHECK(node.objects.memory[15] == counting(15));
 }
 
-TEST_CASE("SDO block download: the application's access in between does not move the position") {
+TEST_CASE("SDO block download: an access of the application does not move the position") {
   Fixture node;
   const Bytes data = counting(890, 7);
   node.ask("601#C40421007A030000", "581#A40421007F000000");
@@ -286,7 +286,7 @@ TEST_CASE("SDO block download: the application's access in between does not move
   CHECK(node.objects.memory[890] == data);
 }
 
-TEST_CASE("SDO block download: the order of checks and their codes at the initiate [SDO 03]") {
+TEST_CASE("SDO block download: the checks of the initiate have their order and abort codes [SDO 03]") {
   Fixture node;
   for (const std::string command : {"C0", "C2", "C4", "C6"}) {
     node.ask("601#" + command + "04100004000000", "581#8004100000000206");
@@ -300,13 +300,13 @@ TEST_CASE("SDO block download: the order of checks and their codes at the initia
   }
 }
 
-TEST_CASE("SDO block download: a write-only object") {
+TEST_CASE("SDO block download: a write-only object is written") {
   Fixture node;
   CHECK(node.block_download(0x2030, 0, {1, 2, 3, 4}).abort == 0);
   CHECK(node.objects.write_only == 0x04030201);
 }
 
-TEST_CASE("SDO block download: memory that must not be written is asked about at the end at the latest") {
+TEST_CASE("SDO block download: memory that must not be written is checked at the end at the latest") {
   Fixture node(Setup().writable([](const void*, std::uint32_t) { return false; }));
   CHECK(node.block_download(0x2004, 0, {1, 2, 3, 4}).abort == 0x06010000);
   CHECK(node.block_download(0x2100, 15, counting(15)).abort == 0x06010000);

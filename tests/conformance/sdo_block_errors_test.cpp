@@ -19,14 +19,14 @@ void check_idle(Fixture& node) {
 
 // 0504 0001h ---------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block: commands without a block transfer are aborted with their own bytes [D7] [D25]") {
+TEST_CASE("SDO block: commands outside of a block transfer are aborted with their own bytes [D7] [D25]") {
   Fixture node;
   for (const std::string command : {"A1", "A2", "A3", "C1", "C5", "C9", "CD", "D1", "D5", "D9", "DD"}) {
     node.ask("601#" + command + "11223300000000", "581#8011223301000405");
   }
 }
 
-TEST_CASE("SDO block: reserved bits in a command make it unknown [D7]") {
+TEST_CASE("SDO block: commands with reserved bits set are unknown [D7]") {
   Fixture node;
   for (const std::string command : {"A5", "A6", "A7", "A8", "AC", "B0", "B4", "BF", "C3", "C8", "CA", "CC", "CE",
                                     "D0", "D2", "D4", "D6", "D8", "DA", "DC", "DE", "C7", "CB", "DF", "E0", "FF"}) {
@@ -35,7 +35,7 @@ TEST_CASE("SDO block: reserved bits in a command make it unknown [D7]") {
   }
 }
 
-TEST_CASE("SDO block: without a buffer there are no block transfers, and all others work") {
+TEST_CASE("SDO block: without a buffer block transfers are refused and others work") {
   Fixture node(Setup().without_sdo_buffer());
   for (const std::string command : {"A0", "A4", "C0", "C2", "C4", "C6"}) {
     node.ask("601#" + command + "042000047F0000", "581#8004200001000405");
@@ -47,7 +47,7 @@ TEST_CASE("SDO block: without a buffer there are no block transfers, and all oth
   CHECK(node.upload(0x2104, 0) == counting(890, 3));
 }
 
-TEST_CASE("SDO block download: other commands than the end when all segments are there [D25]") {
+TEST_CASE("SDO block download: commands other than the end after the last segment are aborted [D25]") {
   for (const std::string command : {"00", "01", "60", "70", "A1", "A2", "A3", "C3", "E0"}) {
     CAPTURE(command);
     Fixture node;
@@ -61,7 +61,7 @@ TEST_CASE("SDO block download: other commands than the end when all segments are
   }
 }
 
-TEST_CASE("SDO block upload: other commands than the start after the initiate [D25]") {
+TEST_CASE("SDO block upload: commands other than the start after the initiate are aborted [D25]") {
   for (const std::string command : {"00", "01", "60", "70", "A1", "A2", "C1", "DD", "E0"}) {
     CAPTURE(command);
     Fixture node;
@@ -71,7 +71,7 @@ TEST_CASE("SDO block upload: other commands than the start after the initiate [D
   }
 }
 
-TEST_CASE("SDO block upload: other commands than an acknowledge after a block [D25]") {
+TEST_CASE("SDO block upload: commands other than an acknowledge after a block are aborted [D25]") {
   for (const std::string command : {"00", "01", "60", "70", "A1", "A3", "C1", "DD", "E0"}) {
     CAPTURE(command);
     Fixture node;
@@ -82,7 +82,7 @@ TEST_CASE("SDO block upload: other commands than an acknowledge after a block [D
   }
 }
 
-TEST_CASE("SDO block upload: other commands than the confirmation after the end [D25]") {
+TEST_CASE("SDO block upload: commands other than the confirmation after the end are aborted [D25]") {
   for (const std::string command : {"00", "01", "60", "70", "A2", "A3", "C1", "DD", "E0"}) {
     CAPTURE(command);
     Fixture node;
@@ -96,7 +96,7 @@ TEST_CASE("SDO block upload: other commands than the confirmation after the end 
 
 // 0504 0002h, 0504 0003h ---------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block upload: a block size of 0 or more than 127 in the initiate [D12] [SDO 26]") {
+TEST_CASE("SDO block upload: a blksize of 0 or above 127 in the initiate is refused [D12] [SDO 26]") {
   Fixture node;
   for (const std::string blksize : {"00", "80", "81", "FF"}) {
     node.ask("601#A0081000" + blksize + "000000", "581#8008100002000405");
@@ -105,7 +105,7 @@ TEST_CASE("SDO block upload: a block size of 0 or more than 127 in the initiate 
   }
 }
 
-TEST_CASE("SDO block upload: a block size of 0 or more than 127 in an acknowledge [D12]") {
+TEST_CASE("SDO block upload: a blksize of 0 or above 127 in an acknowledge is refused [D12]") {
   for (const std::string blksize : {"00", "80", "FF"}) {
     for (const std::string ackseq : {"00", "01", "02"}) {
       Fixture node;
@@ -118,7 +118,7 @@ TEST_CASE("SDO block upload: a block size of 0 or more than 127 in an acknowledg
   }
 }
 
-TEST_CASE("SDO block upload: more acknowledged than was sent, also 128 [D12] [SDO 27]") {
+TEST_CASE("SDO block upload: an acknowledge of more segments than sent, also 128, is refused [D12] [SDO 27]") {
   for (const std::string ackseq : {"03", "04", "7F", "80", "FF"}) {
     for (const std::string blksize : {"7F", "00", "80"}) {
       Fixture node;
@@ -131,7 +131,7 @@ TEST_CASE("SDO block upload: more acknowledged than was sent, also 128 [D12] [SD
   }
 }
 
-TEST_CASE("SDO block upload: more acknowledged than the last block had") {
+TEST_CASE("SDO block upload: an acknowledge of more segments than the last block had is refused") {
   Fixture node;
   node.ask("601#A400210F02000000", "581#C600210F0F000000");
   node.rx("601#A300000000000000");
@@ -142,7 +142,7 @@ TEST_CASE("SDO block upload: more acknowledged than the last block had") {
 
 // 0504 0004h, lengths ------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: a wrong CRC changes nothing, whichever bit is wrong [D14]") {
+TEST_CASE("SDO block download: a wrong CRC changes nothing, for each wrong bit [D14]") {
   Fixture node;
   for (unsigned bit = 0; bit < 16; bit += stride(5)) {
     CAPTURE(bit);
@@ -170,7 +170,7 @@ TEST_CASE("SDO block download: the number of bytes is checked before the CRC") {
   CHECK(node.block_download(0x2100, 15, counting(15), options).abort == too_long);
 }
 
-TEST_CASE("SDO block download: a size announced that does not fit is refused at once [D5] [SDO 08] [SDO 09]") {
+TEST_CASE("SDO block download: an announced size that does not fit is refused at once [D5] [SDO 08] [SDO 09]") {
   Fixture node;
   for (const std::string command : {"C2", "C6"}) {
     node.ask("601#" + command + "04200005000000", "581#8004200012000706");
@@ -186,7 +186,7 @@ TEST_CASE("SDO block download: a size announced that does not fit is refused at 
   }
 }
 
-TEST_CASE("SDO block download: one byte less and one more than announced [D5]") {
+TEST_CASE("SDO block download: one byte less or more than announced is refused [D5]") {
   Fixture node;
   node.ask("601#C204200004000000", "581#A40420007F000000");
   node.rx("601#8101020300000000");
@@ -200,7 +200,7 @@ TEST_CASE("SDO block download: one byte less and one more than announced [D5]") 
   check_idle(node);
 }
 
-TEST_CASE("SDO block download: the sizes announced, sent and possible in every combination [D5]") {
+TEST_CASE("SDO block download: announced, sent and possible sizes are checked in every combination [D5]") {
   struct Target {
     std::uint16_t index;
     std::uint8_t sub;
@@ -239,7 +239,7 @@ TEST_CASE("SDO block download: the sizes announced, sent and possible in every c
   }
 }
 
-TEST_CASE("SDO block download: errors found inside a sub-block are answered at its end [D21]") {
+TEST_CASE("SDO block download: errors detected within a sub-block are reported at its end [D21]") {
   Fixture node;
   node.ask("601#C004210000000000", "581#A40421007F000000");
   const Bytes data = counting(2000);
@@ -250,7 +250,7 @@ TEST_CASE("SDO block download: errors found inside a sub-block are answered at i
   check_idle(node);
 }
 
-TEST_CASE("SDO block download: after an error no segment is taken for a command of another transfer [D21]") {
+TEST_CASE("SDO block download: after an error no segment is processed as a command [D21]") {
   Fixture node;
   node.ask("601#C000210100000000", "581#A40021017F000000");
   for (unsigned seqno = 1; seqno < 0x50; ++seqno) {
@@ -265,7 +265,7 @@ TEST_CASE("SDO block download: after an error no segment is taken for a command 
 
 // Errors of objects --------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block download: a value that is not allowed is refused by the last answer [D10]") {
+TEST_CASE("SDO block download: a refused value is reported by the last answer [D10]") {
   Fixture node;
   node.ask("601#C620200001000000", "581#A42020007F000000");
   node.rx("601#8102000000000000");
@@ -275,7 +275,7 @@ TEST_CASE("SDO block download: a value that is not allowed is refused by the las
   check_idle(node);
 }
 
-TEST_CASE("SDO block: the table moves during a transfer: it is aborted with 0800 0022h") {
+TEST_CASE("SDO block: a table that is moved during a transfer aborts it with 0800 0022h") {
   std::vector<CO_OBJ> other;
   const auto move = [&](Fixture& node) {
     other.assign(node->Dict.Root, node->Dict.Root + node->Dict.Num);

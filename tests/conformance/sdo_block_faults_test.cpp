@@ -85,7 +85,7 @@ unsigned lonely(std::uint32_t size) {
   return segments > CO_SDO_BUF_SEG && (rest == 1 || rest == 2) ? 1 : 0;
 }
 
-TEST_CASE("SDO block download: any frame of the client is lost: all but the initiate are made good [T11]") {
+TEST_CASE("SDO block download: any lost frame of the client except the initiate is repeated [T11]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Target target(size);
@@ -93,7 +93,7 @@ TEST_CASE("SDO block download: any frame of the client is lost: all but the init
   }
 }
 
-TEST_CASE("SDO block download: any frame of the server is lost: all but the last one are made good [T11]") {
+TEST_CASE("SDO block download: any lost frame of the server except the last one is repeated [T11]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Target target(size);
@@ -101,7 +101,7 @@ TEST_CASE("SDO block download: any frame of the server is lost: all but the last
   }
 }
 
-TEST_CASE("SDO block download: any frame comes twice, or after the next one [T11]") {
+TEST_CASE("SDO block download: any frame may be doubled or swapped with the next one [T11]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Target target(size);
@@ -110,7 +110,7 @@ TEST_CASE("SDO block download: any frame comes twice, or after the next one [T11
   }
 }
 
-TEST_CASE("SDO block download: the same without CRC, by the size alone, and without size, by the CRC alone [T11]") {
+TEST_CASE("SDO block download: faults without CRC are detected by the size, without size by the CRC [T11]") {
   for (const bool crc : {false, true}) {
     BlockOptions options;
     options.crc = crc;
@@ -127,7 +127,7 @@ TEST_CASE("SDO block download: the same without CRC, by the size alone, and with
 
 #endif
 
-TEST_CASE("SDO block upload: any frame of the client is lost: acknowledges and the end are made good [T11]") {
+TEST_CASE("SDO block upload: any lost acknowledge or end of the client is repeated [T11]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Target target(size);
@@ -135,7 +135,7 @@ TEST_CASE("SDO block upload: any frame of the client is lost: acknowledges and t
   }
 }
 
-TEST_CASE("SDO block upload: any frame of the server is lost: the segments are made good [T11]") {
+TEST_CASE("SDO block upload: any lost segment of the server is repeated [T11]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Target target(size);
@@ -143,7 +143,7 @@ TEST_CASE("SDO block upload: any frame of the server is lost: the segments are m
   }
 }
 
-TEST_CASE("SDO block upload: small blocks, any frame is lost, comes twice, or after the next one [T11]") {
+TEST_CASE("SDO block upload: with small blocks any frame may be lost, doubled or swapped with the next one [T11]") {
   for (const Bytes& blksizes : {Bytes{5}, Bytes{2, 9}, Bytes{31}}) {
     BlockOptions options;
     options.blksizes = blksizes;
@@ -158,7 +158,7 @@ TEST_CASE("SDO block upload: small blocks, any frame is lost, comes twice, or af
   }
 }
 
-TEST_CASE("SDO block: any two frames are lost, of up to 30 segments [T11]") {
+TEST_CASE("SDO block: any two frames of up to 30 segments may be lost [T11]") {
   for (const std::uint32_t size : {15U, 210U}) {
     Target target(size);
     for (const Transfer transfer : {&Target::download, &Target::upload}) {
@@ -181,7 +181,7 @@ TEST_CASE("SDO block: any two frames are lost, of up to 30 segments [T11]") {
   }
 }
 
-TEST_CASE("SDO block upload: any two frames of the server are lost, of up to 30 segments [T11]") {
+TEST_CASE("SDO block upload: any two frames of the server of up to 30 segments may be lost [T11]") {
   Target target(210);
   for (const Bytes& blksizes : {Bytes{127}, Bytes{7}}) {
     BlockOptions options;

@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("fixture: the CRC bit by bit [D14]") {
+TEST_CASE("fixture: the CRC is computed bit by bit [D14]") {
   CHECK(crc_16({'1', '2', '3', '4', '5', '6', '7', '8', '9'}) == 0x31C3);
   CHECK(crc_16({}) == 0);
   CHECK(crc_16({0, 0, 0, 0}) == 0);
@@ -55,7 +55,7 @@ SdoObserver uploading() {
   return channel;
 }
 
-TEST_CASE("fixture: the order of the segments of a block upload") {
+TEST_CASE("fixture: the order of the segments of a block upload is checked") {
   SdoObserver channel = uploading();
   CHECK(channel.taken(frame("581#0100000000000000")) == "");
   CHECK(channel.taken(frame("581#0200000000000000")) == "");
@@ -66,7 +66,7 @@ TEST_CASE("fixture: the order of the segments of a block upload") {
   CHECK(channel.taken(frame("581#0500000000000000")) != "");
 }
 
-TEST_CASE("fixture: after an acknowledge numbers begin with 1 again, after the last segment there is none") {
+TEST_CASE("fixture: sequence numbers restart at 1 after an acknowledge; none follows the last segment") {
   SdoObserver channel = uploading();
   CHECK(channel.taken(frame("581#0100000000000000")) == "");
   channel.request(frame("601#A201020000000000"));
@@ -137,7 +137,7 @@ TEST_CASE("fixture: a block download streams when the buffer is full and more is
   CHECK(may_change(exact).streaming.empty());
 }
 
-TEST_CASE("fixture: segments out of order and from the queue are counted as what they are") {
+TEST_CASE("fixture: segments out of order and queued segments are counted separately") {
   SdoObserver channel = downloading();
   for (unsigned n = 2; n <= 127; ++n) {
     channel.request(CO_IF_FRM{0x601, {static_cast<std::uint8_t>(n)}, 8});
@@ -174,7 +174,7 @@ TEST_CASE("fixture: the block client reports a server that aborts, and one that 
   CHECK(node.block_download(0x2104, 0, counting(890)).abort == 0x05040000);
 }
 
-TEST_CASE("fixture: the block client counts frames, and loses the configured ones") {
+TEST_CASE("fixture: the block client counts frames and drops the configured ones") {
   Fixture node;
   const BlockResult result = node.block_download(0x2100, 15, counting(15));
   CHECK(result.requests == 5);
@@ -187,7 +187,7 @@ TEST_CASE("fixture: the block client counts frames, and loses the configured one
   CHECK(node.objects.memory[15] == counting(15, 9));
 }
 
-TEST_CASE("fixture: every state of a block transfer is one of an open transfer") {
+TEST_CASE("fixture: every state of a block transfer belongs to an open transfer") {
   for (const BlockState& state : block_states()) {
     CAPTURE(state.name);
     Fixture node;

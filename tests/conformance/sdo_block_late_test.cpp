@@ -27,7 +27,7 @@ void check_object_untouched(Fixture& node) {
   CHECK(node.objects.memory[15] == before);
 }
 
-TEST_CASE("SDO block download: segments 1 to 31 that come after the time-out are unknown requests [D7] [D18]") {
+TEST_CASE("SDO block download: segments 1 to 31 after the time-out are unknown requests [D7] [D18]") {
   for (unsigned seqno = 1; seqno < 32; ++seqno) {
     CAPTURE(seqno);
     TimedOut node;
@@ -39,7 +39,7 @@ TEST_CASE("SDO block download: segments 1 to 31 that come after the time-out are
   }
 }
 
-TEST_CASE("SDO block download: segments 34, 35 that come after the time-out write the object that their data name") {
+TEST_CASE("SDO block download: segments 34 and 35 after the time-out write the object that their data contain") {
   for (const char* segment : {"601#22042000AABBCCDD", "601#23042000AABBCCDD"}) {
     TimedOut node;
     node.ask(segment, "581#6004200000000000");
@@ -48,7 +48,7 @@ TEST_CASE("SDO block download: segments 34, 35 that come after the time-out writ
   }
 }
 
-TEST_CASE("SDO block download: segment 47 that comes after the time-out writes only an object of one byte [D5]") {
+TEST_CASE("SDO block download: segment 47 after the time-out writes only an object of one byte [D5]") {
   TimedOut node;
   node.ask("601#2F042000AABBCCDD", "581#8004200013000706");
   CHECK(node.objects.u32 == 0x44332211);
@@ -56,7 +56,7 @@ TEST_CASE("SDO block download: segment 47 that comes after the time-out writes o
   CHECK(node.objects.u8 == 0xAA);
 }
 
-TEST_CASE("SDO block download: segment 64 that comes after the time-out reads, with bit 7 it begins a download") {
+TEST_CASE("SDO block download: segment 64 after the time-out reads; with bit 7 it begins a download") {
   TimedOut node;
   node.ask("601#40042000AABBCCDD", "581#4304200011223344");
   node.ask("601#C0042000AABBCCDD", "581#A40420007F000000");
@@ -64,7 +64,7 @@ TEST_CASE("SDO block download: segment 64 that comes after the time-out reads, w
   node.silent();
 }
 
-TEST_CASE("SDO block download: after the time-out every frame is taken as by a node that has had no transfer [D18]") {
+TEST_CASE("SDO block download: after the time-out every frame is processed as without a previous transfer [D18]") {
   for (unsigned command = 0; command < 256; ++command) {
     CAPTURE(command);
     TimedOut late;

@@ -36,7 +36,7 @@ Time poll(Fixture& node, const std::vector<CO_IF_FRM>& requests, Time limit) {
 
 void open_block_download(Fixture& node) { node.ask("601#C600210F0F000000", "581#A400210F7F000000"); }
 
-TEST_CASE("SDO block download: a client that polls faster than the time-out does not keep it open, whatever it asks") {
+TEST_CASE("SDO block download: a client that polls faster than the time-out with any request does not keep it open") {
   for (unsigned command = 0; command < 256; ++command) {
     if (command == 0x80) {
       continue;
@@ -71,7 +71,7 @@ TEST_CASE("SDO block download: a client that polls with several requests does no
   }
 }
 
-TEST_CASE("SDO block download: all is there but the end, which a repeated last segment does not keep open [D27]") {
+TEST_CASE("SDO block download: a repeated last segment without an end does not keep it open [D27]") {
   Fixture node(Setup().only_small());
   open_block_download(node);
   node.rx("601#0101020304050607");
@@ -81,7 +81,7 @@ TEST_CASE("SDO block download: all is there but the end, which a repeated last s
 }
 
 // The server acknowledges after a time without segments, so that each segment is the first of a block.
-TEST_CASE("SDO block download: a client that sends a segment every 1.5 s is served to the end [D18]") {
+TEST_CASE("SDO block download: a client that sends a segment every 1.5 s completes the transfer [D18]") {
   Fixture node(Setup().only_small());
   const Bytes data = counting(15, 0x21);
   open_block_download(node);

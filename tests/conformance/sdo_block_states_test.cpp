@@ -21,7 +21,7 @@ void in_every_state(Function function, Setup setup = {}) {
 
 // Client -------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block: the client's abort ends the transfer in every state, without an answer [D6]") {
+TEST_CASE("SDO block: an abort of the client ends the transfer in every state without an answer [D6]") {
   in_every_state([](Fixture& node, const BlockState& state) {
     node.rx("601#80" + state.multiplexer + "00000008");
     let_go_on(node);
@@ -30,7 +30,7 @@ TEST_CASE("SDO block: the client's abort ends the transfer in every state, witho
   });
 }
 
-TEST_CASE("SDO block: an abort with a foreign multiplexer and without a code ends the transfer, too [D6]") {
+TEST_CASE("SDO block: an abort with another multiplexer and without a code ends the transfer [D6]") {
   in_every_state([](Fixture& node, const BlockState&) {
     node.rx("601#8000000000000000");
     let_go_on(node);
@@ -39,7 +39,7 @@ TEST_CASE("SDO block: an abort with a foreign multiplexer and without a code end
   });
 }
 
-TEST_CASE("SDO block: 81h to 9Fh are aborts, but segments within a sub-block [D23]") {
+TEST_CASE("SDO block: 81h to 9Fh are aborts except for segments within a sub-block [D23]") {
   in_every_state([](Fixture& node, const BlockState& state) {
     if (state.in_sub_block) return;
     node.rx("601#9F" + state.multiplexer + "00000008");
@@ -53,7 +53,7 @@ TEST_CASE("SDO block: 81h to 9Fh are aborts, but segments within a sub-block [D2
   expect_last_ack(node, 1);
 }
 
-TEST_CASE("SDO block: an initiate in every state but a sub-block starts a new transfer [D8]") {
+TEST_CASE("SDO block: an initiate starts a new transfer in every state except within a sub-block [D8]") {
   struct Row {
     const char* request;
     const char* answer;
@@ -81,7 +81,7 @@ TEST_CASE("SDO block: an initiate in every state but a sub-block starts a new tr
   }
 }
 
-TEST_CASE("SDO block: the transfer that an initiate has begun in another one is complete [D8]") {
+TEST_CASE("SDO block: a transfer whose initiate interrupted another one can be completed [D8]") {
   in_every_state([](Fixture& node, const BlockState& state) {
     if (state.in_sub_block) return;
     let_go_on(node);
@@ -131,7 +131,7 @@ TEST_CASE("SDO block: frames of a wrong length are ignored and counted in every 
 
 // Time-out -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block: a silent client is given up after the time-out, in every state [D18]") {
+TEST_CASE("SDO block: the transfer of a silent client is aborted after the time-out in every state [D18]") {
   in_every_state([](Fixture& node, const BlockState& state) {
     let_go_on(node);
     node.frames();
@@ -154,7 +154,7 @@ TEST_CASE("SDO block: a silent client is given up after the time-out, in every s
   });
 }
 
-TEST_CASE("SDO block: a late loop sends one reminder or abort, not all that it has missed [Q8] [D18]") {
+TEST_CASE("SDO block: a late main loop sends one repetition or abort [Q8] [D18]") {
   in_every_state([](Fixture& node, const BlockState&) {
     let_go_on(node);
     node.frames();
@@ -166,7 +166,7 @@ TEST_CASE("SDO block: a late loop sends one reminder or abort, not all that it h
   });
 }
 
-TEST_CASE("SDO block upload: each frame of the client starts the time anew [D18]") {
+TEST_CASE("SDO block upload: each frame of the client restarts the time-out [D18]") {
   Fixture node;
   node.ask("601#A400210F01000000", "581#C600210F0F000000");
   node.after(1700ms);
@@ -185,7 +185,7 @@ TEST_CASE("SDO block upload: each frame of the client starts the time anew [D18]
 
 // NMT state ----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block: stop ends the transfer in every state without a frame, the next one works [N8] [D17] [T14]") {
+TEST_CASE("SDO block: stop ends the transfer in every state without a frame; the next one works [N8] [D17] [T14]") {
   for (const std::string on : {"000#8001", "000#0101"}) {
     in_every_state([&](Fixture& node, const BlockState&) {
       node.rx("000#0201");
@@ -204,7 +204,7 @@ TEST_CASE("SDO block: stop ends the transfer in every state without a frame, the
   }
 }
 
-TEST_CASE("SDO block: a reset ends the transfer in every state, the node is as fresh [N8] [T14]") {
+TEST_CASE("SDO block: a reset in every state of a transfer gives the state after power-on [N8] [T14]") {
   Fixture fresh;
   for (const std::string reset : {"000#8101", "000#8201"}) {
     in_every_state([&](Fixture& node, const BlockState&) {
@@ -230,7 +230,7 @@ TEST_CASE("SDO block: a reset by the application ends the transfer in every stat
   });
 }
 
-TEST_CASE("SDO block: CONodeStop ends everything in every state, CONodeInit makes a fresh node [T14]") {
+TEST_CASE("SDO block: CONodeStop in every state ends the transfer; CONodeInit gives the state after power-on [T14]") {
   Fixture fresh;
   in_every_state([&](Fixture& node, const BlockState&) {
     node.call([&] { CONodeStop(&node.node); });
@@ -246,7 +246,7 @@ TEST_CASE("SDO block: CONodeStop ends everything in every state, CONodeInit make
   });
 }
 
-TEST_CASE("SDO block: identical at every start of the clock, in ticks of a millisecond and a microsecond [T15]") {
+TEST_CASE("SDO block: traces do not depend on the start of the clock, in ticks of 1 ms and 1 us [T15]") {
   for (const std::uint32_t rate : {1000U, 1000000U}) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);

@@ -35,7 +35,7 @@ struct Upload : Fixture {
   }
 };
 
-TEST_CASE("SDO block upload: the first segment is lost, the whole block comes again [D12]") {
+TEST_CASE("SDO block upload: with the first segment lost the whole block is repeated [D12]") {
   Upload node(127);
   node.rx(ack(0, 127));
   node.segments(0, 127);
@@ -44,21 +44,21 @@ TEST_CASE("SDO block upload: the first segment is lost, the whole block comes ag
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: one in the middle is lost, from there on it comes again, numbered from 1 [D12]") {
+TEST_CASE("SDO block upload: with a middle segment lost the rest is repeated, numbered from 1 [D12]") {
   Upload node(127);
   node.rx(ack(50, 127));
   node.segments(50, 78);
   node.finish(78);
 }
 
-TEST_CASE("SDO block upload: the last of a block is lost [D12]") {
+TEST_CASE("SDO block upload: the last segment of a block is lost and repeated [D12]") {
   Upload node(127);
   node.rx(ack(126, 127));
   node.segments(126, 2);
   node.finish(2);
 }
 
-TEST_CASE("SDO block upload: what comes again has the new block size [D12]") {
+TEST_CASE("SDO block upload: repeated segments use the new blksize [D12]") {
   Upload node(127);
   node.rx(ack(100, 10));
   node.segments(100, 10);
@@ -71,7 +71,7 @@ TEST_CASE("SDO block upload: what comes again has the new block size [D12]") {
   node.finish(22);
 }
 
-TEST_CASE("SDO block upload: the last of all is lost, once and again [D12]") {
+TEST_CASE("SDO block upload: the last segment of all is lost repeatedly and repeated [D12]") {
   Upload node(127);
   node.rx(ack(127, 127));
   for (int times = 0; times < 5; ++times) {
@@ -82,7 +82,7 @@ TEST_CASE("SDO block upload: the last of all is lost, once and again [D12]") {
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: the last block is sent again in part, the CRC counts each byte once [D12] [D14]") {
+TEST_CASE("SDO block upload: in a repeated part of the last block the CRC counts each byte once [D12] [D14]") {
   Upload node(100);
   node.rx(ack(100, 127));
   node.segments(100, 28);
@@ -93,7 +93,7 @@ TEST_CASE("SDO block upload: the last block is sent again in part, the CRC count
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: all of a block is lost, always [D12]") {
+TEST_CASE("SDO block upload: a block whose segments are always lost is repeated [D12]") {
   Upload node(4);
   for (int times = 0; times < 300; ++times) {
     node.rx(ack(0, 4));
@@ -104,7 +104,7 @@ TEST_CASE("SDO block upload: all of a block is lost, always [D12]") {
   node.finish(124);
 }
 
-TEST_CASE("SDO block upload: what is sent again in a value or a short object is the same") {
+TEST_CASE("SDO block upload: repeated segments of a value or a short object are identical") {
   Fixture node;
   node.ask("601#A408200002000000", "581#C608200008000000");
   for (int times = 0; times < 3; ++times) {
@@ -116,7 +116,7 @@ TEST_CASE("SDO block upload: what is sent again in a value or a short object is 
   node.rx("601#A100000000000000");
 }
 
-TEST_CASE("SDO block upload: an empty segment is sent again, too [D19]") {
+TEST_CASE("SDO block upload: an empty segment is repeated [D19]") {
   Fixture node;
   node.ask("601#A40021007F000000", "581#C600210000000000");
   node.ask("601#A300000000000000", "581#8100000000000000");
@@ -126,7 +126,7 @@ TEST_CASE("SDO block upload: an empty segment is sent again, too [D19]") {
   node.silent();
 }
 
-TEST_CASE("SDO block upload: more is never sent again than the last block [D12]") {
+TEST_CASE("SDO block upload: at most the last block is repeated [D12]") {
   Upload node(20);
   node.rx(ack(20, 20));
   node.segments(20, 20);
@@ -135,7 +135,7 @@ TEST_CASE("SDO block upload: more is never sent again than the last block [D12]"
   node.finish(108);
 }
 
-TEST_CASE("SDO block upload: a lost acknowledge is the client's to repeat, the server waits [D12] [D18]") {
+TEST_CASE("SDO block upload: after a lost acknowledge the server waits for its repetition by the client [D12] [D18]") {
   Upload node(127);
   node.after(1700ms);
   node.silent();
@@ -146,7 +146,7 @@ TEST_CASE("SDO block upload: a lost acknowledge is the client's to repeat, the s
   node.finish(1);
 }
 
-TEST_CASE("SDO block upload: an acknowledge that comes twice acknowledges the next block, too") {
+TEST_CASE("SDO block upload: a doubled acknowledge acknowledges the next block, too") {
   Upload node(20);
   node.rx(ack(20, 20));
   node.segments(20, 20);
@@ -154,7 +154,7 @@ TEST_CASE("SDO block upload: an acknowledge that comes twice acknowledges the ne
   node.segments(40, 20);
 }
 
-TEST_CASE("SDO block upload: an acknowledge that comes twice and names more than the next block has [D12]") {
+TEST_CASE("SDO block upload: a doubled acknowledge of more segments than the next block has is aborted [D12]") {
   Upload node(127);
   node.rx(ack(127, 127));
   node.segments(127, 1);

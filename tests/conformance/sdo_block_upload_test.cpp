@@ -39,7 +39,7 @@ TEST_CASE("SDO block upload: a string without and with CRC [D12] [D14] [SDO 22] 
   }
 }
 
-TEST_CASE("SDO block upload: bytes that mean nothing do not matter [D12]") {
+TEST_CASE("SDO block upload: reserved bytes are ignored [D12]") {
   Fixture node;
   node.ask("601#A40010007F00FFFF", "581#C600100004000000");
   node.ask("601#A3FFFFFFFFFFFFFF", "581#8191010F00000000");
@@ -72,7 +72,7 @@ TEST_CASE("SDO block upload: no block is longer than the client allows [D12]") {
   node.silent();
 }
 
-TEST_CASE("SDO block upload: each acknowledge may change the size of the next block [D12]") {
+TEST_CASE("SDO block upload: each acknowledge may change the blksize [D12]") {
   Fixture node;
   const Bytes data = counting(890);
   node.ask("601#A404210001000000", "581#C60421007A030000");
@@ -91,7 +91,7 @@ TEST_CASE("SDO block upload: each acknowledge may change the size of the next bl
   node.silent();
 }
 
-TEST_CASE("SDO block upload: blocks of one segment [D12]") {
+TEST_CASE("SDO block upload: a blksize of 1 works [D12]") {
   Fixture node;
   node.ask("601#A400210F01000000", "581#C600210F0F000000");
   node.ask("601#A300000000000000", "581#0101020304050607");
@@ -101,7 +101,7 @@ TEST_CASE("SDO block upload: blocks of one segment [D12]") {
   node.rx("601#A100000000000000");
 }
 
-TEST_CASE("SDO block upload: the last block is exactly full [D12]") {
+TEST_CASE("SDO block upload: a last block of blksize segments works [D12]") {
   Fixture node;
   const Bytes data = counting(889);
   node.ask("601#A40121007F000000", "581#C601210079030000");
@@ -153,7 +153,7 @@ TEST_CASE("SDO block upload: REAL32, REAL64, time of day, strings, a value relat
   CHECK(node.block_upload(0x2112, 0).data == Bytes{0x41, 0x00, 0xE4, 0x00, 0xAC, 0x20});
 }
 
-TEST_CASE("SDO block upload: the value that is sent is the one at the initiate") {
+TEST_CASE("SDO block upload: the value at the initiate is sent") {
   Fixture node;
   node.may_change(0x2008, 0);
   node.ask("601#A40820007F000000", "581#C608200008000000");
@@ -166,7 +166,7 @@ TEST_CASE("SDO block upload: the value that is sent is the one at the initiate")
   node.rx("601#A100000000000000");
 }
 
-TEST_CASE("SDO block upload: data of every size come as they are, whatever the client's blocks are [D12]") {
+TEST_CASE("SDO block upload: data of every size are sent unchanged for every blksize [D12]") {
   Fixture node(Setup().with_70000());
   for (const std::uint32_t size : {0U, 1U, 4U, 7U, 8U, 14U, 15U, 888U, 889U, 890U, 70000U}) {
     for (const std::vector<std::uint8_t>& blksizes : {Bytes{127}, Bytes{1}, Bytes{2, 126}, Bytes{64, 1, 127}}) {
@@ -185,7 +185,7 @@ TEST_CASE("SDO block upload: data of every size come as they are, whatever the c
   }
 }
 
-TEST_CASE("SDO block upload: a mebibyte [D12]") {
+TEST_CASE("SDO block upload: one mebibyte is sent [D12]") {
   Fixture node(Setup().only_small().with_mebibyte());
   node.objects.domain[mebibyte].Size = mebibyte / stride(16);
   const BlockResult result = node.block_upload(0x2105, 0);
@@ -193,7 +193,7 @@ TEST_CASE("SDO block upload: a mebibyte [D12]") {
   CHECK(result.data == counting(mebibyte / stride(16)));
 }
 
-TEST_CASE("SDO block upload: every length of the last segment after every number of segments [D12]") {
+TEST_CASE("SDO block upload: every length of the last segment works after every number of segments [D12]") {
   Fixture node;
   for (std::uint32_t size = 1; size <= 890; size += stride(37)) {
     CAPTURE(size);
@@ -204,7 +204,7 @@ TEST_CASE("SDO block upload: every length of the last segment after every number
   }
 }
 
-TEST_CASE("SDO block upload: the application's access in between does not move the position") {
+TEST_CASE("SDO block upload: an access of the application does not move the position") {
   Fixture node;
   const Bytes data = counting(890);
   const auto read = [&] {
@@ -226,7 +226,7 @@ TEST_CASE("SDO block upload: the application's access in between does not move t
 
 // Protocol switch -----------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO block upload: up to the threshold of the client it is an ordinary upload [D13]") {
+TEST_CASE("SDO block upload: up to the pst of the client the answer is a normal upload [D13]") {
   Fixture node;
   node.ask("601#A400100014040000", "581#4300100091010F00");
   node.ask("601#A0022000140F0000", "581#4B02200011220000");
@@ -240,7 +240,7 @@ TEST_CASE("SDO block upload: up to the threshold of the client it is an ordinary
   node.ask("601#6000000000000000", "581#0D0F000000000000");
 }
 
-TEST_CASE("SDO block upload: above the threshold of the client it stays a block upload [D13]") {
+TEST_CASE("SDO block upload: above the pst of the client it stays a block upload [D13]") {
   Fixture node;
   node.ask("601#A400100014030000", "581#C600100004000000");
   node.ask("601#A408200014070000", "581#C608200008000000");
@@ -248,7 +248,7 @@ TEST_CASE("SDO block upload: above the threshold of the client it stays a block 
   node.ask("601#A401210014FF0000", "581#C601210079030000");
 }
 
-TEST_CASE("SDO block upload: no threshold means that even one byte comes in a block [D13]") {
+TEST_CASE("SDO block upload: without a pst even one byte is sent in a block [D13]") {
   Fixture node;
   node.ask("601#A401200014000000", "581#C601200001000000");
   node.ask("601#A300000000000000", "581#8111000000000000");
@@ -256,7 +256,7 @@ TEST_CASE("SDO block upload: no threshold means that even one byte comes in a bl
   node.rx("601#A100000000000000");
 }
 
-TEST_CASE("SDO block upload: thresholds and sizes, one beside the other [D13]") {
+TEST_CASE("SDO block upload: pst and sizes are compared in every combination [D13]") {
   Fixture node;
   for (const std::uint32_t size : {0U, 1U, 4U, 5U, 7U, 8U, 14U, 15U, 888U}) {
     for (const unsigned pst : {0U, 1U, 4U, 5U, 7U, 8U, 13U, 14U, 15U, 255U}) {
@@ -271,7 +271,7 @@ TEST_CASE("SDO block upload: thresholds and sizes, one beside the other [D13]") 
   }
 }
 
-TEST_CASE("SDO block upload: the order of checks and their codes at the initiate [SDO 04] [SDO 05] [SDO 06]") {
+TEST_CASE("SDO block upload: the checks of the initiate have their order and abort codes [SDO 04] [SDO 05] [SDO 06]") {
   Fixture node;
   for (const std::string command : {"A0", "A4"}) {
     for (const std::string sizes : {"7F000000", "7FFF0000"}) {

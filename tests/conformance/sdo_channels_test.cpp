@@ -19,7 +19,7 @@ Setup channels() {
   });
 }
 
-TEST_CASE("SDO channels: the default one is 600h and 580h + node-ID [SDO 12] [D16]") {
+TEST_CASE("SDO channels: the default server uses 600h and 580h + node-ID [SDO 12] [D16]") {
   Fixture node(Setup().node_id(0x7F));
   node.ask("67F#4000120100000000", "5FF#430012017F060000");
   node.ask("67F#4000120200000000", "5FF#43001202FF050000");
@@ -27,19 +27,19 @@ TEST_CASE("SDO channels: the default one is 600h and 580h + node-ID [SDO 12] [D1
   node.silent();
 }
 
-TEST_CASE("SDO channels: without 1200h the default one exists all the same") {
+TEST_CASE("SDO channels: without 1200h the default server exists") {
   Fixture node(Setup().without(0x1200, 0).without(0x1200, 1).without(0x1200, 2));
   node.ask("601#4000100000000000", "581#4300100091010F00");
 }
 
-TEST_CASE("SDO channels: a second one serves at its own identifiers") {
+TEST_CASE("SDO channels: a second server uses its own CAN-IDs") {
   Fixture node(channels());
   node.ask("690#4000100000000000", "6A0#4300100091010F00");
   node.ask("601#4000100000000000", "581#4300100091010F00");
   node.ask("690#E0AABBCC00000000", "6A0#80AABBCC01000405");
 }
 
-TEST_CASE("SDO channels: one with bit 31 set in either COB-ID is silent [D26]") {
+TEST_CASE("SDO channels: a server with bit 31 set in either COB-ID does not answer [D26]") {
   for (const bool rx_valid : {false, true}) {
     CAPTURE(rx_valid);
     Fixture node(Setup().before_init([=](Objects& o) {
@@ -53,7 +53,7 @@ TEST_CASE("SDO channels: one with bit 31 set in either COB-ID is silent [D26]") 
   }
 }
 
-TEST_CASE("SDO channels: made valid over the network, served from the next frame on [D16] [D26]") {
+TEST_CASE("SDO channels: a server made valid over the network answers from the next frame [D16] [D26]") {
   Fixture node;
   node.ask("601#2301120190060000", "581#6001120100000000");
   node.rx("690#4000100000000000");
@@ -65,7 +65,7 @@ TEST_CASE("SDO channels: made valid over the network, served from the next frame
   node.silent();
 }
 
-TEST_CASE("SDO channels: the CAN-ID changes only from and to invalid [D16]") {
+TEST_CASE("SDO channels: the CAN-ID can be changed only from and to invalid [D16]") {
   Fixture node(channels());
   node.ask("601#2301120192060000", "581#8001120130000906");
   node.ask("601#23011202A2060000", "581#8001120230000906");
@@ -78,7 +78,7 @@ TEST_CASE("SDO channels: the CAN-ID changes only from and to invalid [D16]") {
   node.silent();
 }
 
-TEST_CASE("SDO channels: a server that makes itself invalid answers that request and then falls silent [Q3] [D16]") {
+TEST_CASE("SDO channels: a server made invalid by its own client answers that request and no later one [Q3] [D16]") {
   Fixture node(channels());
   node.ask("690#2301120190060080", "6A0#6001120100000000");
   node.rx("690#4000100000000000");
@@ -89,7 +89,7 @@ TEST_CASE("SDO channels: a server that makes itself invalid answers that request
   node.silent();
 }
 
-TEST_CASE("SDO channels: restricted identifiers are refused, all others taken [D16] [D26]") {
+TEST_CASE("SDO channels: restricted CAN-IDs are refused, all others accepted [D16] [D26]") {
   Fixture node(Setup().only_small());
   for (const unsigned sub : {1U, 2U}) {
     for (unsigned id = 0; id < 0x800; id += stride(31)) {
@@ -119,7 +119,7 @@ TEST_CASE("SDO channels: a CAN-ID of more than 11 bits needs bit 29 [D16]") {
   node.silent();
 }
 
-TEST_CASE("SDO channels: a COB-ID relative to the node-ID reads back as written, its flags unharmed [D16]") {
+TEST_CASE("SDO channels: a COB-ID relative to the node-ID is read back as written with unchanged flags [D16]") {
   struct Row {
     const char* bytes;     // COB-ID in bus order
     std::uint32_t stored;  // 127 (the node-ID) is subtracted from the CAN-ID, modulo its width; flags do not change
@@ -149,7 +149,7 @@ TEST_CASE("SDO channels: a COB-ID relative to the node-ID reads back as written,
   }
 }
 
-TEST_CASE("SDO channels: COB-IDs relative to the node-ID serve at the identifiers that were written [D16]") {
+TEST_CASE("SDO channels: COB-IDs relative to the node-ID use the CAN-IDs that were written [D16]") {
   std::uint32_t rx = 0x80000000;
   std::uint32_t tx = 0x80000000;
   Fixture node(Setup()
@@ -163,7 +163,7 @@ TEST_CASE("SDO channels: COB-IDs relative to the node-ID serve at the identifier
   CHECK(tx == 0x20000001);
 }
 
-TEST_CASE("SDO channels: a reset closes what was opened in another channel, and the COB-IDs stay [N6]") {
+TEST_CASE("SDO channels: a reset ends transfers in other channels and keeps the COB-IDs [N6]") {
   Fixture node(channels());
   node.ask("690#4008100000000000", "6A0#4108100011000000");
   node.rx("000#8201");
@@ -171,7 +171,7 @@ TEST_CASE("SDO channels: a reset closes what was opened in another channel, and 
   node.ask("690#6001020300000000", "6A0#8001020301000405");
 }
 
-TEST_CASE("SDO channels: two transfers of different objects do not disturb each other, in any interleaving") {
+TEST_CASE("SDO channels: two transfers of different objects are independent in any interleaving") {
   struct Step {
     const char* request;
     const char* answer;
@@ -213,7 +213,7 @@ TEST_CASE("SDO channels: the same value can be transferred by two channels at on
   CHECK(node.objects.u64 == 0x0807060504030201);
 }
 
-TEST_CASE("SDO channels: a stream that is open in one channel is refused to another with 0800 0022h") {
+TEST_CASE("SDO channels: a stream that is open in one channel is refused to another one with 0800 0022h") {
   Fixture node(channels());
   node.ask("601#4000210F00000000", "581#4100210F0F000000");
   node.ask("690#4000210F00000000", "6A0#8000210F22000008");
@@ -225,7 +225,7 @@ TEST_CASE("SDO channels: a stream that is open in one channel is refused to anot
   node.ask("690#4000210F00000000", "6A0#4100210F0F000000");
 }
 
-TEST_CASE("SDO channels: the same channel may open its stream anew [D8]") {
+TEST_CASE("SDO channels: a channel may open its own stream anew [D8]") {
   Fixture node(channels());
   node.ask("601#4000210F00000000", "581#4100210F0F000000");
   node.ask("601#6000000000000000", "581#0001020304050607");
@@ -247,7 +247,7 @@ TEST_CASE("SDO channels: each has its own time-out [D18]") {
 
 #if CO_SSDO_N >= 3
 
-TEST_CASE("SDO channels: two channels at the same request identifier are both served") {
+TEST_CASE("SDO channels: two channels at the same request CAN-ID both answer") {
   Fixture node(Setup().before_init([](Objects& o) {
     o.sdo2_rx = o.sdo3_rx = 0x690;
     o.sdo2_tx = 0x6A0;
@@ -258,7 +258,7 @@ TEST_CASE("SDO channels: two channels at the same request identifier are both se
   node.tx({"6A0#4300100091010F00", "6A1#4300100091010F00"});
 }
 
-TEST_CASE("SDO channels: the filter names what is received, and follows changes") {
+TEST_CASE("SDO channels: the receive filter contains the request CAN-IDs and follows changes") {
   Fixture node(channels());
   CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x601, 0x690, 0x691, 0x701});
   node.ask("601#2301120190060080", "581#6001120100000000");

@@ -39,7 +39,7 @@ TEST_CASE("SDO client: block download of 40 bytes with CRC [301:7.2.4.3.9-11] [D
   CHECK(node.has_written().num == 40);
 }
 
-TEST_CASE("SDO client: a server that takes no CRC gets 0 [D14]") {
+TEST_CASE("SDO client: the CRC field is 0 for a server without CRC [D14]") {
   SdoClient node;
   start(node, "585#A00020057F000000");
   send_all(node);
@@ -81,7 +81,7 @@ TEST_CASE("SDO client: block download with a blksize of 2") {
   node.has_written();
 }
 
-TEST_CASE("SDO client: the blksize of each acknowledge counts for the next sub-block [301:7.2.4.3.10]") {
+TEST_CASE("SDO client: the blksize of each acknowledge applies to the next sub-block [301:7.2.4.3.10]") {
   SdoClient node;
   start(node, "585#A400200501000000");
   node.tx("605#0101020304050607");
@@ -97,7 +97,7 @@ TEST_CASE("SDO client: the blksize of each acknowledge counts for the next sub-b
   node.has_written();
 }
 
-TEST_CASE("SDO client: what was not acknowledged is sent again, from there, with the new blksize [D11]") {
+TEST_CASE("SDO client: unacknowledged segments are repeated with the new blksize [D11]") {
   SdoClient node;
   start(node, "585#A40020057F000000");
   send_all(node);
@@ -113,7 +113,7 @@ TEST_CASE("SDO client: what was not acknowledged is sent again, from there, with
   node.has_written();
 }
 
-TEST_CASE("SDO client: an acknowledge of no segment: all of the sub-block again") {
+TEST_CASE("SDO client: an acknowledge of no segment repeats the whole sub-block") {
   SdoClient node;
   start(node, "585#A400200504000000");
   node.tx({whole[0], whole[1], whole[2], whole[3]});
@@ -132,7 +132,7 @@ TEST_CASE("SDO client: an acknowledge of no segment: all of the sub-block again"
   node.has_written();
 }
 
-TEST_CASE("SDO client: the last segment alone is sent again") {
+TEST_CASE("SDO client: an unacknowledged last segment alone is repeated") {
   SdoClient node;
   start(node, "585#A40020057F000000");
   send_all(node);
@@ -157,7 +157,7 @@ TEST_CASE("SDO client: an acknowledge of more segments than were sent is refused
   }
 }
 
-TEST_CASE("SDO client: more than was sent in the last sub-block is refused, too, with 0504 0003h") {
+TEST_CASE("SDO client: an acknowledge of more than the last sub-block had is refused with 0504 0003h") {
   SdoClient node;
   start(node, "585#A40020057F000000");
   send_all(node);
@@ -184,7 +184,8 @@ TEST_CASE("SDO client: a blksize of 0 or above 127 is refused with 0504 0002h") 
   }
 }
 
-TEST_CASE("SDO client: ends of block downloads of 29 to 36 bytes: unused bytes of the last segment [301:7.2.4.3.11]") {
+TEST_CASE(
+    "SDO client: block downloads of 29 to 36 bytes: unused bytes of the last segment are announced [301:7.2.4.3.11]") {
   struct Case {
     std::uint32_t length;
     const char* initiate;
@@ -236,7 +237,7 @@ TEST_CASE("SDO client: 889 bytes fill a sub-block of 127 segments, 890 need anot
   }
 }
 
-TEST_CASE("SDO client: the server aborts a block download: reported, not answered [C1]") {
+TEST_CASE("SDO client: an abort of the server in a block download is reported and not answered [C1]") {
   SdoClient one;
   start(one, "585#A400200504000000");
   one.frames();
@@ -253,7 +254,7 @@ TEST_CASE("SDO client: the server aborts a block download: reported, not answere
   two.ended(CO_SDO_ERR_CRC);
 }
 
-TEST_CASE("SDO client: an acknowledge after the end was sent is refused with 0504 0001h") {
+TEST_CASE("SDO client: an acknowledge after the end is refused with 0504 0001h") {
   SdoClient node;
   start(node, "585#A40020057F000000");
   send_all(node);
@@ -264,7 +265,7 @@ TEST_CASE("SDO client: an acknowledge after the end was sent is refused with 050
   node.ended(CO_SDO_ERR_CMD);
 }
 
-TEST_CASE("SDO client: block downloads of lengths around those that matter arrive whole, whatever the blksizes are") {
+TEST_CASE("SDO client: block downloads of sizes around the limits are complete for every blksize") {
   const std::vector<std::uint8_t> sizes[] = {{127}, {1}, {2}, {1, 2, 127}, {126, 127, 3}};
   for (const std::vector<std::uint8_t>& block_sizes : sizes) {
     for (const std::size_t length : {29U, 35U, 36U, 888U, 889U, 890U, 891U, 1778U, 1779U}) {
@@ -285,7 +286,7 @@ TEST_CASE("SDO client: block downloads of lengths around those that matter arriv
   }
 }
 
-TEST_CASE("SDO client: block downloads of 70000 bytes and of 1 MiB") {
+TEST_CASE("SDO client: block downloads of 70000 bytes and of 1 MiB are complete") {
   for (const std::size_t length : {std::size_t{70000}, std::size_t{mebibyte / stride(16)}}) {
     SdoClient node;
     SdoPeer peer({});

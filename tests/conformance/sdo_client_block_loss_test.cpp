@@ -35,7 +35,7 @@ void finish(SdoClient& node) {
 }
 
 TEST_CASE(
-    "SDO client: after a lost segment the rest of the sub-block is ignored, the last good one acknowledged [D22]") {
+    "SDO client: after a lost segment the rest of the sub-block is ignored and the last good one acknowledged [D22]") {
   SdoClient node;
   start(node);
   send(node, {1, 2, 4, 5, 6});
@@ -50,7 +50,7 @@ TEST_CASE(
   finish(node);
 }
 
-TEST_CASE("SDO client: after the first segment was lost none is acknowledged, the server begins anew [D22]") {
+TEST_CASE("SDO client: after a lost first segment none is acknowledged and the server repeats the block [D22]") {
   SdoClient node;
   start(node);
   send(node, {2, 3, 4, 5, 6});
@@ -69,7 +69,7 @@ TEST_CASE("SDO client: repeated segments are ignored") {
   finish(node);
 }
 
-TEST_CASE("SDO client: a segment that is overtaken comes too late, and is sent again [D22]") {
+TEST_CASE("SDO client: a segment out of order is ignored and repeated [D22]") {
   SdoClient node;
   start(node);
   send(node, {1, 3, 2, 4, 5, 6});
@@ -82,7 +82,7 @@ TEST_CASE("SDO client: a segment that is overtaken comes too late, and is sent a
   finish(node);
 }
 
-TEST_CASE("SDO client: a last segment that overtakes the one before ends the sub-block, which is no end [D22]") {
+TEST_CASE("SDO client: a last segment before its predecessor ends the sub-block, not the transfer [D22]") {
   SdoClient node;
   start(node);
   send(node, {1, 2, 3, 4, 6});
@@ -104,7 +104,7 @@ TEST_CASE("SDO client: a segment with the number 0 is refused with 0504 0003h [5
   }
 }
 
-TEST_CASE("SDO client: two segments, the first is lost: none is acknowledged, the server begins anew [D22]") {
+TEST_CASE("SDO client: with the first of two segments lost none is acknowledged and the server repeats both [D22]") {
   SdoClient node;
   start(node, "585#C60020050E000000");
   node.rx("585#8208090A0B0C0D0E");
@@ -117,7 +117,7 @@ TEST_CASE("SDO client: two segments, the first is lost: none is acknowledged, th
   node.has_read(counted(14));
 }
 
-TEST_CASE("SDO client: a lost segment in a full sub-block: its segment 127 ends it [D22]") {
+TEST_CASE("SDO client: after a lost segment in a full sub-block segment 127 ends it [D22]") {
   SdoClient node;
   start(node, "585#C60020057A030000");
   for (unsigned n = 1; n <= 127; ++n) {
@@ -140,7 +140,7 @@ TEST_CASE("SDO client: a lost segment in a full sub-block: its segment 127 ends 
   node.has_read(counted(890));
 }
 
-TEST_CASE("SDO client: the end of a sub-block that comes twice is ignored the second time") {
+TEST_CASE("SDO client: a repeated end of a sub-block is ignored") {
   SdoClient node;
   start(node);
   send(node, {1, 2, 4, 5, 6});
@@ -192,7 +192,7 @@ bool download_with(const Disturbance& disturbance, std::size_t length) {
 const Disturbance::Kind kinds[] = {Disturbance::Kind::lose, Disturbance::Kind::repeat,
                                    Disturbance::Kind::swap_with_next, Disturbance::Kind::change_bit};
 
-TEST_CASE("SDO client: one fault at any frame of a block upload: the right data, or a reported failure [T11]") {
+TEST_CASE("SDO client: one fault at any frame of a block upload gives the right data or a reported failure [T11]") {
   for (const std::size_t length : {29U, 100U, 890U, 1778U}) {
     const std::size_t frames = length / 7 + 8;
     for (const Disturbance::Kind kind : kinds) {
@@ -211,7 +211,7 @@ TEST_CASE("SDO client: one fault at any frame of a block upload: the right data,
   }
 }
 
-TEST_CASE("SDO client: one fault at any frame of a block download: the right data, or a reported failure [T11]") {
+TEST_CASE("SDO client: one fault at any frame of a block download gives the right data or a reported failure [T11]") {
   for (const std::size_t length : {29U, 100U, 890U}) {
     const std::size_t frames = length / 7 + 8;
     for (const Disturbance::Kind kind : kinds) {
@@ -230,7 +230,7 @@ TEST_CASE("SDO client: one fault at any frame of a block download: the right dat
 }
 
 // If the only segment of a sub-block is lost, neither side can recover it: the transfer fails. [T11]
-TEST_CASE("SDO client: a segment that is lost, repeated or overtaken does not fail a block upload [T11] [D11]") {
+TEST_CASE("SDO client: a lost, repeated or delayed segment does not fail a block upload [T11] [D11]") {
   for (const std::size_t length : {14U, 100U, 455U, 896U}) {
     const std::size_t count = (length + 6) / 7;
     for (const Disturbance::Kind kind :
@@ -247,7 +247,7 @@ TEST_CASE("SDO client: a segment that is lost, repeated or overtaken does not fa
   }
 }
 
-TEST_CASE("SDO client: a segment that is lost or overtaken does not fail a block download [T11] [D11]") {
+TEST_CASE("SDO client: a lost or delayed segment does not fail a block download [T11] [D11]") {
   for (const std::size_t length : {29U, 100U, 890U}) {
     const std::size_t count = (length + 6) / 7;
     for (const Disturbance::Kind kind : {Disturbance::Kind::lose, Disturbance::Kind::swap_with_next}) {

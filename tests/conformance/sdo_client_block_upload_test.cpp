@@ -66,7 +66,7 @@ TEST_CASE("SDO client: the CRC of \"123456789\" is 31C3h, low byte first [D14]")
 }
 
 TEST_CASE(
-    "SDO client: a server without CRC, without size, or without both; its CRC is then not looked at [D12] [D14]") {
+    "SDO client: servers without CRC or size are accepted; the CRC of a server without CRC is ignored [D12] [D14]") {
   struct Case {
     const char* answer;
     const char* end;
@@ -90,8 +90,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "SDO client: ends of block uploads with 0 to 7 unused bytes, into buffers of the very size [301:7.2.4.3.15]") {
+TEST_CASE("SDO client: block uploads with 0 to 7 unused bytes fit buffers of exactly their size [301:7.2.4.3.15]") {
   struct Case {
     std::uint32_t length;
     const char* announced;
@@ -121,7 +120,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("SDO client: a last segment without data: 7 bytes unused") {
+TEST_CASE("SDO client: a last segment with 7 unused bytes contains no data") {
   SdoClient node;
   start(node, 35, "585#C600200523000000");
   send_segments(node, 5);
@@ -132,7 +131,7 @@ TEST_CASE("SDO client: a last segment without data: 7 bytes unused") {
   node.has_read(counted(35));
 }
 
-TEST_CASE("SDO client: block upload of an empty object: one segment without data") {
+TEST_CASE("SDO client: block upload of an empty object has one segment without data") {
   for (const char* answer : {"585#C600200500000000", "585#C400200500000000", "585#C000200500000000"}) {
     SdoClient node;
     start(node, 29, answer);
@@ -144,7 +143,7 @@ TEST_CASE("SDO client: block upload of an empty object: one segment without data
   }
 }
 
-TEST_CASE("SDO client: 889 bytes are one full sub-block, its last segment has bit 7 [301:7.2.4.3.14]") {
+TEST_CASE("SDO client: 889 bytes are one full sub-block whose last segment has bit 7 [301:7.2.4.3.14]") {
   SdoClient node;
   start(node, 889, "585#C600200579030000");
   send_segments(node, 126);
@@ -155,7 +154,7 @@ TEST_CASE("SDO client: 889 bytes are one full sub-block, its last segment has bi
   node.has_read(counted(889));
 }
 
-TEST_CASE("SDO client: 890 bytes: a full sub-block is acknowledged, the next one begins with segment 1") {
+TEST_CASE("SDO client: with 890 bytes a full sub-block is acknowledged and the next one begins with segment 1") {
   SdoClient node;
   start(node, 890, "585#C60020057A030000");
   send_segments(node, 126);
@@ -183,7 +182,7 @@ TEST_CASE("SDO client: a wrong CRC is refused with 0504 0004h [D14]") {
   }
 }
 
-TEST_CASE("SDO client: a bit that has changed in any byte of the data is found by the CRC") {
+TEST_CASE("SDO client: a changed bit in any byte of the data is detected by the CRC") {
   for (unsigned position = 0; position < 20; ++position) {
     CAPTURE(position);
     SdoClient node;
@@ -205,7 +204,7 @@ TEST_CASE("SDO client: a bit that has changed in any byte of the data is found b
 }
 
 TEST_CASE(
-    "SDO client: a block upload with fewer bytes than announced is refused with 0607 0013h, before its CRC [D5]") {
+    "SDO client: a block upload with fewer bytes than announced is refused with 0607 0013h before the CRC check [D5]") {
   for (const char* end : {"585#C1F0CD0000000000", "585#C100000000000000"}) {
     SdoClient node;
     start(node, 100, "585#C600200516000000");
@@ -250,7 +249,7 @@ TEST_CASE("SDO client: whole segments more than announced are refused with 0607 
   check_gives_up(node, 4, 9, "605#8000200512000706", CO_SDO_ERR_LEN_HIGH);
 }
 
-TEST_CASE("SDO client: an announced size beyond the buffer is refused with 0504 0005h, nothing is started") {
+TEST_CASE("SDO client: an announced size above the buffer is refused with 0504 0005h and no block is requested") {
   for (const char* answer : {"585#C60020051E000000", "585#C20020051E000000", "585#C6002005FFFFFFFF",
                              "585#C600200500000080", "585#C60020051D000001"}) {
     SdoClient node;
@@ -262,14 +261,14 @@ TEST_CASE("SDO client: an announced size beyond the buffer is refused with 0504 
   }
 }
 
-TEST_CASE("SDO client: an object that turns out larger than the buffer is refused with 0504 0005h [D21]") {
+TEST_CASE("SDO client: segments of unannounced size beyond the buffer are refused with 0504 0005h [D21]") {
   SdoClient node;
   start(node, 29, "585#C400200500000000");
   send_segments(node, 4);
   check_gives_up(node, 5, 9, "605#8000200505000405", CO_SDO_ERR_MEM);
 }
 
-TEST_CASE("SDO client: an object whose end shows that it is larger than the buffer is refused with 0504 0005h") {
+TEST_CASE("SDO client: an end that shows more bytes than the buffer is refused with 0504 0005h") {
   for (const char* end : {"585#C100000000000000", "585#D500000000000000"}) {
     SdoClient node;
     start(node, 29, "585#C000200500000000");
@@ -282,7 +281,7 @@ TEST_CASE("SDO client: an object whose end shows that it is larger than the buff
   }
 }
 
-TEST_CASE("SDO client: the server aborts within a sub-block: 80h exactly; reported, not answered [D23] [C1]") {
+TEST_CASE("SDO client: an abort within a sub-block (80h exactly) is reported and not answered [D23] [C1]") {
   for (const unsigned taken : {0U, 1U, 126U}) {
     CAPTURE(taken);
     SdoClient node;
@@ -294,8 +293,7 @@ TEST_CASE("SDO client: the server aborts within a sub-block: 80h exactly; report
   }
 }
 
-TEST_CASE(
-    "SDO client: a repeated last segment is ignored while the end is awaited, even if it looks like an end [D27]") {
+TEST_CASE("SDO client: a repeated last segment before the end is ignored, even if it resembles an end [D27]") {
   SdoClient node;
   start(node, 455, "585#C6002005C7010000");
   send_segments(node, 64);
@@ -311,7 +309,7 @@ TEST_CASE(
   node.has_read(counted(455));
 }
 
-TEST_CASE("SDO client: a server with pst answers a block request with the ordinary answer [301:7.2.4.3.13] [D13]") {
+TEST_CASE("SDO client: a server with pst may answer a block request with a normal upload [301:7.2.4.3.13] [D13]") {
   struct Case {
     const char* answer;
     Bytes data;
@@ -330,7 +328,7 @@ TEST_CASE("SDO client: a server with pst answers a block request with the ordina
   }
 }
 
-TEST_CASE("SDO client: a server with pst answers a block request with segments [301:7.2.4.3.13] [D13]") {
+TEST_CASE("SDO client: a server with pst may answer a block request with a segmented upload [301:7.2.4.3.13] [D13]") {
   for (const char* answer : {"585#4100200508000000", "585#4000200500000000"}) {
     SdoClient node;
     node.start_upload(0x2000, 5, 29);
@@ -345,7 +343,7 @@ TEST_CASE("SDO client: a server with pst answers a block request with segments [
   }
 }
 
-TEST_CASE("SDO client: an announced size beyond the buffer in the ordinary answer is refused with 0504 0005h") {
+TEST_CASE("SDO client: an announced size above the buffer in a normal answer is refused with 0504 0005h") {
   SdoClient node;
   node.start_upload(0x2000, 5, 29);
   node.tx("605#A40020057F1C0000");
@@ -354,7 +352,7 @@ TEST_CASE("SDO client: an announced size beyond the buffer in the ordinary answe
   node.ended(CO_SDO_ERR_MEM);
 }
 
-TEST_CASE("SDO client: block uploads of every length around those that matter, and long ones, arrive whole") {
+TEST_CASE("SDO client: block uploads of sizes around the limits and of long objects are complete") {
   for (const bool crc : {true, false}) {
     for (const std::size_t length : {1U, 7U, 8U, 28U, 29U, 888U, 889U, 890U, 891U, 1778U, 1779U, 70000U}) {
       CAPTURE(crc);
@@ -373,7 +371,7 @@ TEST_CASE("SDO client: block uploads of every length around those that matter, a
   }
 }
 
-TEST_CASE("SDO client: block upload of 1 MiB") {
+TEST_CASE("SDO client: block upload of 1 MiB is complete") {
   SdoClient node;
   constexpr std::uint32_t size = mebibyte / stride(16);
   SdoPeer peer(counted(size, 9));

@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO client: a thousand uploads, each started in the callback of the one before") {
+TEST_CASE("SDO client: a thousand uploads may each be started in the callback of the previous one") {
   SdoClient node;
   unsigned ended = 0;
   node.on_end = [&](const ClientEnd& end) {
@@ -31,7 +31,7 @@ TEST_CASE("SDO client: a thousand uploads, each started in the callback of the o
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("SDO client: a thousand time-outs, each of a transfer started in the callback of the one before") {
+TEST_CASE("SDO client: a thousand time-outs of transfers that were each started in the callback of the previous one") {
   SdoClient node;
   unsigned ended = 0;
   node.on_end = [&](const ClientEnd& end) {
@@ -54,7 +54,7 @@ TEST_CASE("SDO client: a thousand time-outs, each of a transfer started in the c
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("SDO client: the transfer that a callback starts has another kind, another object, another buffer") {
+TEST_CASE("SDO client: a callback may start a transfer of another kind, object and buffer") {
   SdoClient node;
   node.on_end = [&](const ClientEnd& end) {
     if (end.index == 0x2000) CHECK(node.try_download(0x2001, 0, counted(8)) == CO_ERR_NONE);
@@ -75,7 +75,7 @@ TEST_CASE("SDO client: the transfer that a callback starts has another kind, ano
   CHECK(node.has_written().index == 0x2001);
 }
 
-TEST_CASE("SDO client: a transfer started in the callback has its own time-out") {
+TEST_CASE("SDO client: a transfer started in a callback has its own time-out") {
   SdoClient node;
   node.on_end = [&](const ClientEnd&) {
     node.on_end = nullptr;
@@ -94,7 +94,7 @@ TEST_CASE("SDO client: a transfer started in the callback has its own time-out")
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: ten thousand transfers of every kind and end leave no timer, and the application has its own") {
+TEST_CASE("SDO client: ten thousand transfers of every kind and end leave no timer allocated") {
   Setup setup = Setup().only_small().timers(3);
   SdoClient node(setup);
   const std::vector<ClientState>& states = client_states();
@@ -126,7 +126,7 @@ TEST_CASE("SDO client: ten thousand transfers of every kind and end leave no tim
   CHECK(node.armed_timers() == 3);
 }
 
-TEST_CASE("SDO client: it needs no timer of the application") {
+TEST_CASE("SDO client: it needs no timer of the application's pool") {
   SdoClient node(Setup().only_small().timers(0));
   node.start_upload(0x2000, 5, 4, 100);
   node.tx("605#4000200500000000");
@@ -135,7 +135,7 @@ TEST_CASE("SDO client: it needs no timer of the application") {
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: its transfers and those of the node's own server do not disturb each other") {
+TEST_CASE("SDO client: its transfers and those of the node's own server are independent") {
   SdoClient node;
   node.start_upload(0x2000, 5, 28);
   node.tx("605#4000200500000000");
@@ -153,7 +153,7 @@ TEST_CASE("SDO client: its transfers and those of the node's own server do not d
 
 #if CO_CSDO_N >= 3
 
-TEST_CASE("SDO client: three clients at once, in any order of answers") {
+TEST_CASE("SDO client: three clients at once accept answers in any order") {
   constexpr const char* asked[] = {"605#4000200500000000", "606#4000200500000000", "607#4000200500000000"};
   constexpr const char* answers[] = {"585#4F00200511000000", "586#4F00200522000000", "587#4F00200533000000"};
   unsigned order[] = {0, 1, 2};
@@ -170,7 +170,7 @@ TEST_CASE("SDO client: three clients at once, in any order of answers") {
   } while (std::next_permutation(std::begin(order), std::end(order)));
 }
 
-TEST_CASE("SDO client: three clients at once, each with its own time-out, kind and end") {
+TEST_CASE("SDO client: three clients at once each have their own time-out, kind and end") {
   SdoClient node;
   node.start_upload(0x2000, 5, 28, 100, 0);
   node.start_download(0x2000, 5, counted(14), 200, 1);
@@ -190,7 +190,7 @@ TEST_CASE("SDO client: three clients at once, each with its own time-out, kind a
   node.ended(CO_SDO_ERR_TIMEOUT, 2);
 }
 
-TEST_CASE("SDO client: a callback may start a transfer of another client, or cancel it") {
+TEST_CASE("SDO client: a callback may start or cancel a transfer of another client") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 1000, 0);
   node.start_upload(0x2000, 5, 4, 1000, 1);
@@ -208,7 +208,7 @@ TEST_CASE("SDO client: a callback may start a transfer of another client, or can
   node.has_read({0x33}, 2);
 }
 
-TEST_CASE("SDO client: NMT stop ends the transfers of all clients, each callback comes once") {
+TEST_CASE("SDO client: NMT stop ends the transfers of all clients and calls each callback once") {
   SdoClient node;
   for (unsigned n = 0; n < 3; ++n) node.start_upload(0x2000, 5, 4, 1000, n);
   node.frames();
@@ -217,7 +217,7 @@ TEST_CASE("SDO client: NMT stop ends the transfers of all clients, each callback
   for (unsigned n = 0; n < 3; ++n) node.ended(CO_SDO_ERR_TOS_STATE, n);
 }
 
-TEST_CASE("SDO client: the callback of one client's NMT stop may cancel the others: each callback comes once") {
+TEST_CASE("SDO client: a callback of an NMT stop may cancel the other clients; each callback is called once") {
   SdoClient node;
   for (unsigned n = 0; n < 3; ++n) node.start_upload(0x2000, 5, 4, 1000, n);
   node.frames();

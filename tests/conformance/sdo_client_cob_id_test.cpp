@@ -29,7 +29,7 @@ TEST_CASE("SDO client: 1280h made valid over the network is used from then on [D
   check_asks(node, "605", "585");
 }
 
-TEST_CASE("SDO client: 1280h switched off over the network leaves no client [D26]") {
+TEST_CASE("SDO client: 1280h switched off over the network disables the client [D26]") {
   SdoClient node;
   for (const char* entry : {"801201", "801202"}) {
     CAPTURE(std::string(entry));
@@ -43,7 +43,7 @@ TEST_CASE("SDO client: 1280h switched off over the network leaves no client [D26
   }
 }
 
-TEST_CASE("SDO client: the CAN-IDs of 1280h change only from and to invalid [301:7.5.2.34]") {
+TEST_CASE("SDO client: the CAN-IDs of 1280h can be changed only from and to invalid [301:7.5.2.34]") {
   SdoClient node;
   node.ask("601#2380120106060000", "581#8080120130000906");
   node.ask("601#2380120286050000", "581#8080120230000906");
@@ -54,7 +54,7 @@ TEST_CASE("SDO client: the CAN-IDs of 1280h change only from and to invalid [301
   check_asks(node, "606", "585");
 }
 
-TEST_CASE("SDO client: the node-ID of the server, written over the network, completes bare COB-IDs") {
+TEST_CASE("SDO client: the node-ID of the server, written over the network, is added to COB-IDs 600h and 580h") {
   ClientEntries entries;
   entries.entry[0] = {0x600, 0x580, 5};
   SdoClient node(small(), entries);
@@ -66,7 +66,7 @@ TEST_CASE("SDO client: the node-ID of the server, written over the network, comp
 
 // CiA 301 reserves 581h…5FFh and 601h…67Fh for the default SDO servers, which are those that a client uses.
 // [301:7.3.5] [D26]
-TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others that are restricted [D26]") {
+TEST_CASE("SDO client: 1280h accepts the CAN-IDs of servers and no other restricted ones [D26]") {
   const auto of_servers = [](unsigned sub, unsigned id) {
     return sub == 1 ? id >= 0x601 && id <= 0x67F : id >= 0x581 && id <= 0x5FF;
   };
@@ -90,7 +90,7 @@ TEST_CASE("SDO client: 1280h takes the identifiers of servers, and no others tha
   }
 }
 
-TEST_CASE("SDO client: a CAN-ID of 1280h of more than 11 bits needs bit 29") {
+TEST_CASE("SDO client: a CAN-ID of 1280h above 7FFh needs bit 29") {
   SdoClient node(small(), off());
   node.ask("601#2380120105160000", "581#8080120130000906");
   node.ask("601#2380120105160020", "581#6080120100000000");
@@ -110,7 +110,7 @@ constexpr Change changes[] = {
     {"sub 2 invalid", "601#2380120200000080", "581#6080120200000000"},
 };
 
-TEST_CASE("SDO client: a transfer ends with 0800 0022h when its COB-IDs are switched off, after the answer [Q3]") {
+TEST_CASE("SDO client: switching its COB-IDs off ends a transfer with 0800 0022h after the answer [Q3]") {
   for (const Change& change : changes) {
     CAPTURE(std::string(change.what));
     SdoClient node;
@@ -128,7 +128,7 @@ TEST_CASE("SDO client: a transfer ends with 0800 0022h when its COB-IDs are swit
   }
 }
 
-TEST_CASE("SDO client: NMT stop withdraws an abort that waits under COB-IDs that were switched off [N8]") {
+TEST_CASE("SDO client: NMT stop withdraws a queued abort of COB-IDs that were switched off [N8]") {
   for (const Change& change : changes) {
     CAPTURE(std::string(change.what));
     SdoClient node;
@@ -146,7 +146,7 @@ TEST_CASE("SDO client: NMT stop withdraws an abort that waits under COB-IDs that
   }
 }
 
-TEST_CASE("SDO client: a node-ID of the server that is written during a transfer counts at the next request") {
+TEST_CASE("SDO client: a node-ID of the server written during a transfer applies to the next request") {
   ClientEntries entries;
   entries.entry[0] = {0x600, 0x580, 5};
   SdoClient node(small(), entries);
@@ -189,7 +189,7 @@ TEST_CASE("SDO client: a change of 1280h does not end the transfer of 1281h") {
 
 #if CO_SSDO_N >= 2
 
-TEST_CASE("SDO client: a change of 1280h does not end a transfer of a server, nor that of 1201h one of a client") {
+TEST_CASE("SDO client: a change of 1280h does not end a transfer of a server, nor one of 1201h that of a client") {
   SdoClient node;
   for (const unsigned index : {0x1280U, 0x1201U}) {
     for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}})

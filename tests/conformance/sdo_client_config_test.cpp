@@ -30,7 +30,7 @@ void check_off(SdoClient& node) {
 
 Setup small() { return Setup().only_small(); }
 
-TEST_CASE("SDO client: COCSdoFind gives the clients that 1280h and following configure") {
+TEST_CASE("SDO client: COCSdoFind returns the clients that 1280h and following configure") {
   SdoClient node;
   for (unsigned n = 0; n < CO_CSDO_N && n < 3; ++n) {
     CAPTURE(n);
@@ -49,7 +49,7 @@ TEST_CASE("SDO client: COCSdoFind gives the clients that 1280h and following con
   CHECK(COCSdoFind(nullptr, 0) == nullptr);
 }
 
-TEST_CASE("SDO client: COCSdoFind gives a busy client, too") {
+TEST_CASE("SDO client: COCSdoFind returns a busy client") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4);
   node.tx("605#4000200500000000");
@@ -60,7 +60,7 @@ TEST_CASE("SDO client: COCSdoFind gives a busy client, too") {
   CHECK(node.csdo()->State == CO_CSDO_STATE_IDLE);
 }
 
-TEST_CASE("SDO client: without 1280h there is none") {
+TEST_CASE("SDO client: without 1280h there is no client") {
   Fixture node(small());
   for (unsigned n = 0; n < CO_CSDO_N; ++n) {
     CHECK(COCSdoFind(&node.node, static_cast<std::uint8_t>(n)) == nullptr);
@@ -125,7 +125,7 @@ TEST_CASE("SDO client: requests are refused with CO_ERR_SDO_OFF in NMT states th
   node.silent();
 }
 
-TEST_CASE("SDO client: 1280h holds complete identifiers, whatever node-ID sub 3 names [301:7.5.2.34]") {
+TEST_CASE("SDO client: 1280h contains complete CAN-IDs for every node-ID in sub 3 [301:7.5.2.34]") {
   struct Case {
     std::uint32_t tx;
     std::uint32_t rx;
@@ -146,7 +146,7 @@ TEST_CASE("SDO client: 1280h holds complete identifiers, whatever node-ID sub 3 
   }
 }
 
-TEST_CASE("SDO client: 1280h with bit 29 names 29-bit identifiers [301:7.5.2.34]") {
+TEST_CASE("SDO client: 1280h with bit 29 uses 29-bit CAN-IDs [301:7.5.2.34]") {
   SdoClient node(small(), first(0x20000605, 0x3FFFFFFF, 5));
   node.start_upload(0x2000, 5, 4);
   node.tx("00000605#4000200500000000");
@@ -157,7 +157,7 @@ TEST_CASE("SDO client: 1280h with bit 29 names 29-bit identifiers [301:7.5.2.34]
   node.has_read({0x11});
 }
 
-TEST_CASE("SDO client: the bare 600h and 580h of a table for CANopen-Stack get the node-ID of sub 3 added") {
+TEST_CASE("SDO client: 600h and 580h of a CANopen-Stack table get the node-ID of sub 3 added") {
   for (const unsigned id : {1U, 5U, 127U}) {
     CAPTURE(id);
     SdoClient node(small().node_id(3), first(0x600, 0x580, static_cast<std::uint8_t>(id)));
@@ -175,14 +175,14 @@ TEST_CASE("SDO client: the bare 600h and 580h of a table for CANopen-Stack get t
   }
 }
 
-TEST_CASE("SDO client: 600h or 580h alone is a complete identifier: only the pair is a base") {
+TEST_CASE("SDO client: 600h or 580h alone is a complete CAN-ID; the node-ID is added only to both") {
   SdoClient one(small(), first(0x600, 0x585, 7));
   check_asks(one, "600", "585");
   SdoClient two(small(), first(0x605, 0x580, 7));
   check_asks(two, "605", "580");
 }
 
-TEST_CASE("SDO client: COB-IDs relative to the own node-ID are complete identifiers, too") {
+TEST_CASE("SDO client: COB-IDs relative to the own node-ID are complete CAN-IDs") {
   std::uint32_t tx = 0x602;
   std::uint32_t rx = 0x582;
   Fixture node(small()
@@ -209,7 +209,7 @@ TEST_CASE("SDO client: bit 31 of either COB-ID disables the client [301:7.5.2.34
   }
 }
 
-TEST_CASE("SDO client: identifiers that no frame can have switch the client off, and nothing is sent at 000h") {
+TEST_CASE("SDO client: invalid CAN-IDs switch the client off, and nothing is sent at 000h") {
   struct Case {
     std::uint32_t tx;
     std::uint32_t rx;
@@ -230,7 +230,7 @@ TEST_CASE("SDO client: identifiers that no frame can have switch the client off,
   }
 }
 
-TEST_CASE("SDO client: an entry of 1280h that is missing leaves the client not configured [301:7.5.2.34]") {
+TEST_CASE("SDO client: a missing entry of 1280h leaves the client unconfigured [301:7.5.2.34]") {
   for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
     CAPTURE(sub);
     SdoClient node(small().without(0x1280, sub));
@@ -246,7 +246,7 @@ TEST_CASE("SDO client: sub 0 of 1280h is not needed") {
   check_asks(node, "605", "585");
 }
 
-TEST_CASE("SDO client: the entries are read again at every request") {
+TEST_CASE("SDO client: the entries are read at every request") {
   SdoClient node;
   check_asks(node, "605", "585");
   node.entry[0] = {0x600, 0x580, 9};
@@ -262,7 +262,7 @@ TEST_CASE("SDO client: the entries are read again at every request") {
   check_asks(node, "606", "585");
 }
 
-TEST_CASE("SDO client: what is written to the entries of 1280h by the application counts at the next request") {
+TEST_CASE("SDO client: entries of 1280h written by the application apply to the next request") {
   SdoClient node(small(), first(0x600, 0x580, 5));
   node.start_upload(0x2000, 5, 4);
   node.tx("605#4000200500000000");
@@ -272,7 +272,7 @@ TEST_CASE("SDO client: what is written to the entries of 1280h by the applicatio
   check_asks(node, "609", "589");
 }
 
-TEST_CASE("SDO client: the receive filter names the answers of all clients") {
+TEST_CASE("SDO client: the receive filter contains the response CAN-IDs of all clients") {
   SdoClient node;
   std::vector<std::uint32_t> expected = {0x000};
   for (unsigned n = 0; n < CO_CSDO_N && n < 3; ++n) expected.push_back(0x585 + n);
@@ -281,7 +281,7 @@ TEST_CASE("SDO client: the receive filter names the answers of all clients") {
   CHECK(node.can.filter == expected);
 }
 
-TEST_CASE("SDO client: 1280h and following come back with a reset, the client is idle [N6]") {
+TEST_CASE("SDO client: a reset configures 1280h and following again, with idle clients [N6]") {
   for (const char* command : {"000#8101", "000#8201"}) {
     SdoClient node;
     node.rx(command);

@@ -10,8 +10,7 @@ using namespace test;
 
 constexpr const char* cancelled = "605#8000200521000008";
 
-TEST_CASE(
-    "SDO client: COCSdoCancel in every state: sends an abort to the server, calls the callback before it returns") {
+TEST_CASE("SDO client: COCSdoCancel in every state aborts the transfer and calls the callback before it returns") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -32,7 +31,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("SDO client: COCSdoCancel without a transfer: CO_ERR_SDO_OFF, nothing is sent") {
+TEST_CASE("SDO client: COCSdoCancel without a transfer returns CO_ERR_SDO_OFF and sends nothing") {
   SdoClient node;
   CHECK(node.cancel() == CO_ERR_SDO_OFF);
   check_asks(node);
@@ -40,7 +39,7 @@ TEST_CASE("SDO client: COCSdoCancel without a transfer: CO_ERR_SDO_OFF, nothing 
   node.silent();
 }
 
-TEST_CASE("SDO client: COCSdoCancel when the time-out has elapsed and was not yet run: one callback") {
+TEST_CASE("SDO client: COCSdoCancel after an elapsed time-out before its timer runs calls the callback once") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 100);
   node.frames();
@@ -53,7 +52,7 @@ TEST_CASE("SDO client: COCSdoCancel when the time-out has elapsed and was not ye
   check_asks(node);
 }
 
-TEST_CASE("SDO client: COCSdoCancel within the callback finds nothing to cancel") {
+TEST_CASE("SDO client: COCSdoCancel within the callback returns CO_ERR_SDO_OFF") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -94,7 +93,7 @@ TEST_CASE("SDO client: a request within the callback of COCSdoCancel is started"
   node.has_read({0x11});
 }
 
-TEST_CASE("SDO client: NMT stop ends a transfer in every state: 0800 0022h, no frame [N8]") {
+TEST_CASE("SDO client: NMT stop ends a transfer in every state with 0800 0022h and without a frame [N8]") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -112,8 +111,7 @@ TEST_CASE("SDO client: NMT stop ends a transfer in every state: 0800 0022h, no f
   }
 }
 
-TEST_CASE(
-    "SDO client: NMT resets end a transfer in every state: 0800 0022h, the boot-up is the only frame [N8] [T14]") {
+TEST_CASE("SDO client: NMT resets end a transfer in every state with 0800 0022h; only the boot-up is sent [N8] [T14]") {
   for (const char* command : {"000#8101", "000#8201"}) {
     for (const ClientState& state : client_states()) {
       CAPTURE(state.name);
@@ -143,7 +141,7 @@ TEST_CASE("SDO client: a reset by the application ends a transfer with 0800 0022
   }
 }
 
-TEST_CASE("SDO client: CONodeStop ends a transfer in every state: 0800 0022h, no frame [N8]") {
+TEST_CASE("SDO client: CONodeStop ends a transfer in every state with 0800 0022h and without a frame [N8]") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -158,8 +156,7 @@ TEST_CASE("SDO client: CONodeStop ends a transfer in every state: 0800 0022h, no
   }
 }
 
-TEST_CASE(
-    "SDO client: Operational and Pre-operational both allow transfers: a change between them ends none [N3] [N7]") {
+TEST_CASE("SDO client: changes between Operational and Pre-operational end no transfer [N3] [N7]") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -175,7 +172,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("SDO client: a request within the callback of an NMT stop is refused, nothing is sent") {
+TEST_CASE("SDO client: a request within the callback of an NMT stop is refused and sends nothing") {
   SdoClient node;
   CO_ERR err = CO_ERR_NONE;
   node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };
@@ -229,7 +226,7 @@ TEST_CASE("SDO client: a request within the callback of CONodeStop is refused") 
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("SDO client: the callback may change the NMT state, reset or stop the node [Q9]") {
+TEST_CASE("SDO client: the callback may change the NMT state and reset or stop the node [Q9]") {
   const std::vector<std::function<void(CO_NODE*)>> actions = {
       [](CO_NODE* n) { CONmtSetMode(&n->Nmt, CO_STOP); }, [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_NODE); },
       [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_COM); }, [](CO_NODE* n) { CONodeStop(n); }};
@@ -271,7 +268,7 @@ TEST_CASE("SDO client: the callback of a time-out may stop or reset the node [Q9
   check_asks(two);
 }
 
-TEST_CASE("SDO client: CONodeInit of a node with a transfer forgets it: idle, no callback from the life before") {
+TEST_CASE("SDO client: CONodeInit discards a transfer without its callback") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 100);
   node.frames();

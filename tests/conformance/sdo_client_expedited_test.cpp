@@ -39,7 +39,7 @@ TEST_CASE("SDO client: expedited upload of 1 to 4 bytes [301:7.2.4.3.5]") {
   }
 }
 
-TEST_CASE("SDO client: bytes of an expedited answer that hold no data are not looked at") {
+TEST_CASE("SDO client: unused bytes of an expedited answer are ignored") {
   SdoClient node;
   node.start_upload(0x2000, 5, 1);
   node.tx("605#4000200500000000");
@@ -47,8 +47,7 @@ TEST_CASE("SDO client: bytes of an expedited answer that hold no data are not lo
   node.has_read({0x11});
 }
 
-TEST_CASE(
-    "SDO client: an expedited answer without a size has up to 4 bytes, as many as the buffer takes [301:7.2.4.3.5]") {
+TEST_CASE("SDO client: an expedited answer without a size has up to 4 bytes, limited by the buffer [301:7.2.4.3.5]") {
   for (std::uint32_t size = 1; size <= 28; ++size) {
     CAPTURE(size);
     SdoClient node;
@@ -106,7 +105,7 @@ TEST_CASE("SDO client: expedited download of 1 to 4 bytes [301:7.2.4.3.3]") {
   }
 }
 
-TEST_CASE("SDO client: index and sub-index go out low byte first, whatever the flags of the key are") {
+TEST_CASE("SDO client: index and sub-index are sent low byte first for any flags of the key") {
   SdoClient node;
   std::uint8_t buffer[4] = {};
   const auto ignore = [](CO_CSDO*, std::uint16_t index, std::uint8_t sub, std::uint32_t) {
@@ -119,7 +118,7 @@ TEST_CASE("SDO client: index and sub-index go out low byte first, whatever the f
   CHECK(buffer[0] == 0x11);
 }
 
-TEST_CASE("SDO client: an abort of the server is reported, not answered [C1]") {
+TEST_CASE("SDO client: an abort of the server is reported and not answered [C1]") {
   for (const bool upload : {true, false}) {
     CAPTURE(upload);
     SdoClient node;
@@ -136,7 +135,7 @@ TEST_CASE("SDO client: an abort of the server is reported, not answered [C1]") {
   }
 }
 
-TEST_CASE("SDO client: an abort with the code 0 is not taken for success") {
+TEST_CASE("SDO client: an abort with the code 0 is reported as a failure") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4);
   node.tx("605#4000200500000000");
@@ -147,7 +146,7 @@ TEST_CASE("SDO client: an abort with the code 0 is not taken for success") {
   node.ends.clear();
 }
 
-TEST_CASE("SDO client: an abort of the server with a code that is not in CiA 301 is passed on") {
+TEST_CASE("SDO client: an abort code that is not in CiA 301 is reported unchanged") {
   SdoClient node;
   node.start_download(0x2000, 5, {1});
   node.tx("605#2F00200501000000");
@@ -155,7 +154,7 @@ TEST_CASE("SDO client: an abort of the server with a code that is not in CiA 301
   node.ended(0xF2345678);
 }
 
-TEST_CASE("SDO client: after a failure the next request starts with nothing left of it") {
+TEST_CASE("SDO client: after a failure the next request starts without its remains") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4);
   node.tx("605#4000200500000000");

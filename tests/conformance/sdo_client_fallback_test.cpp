@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO client: downloads of up to 4 bytes are expedited, up to 28 segmented, longer ones are blocks") {
+TEST_CASE("SDO client: downloads of up to 4 bytes are expedited, up to 28 segmented, longer ones block transfers") {
   struct Case {
     std::uint32_t length;
     const char* request;
@@ -37,7 +37,7 @@ TEST_CASE("SDO client: downloads of up to 4 bytes are expedited, up to 28 segmen
   }
 }
 
-TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are ordinary, into larger ones blocks") {
+TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are normal, into larger ones block transfers") {
   for (const std::uint32_t size : {1U, 4U, 5U, 28U, 29U, 1000U}) {
     CAPTURE(size);
     SdoClient node;
@@ -53,7 +53,7 @@ TEST_CASE("SDO client: uploads into buffers of up to 28 bytes are ordinary, into
 
 constexpr const char* no_block[] = {"585#8000200501000405", "585#8000200500000008"};
 
-TEST_CASE("SDO client: a block upload that the server does not support is repeated as an expedited one") {
+TEST_CASE("SDO client: a block upload that the server refuses is repeated as an expedited one") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_upload(0x2000, 5, 100);
@@ -67,7 +67,7 @@ TEST_CASE("SDO client: a block upload that the server does not support is repeat
   }
 }
 
-TEST_CASE("SDO client: a block upload that the server does not support is repeated as a segmented one") {
+TEST_CASE("SDO client: a block upload that the server refuses is repeated as a segmented one") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_upload(0x2000, 5, 100);
@@ -83,7 +83,7 @@ TEST_CASE("SDO client: a block upload that the server does not support is repeat
   }
 }
 
-TEST_CASE("SDO client: a block download that the server does not support is sent in segments") {
+TEST_CASE("SDO client: a block download that the server refuses is repeated in segments") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_download(0x2000, 5, counted(29));
@@ -119,7 +119,7 @@ void fall_back(SdoClient& node, bool upload) {
   node.tx(upload ? "605#4000200500000000" : "605#210020051D000000");
 }
 
-TEST_CASE("SDO client: it tries once: the abort of the ordinary initiate ends the transfer, whatever its code") {
+TEST_CASE("SDO client: it repeats once: an abort of the normal initiate ends the transfer for any code") {
   for (const bool upload : {true, false}) {
     for (const char* abort : no_block) {
       CAPTURE(upload);
@@ -132,7 +132,7 @@ TEST_CASE("SDO client: it tries once: the abort of the ordinary initiate ends th
   }
 }
 
-TEST_CASE("SDO client: after the ordinary initiate, answers of a block transfer are unexpected") {
+TEST_CASE("SDO client: after the normal initiate answers of a block transfer are unexpected") {
   for (const bool upload : {true, false}) {
     CAPTURE(upload);
     SdoClient node;
@@ -143,7 +143,7 @@ TEST_CASE("SDO client: after the ordinary initiate, answers of a block transfer 
   }
 }
 
-TEST_CASE("SDO client: the ordinary initiate has the whole time for its answer") {
+TEST_CASE("SDO client: the normal initiate has the complete time-out") {
   for (const bool upload : {true, false}) {
     CAPTURE(upload);
     SdoClient node;
@@ -184,7 +184,7 @@ TEST_CASE("SDO client: any other abort of a block initiate is final") {
   }
 }
 
-TEST_CASE("SDO client: the aborts that fall back are final when they come later in a block transfer") {
+TEST_CASE("SDO client: the aborts that cause a repetition are final later in a block transfer") {
   for (const char* abort : no_block) {
     const std::uint32_t code = std::string(abort) == no_block[0] ? CO_SDO_ERR_CMD : CO_SDO_ERR_GENERAL;
     SdoClient reads;
@@ -206,7 +206,7 @@ TEST_CASE("SDO client: the aborts that fall back are final when they come later 
   }
 }
 
-TEST_CASE("SDO client: ordinary transfers do not fall back") {
+TEST_CASE("SDO client: normal transfers are not repeated") {
   for (const char* abort : no_block) {
     SdoClient node;
     node.start_upload(0x2000, 5, 28);

@@ -22,7 +22,7 @@ std::vector<std::string> initiate_answers(const std::string& multiplexer) {
 // Multiplexers of other objects than 2000h:05.
 constexpr const char* others[] = {"002006", "002004", "002105", "002205", "012005", "000000", "FFFFFF", "200005"};
 
-TEST_CASE("SDO client: an initiate answer or abort for another object is ignored while one is awaited [C1]") {
+TEST_CASE("SDO client: an initiate answer or abort for another object is ignored before the first answer [C1]") {
   for (const ClientState& state : client_states()) {
     if (!awaits_initiate(state)) continue;
     CAPTURE(state.name);
@@ -41,7 +41,7 @@ TEST_CASE("SDO client: an initiate answer or abort for another object is ignored
   }
 }
 
-TEST_CASE("SDO client: an ignored answer does not prolong the time-out") {
+TEST_CASE("SDO client: an ignored answer does not restart the time-out") {
   for (const ClientState& state : client_states()) {
     if (!awaits_initiate(state)) continue;
     CAPTURE(state.name);
@@ -58,7 +58,7 @@ TEST_CASE("SDO client: an ignored answer does not prolong the time-out") {
   }
 }
 
-TEST_CASE("SDO client: an abort that names another object ends a transfer that has begun [C1]") {
+TEST_CASE("SDO client: an abort for another object ends a transfer after its first answer [C1]") {
   for (const ClientState& state : client_states()) {
     if (awaits_initiate(state)) continue;
     CAPTURE(state.name);
@@ -117,7 +117,7 @@ TEST_CASE("SDO client: late answers after a time-out do not disturb the next tra
   }
 }
 
-TEST_CASE("SDO client: the answer that comes after a cancel does not disturb the next transfer [C1]") {
+TEST_CASE("SDO client: an answer after a cancel does not disturb the next transfer [C1]") {
   SdoClient node;
   node.start_download(0x2000, 5, {1});
   node.tx("605#2F00200501000000");
@@ -147,7 +147,7 @@ void check_ignores_others(SdoClient& node) {
   }
 }
 
-TEST_CASE("SDO client: aborts for another object do not make a block upload fall back, the right one does [C1]") {
+TEST_CASE("SDO client: only an abort for its object makes a block upload be repeated [C1]") {
   for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
     SdoClient node;
     node.start_upload(0x2000, 5, 29);
@@ -165,7 +165,7 @@ TEST_CASE("SDO client: aborts for another object do not make a block upload fall
   }
 }
 
-TEST_CASE("SDO client: aborts for another object do not make a block download fall back, the right one does [C1]") {
+TEST_CASE("SDO client: only an abort for its object makes a block download be repeated [C1]") {
   for (const char* refusal : {"585#8000200501000405", "585#8000200500000008"}) {
     SdoClient node;
     node.start_download(0x2000, 5, counted(29));
@@ -193,7 +193,7 @@ TEST_CASE("SDO client: aborts for another object do not make a block download fa
 
 #if CO_CSDO_N >= 2
 
-TEST_CASE("SDO client: the answer of one server does not reach the client of another") {
+TEST_CASE("SDO client: the answer of a server is received only by its own client") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 1000, 0);
   node.start_upload(0x2000, 5, 4, 1000, 1);

@@ -154,20 +154,20 @@ TEST_CASE("SDO client, own node: a stream of unknown size is read to its end") {
   }
 }
 
-TEST_CASE("SDO client, own node: a stream that turns out larger than the buffer: 0504 0005h, which End gets, too") {
+TEST_CASE("SDO client, own node: a stream larger than the buffer ends with 0504 0005h, which is passed to End") {
   Local node;
   image.knows_size = false;
   CHECK(node.read(39).code == CO_SDO_ERR_MEM);
   CHECK(image.calls == Calls{"begin upload ?", "end upload 05040005"});
 }
 
-TEST_CASE("SDO client, own node: a stream that is larger than the buffer: each Begin has its End") {
+TEST_CASE("SDO client, own node: a stream larger than the buffer has one End for each Begin") {
   Local node;
   CHECK(node.read(39).code == CO_SDO_ERR_MEM);
   CHECK(image.count("begin upload 40") == image.count("end upload 05040005"));
 }
 
-TEST_CASE("SDO client, own node: a Begin that refuses ends the transfer, End is not called") {
+TEST_CASE("SDO client, own node: a Begin that fails ends the transfer without End") {
   Local node;
   image.begin = CO_ERR_OBJ_STATE;
   CHECK(node.read(40).code == CO_SDO_ERR_TOS_STATE);
@@ -178,7 +178,7 @@ TEST_CASE("SDO client, own node: a Begin that refuses ends the transfer, End is 
   CHECK(image.data == counted(40));
 }
 
-TEST_CASE("SDO client, own node: the error of a read or write is its abort code, End is called") {
+TEST_CASE("SDO client, own node: the error of a read or write is its abort code, and End is called") {
   Local node;
   image.access = CO_ERR_OBJ_NO_DATA;
   CHECK(node.read(40).code == CO_SDO_ERR_NO_DATA);
@@ -189,7 +189,7 @@ TEST_CASE("SDO client, own node: the error of a read or write is its abort code,
   CHECK(image.calls == Calls{"begin download 3", "end download 06090030"});
 }
 
-TEST_CASE("SDO client, own node: COObjTypeUserSDOAbort names the code, as over the bus") {
+TEST_CASE("SDO client, own node: COObjTypeUserSDOAbort sets the abort code as over the bus") {
   Local node;
   image.access = CO_ERR_TYPE_WR;
   image.user_abort = 0x06090031;
@@ -218,7 +218,7 @@ TEST_CASE("SDO client, own node: a stream that a remote client has open is refus
   CHECK(node.read(40).data == counted(40));
 }
 
-TEST_CASE("SDO client, own node: a domain that a remote client has open is refused with 0800 0022h, it goes on") {
+TEST_CASE("SDO client, own node: a domain open in a remote transfer is refused with 0800 0022h; that one continues") {
   for (const bool upload : {true, false}) {
     CAPTURE(upload);
     Local node;
@@ -233,7 +233,7 @@ TEST_CASE("SDO client, own node: a domain that a remote client has open is refus
   }
 }
 
-TEST_CASE("SDO client, own node: a type function that works for a remote client may start a local transfer [Q9]") {
+TEST_CASE("SDO client, own node: a type function called for a remote client may start a local transfer [Q9]") {
   Local node;
   CO_ERR err = CO_ERR_BAD_ARG;
   image.on_access = [&](CO_NODE*) {
@@ -255,7 +255,7 @@ TEST_CASE("SDO client, own node: a type function that works for a remote client 
   CHECK(image.data == Bytes{0x11});
 }
 
-TEST_CASE("SDO client, own node: a reset that a type function asks for comes after the access and its callback [Q9]") {
+TEST_CASE("SDO client, own node: a reset that a type function requests follows the access and its callback [Q9]") {
   for (const CO_NMT_RESET type : {CO_RESET_NODE, CO_RESET_COM}) {
     Local node;
     image.on_access = [=](CO_NODE* n) { CONmtReset(&n->Nmt, type); };
@@ -278,7 +278,7 @@ TEST_CASE("SDO client, own node: COObjTypeUserSDOAbort between two accesses has 
   node.ask("601#2F00300001000000", "581#8000300024000008");
 }
 
-TEST_CASE("SDO client, own node: a type function that stops SDO during the access: one callback, End is called once") {
+TEST_CASE("SDO client, own node: a type function that stops SDO during the access causes one callback and one End") {
   for (const CO_MODE mode : {CO_STOP, CO_INVALID}) {
     CAPTURE(mode);
     Local node;

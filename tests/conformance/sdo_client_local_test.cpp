@@ -63,15 +63,14 @@ TEST_CASE("SDO client, own node: a value is written in the byte order of the bus
   CHECK(node.objects.u64 == 0x0807060504030201);
 }
 
-TEST_CASE("SDO client, own node: node-ID relative objects are seen as by the network") {
+TEST_CASE("SDO client, own node: node-ID relative objects have the values that SDO transfers have") {
   Local node;
   CHECK(node.read(0x2034, 0, 4).data == Bytes{0x81, 0x01, 0x00, 0x00});
   CHECK(node.read(0x1014, 0, 4).data == Bytes{0x81, 0x00, 0x00, 0x00});
   CHECK(node.read(0x1200, 1, 4).data == Bytes{0x01, 0x06, 0x00, 0x00});
 }
 
-TEST_CASE(
-    "SDO client, own node: the callback does not come before the request returns, and the client is busy till then") {
+TEST_CASE("SDO client, own node: the callback is called after the request returns; the client is busy until then") {
   Local node;
   node.start_upload(0x2004, 0, 4);
   node.goes_on();
@@ -91,7 +90,7 @@ TEST_CASE("SDO client, own node: CONodeNextDeadline is 0 while a request is pend
   CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
 }
 
-TEST_CASE("SDO client, own node: access rights and missing objects give the abort codes of the network [5.2]") {
+TEST_CASE("SDO client, own node: access rights and missing objects give the abort codes of an SDO server [5.2]") {
   Local node;
   CHECK(node.read(0x2030, 0, 4).code == CO_SDO_ERR_RD);
   CHECK(node.write(0x2031, 0, {1, 2, 3, 4}).code == CO_SDO_ERR_WR);
@@ -106,7 +105,7 @@ TEST_CASE("SDO client, own node: access rights and missing objects give the abor
   CHECK(node.objects.u32 == 0x44332211);
 }
 
-TEST_CASE("SDO client, own node: an object that does not fit into the buffer: 0504 0005h") {
+TEST_CASE("SDO client, own node: an object that does not fit into the buffer ends with 0504 0005h") {
   Local node;
   for (std::uint32_t size = 1; size < 4; ++size) {
     CHECK(node.read(0x2004, 0, size).code == CO_SDO_ERR_MEM);
@@ -116,7 +115,7 @@ TEST_CASE("SDO client, own node: an object that does not fit into the buffer: 05
   CHECK(node.read(0x1008, 0, 17).code == 0);
 }
 
-TEST_CASE("SDO client, own node: strings and domains of every length, into buffers of that size and more") {
+TEST_CASE("SDO client, own node: strings and domains of every length are read into buffers of that size and more") {
   Local node(Setup().with_70000());
   for (const unsigned length : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U}) {
     for (const unsigned more : {0U, 1U, 20U}) {
@@ -206,7 +205,7 @@ TEST_CASE("SDO client, own node: every length is written to every kind of object
   }
 }
 
-TEST_CASE("SDO client, own node: a thousand accesses, each started in the callback of the one before, do not nest") {
+TEST_CASE("SDO client, own node: a thousand accesses started in the callback of the previous one do not nest") {
   Local node;
   unsigned ended = 0;
   unsigned depth = 0;
@@ -229,7 +228,7 @@ TEST_CASE("SDO client, own node: a thousand accesses, each started in the callba
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("SDO client, own node: COCSdoCancel before the callback: 0800 0021h, no frame, one callback") {
+TEST_CASE("SDO client, own node: COCSdoCancel before the callback gives 0800 0021h, no frame and one callback") {
   Local node;
   node.start_upload(0x2004, 0, 4);
   CHECK(node.cancel() == CO_ERR_NONE);
@@ -240,7 +239,8 @@ TEST_CASE("SDO client, own node: COCSdoCancel before the callback: 0800 0021h, n
   CHECK(node.ends.empty());
 }
 
-TEST_CASE("SDO client, own node: NMT stop, resets and CONodeStop before the callback: 0800 0022h, one callback") {
+TEST_CASE(
+    "SDO client, own node: NMT stop, resets and CONodeStop before the callback give 0800 0022h and one callback") {
   const std::vector<std::function<void(CO_NODE*)>> actions = {
       [](CO_NODE* n) { CONmtSetMode(&n->Nmt, CO_STOP); }, [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_NODE); },
       [](CO_NODE* n) { CONmtReset(&n->Nmt, CO_RESET_COM); }, [](CO_NODE* n) { CONodeStop(n); }};
@@ -256,7 +256,7 @@ TEST_CASE("SDO client, own node: NMT stop, resets and CONodeStop before the call
   }
 }
 
-TEST_CASE("SDO client, own node: requests are refused where the network would not be served [N3]") {
+TEST_CASE("SDO client, own node: requests are refused in states without SDO [N3]") {
   Local node;
   node.rx("000#0201");
   CHECK(node.try_upload(0x2004, 0, 4) == CO_ERR_SDO_OFF);
@@ -264,7 +264,7 @@ TEST_CASE("SDO client, own node: requests are refused where the network would no
   CHECK(node.read(0x2004, 0, 4).code == 0);
 }
 
-TEST_CASE("SDO client, own node: a full transmit queue does not matter") {
+TEST_CASE("SDO client, own node: a full transmit queue has no effect") {
   Local node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();
   CO_IF_FRM urgent = frame("091#01");
@@ -275,7 +275,7 @@ TEST_CASE("SDO client, own node: a full transmit queue does not matter") {
   node.tx("091#01");
 }
 
-TEST_CASE("SDO client, own node: frames at the identifiers of the client change nothing") {
+TEST_CASE("SDO client, own node: frames with the CAN-IDs of the client have no effect") {
   Local node;
   node.start_upload(0x2004, 0, 4);
   node.rx("581#4F00200511000000");
@@ -285,7 +285,7 @@ TEST_CASE("SDO client, own node: frames at the identifiers of the client change 
   node.has_read({0x11, 0x22, 0x33, 0x44});
 }
 
-TEST_CASE("SDO client, own node: sub 3 decides at each request whether the own node is meant") {
+TEST_CASE("SDO client, own node: sub 3 selects at each request whether the own node is accessed") {
   ClientEntries entries;
   entries.entry[0] = {0x600, 0x580, 1};
   SdoClient node(Setup().only_small(), entries);
@@ -301,7 +301,7 @@ TEST_CASE("SDO client, own node: sub 3 decides at each request whether the own n
   node.has_read({0x99});
 }
 
-TEST_CASE("SDO client, own node: bit 31 of a COB-ID disables the client, too [301:7.5.2.34]") {
+TEST_CASE("SDO client, own node: bit 31 of a COB-ID disables the client [301:7.5.2.34]") {
   ClientEntries entries = local_entries();
   entries.entry[0].tx = 0x80000000;
   SdoClient node(Setup().only_small(), entries);
@@ -317,7 +317,7 @@ TEST_CASE("SDO client, own node: bit 31 of a COB-ID disables the client, too [30
   CHECK(COCSdoFind(&node.node, 0) == nullptr);
 }
 
-TEST_CASE("SDO client, own node: a value that a remote client is just reading or writing can be accessed") {
+TEST_CASE("SDO client, own node: a value in a transfer of a remote client can be accessed") {
   Local node;
   node.ask("601#4008200000000000", "581#4108200008000000");
   CHECK(node.read(0x2008, 0, 8).code == 0);
@@ -363,7 +363,7 @@ CO_ERR refuse_read(CO_OBJ* obj, CO_NODE* node, void*, std::uint32_t) {
   return CO_ERR_TYPE_RD;
 }
 
-TEST_CASE("SDO client, own node: an access within a transfer of the network leaves that its abort code") {
+TEST_CASE("SDO client, own node: an access within a transfer over the network does not change its abort code") {
   const auto four = [](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{4}; };
   const CO_OBJ_TYPE nesting = {four, nullptr, nullptr, write_nested, nullptr};
   const CO_OBJ_TYPE refusing = {four, nullptr, refuse_read, nullptr, nullptr};

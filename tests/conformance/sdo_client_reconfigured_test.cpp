@@ -65,7 +65,7 @@ const std::vector<End>& all_ends() {
   return all;
 }
 
-TEST_CASE("SDO client: the callback writes the client's COB-IDs: what was written last holds, however it came there") {
+TEST_CASE("SDO client: a callback that writes the client's COB-IDs after any result: the last written ones are used") {
   for (const End& end : all_ends()) {
     CAPTURE(std::string(end.what));
     Waiting node;
@@ -82,8 +82,7 @@ TEST_CASE("SDO client: the callback writes the client's COB-IDs: what was writte
   }
 }
 
-TEST_CASE(
-    "SDO client: the callback writes the client's COB-IDs and starts a request: it goes out there, none is lost") {
+TEST_CASE("SDO client: a request started after the callback writes the client's COB-IDs uses the new ones") {
   for (const End& end : all_ends()) {
     CAPTURE(std::string(end.what));
     Waiting node;
@@ -102,7 +101,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("SDO client: a request that the callback starts under new COB-IDs has its time-out, at those") {
+TEST_CASE("SDO client: a request that the callback starts under new COB-IDs has its time-out") {
   Waiting node;
   node.on_end = [&](const ClientEnd&) {
     node.on_end = nullptr;
@@ -117,7 +116,7 @@ TEST_CASE("SDO client: a request that the callback starts under new COB-IDs has 
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: the callback starts a request and then writes the COB-IDs: that transfer is reported, too") {
+TEST_CASE("SDO client: a transfer that the callback starts before it writes the COB-IDs is reported") {
   Waiting node;
   node.on_end = [&](const ClientEnd&) {
     node.on_end = [&](const ClientEnd&) { node.on_end = nullptr; };
@@ -138,7 +137,7 @@ TEST_CASE("SDO client: the callback starts a request and then writes the COB-IDs
   check_is_answered_at_586(node);
 }
 
-TEST_CASE("SDO client: transfers that end with their COB-IDs again and again have a callback each, without recursion") {
+TEST_CASE("SDO client: transfers that repeatedly end with their COB-IDs have one callback each, without recursion") {
   Waiting node;
   unsigned ended = 0;
   unsigned depth = 0;
@@ -166,7 +165,7 @@ TEST_CASE("SDO client: transfers that end with their COB-IDs again and again hav
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("SDO client: without new COB-IDs the callback of a client that is switched off can start nothing") {
+TEST_CASE("SDO client: the callback of a client that is switched off cannot start a request without new COB-IDs") {
   Waiting node;
   CO_ERR err = CO_ERR_NONE;
   node.on_end = [&](const ClientEnd&) { err = node.try_upload(0x2001, 0, 4); };

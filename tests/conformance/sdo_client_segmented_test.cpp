@@ -40,7 +40,7 @@ void take_segments(SdoClient& node, const std::vector<const char*>& segments) {
   node.silent();
 }
 
-TEST_CASE("SDO client: segmented upload, the size announced, into buffers of that size and more [301:7.2.4.3.6]") {
+TEST_CASE("SDO client: segmented upload with announced size into buffers of that size and more [301:7.2.4.3.6]") {
   for (const Upload& one : uploads) {
     for (std::uint32_t size = one.length; size <= 28; ++size) {
       CAPTURE(one.length);
@@ -56,7 +56,7 @@ TEST_CASE("SDO client: segmented upload, the size announced, into buffers of tha
   }
 }
 
-TEST_CASE("SDO client: segmented upload, the size not announced [301:7.2.4.3.5]") {
+TEST_CASE("SDO client: segmented upload without announced size [301:7.2.4.3.5]") {
   for (const Upload& one : uploads) {
     for (const std::uint32_t size : std::initializer_list<std::uint32_t>{one.length, 28}) {
       CAPTURE(one.length);
@@ -72,7 +72,7 @@ TEST_CASE("SDO client: segmented upload, the size not announced [301:7.2.4.3.5]"
   }
 }
 
-TEST_CASE("SDO client: bytes of the last segment that hold no data are not looked at") {
+TEST_CASE("SDO client: unused bytes of the last segment are ignored") {
   SdoClient node;
   node.start_upload(0x2000, 5, 5);
   node.tx("605#4000200500000000");
@@ -82,7 +82,7 @@ TEST_CASE("SDO client: bytes of the last segment that hold no data are not looke
   node.has_read(counted(5));
 }
 
-TEST_CASE("SDO client: segmented upload of 1 to 4 bytes, as servers without expedited transfer do") {
+TEST_CASE("SDO client: segmented upload of 1 to 4 bytes from servers without expedited transfer") {
   const char* const last[] = {"585#0D01000000000000", "585#0B01020000000000", "585#0901020300000000",
                               "585#0701020304000000"};
   for (std::uint32_t length = 1; length <= 4; ++length) {
@@ -99,7 +99,7 @@ TEST_CASE("SDO client: segmented upload of 1 to 4 bytes, as servers without expe
   }
 }
 
-TEST_CASE("SDO client: upload of an empty object: no bytes, success [D19]") {
+TEST_CASE("SDO client: upload of an empty object succeeds with no bytes [D19]") {
   for (const char* answer : {"585#4100200500000000", "585#4000200500000000"}) {
     SdoClient node;
     node.start_upload(0x2000, 5, 8);
@@ -112,7 +112,7 @@ TEST_CASE("SDO client: upload of an empty object: no bytes, success [D19]") {
   }
 }
 
-TEST_CASE("SDO client: upload of a full buffer whose last segment is empty") {
+TEST_CASE("SDO client: upload into an exactly filled buffer with an empty last segment succeeds") {
   SdoClient node;
   node.start_upload(0x2000, 5, 7);
   node.tx("605#4000200500000000");
@@ -124,7 +124,7 @@ TEST_CASE("SDO client: upload of a full buffer whose last segment is empty") {
   node.has_read(counted(7));
 }
 
-TEST_CASE("SDO client: an announced size beyond the buffer is refused with 0504 0005h at once") {
+TEST_CASE("SDO client: an announced size above the buffer is refused with 0504 0005h at once") {
   for (const char* answer : {"585#4100200509000000", "585#410020051C000000", "585#41002005FFFFFFFF",
                              "585#4100200500000080", "585#4100200508000100"}) {
     SdoClient node;
@@ -136,7 +136,7 @@ TEST_CASE("SDO client: an announced size beyond the buffer is refused with 0504 
   }
 }
 
-TEST_CASE("SDO client: without an announced size, the segment that the buffer cannot take is refused with 0504 0005h") {
+TEST_CASE("SDO client: without an announced size a segment beyond the buffer is refused with 0504 0005h") {
   for (std::uint32_t size = 8; size < 14; ++size) {
     CAPTURE(size);
     SdoClient node;
@@ -152,8 +152,7 @@ TEST_CASE("SDO client: without an announced size, the segment that the buffer ca
   }
 }
 
-TEST_CASE(
-    "SDO client: more bytes than announced are refused with 0607 0012h, although the buffer could take them [D5]") {
+TEST_CASE("SDO client: more bytes than announced are refused with 0607 0012h, even if they fit into the buffer [D5]") {
   SdoClient node;
   node.start_upload(0x2000, 5, 28);
   node.tx("605#4000200500000000");
@@ -166,7 +165,7 @@ TEST_CASE(
   node.ended(CO_SDO_ERR_LEN_HIGH);
 }
 
-TEST_CASE("SDO client: n = 0 in the last segment indicates no size: it has the rest of what was announced [D4] [D5]") {
+TEST_CASE("SDO client: n = 0 in the last segment means no size: it contains the rest of the announced size [D4] [D5]") {
   for (const std::uint32_t buffer : {10U, 16U}) {
     SdoClient node;
     node.start_upload(0x2000, 5, buffer);
@@ -180,7 +179,8 @@ TEST_CASE("SDO client: n = 0 in the last segment indicates no size: it has the r
   }
 }
 
-TEST_CASE("SDO client: n = 0 is 7 bytes where nothing or more is left, was announced, or in any other segment [D5]") {
+TEST_CASE(
+    "SDO client: n = 0 means 7 bytes if no rest, a longer rest or no size is announced, and in other segments [D5]") {
   SdoClient node;
   node.start_upload(0x2000, 5, 20);
   node.tx("605#4000200500000000");
@@ -224,7 +224,7 @@ TEST_CASE("SDO client: fewer bytes than announced are refused with 0607 0013h [D
   node.ended(CO_SDO_ERR_LEN_SMALL);
 }
 
-TEST_CASE("SDO client: a segment with the toggle bit of the one before is refused with 0503 0000h [C1]") {
+TEST_CASE("SDO client: a segment with a repeated toggle bit is refused with 0503 0000h [C1]") {
   SdoClient node;
   node.start_upload(0x2000, 5, 28);
   node.tx("605#4000200500000000");
@@ -255,7 +255,7 @@ const Download downloads[] = {
      {"605#0001020304050607", "605#1008090A0B0C0D0E", "605#000F101112131415", "605#11161718191A1B1C"}},
 };
 
-TEST_CASE("SDO client: segmented download, the size is announced, the rest of the last segment is 0 [301:7.2.4.3.4]") {
+TEST_CASE("SDO client: segmented download announces the size; unused bytes of the last segment are 0 [301:7.2.4.3.4]") {
   constexpr const char* taken[] = {"585#2000000000000000", "585#3000000000000000"};
   for (const Download& one : downloads) {
     CAPTURE(one.length);
@@ -291,7 +291,7 @@ TEST_CASE("SDO client: an acknowledge with the wrong toggle bit is refused with 
   CHECK(node.ended(CO_SDO_ERR_TBIT).num == 7);
 }
 
-TEST_CASE("SDO client: the server aborts within a segmented transfer: reported, not answered, whatever it names [C1]") {
+TEST_CASE("SDO client: an abort of the server within a segmented transfer is reported for any multiplexer [C1]") {
   for (const char* abort : {"585#8000200531000906", "585#8000000031000906", "585#8011223331000906"}) {
     SdoClient node;
     node.start_download(0x2000, 5, counted(14));
@@ -304,7 +304,7 @@ TEST_CASE("SDO client: the server aborts within a segmented transfer: reported, 
   }
 }
 
-TEST_CASE("SDO client: an abort of the client names the object, in the middle of a transfer as well [D25]") {
+TEST_CASE("SDO client: an abort by the client has the multiplexer of the object, also within a transfer [D25]") {
   SdoClient node;
   node.start_upload(0x1018, 0x04, 28);
   node.tx("605#4018100400000000");
@@ -315,7 +315,7 @@ TEST_CASE("SDO client: an abort of the client names the object, in the middle of
   node.ended(CO_SDO_ERR_CMD);
 }
 
-TEST_CASE("SDO client: a text shorter than the buffer: COCSdoGetNum returns its length") {
+TEST_CASE("SDO client: for a text shorter than the buffer COCSdoGetNum returns its length") {
   SdoClient node;
   node.start_upload(0x1008, 0, 28);
   node.tx("605#4008100000000000");

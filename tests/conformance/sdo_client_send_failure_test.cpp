@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO client: a request that finds the transmit queue full is refused: CO_ERR_IF_CAN_SEND, no callback") {
+TEST_CASE("SDO client: a request with a full transmit queue is refused with CO_ERR_IF_CAN_SEND without callback") {
   SdoClient node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();
   CO_IF_FRM urgent = frame("091#01");
@@ -29,7 +29,7 @@ TEST_CASE("SDO client: a request that finds the transmit queue full is refused: 
   check_asks(node);
 }
 
-TEST_CASE("SDO client: a request that has to wait for the controller goes out later") {
+TEST_CASE("SDO client: a request that the controller refuses is sent later") {
   SdoClient node;
   node.can.refuse_next(3);
   node.start_upload(0x2000, 5, 4);
@@ -77,7 +77,7 @@ std::vector<std::string> session(bool upload, std::size_t length, std::uint64_t 
   return all;
 }
 
-TEST_CASE("SDO client: whichever frame the controller refuses, the transfer is the same [T12]") {
+TEST_CASE("SDO client: whichever frames the controller refuses the transfer is complete [T12]") {
   for (const bool upload : {true, false}) {
     const std::size_t length = 100;
     const std::vector<std::string> expected = session(upload, length, 0, 0, 0);
@@ -106,7 +106,7 @@ void pause(SdoClient& node) {
   node.tx({"605#0101020304050607", "605#0208090A0B0C0D0E"});
 }
 
-TEST_CASE("SDO client: a block download pauses while the controller takes no frames, and goes on [D20]") {
+TEST_CASE("SDO client: a block download pauses while the controller refuses frames, and resumes [D20]") {
   SdoClient node;
   pause(node);
   for (int i = 0; i < 10; ++i) node.loop();
@@ -136,7 +136,7 @@ TEST_CASE("SDO client: a paused block download resumes in a loop that sleeps unt
   node.has_written();
 }
 
-TEST_CASE("SDO client: a paused block download leaves room in the transmit queue, and lets other frames pass [Q4]") {
+TEST_CASE("SDO client: a paused block download does not fill the transmit queue and does not delay other frames [Q4]") {
   SdoClient node(Setup().only_small().tx_queue(4));
   pause(node);
   CHECK(node->TxQueue.Num <= 1);
@@ -153,7 +153,7 @@ TEST_CASE("SDO client: a paused block download leaves room in the transmit queue
   node.has_written();
 }
 
-TEST_CASE("SDO client: the controller takes one frame at a time: the segments come in order, none is missing [D20]") {
+TEST_CASE("SDO client: with a controller that accepts one frame at a time all segments are sent in order [D20]") {
   SdoClient node;
   pause(node);
   std::vector<std::string> sent;
@@ -173,7 +173,7 @@ TEST_CASE("SDO client: the controller takes one frame at a time: the segments co
   node.has_written();
 }
 
-TEST_CASE("SDO client: a paused block download can be cancelled: no segment comes after the abort") {
+TEST_CASE("SDO client: a paused block download that is cancelled sends no segment after the abort") {
   SdoClient node;
   pause(node);
   node.call([&] { CHECK(COCSdoCancel(node.csdo()) == CO_ERR_NONE); });
@@ -187,7 +187,7 @@ TEST_CASE("SDO client: a paused block download can be cancelled: no segment come
   check_asks(node);
 }
 
-TEST_CASE("SDO client: the server aborts a paused block download: no segment comes any more") {
+TEST_CASE("SDO client: an abort of the server ends a paused block download without further segments") {
   SdoClient node;
   pause(node);
   node.rx("585#8000200505000405");
@@ -198,7 +198,7 @@ TEST_CASE("SDO client: the server aborts a paused block download: no segment com
   check_asks(node);
 }
 
-TEST_CASE("SDO client: while a block is being sent, the server's repeated answer to the initiate changes nothing") {
+TEST_CASE("SDO client: a repeated answer to the initiate while a block is being sent is ignored") {
   SdoClient node;
   pause(node);
   node.rx("585#A400200504000000");
@@ -213,7 +213,7 @@ TEST_CASE("SDO client: while a block is being sent, the server's repeated answer
   node.has_written();
 }
 
-TEST_CASE("SDO client: while a block is being sent, a repeated acknowledge of the block before changes nothing") {
+TEST_CASE("SDO client: a repeated acknowledge of the previous block while a block is being sent is ignored") {
   SdoClient node;
   node.start_download(0x2000, 5, counted(40));
   node.tx("605#C600200528000000");
@@ -233,7 +233,7 @@ TEST_CASE("SDO client: while a block is being sent, a repeated acknowledge of th
   node.has_written();
 }
 
-TEST_CASE("SDO client: NMT stop ends a paused block download, what waits in the queue is withdrawn [N8]") {
+TEST_CASE("SDO client: NMT stop ends a paused block download and withdraws queued segments [N8]") {
   SdoClient node;
   pause(node);
   node.rx("000#0201");
@@ -245,7 +245,7 @@ TEST_CASE("SDO client: NMT stop ends a paused block download, what waits in the 
 
 #endif
 
-TEST_CASE("SDO client: NMT stop withdraws a request that waits for the controller [N8]") {
+TEST_CASE("SDO client: NMT stop withdraws a request that is queued for the controller [N8]") {
   SdoClient node;
   node.can.refuse_all();
   node.start_upload(0x2000, 5, 4);
@@ -256,7 +256,7 @@ TEST_CASE("SDO client: NMT stop withdraws a request that waits for the controlle
   node.silent();
 }
 
-TEST_CASE("SDO client: a time-out while the transmit queue is full ends the transfer all the same") {
+TEST_CASE("SDO client: a time-out ends the transfer also with a full transmit queue") {
   SdoClient node(Setup().only_small().tx_queue(1));
   node.can.refuse_all();
   node.start_upload(0x2000, 5, 4, 100);
@@ -271,7 +271,7 @@ TEST_CASE("SDO client: a time-out while the transmit queue is full ends the tran
 }
 
 TEST_CASE(
-    "SDO client: a segment request that finds the transmit queue full ends the transfer, at the time-out at last") {
+    "SDO client: a segment request refused by a full transmit queue ends the transfer, at the latest by time-out") {
   SdoClient node(Setup().only_small().tx_queue(1));
   node.start_upload(0x2000, 5, 28, 100);
   node.tx("605#4000200500000000");

@@ -45,7 +45,7 @@ void start(SdoClient& node, unsigned client, std::uint16_t index) {
 }
 
 TEST_CASE(
-    "SDO client: clients at one response COB-ID all receive a frame: each takes the answer to its request, once") {
+    "SDO client: clients at one response COB-ID all receive a frame; each accepts the answer to its request once") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2001);
@@ -62,7 +62,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("SDO client: an abort at a shared response COB-ID ends only the transfer that it names, if one is awaited") {
+TEST_CASE("SDO client: an abort at a shared response COB-ID ends only the transfer with its multiplexer") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2002);
@@ -73,8 +73,7 @@ TEST_CASE("SDO client: an abort at a shared response COB-ID ends only the transf
 }
 
 // The client's route moves behind that of the other client, which receives the frame later.
-TEST_CASE(
-    "SDO client: a callback gives its client another request COB-ID and asks again: one frame is no two answers") {
+TEST_CASE("SDO client: a callback that changes the request COB-ID and starts a request: one frame is one answer") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2002);
@@ -94,7 +93,7 @@ TEST_CASE(
 
 // The route of client 1 moves forward in the table.
 TEST_CASE(
-    "SDO client: a callback switches off the client before this one and starts a request: one frame, one answer") {
+    "SDO client: a callback that switches off the previous client and starts a request: one frame is one answer") {
   Clients node(three_at_585());
   start(node, 1, 0x2001);
   node.on_end = [&](const ClientEnd&) {
@@ -111,7 +110,7 @@ TEST_CASE(
   node.has_read({0x22}, 1);
 }
 
-TEST_CASE("SDO client: a callback moves another client away: that one gets nothing of the old identifier any more") {
+TEST_CASE("SDO client: a callback that changes the COB-IDs of another client: it does not receive the frame") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   node.on_end = [&](const ClientEnd&) {
@@ -128,7 +127,7 @@ TEST_CASE("SDO client: a callback moves another client away: that one gets nothi
 }
 
 // The routes are the last ones of a full table.
-TEST_CASE("SDO client: a callback that takes another request COB-ID hides the frame from no other client") {
+TEST_CASE("SDO client: a callback that changes its request COB-ID: the other clients receive the frame") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2001);
@@ -142,7 +141,7 @@ TEST_CASE("SDO client: a callback that takes another request COB-ID hides the fr
   node.has_read({0x11}, 1);
 }
 
-TEST_CASE("SDO client: whatever a callback moves in the table, no client is served twice with one frame") {
+TEST_CASE("SDO client: however callbacks reorder the clients, none receives a frame twice") {
   Clients node(two_at_585());
   start(node, 0, 0x2001);
   start(node, 1, 0x2001);
@@ -163,7 +162,7 @@ TEST_CASE("SDO client: whatever a callback moves in the table, no client is serv
 
 ClientEntries at_the_end() { return {{{0x6B0, 0x6B5, 5}, {0x6B1, 0x6B5, 6}, {0x6B2, 0x6B5, 7}}}; }
 
-TEST_CASE("SDO client: a callback turns the other clients to the own node: the frame does not reach them any more") {
+TEST_CASE("SDO client: a callback that sets the other clients to the own node: they do not receive the frame") {
   Clients node(at_the_end());
   start(node, 0, 0x2001);
   node.on_end = [&](const ClientEnd&) {
@@ -183,7 +182,7 @@ TEST_CASE("SDO client: a callback turns the other clients to the own node: the f
   node.silent();
 }
 
-TEST_CASE("SDO client: a callback switches all clients off: the frame goes nowhere else, nor does the next") {
+TEST_CASE("SDO client: a callback that switches all clients off: no client receives this frame or the next one") {
   for (const unsigned asking : {0U, 1U, 2U}) {
     CAPTURE(asking);
     Clients node(at_the_end());
@@ -205,7 +204,7 @@ TEST_CASE("SDO client: a callback switches all clients off: the frame goes nowhe
   }
 }
 
-TEST_CASE("SDO client: every callback gives its client another place in the table and asks again: one answer each") {
+TEST_CASE("SDO client: callbacks that move their client in the table and start requests get one answer each") {
   for (unsigned changed = 0; changed < 27; ++changed) {
     CAPTURE(changed);
     Clients node(at_the_end());

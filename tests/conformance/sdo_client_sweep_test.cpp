@@ -44,7 +44,7 @@ std::string deviation(SdoClient& node, const ClientState& state, unsigned comman
   return what.empty() ? "" : notation(answer(state, command)) + ":" + what;
 }
 
-TEST_CASE("SDO client: the table of reactions names every state, and one reaction to each command byte [T6]") {
+TEST_CASE("SDO client: the table of reactions has every state and one reaction for each command byte [T6]") {
   CHECK(client_states().size() == (USE_SDO_BLOCK != 0 ? 20 : 9));
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
@@ -55,7 +55,7 @@ TEST_CASE("SDO client: the table of reactions names every state, and one reactio
   }
 }
 
-TEST_CASE("SDO client: the reaction to every command byte in every state [T6] [C1]") {
+TEST_CASE("SDO client: every command byte in every state has the reaction of the table [T6] [C1]") {
   unsigned round = 0;
   for (const ClientState& state : client_states()) {
     SdoClient node;
@@ -69,7 +69,7 @@ TEST_CASE("SDO client: the reaction to every command byte in every state [T6] [C
   }
 }
 
-TEST_CASE("SDO client: whatever the command byte was, in whatever state, the next transfer is not disturbed [T6]") {
+TEST_CASE("SDO client: after any command byte in any state the next transfer is complete [T6]") {
   unsigned round = 0;
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
@@ -111,7 +111,7 @@ TEST_CASE("SDO client: frames of another length than 8 have no effect in any sta
   }
 }
 
-TEST_CASE("SDO client: frames of another kind at the server's identifier have no effect in any state [Q1]") {
+TEST_CASE("SDO client: remote frames and 29-bit frames with the server's CAN-ID have no effect in any state [Q1]") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;

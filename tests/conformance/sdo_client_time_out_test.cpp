@@ -23,7 +23,7 @@ bool is_within_block(const ClientState& state) {
   return state.name == "block upload: one segment taken" || state.name == "block upload: all segments but one taken";
 }
 
-TEST_CASE("SDO client: silence of the server ends the transfer at the time asked for, in every state") {
+TEST_CASE("SDO client: silence of the server ends the transfer at the configured time in every state") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     for (const int ms : {1000, 100, 8}) {
@@ -42,7 +42,7 @@ TEST_CASE("SDO client: silence of the server ends the transfer at the time asked
   }
 }
 
-TEST_CASE("SDO client: no time-out is early, nor later than quarters that are rounded up, for odd times, too") {
+TEST_CASE("SDO client: time-outs are not early and at most the rounded-up quarters late, also for odd times") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     for (const int ms : {1, 2, 3, 5, 7, 11, 13, 101}) {
@@ -60,7 +60,7 @@ TEST_CASE("SDO client: no time-out is early, nor later than quarters that are ro
   }
 }
 
-TEST_CASE("SDO client: the time begins anew with each answer of the server") {
+TEST_CASE("SDO client: each answer of the server restarts the time-out") {
   SdoClient node;
   node.start_upload(0x2000, 5, 28, 100);
   node.tx("605#4000200500000000");
@@ -78,7 +78,7 @@ TEST_CASE("SDO client: the time begins anew with each answer of the server") {
   CHECK(node.ended(CO_SDO_ERR_TIMEOUT).num == 7);
 }
 
-TEST_CASE("SDO client: a time-out of 0 waits for ever, in every state") {
+TEST_CASE("SDO client: a time-out of 0 disables it in every state") {
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
     SdoClient node;
@@ -94,7 +94,7 @@ TEST_CASE("SDO client: a time-out of 0 waits for ever, in every state") {
   }
 }
 
-TEST_CASE("SDO client: times of more than 16 bits are not cut") {
+TEST_CASE("SDO client: time-outs of more than 16 bits are not truncated") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 65536 + 10);
   node.tx("605#4000200500000000");
@@ -105,7 +105,7 @@ TEST_CASE("SDO client: times of more than 16 bits are not cut") {
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: what the timer driver can count is counted: 40 minutes in microseconds") {
+TEST_CASE("SDO client: a time-out of 40 minutes is counted by a timer of 1 MHz") {
   SdoClient node(Setup().only_small().rate(1000000));
   node.start_upload(0x2000, 5, 4, 40 * 60 * 1000);
   node.tx("605#4000200500000000");
@@ -117,7 +117,7 @@ TEST_CASE("SDO client: what the timer driver can count is counted: 40 minutes in
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: what the timer driver cannot count is taken as the longest time that it can") {
+TEST_CASE("SDO client: a time-out beyond the range of the timer is limited to the longest one") {
   SdoClient node(Setup().only_small().rate(1000000));
   node.start_upload(0x2000, 5, 4, 0xFFFFFFFF);
   node.tx("605#4000200500000000");
@@ -129,7 +129,7 @@ TEST_CASE("SDO client: what the timer driver cannot count is taken as the longes
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: time-outs do not depend on the clock's begin and rate, and on how the loop sleeps [T15]") {
+TEST_CASE("SDO client: time-outs do not depend on start and rate of the clock and on the main loop [T15]") {
   for (const std::uint32_t start : clock_starts) {
     for (const std::uint32_t rate : {1000U, 1024U, 300U, 1000000U}) {
       for (const Wake wake : {Wake::alarm, Wake::deadline}) {
@@ -146,7 +146,7 @@ TEST_CASE("SDO client: time-outs do not depend on the clock's begin and rate, an
   }
 }
 
-TEST_CASE("SDO client: a transfer that has ended leaves no time-out behind") {
+TEST_CASE("SDO client: a transfer that has ended leaves no running time-out") {
   SdoClient node;
   for (const ClientState& state : client_states()) {
     CAPTURE(state.name);
@@ -163,7 +163,7 @@ TEST_CASE("SDO client: a transfer that has ended leaves no time-out behind") {
   }
 }
 
-TEST_CASE("SDO client: a late loop finds the time-out once") {
+TEST_CASE("SDO client: a late main loop reports a time-out once") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 100);
   node.tx("605#4000200500000000");
@@ -172,7 +172,7 @@ TEST_CASE("SDO client: a late loop finds the time-out once") {
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: an answer and the time-out at the same moment: one callback") {
+TEST_CASE("SDO client: an answer at the time of the time-out causes one callback") {
   SdoClient node;
   node.start_upload(0x2000, 5, 4, 100);
   node.tx("605#4000200500000000");
@@ -185,7 +185,7 @@ TEST_CASE("SDO client: an answer and the time-out at the same moment: one callba
   CHECK_FALSE(node.is_busy());
 }
 
-TEST_CASE("SDO client: the abort of a time-out names the object, in the middle of a transfer as well [D25]") {
+TEST_CASE("SDO client: the abort of a time-out has the multiplexer of the object, also within a transfer [D25]") {
   SdoClient node;
   node.start_download(0x1A02, 0xFE, counted(14), 50);
   node.tx("605#21021AFE0E000000");
@@ -221,7 +221,8 @@ void read_some(SdoClient& node, unsigned taken) {
   }
 }
 
-TEST_CASE("SDO client: silence within a sub-block: what has come is acknowledged, so that the server goes on [D11]") {
+TEST_CASE(
+    "SDO client: silence within a sub-block acknowledges the received segments, so that the server continues [D11]") {
   for (const unsigned taken : {1U, 2U}) {
     CAPTURE(taken);
     SdoClient node;
@@ -238,7 +239,7 @@ TEST_CASE("SDO client: silence within a sub-block: what has come is acknowledged
   }
 }
 
-TEST_CASE("SDO client: the server goes on after the acknowledge of a silence: the data are whole [D11]") {
+TEST_CASE("SDO client: data are complete if the server continues after the acknowledge of a silence [D11]") {
   SdoClient node;
   read_some(node, 2);  // segment 3, the last one, is lost
   node.after(750ms);
@@ -253,7 +254,7 @@ TEST_CASE("SDO client: the server goes on after the acknowledge of a silence: th
   node.has_read(counted(20));
 }
 
-TEST_CASE("SDO client: after a silence within a block the server has its whole time again") {
+TEST_CASE("SDO client: after a silence within a block the complete time-out starts again") {
   SdoClient node;
   read_some(node, 2);
   node.after(750ms);
@@ -268,7 +269,7 @@ TEST_CASE("SDO client: after a silence within a block the server has its whole t
   node.ended(CO_SDO_ERR_TIMEOUT);
 }
 
-TEST_CASE("SDO client: a lost acknowledge of the last segment is repeated in the silence that follows [D11]") {
+TEST_CASE("SDO client: a lost acknowledge of the last segment is repeated after a silence [D11]") {
   SdoClient node;
   read_some(node, 2);
   node.rx("585#830F101112131400");

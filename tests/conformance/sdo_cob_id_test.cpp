@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO COB-ID: 1200h with the identifier 000h switches the default server off, and nothing is sent at 000h") {
+TEST_CASE("SDO COB-ID: 1200h with the CAN-ID 000h switches the default server off, and nothing is sent at 000h") {
   for (const std::uint8_t sub : {std::uint8_t{1}, std::uint8_t{2}}) {
     CAPTURE(sub);
     Fixture node(Setup().with({CO_KEY(0x1200, sub, CO_OBJ_D___R_), CO_TSDO_ID, 0}));
@@ -19,7 +19,7 @@ TEST_CASE("SDO COB-ID: 1200h with the identifier 000h switches the default serve
   }
 }
 
-TEST_CASE("SDO COB-ID: 1200h relative to the node-ID that comes out as 000h switches the default server off") {
+TEST_CASE("SDO COB-ID: 1200h that is 000h with the node-ID added switches the default server off") {
   Fixture node(Setup().with({CO_KEY(0x1200, 2, CO_OBJ_DN__R_), CO_TSDO_ID, 0x7FF}));
   node.rx("601#4000100000000000");
   node.silent();
@@ -45,7 +45,7 @@ void check_second_off(Fixture& node) {
   check_default_serves(node);
 }
 
-TEST_CASE("SDO COB-ID: 1201h with the identifier 000h in the table is off, and nothing is sent at 000h") {
+TEST_CASE("SDO COB-ID: 1201h with the CAN-ID 000h in the table is off, and nothing is sent at 000h") {
   struct Case {
     std::uint32_t rx;
     std::uint32_t tx;
@@ -63,7 +63,7 @@ TEST_CASE("SDO COB-ID: 1201h with the identifier 000h in the table is off, and n
   }
 }
 
-TEST_CASE("SDO COB-ID: 1201h stays off while one identifier is 000h, whatever is written to the other") {
+TEST_CASE("SDO COB-ID: 1201h stays off while one CAN-ID is 000h, for any value of the other") {
   Fixture node(second_server(0x80000000, 0));
   node.ask("601#2301120190060000", "581#6001120100000000");
   check_second_off(node);
@@ -87,7 +87,7 @@ TEST_CASE("SDO COB-ID: the application cannot set 1201h to 000h either") {
 
 #if CO_SSDO_N >= 3
 
-TEST_CASE("SDO COB-ID: an identifier above 7FFh without bit 29 in the table disables its own channel only") {
+TEST_CASE("SDO COB-ID: a CAN-ID above 7FFh without bit 29 in the table disables its own channel only") {
   struct Case {
     std::uint32_t rx;
     std::uint32_t tx;

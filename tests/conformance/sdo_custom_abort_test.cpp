@@ -41,7 +41,7 @@ Setup scripted(std::uint32_t size, std::uint32_t abort, unsigned good_calls) {
 
 void check_idle(Fixture& node) { node.ask("601#0011223300000000", "581#8011223301000405"); }
 
-TEST_CASE("SDO custom abort: FFFF FFFFh is a code as any other") {
+TEST_CASE("SDO custom abort: FFFF FFFFh is sent like any other code") {
   for (const char* request : {"601#4000300000000000", "601#2300300001000000"}) {
     CAPTURE(std::string(request));
     Fixture node(scripted(4, 0xFFFFFFFF, always));
@@ -57,7 +57,7 @@ TEST_CASE("SDO custom abort: FFFF FFFFh is a code as any other") {
   check_idle(node);
 }
 
-TEST_CASE("SDO custom abort: set in the Size function, at every kind of initiate") {
+TEST_CASE("SDO custom abort: set in the Size function at every kind of initiate") {
   for (const char* request : {"601#4000300000000000", "601#2300300001000000", "601#2200300001000000",
                               "601#2100300004000000", "601#2000300000000000"}) {
     CAPTURE(std::string(request));
@@ -93,7 +93,7 @@ void end_other_transfers(CO_NODE* node) {
   CONmtSetMode(&node->Nmt, CO_PREOP);
 }
 
-TEST_CASE("SDO custom abort: set before the type function ends another transfer, or after it, it is the answer") {
+TEST_CASE("SDO custom abort: set before or after the type function ends another transfer, it is the answer") {
   for (const bool before : {true, false}) {
     CAPTURE(before);
     LoggedStream refusing;
@@ -115,7 +115,8 @@ TEST_CASE("SDO custom abort: set before the type function ends another transfer,
   }
 }
 
-TEST_CASE("SDO custom abort: set in the End of a transfer that a new one drops, it is not the answer to that [D8]") {
+TEST_CASE(
+    "SDO custom abort: set in End of a transfer that an initiate ends, it does not affect the answer to it [D8]") {
   LoggedStream refusing;
   refusing.data = {1, 2, 3, 4};
   refusing.on_piece = [](CO_OBJ*, CO_NODE*) { return CO_ERR_OBJ_RANGE; };
@@ -130,7 +131,7 @@ TEST_CASE("SDO custom abort: set in the End of a transfer that a new one drops, 
 #endif
 
 #if USE_OD
-TEST_CASE("SDO custom abort: set in an access of the application, it is nothing, before an SDO transfer and after it") {
+TEST_CASE("SDO custom abort: set in an access of the application, it affects no SDO transfer") {
   LoggedStream refusing;
   refusing.data = {1, 2, 3, 4};
   Fixture node(Setup().only_small().with(refusing.value(0x3101)));

@@ -13,7 +13,7 @@ CO_IF_FRM abort_of(unsigned sub, bool too_long) {
   return frm;
 }
 
-TEST_CASE("SDO download: one to four bytes expedited, confirmed with the multiplexer [D2] [D3]") {
+TEST_CASE("SDO download: one to four bytes are sent expedited and confirmed with the multiplexer [D2] [D3]") {
   Fixture node;
   node.ask("601#2F012000A5000000", "581#6001200000000000");
   CHECK(node.objects.u8 == 0xA5);
@@ -25,7 +25,7 @@ TEST_CASE("SDO download: one to four bytes expedited, confirmed with the multipl
   CHECK(node.objects.u32 == 0x12345678);
 }
 
-TEST_CASE("SDO download: bytes without data do not matter [D2]") {
+TEST_CASE("SDO download: unused bytes are ignored [D2]") {
   Fixture node;
   node.ask("601#2F012000A5FFFFFF", "581#6001200000000000");
   CHECK(node.objects.u8 == 0xA5);
@@ -33,7 +33,7 @@ TEST_CASE("SDO download: bytes without data do not matter [D2]") {
   CHECK(node.objects.u16 == 0x1234);
 }
 
-TEST_CASE("SDO download: an expedited one without a length takes the object's [D2]") {
+TEST_CASE("SDO download: an expedited one without a size has the size of the object [D2]") {
   Fixture node;
   node.ask("601#22012000A5000000", "581#6001200000000000");
   CHECK(node.objects.u8 == 0xA5);
@@ -47,13 +47,14 @@ TEST_CASE("SDO download: an expedited one without a length takes the object's [D
   CHECK(node.objects.memory[3] == Bytes{0xAA, 0xBB, 0xCC});
 }
 
-TEST_CASE("SDO download: an expedited one without a length cannot fill a longer object [D2]") {
+TEST_CASE("SDO download: an expedited one without a size is refused for an object of more than 4 bytes [D2]") {
   Fixture node;
   node.ask("601#2208200078563412", "581#8008200010000706");
   node.ask("601#2200210F78563412", "581#8000210F10000706");
 }
 
-TEST_CASE("SDO download: values of up to eight bytes in segments, size announced [D4] [SDO 14] [SDO 15]") {
+TEST_CASE(
+    "SDO download: values of up to eight bytes are written in segments with announced size [D4] [SDO 14] [SDO 15]") {
   Fixture node;
   node.ask("601#2117100002000000", "581#6017100000000000");
   node.ask("601#0BE8030000000000", "581#2000000000000000");
@@ -68,7 +69,7 @@ TEST_CASE("SDO download: values of up to eight bytes in segments, size announced
   CHECK(node.objects.u40 == 0x0504030201);
 }
 
-TEST_CASE("SDO download: values in segments, size not announced [D2] [D4]") {
+TEST_CASE("SDO download: values are written in segments without announced size [D2] [D4]") {
   Fixture node;
   node.ask("601#2001200000000000", "581#6001200000000000");
   node.ask("601#0D5A000000000000", "581#2000000000000000");
@@ -79,7 +80,7 @@ TEST_CASE("SDO download: values in segments, size not announced [D2] [D4]") {
   CHECK(node.objects.u64 == 0x0807060504030201);
 }
 
-TEST_CASE("SDO download: segments need not be full [D4]") {
+TEST_CASE("SDO download: segments may have fewer than 7 bytes [D4]") {
   Fixture node;
   node.ask("601#2104200004000000", "581#6004200000000000");
   node.ask("601#0C01000000000000", "581#2000000000000000");
@@ -89,7 +90,7 @@ TEST_CASE("SDO download: segments need not be full [D4]") {
   CHECK(node.objects.u32 == 0x04030201);
 }
 
-TEST_CASE("SDO download: four bytes of unknown size to a longer object are refused, and nothing is left open [D2]") {
+TEST_CASE("SDO download: four bytes of unknown size to a longer object are refused without an open transfer [D2]") {
   Fixture node;
   const std::string objects[] = {"052000", "082000", "282000", "262000", "00210F", "102100", "112100"};
   for (const std::string& object : objects) {
@@ -105,7 +106,8 @@ TEST_CASE("SDO download: four bytes of unknown size to a longer object are refus
   CHECK(node.objects.text.Size == 4);
 }
 
-TEST_CASE("SDO download: an aborted one leaves a value as it was, and of a string or domain what has arrived [D10]") {
+TEST_CASE(
+    "SDO download: an aborted one does not change a value, and leaves received bytes in a string or domain [D10]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#00A1A2A3A4A5A6A7", "581#2000000000000000");
@@ -122,7 +124,7 @@ TEST_CASE("SDO download: an aborted one leaves a value as it was, and of a strin
   CHECK(node.objects.memory[15] == Bytes{0xA1, 0xA2, 0xA3, 0xA4, 0xA5, 0xA6, 0xA7, 8, 9, 10, 11, 12, 13, 14, 15});
 }
 
-TEST_CASE("SDO download: a value is not touched before it is complete [D10]") {
+TEST_CASE("SDO download: a value is not written before it is complete [D10]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#0001020304050607", "581#2000000000000000");
@@ -132,7 +134,7 @@ TEST_CASE("SDO download: a value is not touched before it is complete [D10]") {
   CHECK(node.objects.u64 == 0x8877665544332211);
 }
 
-TEST_CASE("SDO download: a size announced that does not fit is refused at once [D5] [SDO 08] [SDO 09]") {
+TEST_CASE("SDO download: an announced size that does not fit is refused at once [D5] [SDO 08] [SDO 09]") {
   Fixture node;
   node.ask("601#2104200005000000", "581#8004200012000706");
   node.ask("601#2104200003000000", "581#8004200013000706");
@@ -169,7 +171,7 @@ TEST_CASE("SDO download: fewer bytes than announced are refused at the last segm
   node.ask("601#1D08000000000000", "581#8008000001000405");
 }
 
-TEST_CASE("SDO download: more bytes than announced are refused at the segment that shows it [D5]") {
+TEST_CASE("SDO download: more bytes than announced are refused at the segment that exceeds the size [D5]") {
   Fixture node;
   node.ask("601#2104200004000000", "581#6004200000000000");
   node.ask("601#0501020304050000", "581#8004200012000706");
@@ -180,7 +182,7 @@ TEST_CASE("SDO download: more bytes than announced are refused at the segment th
 }
 
 TEST_CASE(
-    "SDO download: n = 0 in the last segment indicates no size: it has the rest of what was announced [D4] [D5]") {
+    "SDO download: n = 0 in the last segment means no size: it contains the rest of the announced size [D4] [D5]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#0001020304050607", "581#2000000000000000");
@@ -196,7 +198,7 @@ TEST_CASE(
   CHECK(node.objects.memory[15] == Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
 }
 
-TEST_CASE("SDO download: n = 0 in the last segment, for each remainder; any other n is checked as before [D5]") {
+TEST_CASE("SDO download: n = 0 in the last segment is accepted for each rest; any other n is checked [D5]") {
   for (unsigned size = 1; size <= 9; ++size) {
     for (unsigned n = 0; n < 8; ++n) {
       CAPTURE(size);
@@ -224,7 +226,8 @@ TEST_CASE("SDO download: n = 0 in the last segment, for each remainder; any othe
   }
 }
 
-TEST_CASE("SDO download: n = 0 is 7 bytes where nothing or more is left, was announced, or in any other segment [D5]") {
+TEST_CASE(
+    "SDO download: n = 0 means 7 bytes if no rest, a longer rest or no size is announced, and in other segments [D5]") {
   Fixture node;
   node.ask("601#2100210000000000", "581#6000210000000000");
   node.ask("601#0101020304050607", "581#8000210012000706");
@@ -243,7 +246,7 @@ TEST_CASE("SDO download: more bytes than announced are refused even before the l
   node.ask("601#0001020304050607", "581#8000210F12000706");
 }
 
-TEST_CASE("SDO download: without announcement the object's size decides [D5]") {
+TEST_CASE("SDO download: without an announced size that of the object is checked [D5]") {
   Fixture node;
   node.ask("601#2004200000000000", "581#6004200000000000");
   node.ask("601#0901020300000000", "581#8004200013000706");
@@ -256,7 +259,7 @@ TEST_CASE("SDO download: without announcement the object's size decides [D5]") {
   CHECK(node.objects.u32 == 0x44332211);
 }
 
-TEST_CASE("SDO download: a domain takes less than its memory [D5]") {
+TEST_CASE("SDO download: a domain accepts fewer bytes than its memory [D5]") {
   Fixture node;
   node.ask("601#2100210F02000000", "581#6000210F00000000");
   node.ask("601#0BAABB0000000000", "581#2000000000000000");
@@ -268,7 +271,7 @@ TEST_CASE("SDO download: a domain takes less than its memory [D5]") {
   CHECK(node.objects.memory[5][1] == 2);
 }
 
-TEST_CASE("SDO download: a short domain is written again and again from its beginning [D2]") {
+TEST_CASE("SDO download: each download of a short domain is written from its beginning [D2]") {
   Fixture node;
   node.ask("601#2B00210211220000", "581#6000210200000000");
   CHECK(node.objects.memory[2] == Bytes{0x11, 0x22});
@@ -276,7 +279,7 @@ TEST_CASE("SDO download: a short domain is written again and again from its begi
   CHECK(node.objects.memory[2] == Bytes{0x33, 0x44});
 }
 
-TEST_CASE("SDO download: an empty download to a string or a domain [D19]") {
+TEST_CASE("SDO download: an empty download empties a string or a domain [D19]") {
   Fixture node;
   node.ask("601#2100210500000000", "581#6000210500000000");
   node.ask("601#0F00000000000000", "581#2000000000000000");
@@ -291,7 +294,7 @@ TEST_CASE("SDO download: an empty download to a string or a domain [D19]") {
   node.ask("601#0F00000000000000", "581#2000000000000000");
 }
 
-TEST_CASE("SDO download: strings may be shorter than their capacity and are then read back so [D5]") {
+TEST_CASE("SDO download: strings may be shorter than their capacity and are read back with that length [D5]") {
   Fixture node;
   node.ask("601#2110210009000000", "581#6010210000000000");
   node.ask("601#0053686F72746572", "581#2000000000000000");
@@ -306,7 +309,7 @@ TEST_CASE("SDO download: strings may be shorter than their capacity and are then
   CHECK(node.objects.unicode_memory[0] == 0x0041);
 }
 
-TEST_CASE("SDO download: a UNICODE_STRING has no half characters [D5]") {
+TEST_CASE("SDO download: half characters of a UNICODE_STRING are refused [D5]") {
   Fixture node;
   node.rx("601#2712210041000000");
   const std::vector<std::string> sent = node.frames();
@@ -316,7 +319,7 @@ TEST_CASE("SDO download: a UNICODE_STRING has no half characters [D5]") {
   CHECK(node.objects.unicode.Size == 6);
 }
 
-TEST_CASE("SDO download: as much as a string can hold [D5]") {
+TEST_CASE("SDO download: a string may fill its capacity [D5]") {
   Fixture node;
   const Bytes sixteen{'0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'a', 'b', 'c', 'd', 'e', 'f'};
   CHECK(node.download(0x2110, 0, sixteen) == 0);
@@ -327,7 +330,7 @@ TEST_CASE("SDO download: as much as a string can hold [D5]") {
   CHECK(node.download(0x2111, 0, sixteen, false) == 0x06070012);
 }
 
-TEST_CASE("SDO download: data of every size arrive as they are, announced or not [D4]") {
+TEST_CASE("SDO download: data of every size are written unchanged, whether announced or not [D4]") {
   Fixture node(Setup().with_70000());
   for (const bool announced : {true, false}) {
     CAPTURE(announced);
@@ -380,14 +383,14 @@ TEST_CASE("SDO download: a segment after the last one is stray [D7]") {
   node.ask("601#1701020304000000", "581#8001020301000405");
 }
 
-TEST_CASE("SDO download: an upload segment request does not belong to a download [D9] [D25]") {
+TEST_CASE("SDO download: an upload segment request is aborted [D9] [D25]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#60AABBCC00000000", "581#8008200001000405");
   node.ask("601#0001020304050607", "581#8001020301000405");
 }
 
-TEST_CASE("SDO download: a new initiate during a transfer starts the new one, of the new object [D8]") {
+TEST_CASE("SDO download: a new initiate during a transfer starts a transfer of the new object [D8]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#0001020304050607", "581#2000000000000000");
@@ -401,14 +404,14 @@ TEST_CASE("SDO download: a new initiate during a transfer starts the new one, of
   CHECK(node.objects.u8 == 0x5A);
 }
 
-TEST_CASE("SDO download: a refused new initiate ends the old transfer all the same [D8]") {
+TEST_CASE("SDO download: a refused new initiate ends the previous transfer [D8]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.ask("601#4004100000000000", "581#8004100000000206");
   node.ask("601#0001020304050607", "581#8001020301000405");
 }
 
-TEST_CASE("SDO download: a client's abort ends the transfer without an answer [D6]") {
+TEST_CASE("SDO download: an abort of the client ends the transfer without an answer [D6]") {
   Fixture node;
   node.ask("601#2108200008000000", "581#6008200000000000");
   node.rx("601#8000000000000405");
@@ -416,7 +419,7 @@ TEST_CASE("SDO download: a client's abort ends the transfer without an answer [D
   node.ask("601#0001020304050607", "581#8001020301000405");
 }
 
-TEST_CASE("SDO download: the sizes announced, sent and possible in every combination [D5]") {
+TEST_CASE("SDO download: announced, sent and possible sizes are checked in every combination [D5]") {
   constexpr std::uint32_t sizes[] = {0, 1, 3, 4, 5, 7, 8, 889, 890};
   Fixture node;
   const auto verdict = [](std::uint32_t object, bool is_value, std::uint32_t number) -> std::uint32_t {
@@ -441,7 +444,7 @@ TEST_CASE("SDO download: the sizes announced, sent and possible in every combina
   }
 }
 
-TEST_CASE("SDO download: BOOLEAN takes 0 and 1 only") {
+TEST_CASE("SDO download: BOOLEAN accepts 0 and 1 only") {
   Fixture node;
   node.ask("601#2F20200001000000", "581#6020200000000000");
   node.ask("601#2F20200002000000", "581#8020200030000906");
@@ -449,7 +452,7 @@ TEST_CASE("SDO download: BOOLEAN takes 0 and 1 only") {
   node.ask("601#4020200000000000", "581#4F20200001000000");
 }
 
-TEST_CASE("SDO download: time of day, six bytes, the four high bits of the milliseconds are not kept") {
+TEST_CASE("SDO download: time of day has six bytes; the four high bits of the milliseconds are not stored") {
   Fixture node;
   node.ask("601#2126200006000000", "581#6026200000000000");
   node.ask("601#0378563412BBAA00", "581#2000000000000000");

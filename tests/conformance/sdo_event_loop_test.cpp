@@ -75,7 +75,7 @@ void check_segments(const std::vector<std::string>& sent, const Bytes& data, std
   }
 }
 
-TEST_CASE("loop without idle calls: a block upload of the server is continued by COTmrProcess(), within the pace") {
+TEST_CASE("loop without idle calls: COTmrProcess() continues a block upload of the server within the segment limit") {
   for (const Call call : {Call::always, Call::when_elapsed}) {
     Fixture node;
     begin_upload(node);
@@ -99,7 +99,7 @@ TEST_CASE("loop without idle calls: a block upload of the server is continued by
   }
 }
 
-TEST_CASE("loop without idle calls: a block upload into a driver that refuses for a while is continued") {
+TEST_CASE("loop without idle calls: a block upload is continued with a driver that refuses frames temporarily") {
   for (const std::uint64_t places : {1U, 3U, 16U, 100U}) {
     CAPTURE(places);
     Fixture node;
@@ -147,7 +147,7 @@ TEST_CASE("loop without idle calls: answers to a block download that the driver 
   CHECK(node.objects.memory[890] == data);
 }
 
-TEST_CASE("loop without idle calls: a loop that sleeps until CONodeNextDeadline, and runs COTmrProcess() alone") {
+TEST_CASE("loop without idle calls: a loop may sleep until CONodeNextDeadline and call only COTmrProcess()") {
   Fixture node;
   begin_upload(node);
   std::vector<std::string> all = node.frames();
@@ -178,7 +178,7 @@ void read_second_piece(Fixture& node) {
   CHECK(node.frames().size() == pace);
 }
 
-TEST_CASE("loop without idle calls: what a type function asks for in COTmrProcess() happens behind the segments") {
+TEST_CASE("loop without idle calls: requests of a type function in COTmrProcess() follow the segments") {
   if (pace >= 37) {
     return;
   }
@@ -197,7 +197,7 @@ TEST_CASE("loop without idle calls: what a type function asks for in COTmrProces
   CHECK(stream.log.back() == "end up 08000022");
 }
 
-TEST_CASE("loop without idle calls: a type function that stops the node in COTmrProcess()") {
+TEST_CASE("loop without idle calls: a type function may stop the node in COTmrProcess()") {
   if (pace >= 37) {
     return;
   }
@@ -217,7 +217,7 @@ TEST_CASE("loop without idle calls: a type function that stops the node in COTmr
 
 #if USE_CSDO
 
-TEST_CASE("loop without idle calls: a block download of the client is continued by COTmrProcess(), within the pace") {
+TEST_CASE("loop without idle calls: COTmrProcess() continues a block download of the client within the segment limit") {
   SdoClient node;
   node.calls(1);
   node.start_download(0x2000, 5, counted(890));
@@ -291,7 +291,7 @@ TEST_CASE("loop without idle calls: server and client share the segments of a ca
 #endif
 
 #if USE_REAL_TIME
-TEST_CASE("loop without idle calls: where threads take turns, COTmrProcess() continues a block upload in one") {
+TEST_CASE("loop without idle calls: with a node lock COTmrProcess() holds it while it continues a block upload") {
   Fixture node(Setup().turns());
   begin_upload(node);
   std::vector<std::string> all = node.frames();
@@ -311,7 +311,8 @@ TEST_CASE("loop without idle calls: where threads take turns, COTmrProcess() con
 #endif
 
 #if USE_REAL_TIME
-TEST_CASE("loop without idle calls: with a real-time thread COTmrProcess() sends refused frames, and leaves resets") {
+TEST_CASE(
+    "loop without idle calls: with a real-time thread COTmrProcess() sends refused frames and carries out no reset") {
   RealTimeNode node;
   node.can.refuse_all();
   node.arrive("601#4000100000000000");

@@ -44,7 +44,7 @@ class Device : public Fixture {
   }
 };
 
-TEST_CASE("SDO: a value in a table in read-only memory (flags D and W) is refused and stays as it is [D16]") {
+TEST_CASE("SDO: a value of a table in read-only memory (flags D and W) is refused and unchanged [D16]") {
   Device node;
   node.ask("601#2F00200101000000", "581#8000200100000106");
   node.ask("601#2B00200201000000", "581#8000200200000106");
@@ -58,7 +58,7 @@ TEST_CASE("SDO: a value in a table in read-only memory (flags D and W) is refuse
   node.ask("601#4000200400000000", "581#4F00200400000000");
 }
 
-TEST_CASE("SDO: a heartbeat time in read-only memory is refused, and no heartbeat starts [H1]") {
+TEST_CASE("SDO: a heartbeat time in read-only memory is refused and starts no heartbeat [H1]") {
   Device node;
   node.ask("601#2B1710000A000000", "581#8017100000000106");
   node.after(100ms);
@@ -66,7 +66,7 @@ TEST_CASE("SDO: a heartbeat time in read-only memory is refused, and no heartbea
   node.ask("601#4017100000000000", "581#4B17100000000000");
 }
 
-TEST_CASE("SDO: variables, strings and domains in read-only memory are refused and stay as they are") {
+TEST_CASE("SDO: variables, strings and domains in read-only memory are refused and unchanged") {
   Device node;
   node.ask("601#2301200001020304", "581#8001200000000106");
   node.ask("601#2F02200041000000", "581#8002200000000106");

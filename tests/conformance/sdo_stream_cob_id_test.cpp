@@ -73,7 +73,7 @@ void send_all_but_last(Fixture& node, const Transfer& transfer) {
   }
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs: the download is answered once, at the old ones [Q3]") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs: the download is answered once with the old ones [Q3]") {
   for (const Transfer& transfer : downloads()) {
     CAPTURE(std::string(transfer.name));
     Moving node;
@@ -83,7 +83,7 @@ TEST_CASE("SDO stream types: End writes the server's COB-IDs: the download is an
   }
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs and fails: one abort, at the old ones [Q3]") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs and fails: one abort with the old ones [Q3]") {
   for (const Transfer& transfer : downloads()) {
     CAPTURE(std::string(transfer.name));
     Moving node;
@@ -94,7 +94,7 @@ TEST_CASE("SDO stream types: End writes the server's COB-IDs and fails: one abor
   }
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs: the last segment of an upload goes to the old ones") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs: the last segment of an upload has the old ones") {
   Moving node;
   node.ask("690#4000300000000000", "6A0#4100300008000000");
   node.ask("690#6000000000000000", "6A0#0001020304050607");
@@ -102,7 +102,7 @@ TEST_CASE("SDO stream types: End writes the server's COB-IDs: the last segment o
   check_has_moved(node, "end up 0");
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs after a time-out: the abort goes to the old ones [D18]") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs after a time-out: the abort has the old ones [D18]") {
   Moving node;
   node.ask("690#2100300008000000", "6A0#6000300000000000");
   node.after(node.sdo_time_out());
@@ -110,7 +110,8 @@ TEST_CASE("SDO stream types: End writes the server's COB-IDs after a time-out: t
   check_has_moved(node, "end down 05040000");
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs after the client's abort, which is not answered [D6]") {
+TEST_CASE(
+    "SDO stream types: End writes the server's COB-IDs after an abort of the client, which is not answered [D6]") {
   Moving node;
   node.ask("690#2100300008000000", "6A0#6000300000000000");
   node.rx("690#8000300000000405");
@@ -118,15 +119,14 @@ TEST_CASE("SDO stream types: End writes the server's COB-IDs after the client's 
   check_has_moved(node, "end down 05040000");
 }
 
-TEST_CASE("SDO stream types: End writes the server's COB-IDs because of a new initiate, which is answered first [D8]") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs at a new initiate, which is answered first [D8]") {
   Moving node;
   node.ask("690#2100300008000000", "6A0#6000300000000000");
   node.ask("690#4000100000000000", "6A0#4300100091010F00");
   check_has_moved(node, "end down 08000022");
 }
 
-TEST_CASE(
-    "SDO stream types: End writes the server's COB-IDs: the transfer that the new initiate opened ends with them") {
+TEST_CASE("SDO stream types: End writes the server's COB-IDs: the transfer of the new initiate ends with them") {
   Moving node;
   node.ask("690#2100300008000000", "6A0#6000300000000000");
   node.ask("690#4008100000000000", "6A0#4108100011000000");
@@ -134,8 +134,7 @@ TEST_CASE(
   check_has_moved(node, "end down 08000022");
 }
 
-TEST_CASE(
-    "SDO stream types: End is told because the COB-IDs are written, and writes others: the last ones hold [D16]") {
+TEST_CASE("SDO stream types: End is called by a write of the COB-IDs and writes others: the last ones are used [D16]") {
   Moving node;
   node.ask("690#2100300008000000", "6A0#6000300000000000");
   node.ask("601#2301120190060080", "581#6001120100000000");
@@ -144,7 +143,7 @@ TEST_CASE(
   CHECK(node.objects.sdo2_tx == 0x6A1);
 }
 
-TEST_CASE("SDO stream types: End moves the server: what waits for the controller keeps its old identifier") {
+TEST_CASE("SDO stream types: End changes the COB-IDs: queued answers keep their old CAN-ID") {
   Moving node;
   node.can.refuse_all();
   node.rx("690#2F00300011000000");
@@ -155,7 +154,7 @@ TEST_CASE("SDO stream types: End moves the server: what waits for the controller
   check_has_moved(node, "end down 0");
 }
 
-TEST_CASE("SDO stream types: End moves the server: NMT stop withdraws what waits under the old identifier [N8]") {
+TEST_CASE("SDO stream types: End changes the COB-IDs: NMT stop withdraws answers queued with the old CAN-ID [N8]") {
   Moving node;
   node.can.refuse_all();
   node.rx("690#2F00300011000000");

@@ -85,12 +85,12 @@ void each_ends_with(const std::string& code, Function function, bool also_in_sub
 
 // Causes of the end of a transfer ------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: End after the client's abort gets its code [D6]") {
+TEST_CASE("SDO stream types: End after an abort of the client gets its code [D6]") {
   each_ends_with("08000000", [](Fixture& node) { node.rx("601#8000300000000008"); });
   each_ends_with("12345678", [](Fixture& node) { node.rx("601#8000300078563412"); });
 }
 
-TEST_CASE("SDO stream types: End after an abort without a code gets a failure") {
+TEST_CASE("SDO stream types: End after an abort with the code 0 gets a failure") {
   for (const State& state : states()) {
     CAPTURE(state.name);
     Stream node;
@@ -106,23 +106,23 @@ TEST_CASE("SDO stream types: End after an abort without a code gets a failure") 
   }
 }
 
-TEST_CASE("SDO stream types: End after an unknown command [D7]") {
+TEST_CASE("SDO stream types: End is called after an unknown command [D7]") {
   each_ends_with(
       "05040001", [](Fixture& node) { node.rx("601#E000000000000000"); }, false);
 }
 
-TEST_CASE("SDO stream types: End after a time-out [D18]") {
+TEST_CASE("SDO stream types: End is called after a time-out [D18]") {
   each_ends_with("05040000", [](Fixture& node) { node.after(node.sdo_time_out()); });
 }
 
-TEST_CASE("SDO stream types: End after a new initiate, refused or not [D8]") {
+TEST_CASE("SDO stream types: End is called at a new initiate, refused or not [D8]") {
   each_ends_with(
       "08000022", [](Fixture& node) { node.ask("601#4000100000000000", "581#4300100091010F00"); }, false);
   each_ends_with(
       "08000022", [](Fixture& node) { node.ask("601#4004100000000000", "581#8004100000000206"); }, false);
 }
 
-TEST_CASE("SDO stream types: a new initiate of the same object: End, then Begin [D8]") {
+TEST_CASE("SDO stream types: a new initiate of the same object calls End, then Begin [D8]") {
   for (const State& state : states()) {
     if (state.in_sub_block) continue;
     CAPTURE(state.name);
@@ -138,19 +138,19 @@ TEST_CASE("SDO stream types: a new initiate of the same object: End, then Begin 
   }
 }
 
-TEST_CASE("SDO stream types: End when the NMT state forbids SDO [N8]") {
+TEST_CASE("SDO stream types: End is called when the NMT state forbids SDO [N8]") {
   each_ends_with("08000022", [](Fixture& node) { node.rx("000#0201"); });
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONmtSetMode(&node->Nmt, CO_STOP); }); });
 }
 
-TEST_CASE("SDO stream types: End in every reset, and in CONodeStop [N8] [T14]") {
+TEST_CASE("SDO stream types: End is called in every reset and in CONodeStop [N8] [T14]") {
   each_ends_with("08000022", [](Fixture& node) { node.rx("000#8101"); });
   each_ends_with("08000022", [](Fixture& node) { node.rx("000#8201"); });
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONmtReset(&node->Nmt, CO_RESET_NODE); }); });
   each_ends_with("08000022", [](Fixture& node) { node.call([&] { CONodeStop(&node.node); }); });
 }
 
-TEST_CASE("SDO stream types: no End while the state allows SDO [N8]") {
+TEST_CASE("SDO stream types: End is not called by changes between states with SDO [N8]") {
   Stream node;
   node.ask("601#4000300000000000", "581#410030007A030000");
   node.take_log();
@@ -159,7 +159,7 @@ TEST_CASE("SDO stream types: no End while the state allows SDO [N8]") {
   node.ask("601#6000000000000000", "581#0001020304050607");
 }
 
-TEST_CASE("SDO stream types: End after a wrong toggle bit [D4]") {
+TEST_CASE("SDO stream types: End is called after a wrong toggle bit [D4]") {
   Stream node;
   node.ask("601#2100300014000000", "581#6000300000000000");
   node.ask("601#1001020304050607", "581#8000300000000305");
@@ -170,7 +170,7 @@ TEST_CASE("SDO stream types: End after a wrong toggle bit [D4]") {
   CHECK(node.log.back() == "end up 05030000");
 }
 
-TEST_CASE("SDO stream types: End after the wrong number of bytes [D5]") {
+TEST_CASE("SDO stream types: End is called after a wrong number of bytes [D5]") {
   Stream node;
   node.ask("601#2100300014000000", "581#6000300000000000");
   node.ask("601#0101020304050607", "581#8000300013000706");
@@ -188,7 +188,8 @@ TEST_CASE("SDO stream types: a size that does not fit is refused before Begin [D
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
 
-TEST_CASE("SDO stream types: End after a CRC error, nothing of what fits into the buffer was written [D14]") {
+TEST_CASE(
+    "SDO stream types: after a CRC error End is called, and data that fit into the buffer are not written [D14]") {
   Stream node;
   BlockOptions options;
   options.crc_error = 0x8000;
@@ -201,7 +202,7 @@ TEST_CASE("SDO stream types: End after a CRC error, nothing of what fits into th
   CHECK(node.take_log() == Log{"begin down 890", "reset 0", "write 0", "write 889", "end down 05040004"});
 }
 
-TEST_CASE("SDO stream types: End after the wrong number of bytes in blocks, and wrong acknowledges [D5] [D12]") {
+TEST_CASE("SDO stream types: End is called after a wrong number of bytes in blocks and wrong acknowledges [D5] [D12]") {
   Stream node;
   BlockOptions options;
   options.announced_more = 1;
@@ -271,7 +272,7 @@ std::vector<Initiate> initiates() {
   return all;
 }
 
-TEST_CASE("SDO stream types: a Begin that fails refuses the transfer, there is no End") {
+TEST_CASE("SDO stream types: a Begin that fails refuses the transfer without End") {
   for (const Initiate& initiate : initiates()) {
     CAPTURE(initiate.request);
     Stream node(initiate.expedited ? 2 : 890);
@@ -287,7 +288,7 @@ TEST_CASE("SDO stream types: a Begin that fails refuses the transfer, there is n
   }
 }
 
-TEST_CASE("SDO stream types: a specific code in Begin without an error has no effect") {
+TEST_CASE("SDO stream types: a custom abort code in Begin without an error has no effect") {
   for (const Initiate& initiate : initiates()) {
     CAPTURE(initiate.request);
     Stream node(initiate.expedited ? 2 : 890);
@@ -299,7 +300,7 @@ TEST_CASE("SDO stream types: a specific code in Begin without an error has no ef
   }
 }
 
-TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End gets the code") {
+TEST_CASE("SDO stream types: if Reset fails after Begin, End gets its code") {
   for (const Initiate& initiate : initiates()) {
     if (initiate.request[4] == 'C') continue;  // Reset is called only at its end
     CAPTURE(initiate.request);
@@ -312,7 +313,7 @@ TEST_CASE("SDO stream types: Begin has succeeded, Reset fails: End gets the code
   }
 }
 
-TEST_CASE("SDO stream types: a piece that cannot be written or read: End gets the code") {
+TEST_CASE("SDO stream types: if a piece cannot be written or read, End gets its code") {
   for (const bool own_code : {false, true}) {
     const std::string code = own_code ? "12345678" : "06090030";
     const std::string bytes = own_code ? "78563412" : "30000906";
@@ -343,7 +344,7 @@ TEST_CASE("SDO stream types: a piece that cannot be written or read: End gets th
   }
 }
 
-TEST_CASE("SDO stream types: an End that fails after a download becomes the abort code of the last answer") {
+TEST_CASE("SDO stream types: an End that fails after a download gives the abort code of the last answer") {
   for (const bool own_code : {false, true}) {
     const std::string bytes = own_code ? "78563412" : "30000906";
     const std::uint32_t code = own_code ? 0x12345678 : 0x06090030;
@@ -386,7 +387,7 @@ TEST_CASE("SDO stream types: an End that fails after an upload, or after an abor
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("SDO stream types: a specific code in End without an error has no effect, then or later") {
+TEST_CASE("SDO stream types: a custom abort code in End without an error has no effect, then or later") {
   Stream node;
   node.on_end = only_set_code;
   node.ask("601#2B00300011220000", "581#6000300000000000");

@@ -27,7 +27,7 @@ struct MovingStream : LoggedStream, Fixture {
   }
 };
 
-TEST_CASE("SDO stream types: a Write that opens the object and moves the table: the download is aborted") {
+TEST_CASE("SDO stream types: a Write that opens the object and moves the table aborts the download") {
   MovingStream segmented(0);
   segmented.on_open = segmented.move();
   segmented.ask("601#2100310003000000", "581#6000310000000000");
@@ -46,7 +46,7 @@ TEST_CASE("SDO stream types: a Write that opens the object and moves the table: 
 }
 
 #if USE_OBJ_EX  // objects of unknown size
-TEST_CASE("SDO stream types: a Read that moves the table: an upload of unknown size is aborted") {
+TEST_CASE("SDO stream types: a Read that moves the table aborts an upload of unknown size") {
   MovingStream node(20);
   node.knows_size = false;
   node.on_piece = node.move();
@@ -54,7 +54,8 @@ TEST_CASE("SDO stream types: a Read that moves the table: an upload of unknown s
   node.ask("601#6000000000000000", "581#8000310022000008");
 }
 
-TEST_CASE("SDO stream types: an object of unknown size that turns out to be shorter than what was read: 0604 0047h") {
+TEST_CASE(
+    "SDO stream types: an object of unknown size that becomes shorter than the read part is aborted with 0604 0047h") {
   MovingStream node(20);
   node.knows_size = false;
   node.ask("601#4000310000000000", "581#4000310000000000");
@@ -70,7 +71,7 @@ TEST_CASE("SDO stream types: an object of unknown size that turns out to be shor
 #endif
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
-TEST_CASE("SDO stream types: a Reset that moves the table when a block upload goes back: aborted, no zeros are sent") {
+TEST_CASE("SDO stream types: a Reset that moves the table in a repeated block aborts the upload") {
   MovingStream node(1800);
   node.ask("601#A00031007F000000", "581#C600310008070000");
   node.rx("601#A300000000000000");
@@ -86,7 +87,7 @@ TEST_CASE("SDO stream types: a Reset that moves the table when a block upload go
 // Time-out of transfers ---------------------------------------------------------------------------------------------
 
 #if CO_SDO_TIMEOUT != 0
-TEST_CASE("SDO server: the timer that watches transfers stops when none is open, however they have ended [D18]") {
+TEST_CASE("SDO server: the timer of the time-outs stops when no transfer is open [D18]") {
   for (const char* end : {"601#8008100000000000", "601#4000100000000000", "601#E000000000000000"}) {
     CAPTURE(std::string(end));
     Fixture node;
@@ -101,7 +102,7 @@ TEST_CASE("SDO server: the timer that watches transfers stops when none is open,
   }
 }
 
-TEST_CASE("SDO server: the timer that watches transfers stops at once where SDO is no longer allowed, and at a reset") {
+TEST_CASE("SDO server: the timer of the time-outs stops at a reset and in states without SDO") {
   for (const char* command : {"000#0201", "000#8201"}) {
     CAPTURE(std::string(command));
     Fixture node;

@@ -32,7 +32,7 @@ const auto reset_node = [](CO_OBJ*, CO_NODE* node) {
   return CO_ERR_NONE;
 };
 
-TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End, and no answer [Q9] [N8]") {
+TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End and no answer [Q9] [N8]") {
   for (const char* request : {"601#2100300014000000", "601#4000300000000000", "601#2B00300011220000"}) {
     CAPTURE(std::string(request));
     Stream node;
@@ -48,7 +48,7 @@ TEST_CASE("SDO stream types: a Begin that stops SDO is followed by one End, and 
   }
 }
 
-TEST_CASE("SDO stream types: a Begin that stops the node is followed by one End, and no answer [Q9]") {
+TEST_CASE("SDO stream types: a Begin that stops the node is followed by one End and no answer [Q9]") {
   Stream node;
   node.on_begin = stop_node;
   node.rx("601#2100300014000000");
@@ -66,7 +66,7 @@ TEST_CASE("SDO stream types: an End that resets the node is answered first [Q3] 
   CHECK(ends(node.log) == 1);
 }
 
-TEST_CASE("SDO stream types: an End that stops SDO or the node is not answered, and comes once [Q9] [N8]") {
+TEST_CASE("SDO stream types: an End that stops SDO or the node is called once and not answered [Q9] [N8]") {
   for (const auto& action : {std::function<CO_ERR(CO_OBJ*, CO_NODE*)>(stop), {stop_node}}) {
     Stream node;
     node.on_end = action;
@@ -77,7 +77,7 @@ TEST_CASE("SDO stream types: an End that stops SDO or the node is not answered, 
   }
 }
 
-TEST_CASE("SDO stream types: Begin and End may use the dictionary, the same object too [Q9]") {
+TEST_CASE("SDO stream types: Begin and End may access the dictionary, also their own object [Q9]") {
   Stream node;
   node.may_change(0x2001, 0);
   const auto use = [](CO_OBJ*, CO_NODE* stack) {
@@ -103,7 +103,7 @@ Setup two_channels() {
   });
 }
 
-TEST_CASE("SDO stream types: the second channel is refused with 0800 0022h before Begin") {
+TEST_CASE("SDO stream types: a second channel is refused with 0800 0022h before Begin") {
   Stream node(two_channels());
   node.ask("601#4000300000000000", "581#4100300009000000");
   node.take_log();
@@ -120,7 +120,7 @@ TEST_CASE("SDO stream types: the second channel is refused with 0800 0022h befor
   node.ask("690#2B00300011220000", "6A0#6000300000000000");
 }
 
-TEST_CASE("SDO stream types: End when the COB-IDs of the channel change [D16]") {
+TEST_CASE("SDO stream types: End is called when the COB-IDs of the channel change [D16]") {
   Stream node(two_channels());
   node.ask("690#2100300014000000", "6A0#6000300000000000");
   node.take_log();
@@ -128,7 +128,7 @@ TEST_CASE("SDO stream types: End when the COB-IDs of the channel change [D16]") 
   CHECK(node.take_log() == Log{"end down 08000022"});
 }
 
-TEST_CASE("SDO stream types: End at the end of a channel, not of another one") {
+TEST_CASE("SDO stream types: End is called when its own channel ends, not another one") {
   Stream node(two_channels());
   node.ask("690#2100300014000000", "6A0#6000300000000000");
   node.take_log();

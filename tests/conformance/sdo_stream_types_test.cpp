@@ -19,14 +19,14 @@ struct Streams : LoggedStream, Fixture {
 
 // Expedited and segmented ---------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: an expedited download") {
+TEST_CASE("SDO stream types: an expedited download calls Begin, Write and End") {
   Streams node;
   node.ask("601#2B00300011220000", "581#6000300000000000");
   CHECK(node.take_log() == Log{"begin down 2", "reset 0", "write 2", "end down 0"});
   CHECK(node.data == Bytes{0x11, 0x22});
 }
 
-TEST_CASE("SDO stream types: an expedited upload") {
+TEST_CASE("SDO stream types: an expedited upload calls Begin, Read and End") {
   Streams node;
   node.data = {1, 2, 3};
   node.ask("601#4000300000000000", "581#4700300001020300");
@@ -66,7 +66,7 @@ TEST_CASE("SDO stream types: a segmented upload") {
   CHECK(node.take_log() == Log{"read 2", "end up 0"});
 }
 
-TEST_CASE("SDO stream types: access of the application calls neither Begin nor End") {
+TEST_CASE("SDO stream types: accesses of the application call neither Begin nor End") {
   Streams node;
   node.data = counting(9);
   node.call([&] {
@@ -84,7 +84,7 @@ TEST_CASE("SDO stream types: access of the application calls neither Begin nor E
   CHECK(node.position == 2);
 }
 
-TEST_CASE("SDO stream types: every function but those of CO_OBJ_TYPE may be missing") {
+TEST_CASE("SDO stream types: all functions except those of CO_OBJ_TYPE may be null") {
   LoggedStream stream;
   const CO_OBJ full = stream.extended(0x3000);
   const CO_OBJ_TYPE_EX bare = {*full.Type, nullptr, nullptr, nullptr};
@@ -94,7 +94,7 @@ TEST_CASE("SDO stream types: every function but those of CO_OBJ_TYPE may be miss
   node.call([&] { CHECK(COObjReset(node.find(0x3000, 0), &node.node, 0) == CO_ERR_NONE); });
 }
 
-TEST_CASE("SDO stream types: COObjTypeExReset with null pointers") {
+TEST_CASE("SDO stream types: COObjTypeExReset with null pointers returns an error") {
   Streams node;
   CHECK(COObjTypeExReset(nullptr, &node.node, 0) == CO_ERR_BAD_ARG);
   CHECK(COObjTypeExReset(node.find(0x3000, 0), nullptr, 0) == CO_ERR_BAD_ARG);
@@ -104,7 +104,7 @@ TEST_CASE("SDO stream types: COObjTypeExReset with null pointers") {
 
 constexpr std::uint32_t sizes[] = {0, 1, 4, 6, 7, 8, 13, 14, 15, 888, 889, 890, 1777, 1778, 1779};
 
-TEST_CASE("SDO stream types: a segmented upload of unknown size names none [D3]") {
+TEST_CASE("SDO stream types: a segmented upload of unknown size announces none [D3]") {
   Streams node;
   node.knows_size = false;
   node.data = counting(9);
@@ -115,7 +115,7 @@ TEST_CASE("SDO stream types: a segmented upload of unknown size names none [D3]"
   CHECK(node.take_log() == Log{"read 7", "read 7", "end up 0"});
 }
 
-TEST_CASE("SDO stream types: segmented uploads of unknown size, empty and full segments too [D3] [D4]") {
+TEST_CASE("SDO stream types: segmented uploads of unknown size work, also with empty and full segments [D3] [D4]") {
   for (const std::uint32_t size : sizes) {
     CAPTURE(size);
     Streams node;
@@ -129,7 +129,7 @@ TEST_CASE("SDO stream types: segmented uploads of unknown size, empty and full s
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG == 127
 
-TEST_CASE("SDO stream types: a block upload of unknown size names none [D12]") {
+TEST_CASE("SDO stream types: a block upload of unknown size announces none [D12]") {
   Streams node;
   node.knows_size = false;
   node.data = counting(9);
@@ -143,7 +143,7 @@ TEST_CASE("SDO stream types: a block upload of unknown size names none [D12]") {
   CHECK(node.take_log() == Log{"end up 0"});
 }
 
-TEST_CASE("SDO stream types: block uploads of unknown size, empty and full segments and buffers too [D12]") {
+TEST_CASE("SDO stream types: block uploads of unknown size work, also with empty and full segments and buffers [D12]") {
   for (const std::uint32_t size : sizes) {
     for (const Bytes& blksizes : {Bytes{127}, Bytes{1}, Bytes{100, 27}}) {
       CAPTURE(size);
@@ -161,7 +161,7 @@ TEST_CASE("SDO stream types: block uploads of unknown size, empty and full segme
   }
 }
 
-TEST_CASE("SDO stream types: block uploads of unknown size, any segment is lost [D12] [T11]") {
+TEST_CASE("SDO stream types: block uploads of unknown size work with any segment lost [D12] [T11]") {
   for (const std::uint32_t size : {100U, 889U, 1000U}) {
     Streams node;
     node.knows_size = false;
@@ -181,7 +181,7 @@ TEST_CASE("SDO stream types: block uploads of unknown size, any segment is lost 
 
 // Block ---------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: a block download that fits the buffer is written in one piece after its end [D10]") {
+TEST_CASE("SDO stream types: a block download that fits into the buffer is written in one piece after its end [D10]") {
   for (const std::uint32_t size : {1U, 7U, 9U, 888U, 889U}) {
     for (const bool sized : {true, false}) {
       CAPTURE(size);
@@ -208,7 +208,7 @@ TEST_CASE("SDO stream types: a block download that fits the buffer is written in
   }
 }
 
-TEST_CASE("SDO stream types: a longer block download is written whenever the buffer is full, and at the end") {
+TEST_CASE("SDO stream types: a longer block download is written when the buffer is full and at the end") {
   Streams node;
   const Bytes data = counting(1900);
   node.ask("601#C60030006C070000", "581#A40030007F000000");
@@ -246,7 +246,7 @@ TEST_CASE("SDO stream types: after a gap of a block download no byte is written 
   CHECK(node.data == data);
 }
 
-TEST_CASE("SDO stream types: a block upload is read in pieces of the buffer and ends with the client's confirmation") {
+TEST_CASE("SDO stream types: a block upload is read in pieces of the buffer; End follows the client's confirmation") {
   Streams node;
   node.data = counting(890);
   node.ask("601#A40030007F000000", "581#C60030007A030000");
@@ -264,7 +264,7 @@ TEST_CASE("SDO stream types: a block upload is read in pieces of the buffer and 
   CHECK(node.take_log() == Log{"end up 0"});
 }
 
-TEST_CASE("SDO stream types: a block upload that the threshold makes an ordinary one [D13]") {
+TEST_CASE("SDO stream types: a block upload below the pst is a normal one [D13]") {
   Streams node;
   node.data = counting(9);
   node.ask("601#A40030007F090000", "581#4100300009000000");
@@ -277,7 +277,7 @@ TEST_CASE("SDO stream types: a block upload that the threshold makes an ordinary
   CHECK(node.take_log() == Log{"begin up 3", "reset 0", "read 3", "end up 0"});
 }
 
-TEST_CASE("SDO stream types: a block upload goes back, with Reset, to where the client has lost something [D12]") {
+TEST_CASE("SDO stream types: a block upload is repeated by Reset to the first lost segment [D12]") {
   Streams node;
   node.data = counting(2000);
   node.ask("601#A40030007F000000", "581#C6003000D0070000");
@@ -300,7 +300,7 @@ TEST_CASE("SDO stream types: a block upload goes back, with Reset, to where the 
 
 // Types without Begin and End -----------------------------------------------------------------------------------------
 
-TEST_CASE("SDO stream types: a type with Reset sees what it always saw, and pieces of the buffer in blocks") {
+TEST_CASE("SDO stream types: a type with Reset is called for each segment, in block transfers for each full buffer") {
   Streams node;
   node.ask("601#2B01300011220000", "581#6001300000000000");
   CHECK(node.take_log() == Log{"reset 0", "write 2"});
@@ -314,7 +314,7 @@ TEST_CASE("SDO stream types: a type with Reset sees what it always saw, and piec
   CHECK(node.take_log() == Log{"reset 0", "read 0", "read 889", "read 1"});
 }
 
-TEST_CASE("SDO stream types: a type without Reset gets up to eight bytes in one piece, by every transfer") {
+TEST_CASE("SDO stream types: a type without Reset gets up to eight bytes in one piece in every transfer") {
   Streams node;
   node.data = Bytes(8);
   CHECK(node.download(0x3002, 0, counting(8)) == 0);
@@ -330,7 +330,7 @@ TEST_CASE("SDO stream types: a type without Reset gets up to eight bytes in one 
   CHECK(node.take_log() == Log{"read 8"});
 }
 
-TEST_CASE("SDO stream types: a longer one without Reset cannot go back: a block upload of it has to fit the buffer") {
+TEST_CASE("SDO stream types: a longer type without Reset must fit into the buffer for a block upload") {
   Streams node;
   node.data = counting(889);
   node.ask("601#A40030007F000000", "581#C600300079030000");
@@ -357,7 +357,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO stream types: without USE_OBJ_EX an object of unknown length is not read") {
+TEST_CASE("SDO stream types: without USE_OBJ_EX an object of unknown length cannot be read") {
   struct Stream : LoggedStream, Fixture {
     Stream() : Fixture(Setup().only_small().with(plain(0x3001))) {}
   } node;

@@ -225,7 +225,7 @@ std::string deviation_of_model(const SdoState& state, unsigned command, bool blo
 
 // Test cases ----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SDO server: the table of reactions names 61 states, and one reaction to each command byte [T6]") {
+TEST_CASE("SDO server: the table of reactions has 61 states and one reaction for each command byte [T6]") {
   const std::vector<SdoState> states = sdo_states(golden, true);
   CHECK(states.size() == 61);
   CHECK(sdo_states(golden, false).size() == 21);
@@ -238,7 +238,7 @@ TEST_CASE("SDO server: the table of reactions names 61 states, and one reaction 
   }
 }
 
-TEST_CASE("SDO server: the table of reactions is that of the model, with block transfer and without [T6]") {
+TEST_CASE("SDO server: the table of reactions equals the model with and without block transfer [T6]") {
   unsigned round = 0;
   for (const bool block : {true, false}) {
     for (const SdoState& state : sdo_states(golden, block)) {
@@ -250,15 +250,15 @@ TEST_CASE("SDO server: the table of reactions is that of the model, with block t
   }
 }
 
-TEST_CASE("SDO server: the reaction to every command byte in every state for every kind of object [T6] [D1]-[D13]") {
+TEST_CASE("SDO server: every command byte in every state has its reaction for every kind of object [T6] [D1]-[D13]") {
   check_reactions(sdo_states(golden, has_block), has_block);
 }
 
-TEST_CASE("SDO server: without a buffer, the reaction to every command byte is that without block transfer [T6]") {
+TEST_CASE("SDO server: without a buffer every command byte has the reaction without block transfer [T6]") {
   check_reactions(sdo_states(golden, false), false);
 }
 
-TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any state [T6] [D1]") {
+TEST_CASE("SDO server: frames of another length than 8 have no effect in any state [T6] [D1]") {
   unsigned round = 0;
   for (const SdoState& state : sdo_states(golden, has_block)) {
     CAPTURE(state.name);
@@ -282,7 +282,7 @@ TEST_CASE("SDO server: no frame of another length than 8 has any effect, in any 
 }
 
 // Within a sub-block, the server would treat an upload request as a segment: the client has to abort first. [D23]
-TEST_CASE("SDO server: whatever the command byte was, in whatever state, the next read is answered [T6] [D8]") {
+TEST_CASE("SDO server: after any command byte in any state the next upload is answered [T6] [D8]") {
   unsigned round = 0;
   for (const SdoState& state : sdo_states(golden, has_block)) {
     CAPTURE(state.name);

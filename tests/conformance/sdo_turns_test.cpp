@@ -26,7 +26,7 @@ std::vector<std::uint32_t> senders(Fixture& node, unsigned frames) {
   return ids;
 }
 
-TEST_CASE("SDO block upload: channels take turns, however few frames the controller takes [D20]") {
+TEST_CASE("SDO block upload: channels send in rotation, however few frames the controller accepts [D20]") {
   Fixture node(Setup().before_init([](Objects& objects) {
     objects.sdo2_rx = 0x640;
     objects.sdo2_tx = 0x5C0;
@@ -49,7 +49,7 @@ TEST_CASE("SDO block upload: channels take turns, however few frames the control
 #endif
 
 // 617 bytes are 88 segments and one byte: the last segment and the end request are equal, D9h and seven bytes 0.
-TEST_CASE("SDO block download: an end that is equal to the last segment is the end if length and CRC are right [D27]") {
+TEST_CASE("SDO block download: a frame equal to the last segment is the end if length and CRC are right [D27]") {
   for (const char* initiate : {"601#C202210069020000", "601#C602210069020000"}) {
     CAPTURE(initiate);
     Fixture node(Setup().with_70000());
@@ -65,7 +65,7 @@ TEST_CASE("SDO block download: an end that is equal to the last segment is the e
   }
 }
 
-TEST_CASE("SDO stream types: a long object without Reset is not given to block uploads, which may have to go back") {
+TEST_CASE("SDO stream types: a long object without Reset is refused for block uploads, which may be repeated") {
   LoggedStream stream;
   stream.data = counting(2000);
   CO_OBJ entry = stream.extended(0x2300);
@@ -79,7 +79,7 @@ TEST_CASE("SDO stream types: a long object without Reset is not given to block u
   node.rx("601#8000230000000008");
 }
 
-TEST_CASE("SDO block upload: it is watched, whatever its type does to the NMT state while it goes on [D18]") {
+TEST_CASE("SDO block upload: its time-out runs although its type changes the NMT state meanwhile [D18]") {
   LoggedStream stream;
   stream.data = counting(1900);
   unsigned reads = 0;
@@ -116,7 +116,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO client, own node: a type function that cancels the access is not left by its buffer") {
+TEST_CASE("SDO client, own node: after a cancel in a type function the buffer stays valid until the callback") {
   LoggedStream stream;
   SdoClient node(Setup().only_small().with(stream.extended(0x2300)), local_entries());
   stream.on_open = [&](CO_OBJ*, CO_NODE* of) {

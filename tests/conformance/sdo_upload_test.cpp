@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("SDO upload: one to four bytes are sent expedited, unused bytes 0 [D1] [D3] [SDO 01]") {
+TEST_CASE("SDO upload: one to four bytes are sent expedited with unused bytes 0 [D1] [D3] [SDO 01]") {
   Fixture node;
   node.ask("601#4000100000000000", "581#4300100091010F00");
   node.ask("601#4001200000000000", "581#4F01200011000000");
@@ -15,12 +15,12 @@ TEST_CASE("SDO upload: one to four bytes are sent expedited, unused bytes 0 [D1]
   node.ask("601#4004200000000000", "581#4304200011223344");
 }
 
-TEST_CASE("SDO upload: reserved bytes of the request do not matter [D3]") {
+TEST_CASE("SDO upload: reserved bytes of the request are ignored [D3]") {
   Fixture node;
   node.ask("601#40042000FFFFFFFF", "581#4304200011223344");
 }
 
-TEST_CASE("SDO upload: five to eight bytes are sent in segments, size announced [D3] [D4]") {
+TEST_CASE("SDO upload: five to eight bytes are sent in segments with announced size [D3] [D4]") {
   Fixture node;
   node.ask("601#4005200000000000", "581#4105200005000000");
   node.ask("601#6000000000000000", "581#0511223344550000");
@@ -41,13 +41,13 @@ TEST_CASE("SDO upload: a string in segments with alternating toggle [D4] [SDO 16
   node.ask("601#6000000000000000", "581#096F646500000000");
 }
 
-TEST_CASE("SDO upload: a short string is sent expedited, again and again the same [D3]") {
+TEST_CASE("SDO upload: a short string is sent expedited, repeatedly with the same bytes [D3]") {
   Fixture node;
   node.ask("601#400A100000000000", "581#470A1000312E3000");
   node.ask("601#400A100000000000", "581#470A1000312E3000");
 }
 
-TEST_CASE("SDO upload: a short domain is sent expedited, again and again the same [D3]") {
+TEST_CASE("SDO upload: a short domain is sent expedited, repeatedly with the same bytes [D3]") {
   Fixture node;
   for (int i = 0; i < 2; ++i) {
     node.ask("601#4000210100000000", "581#4F00210101000000");
@@ -57,7 +57,7 @@ TEST_CASE("SDO upload: a short domain is sent expedited, again and again the sam
   }
 }
 
-TEST_CASE("SDO upload: full segments at the end of the data [D4]") {
+TEST_CASE("SDO upload: data that end with a full segment are complete [D4]") {
   Fixture node;
   node.ask("601#4000210700000000", "581#4100210707000000");
   node.ask("601#6000000000000000", "581#0101020304050607");
@@ -101,7 +101,7 @@ TEST_CASE("SDO upload: writable strings are sent with their present length") {
   node.ask("601#6000000000000000", "581#034100E400AC2000");
 }
 
-TEST_CASE("SDO upload: data of every size come as they are [D4]") {
+TEST_CASE("SDO upload: data of every size are sent unchanged [D4]") {
   Fixture node(Setup().with_70000());
   for (const std::uint32_t size : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 14U, 15U}) {
     CAPTURE(size);
@@ -132,7 +132,7 @@ TEST_CASE("SDO upload: a repeated toggle bit is aborted with 0503 0000h [D4]") {
   node.ask("601#6000000000000000", "581#8008100000000305");
 }
 
-TEST_CASE("SDO upload: a client's abort ends the transfer without an answer [D6]") {
+TEST_CASE("SDO upload: an abort of the client ends the transfer without an answer [D6]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.rx("601#8008100000000405");
@@ -140,7 +140,7 @@ TEST_CASE("SDO upload: a client's abort ends the transfer without an answer [D6]
   node.ask("601#6000000000000000", "581#8000000001000405");
 }
 
-TEST_CASE("SDO upload: an abort with a foreign multiplexer ends the transfer as well [D6]") {
+TEST_CASE("SDO upload: an abort with another multiplexer ends the transfer [D6]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.rx("601#8034120000000405");
@@ -154,7 +154,7 @@ TEST_CASE("SDO upload: an abort without a transfer is not answered [D6]") {
   node.silent();
 }
 
-TEST_CASE("SDO upload: a new initiate during a transfer starts the new one [D8]") {
+TEST_CASE("SDO upload: a new initiate during a transfer starts a new one [D8]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.ask("601#6000000000000000", "581#004C65786963616E");
@@ -164,14 +164,14 @@ TEST_CASE("SDO upload: a new initiate during a transfer starts the new one [D8]"
   node.ask("601#7000000000000000", "581#8000000001000405");
 }
 
-TEST_CASE("SDO upload: a download segment does not belong to an upload [D9] [D25]") {
+TEST_CASE("SDO upload: a download segment is aborted [D9] [D25]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.ask("601#00AABBCC00000000", "581#8008100001000405");
   node.ask("601#6000000000000000", "581#8000000001000405");
 }
 
-TEST_CASE("SDO upload: the value that is sent is the one at the initiate") {
+TEST_CASE("SDO upload: the value at the initiate is sent") {
   Fixture node;
   node.may_change(0x2008, 0);
   node.ask("601#4008200000000000", "581#4108200008000000");
@@ -180,13 +180,13 @@ TEST_CASE("SDO upload: the value that is sent is the one at the initiate") {
   node.ask("601#7000000000000000", "581#1D88000000000000");
 }
 
-TEST_CASE("SDO upload: time of day is six bytes, milliseconds first") {
+TEST_CASE("SDO upload: time of day has six bytes, milliseconds first") {
   Fixture node;
   node.ask("601#4026200000000000", "581#4126200006000000");
   node.ask("601#6000000000000000", "581#0304030201060500");
 }
 
-TEST_CASE("SDO upload: REAL32 and REAL64") {
+TEST_CASE("SDO upload: REAL32 and REAL64 are sent little-endian") {
   Fixture node;
   node.ask("601#4024200000000000", "581#432420000000803F");
   node.ask("601#4028200000000000", "581#4128200008000000");
@@ -194,7 +194,7 @@ TEST_CASE("SDO upload: REAL32 and REAL64") {
   node.ask("601#7000000000000000", "581#1D3F000000000000");
 }
 
-TEST_CASE("SDO upload: values relative to the node-ID") {
+TEST_CASE("SDO upload: values relative to the node-ID are sent with it added") {
   Fixture node(Setup().node_id(0x30));
   node.ask("630#4014100000000000", "5B0#43141000B0000000");
   node.ask("630#4034200000000000", "5B0#43342000B0010000");

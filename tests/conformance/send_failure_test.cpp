@@ -31,7 +31,7 @@ std::vector<std::string> session(Fixture& node) {
   return all;
 }
 
-TEST_CASE("send failure: no answer, boot-up or heartbeat is lost, whichever frame the driver refuses [T12]") {
+TEST_CASE("send failure: no answer, boot-up or heartbeat is lost, whichever frames the driver refuses [T12]") {
   Fixture undisturbed(Setup().stay_in_init());
   const std::vector<std::string> expected = session(undisturbed);
   CHECK(expected.size() == 15);
@@ -53,7 +53,7 @@ TEST_CASE("send failure: no answer, boot-up or heartbeat is lost, whichever fram
   }
 }
 
-TEST_CASE("send failure: waiting frames go out by priority, equal ones in order [Q4]") {
+TEST_CASE("send failure: queued frames are sent by priority, those of equal CAN-ID in order [Q4]") {
   Fixture node(Setup().heartbeat(10).tx_queue(20));
   node.can.refuse_all();
   node.after(10ms);
@@ -75,7 +75,7 @@ TEST_CASE("send failure: waiting frames go out by priority, equal ones in order 
 }
 
 // Arbitration compares the base identifiers first; of equal ones, an 11-bit identifier wins. [ISO 11898-1]
-TEST_CASE("send failure: 29-bit identifiers wait in the order of arbitration among themselves and 11-bit ones [Q4]") {
+TEST_CASE("send failure: queued 29-bit and 11-bit identifiers are sent in the order of arbitration [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   node.call([&] {
@@ -91,7 +91,7 @@ TEST_CASE("send failure: 29-bit identifiers wait in the order of arbitration amo
            "06080000#0B", "7FF#0A", "1FFFFFFF#08"});
 }
 
-TEST_CASE("send failure: a new frame does not overtake waiting ones of the same identifier [Q4]") {
+TEST_CASE("send failure: a new frame does not overtake queued ones of its CAN-ID [Q4]") {
   Fixture node;
   CO_IF_FRM first = frame("181#01");
   CO_IF_FRM second = frame("181#02");
@@ -120,7 +120,7 @@ TEST_CASE("send failure: a full queue refuses frames of the application and coun
   CHECK(node.frames() == std::vector<std::string>(taken, "181#01"));
 }
 
-TEST_CASE("send failure: a full queue delays an SDO answer and does not lose it [Q4] [T12]") {
+TEST_CASE("send failure: a full queue delays an SDO answer and does not drop it [Q4] [T12]") {
   for (const std::string waiting : {"091#01", "7FF#01"}) {
     CAPTURE(waiting);
     Fixture node(Setup().tx_queue(2));
@@ -138,7 +138,7 @@ TEST_CASE("send failure: a full queue delays an SDO answer and does not lose it 
   }
 }
 
-TEST_CASE("send failure: the boot-up takes the last place of a full queue and is the first to go [N4] [T12]") {
+TEST_CASE("send failure: the boot-up gets the last slot of a full queue and is sent first [N4] [T12]") {
   for (const unsigned length : {1U, 2U, 5U}) {
     CAPTURE(length);
     Fixture node(Setup().tx_queue(static_cast<std::uint16_t>(length)).stay_in_init());
@@ -158,7 +158,7 @@ TEST_CASE("send failure: the boot-up takes the last place of a full queue and is
   }
 }
 
-TEST_CASE("send failure: the deadline is a millisecond as long as frames are queued") {
+TEST_CASE("send failure: CONodeNextDeadline is 1 ms while frames are queued") {
   Fixture node(Setup().rate(10000));
   CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
   node.can.refuse_all();
@@ -176,7 +176,7 @@ TEST_CASE("send failure: the deadline is a millisecond as long as frames are que
   CHECK(CONodeNextDeadline(&node.node) == 0xFFFFFFFF);
 }
 
-TEST_CASE("send failure: when SDO ends, its answers that wait are withdrawn, and no frame of the application is [N8]") {
+TEST_CASE("send failure: leaving states with SDO withdraws queued answers and no frame of the application [N8]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   node.rx("601#4000100000000000");
@@ -192,7 +192,7 @@ TEST_CASE("send failure: when SDO ends, its answers that wait are withdrawn, and
   node.tx({"00000000#01", "00000581#02", "57F#03", "600#04", "1FFFFFFF#05"});
 }
 
-TEST_CASE("send failure: channels that are off withdraw nothing [N8]") {
+TEST_CASE("send failure: disabled channels withdraw no frame [N8]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   CO_IF_FRM frm = frame("1FFFFFFF#01");

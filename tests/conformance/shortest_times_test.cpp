@@ -17,7 +17,7 @@ constexpr std::uint32_t rates[] = {1000, 1000000};  // ticks per second
 
 [[maybe_unused]] CO_DATA data(const void* address) { return reinterpret_cast<std::uintptr_t>(address); }
 
-TEST_CASE("shortest times: 1 ms in 1017h is a heartbeat each millisecond, 0 ends it") {
+TEST_CASE("shortest times: 1 ms in 1017h is a heartbeat each millisecond; 0 ends it") {
   for (const std::uint32_t rate : rates) {
     Fixture node(Setup().rate(rate));
     node.ask("601#2B17100001000000", "581#6017100000000000");
@@ -33,7 +33,7 @@ TEST_CASE("shortest times: 1 ms in 1017h is a heartbeat each millisecond, 0 ends
 
 #if CO_HBCONS_N > 0
 
-TEST_CASE("shortest times: 1 ms in 1016h monitors a node, 0 ends it") {
+TEST_CASE("shortest times: 1 ms in 1016h monitors a node; 0 ends it") {
   for (const std::uint32_t rate : rates) {
     Monitor node({}, Setup().rate(rate));
     CHECK(node.configure(1, 0x00050001) == 0);
@@ -53,7 +53,7 @@ TEST_CASE("shortest times: 1 ms in 1016h monitors a node, 0 ends it") {
 
 #if USE_GUARDING
 
-TEST_CASE("shortest times: 1 ms in 100Ch and factor 1 is a life time of 1 ms, guard time 0 ends it") {
+TEST_CASE("shortest times: 1 ms in 100Ch and factor 1 is a life time of 1 ms; guard time 0 ends it") {
   for (const std::uint32_t rate : rates) {
     std::uint16_t time = 0;
     std::uint8_t factor = 1;
@@ -84,7 +84,7 @@ TEST_CASE("shortest times: 1 ms in 100Ch and factor 1 is a life time of 1 ms, gu
 
 #if CO_TPDO_N > 0
 
-TEST_CASE("shortest times: 1 ms in 1800h:5 is a TPDO each millisecond, 0 ends it") {
+TEST_CASE("shortest times: 1 ms in 1800h:5 is a TPDO each millisecond; 0 ends it") {
   for (const std::uint32_t rate : rates) {
     PdoTable table;
     table.tpdo[0].on(0x40000181, 254, {0x22010108});
@@ -103,7 +103,7 @@ TEST_CASE("shortest times: 1 ms in 1800h:5 is a TPDO each millisecond, 0 ends it
 
 #if CO_RPDO_N > 0
 
-TEST_CASE("shortest times: 1 ms in 1400h:5 is a deadline of 1 ms, 0 ends it") {
+TEST_CASE("shortest times: 1 ms in 1400h:5 is a deadline of 1 ms; 0 ends it") {
   for (const std::uint32_t rate : rates) {
     PdoTable table;
     table.rpdo[0].on(0x201, 255, {0x22010108});
@@ -163,7 +163,7 @@ struct Device {
   CO_PARA group = {0, sizeof(Values), &values, &defaults, CO_RESET_COM, nullptr, CO_PARA___E};
 };
 
-TEST_CASE("shortest times: 1006h that is loaded below CO_SYNC_PERIOD_MIN is not produced, and is the node's error") {
+TEST_CASE("shortest times: a loaded 1006h below CO_SYNC_PERIOD_MIN is not produced and sets the node error") {
   for (const std::uint32_t us : {1U, 2U, 499U}) {
     CAPTURE(us);
     Device device;
@@ -191,7 +191,7 @@ TEST_CASE("shortest times: 1006h that is loaded below CO_SYNC_PERIOD_MIN is not 
   }
 }
 
-TEST_CASE("shortest times: 1006h and 1017h that are loaded with their lower bounds are used") {
+TEST_CASE("shortest times: loaded values of 1006h and 1017h at their lower bounds are used") {
   static_assert(CO_SYNC_PERIOD_MIN == 500);
   Device device;
   device.store(500, 1);
@@ -203,7 +203,7 @@ TEST_CASE("shortest times: 1006h and 1017h that are loaded with their lower boun
   CHECK(sent == std::vector<std::string>{"080#", "080#", "701#7F"});
 }
 
-TEST_CASE("shortest times: 1006h = 0, or of a consumer, is no error when it is loaded") {
+TEST_CASE("shortest times: a loaded 1006h of 0, or of a consumer, sets no error") {
   Device device;
   device.store(0, 0);
   Fixture producer(device.setup());

@@ -13,7 +13,7 @@ struct Startup {
   Fixture node;
 };
 
-TEST_CASE("self-start: bit 2 of 1F80h = 0: Operational after boot-up; 1, or no object: Pre-operational [U1]") {
+TEST_CASE("self-start: bit 2 of 1F80h = 0 gives Operational after boot-up; 1 or no object Pre-operational [U1]") {
   CHECK(Startup(0).node.mode() == CO_OPERATIONAL);
   CHECK(Startup(4).node.mode() == CO_PREOP);
   CHECK(Fixture().mode() == CO_PREOP);
@@ -21,7 +21,7 @@ TEST_CASE("self-start: bit 2 of 1F80h = 0: Operational after boot-up; 1, or no o
   CHECK(Startup(0xFFFFFFFF).node.mode() == CO_PREOP);
 }
 
-TEST_CASE("self-start: boot-up message, then the state of the heartbeat is Operational [U1] [N4]") {
+TEST_CASE("self-start: after the boot-up message the heartbeat contains Operational [U1] [N4]") {
   Startup device(0, Setup().stay_in_init().heartbeat(100));
   Fixture& node = device.node;
   std::vector<CO_MODE> modes;
@@ -34,7 +34,7 @@ TEST_CASE("self-start: boot-up message, then the state of the heartbeat is Opera
   node.tx({"701#05", "701#05"});
 }
 
-TEST_CASE("self-start: once: the NMT master's enter pre-operational and stop are obeyed [U1]") {
+TEST_CASE("self-start: enter pre-operational and stop of the NMT master are carried out afterwards [U1]") {
   Startup device(0);
   Fixture& node = device.node;
   node.rx("000#8001");
@@ -46,7 +46,7 @@ TEST_CASE("self-start: once: the NMT master's enter pre-operational and stop are
   CHECK(node.mode() == CO_PREOP);
 }
 
-TEST_CASE("self-start: after every reset, with the value of that moment [U1]") {
+TEST_CASE("self-start: after every reset the present value is used [U1]") {
   Startup device(0);
   Fixture& node = device.node;
   for (const char* reset : {"000#8101", "000#8201"}) {
@@ -67,7 +67,7 @@ TEST_CASE("self-start: after every reset, with the value of that moment [U1]") {
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("self-start: the callback of a commanded reset comes when the node is in Operational") {
+TEST_CASE("self-start: the callback of a commanded reset is called in Operational") {
   Startup device(0);
   Fixture& node = device.node;
   CO_MODE told = CO_INVALID;
@@ -77,7 +77,7 @@ TEST_CASE("self-start: the callback of a commanded reset comes when the node is 
   CHECK(told == CO_OPERATIONAL);
 }
 
-TEST_CASE("self-start: not before CONodeStart, also after a reset while initialising") {
+TEST_CASE("self-start: not before CONodeStart, also after a reset in Initialisation") {
   Startup device(0, Setup().stay_in_init());
   Fixture& node = device.node;
   node.call([&] { CONmtReset(&node->Nmt, CO_RESET_COM); });
@@ -89,7 +89,7 @@ TEST_CASE("self-start: not before CONodeStart, also after a reset while initiali
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("self-start: firmware that sets a mode after CONodeStart, or in its place, gets that mode") {
+TEST_CASE("self-start: an application that sets a mode after or instead of CONodeStart gets that mode") {
   for (const CO_MODE wanted : {CO_PREOP, CO_OPERATIONAL, CO_STOP}) {
     for (const bool start : {true, false}) {
       CAPTURE(wanted);
@@ -119,7 +119,7 @@ CO_MODE started(CO_MODE when, CO_MODE ask_for) {
   return node.mode();
 }
 
-TEST_CASE("self-start: what the application asks for in CONmtModeChange wins [Q9]") {
+TEST_CASE("self-start: a mode that the application requests in CONmtModeChange is the final one [Q9]") {
   CHECK(started(CO_PREOP, CO_STOP) == CO_STOP);
   CHECK(started(CO_PREOP, CO_OPERATIONAL) == CO_OPERATIONAL);
   CHECK(started(CO_OPERATIONAL, CO_PREOP) == CO_PREOP);
@@ -128,7 +128,7 @@ TEST_CASE("self-start: what the application asks for in CONmtModeChange wins [Q9
   CHECK(started(CO_OPERATIONAL, CO_INVALID) == CO_INVALID);
 }
 
-TEST_CASE("self-start: a stopped node starts itself again after CONodeInit and CONodeStart") {
+TEST_CASE("self-start: a stopped node starts again after CONodeInit and CONodeStart") {
   Startup device(0);
   Fixture& node = device.node;
   node.call([&] { CONodeStop(&node.node); });
@@ -139,7 +139,7 @@ TEST_CASE("self-start: a stopped node starts itself again after CONodeInit and C
   CHECK(node.mode() == CO_OPERATIONAL);
 }
 
-TEST_CASE("self-start: 1F80h may be a plain UNSIGNED32, or lie in the dictionary") {
+TEST_CASE("self-start: 1F80h may have type UNSIGNED32 and its value in the entry") {
   Fixture plain(Setup().with({CO_KEY(0x1F80, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, 0}));
   CHECK(plain.mode() == CO_OPERATIONAL);
   Fixture direct(Setup().with({CO_KEY(0x1F80, 0, CO_OBJ_D___RW), CO_TNMT_STARTUP, 0}));
@@ -151,7 +151,7 @@ TEST_CASE("self-start: 1F80h may be a plain UNSIGNED32, or lie in the dictionary
   CHECK(direct.mode() == CO_PREOP);
 }
 
-TEST_CASE("1F80h: bit 2 may be changed, every other bit only be what it is [U1]") {
+TEST_CASE("1F80h: bit 2 may be changed; a change of any other bit is refused [U1]") {
   for (const std::uint32_t before : {0x00000000U, 0x0000000BU, 0xFFFFFFFBU}) {
     Startup device(before);
     Fixture& node = device.node;
@@ -167,7 +167,7 @@ TEST_CASE("1F80h: bit 2 may be changed, every other bit only be what it is [U1]"
   }
 }
 
-TEST_CASE("1F80h: only there, and with four bytes") {
+TEST_CASE("1F80h: its type is accepted at 1F80h only, and with four bytes") {
   Startup device(4);
   device.node.ask("601#2F801F0000000000", "581#80801F0013000706");
 #if USE_DICT_CHECK

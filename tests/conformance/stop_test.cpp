@@ -36,7 +36,7 @@ void check_stopped(Fixture& node) {
 
 }  // namespace
 
-TEST_CASE("stop: a mode asked for when the node becomes invalid is refused") {
+TEST_CASE("stop: a mode requested when the node becomes invalid is refused") {
   Fixture node;
   callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
     if (mode == CO_INVALID) CONmtSetMode(nmt, CO_OPERATIONAL);
@@ -46,7 +46,7 @@ TEST_CASE("stop: a mode asked for when the node becomes invalid is refused") {
   check_stopped(node);
 }
 
-TEST_CASE("stop: from a type's Init during a reset, a mode asked for in the callback does not revive the node") {
+TEST_CASE("stop: from Init of a type in a reset: a mode requested in the callback does not start the node") {
   Fixture node(scripted());
   on_init = [](CO_NODE* n) { CONodeStop(n); };
   callbacks().mode_change = [](CO_NMT* nmt, CO_MODE mode) {
@@ -56,7 +56,7 @@ TEST_CASE("stop: from a type's Init during a reset, a mode asked for in the call
   check_stopped(node);
 }
 
-TEST_CASE("stop: a mode asked for after the stop, in the same callback, is refused") {
+TEST_CASE("stop: a mode requested after the stop in the same callback is refused") {
   Fixture node;
   callbacks().mode_change = [&](CO_NMT* nmt, CO_MODE mode) {
     if (mode != CO_STOP) return;
@@ -68,7 +68,7 @@ TEST_CASE("stop: a mode asked for after the stop, in the same callback, is refus
   check_stopped(node);
 }
 
-TEST_CASE("stop: when the node enters Initialisation in CONodeInit(), it stays invalid and off the bus") {
+TEST_CASE("stop: within the change to Initialisation in CONodeInit() it leaves the node invalid and off the bus") {
   Fixture node;
   node.call([&] { CONodeStop(&node.node); });
   callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
@@ -79,7 +79,7 @@ TEST_CASE("stop: when the node enters Initialisation in CONodeInit(), it stays i
   check_stopped(node);
 }
 
-TEST_CASE("stop: a COB-ID that is written afterwards configures nothing in a node that was never initialised") {
+TEST_CASE("stop: a later write of a COB-ID configures nothing in a node that was never initialised") {
   Fixture node;
   node.call([&] { CONodeStop(&node.node); });
   callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
@@ -91,7 +91,7 @@ TEST_CASE("stop: a COB-ID that is written afterwards configures nothing in a nod
   check_stopped(node);
 }
 
-TEST_CASE("stop: when the start is announced, the boot-up message is the last frame") {
+TEST_CASE("stop: within the change at the start the boot-up message is the last frame") {
   Fixture node(Setup().stay_in_init());
   callbacks().mode_change = [&](CO_NMT*, CO_MODE mode) {
     if (mode == CO_PREOP) CONodeStop(&node.node);
@@ -101,7 +101,7 @@ TEST_CASE("stop: when the start is announced, the boot-up message is the last fr
   check_stopped(node);
 }
 
-TEST_CASE("stop: pending frames are read and dropped, one in each call; nothing is sent, no error is reported") {
+TEST_CASE("stop: each call reads and drops one pending frame; nothing is sent and no error reported") {
   Fixture node;
   unsigned passed_on = 0;
   callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
@@ -132,7 +132,7 @@ TEST_CASE("stop: a node that was never initialised reads no frame") {
   CHECK(CONodeGetCounters(&node).Received == 0);
 }
 
-TEST_CASE("timers: an id of a place that the pool does not have deletes nothing") {
+TEST_CASE("timers: deleting an identifier outside of the pool has no effect") {
   Fixture node;
   const std::int16_t beyond = static_cast<std::int16_t>(node->Tmr.Max);
   CHECK(COTmrDelete(&node->Tmr, beyond) == -1);

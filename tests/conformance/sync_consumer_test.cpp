@@ -21,12 +21,13 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
   return a;
 }
 
-TEST_CASE("SYNC consumer: 1005h can be read, with the value 80h [SYNC 01]") {
+TEST_CASE("SYNC consumer: 1005h is read as 80h [SYNC 01]") {
   SyncNode node;
   node.ask("601#4005100000000000", "581#4305100080000000");
 }
 
-TEST_CASE("SYNC consumer: it counts in Operational and Pre-operational as claimed, in Stopped as unclaimed [N3]") {
+TEST_CASE(
+    "SYNC consumer: SYNC is counted as claimed in Operational and Pre-operational, as unclaimed in Stopped [N3]") {
   SyncNode node(with_counter());
   node.rx("080#");
   CHECK(node.counters().Unclaimed == 0);
@@ -41,7 +42,7 @@ TEST_CASE("SYNC consumer: it counts in Operational and Pre-operational as claime
   CHECK(node.counters().Unclaimed == 1);
 }
 
-TEST_CASE("SYNC consumer: another identifier takes effect at once, and the old one is no SYNC any more [Y1]") {
+TEST_CASE("SYNC consumer: a new CAN-ID takes effect at once, and the old one is no longer SYNC [Y1]") {
   SyncNode node(with_counter());
   node.start();
   CHECK(node.set(0x1005, 0, 4, 0x90) == 0);
@@ -57,7 +58,7 @@ TEST_CASE("SYNC consumer: another identifier takes effect at once, and the old o
   node.tx({"181#11", "281#21"});
 }
 
-TEST_CASE("SYNC consumer: without 1005h there is none") {
+TEST_CASE("SYNC consumer: without 1005h no SYNC is received") {
   SyncNode node(with_counter(), [](Setup& setup) {
     for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x1005, 0x1006, 0x1007, 0x1019})
       setup.without(index, 0);
@@ -78,7 +79,7 @@ TEST_CASE("SYNC consumer: 1006h, 1007h and 1019h are not needed") {
   node.tx({"181#11", "281#21"});
 }
 
-TEST_CASE("SYNC consumer: another length than that of 1019h is reported: 8240h; all PDOs run without a counter [Y7]") {
+TEST_CASE("SYNC consumer: a length that differs from 1019h is reported with 8240h; PDOs run without a counter [Y7]") {
   for (std::uint8_t dlc = 1; dlc <= 8; ++dlc) {
     CAPTURE(unsigned{dlc});
     SyncNode node(with_counter());
@@ -89,7 +90,7 @@ TEST_CASE("SYNC consumer: another length than that of 1019h is reported: 8240h; 
   }
 }
 
-TEST_CASE("SYNC consumer: with a counter, one of another length sends only PDOs without start value [Y7]") {
+TEST_CASE("SYNC consumer: with a counter a SYNC of another length sends only PDOs without start value [Y7]") {
   for (std::uint8_t dlc = 0; dlc <= 8; ++dlc) {
     CAPTURE(unsigned{dlc});
     SyncNode node(with_counter(10));
@@ -120,7 +121,7 @@ TEST_CASE("SYNC consumer: 8240h is reported once and resolved by a SYNC of the r
   }
 }
 
-TEST_CASE("SYNC consumer: a reset forgets a wrong length") {
+TEST_CASE("SYNC consumer: a reset clears a wrong length") {
   SyncNode node(with_counter());
   node.rx("080#01");
   node.frames();
@@ -131,7 +132,7 @@ TEST_CASE("SYNC consumer: a reset forgets a wrong length") {
   CHECK(node.frames() == reports({emcy(0x8240)}));
 }
 
-TEST_CASE("SYNC consumer: remote frames are no SYNC") {
+TEST_CASE("SYNC consumer: remote frames are not SYNC") {
   SyncNode node(with_counter());
   node.start();
   node.rx("080#R");
@@ -139,7 +140,7 @@ TEST_CASE("SYNC consumer: remote frames are no SYNC") {
   CHECK(node.counters().Malformed == 1);
 }
 
-TEST_CASE("SYNC consumer: 1019h takes 0 and 2 to 240; others are refused with 0609 0030h [Y5] [SYNC 05]") {
+TEST_CASE("SYNC consumer: 1019h accepts 0 and 2 to 240; others are refused with 0609 0030h [Y5] [SYNC 05]") {
   SyncNode node;
   for (unsigned value = 0; value <= 255; ++value) {
     CAPTURE(value);
@@ -149,8 +150,7 @@ TEST_CASE("SYNC consumer: 1019h takes 0 and 2 to 240; others are refused with 06
   }
 }
 
-TEST_CASE(
-    "SYNC consumer: 1019h does not change while 1006h is not 0: 0800 0022h; the same value may come [Y5] [SYNC 09]") {
+TEST_CASE("SYNC consumer: 1019h cannot be changed while 1006h is not 0: 0800 0022h [Y5] [SYNC 09]") {
   SyncTable table;
   table.cycle = 100000;
   table.counter = 10;
@@ -163,7 +163,7 @@ TEST_CASE(
   CHECK(node.set(0x1019, 0, 1, 20) == 0);
 }
 
-TEST_CASE("SYNC consumer: lengths of the objects [D5]") {
+TEST_CASE("SYNC consumer: wrong lengths of the objects are refused [D5]") {
   SyncNode node;
   CHECK(node.set(0x1005, 0, 2, 0x80) == 0x06070013);
   CHECK(node.set(0x1006, 0, 2, 100) == 0x06070013);
@@ -185,8 +185,7 @@ TEST_CASE("SYNC consumer: a change of 1019h takes effect at once [Y5] [Y7]") {
   node.tx({"181#11", "281#21"});
 }
 
-TEST_CASE(
-    "SYNC consumer: a new window takes effect with the next SYNC; one that the timer cannot hold is refused [X4]") {
+TEST_CASE("SYNC consumer: a new window applies from the next SYNC; one beyond the range of the timer is refused [X4]") {
   SyncNode node(with_counter(), [](Setup& setup) { setup.rate(1000000000); });
   CHECK(node.set(0x1007, 0, 4, 5000000) == 0x06090030);
   CHECK(node.set(0x1006, 0, 4, 5000000) == 0x06090030);
@@ -203,7 +202,7 @@ TEST_CASE(
   other.silent();
 }
 
-TEST_CASE("SYNC consumer: each SYNC begins the window anew [X4]") {
+TEST_CASE("SYNC consumer: each SYNC restarts the window [X4]") {
   SyncTable table = with_counter();
   table.window = 10000;
   SyncNode node(table);
@@ -219,7 +218,7 @@ TEST_CASE("SYNC consumer: each SYNC begins the window anew [X4]") {
   node.tx({"181#11", "281#21"});
 }
 
-TEST_CASE("SYNC consumer: an RPDO of the SYNC's identifier gets the frame as well") {
+TEST_CASE("SYNC consumer: an RPDO with the CAN-ID of SYNC receives the frame, too") {
   if (CO_RPDO_N == 0) {
     return;
   }

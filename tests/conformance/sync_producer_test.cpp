@@ -28,7 +28,7 @@ std::vector<std::string> numbers(SyncNode& node, unsigned syncs) {
 
 using Texts = std::vector<std::string>;
 
-TEST_CASE("SYNC producer: every period from the boot-up on, in Pre-operational and Operational [Y4] [Y8] [SYNC 02]") {
+TEST_CASE("SYNC producer: SYNC is sent each period from the boot-up, except in Stopped [Y4] [Y8] [SYNC 02]") {
   SyncNode node(producer(100000));
   node.after(350ms);
   node.tx_at(100ms, "080#");
@@ -43,7 +43,7 @@ TEST_CASE("SYNC producer: every period from the boot-up on, in Pre-operational a
   node.tx_at(50ms, "080#");
 }
 
-TEST_CASE("SYNC producer: none in Stopped, from the command on, and a whole period after it [Y8] [State 04]") {
+TEST_CASE("SYNC producer: none is sent in Stopped; the first one follows a whole period later [Y8] [State 04]") {
   SyncNode node(producer(10000));
   node.after(25ms);
   CHECK(node.frames().size() == 2);
@@ -58,7 +58,7 @@ TEST_CASE("SYNC producer: none in Stopped, from the command on, and a whole peri
   node.silent();
 }
 
-TEST_CASE("SYNC producer: a SYNC that waits for the controller is withdrawn by a stop [Y8]") {
+TEST_CASE("SYNC producer: a queued SYNC is withdrawn by a stop [Y8]") {
   SyncNode node(producer(10000));
   node.can.refuse_all();
   node.after(10ms);
@@ -68,7 +68,7 @@ TEST_CASE("SYNC producer: a SYNC that waits for the controller is withdrawn by a
   node.silent();
 }
 
-TEST_CASE("SYNC producer: 1006h = 0 or no bit 30 means none [Y4] [SYNC 04]") {
+TEST_CASE("SYNC producer: 1006h = 0 or bit 30 = 0 disables it [Y4] [SYNC 04]") {
   SyncNode without_period(producer(0));
   without_period.after(10000ms);
   without_period.silent();
@@ -80,7 +80,7 @@ TEST_CASE("SYNC producer: 1006h = 0 or no bit 30 means none [Y4] [SYNC 04]") {
   CHECK(consumer.armed_timers() == 0);
 }
 
-TEST_CASE("SYNC producer: writing 1006h starts, changes and ends it at once [Y4] [D49]") {
+TEST_CASE("SYNC producer: writing 1006h starts, changes and stops it at once [Y4] [D49]") {
   SyncNode node(producer(0));
   CHECK(node.set(0x1006, 0, 4, 50000) == 0);
   node.after(120ms);
@@ -100,7 +100,7 @@ TEST_CASE("SYNC producer: writing 1006h starts, changes and ends it at once [Y4]
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("SYNC producer: bit 30 starts and ends it at once [Y1] [D21]") {
+TEST_CASE("SYNC producer: bit 30 starts and stops it at once [Y1] [D21]") {
   SyncTable table = producer(10000);
   table.sync_id = 0x80;
   SyncNode node(table);
@@ -113,7 +113,7 @@ TEST_CASE("SYNC producer: bit 30 starts and ends it at once [Y1] [D21]") {
   node.silent();
 }
 
-TEST_CASE("SYNC producer: the same value written to 1005h changes nothing, the period goes on") {
+TEST_CASE("SYNC producer: writing the present value to 1005h does not change the period") {
   SyncNode node(producer(10000));
   node.after(7ms);
   CHECK(node.set(0x1005, 0, 4, 0x40000080) == 0);
@@ -121,7 +121,7 @@ TEST_CASE("SYNC producer: the same value written to 1005h changes nothing, the p
   node.tx("080#");
 }
 
-TEST_CASE("SYNC producer: it survives both resets [D21] [SYNC 08]") {
+TEST_CASE("SYNC producer: it continues after both resets [D21] [SYNC 08]") {
   for (const char* command : {"000#8101", "000#8201"}) {
     SyncNode node(producer(10000, 5));
     CHECK(numbers(node, 3) == Texts{"080#01", "080#02", "080#03"});
@@ -131,7 +131,7 @@ TEST_CASE("SYNC producer: it survives both resets [D21] [SYNC 08]") {
   }
 }
 
-TEST_CASE("SYNC producer: 1019h = n counts from 1 to n; 0 means no data [Y5] [SYNC 06] [SYNC 07]") {
+TEST_CASE("SYNC producer: 1019h = n counts from 1 to n; 0 means a SYNC without data [Y5] [SYNC 06] [SYNC 07]") {
   SyncNode node(producer(0));
   CHECK(node.set(0x1019, 0, 1, 5) == 0);
   CHECK(node.set(0x1006, 0, 4, 10000) == 0);
@@ -142,7 +142,7 @@ TEST_CASE("SYNC producer: 1019h = n counts from 1 to n; 0 means no data [Y5] [SY
   CHECK(numbers(node, 2) == Texts{"080#", "080#"});
 }
 
-TEST_CASE("SYNC producer: after a write to 1019h it begins at 1 [Y5] [N6]") {
+TEST_CASE("SYNC producer: after a write to 1019h the counter starts at 1 [Y5] [N6]") {
   SyncNode node(producer(10000, 10));
   CHECK(numbers(node, 3) == Texts{"080#01", "080#02", "080#03"});
   CHECK(node.set(0x1006, 0, 4, 0) == 0);
@@ -151,7 +151,7 @@ TEST_CASE("SYNC producer: after a write to 1019h it begins at 1 [Y5] [N6]") {
   CHECK(numbers(node, 2) == Texts{"080#01", "080#02"});
 }
 
-TEST_CASE("SYNC producer: 2 and 240, the lowest and the highest overflow value [Y5]") {
+TEST_CASE("SYNC producer: the lowest and the highest overflow value are 2 and 240 [Y5]") {
   for (const std::uint8_t overflow : std::initializer_list<std::uint8_t>{2, 240}) {
     SyncNode node(producer(10000, overflow));
     const Texts all = numbers(node, 2U * overflow);
@@ -162,7 +162,7 @@ TEST_CASE("SYNC producer: 2 and 240, the lowest and the highest overflow value [
   }
 }
 
-TEST_CASE("SYNC producer: the counter restarts at 1 after Stopped, and goes on through Pre-operational [Y6]") {
+TEST_CASE("SYNC producer: the counter restarts at 1 after Stopped and continues through Pre-operational [Y6]") {
   SyncNode node(producer(10000, 10));
   CHECK(numbers(node, 2) == Texts{"080#01", "080#02"});
   node.rx("000#0101");
@@ -176,7 +176,7 @@ TEST_CASE("SYNC producer: the counter restarts at 1 after Stopped, and goes on t
   }
 }
 
-TEST_CASE("SYNC producer: the shortest period to the longest; a timer rounds up and does not end [Y4]") {
+TEST_CASE("SYNC producer: periods from the shortest to the longest work; the timer rounds up [Y4]") {
   SyncNode node(producer(0));
   CHECK(node.set(0x1006, 0, 4, CO_SYNC_PERIOD_MIN) == 0);
   node.after(3ms);
@@ -188,7 +188,7 @@ TEST_CASE("SYNC producer: the shortest period to the longest; a timer rounds up 
   node.tx("080#");
 }
 
-TEST_CASE("SYNC producer: a period below CO_SYNC_PERIOD_MIN is refused: 0609 0032h; 0 ends the production [Y4]") {
+TEST_CASE("SYNC producer: a period below CO_SYNC_PERIOD_MIN is refused: 0609 0032h; 0 stops it [Y4]") {
   static_assert(CO_SYNC_PERIOD_MIN == 500);
   SyncNode node(producer(10000));
   for (const std::uint32_t us : {1U, 2U, 100U, 499U}) {
@@ -208,7 +208,7 @@ TEST_CASE("SYNC producer: a period below CO_SYNC_PERIOD_MIN is refused: 0609 003
   CHECK(node.set(0x1007, 0, 4, 1) == 0);  // the synchronous window does not depend on the period
 }
 
-TEST_CASE("SYNC producer: a table or a store that holds a period below CO_SYNC_PERIOD_MIN produces none [Y4]") {
+TEST_CASE("SYNC producer: a table or stored value below CO_SYNC_PERIOD_MIN produces no SYNC [Y4]") {
   SyncNode node(producer(499));
   CHECK(node.error() == CO_ERR_OBJ_RANGE_LOW);
   CHECK(node.mode() == CO_PREOP);
@@ -224,7 +224,7 @@ TEST_CASE("SYNC producer: a table or a store that holds a period below CO_SYNC_P
   CHECK(node.frames().size() == 2);
 }
 
-TEST_CASE("SYNC producer: a consumer may have any period in 1006h") {
+TEST_CASE("SYNC producer: a consumer accepts any period in 1006h") {
   SyncTable table = producer(1);
   table.sync_id = 0x80;
   SyncNode node(table);
@@ -234,7 +234,7 @@ TEST_CASE("SYNC producer: a consumer may have any period in 1006h") {
   node.silent();
 }
 
-TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [Q8]") {
+TEST_CASE("SYNC producer: no drift in 10^5 periods [T15] [Q8]") {
   SyncNode node(producer(10000), [](Setup& setup) { setup.clock(0xFFFFFF00U); });
   const std::uint64_t begin = node.now();
   for (unsigned second = 1; second <= 1000 / stride(50); ++second) {
@@ -245,7 +245,7 @@ TEST_CASE("SYNC producer: no drift over 10^5 periods [T15] [Q8]") {
   }
 }
 
-TEST_CASE("SYNC producer: a late loop sends one SYNC and keeps the phase [Q8]") {
+TEST_CASE("SYNC producer: a late main loop sends one SYNC and keeps the phase [Q8]") {
   SyncNode node(producer(10000));
   node.jump(1003ms);
   node.tx("080#");
@@ -253,7 +253,7 @@ TEST_CASE("SYNC producer: a late loop sends one SYNC and keeps the phase [Q8]") 
   node.tx_at(7ms, "080#");
 }
 
-TEST_CASE("SYNC producer: bits 0 to 29 are frozen while bit 30 is set: 0609 0030h [Y1]") {
+TEST_CASE("SYNC producer: bits 0 to 29 cannot be changed while bit 30 is set: 0609 0030h [Y1]") {
   SyncNode node(producer(0));
   for (unsigned bit = 0; bit < 30; ++bit) {
     CAPTURE(bit);
@@ -268,7 +268,7 @@ TEST_CASE("SYNC producer: bits 0 to 29 are frozen while bit 30 is set: 0609 0030
 
 #if CO_TPDO_N > 0 && CO_RPDO_N > 0
 
-TEST_CASE("SYNC producer: it takes its own SYNC, which goes out before its PDOs [Y9]") {
+TEST_CASE("SYNC producer: it processes its own SYNC, which is sent before its PDOs [Y9]") {
   SyncTable table = producer(100000);
   table.tpdo[0].on(0x40000181, 1, {0x22010108});
   table.rpdo[0].on(0x201, 1, {0x22010108});
@@ -282,7 +282,7 @@ TEST_CASE("SYNC producer: it takes its own SYNC, which goes out before its PDOs 
   node.tx({"080#", "181#42"});
 }
 
-TEST_CASE("SYNC producer: its own PDOs count with the number of its SYNC [Y9] [X14]") {
+TEST_CASE("SYNC producer: its own PDOs use the counter of its SYNC [Y9] [X14]") {
   SyncTable table = producer(10000, 4);
   table.tpdo[0].on(0x40000181, 2, {0x22010108}).start = 3;
   SyncNode node(table);
@@ -291,7 +291,7 @@ TEST_CASE("SYNC producer: its own PDOs count with the number of its SYNC [Y9] [X
                                   "080#03", "080#04", "181#11"});
 }
 
-TEST_CASE("SYNC producer: a SYNC of another producer is ignored and counted, not reported [Y10]") {
+TEST_CASE("SYNC producer: a SYNC of another producer is ignored and counted as malformed without a report [Y10]") {
   SyncTable table = producer(100000);
   table.tpdo[0].on(0x40000181, 1, {0x22010108});
   table.rpdo[0].on(0x201, 1, {0x22010108});
@@ -307,7 +307,7 @@ TEST_CASE("SYNC producer: a SYNC of another producer is ignored and counted, not
   CHECK(node.objects.error_register == 0);
 }
 
-TEST_CASE("SYNC producer: the window begins with the produced SYNC [X4] [Y9]") {
+TEST_CASE("SYNC producer: the window starts with the produced SYNC [X4] [Y9]") {
   SyncTable table = producer(100000);
   table.window = 10000;
   table.rpdo[0].on(0x201, 1, {0x22010108});
@@ -325,7 +325,7 @@ TEST_CASE("SYNC producer: the window begins with the produced SYNC [X4] [Y9]") {
 
 #endif
 
-TEST_CASE("SYNC producer: with a 29-bit identifier") {
+TEST_CASE("SYNC producer: a 29-bit CAN-ID works") {
   SyncTable table = producer(10000);
   table.sync_id = 0x60000000U | 0x12345678U;
   SyncNode node(table);
@@ -333,7 +333,7 @@ TEST_CASE("SYNC producer: with a 29-bit identifier") {
   node.tx("12345678#");
 }
 
-TEST_CASE("SYNC producer: a plain number in the place of 1006h takes effect with the next reset") {
+TEST_CASE("SYNC producer: 1006h of a basic type takes effect with the next reset") {
   std::uint32_t period = 0;
   SyncNode node(producer(0), [&](Setup& setup) {
     setup.with({CO_KEY(0x1006, 0, CO_OBJ_____RW), CO_TUNSIGNED32, CO_DATA(&period)});

@@ -22,8 +22,7 @@ std::uint32_t write(SyncNode& node, std::uint32_t value) {
   return err == CO_ERR_NONE ? 0 : 0x06090030;
 }
 
-TEST_CASE(
-    "SYNC sweep: restricted 11-bit CAN-IDs are refused, whatever the flags; all others are SYNC at once [Y2] [N7]") {
+TEST_CASE("SYNC sweep: restricted 11-bit CAN-IDs are refused for any flags; all others are SYNC at once [Y2] [N7]") {
   if (CO_RESTRICTED_IDS != 0) {
     return;
   }
@@ -75,7 +74,7 @@ TEST_CASE("SYNC sweep: bits 11 to 28 without bit 29 are refused [Y2]") {
   }
 }
 
-TEST_CASE("SYNC sweep: with bit 29 every single bit of a 29-bit CAN-ID is SYNC, and no 11-bit frame is [Y1] [Y2]") {
+TEST_CASE("SYNC sweep: with bit 29 every single bit of a 29-bit CAN-ID works and no 11-bit frame is SYNC [Y1] [Y2]") {
   SyncNode node(with_rpdo());
   node.start();
   std::uint8_t value = 0;
@@ -95,7 +94,7 @@ TEST_CASE("SYNC sweep: with bit 29 every single bit of a 29-bit CAN-ID is SYNC, 
   }
 }
 
-TEST_CASE("SYNC sweep: the driver's filter follows 1005h at once [N7]") {
+TEST_CASE("SYNC sweep: the receive filter follows 1005h at once [N7]") {
   SyncNode node(with_rpdo());
   const auto filtered = [&](std::uint32_t id) {
     return std::find(node.can.filter.begin(), node.can.filter.end(), id) != node.can.filter.end();
@@ -108,7 +107,7 @@ TEST_CASE("SYNC sweep: the driver's filter follows 1005h at once [N7]") {
   CHECK(filtered(0x80 | CO_IF_FRM_EXT));
 }
 
-TEST_CASE("SYNC sweep: a table with an identifier that cannot be one has no SYNC, and does not hurt") {
+TEST_CASE("SYNC sweep: a table with an invalid CAN-ID has no SYNC and the node runs") {
   for (const std::uint32_t id : {0x00000000U, 0x00000800U, 0x1FFFFFFFU, 0x20000000U, 0x40000000U, 0xFFFFFFFFU}) {
     CAPTURE(id);
     SyncTable table = with_rpdo();

@@ -44,7 +44,7 @@ struct Clock : Fixture {
   }
 };
 
-TEST_CASE("clock: right to the millisecond for 30 days with a loop that is late by up to 40 minutes [T15] [Q8]") {
+TEST_CASE("clock: correct to the millisecond for 30 days with a main loop up to 40 minutes late [T15] [Q8]") {
   for (const std::uint32_t rate : {1000U, 32768U, 1000000U, 300U}) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -63,7 +63,7 @@ TEST_CASE("clock: right to the millisecond for 30 days with a loop that is late 
   }
 }
 
-TEST_CASE("clock: right to the millisecond for a night with a loop in time [T15]") {
+TEST_CASE("clock: correct to the millisecond for a night with a punctual main loop [T15]") {
   for (const std::uint32_t rate : clock_rates) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(rate);
@@ -80,7 +80,7 @@ TEST_CASE("clock: right to the millisecond for a night with a loop in time [T15]
   }
 }
 
-TEST_CASE("clock: every tick of three seconds, asked before and after the timer has run") {
+TEST_CASE("clock: read before and after the timer runs, at every tick of three seconds") {
   for (const std::uint32_t rate : {300U, 1024U}) {
     Clock clock(rate, 0xFFFFFFFFU - rate);
     for (unsigned tick = 0; tick < 3 * rate; ++tick) {
@@ -93,7 +93,7 @@ TEST_CASE("clock: every tick of three seconds, asked before and after the timer 
   }
 }
 
-TEST_CASE("clock: the fastest timers") {
+TEST_CASE("clock: correct with the fastest timers") {
   for (const std::uint32_t rate : {80000000U, 429000000U}) {
     CAPTURE(rate);
     std::mt19937 random(1);
@@ -107,7 +107,7 @@ TEST_CASE("clock: the fastest timers") {
   }
 }
 
-TEST_CASE("clock: a timer of 1 Hz, and one that is late by 100 years") {
+TEST_CASE("clock: correct with a timer of 1 Hz, also 100 years late") {
   Clock clock(1, 0);
   clock.after(1000s);
   CHECK(clock.is_right());
@@ -115,7 +115,7 @@ TEST_CASE("clock: a timer of 1 Hz, and one that is late by 100 years") {
   CHECK(clock.is_right());
 }
 
-TEST_CASE("clock: stands at 0 until it is set, and costs no timer") {
+TEST_CASE("clock: 0 until it is set, without a running timer") {
   Fixture node(Setup().only_small());
   CO_TIME_OF_DAY now{1, 1};
   CHECK(COTimeGet(&node.node, &now) == CO_ERR_OBJ_NO_DATA);
@@ -131,7 +131,7 @@ TEST_CASE("clock: stands at 0 until it is set, and costs no timer") {
   CHECK(node.armed_timers() == 1);
 }
 
-TEST_CASE("clock: goes on through NMT states and resets, and ends with CONodeStop()") {
+TEST_CASE("clock: runs through NMT states and resets and ends with CONodeStop()") {
   Fixture node(Setup().only_small());
   set(node);
   for (const char* command : {"000#0101", "000#0201", "000#8001", "000#8201", "000#8101"}) {
@@ -161,7 +161,7 @@ TEST_CASE("clock: wrong arguments are refused and change nothing") {
   CHECK(COTimeGet(&node.node, &time) == CO_ERR_OBJ_NO_DATA);
 }
 
-TEST_CASE("clock: without a frequency of the timer there is no clock") {
+TEST_CASE("clock: without a frequency of the timer it cannot be set and returns 0") {
   Fixture node(Setup().only_small().timers(0).before_init([](Objects&) {}));
   node->Tmr.Freq = 0;
   CHECK(COTimeSet(&node.node, &set_to) == CO_ERR_TMR_CREATE);
@@ -173,7 +173,7 @@ TEST_CASE("clock: without a frequency of the timer there is no clock") {
 
 Setup with_clock() { return Setup().only_small().with({CO_KEY(0x2500, 0, CO_OBJ____PRW), CO_TTIME_CLOCK, 0}); }
 
-TEST_CASE("clock: read and set through its object [301:7.1.6.5]") {
+TEST_CASE("clock: read and written through its object [301:7.1.6.5]") {
   Fixture node(with_clock());
   node.ask("601#4000250000000000", "581#4100250006000000");
   node.ask("601#6000000000000000", "581#0300000000000000");
@@ -185,7 +185,7 @@ TEST_CASE("clock: read and set through its object [301:7.1.6.5]") {
   node.ask("601#6000000000000000", "581#037D30B302313D00");
 }
 
-TEST_CASE("clock: its object refuses 24:00 and other lengths, and ignores the reserved bits") {
+TEST_CASE("clock: its object refuses 24:00 and other lengths and ignores the reserved bits") {
   Fixture node(with_clock());
   CHECK(node.download(0x2500, 0, {0x00, 0x5C, 0x26, 0x05, 0x01, 0x00}) == 0x06090030);
   CHECK(node.download(0x2500, 0, {0x00, 0x5C, 0x26, 0x05, 0x01}) == 0x06070013);
@@ -201,7 +201,7 @@ TEST_CASE("clock: its object refuses 24:00 and other lengths, and ignores the re
 }
 
 #if CO_RPDO_N > 0 && CO_TPDO_N > 0
-TEST_CASE("clock: mapped into PDOs, which set and transmit it; 24:00 is not accepted") {
+TEST_CASE("clock: PDOs write and transmit it; 24:00 is refused") {
   const auto entry = [](std::uint16_t index, std::uint8_t sub, const CO_OBJ_TYPE* type, std::uint32_t value) {
     return CO_OBJ{CO_KEY(index, sub, CO_OBJ_D___R_), type, value};
   };
@@ -228,7 +228,7 @@ TEST_CASE("clock: mapped into PDOs, which set and transmit it; 24:00 is not acce
 
 // --- Drivers without a clock
 
-TEST_CASE("clock: drivers without a clock, every tick of an hour, with timers in between and a late loop") {
+TEST_CASE("clock: correct with drivers without a clock at every tick of an hour with timers and a late main loop") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     std::mt19937 random(5);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("TIME: 1012h: bits 0 to 29 are frozen while bit 31 or 30 is set [Z1]") {
+TEST_CASE("TIME: 1012h: bits 0 to 29 cannot be changed while bit 31 or 30 is set [Z1]") {
   for (const char* flag : {"80", "40", "C0"}) {
     CAPTURE(flag);
     const std::string f = flag;
@@ -32,7 +32,7 @@ TEST_CASE("TIME: 1012h: bits 0 to 29 are frozen while bit 31 or 30 is set [Z1]")
   }
 }
 
-TEST_CASE("TIME: 1012h: every 11-bit CAN-ID, the restricted ones are refused [Z1] [301:7.3.5]") {
+TEST_CASE("TIME: 1012h: of all 11-bit CAN-IDs the restricted ones are refused [Z1] [301:7.3.5]") {
   TimeNode node(0x00000100);
   for (unsigned id = 0x7FF % stride(51); id <= 0x7FF; id += stride(51)) {
     if (id == 0x100) continue;
@@ -44,7 +44,7 @@ TEST_CASE("TIME: 1012h: every 11-bit CAN-ID, the restricted ones are refused [Z1
   CHECK(node.cob_id == (CO_RESTRICTED_IDS == 0 ? 0x700U : 0x7FFU));
 }
 
-TEST_CASE("TIME: 1012h: an 11-bit frame has no more than 11 bits, and reserved identifiers stay so with 29 [Z1]") {
+TEST_CASE("TIME: 1012h: bits 11 to 28 need bit 29, and with bit 29 a restricted value below 800h is refused [Z1]") {
   TimeNode node(0x00000100);
   node.ask("601#2312100000080080", "581#8012100030000906");
   node.ask("601#23121000FFFFFF9F", "581#8012100030000906");
@@ -56,7 +56,7 @@ TEST_CASE("TIME: 1012h: an 11-bit frame has no more than 11 bits, and reserved i
   check_time(node, 1, 2);
 }
 
-TEST_CASE("TIME: 1012h: a restricted CAN-ID of the table can be written back, but not be switched on [Z1]") {
+TEST_CASE("TIME: 1012h: a restricted CAN-ID of the table can be written but not switched on [Z1]") {
   if (CO_RESTRICTED_IDS != 0) return;
   TimeNode node(0x00000101);
   node.ask("601#2312100001010000", "581#6012100000000000");
@@ -64,7 +64,7 @@ TEST_CASE("TIME: 1012h: a restricted CAN-ID of the table can be written back, bu
   node.ask("601#2312100000010080", "581#6012100000000000");
 }
 
-TEST_CASE("TIME: 1012h of a stopped node can be written, and nothing else happens") {
+TEST_CASE("TIME: 1012h of a stopped node can be written without another effect") {
   TimeNode node(0x00000100);
   const std::vector<std::uint32_t> filter = node.can.filter;
   node.may_change(0x1012, 0);
@@ -75,7 +75,7 @@ TEST_CASE("TIME: 1012h of a stopped node can be written, and nothing else happen
   CHECK(node.can.filter == filter);
 }
 
-TEST_CASE("TIME: a new COB-ID holds at once, in the receive filter, too [N7]") {
+TEST_CASE("TIME: a new COB-ID takes effect at once, also in the receive filter [N7]") {
   TimeNode node(0x00000100);
   const auto heard = [&](std::uint32_t id) {
     return std::count(node.can.filter.begin(), node.can.filter.end(), id) == 1;
@@ -98,7 +98,7 @@ TEST_CASE("TIME: a new COB-ID holds at once, in the receive filter, too [N7]") {
   CHECK(heard(0x181));
 }
 
-TEST_CASE("TIME: 1012h relative to the node-ID, and one that holds its value itself") {
+TEST_CASE("TIME: 1012h may be relative to the node-ID and have its value in the entry") {
   Fixture relative(Setup().only_small().node_id(5).with({CO_KEY(0x1012, 0, CO_OBJ_DN__R_), CO_TTIME_ID, 0x80000200}));
   relative.rx("205#010000000200");
   CO_TIME_OF_DAY now{};
@@ -112,7 +112,7 @@ TEST_CASE("TIME: 1012h relative to the node-ID, and one that holds its value its
 
 #if USE_DICT_CHECK
 
-TEST_CASE("TIME: the type of 1012h belongs there") {
+TEST_CASE("TIME: the type of 1012h is accepted at 1012h only") {
   Fixture node(Setup().only_small().with({CO_KEY(0x2500, 0, CO_OBJ_D___R_), CO_TTIME_ID, 0x100}).stay_in_init());
   CHECK(node.mode() == CO_INVALID);
   CHECK(node.error() == CO_ERR_DICT_INIT);
@@ -120,7 +120,7 @@ TEST_CASE("TIME: the type of 1012h belongs there") {
 
 #endif
 
-TEST_CASE("TIME: macros for 1012h") {
+TEST_CASE("TIME: the macros for 1012h give its values") {
   CHECK(CO_COBID_TIME_STD(1, 0, 0x100) == 0x80000100);
   CHECK(CO_COBID_TIME_STD(0, 1, 0x100) == 0x40000100);
   CHECK(CO_COBID_TIME_STD(0, 0, 0x900) == 0x00000100);

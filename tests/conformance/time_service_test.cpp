@@ -10,7 +10,7 @@ using namespace test;
 
 // --- Consumer
 
-TEST_CASE("TIME: a consumer sets its clock and calls the application [301:7.2.6]") {
+TEST_CASE("TIME: a consumer sets its clock and calls COTimeUpdate() [301:7.2.6]") {
   for (const bool operational : {false, true}) {
     TimeNode node(time_consumer);
     unsigned calls = 0;
@@ -32,7 +32,7 @@ TEST_CASE("TIME: a consumer sets its clock and calls the application [301:7.2.6]
   }
 }
 
-TEST_CASE("TIME: the last millisecond of a day is a time, the next one is not: ignored and counted [Z1]") {
+TEST_CASE("TIME: the last millisecond of a day is accepted; the next one is ignored and counted [Z1]") {
   TimeNode node(time_consumer);
   unsigned calls = 0;
   callbacks().time_update = [&](CO_NODE*, const CO_TIME_OF_DAY*) { ++calls; };
@@ -53,7 +53,7 @@ TEST_CASE("TIME: the four reserved bits are ignored [301:7.1.6.5]") {
   CHECK(node.counters().Malformed == 0);
 }
 
-TEST_CASE("TIME: any other length and remote frames are ignored and counted [Z1]") {
+TEST_CASE("TIME: other lengths and remote frames are ignored and counted [Z1]") {
   TimeNode node(time_consumer);
   unsigned wrong = 0;
   for (const char* frame : {"100#", "100#95", "100#952C", "100#952CB3", "100#952CB302", "100#952CB30231",
@@ -64,7 +64,7 @@ TEST_CASE("TIME: any other length and remote frames are ignored and counted [Z1]
   }
 }
 
-TEST_CASE("TIME: neither taken nor counted as malformed in Stopped [N3]") {
+TEST_CASE("TIME: in Stopped a message is neither processed nor counted as malformed [N3]") {
   TimeNode node(time_consumer);
   node.rx("000#0201");
   node.rx("100#952CB302313D");
@@ -73,7 +73,7 @@ TEST_CASE("TIME: neither taken nor counted as malformed in Stopped [N3]") {
   CHECK(node.counters().Malformed == 0);
 }
 
-TEST_CASE("TIME: without 1012h, with bit 31 off or with an unusable CAN-ID nothing is taken") {
+TEST_CASE("TIME: without 1012h, with bit 31 = 0 or an invalid CAN-ID no message is processed") {
   for (const std::uint32_t id : {0x00000100U, 0x40000100U, 0x80000000U, 0xA0000000U, 0x80000800U}) {
     CAPTURE(id);
     TimeNode node(id);
@@ -89,7 +89,7 @@ TEST_CASE("TIME: without 1012h, with bit 31 off or with an unusable CAN-ID nothi
   CHECK(none.counters().Unclaimed == 1);
 }
 
-TEST_CASE("TIME: 29-bit CAN-ID, distinguished from the 11-bit one [Z1]") {
+TEST_CASE("TIME: a 29-bit CAN-ID does not match the 11-bit one [Z1]") {
   TimeNode node(0xA0012345);
   node.rx("345#952CB302313D");
   check_time(node, 0, 0);
@@ -114,7 +114,7 @@ TEST_CASE("TIME: the callback may read and set the clock and stop the node") {
 
 // --- Producer
 
-TEST_CASE("TIME: the producer sends the clock of this moment [301:7.2.6]") {
+TEST_CASE("TIME: the producer sends the present time [301:7.2.6]") {
   TimeNode node(time_producer);
   node.set(45296789, 15665);
   CHECK(node.send() == CO_ERR_NONE);
@@ -127,7 +127,7 @@ TEST_CASE("TIME: the producer sends the clock of this moment [301:7.2.6]") {
   node.tx("100#7D30B302313D");
 }
 
-TEST_CASE("TIME: midnight ends a day in what is sent, and 2163 is followed by 1984") {
+TEST_CASE("TIME: midnight increments the day, and 2163 is followed by 1984") {
   TimeNode node(time_producer);
   node.set(86399999, 15665);
   node.send();
@@ -141,7 +141,7 @@ TEST_CASE("TIME: midnight ends a day in what is sent, and 2163 is followed by 19
   node.tx("100#010000000000");
 }
 
-TEST_CASE("TIME: the reason why the producer does not send is returned") {
+TEST_CASE("TIME: COTimeSend returns the reason why it does not send") {
   CHECK(COTimeSend(nullptr) == CO_ERR_BAD_ARG);
   CHECK(COTimeProduce(nullptr, 10) == CO_ERR_BAD_ARG);
   TimeNode node(time_producer);
@@ -185,7 +185,7 @@ TEST_CASE("TIME: a queued message is replaced by a newer one, and a full queue i
   for (const std::string& sent : node.frames()) CHECK(sent.substr(0, 3) != "100");
 }
 
-TEST_CASE("TIME: a message that waits is not sent later when the state or the bus no longer allows it") {
+TEST_CASE("TIME: a queued message is not sent when state or bus no longer allow it") {
   for (const char* how : {"stop", "reset", "bus-off", "off"}) {
     CAPTURE(how);
     TimeNode node(time_producer);
@@ -204,7 +204,7 @@ TEST_CASE("TIME: a message that waits is not sent later when the state or the bu
   }
 }
 
-TEST_CASE("TIME: cyclic production") {
+TEST_CASE("TIME: cyclic production sends a message each period") {
   TimeNode node(time_producer);
   node.set(0, 0);
   CHECK(node.produce(100) == CO_ERR_NONE);
@@ -221,8 +221,7 @@ TEST_CASE("TIME: cyclic production") {
   node.silent();
 }
 
-TEST_CASE(
-    "TIME: cyclic production begins when everything that it needs is there, and outside of its states it pauses") {
+TEST_CASE("TIME: cyclic production starts when its conditions are met and pauses in other states") {
   TimeNode node(0x00000100);
   CHECK(node.produce(100) == CO_ERR_NONE);
   node.after(300ms);
@@ -253,7 +252,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("TIME: the period goes on when the node changes between states that allow TIME") {
+TEST_CASE("TIME: the period continues when the node changes between states with TIME") {
   TimeNode node(time_producer);
   node.set(0, 0);
   node.produce(100);
@@ -267,7 +266,7 @@ TEST_CASE("TIME: the period goes on when the node changes between states that al
   node.tx("100#C80000000000");
 }
 
-TEST_CASE("TIME: no timer runs for a producer that may not send") {
+TEST_CASE("TIME: no timer runs for a disabled producer") {
   TimeNode node(time_consumer);
   node.produce(100);
   CHECK(node.armed_timers() == 0);
@@ -277,7 +276,7 @@ TEST_CASE("TIME: no timer runs for a producer that may not send") {
   CHECK(node.armed_timers() == 0);
 }
 
-TEST_CASE("TIME: a late loop sends one message, and the period keeps its phase [Q8]") {
+TEST_CASE("TIME: a late main loop sends one message and keeps the phase of the period [Q8]") {
   TimeNode node(time_producer);
   node.set(0, 0);
   node.produce(100);
@@ -287,7 +286,7 @@ TEST_CASE("TIME: a late loop sends one message, and the period keeps its phase [
   node.tx_at(50ms, "100#E80300000000");
 }
 
-TEST_CASE("TIME: a period that the timer cannot hold is refused, and the one before goes on") {
+TEST_CASE("TIME: a period beyond the range of the timer is refused, and the previous one continues") {
   TimeNode node(time_producer, Setup().rate(1000000));
   node.set(0, 0);
   CHECK(node.produce(500) == CO_ERR_NONE);
@@ -296,7 +295,7 @@ TEST_CASE("TIME: a period that the timer cannot hold is refused, and the one bef
   node.tx("100#F40100000000");
 }
 
-TEST_CASE("TIME: consumer and producer in one") {
+TEST_CASE("TIME: a node may be consumer and producer") {
   TimeNode node(0xC0000100);
   node.rx("100#E80300000100");
   node.produce(1000);

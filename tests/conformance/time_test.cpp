@@ -70,7 +70,7 @@ std::vector<std::string> play(Scenario scenario, Setup setup) {
   return all;
 }
 
-TEST_CASE("time: identical traces at every frequency and at every start of the clock [T15]") {
+TEST_CASE("time: the trace does not depend on frequency and start of the clock [T15]") {
   for (const Scenario scenario : scenarios) {
     const std::vector<std::string> expected = play(scenario, Setup());
     CHECK(expected.size() >= 3);
@@ -84,7 +84,7 @@ TEST_CASE("time: identical traces at every frequency and at every start of the c
   }
 }
 
-TEST_CASE("time: identical traces whether the loop polls, sleeps until the alarm or until the next deadline [T15]") {
+TEST_CASE("time: the trace is identical for a polling loop and one that sleeps until alarm or deadline [T15]") {
   for (const Scenario scenario : scenarios) {
     const std::vector<std::string> expected = play(scenario, Setup());
     for (const Wake wake : {Wake::alarm, Wake::deadline, Wake::every_tick}) {
@@ -98,7 +98,7 @@ TEST_CASE("time: identical traces whether the loop polls, sleeps until the alarm
   }
 }
 
-TEST_CASE("time: jumps of 1 ms to 10 s, one heartbeat at most and no phase lost [T15] [Q8]") {
+TEST_CASE("time: jumps of 1 ms to 10 s give at most one heartbeat, in phase [T15] [Q8]") {
   for (const auto jump : {1ms, 249ms, 250ms, 251ms, 499ms, 1000ms, 9999ms, 10000ms}) {
     for (const std::uint32_t start : clock_starts) {
       CAPTURE(jump.count());
@@ -114,7 +114,7 @@ TEST_CASE("time: jumps of 1 ms to 10 s, one heartbeat at most and no phase lost 
   }
 }
 
-TEST_CASE("time: a late loop ends an abandoned transfer once [Q8] [D18]") {
+TEST_CASE("time: a late main loop aborts an abandoned transfer once [Q8] [D18]") {
   Fixture node;
   node.ask("601#4008100000000000", "581#4108100011000000");
   node.jump(10 * std::chrono::milliseconds{CO_SDO_TIMEOUT});
@@ -122,7 +122,7 @@ TEST_CASE("time: a late loop ends an abandoned transfer once [Q8] [D18]") {
   node.tx("581#8008100000000405");
 }
 
-TEST_CASE("time: the next deadline is the next heartbeat, and nothing when nothing is planned") {
+TEST_CASE("time: CONodeNextDeadline is the next heartbeat, or none") {
   Fixture node(Setup().heartbeat(100));
   CHECK(CONodeNextDeadline(&node.node) == 100);
   node.after(30ms);
@@ -135,7 +135,7 @@ TEST_CASE("time: the next deadline is the next heartbeat, and nothing when nothi
   CHECK(CONodeNextDeadline(nullptr) == 0xFFFFFFFF);
 }
 
-TEST_CASE("time: the node needs the loop only when there is something to do") {
+TEST_CASE("time: the main loop is woken only when the node has something to do") {
   Fixture node(Setup().heartbeat(1000));
   unsigned calls = 0;
   callbacks().lock = [&] { ++calls; };

@@ -26,7 +26,7 @@ void write_byte(PdoNode& node, std::uint16_t index, std::uint8_t sub, std::uint8
   node.call([&] { CHECK(CODictWrByte(&node->Dict, CO_DEV(index, sub), value) == CO_ERR_NONE); });
 }
 
-TEST_CASE("TPDO event: COTPdoTrigPdo sends types 254 and 255 at once, with the values of now [X1]") {
+TEST_CASE("TPDO event: COTPdoTrigPdo sends types 254 and 255 at once with the present values [X1]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{254, 255}) {
     CAPTURE(unsigned{type});
     PdoNode node(with(type));
@@ -51,7 +51,7 @@ TEST_CASE("TPDO event: entering Operational sends nothing [N11]") {
   node.silent();
 }
 
-TEST_CASE("TPDO event: the PDO of the number, and no other") {
+TEST_CASE("TPDO event: COTPdoTrigPdo sends the PDO of the number and no other one") {
   PdoTable table;
   for (unsigned n = 0; n < fixture_tpdos; ++n) {
     table.tpdo[n].on(0x40000181 + n * 0x100, 255, {0x22010008U | (n + 1) << 8});
@@ -84,7 +84,7 @@ TEST_CASE("TPDO event: COTPdoRequest returns why a PDO is not sent [X15]") {
   node.silent();
 }
 
-TEST_CASE("TPDO event: COTPdoRequest of a type without events: nothing now and nothing later [X15] [D42]") {
+TEST_CASE("TPDO event: COTPdoRequest of a type without events sends nothing then or later [X15] [D42]") {
   for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed || type == 0) {
@@ -102,7 +102,7 @@ TEST_CASE("TPDO event: COTPdoRequest of a type without events: nothing now and n
   }
 }
 
-TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends nothing: its error [X15] [D37]") {
+TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read returns its error [X15] [D37]") {
   static CO_ERR answer;
   static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 2; }, nullptr,
                                    [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {
@@ -124,7 +124,8 @@ TEST_CASE("TPDO event: COTPdoRequest of a PDO whose object cannot be read sends 
   node.tx("181#115A00");
 }
 
-TEST_CASE("TPDO event: COTPdoRequest with a full transmit queue: CO_ERR_IF_CAN_SEND, nothing later [X15]") {
+TEST_CASE(
+    "TPDO event: COTPdoRequest with a full transmit queue returns CO_ERR_IF_CAN_SEND, nothing is sent later [X15]") {
   PdoNode node(with(255), [](Setup& setup) { setup.tx_queue(1); });
   node.start();
   node.can.refuse_all();
@@ -140,7 +141,7 @@ TEST_CASE("TPDO event: COTPdoRequest with a full transmit queue: CO_ERR_IF_CAN_S
   node.tx("181#111112");
 }
 
-TEST_CASE("TPDO event: COTPdoTrigPdo leaves its reason in the node's error [D36] [X15]") {
+TEST_CASE("TPDO event: COTPdoTrigPdo sets its reason as the node error [D36] [X15]") {
   PdoNode node(with(255));
   node.trigger(0);
   CHECK(node.error() == CO_ERR_NMT_MODE);
@@ -153,7 +154,7 @@ TEST_CASE("TPDO event: COTPdoTrigPdo leaves its reason in the node's error [D36]
   node.silent();
 }
 
-TEST_CASE("TPDO event: COTPdoTrigPdo and COTPdoTrigObj without a node are fatal errors") {
+TEST_CASE("TPDO event: COTPdoTrigPdo and COTPdoTrigObj without a node call CONodeFatalError()") {
   PdoNode node;
   CO_TPDO without_node = {};
   for (CO_TPDO* const tpdo : {static_cast<CO_TPDO*>(nullptr), &without_node}) {
@@ -163,7 +164,7 @@ TEST_CASE("TPDO event: COTPdoTrigPdo and COTPdoTrigObj without a node are fatal 
   CHECK(callbacks().fatal_errors == 4);
 }
 
-TEST_CASE("TPDO event: COTPdoTrigObj sends all PDOs that map the object, each once") {
+TEST_CASE("TPDO event: COTPdoTrigObj sends all PDOs that map the object once") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108, 0x22010108});
   if (fixture_tpdos > 3) {
@@ -179,7 +180,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj sends all PDOs that map the object, each on
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("TPDO event: COTPdoTrigObj of an object that cannot be mapped, or is not, is CO_ERR_TPDO_OBJ_TRIGGER [X15]") {
+TEST_CASE("TPDO event: COTPdoTrigObj of an object that is not or cannot be mapped is CO_ERR_TPDO_OBJ_TRIGGER [X15]") {
   PdoNode node(with(255));
   node.start();
   trigger_object(node, nullptr);
@@ -210,7 +211,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj of an entry of another dictionary is CO_ERR
   node.call([&] { CHECK(COTPdoObjWasSent(&node.node, mapped)); });
 }
 
-TEST_CASE("TPDO event: COTPdoTrigObj does not find a mapping that has been replaced [D41]") {
+TEST_CASE("TPDO event: COTPdoTrigObj ignores a mapping that has been replaced [D41]") {
   PdoNode node(with(255));
   node.start();
   CHECK(node.remap_tpdo(0, {0x22010108}, 0x40000181) == 0);
@@ -220,7 +221,7 @@ TEST_CASE("TPDO event: COTPdoTrigObj does not find a mapping that has been repla
   node.tx("181#11");
 }
 
-TEST_CASE("TPDO event: an object with flag A that changes sends its PDOs, by an SDO client and by the application") {
+TEST_CASE("TPDO event: a change of an object with flag A by SDO or by the application sends its PDOs") {
   PdoNode node(with(255, {0x22110108, 0x22120110, 0x22140120}));
   node.start();
   CHECK(node.set(0x2211, 1, 1, 0xAB) == 0);
@@ -233,7 +234,7 @@ TEST_CASE("TPDO event: an object with flag A that changes sends its PDOs, by an 
   node.tx("181#AC785604030201");
 }
 
-TEST_CASE("TPDO event: a PDO with flag A follows the answer to the SDO client that has changed it, or comes before") {
+TEST_CASE("TPDO event: a PDO caused by a download (flag A) is sent besides the answer, in either order") {
   PdoNode node(with(255, {0x22110108}));
   node.start();
   node.rx("601#2F112201AB000000");
@@ -242,7 +243,7 @@ TEST_CASE("TPDO event: a PDO with flag A follows the answer to the SDO client th
   CHECK(sent == std::vector<std::string>{"181#AB", "581#6011220100000000"});
 }
 
-TEST_CASE("TPDO event: an object with flag A that gets the value it has sends nothing") {
+TEST_CASE("TPDO event: writing the present value of an object with flag A sends nothing") {
   PdoNode node(with(255));
   node.start();
   CHECK(node.set(0x2211, 1, 1, 0x11) == 0);
@@ -250,7 +251,7 @@ TEST_CASE("TPDO event: an object with flag A that gets the value it has sends no
   node.silent();
 }
 
-TEST_CASE("TPDO event: an object without flag A, or that no PDO maps, sends nothing when it changes") {
+TEST_CASE("TPDO event: a change of an object without flag A or without mapping sends nothing") {
   PdoNode node(with(255, {0x22110108, 0x22010108}));
   node.start();
   CHECK(node.set(0x2201, 1, 1, 0x77) == 0);
@@ -259,7 +260,7 @@ TEST_CASE("TPDO event: an object without flag A, or that no PDO maps, sends noth
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("TPDO event: in Pre-operational and Stopped a change is no event, and none later [N11]") {
+TEST_CASE("TPDO event: changes in Pre-operational and Stopped send nothing, also later [N11]") {
   PdoNode node(with(255));
   write_byte(node, 0x2211, 1, 0x55);
   node.rx("000#0201");
@@ -272,7 +273,7 @@ TEST_CASE("TPDO event: in Pre-operational and Stopped a change is no event, and 
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("TPDO event: a TPDO that is switched off has no events, and none from before when it is on again [X8]") {
+TEST_CASE("TPDO event: events of a TPDO that is switched off are dropped [X8]") {
   PdoNode node(with(255));
   node.start();
   CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
@@ -284,7 +285,7 @@ TEST_CASE("TPDO event: a TPDO that is switched off has no events, and none from 
 
 #if USE_SYNC
 
-TEST_CASE("TPDO event: type 0 is sent with the next SYNC after an event, once [X1] [D42] [PDO 07]") {
+TEST_CASE("TPDO event: type 0 is sent once with the next SYNC after an event [X1] [D42] [PDO 07]") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 0, {0x22110108});
   SyncNode node(table);
@@ -313,7 +314,7 @@ TEST_CASE("TPDO event: type 0 is sent with the next SYNC after an event, once [X
   node.silent();
 }
 
-TEST_CASE("TPDO event: type 0 is marked by entering Operational again, and by being switched on [PDO 07]") {
+TEST_CASE("TPDO event: entering Operational again and switching on are events of type 0 [PDO 07]") {
   SyncTable table;
   table.tpdo[0].on(0x40000181, 0, {0x22110108});
   SyncNode node(table);
@@ -334,7 +335,7 @@ TEST_CASE("TPDO event: type 0 is marked by entering Operational again, and by be
 
 #endif
 
-TEST_CASE("TPDO event: a TPDO with a 29-bit identifier [P1]") {
+TEST_CASE("TPDO event: a TPDO with a 29-bit CAN-ID is sent [P1]") {
   PdoTable table;
   table.tpdo[0].on(0x40000000U | 0x20000000U | 0x1ABCDEF0U, 255, {0x22010108});
   PdoNode node(table);

@@ -14,8 +14,7 @@ PdoTable timed(std::uint16_t ms, std::uint8_t type = 255) {
   return table;
 }
 
-TEST_CASE(
-    "TPDO event timer: the first PDO comes a period after entering Operational, then every period [N11] [PDO 05]") {
+TEST_CASE("TPDO event timer: the first PDO is sent one period after entering Operational [N11] [PDO 05]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{254, 255}) {
     PdoNode node(timed(100, type));
     node.after(1000ms);
@@ -29,7 +28,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("TPDO event timer: each transmission starts it anew [X7]") {
+TEST_CASE("TPDO event timer: each transmission restarts it [X7]") {
   PdoNode node(timed(100));
   node.start();
   for (int i = 0; i < 10; ++i) {
@@ -42,7 +41,7 @@ TEST_CASE("TPDO event timer: each transmission starts it anew [X7]") {
   node.tx_at(100ms, "181#11");
 }
 
-TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [Q8] [T15]") {
+TEST_CASE("TPDO event timer: no drift and no lost period in 10^5 periods [Q8] [T15]") {
   PdoNode node(timed(10), [=](Setup& setup) { setup.rate(300).clock(0xFFFFFF00U); });
   node.start();
   const std::uint64_t begin = node.now();
@@ -54,7 +53,7 @@ TEST_CASE("TPDO event timer: no drift and no period lost in 10^5 periods [Q8] [T
   }
 }
 
-TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [Q8]") {
+TEST_CASE("TPDO event timer: an occasionally late main loop keeps the phase [Q8]") {
   PdoNode node(timed(10));
   node.start();
   const std::uint64_t begin = node.now();
@@ -69,7 +68,7 @@ TEST_CASE("TPDO event timer: a loop that is late now and then loses no phase [Q8
   CHECK(node.frames().size() == 1);
 }
 
-TEST_CASE("TPDO event timer: a loop that is late by many periods sends one PDO and keeps the phase [Q8]") {
+TEST_CASE("TPDO event timer: a main loop that is many periods late sends one PDO and keeps the phase [Q8]") {
   PdoNode node(timed(10));
   node.start();
   node.jump(1003ms);
@@ -78,7 +77,7 @@ TEST_CASE("TPDO event timer: a loop that is late by many periods sends one PDO a
   node.tx_at(7ms, "181#11");
 }
 
-TEST_CASE("TPDO event timer: only event-driven PDOs have it [X7]") {
+TEST_CASE("TPDO event timer: only event-driven PDOs use it [X7]") {
   for (unsigned type = 0; type < 254; type += type < 240 ? stride(16) : 1) {
     const bool allowed = (type <= 240 && USE_SYNC != 0) || (type >= 252 && USE_PDO_RTR != 0);
     if (!allowed) {
@@ -95,7 +94,7 @@ TEST_CASE("TPDO event timer: only event-driven PDOs have it [X7]") {
   }
 }
 
-TEST_CASE("TPDO event timer: through Pre-operational and back there is still one, at the old rate [D38] [PDO 15]") {
+TEST_CASE("TPDO event timer: after Pre-operational and back one timer runs with the same period [D38] [PDO 15]") {
   PdoNode node(timed(100));
   node.start();
   for (int i = 0; i < 50; ++i) {
@@ -111,7 +110,7 @@ TEST_CASE("TPDO event timer: through Pre-operational and back there is still one
   CHECK(node.frames().size() == 10);
 }
 
-TEST_CASE("TPDO event timer: start in Operational changes nothing [N7]") {
+TEST_CASE("TPDO event timer: start in Operational does not change it [N7]") {
   PdoNode node(timed(100));
   node.start();
   node.after(60ms);
@@ -122,7 +121,7 @@ TEST_CASE("TPDO event timer: start in Operational changes nothing [N7]") {
   node.silent();
 }
 
-TEST_CASE("TPDO event timer: a PDO that is switched on in Operational begins with a period [P11]") {
+TEST_CASE("TPDO event timer: switching a PDO on in Operational starts a period [P11]") {
   PdoNode node(timed(100));
   node.start();
   CHECK(node.set(0x1800, 1, 4, 0xC0000181) == 0);
@@ -134,8 +133,7 @@ TEST_CASE("TPDO event timer: a PDO that is switched on in Operational begins wit
   node.tx_at(200ms, "181#11");
 }
 
-TEST_CASE(
-    "TPDO event timer: a new time counts from its write; 0 ends it; timers of other TPDOs do not change [P11] [D39]") {
+TEST_CASE("TPDO event timer: a new time starts with its write; 0 ends it; other TPDOs are not affected [P11] [D39]") {
   PdoNode node(timed(100), [](Setup& setup) { setup.heartbeat(1000); });
   node.start();
   node.after(90ms);
@@ -151,7 +149,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("TPDO event timer: a PDO that cannot be sent is not sent later, the timer goes on") {
+TEST_CASE("TPDO event timer: a PDO that cannot be sent is not sent later; the timer continues") {
   PdoNode node(timed(100), [](Setup& setup) { setup.tx_queue(1); });
   node.start();
   node.can.refuse_all();
@@ -165,7 +163,7 @@ TEST_CASE("TPDO event timer: a PDO that cannot be sent is not sent later, the ti
   node.tx_at(50ms, "181#11");
 }
 
-TEST_CASE("TPDO event timer: the longest time, and 1 ms") {
+TEST_CASE("TPDO event timer: the longest time and 1 ms are kept") {
   PdoNode node(timed(65535));
   node.start();
   node.after(65534ms);
@@ -177,7 +175,7 @@ TEST_CASE("TPDO event timer: the longest time, and 1 ms") {
   CHECK(node.frames().size() == 5);
 }
 
-TEST_CASE("TPDO event timer: all PDOs with one period") {
+TEST_CASE("TPDO event timer: all PDOs may have one period") {
   PdoTable table;
   for (unsigned n = 0; n < fixture_tpdos; ++n) {
     table.tpdo[n].on(0x40000181 + n * 0x100, 255, {0x22010108}).event = 50;

@@ -20,7 +20,7 @@ void change(PdoNode& node, std::uint8_t value) {
   node.call([&] { CHECK(CODictWrByte(&node->Dict, CO_DEV(0x2211, 1), value) == CO_ERR_NONE); });
 }
 
-TEST_CASE("TPDO inhibit: an event inside the time is sent at its end, with the current values [X6]") {
+TEST_CASE("TPDO inhibit: an event within the time is sent at its end with the current values [X6]") {
   PdoNode node(inhibited(1000));
   node.start();
   node.trigger(0);
@@ -37,7 +37,7 @@ TEST_CASE("TPDO inhibit: an event inside the time is sent at its end, with the c
   node.silent();
 }
 
-TEST_CASE("TPDO inhibit: what is sent at its end begins another one [X6]") {
+TEST_CASE("TPDO inhibit: the transmission at its end starts it again [X6]") {
   PdoNode node(inhibited(1000));
   node.start();
   node.trigger(0);
@@ -55,7 +55,7 @@ TEST_CASE("TPDO inhibit: what is sent at its end begins another one [X6]") {
   node.silent();
 }
 
-TEST_CASE("TPDO inhibit: without an event inside the time the next one is sent at once [X6]") {
+TEST_CASE("TPDO inhibit: without an event within the time the next PDO is sent at once [X6]") {
   PdoNode node(inhibited(1000));
   node.start();
   for (int i = 0; i < 5; ++i) {
@@ -66,7 +66,7 @@ TEST_CASE("TPDO inhibit: without an event inside the time the next one is sent a
   }
 }
 
-TEST_CASE("TPDO inhibit: a storm of events never sends two PDOs closer than the time [X6]") {
+TEST_CASE("TPDO inhibit: frequent events never send two PDOs within the time [X6]") {
   PdoNode node(inhibited(100));
   node.start();
   std::uint64_t last = 0;
@@ -84,7 +84,7 @@ TEST_CASE("TPDO inhibit: a storm of events never sends two PDOs closer than the 
   node.tx("181#E7");  // the last value, 999 modulo 256, is sent
 }
 
-TEST_CASE("TPDO inhibit: a late loop sends no two PDOs closer than the time [X6] [Q8]") {
+TEST_CASE("TPDO inhibit: a late main loop sends no two PDOs within the time [X6] [Q8]") {
   PdoNode node(inhibited(100));
   node.start();
   std::uint64_t last = 0;
@@ -127,7 +127,7 @@ TEST_CASE("TPDO inhibit: applies only to types 254 and 255 [X6]") {
 }
 
 #if USE_PDO_RTR
-TEST_CASE("TPDO inhibit: does not apply to a PDO sent on request, type 253, but to one of type 255 [X6] [X13]") {
+TEST_CASE("TPDO inhibit: does not apply to remote requests of type 253, but to those of type 255 [X6] [X13]") {
   PdoTable table = inhibited(1000, 253);
   table.tpdo[0].cob_id = 0x181;
   PdoNode node(table);
@@ -149,7 +149,7 @@ TEST_CASE("TPDO inhibit: does not apply to a PDO sent on request, type 253, but 
 }
 #endif
 
-TEST_CASE("TPDO inhibit: events that wait are dropped when the PDO is switched off [X8] [D40]") {
+TEST_CASE("TPDO inhibit: pending events are dropped when the PDO is switched off [X8] [D40]") {
   PdoNode node(inhibited(1000));
   node.start();
   node.trigger(0);
@@ -164,7 +164,7 @@ TEST_CASE("TPDO inhibit: events that wait are dropped when the PDO is switched o
   node.tx("181#11");
 }
 
-TEST_CASE("TPDO inhibit: entering Operational begins without an inhibit time and without old events [N11]") {
+TEST_CASE("TPDO inhibit: entering Operational starts without inhibit time and pending events [N11]") {
   for (const char* command : {"000#8001", "000#0201"}) {
     PdoNode node(inhibited(1000));
     node.start();
@@ -181,8 +181,7 @@ TEST_CASE("TPDO inhibit: entering Operational begins without an inhibit time and
   }
 }
 
-TEST_CASE(
-    "TPDO inhibit: the event timer obeys it; with a shorter event time the inhibit time is the period [X6] [X7]") {
+TEST_CASE("TPDO inhibit: the event timer respects it; a shorter event time has the inhibit time as period [X6] [X7]") {
   PdoNode node(inhibited(1000, 255, 30));
   node.start();
   node.after(330ms);
@@ -193,7 +192,7 @@ TEST_CASE(
   node.silent();
 }
 
-TEST_CASE("TPDO inhibit: with a longer event time both count from the last transmission [X7]") {
+TEST_CASE("TPDO inhibit: with a longer event time both start with the last transmission [X7]") {
   PdoNode node(inhibited(500, 255, 200));
   node.start();
   node.trigger(0);
@@ -209,7 +208,7 @@ TEST_CASE("TPDO inhibit: with a longer event time both count from the last trans
   node.silent();
 }
 
-TEST_CASE("TPDO inhibit: an event time equal to it") {
+TEST_CASE("TPDO inhibit: an event time equal to it is kept") {
   PdoNode node(inhibited(1000, 255, 100));
   node.start();
   node.after(300ms);
@@ -218,7 +217,7 @@ TEST_CASE("TPDO inhibit: an event time equal to it") {
   node.tx_at(300ms, "181#11");
 }
 
-TEST_CASE("TPDO inhibit: writing the event timer inside the time does not break it [D40]") {
+TEST_CASE("TPDO inhibit: writing the event timer within the time does not shorten it [D40]") {
   PdoNode node(inhibited(1000));
   node.start();
   node.trigger(0);
@@ -239,7 +238,7 @@ TEST_CASE("TPDO inhibit: writing the event timer inside the time does not break 
   node.tx("181#11");
 }
 
-TEST_CASE("TPDO inhibit: times of 100 us, and the longest one") {
+TEST_CASE("TPDO inhibit: times of 100 us and the longest one are kept") {
   PdoNode fine(inhibited(5), [](Setup& setup) { setup.rate(10000); });
   fine.start();
   fine.trigger(0);
@@ -256,7 +255,7 @@ TEST_CASE("TPDO inhibit: times of 100 us, and the longest one") {
   longest.tx_at(6554ms, "181#11");  // 6553.5 ms, rounded up
 }
 
-TEST_CASE("TPDO inhibit: each PDO has its own") {
+TEST_CASE("TPDO inhibit: each PDO has its own time") {
   if (fixture_tpdos < 2) {
     return;
   }

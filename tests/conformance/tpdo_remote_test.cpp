@@ -30,7 +30,7 @@ TEST_CASE("remote TPDO: types 253, 254 and 255 sample and send [X13] [PDO 03] [S
   }
 }
 
-TEST_CASE("remote TPDO: types 0 to 240 and 252 send what the last SYNC has sampled [X13]") {
+TEST_CASE("remote TPDO: types 0 to 240 and 252 send the values sampled at the last SYNC [X13]") {
   for (unsigned type = 0; type <= 252; type += type < 240 ? stride(16) : 1) {
     if (type > 240 && type < 252) {
       continue;
@@ -54,7 +54,7 @@ TEST_CASE("remote TPDO: types 0 to 240 and 252 send what the last SYNC has sampl
   }
 }
 
-TEST_CASE("remote TPDO: type 252 is sampled with each SYNC, and sent by none [X1]") {
+TEST_CASE("remote TPDO: type 252 is sampled at each SYNC and not sent with it [X1]") {
   SyncNode node(with(252));
   node.start();
   for (int i = 0; i < 10; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE("remote TPDO: type 252 is sampled with each SYNC, and sent by none [X1
   }
 }
 
-TEST_CASE("remote TPDO: a request leaves the count of SYNCs alone") {
+TEST_CASE("remote TPDO: a request does not change the count of SYNCs") {
   SyncNode node(with(3));
   node.start();
   node.rx("080#");
@@ -74,7 +74,7 @@ TEST_CASE("remote TPDO: a request leaves the count of SYNCs alone") {
   node.tx("181#111112");
 }
 
-TEST_CASE("remote TPDO: with bit 30 requests are ignored, whatever the type [X11]") {
+TEST_CASE("remote TPDO: with bit 30 requests are ignored for every type [X11]") {
   for (unsigned type = 0; type <= 255; type += type < 240 ? stride(16) : 1) {
     if (type > 240 && type < 252) {
       continue;
@@ -98,7 +98,7 @@ TEST_CASE("remote TPDO: the DLC of a request is ignored [X13]") {
   }
 }
 
-TEST_CASE("remote TPDO: only in Operational; what was sampled before is not sent after coming back [X13] [N11]") {
+TEST_CASE("remote TPDO: requests are answered only in Operational; leaving it discards sampled values [X13] [N11]") {
   for (const std::uint8_t type : std::initializer_list<std::uint8_t>{1, 252, 253, 255}) {
     for (const char* command : {"000#8001", "000#0201"}) {
       CAPTURE(unsigned{type});
@@ -120,7 +120,7 @@ TEST_CASE("remote TPDO: only in Operational; what was sampled before is not sent
   }
 }
 
-TEST_CASE("remote TPDO: a data frame of its identifier is no request, and counted [Q1]") {
+TEST_CASE("remote TPDO: a data frame with its CAN-ID is no request and counted [Q1]") {
   SyncNode node(with(253));
   node.start();
   node.rx("181#111112");
@@ -128,7 +128,7 @@ TEST_CASE("remote TPDO: a data frame of its identifier is no request, and counte
   CHECK(node.counters().Malformed == 1);
 }
 
-TEST_CASE("remote TPDO: a TPDO that is switched off does not answer, one that is switched on does") {
+TEST_CASE("remote TPDO: a TPDO answers when switched on and not when switched off") {
   SyncNode node(with(253));
   node.start();
   CHECK(node.set(0x1800, 1, 4, 0x80000181) == 0);
@@ -145,14 +145,14 @@ TEST_CASE("remote TPDO: a TPDO that is switched off does not answer, one that is
   node.silent();
 }
 
-TEST_CASE("remote TPDO: 29-bit requests") {
+TEST_CASE("remote TPDO: 29-bit requests are answered") {
   SyncNode node(with(253, 0x20000000U | 0x12345678U));
   node.start();
   node.rx("12345678#R");
   node.tx("12345678#111112");
 }
 
-TEST_CASE("remote TPDO: an object that cannot be read at the SYNC: nothing is sent, old values neither [X12]") {
+TEST_CASE("remote TPDO: if an object cannot be read at the SYNC no frame is sent, nor older values [X12]") {
   static CO_ERR answer;
   static const CO_OBJ_TYPE type = {[](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 1; }, nullptr,
                                    [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t) {

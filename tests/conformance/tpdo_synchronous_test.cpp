@@ -52,7 +52,7 @@ TEST_CASE("synchronous TPDO: types 1 to 240 are sent with every n-th SYNC [X1] [
   }
 }
 
-TEST_CASE("synchronous TPDO: the frame holds the values of the SYNC") {
+TEST_CASE("synchronous TPDO: the frame contains the values at the SYNC") {
   SyncNode node(with(2));
   node.start();
   node.u8[0] = 1;
@@ -64,7 +64,7 @@ TEST_CASE("synchronous TPDO: the frame holds the values of the SYNC") {
   node.tx("181#03");
 }
 
-TEST_CASE("synchronous TPDO: TPDOs hold the values from before the RPDOs of the same SYNC [X3]") {
+TEST_CASE("synchronous TPDO: TPDOs contain the values before the RPDOs of the same SYNC [X3]") {
   if (CO_RPDO_N == 0) {
     return;
   }
@@ -81,7 +81,7 @@ TEST_CASE("synchronous TPDO: TPDOs hold the values from before the RPDOs of the 
   node.tx("181#42");
 }
 
-TEST_CASE("synchronous TPDO: all of one SYNC in the order of their numbers, whatever order they came into being in") {
+TEST_CASE("synchronous TPDO: all of one SYNC are sent in the order of their numbers, however they were switched on") {
   SyncTable table;
   for (unsigned n = 0; n < fixture_tpdos; ++n) {
     table.tpdo[n].on(0xC0000000U + 0x481 - n * 0x100, 1, {0x22010008U | (n + 1) << 8});
@@ -99,7 +99,7 @@ TEST_CASE("synchronous TPDO: all of one SYNC in the order of their numbers, what
   CHECK(node.frames() == expected);
 }
 
-TEST_CASE("synchronous TPDO: switching PDOs off and on leaves none out and sends none twice") {
+TEST_CASE("synchronous TPDO: switching PDOs off and on neither skips nor repeats one") {
   SyncTable table;
   for (unsigned n = 0; n < fixture_tpdos; ++n) {
     table.tpdo[n].on(0x40000181 + n * 0x100, 1, {0x22010108});
@@ -122,7 +122,7 @@ TEST_CASE("synchronous TPDO: switching PDOs off and on leaves none out and sends
   }
 }
 
-TEST_CASE("synchronous TPDO: SYNCs are counted from entering Operational on [N11]") {
+TEST_CASE("synchronous TPDO: SYNCs are counted since entering Operational [N11]") {
   for (const char* command : {"000#8001", "000#0201"}) {
     SyncNode node(with(5));
     sent_at(node, 3);
@@ -135,7 +135,7 @@ TEST_CASE("synchronous TPDO: SYNCs are counted from entering Operational on [N11
   }
 }
 
-TEST_CASE("synchronous TPDO: SYNCs are counted from its being switched on on [P1]") {
+TEST_CASE("synchronous TPDO: SYNCs are counted since the PDO was switched on [P1]") {
   SyncNode node(with(5));
   node.start();
   CHECK(sent_at(node, 3).empty());
@@ -145,7 +145,7 @@ TEST_CASE("synchronous TPDO: SYNCs are counted from its being switched on on [P1
   CHECK(sent_at(node, 10) == List{5, 10});
 }
 
-TEST_CASE("synchronous TPDO: start in Operational leaves the count alone [N7]") {
+TEST_CASE("synchronous TPDO: start in Operational does not change the count [N7]") {
   SyncNode node(with(5));
   node.start();
   CHECK(sent_at(node, 3).empty());
@@ -168,7 +168,7 @@ TEST_CASE("synchronous TPDO: events do not send it [D42]") {
 
 // Start value ---------------------------------------------------------------------------------------------------------
 
-TEST_CASE("SYNC start value: the SYNC with this number counts as the first [X14] [PDO 08]") {
+TEST_CASE("SYNC start value: the SYNC with this number counts as the first one [X14] [PDO 08]") {
   for (unsigned type : {1U, 2U, 3U, 10U}) {
     for (unsigned start : {1U, 2U, 7U, 10U}) {
       CAPTURE(type);
@@ -180,7 +180,7 @@ TEST_CASE("SYNC start value: the SYNC with this number counts as the first [X14]
   }
 }
 
-TEST_CASE("SYNC start value: once matched, the number is not compared again [X14]") {
+TEST_CASE("SYNC start value: after a match the number is not compared again [X14]") {
   SyncNode node(with(2, 3, 10));
   node.start();
   node.rx("080#03");
@@ -193,7 +193,7 @@ TEST_CASE("SYNC start value: once matched, the number is not compared again [X14
   node.tx("181#11");
 }
 
-TEST_CASE("SYNC start value: it is waited for after each entry into Operational [X14] [N11]") {
+TEST_CASE("SYNC start value: it is compared again after each entry into Operational [X14] [N11]") {
   for (const char* command : {"000#8001", "000#0201"}) {
     CAPTURE(std::string(command));
     SyncNode node(with(3, 4, 10));
@@ -208,7 +208,7 @@ TEST_CASE("SYNC start value: it is waited for after each entry into Operational 
   }
 }
 
-TEST_CASE("SYNC start value: leaving Operational while it is waited for changes nothing [X14]") {
+TEST_CASE("SYNC start value: leaving Operational before a match has no effect [X14]") {
   SyncNode node(with(1, 4, 10));
   node.start();
   CHECK(sent_at(node, 2).empty());
@@ -217,7 +217,7 @@ TEST_CASE("SYNC start value: leaving Operational while it is waited for changes 
   CHECK(sent_at(node, 6) == List{4, 5, 6});
 }
 
-TEST_CASE("SYNC start value: it is waited for after the PDO is switched on, and after its type changes [X14]") {
+TEST_CASE("SYNC start value: it is compared again after switching the PDO on and after a change of type [X14]") {
   SyncNode node(with(3, 4, 10));
   node.start();
   CHECK(sent_at(node, 10) == List{6, 9});
@@ -237,8 +237,7 @@ TEST_CASE("SYNC start value: without a counter in 1019h it is ignored [Y7]") {
   }
 }
 
-TEST_CASE(
-    "SYNC start value: where a counter is expected, a SYNC without one sends only PDOs without start value [Y7]") {
+TEST_CASE("SYNC start value: with a counter in 1019h a SYNC without one sends only PDOs without start value [Y7]") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -258,7 +257,7 @@ TEST_CASE(
   CHECK(std::count(sent.begin(), sent.end(), "181#11") == 1);
 }
 
-TEST_CASE("SYNC start value: type 0 waits for it, and then for events [X14] [X1]") {
+TEST_CASE("SYNC start value: type 0 needs a match and then events [X14] [X1]") {
   SyncNode node(with(0, 5, 10));
   node.start();
   CHECK(sent_at(node, 10) == List{5});
@@ -266,7 +265,7 @@ TEST_CASE("SYNC start value: type 0 waits for it, and then for events [X14] [X1]
   CHECK(sent_at(node, 10) == List{1});
 }
 
-TEST_CASE("SYNC start value: one above the overflow value never comes") {
+TEST_CASE("SYNC start value: one above the overflow value never matches") {
   SyncNode node(with(1, 11, 10));
   node.start();
   CHECK(sent_at(node, 50).empty());
@@ -274,7 +273,7 @@ TEST_CASE("SYNC start value: one above the overflow value never comes") {
 
 // Window --------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("synchronous window: TPDOs that could not be sent within it are not sent [X4] [301:7.5.2.7]") {
+TEST_CASE("synchronous window: TPDOs that could not be sent within it are withdrawn [X4] [301:7.5.2.7]") {
   SyncTable table = with(1);
   table.window = 10000;
   SyncNode node(table);
@@ -293,7 +292,7 @@ TEST_CASE("synchronous window: TPDOs that could not be sent within it are not se
   node.tx("181#11");
 }
 
-TEST_CASE("synchronous window: its end leaves event-driven TPDOs and other frames in the queue [X4]") {
+TEST_CASE("synchronous window: its end does not withdraw event-driven TPDOs and other frames [X4]") {
   if (fixture_tpdos < 2) {
     return;
   }
@@ -312,7 +311,7 @@ TEST_CASE("synchronous window: its end leaves event-driven TPDOs and other frame
   node.tx({"281#21", "581#4300100091010F00"});
 }
 
-TEST_CASE("synchronous window: without one a TPDO waits as long as the controller is busy, with the newest values") {
+TEST_CASE("synchronous window: without one a TPDO is queued until the controller is free, with the newest values") {
   SyncNode node(with(1));
   node.start();
   node.can.refuse_all();
