@@ -8,7 +8,10 @@ with_tools=OFF
 
 # Configures the preset only: this determines the compiler options of each file, and nothing needs to be built.
 lane() {
-  (cd "$root" && cmake --preset development -DLEXICAN_TOOLS=$with_tools -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
+  (
+    cd "$root" && cmake --preset development -DLEXICAN_TOOLS=$with_tools -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+      -DCMAKE_UNITY_BUILD=OFF
+  ) >"$results/tidy.log" 2>&1 || { fail configuration "$results/tidy.log"; return; }
   local file logs=$results/tidy
   rm -rf "$logs" && mkdir -p "$logs"
   sources "${places[@]}" -name '*.cpp' -not -path '*/template/*' |
