@@ -22,7 +22,7 @@ namespace {
 
 enum class Form : unsigned char { gcc, json, sarif, github };
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   Severity level = Severity::warning;
   std::vector<std::string> disabled;
@@ -53,16 +53,16 @@ std::vector<Folded> each_alone(const std::vector<Finding>& findings) {
   return all;
 }
 
-Severity severity_of(const Rule& rule, const Options& options) {
+Severity severity_of(const Rule& rule, const CheckOptions& options) {
   return options.is_strict && rule.severity == Severity::warning ? Severity::error : rule.severity;
 }
 
-bool is_wanted(const Rule& rule, const Options& options) {
+bool is_wanted(const Rule& rule, const CheckOptions& options) {
   return severity_of(rule, options) >= options.level &&
          std::find(options.disabled.begin(), options.disabled.end(), rule.id) == options.disabled.end();
 }
 
-std::vector<Finding> wanted(const Input& input, const Options& options, Report& report) {
+std::vector<Finding> wanted(const Input& input, const CheckOptions& options, Report& report) {
   std::vector<Finding> result;
   for (const Finding& finding : input.findings.all()) {
     if (is_wanted(*finding.rule, options) && !report.known.take(input, finding)) {
@@ -73,7 +73,7 @@ std::vector<Finding> wanted(const Input& input, const Options& options, Report& 
   return result;
 }
 
-void say_what_has_gone(const Input& input, const Options& options, const Baseline& known) {
+void say_what_has_gone(const Input& input, const CheckOptions& options, const Baseline& known) {
   const std::size_t number = known.left(input, [&options](const std::string& id) {
     const Rule* const rule = catalogue::find_rule(id);
     return rule == nullptr || is_wanted(*rule, options);
@@ -85,7 +85,7 @@ void say_what_has_gone(const Input& input, const Options& options, const Baselin
 
 // Counts the findings beyond the limit, by rule, that the options select. They count as new to every baseline because
 // their places are not stored.
-Json count_dropped(const Input& input, const Options& options, Report& report) {
+Json count_dropped(const Input& input, const CheckOptions& options, Report& report) {
   std::map<Severity, std::size_t> counts;
   Json by_rule = Json::object();
   for (const auto& [rule, number] : input.findings.dropped()) {
@@ -108,7 +108,7 @@ Json count_dropped(const Input& input, const Options& options, Report& report) {
   return by_rule;
 }
 
-void show(const Input& input, const std::vector<Finding>& findings, const Json& dropped, const Options& options,
+void show(const Input& input, const std::vector<Finding>& findings, const Json& dropped, const CheckOptions& options,
           Report& report) {
   if (options.form == Form::sarif) {
     report.sarif.add(input, findings);
@@ -138,7 +138,7 @@ void check_profiles(Input& input, const std::string& profile) {
   }
 }
 
-int check_file(const std::string& path, const Options& options, Report& report) {
+int check_file(const std::string& path, const CheckOptions& options, Report& report) {
   std::optional<Input> input = load(path);
   if (!input) {
     return unusable;
@@ -161,7 +161,7 @@ int check_file(const std::string& path, const Options& options, Report& report) 
   return findings.empty() && dropped.members().empty() ? clean : found;
 }
 
-void finish(const Options& options, Report& report, int status) {
+void finish(const CheckOptions& options, Report& report, int status) {
   if (options.form == Form::json) {
     print_json(Json{{"schema", "codict-check-1"}, {"files", std::move(report.files)}});
   } else if (options.form == Form::sarif) {
@@ -174,7 +174,7 @@ void finish(const Options& options, Report& report, int status) {
 }
 
 // Checks the options and reads the baseline. Returns false after a message if either is faulty.
-bool prepare(const Options& options, Report& report) {
+bool prepare(const CheckOptions& options, Report& report) {
   for (const std::string& id : options.disabled) {
     if (catalogue::find_rule(id) == nullptr) {
       complain(unknown_rule(id));
@@ -199,7 +199,7 @@ bool prepare(const Options& options, Report& report) {
   return true;
 }
 
-int run(Options options) {
+int run_check(CheckOptions options) {
   if (options.is_json) {
     options.form = Form::json;
   }
@@ -221,7 +221,7 @@ int run(Options options) {
 }  // namespace
 
 Command add_check(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CheckOptions>();
   Arguments command = line.add_command("check", "Say what is wrong or odd in descriptions");
   command.add_option("file", options->files, file_help).required();
   const Choices<Severity> levels = {
@@ -250,7 +250,7 @@ Command add_check(CommandLine& line) {
                       "gcc: lines for people and editors; json, sarif (2.1.0): for programs; github: annotations")
           .default_text("gcc");
   command.add_flag("--json", options->is_json, "The same as --error-format json").excludes(form);
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_check(*options); }};
 }
 
 }  // namespace lexican::codict::cli

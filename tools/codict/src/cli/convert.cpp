@@ -25,7 +25,7 @@ namespace {
 using convert::Loss;
 using convert::Target;
 
-struct Options {
+struct ConvertOptions {
   std::string file;
   std::string output;
   std::string format;
@@ -75,7 +75,7 @@ xdd::Edition edition_of(const Device& device, const Product& product) {
   return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
 }
 
-std::string written(const Input& input, const Device& device, const Product& product, const Options& options) {
+std::string written(const Input& input, const Device& device, const Product& product, const ConvertOptions& options) {
   if (product.target == Target::json) {
     Description description = input.description;
     description.devices.front() = device;
@@ -86,7 +86,7 @@ std::string written(const Input& input, const Device& device, const Product& pro
   return convert::write(device, product.target, is_same_format ? edition_of(device, product) : product.edition, name);
 }
 
-convert::NodeSettings settings_of(const Options& options) {
+convert::NodeSettings settings_of(const ConvertOptions& options) {
   convert::NodeSettings settings;
   if (options.node_id != 0) {
     settings.node_id = options.node_id;
@@ -164,7 +164,7 @@ void report(const Input& input, const std::vector<Loss>& losses, bool is_all) {
 }
 
 // Copies a file without change of format: only the settings of the node change, all other bytes are equal.
-int copy(const Input& input, const convert::NodeSettings& settings, const Options& options) {
+int copy(const Input& input, const convert::NodeSettings& settings, const ConvertOptions& options) {
   std::string bytes(input.source().bytes());
   if (settings.is_any() && !convert::commission(settings, *input.eds, bytes)) {
     complain(input.source().name() + ": the encoding of the file lacks a letter of the node name");
@@ -173,7 +173,7 @@ int copy(const Input& input, const convert::NodeSettings& settings, const Option
   return write_output(options.output, bytes);
 }
 
-int run(const Options& options) {
+int run_convert(const ConvertOptions& options) {
   const Product* const product = find_product(options.format.empty() ? ending_of(options.output) : options.format);
   if (product == nullptr) {
     complain("the output ends with .eds, .dcf, .xdd, .xdc or .json, or --to says which it is");
@@ -203,7 +203,7 @@ int run(const Options& options) {
   return write_output(options.output, written(*input, device, *product, options));
 }
 
-void add_node_options(Arguments& command, Options& options) {
+void add_node_options(Arguments& command, ConvertOptions& options) {
   command.add_option("--node-id", options.node_id, "Node-ID of the DCF or XDC").in_range(1, 127);
   command.add_option("--bit-rate", options.bit_rate, "Bit rate of the DCF or XDC in kbit/s; 0: the device detects it")
       .one_of({"0", "10", "20", "50", "100", "125", "250", "500", "800", "1000"});
@@ -218,7 +218,7 @@ Command add_convert(CommandLine& line) {
   for (const Product& product : products) {
     names.emplace_back(product.name);
   }
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ConvertOptions>();
   Arguments command = line.add_command("convert", "Write a description in another format");
   command.add_option("file", options->file, file_help).required();
   command
@@ -232,7 +232,7 @@ Command add_convert(CommandLine& line) {
   add_node_options(command, *options);
   command.add_flag("--all", options->is_all, "Name each place of what the format has no words for, not the first ones");
   command.add_flag("--strict-loss", options->is_strict, "Write nothing where the format has no words for something");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_convert(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -22,7 +22,7 @@ using diff::Kind;
 
 constexpr std::array<Kind, 5> kinds = {Kind::breaking, Kind::compatible, Kind::configuration, Kind::text, Kind::file};
 
-struct Options {
+struct DiffOptions {
   std::string before;
   std::string after;
   std::vector<Kind> only;
@@ -30,7 +30,7 @@ struct Options {
   bool is_release = false;
 };
 
-std::vector<Difference> wanted(std::vector<Difference> differences, const Options& options) {
+std::vector<Difference> wanted(std::vector<Difference> differences, const DiffOptions& options) {
   if (!options.only.empty()) {
     differences.erase(std::remove_if(differences.begin(), differences.end(),
                                      [&options](const Difference& difference) {
@@ -66,7 +66,7 @@ std::string summary(const std::vector<Difference>& differences) {
   return text;
 }
 
-Json to_json(const Source& source, Span span, const std::string& text) {
+Json difference_json(const Source& source, Span span, const std::string& text) {
   Json json{{"text", text}};
   if (!span.is_empty()) {
     const Position position = source.position(span.begin);
@@ -76,7 +76,7 @@ Json to_json(const Source& source, Span span, const std::string& text) {
   return json;
 }
 
-Json to_json(const Difference& difference, const Input& before, const Input& after) {
+Json difference_json(const Difference& difference, const Input& before, const Input& after) {
   Json json;
   json["kind"] = name_of(difference.kind);
   if (!difference.place.module.empty()) {
@@ -89,12 +89,12 @@ Json to_json(const Difference& difference, const Input& before, const Input& aft
     json["sub_index"] = difference.place.sub_index;
   }
   json["what"] = difference.what;
-  json["before"] = to_json(before.source(), difference.before_span, difference.before);
-  json["after"] = to_json(after.source(), difference.after_span, difference.after);
+  json["before"] = difference_json(before.source(), difference.before_span, difference.before);
+  json["after"] = difference_json(after.source(), difference.after_span, difference.after);
   return json;
 }
 
-int run(const Options& options) {
+int run_diff(const DiffOptions& options) {
   const std::optional<Input> before = open(options.before);
   const std::optional<Input> after = open(options.after);
   if (!before || !after) {
@@ -106,7 +106,7 @@ int run(const Options& options) {
   if (options.is_json) {
     Json list = Json::array();
     for (const Difference& difference : differences) {
-      list.push_back(to_json(difference, *before, *after));
+      list.push_back(difference_json(difference, *before, *after));
     }
     print_json(Json{{"schema", "codict-diff-1"},
                     {"before", before->source().name()},
@@ -131,7 +131,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_diff(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DiffOptions>();
   Arguments command = line.add_command("diff", "Compare two descriptions by what they mean");
   command.add_option("before", options->before, file_help).required();
   command.add_option("after", options->after, file_help).required();
@@ -146,7 +146,7 @@ Command add_diff(CommandLine& line) {
   command.add_flag("--release", options->is_release,
                    "Status 1 only if something breaks networks and the major revision number has not been raised");
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_diff(*options); }};
 }
 
 }  // namespace lexican::codict::cli

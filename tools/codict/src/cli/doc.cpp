@@ -10,14 +10,14 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct DocOptions {
   std::string file;
   std::string output;
   std::string format;
   doc::Options doc{"en", 0};
 };
 
-int run(Options options) {
+int run_doc(DocOptions options) {
   const std::string format = options.format.empty() ? ending_of(options.output) : options.format;
   if (format != "md" && format != "html") {
     complain("the output ends with .md or .html, or --to says which it is");
@@ -35,7 +35,7 @@ int run(Options options) {
 }  // namespace
 
 Command add_doc(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DocOptions>();
   Arguments command = line.add_command("doc", "Document a device, as Markdown or as one HTML page");
   command.add_option("file", options->file, file_help).required();
   command.add_option("-o,--output", options->output, "File that ends with .md or .html, - for the standard output")
@@ -44,7 +44,7 @@ Command add_doc(CommandLine& line) {
   add_node_id(command, options->doc.node_id);
   command.add_option("--language", options->doc.language, "Of labels and descriptions")
       .default_text(options->doc.language);
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_doc(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -13,38 +13,38 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct ExplainOptions {
   std::string rule;
   bool is_json = false;
   bool has_all = false;
 };
 
-Json to_json(const Rule& rule) {
+Json rule_json(const Rule& rule) {
   return {{"rule", rule.id},
           {"severity", name_of(rule.severity)},
           {"text", rule.about},
           {"page", catalogue::link_to(rule)}};
 }
 
-int explain_one(const Options& options) {
+int explain_one(const ExplainOptions& options) {
   const Rule* const rule = catalogue::find_rule(options.rule);
   if (rule == nullptr) {
     complain(unknown_rule(options.rule));
     return unusable;
   }
   if (options.is_json) {
-    print_json(Json{{"schema", "codict-explain-1"}, {"rules", Json::array({to_json(*rule)})}});
+    print_json(Json{{"schema", "codict-explain-1"}, {"rules", Json::array({rule_json(*rule)})}});
   } else {
     print(fmt::format("{}\n{}\n", catalogue::section_of(*rule), catalogue::link_to(*rule)));
   }
   return clean;
 }
 
-int list_all(const Options& options) {
+int list_all(const ExplainOptions& options) {
   Json all = Json::array();
   for (const Rule* rule : catalogue::all_rules()) {
     if (options.is_json) {
-      all.push_back(to_json(*rule));
+      all.push_back(rule_json(*rule));
     } else {
       print(fmt::format("{:<26} {:<8} {}\n", rule->id, name_of(rule->severity), rule->about));
     }
@@ -55,7 +55,7 @@ int list_all(const Options& options) {
   return clean;
 }
 
-int run(const Options& options) {
+int run_explain(const ExplainOptions& options) {
   if (!options.rule.empty()) {
     return explain_one(options);
   }
@@ -73,12 +73,12 @@ std::string unknown_rule(const std::string& id) {
 }
 
 Command add_explain(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExplainOptions>();
   Arguments command = line.add_command("explain", "Explain a rule of check, gen or network");
   const Option rule = command.add_option("rule", options->rule, "Id of the rule; without one, all rules are listed");
   command.add_flag("--all", options->has_all, "Print the reference page of all rules (docs/rules.md)").excludes(rule);
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_explain(*options); }};
 }
 
 }  // namespace lexican::codict::cli

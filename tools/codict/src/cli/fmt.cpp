@@ -9,14 +9,14 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct FmtOptions {
   std::string file;
   std::string output;
   bool is_check = false;
   bool is_json = false;
 };
 
-int run(const Options& options) {
+int run_fmt(const FmtOptions& options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -45,13 +45,13 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_fmt(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<FmtOptions>();
   Arguments command = line.add_command("fmt", "Write an EDS or DCF in its normal form: the same device");
   command.add_option("file", options->file, "EDS or DCF, - for the standard input").required();
   command.add_option("-o,--output", options->output, "Another file, - for the standard output");
   command.add_flag("--check", options->is_check, "Write nothing: status 1 if the file would change");
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_fmt(*options); }};
 }
 
 }  // namespace lexican::codict::cli

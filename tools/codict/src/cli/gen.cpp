@@ -26,7 +26,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct GenOptions {
   std::string file;
   std::string directory;
   std::string eds;
@@ -87,7 +87,7 @@ std::string externals_text(const gen::Output& output) {
   return text;
 }
 
-std::string output_text(const Options& options, const gen::Output& output) {
+std::string output_text(const GenOptions& options, const gen::Output& output) {
   return (options.is_report ? costs_text(output.costs) : "") + groups_text(output) + externals_text(output);
 }
 
@@ -121,7 +121,7 @@ gen::File description(const gen::Output& output, const std::string& path, Write 
 }
 
 // Returns all files with their paths: the sources, and the descriptions that match them.
-std::vector<gen::File> files_of(const Options& options, const gen::Output& output) {
+std::vector<gen::File> files_of(const GenOptions& options, const gen::Output& output) {
   std::vector<gen::File> files = output.files;
   for (gen::File& file : files) {
     file.name.insert(0, options.directory + "/");
@@ -141,7 +141,7 @@ std::vector<gen::File> files_of(const Options& options, const gen::Output& outpu
 }
 
 // Returns false after a message if a file would overwrite the description, or if two files have the same path.
-bool have_places(const Options& options, const std::vector<gen::File>& files) {
+bool have_places(const GenOptions& options, const std::vector<gen::File>& files) {
   for (std::size_t n = 0; n < files.size(); ++n) {
     const std::string& path = files[n].name;
     const bool is_twice = std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(n),
@@ -155,7 +155,7 @@ bool have_places(const Options& options, const std::vector<gen::File>& files) {
 }
 
 // Writes the stubs unless the file exists, which then belongs to the application; prints the symbols that it lacks.
-Status write_stubs(const Options& options, const gen::Output& output) {
+Status write_stubs(const GenOptions& options, const gen::Output& output) {
   if (options.stubs.empty() || options.is_check || output.externals.empty()) {
     return clean;
   }
@@ -185,7 +185,7 @@ bool show(Input& input, const Findings& findings, bool shows_notes) {
   return input.findings.count(Severity::error) == 0;
 }
 
-bool complete(Options& options, const Input& input) {
+bool complete(GenOptions& options, const Input& input) {
   options.gen.source = std::filesystem::path(input.source().name()).filename();
   options.gen.node_id = node_id_of(input.device(), 0);
   if (options.gen.name.empty()) {
@@ -197,7 +197,7 @@ bool complete(Options& options, const Input& input) {
   return parse_stores(options.stores, options.gen) && check_verify(options.verify);
 }
 
-int write_all(const Options& options, const gen::Output& output) {
+int write_all(const GenOptions& options, const gen::Output& output) {
   const std::vector<gen::File> files = files_of(options, output);
   if (!have_places(options, files) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
@@ -215,7 +215,7 @@ int write_all(const Options& options, const gen::Output& output) {
   return std::max<int>(status, write_stubs(options, output));
 }
 
-int run(Options options) {
+int run_gen(GenOptions options) {
   std::optional<Input> input = load(options.file);
   if (!input || !complete(options, *input)) {
     return unusable;
@@ -248,7 +248,7 @@ std::function<std::string(const std::string&)> ends_with(const char* ending) {
 }
 
 Command add_gen(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GenOptions>();
   Arguments command = line.add_command("gen", "Make the dictionary of a device: C or C++ source");
   command.add_option("file", options->file, file_help).required();
   command.add_option("-o,--output", options->directory, "Directory of NAME_od.h and NAME_od.c or .cpp").required();
@@ -280,7 +280,7 @@ Command add_gen(CommandLine& line) {
                   "Bytes of a string of which nothing says how long it may be")
       .in_range(1, 65535)
       .default_text(std::to_string(options->gen.string_capacity));
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_gen(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -12,7 +12,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct GetOptions {
   std::string file;
   std::string target;
   std::string field;
@@ -22,7 +22,7 @@ struct Options {
 // Returns the exact text; on a terminal, with question marks for control characters.
 std::string value(const std::string& text) { return is_terminal() ? visible(text) : text; }
 
-Json to_json(const Input& input, const eds::Key& key) {
+Json value_json(const Input& input, const eds::Key& key) {
   const Position position = input.source().position(key.value.begin);
   return {{"key", input.eds->text(key.name)},
           {"text", input.eds->text(key.value)},
@@ -34,7 +34,7 @@ int get_all(const Input& input, const eds::Section& section, bool is_json) {
   Json keys = Json::array();
   std::string lines;
   for (const eds::Key& key : section.keys) {
-    keys.push_back(to_json(input, key));
+    keys.push_back(value_json(input, key));
     lines += fmt::format("{}={}\n", value(input.eds->text(key.name)), value(input.eds->text(key.value)));
   }
   if (is_json) {
@@ -45,7 +45,7 @@ int get_all(const Input& input, const eds::Section& section, bool is_json) {
   return clean;
 }
 
-int get_from_sections(const Input& input, const Options& options) {
+int get_from_sections(const Input& input, const GetOptions& options) {
   std::string why;
   const eds::Section* const section = find_section(input, options.target, why);
   if (section == nullptr) {
@@ -63,7 +63,7 @@ int get_from_sections(const Input& input, const Options& options) {
   }
   if (options.is_json) {
     Json json = {{"schema", "codict-get-1"}, {"section", input.eds->text(section->name)}};
-    json["keys"] = Json::array({to_json(input, *key)});
+    json["keys"] = Json::array({value_json(input, *key)});
     print_json(json);
   } else {
     print(value(input.eds->text(key->value)) + "\n");
@@ -71,13 +71,13 @@ int get_from_sections(const Input& input, const Options& options) {
   return clean;
 }
 
-Json to_json(const Input& input, std::string_view field, const Text& text) {
+Json value_json(const Input& input, std::string_view field, const Text& text) {
   const Position position = input.source().position(text.span.begin);
   return {{"key", field}, {"text", text.text}, {"line", position.line}, {"column", position.column}};
 }
 
 // Prints an object of an XML description, which has no sections: the fields that the reader found in its elements.
-int get_from_elements(const Input& input, const Options& options) {
+int get_from_elements(const Input& input, const GetOptions& options) {
   std::string why;
   const Entry* const entry = find_entry(input, options.target, why);
   if (entry == nullptr) {
@@ -89,7 +89,7 @@ int get_from_elements(const Input& input, const Options& options) {
   const bool wants_all = options.field.empty();
   for_each_text(*entry, [&](std::string_view field, const Text& text) {
     if (wants_all || find_text(*entry, options.field) == &text) {
-      keys.push_back(to_json(input, field, text));
+      keys.push_back(value_json(input, field, text));
       lines += wants_all ? fmt::format("{}={}\n", field, value(text.text)) : value(text.text) + "\n";
     }
   });
@@ -105,7 +105,7 @@ int get_from_elements(const Input& input, const Options& options) {
   return clean;
 }
 
-int run(const Options& options) {
+int run_get(const GetOptions& options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -116,7 +116,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_get(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GetOptions>();
   Arguments command = line.add_command("get", "Show one value, or all of an object or section");
   command.add_option("file", options->file, file_help).required();
   command.add_option("target", options->target, "Object (0x2000, 0x2000:1) or section (FileInfo)").required();
@@ -124,7 +124,7 @@ Command add_get(CommandLine& line) {
       "field", options->field,
       "name, object, type, access, default, value, low, high, pdo, flags, denotation, or any key of an EDS");
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_get(*options); }};
 }
 
 }  // namespace lexican::codict::cli

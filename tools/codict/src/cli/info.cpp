@@ -14,7 +14,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::string file;
   bool is_json = false;
 };
@@ -110,7 +110,7 @@ std::string plain(const Json& value) {
   return text.empty() ? "-" : text;
 }
 
-int run(const Options& options) {
+int run_info(const InfoOptions& options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -131,11 +131,11 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_info(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   Arguments command = line.add_command("info", "Show what device a description is of");
   command.add_option("file", options->file, file_help).required();
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_info(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -11,7 +11,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct ListOptions {
   std::string file;
   bool is_json = false;
   bool has_objects_only = false;
@@ -40,7 +40,7 @@ void add_values(Json& json, const Entry& entry) {
   }
 }
 
-Json to_json(const Reference& reference, const Entry& entry) {
+Json entry_json(const Reference& reference, const Entry& entry) {
   Json json;
   json["index"] = reference.index;
   if (reference.sub_index) {
@@ -57,7 +57,7 @@ Json to_json(const Reference& reference, const Entry& entry) {
   return json;
 }
 
-int run(const Options& options) {
+int run_list(const ListOptions& options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -66,7 +66,7 @@ int run(const Options& options) {
   Json all = Json::array();
   const auto show = [&](const Reference& reference, const Entry& entry) {
     if (options.is_json) {
-      all.push_back(to_json(reference, entry));
+      all.push_back(entry_json(reference, entry));
     } else {
       lines += line(reference, entry);
     }
@@ -90,12 +90,12 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_list(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListOptions>();
   Arguments command = line.add_command("list", "List the objects of a device");
   command.add_option("file", options->file, file_help).required();
   command.add_flag("--objects", options->has_objects_only, "Without sub-objects");
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_list(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -25,7 +25,7 @@ namespace {
 
 using convert::Replaced;
 
-struct Options {
+struct MergeOptions {
   std::string base;
   std::vector<std::string> overlays;
   std::vector<std::string> values;
@@ -107,7 +107,7 @@ std::string lines_of(Device device) {
   return lines;
 }
 
-Status add_file(Merged& merged, const std::string& path, const Device& base, const Options& options) {
+Status add_file(Merged& merged, const std::string& path, const Device& base, const MergeOptions& options) {
   const std::optional<Input> input = open(path);
   if (!input) {
     return unusable;
@@ -170,7 +170,7 @@ std::string lines_for(const Input& input, std::string_view assignment, std::stri
   return lines;
 }
 
-bool add_values(Merged& merged, const Options& options) {
+bool add_values(Merged& merged, const MergeOptions& options) {
   for (const std::string& value : options.values) {
     std::string why;
     const std::string lines = lines_for(merged.input, value, why);
@@ -186,7 +186,7 @@ bool add_values(Merged& merged, const Options& options) {
   return true;
 }
 
-Json to_json(const Options& options, const Merged& merged) {
+Json merged_json(const MergeOptions& options, const Merged& merged) {
   Json json{{"schema", "codict-merge-1"}, {"file", options.output}, {"replaced", Json::array()}};
   for (const auto& [one, overlay] : merged.replaced) {
     json["replaced"].push_back(
@@ -195,7 +195,7 @@ Json to_json(const Options& options, const Merged& merged) {
   return json;
 }
 
-int run(const Options& options) {
+int run_merge(const MergeOptions& options) {
   std::optional<Input> base = open(options.base);
   std::string why;
   if (!base) {
@@ -226,7 +226,7 @@ int run(const Options& options) {
   }
   const Status status = write_output(options.output, merged.input.source().bytes());
   if (status == clean && options.is_json && options.output != "-") {
-    print_json(to_json(options, merged));
+    print_json(merged_json(options, merged));
   }
   return status;
 }
@@ -234,7 +234,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_merge(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MergeOptions>();
   Arguments command =
       line.add_command("merge", "Put overlays and values over a description, whose other bytes stay as they are");
   command.add_option("base", options->base, "EDS or DCF").required();
@@ -249,7 +249,7 @@ Command add_merge(CommandLine& line) {
   command.add_flag("--force", options->is_forced,
                    "Write it even where it has new errors, or an overlay describes another product");
   command.add_flag("--json", options->is_json, "Replaced values, for programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_merge(*options); }};
 }
 
 }  // namespace lexican::codict::cli

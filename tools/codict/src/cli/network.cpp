@@ -27,7 +27,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct NetworkOptions {
   std::vector<std::string> files;
   std::string directory;
   std::uint32_t bit_rate = 0;
@@ -73,7 +73,7 @@ bool read_devices(const network::Plan& plan, Project& project, std::vector<Devic
   return true;
 }
 
-std::optional<Project> planned_project(const Options& options) {
+std::optional<Project> planned_project(const NetworkOptions& options) {
   Project project;
   std::string why;
   project.plan = read_file(options.files.front(), why);
@@ -97,7 +97,7 @@ std::optional<Project> planned_project(const Options& options) {
   return project;
 }
 
-std::optional<Project> described_project(const Options& options) {
+std::optional<Project> described_project(const NetworkOptions& options) {
   Project project;
   std::vector<network::NamedDevice> devices;
   std::set<std::string> names;
@@ -198,7 +198,7 @@ Json json_of(const network::Network& network, const network::Links& links, const
   return json;
 }
 
-int write_files(const Options& options, const Project& project, const std::vector<network::File>& files) {
+int write_files(const NetworkOptions& options, const Project& project, const std::vector<network::File>& files) {
   if (!make_directory(options.directory)) {
     return unusable;
   }
@@ -219,7 +219,7 @@ int write_files(const Options& options, const Project& project, const std::vecto
   return status;
 }
 
-int finish(const Options& options, const Project& project) {
+int finish(const NetworkOptions& options, const Project& project) {
   const network::Network& net = project.network;
   network::NetworkFindings findings(net);
   findings.plan = project.findings;
@@ -246,7 +246,7 @@ int finish(const Options& options, const Project& project) {
   return std::max<int>(write_files(options, project, files), has_errors ? found : clean);
 }
 
-int run(const Options& options) {
+int run_network(const NetworkOptions& options) {
   constexpr std::size_t most_nodes = 127;
   const bool has_plan = std::any_of(options.files.begin(), options.files.end(), is_plan);
   if ((has_plan && options.files.size() != 1) || options.files.size() > most_nodes) {
@@ -260,7 +260,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_network(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NetworkOptions>();
   Arguments command =
       line.add_command("network", "Check a network: COB-IDs, PDO links, heartbeats, SYNC, bus load, response times");
   command.add_option("file", options->files, "Plan that ends with .yaml, or DCFs and XDCs of all nodes").required();
@@ -271,7 +271,7 @@ Command add_network(CommandLine& line) {
   command.add_flag("--json", options->is_json, "For programs");
   command.add_flag("--notes", options->shows_notes, "Show notes, too");
   command.add_flag("--force", options->is_forced, "Write the files although there are errors");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_network(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -23,7 +23,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct NewOptions {
   std::string directory;
   std::string from;
   std::string profile;
@@ -40,12 +40,12 @@ std::string project_name(const std::string& directory) {
   return name.empty() ? "device" : name;
 }
 
-std::string description_name(const Options& options) {
+std::string description_name(const NewOptions& options) {
   return options.profile.empty() ? std::filesystem::path(options.from).filename().string()
                                  : project_name(options.directory) + ".eds";
 }
 
-std::optional<Input> description_of(const Options& options) {
+std::optional<Input> description_of(const NewOptions& options) {
   if (options.profile.empty()) {
     return load(options.from);
   }
@@ -100,7 +100,7 @@ std::vector<std::pair<std::string, unsigned>> settings_of(const std::string& hea
   return settings;
 }
 
-std::vector<project::File> files_of(const Options& options, const Input& input, const gen::Output& output,
+std::vector<project::File> files_of(const NewOptions& options, const Input& input, const gen::Output& output,
                                     const std::string& dictionary, bool is_forced) {
   const bool is_cpp = options.language == gen::Language::cpp;
   const std::string& header = output.files.front().bytes;
@@ -163,7 +163,7 @@ bool review_description(Input& input, Findings& findings) {
                       [](const Finding& finding) { return finding.rule->severity == Severity::error; });
 }
 
-int run(const Options& options) {
+int run_new(const NewOptions& options) {
   if (options.from.empty() == options.profile.empty()) {
     complain("new needs either --from FILE or --profile 301, 401 or 402");
     return unusable;
@@ -196,7 +196,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_new(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<NewOptions>();
   Arguments command = line.add_command("new", "Create a project of a node that builds and runs on a simulated bus");
   command.add_option("directory", options->directory, "Directory of the project; existing files are never replaced")
       .required();
@@ -209,7 +209,7 @@ Command add_new(CommandLine& line) {
   const Choices<gen::Language> languages = {{"c", gen::Language::c}, {"c++", gen::Language::cpp}};
   command.add_choice("--language", options->language, languages, "Language of the sources: c, c++").default_text("c");
   command.add_flag("--force", options->is_forced, "Make a project although the description has errors");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_new(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -17,7 +17,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct PdoOptions {
   std::string file;
   doc::Options doc{"en", 0};
   bool is_json = false;
@@ -98,7 +98,7 @@ std::string text_of(const Row& row) {
   return text;
 }
 
-Json to_json(const Row& row) {
+Json row_json(const Row& row) {
   Json json{{"name", row.item.title}, {"transmit", row.pdo.is_transmit}, {"number", row.pdo.number}};
   const bool is_known = row.cob_id != nullptr && row.cob_id->is_known;
   if (is_known) {
@@ -134,7 +134,7 @@ const CobId* find(const std::vector<CobId>& cob_ids, const Pdo& pdo) {
   return place != cob_ids.end() ? &*place : nullptr;
 }
 
-int run(Options options) {
+int run_pdo(PdoOptions options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -147,7 +147,7 @@ int run(Options options) {
   std::string text;
   for (std::size_t n = 0; n < pdos.size(); ++n) {
     const Row row{pdos[n], contents.pdos[n], find(cob_ids, pdos[n])};
-    json["pdos"].push_back(to_json(row));
+    json["pdos"].push_back(row_json(row));
     text += (n == 0 ? "" : "\n") + text_of(row);
   }
   if (options.is_json) {
@@ -161,13 +161,13 @@ int run(Options options) {
 }  // namespace
 
 Command add_pdo(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PdoOptions>();
   Arguments command = line.add_command("pdo", "Show the PDOs of a device: COB-IDs, times, and what is in them");
   command.add_option("file", options->file, file_help).required();
   add_node_id(command, options->doc.node_id);
   command.add_option("--language", options->doc.language, "Of labels").default_text(options->doc.language);
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_pdo(*options); }};
 }
 
 }  // namespace lexican::codict::cli

@@ -21,7 +21,7 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct SetOptions {
   std::string file;
   std::string target;
   std::vector<std::string> assignments;
@@ -77,7 +77,7 @@ bool assign(const xdd::Document& document, const Entry& entry, const Assignment&
 }
 
 // Sets fields in lists of compact storage. On failure, why is the reason.
-bool assign_to_lists(const Input& input, const Reference& reference, const Options& options, std::string& bytes,
+bool assign_to_lists(const Input& input, const Reference& reference, const SetOptions& options, std::string& bytes,
                      std::string& why) {
   std::string lines;
   for (const std::string& each : options.assignments) {
@@ -96,7 +96,7 @@ bool assign_to_lists(const Input& input, const Reference& reference, const Optio
 }
 
 // Adds the edits for all assignments. On failure, refusal has the reason.
-bool assign_all(const Input& input, const Options& options, Edits& edits, Refusal& refusal) {
+bool assign_all(const Input& input, const SetOptions& options, Edits& edits, Refusal& refusal) {
   if (input.json != nullptr) {
     refusal.why = "values of JSON are changed by programs for JSON";
     return false;
@@ -119,7 +119,7 @@ bool assign_all(const Input& input, const Options& options, Edits& edits, Refusa
 }
 
 // Returns false if a field is given twice, which is a mistake of the user.
-bool has_fields_once(const Options& options, std::string& why) {
+bool has_fields_once(const SetOptions& options, std::string& why) {
   std::vector<std::string_view> fields;
   for (const std::string& each : options.assignments) {
     Assignment assignment;
@@ -138,7 +138,7 @@ bool has_fields_once(const Options& options, std::string& why) {
   return true;
 }
 
-bool change(const Input& input, const Options& options, std::string& bytes, Refusal& refusal) {
+bool change(const Input& input, const SetOptions& options, std::string& bytes, Refusal& refusal) {
   if (!has_fields_once(options, refusal.why)) {
     return false;
   }
@@ -152,7 +152,7 @@ bool change(const Input& input, const Options& options, std::string& bytes, Refu
   return is_done;
 }
 
-int write(const Options& options, const Input& input, const std::string& bytes) {
+int write(const SetOptions& options, const Input& input, const std::string& bytes) {
   const std::string path = options.output.empty() ? options.file : options.output;
   const Status status = write_output(path, bytes);
   if (status == clean && options.is_json && path != "-") {
@@ -170,7 +170,7 @@ bool is_of_another_format(const Input& input, const std::string& path) {
          (ending == "json" && input.json == nullptr);
 }
 
-int run(const Options& options) {
+int run_set(const SetOptions& options) {
   std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -198,7 +198,7 @@ int run(const Options& options) {
 }  // namespace
 
 Command add_set(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SetOptions>();
   Arguments command =
       line.add_command("set", "Change values of an object or section; all other bytes stay as they are");
   command.add_option("file", options->file, file_help).required();
@@ -210,7 +210,7 @@ Command add_set(CommandLine& line) {
   command.add_option("-o,--output", options->output, "Another file, - for the standard output");
   command.add_flag("--force", options->is_forced, "Write values even where they are errors");
   command.add_flag("--json", options->is_json, "For programs");
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_set(*options); }};
 }
 
 }  // namespace lexican::codict::cli

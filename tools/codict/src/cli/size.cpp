@@ -12,14 +12,14 @@ namespace lexican::codict::cli {
 
 namespace {
 
-struct Options {
+struct SizeOptions {
   std::string file;
   std::vector<std::string> stores;
   gen::Options gen;
   bool is_json = false;
 };
 
-int run(Options options) {
+int run_size(SizeOptions options) {
   const std::optional<Input> input = open(options.file);
   if (!input) {
     return unusable;
@@ -46,7 +46,7 @@ int run(Options options) {
 }  // namespace
 
 Command add_size(CommandLine& line) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SizeOptions>();
   Arguments command =
       line.add_command("size", "Show the RAM and flash of the dictionary that gen makes, where addresses have 32 bits");
   command.add_option("file", options->file, file_help).required();
@@ -57,7 +57,7 @@ Command add_size(CommandLine& line) {
                   "Bytes of a string of which nothing says how long it may be")
       .in_range(1, 65535)
       .default_text(std::to_string(options->gen.string_capacity));
-  return {command, [options] { return run(*options); }};
+  return {command, [options] { return run_size(*options); }};
 }
 
 }  // namespace lexican::codict::cli

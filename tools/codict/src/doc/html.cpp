@@ -16,7 +16,7 @@ namespace lexican::codict::doc {
 
 namespace {
 
-class Page {
+class HtmlPage {
  public:
   // Appends formatted HTML. All arguments are escaped, because they may be texts of the description.
   template <typename... Arguments>
@@ -31,7 +31,7 @@ class Page {
   std::string text_;
 };
 
-void write_facts(std::string_view title, const std::vector<Fact>& facts, Page& page) {
+void write_facts(std::string_view title, const std::vector<Fact>& facts, HtmlPage& page) {
   if (facts.empty()) {
     return;
   }
@@ -42,7 +42,7 @@ void write_facts(std::string_view title, const std::vector<Fact>& facts, Page& p
   page.raw("</tbody></table>\n");
 }
 
-void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, Page& page) {
+void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, HtmlPage& page) {
   page.write("<h2 id=\"cob-ids\">COB-IDs of node {}</h2>\n", std::to_string(options.node_id));
   page.raw("<table><thead><tr><th>COB-ID</th><th>service</th><th>from</th></tr></thead><tbody>\n");
   for (const CobIdRow& row : rows) {
@@ -52,7 +52,7 @@ void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, Pa
   page.raw("</tbody></table>\n");
 }
 
-void write_pdos(const std::vector<PdoItem>& pdos, Page& page) {
+void write_pdos(const std::vector<PdoItem>& pdos, HtmlPage& page) {
   if (pdos.empty()) {
     return;
   }
@@ -67,7 +67,7 @@ void write_pdos(const std::vector<PdoItem>& pdos, Page& page) {
   }
 }
 
-void write_remarks(const Item& item, Page& page) {
+void write_remarks(const Item& item, HtmlPage& page) {
   if (!item.unit.empty()) {
     page.write("Unit: {}. ", item.unit);
   }
@@ -86,7 +86,7 @@ void write_remarks(const Item& item, Page& page) {
 }
 
 // Writes a table row. The anchor of an object without sub-objects is at its section, not at its row.
-void write_row(const Item& item, bool is_sub, Page& page) {
+void write_row(const Item& item, bool is_sub, HtmlPage& page) {
   page.raw("<tr");
   if (is_sub) {
     page.write(" id=\"{}\"", item.anchor);
@@ -101,7 +101,7 @@ void write_row(const Item& item, bool is_sub, Page& page) {
   page.raw("</td></tr>\n");
 }
 
-void write_object(const ObjectItem& object, Page& page) {
+void write_object(const ObjectItem& object, HtmlPage& page) {
   page.write("<section class=\"object\" id=\"{}\"><h3>{} {}</h3>\n", object.object.anchor, object.object.number,
              object.object.name);
   if (object.has_subs) {
@@ -121,7 +121,7 @@ void write_object(const ObjectItem& object, Page& page) {
   page.raw("</tbody></table></section>\n");
 }
 
-void write_chapters(const std::vector<Chapter>& chapters, Page& page) {
+void write_chapters(const std::vector<Chapter>& chapters, HtmlPage& page) {
   for (const Chapter& chapter : chapters) {
     page.write("<h2 id=\"{}\">{}</h2>\n", chapter.anchor, chapter.title);
     if (!chapter.words.empty()) {
@@ -133,7 +133,7 @@ void write_chapters(const std::vector<Chapter>& chapters, Page& page) {
   }
 }
 
-void write_header(const Contents& contents, Page& page) {
+void write_header(const Contents& contents, HtmlPage& page) {
   page.write("<header><h1>{}</h1>\n", contents.title);
   page.raw("<label>Search <input id=\"search\" type=\"search\" placeholder=\"2000, speed, RPDO …\"></label>\n");
   page.raw("<output id=\"found\"></output>\n<nav><a href=\"#cob-ids\">COB-IDs</a>");
@@ -150,7 +150,7 @@ void write_header(const Contents& contents, Page& page) {
 
 std::string html(const Device& device, const Options& options) {
   const Contents contents = contents_of(device, options);
-  Page page;
+  HtmlPage page;
   page.write("<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\">", options.language);
   page.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
   page.write("<title>{}</title>\n<style>", contents.title);

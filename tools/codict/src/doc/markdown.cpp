@@ -30,7 +30,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-class Page {
+class MarkdownPage {
  public:
   void heading(unsigned level, std::string_view title, std::string_view anchor) {
     gap();
@@ -65,7 +65,7 @@ class Page {
   std::string text_;
 };
 
-void write_facts(std::string_view title, const std::vector<Fact>& facts, Page& page) {
+void write_facts(std::string_view title, const std::vector<Fact>& facts, MarkdownPage& page) {
   if (facts.empty()) {
     return;
   }
@@ -76,7 +76,7 @@ void write_facts(std::string_view title, const std::vector<Fact>& facts, Page& p
   }
 }
 
-void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, Page& page) {
+void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, MarkdownPage& page) {
   page.heading(2, fmt::format("COB-IDs of node {}", options.node_id), "cob-ids");
   page.table({"COB-ID", "service", "from"});
   for (const CobIdRow& row : rows) {
@@ -84,7 +84,7 @@ void write_cob_ids(const std::vector<CobIdRow>& rows, const Options& options, Pa
   }
 }
 
-void write_pdo(const PdoItem& pdo, Page& page) {
+void write_pdo(const PdoItem& pdo, MarkdownPage& page) {
   page.heading(3, pdo.title, pdo.anchor);
   page.paragraph(fmt::format("COB-ID {}; {}; {} bits.", pdo.cob_id.empty() ? "?" : pdo.cob_id,
                              pdo.transmission.empty() ? "?" : pdo.transmission, pdo.bits));
@@ -118,13 +118,13 @@ std::string remarks_of(const Item& item) {
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
-void write_item(const Item& item, Page& page) {
+void write_item(const Item& item, MarkdownPage& page) {
   const std::string value = item.value.empty() ? item.default_value : item.default_value + " → " + item.value;
   page.row({fmt::format("<a id=\"{}\"></a>{}", item.anchor, item.number), escaped(item.name), escaped(item.type),
             item.access, item.mapping, escaped(value), remarks_of(item)});
 }
 
-void write_object(const ObjectItem& object, unsigned level, Page& page) {
+void write_object(const ObjectItem& object, unsigned level, MarkdownPage& page) {
   page.heading(level, object.object.number + " " + object.object.name, object.has_subs ? object.object.anchor : "");
   if (object.has_subs) {
     page.paragraph(object.object.type);
@@ -147,7 +147,7 @@ unsigned heading_of(unsigned level) { return level < deepest_heading ? level : d
 
 std::string markdown(const Device& device, const Options& options) {
   const Contents contents = contents_of(device, options);
-  Page page;
+  MarkdownPage page;
   page.heading(1, contents.title, "");
   write_facts("Device", contents.identity, page);
   write_facts("Features", contents.features, page);

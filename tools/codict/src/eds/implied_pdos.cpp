@@ -115,7 +115,7 @@ Object mapping(const Direction& direction, std::uint16_t number, unsigned entrie
 }
 
 // Numbers of the PDOs, from 0, whose communication or mapping parameter has no section.
-struct Gaps {
+struct MissingParameters {
   std::vector<std::uint16_t> communication;
   std::vector<std::uint16_t> mapping;
 
@@ -123,7 +123,7 @@ struct Gaps {
 };
 
 // Returns the missing parameters of `count` PDOs. PDOs without any parameter get the lowest free numbers.
-Gaps gaps_of(const Direction& direction, std::uint16_t count, const Device& device) {
+MissingParameters missing_parameters(const Direction& direction, std::uint16_t count, const Device& device) {
   const auto has = [&](std::uint16_t number, std::uint16_t offset) {
     return device.find(static_cast<std::uint16_t>(direction.first + offset + number)) != nullptr;
   };
@@ -132,7 +132,7 @@ Gaps gaps_of(const Direction& direction, std::uint16_t count, const Device& devi
     described += has(number, 0) || has(number, to_mapping) ? 1U : 0U;
   }
   unsigned free = std::max<unsigned>(std::min(count, most_pdos), described) - described;
-  Gaps gaps;
+  MissingParameters missing;
   for (std::uint16_t number = 0; number < most_pdos; ++number) {
     const bool is_described = has(number, 0) || has(number, to_mapping);
     if (!is_described && free == 0) {
@@ -140,22 +140,23 @@ Gaps gaps_of(const Direction& direction, std::uint16_t count, const Device& devi
     }
     free -= is_described ? 0U : 1U;
     if (!has(number, 0)) {
-      gaps.communication.push_back(number);
+      missing.communication.push_back(number);
     }
     if (!has(number, to_mapping)) {
-      gaps.mapping.push_back(number);
+      missing.mapping.push_back(number);
     }
   }
-  return gaps;
+  return missing;
 }
 
 void add_objects(const Direction& direction, std::uint16_t count, const Reader& reader) {
   Device& device = reader.device;
   const Span place = device.features.compact_pdo.span;
   const unsigned entries = entries_of(device);
-  const Gaps gaps = gaps_of(direction, count, device);
-  const std::size_t subs = gaps.communication.size() * (parameters.size() + 1) + gaps.mapping.size() * (entries + 1);
-  if (gaps.objects() == 0 || !take_implied_subs(subs, place, reader)) {
+  const MissingParameters missing = missing_parameters(direction, count, device);
+  const std::size_t subs =
+      missing.communication.size() * (parameters.size() + 1) + missing.mapping.size() * (entries + 1);
+  if (missing.objects() == 0 || !take_implied_subs(subs, place, reader)) {
     return;
   }
   const auto add = [&device, place](Object object) {
@@ -165,17 +166,17 @@ void add_objects(const Direction& direction, std::uint16_t count, const Reader& 
     }
     device.objects.push_back(std::move(object));
   };
-  for (const std::uint16_t number : gaps.communication) {
+  for (const std::uint16_t number : missing.communication) {
     add(communication(direction, number, device.features.compact_pdo.value));
   }
-  for (const std::uint16_t number : gaps.mapping) {
+  for (const std::uint16_t number : missing.mapping) {
     add(mapping(direction, number, entries));
   }
   std::sort(device.objects.begin(), device.objects.end(),
             [](const Object& a, const Object& b) { return a.index < b.index; });
   reader.findings.add(rules::compact_pdo, place,
                       fmt::format("{} parameter objects of {}s have no section; CompactPDO implies them, disabled",
-                                  gaps.objects(), direction.name),
+                                  missing.objects(), direction.name),
                       "none is needed; codict convert to a DCF writes their sections");
 }
 

@@ -35,7 +35,7 @@ void normalise_flag(Field<bool>& flag) {
 
 void normalise(Value& value) {
   if (!value.is_empty()) {
-    value.text = text_of(value);
+    value.text = value_text(value);
   }
 }
 
@@ -87,7 +87,7 @@ Access access_of(const Entry& entry) {
 
 }  // namespace
 
-std::string text_of(const Value& value) {
+std::string value_text(const Value& value) {
   switch (value.kind) {
     case Value::Kind::integer: return is_number_of_eds(value.text) ? value.text : value.written_integer();
     case Value::Kind::real:

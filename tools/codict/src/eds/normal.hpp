@@ -11,7 +11,7 @@
 namespace lexican::codict::eds {
 
 /// Returns the text of a value: the original text if CiA 306 allows it, else its meaning in the notation of CiA 306.
-std::string text_of(const Value& value);
+std::string value_text(const Value& value);
 
 /// Returns 0 or 1; the original text if it is not a flag.
 template <typename T>

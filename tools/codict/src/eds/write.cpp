@@ -245,7 +245,7 @@ void Writer::compact_lists(const Object& object, const std::string& name) {
       names.emplace_back(sub.sub_index, sub.name.text);
     }
     if (sub.actual_value.is_given) {
-      values.emplace_back(sub.sub_index, text_of(sub.actual_value));
+      values.emplace_back(sub.sub_index, value_text(sub.actual_value));
     }
     if (sub.denotation.is_given) {
       denotations.emplace_back(sub.sub_index, sub.denotation.text);

@@ -13,13 +13,6 @@ namespace lexican::codict::gen {
 
 namespace {
 
-constexpr std::uint32_t flag_write = 0x01;
-constexpr std::uint32_t flag_read = 0x02;
-constexpr std::uint32_t flag_pdo = 0x04;
-constexpr std::uint32_t flag_trigger = 0x08;
-constexpr std::uint32_t flag_node_id = 0x40;
-constexpr std::uint32_t flag_direct = 0x80;
-
 constexpr std::uint32_t cob_id_off = 0x80000000;
 
 constexpr std::uint16_t error_register = 0x1001;

@@ -7,6 +7,14 @@
 
 namespace lexican::codict::gen {
 
+// Flags of CO_KEY().
+constexpr std::uint32_t flag_write = 0x01;
+constexpr std::uint32_t flag_read = 0x02;
+constexpr std::uint32_t flag_pdo = 0x04;
+constexpr std::uint32_t flag_trigger = 0x08;
+constexpr std::uint32_t flag_node_id = 0x40;
+constexpr std::uint32_t flag_direct = 0x80;
+
 void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings);
 void plan_names(const Options& options, Plan& plan, Findings& findings);
 void plan_groups(const Options& options, Plan& plan, Findings& findings);

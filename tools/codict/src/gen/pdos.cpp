@@ -10,8 +10,6 @@ namespace lexican::codict::gen {
 namespace {
 
 constexpr unsigned most_bits = 64;
-constexpr std::uint32_t flag_pdo = 0x04;
-constexpr std::uint32_t flag_direct = 0x80;
 constexpr std::uint64_t multiplexed = 0xFE;  // value of sub-index 0 for a multiplex PDO, like FFh [301:7.5.2.36]
 
 constexpr std::uint32_t off = 0x80000000;  // bit 31 of a COB-ID: the PDO is disabled

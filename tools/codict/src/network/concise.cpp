@@ -13,7 +13,6 @@ namespace lexican::codict::network {
 
 namespace {
 
-constexpr std::uint64_t cob_id_invalid = 0x80000000U;
 constexpr std::uint32_t refuses_download = 1;  // ObjFlags, bit 0
 
 std::string little_endian(std::uint64_t value, unsigned bytes) {

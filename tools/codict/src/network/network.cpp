@@ -13,7 +13,6 @@ namespace lexican::codict::network {
 
 namespace {
 
-constexpr std::uint64_t cob_id_invalid = 0x80000000U;
 constexpr std::uint64_t cob_id_extended = 0x20000000U;
 
 void check_bit_rate(const Network& network, std::size_t at, NetworkFindings& findings) {

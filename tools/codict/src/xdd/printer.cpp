@@ -122,6 +122,8 @@ const Kept* Rest::take_left(std::string_view name, std::string_view attribute) {
   return found;
 }
 
+Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
+
 Printer::Printer(Edition edition) : edition_(edition), text_("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n") {}
 
 std::string Printer::full(std::string_view name) const {

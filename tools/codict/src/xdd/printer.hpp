@@ -28,6 +28,9 @@ class Rest {
   std::vector<const Kept*> all_;
 };
 
+/// Returns the kept parts inside of an element; none if the element has no kept rest.
+Rest rest_of(const Kept* left);
+
 class Printer {
  public:
   explicit Printer(Edition edition);

@@ -10,8 +10,6 @@ namespace lexican::codict::xdd {
 
 namespace {
 
-Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
-
 // Returns whether a kept part belongs to the object, and not to its parameter, which has no such attribute.
 bool is_of_object(const Kept& kept) {
   constexpr std::array<std::string_view, 7> names = {"@lowLimit",    "@highLimit",  "@accessType",     "@defaultValue",
@@ -60,7 +58,7 @@ bool has_limits_of_range(const Entry& entry) {
 
 // Returns whether a value is written. CiA 306 need not give the value of sub-index 0; here it is always written.
 bool is_said(const Value& value) { return value.is_given || value.is_integer(); }
-std::string text_of(const Value& value) {
+std::string value_text(const Value& value) {
   return value.is_empty() && value.is_integer() ? value.written_integer() : value.text;
 }
 
@@ -153,7 +151,7 @@ void EntryWriter::type(const Entry& entry, bool is_variable) {
 }
 
 void EntryWriter::value(std::string_view name, const Value& value, Rest& rest) {
-  const std::string text = text_of(value);
+  const std::string text = value_text(value);
   if (!is_said(value) || (is_eds_ && text.empty())) {
     return;
   }
@@ -472,7 +470,7 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
       out_.attribute("accessType", name_of(entry.access.value));
     }
     if (is_said(entry.default_value)) {
-      out_.attribute("defaultValue", std::string_view(text_of(entry.default_value)));
+      out_.attribute("defaultValue", std::string_view(value_text(entry.default_value)));
     }
     out_.attribute("actualValue", entry.actual_value);
   }

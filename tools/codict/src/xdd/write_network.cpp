@@ -37,8 +37,6 @@ void print_hex(Printer& out, std::string_view name, const Field<T>& field, std::
   out.attribute(name, std::string_view(text_or(field, hex(field.value, digits))));
 }
 
-Rest rest_of(const Kept* left) { return left != nullptr ? Rest(left->children) : Rest(); }
-
 void print_rates(Printer& out, const Features& features, const Kept* left) {
   Rest rest = rest_of(left);
   out.open("baudRate");
