@@ -17,8 +17,8 @@ namespace {
 constexpr std::uint32_t widest = 160;  // largest number of bytes of a line that are shown
 constexpr std::uint32_t ahead = 60;    // number of these bytes in front of the place, in longer lines
 
-constexpr std::string_view bold = "\x1B[1m";
-constexpr std::string_view plain = "\x1B[0m";
+constexpr std::string_view escape_bold = "\x1B[1m";
+constexpr std::string_view escape_plain = "\x1B[0m";
 
 std::string_view colour_of(Severity severity) {
   switch (severity) {
@@ -80,9 +80,10 @@ std::string render(const Source& source, Encoding encoding, const std::vector<Fo
     const Finding& finding = *folded.first;
     const Position position = source.position(finding.span.begin);
     const Severity severity = finding.severity;
-    text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? bold : "", visible(source.name()),
-                        position.line, position.column, has_colour ? plain : "", has_colour ? colour_of(severity) : "",
-                        name_of(severity), has_colour ? plain : "", visible(message_of(finding)), finding.rule->id);
+    text += fmt::format("{}{}:{}:{}:{} {}{}:{} {} [{}]\n", has_colour ? escape_bold : "", visible(source.name()),
+                        position.line, position.column, has_colour ? escape_plain : "",
+                        has_colour ? colour_of(severity) : "", name_of(severity), has_colour ? escape_plain : "",
+                        visible(message_of(finding)), finding.rule->id);
     text += excerpt(source, encoding, finding.span);
     if (!finding.hint.empty()) {
       text += fmt::format("    fix: {}\n", visible(finding.hint));

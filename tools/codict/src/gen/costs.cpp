@@ -8,10 +8,10 @@ namespace lexican::codict::gen {
 
 namespace {
 
-constexpr unsigned address = 4;
-constexpr unsigned entry = 3 * address;
-constexpr unsigned type = 5 * address;
-constexpr unsigned para = 9 * address;
+constexpr unsigned address_bytes = 4;
+constexpr unsigned entry_bytes = 3 * address_bytes;
+constexpr unsigned type_bytes = 5 * address_bytes;
+constexpr unsigned para_bytes = 9 * address_bytes;
 // Sizes measured on Cortex-M0+ with -Os.
 constexpr unsigned word_limit_functions = 250;
 constexpr unsigned wide_limit_functions = 300;
@@ -37,9 +37,9 @@ unsigned beside(const Item& item) {
     return 0;
   }
   switch (item.storage) {
-    case Storage::string: return 6 * address;
-    case Storage::domain: return 3 * address;
-    case Storage::consumer: return 6 * address;
+    case Storage::string: return 6 * address_bytes;
+    case Storage::domain: return 3 * address_bytes;
+    case Storage::consumer: return 6 * address_bytes;
     default: return 0;
   }
 }
@@ -56,7 +56,7 @@ Cost cost_of_limits(const Plan& plan) {
     has_words = has_words || (item.limited != 0 && !is_wide);
     has_wide = has_wide || (item.limited != 0 && is_wide);
     if (item.limited > highest) {
-      cost.flash += type + address + (is_wide ? 24U : 12U);
+      cost.flash += type_bytes + address_bytes + (is_wide ? 24U : 12U);
       highest = item.limited;
     }
   }
@@ -75,7 +75,7 @@ Cost cost_of_power_on_values(const Plan& plan) {
     cost.items += group.sub_index == 0 ? cost_of(group).items : 0U;
   }
   cost.ram = 1;
-  cost.flash = entry + type + power_on_functions;
+  cost.flash = entry_bytes + type_bytes + power_on_functions;
   return cost;
 }
 
@@ -103,15 +103,15 @@ std::vector<Cost> costs_of(const Plan& plan) {
   types.part = "stored types";
   for (const Group& group : plan.groups) {
     costs.push_back(cost_of(group));
-    costs.back().flash += group.sub_index != 0 ? para : 0U;
+    costs.back().flash += group.sub_index != 0 ? para_bytes : 0U;
   }
   for (const Item& item : plan.items) {
     costs[item.group].ram += beside(item);
     costs[item.group].flash += beside(item);
-    types.items += beside(item) > 3 * address ? 1U : 0U;
+    types.items += beside(item) > 3 * address_bytes ? 1U : 0U;
   }
   types.flash = types.items != 0 ? stored_functions : 0;
-  costs.push_back({"table", plan.items.size(), 0, entry * plan.items.size()});
+  costs.push_back({"table", plan.items.size(), 0, entry_bytes * plan.items.size()});
   costs.push_back(cost_of_power_on_values(plan));
   costs.push_back(cost_of_constants(plan));
   costs.push_back(cost_of_limits(plan));

@@ -20,7 +20,7 @@ constexpr std::uint16_t i32 = 0x04;
 constexpr std::uint16_t u8 = 0x05;
 constexpr std::uint16_t u16 = 0x06;
 constexpr std::uint16_t u32 = 0x07;
-constexpr std::uint16_t text = 0x09;
+constexpr std::uint16_t visible_string = 0x09;
 
 struct Value {
   const char* name;
@@ -90,9 +90,9 @@ Rows communication_rows(const char* device_type, const char* name) {
         {"Standard error field 3", u32, "ro", "0"},
         {"Standard error field 4", u32, "ro", "0"}}},
       {0x1005, var, "COB-ID SYNC message", {{"", u32, "rw", "0x80"}}},
-      {0x1008, var, "Manufacturer device name", {{"", text, "const", name}}},
-      {0x1009, var, "Manufacturer hardware version", {{"", text, "const", "1.0"}}},
-      {0x100A, var, "Manufacturer software version", {{"", text, "const", "0.1"}}},
+      {0x1008, var, "Manufacturer device name", {{"", visible_string, "const", name}}},
+      {0x1009, var, "Manufacturer hardware version", {{"", visible_string, "const", "1.0"}}},
+      {0x100A, var, "Manufacturer software version", {{"", visible_string, "const", "0.1"}}},
       {0x1014, var, "COB-ID EMCY", {{"", u32, "rw", "$NODEID+0x80"}}},
       {0x1015, var, "Inhibit time EMCY", {{"", u16, "rw", "0"}}},
       {0x1016,
