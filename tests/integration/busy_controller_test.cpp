@@ -141,15 +141,15 @@ struct Blocked {
 
 }  // namespace
 
-TEST_CASE("busy controller: no answer, boot-up or state is lost when it refuses frames, wherever it begins [T12]") {
+TEST_CASE("busy controller: no answer, boot-up or state is lost when it refuses frames from any time [T12]") {
   check_all_positions(Fault::refuse, CO_ERR_NONE);
 }
 
-TEST_CASE("busy controller: no answer, boot-up or state is lost when it reports errors, wherever it begins [T12]") {
+TEST_CASE("busy controller: no answer, boot-up or state is lost when it reports errors from any time [T12]") {
   check_all_positions(Fault::error, CO_ERR_IF_CAN_SEND);
 }
 
-TEST_CASE("busy controller: answers wait in their order; those that find the queue full are counted [Q4]") {
+TEST_CASE("busy controller: answers are queued in order; those refused by a full queue are counted [Q4]") {
   Blocked blocked(true);
   const unsigned requests = CO_TX_QUEUE_N + 5;
   Texts expected;
@@ -169,7 +169,7 @@ TEST_CASE("busy controller: answers wait in their order; those that find the que
   CHECK(blocked.line.take_texts() == Texts{answer(50)});
 }
 
-TEST_CASE("busy controller: what waits goes out by the priority of CAN, whatever came first [Q4]") {
+TEST_CASE("busy controller: queued frames are sent by CAN priority [Q4]") {
   Blocked blocked(true);
   CHECK(blocked.application_sends("700#01"));
   CHECK(blocked.application_sends("080#03"));
@@ -178,7 +178,7 @@ TEST_CASE("busy controller: what waits goes out by the priority of CAN, whatever
   CHECK(blocked.unblock() == Texts{"080#03", answer(0), "700#01"});
 }
 
-TEST_CASE("busy controller: frames of the application leave places for the boot-up, which is first, and answers [N4]") {
+TEST_CASE("busy controller: frames of the application leave slots for the boot-up, sent first, and answers [N4]") {
   Blocked blocked(false);
   Texts expected = {"705#00"};
   for (unsigned n = 0; blocked.application_sends(numbered("0", n, "#00")); ++n) {
@@ -194,7 +194,7 @@ TEST_CASE("busy controller: frames of the application leave places for the boot-
   CHECK(blocked.device.counters().Dropped == 1);
 }
 
-TEST_CASE("busy controller: of the heartbeats that wait only the newest state goes out [N5]") {
+TEST_CASE("busy controller: of queued heartbeats only the newest state is sent [N5]") {
   World world;
   Line& line = world.add_line("blocked");
   Device& device = world.add_device(line, {5, 20});
@@ -212,7 +212,7 @@ TEST_CASE("busy controller: of the heartbeats that wait only the newest state go
   CHECK(line.take_texts() == Texts{"705#05"});  // the next heartbeat has the original phase: 260 ms
 }
 
-TEST_CASE("busy controller: an answer that still waits when the node is stopped is withdrawn [N3] [N8]") {
+TEST_CASE("busy controller: a queued answer is withdrawn when the node is stopped [N3] [N8]") {
   Blocked blocked(true);
   blocked.line.say(request(0));
   blocked.world.settle();
@@ -226,8 +226,7 @@ TEST_CASE("busy controller: an answer that still waits when the node is stopped 
   CHECK(blocked.line.take_texts() == Texts{answer(1)});
 }
 
-TEST_CASE(
-    "busy controller: a new answer does not overtake one that waits, whenever the controller is free again [Q4]") {
+TEST_CASE("busy controller: a new answer never overtakes a queued one [Q4]") {
   for (std::uint32_t times = 1; times <= 12; ++times) {
     CAPTURE(times);
     Blocked blocked(true);

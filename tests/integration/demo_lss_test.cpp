@@ -168,7 +168,7 @@ constexpr const char* shown = LABELS "0x00000319 0x0000C10C 0x00010002 0x8000000
 
 }  // namespace
 
-TEST_CASE("demo lss: scan prints the addresses of nodes without node-ID, and leaves them as they are") {
+TEST_CASE("demo lss: scan prints the addresses of nodes without node-ID and does not change them") {
   Desk desk;
   CHECK(desk.run(LssAction::scan) == 0);
   CHECK(desk.out.str() == shown);
@@ -180,7 +180,7 @@ TEST_CASE("demo lss: scan prints the addresses of nodes without node-ID, and lea
   CHECK(desk.out.str() == shown);
 }
 
-TEST_CASE("demo lss: set-id finds a node without node-ID, and lets it boot with one") {
+TEST_CASE("demo lss: set-id finds a node without node-ID and starts it with one") {
   Desk desk;
   std::uint8_t stored = 0;
   test::callbacks().lss_store = [&](std::uint32_t, std::uint8_t id) { return stored = id, CO_ERR_NONE; };
@@ -196,7 +196,7 @@ TEST_CASE("demo lss: set-id finds a node without node-ID, and lets it boot with 
   CHECK(desk.err.str() == "LSS: no node without node-ID\n");
 }
 
-TEST_CASE("demo lss: a node is asked and configured by its address") {
+TEST_CASE("demo lss: a node is inquired and configured by its address") {
   Desk desk;
   const char* identity =
       "vendor-ID       0x00000319\nproduct code    0x0000C10C\nrevision number 0x00010002\n"
@@ -214,7 +214,7 @@ TEST_CASE("demo lss: a node is asked and configured by its address") {
   CHECK(desk.was_sent("7E5#1700000000000000"));
 }
 
-TEST_CASE("demo lss: a failure is printed, with status 1, and all are switched back to waiting") {
+TEST_CASE("demo lss: a failure is printed with status 1, and all nodes are switched back to waiting") {
   Desk desk;
   CHECK(desk.run(LssAction::inquire, "", {"1", "2", "3", "4"}) == 1);
   CHECK(desk.err.str() == "LSS: no answer; is there such a node on this bus, with power, and at this bit rate?\n");
@@ -226,7 +226,7 @@ TEST_CASE("demo lss: a failure is printed, with status 1, and all are switched b
   CHECK(desk.last_request() == "7E5#0400000000000000");
 }
 
-TEST_CASE("demo lss: an interruption ends it with status 130") {
+TEST_CASE("demo lss: an interrupt ends it with status 130") {
   Desk desk;
   desk.host.interrupted_at = desk.host.now() + 200 * demo::millisecond;
   CHECK(desk.run(LssAction::scan) == 130);
@@ -234,7 +234,7 @@ TEST_CASE("demo lss: an interruption ends it with status 130") {
   CHECK(desk.last_request() == "7E5#0400000000000000");
 }
 
-TEST_CASE("demo lss: scan finds several nodes, each once") {
+TEST_CASE("demo lss: scan finds each of several nodes once") {
   Desk desk;
   OddSlave second(desk, {0x319, 0xC10C, 0x10002, 0x80000002});
   OddSlave third(desk, {0x400, 1, 2, 3});
@@ -244,7 +244,7 @@ TEST_CASE("demo lss: scan finds several nodes, each once") {
   CHECK(desk.err.str() == "");
 }
 
-TEST_CASE("demo lss: scan ends at a node that answers every request of a fastscan") {
+TEST_CASE("demo lss: scan ends with a node that answers every request of a fastscan") {
   Desk desk;
   OddSlave odd(desk, {1, 2, 3, 4});
   odd.answers_every_scan = true;
@@ -260,7 +260,7 @@ TEST_CASE("demo lss: scan ends at a node that answers every request of a fastsca
   CHECK_FALSE(desk.was_sent("7E5#1105000000000000"));
 }
 
-TEST_CASE("demo lss: scan ends at a node that it has found before") {
+TEST_CASE("demo lss: scan ends with a node that it has found before") {
   Desk desk;
   OddSlave odd(desk, {1, 2, 3, 4});
   odd.scanned_always = true;
@@ -271,7 +271,7 @@ TEST_CASE("demo lss: scan ends at a node that it has found before") {
         "selected or has a node-ID; disconnect it, or name the node to configure by --address\n");
 }
 
-TEST_CASE("demo lss: scan verifies what it has found: a node must answer to its address") {
+TEST_CASE("demo lss: scan verifies that a found node answers to its address") {
   Desk desk;
   OddSlave odd(desk, {1, 2, 3, 4});
   odd.ignores_selection = true;
@@ -281,7 +281,7 @@ TEST_CASE("demo lss: scan verifies what it has found: a node must answer to its 
         "LSS: 0x00000001 0x00000002 0x00000003 0x00000004 was found, but does not answer to its address\n");
 }
 
-TEST_CASE("demo lss: a node must have the identity that was found") {
+TEST_CASE("demo lss: a node with another identity than the found one is not configured") {
   for (const LssAction action : {LssAction::scan, LssAction::set_id}) {
     Desk desk;
     OddSlave odd(desk, {1, 2, 3, 4});
@@ -298,7 +298,7 @@ constexpr const char* several =
     "LSS: 2 nodes have answered where one was addressed; give each node its own serial number, or connect one at a "
     "time\n";
 
-TEST_CASE("demo lss: two nodes of the same address are not configured") {
+TEST_CASE("demo lss: two nodes with one address are not configured") {
   Desk desk;
   OddSlave twin(desk, {0x319, 0xC10C, 0x10002, 0x80000001});
   for (const auto& by : {std::vector<std::string>{}, address}) {
@@ -313,7 +313,7 @@ TEST_CASE("demo lss: two nodes of the same address are not configured") {
   CHECK(desk.err.str() == several);
 }
 
-TEST_CASE("demo lss: a node-ID that two nodes have taken is taken back from both") {
+TEST_CASE("demo lss: a node-ID that two nodes have accepted is removed from both") {
   Desk desk;
   OddSlave odd(desk, {1, 2, 3, 4});
   odd.always_configures = true;

@@ -96,7 +96,7 @@ std::string picture(std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("demo master: a value that was read is all that goes to standard output") {
+TEST_CASE("demo master: standard output contains only the value that was read") {
   Desk desk;
   CHECK(desk.run(to_read("0x1018", "2", "u32")) == 0);
   CHECK(desk.out.str() == "49420\n");
@@ -107,7 +107,7 @@ TEST_CASE("demo master: a value that was read is all that goes to standard outpu
   CHECK(desk.out.str() == "Lexican demo clock\n");
 }
 
-TEST_CASE("demo master: name and versions of the device are shown as text, other objects without a type as bytes") {
+TEST_CASE("demo master: name and versions of the device are shown as text, untyped objects as bytes") {
   Desk desk;
   CHECK(desk.run(to_read("1008", "0", "")) == 0);
   CHECK(desk.out.str() == "Lexican demo clock\n");
@@ -120,7 +120,7 @@ TEST_CASE("demo master: name and versions of the device are shown as text, other
   CHECK(desk.out.str() == "00000000  48 61 6C 74 20 37 20 61 6E 64 20 6D 6F 72 65     |Halt 7 and more|\n");
 }
 
-TEST_CASE("demo master: it boots with its own node-ID and asks the node by its default SDO [301:7.3.3]") {
+TEST_CASE("demo master: it boots with its own node-ID and uses the default SDO of the node [301:7.3.3]") {
   Desk desk;
   CHECK(desk.run(to_read("0x2100", "1", "u8")) == 0);
   CHECK(desk.frames == std::vector<std::string>{"77F#00", "605#4000210100000000", "585#4F00210100000000"});
@@ -130,7 +130,7 @@ TEST_CASE("demo master: it boots with its own node-ID and asks the node by its d
   CHECK(desk.frames[0] == "703#00");
 }
 
-TEST_CASE("demo master: a value that was written is read back") {
+TEST_CASE("demo master: a written value is read back") {
   Desk desk;
   CHECK(desk.run(to_write("0x2100", "1", "u8", "23")) == 0);
   CHECK(desk.out.str() == "");
@@ -150,7 +150,7 @@ TEST_CASE("demo master: an abort is printed as text, with status 1") {
   CHECK(desk.err.str() == "node 5, 2FFFh:00: aborted with 0602 0000h object does not exist\n");
 }
 
-TEST_CASE("demo master: a value of another length than the type has is not shown, with status 1") {
+TEST_CASE("demo master: a value whose length differs from its type is not shown, with status 1") {
   Desk desk;
   CHECK(desk.run(to_read("0x1018", "2", "u16")) == 1);
   CHECK(desk.out.str() == "");
@@ -160,7 +160,7 @@ TEST_CASE("demo master: a value of another length than the type has is not shown
         "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 28 bytes\n");
 }
 
-TEST_CASE("demo master: a node that is not there gives no answer, with status 1, after the time-out") {
+TEST_CASE("demo master: a missing node causes a time-out with status 1") {
   Desk desk;
   Arguments arguments = to_read("0x1000", "0", "");
   arguments.node = "6";
@@ -173,7 +173,7 @@ TEST_CASE("demo master: a node that is not there gives no answer, with status 1,
   CHECK(desk.was_sent("606#8000100000000405"));
 }
 
-TEST_CASE("demo master: a fault of the bus is printed, too") {
+TEST_CASE("demo master: a bus error is printed") {
   Desk desk;
   desk.host.fault = "CAN interface 'can0' is down";
   desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
@@ -181,7 +181,7 @@ TEST_CASE("demo master: a fault of the bus is printed, too") {
   CHECK(desk.err.str() == "node 5, 1000h:00: no answer\nCAN interface 'can0' is down\n");
 }
 
-TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by block transfer if there is one") {
+TEST_CASE("demo master: a file is written and read back unchanged, by block transfer if supported") {
   Desk desk;
   const File file;
   const std::string content = picture(demo::picture_size);
@@ -204,7 +204,7 @@ TEST_CASE("demo master: a file goes to the node and comes back byte by byte, by 
   CHECK((desk.out.str() == content));
 }
 
-TEST_CASE("demo master: an object that is larger than allowed is not read") {
+TEST_CASE("demo master: an object above the size limit is not read") {
   Desk desk;
   Arguments arguments = to_read("0x2200", "0", "bytes");
   arguments.max = "1000";
@@ -213,7 +213,7 @@ TEST_CASE("demo master: an object that is larger than allowed is not read") {
         "node 5, 2200h:00: aborted with 0504 0005h out of memory; the object has more than 1000 bytes\n");
 }
 
-TEST_CASE("demo master: a file that cannot be written is named, with status 2; a failed read leaves it as it is") {
+TEST_CASE("demo master: a file that cannot be written is an error with status 2; a failed read does not change it") {
   Desk desk;
   Arguments arguments = to_read("0x1008", "0", "string");
   arguments.file = (std::filesystem::temp_directory_path() / "lexican_no_such_directory" / "file").string();
@@ -228,7 +228,7 @@ TEST_CASE("demo master: a file that cannot be written is named, with status 2; a
 }
 
 #if USE_NMT_MASTER
-TEST_CASE("demo master: an NMT command is one message, behind the boot-up message of the master [301:7.2.8.3.1]") {
+TEST_CASE("demo master: an NMT command is one message after the boot-up message of the master [301:7.2.8.3.1]") {
   Desk desk;
   const auto run = [&desk](const char* command, const char* node) {
     const demo::NmtPrepared prepared = demo::prepare(demo::NmtArguments{command, node, ""});
@@ -256,7 +256,7 @@ TEST_CASE("demo master: an NMT command is one message, behind the boot-up messag
   CHECK(desk.was_sent("705#00"));
 }
 
-TEST_CASE("demo master: a bus that takes no NMT command is a failure") {
+TEST_CASE("demo master: an NMT command that the bus refuses is a failure") {
   Desk desk;
   desk.host.fault = "CAN interface 'can0' is down";
   desk.host.bus.add_rule({VirtualBus::Fault::error, {}, 1, VirtualBus::always});
@@ -272,7 +272,7 @@ TEST_CASE("demo master: an error of the stack is reported by its name and meanin
 }
 #endif
 
-TEST_CASE("demo master: an interruption cancels the transfer with an abort, with status 130 [301:7.2.4.3.17]") {
+TEST_CASE("demo master: an interrupt aborts the transfer with status 130 [301:7.2.4.3.17]") {
   Desk desk;
   Arguments arguments = to_read("0x1000", "0", "");
   arguments.node = "6";
@@ -287,7 +287,7 @@ TEST_CASE("demo master: an interruption cancels the transfer with an abort, with
   CHECK(desk.was_sent("606#8000100021000008"));
 }
 
-TEST_CASE("demo master: the abort of a cancelled transfer still finds its way to a bus that is busy") {
+TEST_CASE("demo master: the abort of a cancelled transfer is sent on a busy bus") {
   Desk desk;
   Arguments arguments = to_read("0x1000", "0", "u32");
   arguments.node = "6";
@@ -297,7 +297,7 @@ TEST_CASE("demo master: the abort of a cancelled transfer still finds its way to
   CHECK(desk.frames == std::vector<std::string>{"77F#00", "606#4000100000000000", "606#8000100021000008"});
 }
 
-TEST_CASE("demo master: the progress goes to standard error, in lines or as a bar that ends with its last state") {
+TEST_CASE("demo master: progress is written to standard error, in lines or as a bar that ends with its last state") {
   Desk desk;
   const File file;
   Arguments arguments = to_read("0x2200", "0", "");

@@ -93,7 +93,7 @@ bool same(const TimeOfDay& time, unsigned hour, unsigned minute, unsigned second
 
 }  // namespace
 
-TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable") {
+TEST_CASE("demo: all steps of the tour succeed, and its trace is readable") {
   Bench bench;
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   demo::summarise(result, bench.clock.node().counters(), bench.view);
@@ -128,7 +128,7 @@ TEST_CASE("demo: all steps of the tour go as expected, and its trace is readable
 }
 
 #if USE_LSS && USE_LSS_MASTER && USE_PARA
-TEST_CASE("demo: in the tour a clock without node-ID is found, gets one, and keeps it over a loss of power") {
+TEST_CASE("demo: in the tour a clock without node-ID is found, configured, and keeps its node-ID over power loss") {
   Bench bench(demo::no_node_id);
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
   INFO(bench.trace());
@@ -154,7 +154,7 @@ TEST_CASE("demo: a clock without node-ID that is not configured sends nothing") 
   CHECK(frames == 0);
 }
 
-TEST_CASE("demo: the node-ID that LSS has stored wins over the one of the command line, and no other node takes it") {
+TEST_CASE("demo: the node-ID stored by LSS overrides that of the command line, and no other node accepts it") {
   Remembered remembered;
   SimulatedHost host;
   {
@@ -176,7 +176,7 @@ TEST_CASE("demo: the node-ID that LSS has stored wins over the one of the comman
 #endif
 
 #if USE_PARA
-TEST_CASE("demo: after a loss of power name and time zone are as they were saved, and the rest is new") {
+TEST_CASE("demo: after power loss name and time zone have their saved values, other objects their defaults") {
   Bench bench;
   bench.start();
   const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
@@ -192,7 +192,7 @@ TEST_CASE("demo: after a loss of power name and time zone are as they were saved
   CHECK(bench.sdo.upload(0x1017, 0).data == Bytes{0xE8, 0x03});
 }
 
-TEST_CASE("demo: another program with the same file has name and time zone, whatever the first one did not save") {
+TEST_CASE("demo: another program with the same file has the saved name and time zone only") {
   const std::string path = (std::filesystem::temp_directory_path() / "lexican_demo_test").string();
   std::filesystem::remove(path);
   const Bytes name{'H', 'a', 'l', 't', ' ', '7'};
@@ -214,7 +214,7 @@ TEST_CASE("demo: another program with the same file has name and time zone, what
   std::filesystem::remove(path);
 }
 
-TEST_CASE("demo: NMT reset node brings back a name that is longer than the present one") {
+TEST_CASE("demo: NMT reset node restores a name that is longer than the present one") {
   Bench bench;
   bench.start();
   const Bytes name(20, 'n');
@@ -227,7 +227,7 @@ TEST_CASE("demo: NMT reset node brings back a name that is longer than the prese
   CHECK(bench.sdo.upload(0x2201, 0).data == name);
 }
 
-TEST_CASE("demo: \"load\" brings back an empty name at the next start; a new name makes 1020h 0") {
+TEST_CASE("demo: \"load\" restores an empty name at the next start; a new name sets 1020h to 0") {
   Bench bench;
   bench.start();
   REQUIRE(bench.sdo.download(0x2201, 0, {'X'}).done());
@@ -253,7 +253,7 @@ TEST_CASE("demo: a clock without memory refuses \"save\" with 0606 0000h") {
 }
 #endif
 
-TEST_CASE("demo: a clock has the serial number that it is given, also after NMT resets and a loss of power") {
+TEST_CASE("demo: a clock keeps its configured serial number over NMT resets and power loss") {
   SimulatedHost host;
   demo::Clock clock(node_id, host.device_can(), host.device_timer(), {}, {}, 0x12345678);
   demo::Master master(host, clock, node_id);
@@ -269,7 +269,7 @@ TEST_CASE("demo: a clock has the serial number that it is given, also after NMT 
   CHECK(master.sdo().upload(0x1018, 4).data == serial);
 }
 
-TEST_CASE("demo: serial numbers of different storage files differ, and stay") {
+TEST_CASE("demo: serial numbers of different storage files differ and are kept") {
   const std::uint32_t one = demo::serial_number_from("host:/tmp/one");
   CHECK(one == demo::serial_number_from("host:/tmp/one"));
   CHECK(one != demo::serial_number_from("host:/tmp/two"));
@@ -291,7 +291,7 @@ TEST_CASE("demo: no line of the trace is longer than 120 characters, and long tr
   CHECK(bench.shows("more frames like these"));
 }
 
-TEST_CASE("demo: a step that goes wrong is reported, and the tour goes on") {
+TEST_CASE("demo: a step that fails is reported, and the tour continues") {
   Bench bench;
   const auto is_last_name_segment = [](const VirtualBus::Traffic& traffic) {
     return traffic.frame.Identifier == 0x585 && traffic.frame.Data[0] == 0x07;
@@ -307,7 +307,7 @@ TEST_CASE("demo: a step that goes wrong is reported, and the tour goes on") {
   CHECK(bench.shows(", 1 not as expected"));
 }
 
-TEST_CASE("demo: a frame that is lost, whichever, spoils one step, and those that need what this should have left") {
+TEST_CASE("demo: any lost frame fails one step and those that depend on it") {
   const std::vector<std::string> needed = {"Give the station a name: segmented download",
                                            "Set its time zone, and save both",
                                            "A picture for the clock: block download"};
@@ -332,7 +332,7 @@ TEST_CASE("demo: a frame that is lost, whichever, spoils one step, and those tha
 }
 
 #if USE_SDO_BLOCK && CO_SDO_BUF_SEG >= 85
-TEST_CASE("demo: the picture comes through in both directions although segments are lost") {
+TEST_CASE("demo: the picture is transferred in both directions although segments are lost") {
   Bench bench;
   const auto segment_85_of = [](std::uint32_t identifier) {
     return [identifier](const VirtualBus::Traffic& traffic) {
@@ -350,7 +350,7 @@ TEST_CASE("demo: the picture comes through in both directions although segments 
 }
 #endif
 
-TEST_CASE("demo: a picture that comes back with other bytes is noticed") {
+TEST_CASE("demo: a picture that is read back with other bytes is detected") {
   Bench bench;
   bool spoilt = false;
   constexpr std::uint8_t initiate = USE_SDO_BLOCK != 0 ? 0xA4 : 0x40;
@@ -378,7 +378,7 @@ TEST_CASE("demo: the progress of a long transfer is shown in a few lines") {
   CHECK(bench.shows("] 100 %  73728 of 73728 bytes"));
 }
 
-TEST_CASE("demo: an interruption ends the tour") {
+TEST_CASE("demo: an interrupt ends the tour") {
   Bench bench;
   bench.host.interrupted_at = 100 * demo::millisecond;  // before the first heartbeat
   const demo::TourResult result = demo::take_tour(bench.clock, bench.master, bench.view);
@@ -389,7 +389,7 @@ TEST_CASE("demo: an interruption ends the tour") {
   CHECK(bench.shows(("of " + number_of_steps() + " steps").c_str()));
 }
 
-TEST_CASE("demo: the master waits for a state that comes after its command, not for one heard before") {
+TEST_CASE("demo: the master waits for a state that is reported after its command") {
   Bench bench;
   bench.start();
   bench.after(2 * second);
@@ -432,7 +432,7 @@ TEST_CASE("demo: the clock runs, and changes minute, hour and day") {
   CHECK(same(demo::Clock::time(), 0, 0, 0));
 }
 
-TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0031h") {
+TEST_CASE("demo: the clock refuses invalid times with 0609 0031h") {
   Bench bench;
   bench.start();
   CHECK(bench.sdo.download(0x2100, 1, {24}).code == 0x06090031);
@@ -442,7 +442,7 @@ TEST_CASE("demo: the clock refuses figures that no clock shows with 0609 0031h")
   CHECK(bench.sdo.upload(0x2100, 1).data == Bytes{0});
 }
 
-TEST_CASE("demo: TPDO1 tells the time when it changes, in Operational, 100 ms after the last one at the soonest") {
+TEST_CASE("demo: TPDO1 sends the changed time in Operational, at most every 100 ms") {
   Bench bench;
   bench.start();
   bench.after(second);
@@ -464,7 +464,7 @@ TEST_CASE("demo: TPDO1 tells the time when it changes, in Operational, 100 ms af
   CHECK(same(demo::Clock::time(), 7, 8, 9));
 }
 
-TEST_CASE("demo: each invalid figure of the time is a separate emergency, until it is valid") {
+TEST_CASE("demo: each invalid part of the time is a separate emergency until it is valid") {
   Bench bench;
   bench.start();
   REQUIRE(bench.master.command(demo::Nmt::start));
@@ -497,7 +497,7 @@ TEST_CASE("demo: the station name can be written and read; one that is too long 
   CHECK(bench.sdo.download(0x2201, 0, Bytes(33, 'x')).code == 0x06070012);
 }
 
-TEST_CASE("demo: identifiers of the clock follow its node-ID") {
+TEST_CASE("demo: the CAN-IDs of the clock follow its node-ID") {
   Bench bench;
   bench.start();
   CHECK(bench.sdo.upload(0x1014, 0).data == Bytes{0x85, 0, 0, 0});
@@ -505,7 +505,7 @@ TEST_CASE("demo: identifiers of the clock follow its node-ID") {
   CHECK(bench.sdo.upload(0x1200, 2).data == Bytes{0x85, 0x05, 0, 0});
 }
 
-TEST_CASE("demo: the heartbeat comes each second, and with a time that was written") {
+TEST_CASE("demo: the heartbeat has a period of one second or the written one") {
   Bench bench;
   bench.start();
   std::vector<Micros> beats;
@@ -548,7 +548,7 @@ std::vector<std::string> shown_of(unsigned segments, demo::View::Style style = {
 
 }  // namespace
 
-TEST_CASE("demo: a clock whose frames the bus does not take asks again after 1 ms, after an error after 10 ms") {
+TEST_CASE("demo: a clock whose frames are refused retries after 1 ms, after an error after 10 ms") {
   Bench bench;
   bench.start();
   bench.host.bus.add_rule({VirtualBus::Fault::refuse, {}, 1, VirtualBus::always});
@@ -565,14 +565,14 @@ TEST_CASE("demo: a clock whose frames the bus does not take asks again after 1 m
   CHECK(bench.clock.node().due_in() > 10000);
 }
 
-TEST_CASE("demo: the view folds the middle of a long transfer, and prints the number of omitted frames") {
+TEST_CASE("demo: the view folds the middle of a long transfer and prints the number of omitted frames") {
   const std::vector<std::string> shown = shown_of(10);
   REQUIRE(shown.size() == 6);
   CHECK(shown[4] == "      ...  6 more frames like these");
   CHECK(shown[5].find("last segment") != std::string::npos);
 }
 
-TEST_CASE("demo: the view shows short transfers, and on request all, frame by frame") {
+TEST_CASE("demo: the view shows short transfers and, on request, every frame") {
   CHECK(shown_of(4).size() == 5);
   CHECK(shown_of(8).size() == 9);
   demo::View::Style style;
@@ -596,7 +596,7 @@ TEST_CASE("demo: a heartbeat in the middle of a long transfer is shown, and the 
   CHECK(shown[5] == "      ...  16 more frames like these");
 }
 
-TEST_CASE("demo: a heartbeat in a short transfer stands in its place") {
+TEST_CASE("demo: a heartbeat in a short transfer is shown at its position") {
   std::ostringstream out;
   demo::View view(out, demo::clock_object_names(), {});
   for (unsigned i = 0; i < 6; ++i) {
@@ -608,7 +608,7 @@ TEST_CASE("demo: a heartbeat in a short transfer stands in its place") {
   CHECK(shown[6].find("heartbeat: operational") != std::string::npos);
 }
 
-TEST_CASE("demo: on a terminal the next line takes the place of the progress, elsewhere it stays") {
+TEST_CASE("demo: on a terminal the next line replaces the progress; otherwise the progress is kept") {
   std::ostringstream out;
   demo::View::Style style;
   style.terminal = true;

@@ -45,7 +45,7 @@ struct Elsewhere {
 
 }  // namespace
 
-TEST_CASE("demo: the master takes the tour with a clock elsewhere on the bus") {
+TEST_CASE("demo: the master runs the tour with a clock elsewhere on the bus") {
   Elsewhere elsewhere;
   REQUIRE(elsewhere.clock.start());
   CHECK(elsewhere.take_tour() == demo::exit_ok);
@@ -60,7 +60,7 @@ TEST_CASE("demo: the master takes the tour with a clock elsewhere on the bus") {
   CHECK(elsewhere.shows(", all as expected"));
 }
 
-TEST_CASE("demo: the master lets a clock boot again that has booted before it was there") {
+TEST_CASE("demo: the master resets a clock that booted before the master") {
   Elsewhere elsewhere;
   REQUIRE(elsewhere.clock.start());
   elsewhere.clock.node().process();
@@ -69,7 +69,7 @@ TEST_CASE("demo: the master lets a clock boot again that has booted before it wa
   CHECK(elsewhere.shows("master  000  81 05                    NMT reset node, node 5"));
 }
 
-TEST_CASE("demo: a tour without a clock goes wrong, and ends") {
+TEST_CASE("demo: a tour without a clock fails and ends") {
   Elsewhere elsewhere;
   elsewhere.is_there = false;
   CHECK(elsewhere.take_tour() == demo::exit_failed);
@@ -77,7 +77,7 @@ TEST_CASE("demo: a tour without a clock goes wrong, and ends") {
   CHECK(elsewhere.shows("not as expected"));
 }
 
-TEST_CASE("demo: a tour reports a lost bus, and an interruption") {
+TEST_CASE("demo: a tour reports a lost bus and an interrupt") {
   Elsewhere lost;
   REQUIRE(lost.clock.start());
   lost.host.fault = "the adapter is gone";

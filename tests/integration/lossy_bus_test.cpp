@@ -156,7 +156,7 @@ TEST_CASE("lossy bus: a download with one frame lost, doubled, late or swapped i
   disturb_all(Direction::download);
 }
 
-TEST_CASE("lossy bus: the server aborts a transfer whose client is gone, once [D18]") {
+TEST_CASE("lossy bus: the server aborts a transfer without a client once [D18]") {
   for (const char* const initiate : {"605#2110200010000000", "605#2010200000000000", "605#4010200000000000"}) {
     CAPTURE(initiate);
     World world;
@@ -173,7 +173,7 @@ TEST_CASE("lossy bus: the server aborts a transfer whose client is gone, once [D
   }
 }
 
-TEST_CASE("lossy bus: a segment sent again after a lost answer does not enter the data twice") {
+TEST_CASE("lossy bus: a segment repeated after a lost answer is written once") {
   World world;
   Line& line = world.add_line("lossy");
   Device& device = world.add_device(line, {5, 0, 14});

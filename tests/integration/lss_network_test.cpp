@@ -204,7 +204,7 @@ void check_all_found(const Network& network, const Commissioning& commissioning,
 
 }  // namespace
 
-TEST_CASE("LSS network: of 127 nodes without node-ID each is found once, and boots with its node-ID") {
+TEST_CASE("LSS network: each of 127 unconfigured nodes is found once and boots with its node-ID") {
   const std::vector<Address> all = addresses(127, 3);
   REQUIRE(all.size() == 127);
   Commissioning commissioning(1, 3, all.front());
@@ -214,7 +214,7 @@ TEST_CASE("LSS network: of 127 nodes without node-ID each is found once, and boo
   check_all_found(network, commissioning, all);
 }
 
-TEST_CASE("LSS network: nodes are found by their whole address when no part is known") {
+TEST_CASE("LSS network: nodes are found by their complete address when no part is known") {
   const std::vector<Address> all = addresses(44, 0);
   REQUIRE(all.size() == 44);
   Commissioning commissioning(1, 0, {});
@@ -224,7 +224,7 @@ TEST_CASE("LSS network: nodes are found by their whole address when no part is k
   check_all_found(network, commissioning, all);
 }
 
-TEST_CASE("LSS network: when frames are lost, nothing hangs, and what is left is found later") {
+TEST_CASE("LSS network: lost frames do not block the master; missed nodes are found later") {
   const std::vector<Address> all = {{9, 0, 0, 0}, {9, 0, 0, 1},          {9, 0, 1, 0},
                                     {9, 1, 0, 0}, {9, 1, 1, UINT32_MAX}, {9, UINT32_MAX, 1, 7}};
   for (const unsigned nth : {2U, 11U, 97U}) {
@@ -248,7 +248,7 @@ TEST_CASE("LSS network: when frames are lost, nothing hangs, and what is left is
   }
 }
 
-TEST_CASE("LSS network: a slave is selected by its address, gets node-ID and bit rate, and is asked what it has") {
+TEST_CASE("LSS network: a slave is selected by its address, gets node-ID and bit rate, and returns them") {
   struct Steps {
     unsigned done = 0;
     std::vector<std::uint32_t> values;

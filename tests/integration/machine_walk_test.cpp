@@ -275,7 +275,7 @@ TEST_CASE("machine walk: a node in Initialisation processes no NMT command and n
   CHECK(line.take_texts() == Texts{"705#00"});
 }
 
-TEST_CASE("machine walk: SDO, each first byte in each state has its one reaction, and the state is as it should be") {
+TEST_CASE("machine walk: SDO, each first byte in each state has its defined reaction and next state") {
   for (std::size_t way = 0; way < ways.size(); ++way) {
     for (unsigned byte = 0; byte < 256; ++byte) {
       CAPTURE(way);
@@ -333,7 +333,7 @@ TEST_CASE("machine walk: SDO, triples of first bytes from idle, all of them in t
   }
 }
 
-TEST_CASE("machine walk: SDO, a long walk of chance with silences that prefers what leads on [T7]") {
+TEST_CASE("machine walk: SDO, a long random walk with silences that prefers transitions to other states [T7]") {
   Chance chance(301);
   Pair pair;
   const unsigned steps = is_large() ? 20000000 : 100000;

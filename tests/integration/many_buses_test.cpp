@@ -86,7 +86,7 @@ struct TwoLines {
 
 }  // namespace
 
-TEST_CASE("many buses: two nodes of one node-ID on two buses boot, answer and beat without interference") {
+TEST_CASE("many buses: two nodes of one node-ID on two buses boot, answer and send heartbeats independently") {
   World world;
   Line& left = world.add_line("left");
   Line& right = world.add_line("right");
@@ -107,7 +107,7 @@ TEST_CASE("many buses: two nodes of one node-ID on two buses boot, answer and be
   CHECK(right.take_texts() == Texts{"705#7F", "705#7F"});
 }
 
-TEST_CASE("many buses: segmented transfers of equal nodes on two buses run step by step side by side") {
+TEST_CASE("many buses: segmented transfers of equal nodes on two buses run simultaneously") {
   TwoLines lines({5, 0, 14}, {5, 0, 14});
   for (std::uint8_t i = 0; i < 14; ++i) {
     lines.at_left.domain_bytes[i] = static_cast<std::uint8_t>(0x10 + i);
@@ -122,7 +122,7 @@ TEST_CASE("many buses: segmented transfers of equal nodes on two buses run step 
   CHECK(lines.right.take_texts() == Texts{"585#411020000E000000", "585#0020212223242526", "585#112728292A2B2C2D"});
 }
 
-TEST_CASE("many buses: the reset of one node leaves its twin, its transfer and its heartbeat alone") {
+TEST_CASE("many buses: the reset of one node does not affect transfer and heartbeat of the other") {
   TwoLines lines;
   lines.world.pass(50ms);
   RawSdoClient at_right(lines.world, lines.right, 5);
@@ -147,7 +147,7 @@ TEST_CASE("many buses: the reset of one node leaves its twin, its transfer and i
   CHECK(twin[0].time == 150ms);
 }
 
-TEST_CASE("many buses: nodes share one constant dictionary and keep their variables apart") {
+TEST_CASE("many buses: nodes share one constant dictionary and have their own variables") {
   Variables left_variables = {0x1111, 0xAAAAAAAA};
   Variables right_variables = {0x2222, 0xBBBBBBBB};
   DeviceOptions left_options{5};
@@ -191,7 +191,7 @@ TEST_CASE("many buses: a shared dictionary serves interleaved transfers, resets 
   CHECK(lines.right.take_texts() == Texts{"705#7F", "705#7F", "705#7F"});
 }
 
-TEST_CASE("many buses: a node with drivers without context runs beside extended ones") {
+TEST_CASE("many buses: a node with classic drivers runs beside one with context arguments") {
   World world(1000, 0xFFFFFFF0);
   Line& left = world.add_line("left");
   Line& right = world.add_line("right");
@@ -230,7 +230,7 @@ TEST_CASE("many buses: a node with drivers without context runs beside extended 
   CHECK(right.take().size() == 76);
 }
 
-TEST_CASE("many buses: transfers of a plain node end by its own time-out, as those of extended nodes [D18]") {
+TEST_CASE("many buses: transfers of nodes with classic drivers have their own time-outs [D18]") {
   World world;
   Line& line = world.add_line("bus");
   DeviceOptions plain{5};
@@ -247,7 +247,7 @@ TEST_CASE("many buses: transfers of a plain node end by its own time-out, as tho
   CHECK(line.take_texts() == Texts{"585#8001200000000405", "586#8001200000000405"});
 }
 
-TEST_CASE("many buses: callbacks name the node that they concern") {
+TEST_CASE("many buses: callbacks get the node that they concern") {
   std::vector<std::pair<CO_NMT*, CO_MODE>> changes;
   std::vector<std::pair<CO_NMT*, CO_NMT_RESET>> resets;
   TwoLines lines;
@@ -265,7 +265,7 @@ TEST_CASE("many buses: callbacks name the node that they concern") {
   CHECK(resets == std::vector<std::pair<CO_NMT*, CO_NMT_RESET>>{{right, CO_RESET_COM}});
 }
 
-TEST_CASE("many buses: bus-off of one controller stays its node's own matter") {
+TEST_CASE("many buses: bus-off of one controller affects only its node") {
   TwoLines lines;
   lines.at_left.port.bus_off();
   lines.world.pass(350ms);

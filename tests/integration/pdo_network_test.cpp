@@ -187,23 +187,22 @@ void check_stopped_node_breaks_the_ring(std::uint8_t nodes) {
 
 }  // namespace
 
-TEST_CASE("PDO network: an event goes round two and sixteen nodes in no time, each PDO once") {
+TEST_CASE("PDO network: an event is passed on by two and by sixteen nodes in no time, each PDO once") {
   check_event_goes_round(2);
   check_event_goes_round(16);
 }
 
-TEST_CASE(
-    "PDO network: synchronous PDOs of two and sixteen nodes are sampled and taken together, cycle by cycle [X3]") {
+TEST_CASE("PDO network: synchronous PDOs of two and sixteen nodes are sampled and applied together each cycle [X3]") {
   check_synchronous_shift(2);
   check_synchronous_shift(16);
 }
 
-TEST_CASE("PDO network: a node that is stopped neither takes nor sends PDOs, and joins in again [N3]") {
+TEST_CASE("PDO network: a stopped node neither receives nor sends PDOs until it is started again [N3]") {
   check_stopped_node_breaks_the_ring(2);
   check_stopped_node_breaks_the_ring(16);
 }
 
-TEST_CASE("PDO network: all nodes send at once; no frame is lost, no node consumes unrelated frames") {
+TEST_CASE("PDO network: all nodes send at once: no frame is lost, and no node consumes unrelated frames") {
   Ring ring(16);
   ring.pass_on = false;
   for (std::uint32_t round = 1; round <= 50; ++round) {

@@ -57,7 +57,7 @@ std::uint32_t served(const CO_NODE_COUNTERS& counters) {
 
 }  // namespace
 
-TEST_CASE("receive filter: a node behind a filter does what it does without one") {
+TEST_CASE("receive filter: a node with a filter behaves like one without") {
   World world;
   Line& left = world.add_line("left");
   Line& right = world.add_line("right");
@@ -86,7 +86,7 @@ TEST_CASE("receive filter: a node behind a filter does what it does without one"
   CHECK(behind.SdoAborts == all.SdoAborts);
 }
 
-TEST_CASE("receive filter: it holds the identifiers of NMT, the SDO server and the own error control, and no others") {
+TEST_CASE("receive filter: it contains the CAN-IDs of NMT, the SDO server and the own error control only") {
   World world;
   Line& line = world.add_line("bus");
   const Device& device = world.add_device(line, {5, 0, 16, true, false, false});
@@ -98,7 +98,7 @@ TEST_CASE("receive filter: it holds the identifiers of NMT, the SDO server and t
   CHECK(device.port.accepted() == std::vector<std::uint32_t>{0x000, 0x605, 0x705});
 }
 
-TEST_CASE("receive filter: a reset after a change of the node-ID moves it") {
+TEST_CASE("receive filter: a reset after a change of the node-ID updates it") {
   World world;
   Line& line = world.add_line("bus");
   Device& device = world.add_device(line, {5, 0, 16, true, false, false});
@@ -139,7 +139,7 @@ TEST_CASE("receive filter: it follows the COB-IDs of a second SDO server that ar
   }
 }
 
-TEST_CASE("receive filter: a server that is switched off by its own client answers first, then is gone [D16, Q3]") {
+TEST_CASE("receive filter: a server that is switched off by its own client answers before it is removed [D16, Q3]") {
   World world;
   Line& line = world.add_line("bus");
   const Device& device = world.add_device(line, options(true));

@@ -154,11 +154,11 @@ void disturb_all() {
 
 }  // namespace
 
-TEST_CASE("SDO faults: a foreign server with blocks of 1, 2, 5 and 127 segments, one frame suffers [T11]") {
+TEST_CASE("SDO faults: another server with blocks of 1, 2, 5 and 127 segments, one frame disturbed [T11]") {
   disturb_all<OurClient>();
 }
 
-TEST_CASE("SDO faults: a foreign client with blocks of 1, 2, 5 and 127 segments, one frame suffers [T11]") {
+TEST_CASE("SDO faults: another client with blocks of 1, 2, 5 and 127 segments, one frame disturbed [T11]") {
   disturb_all<OurServer>();
 }
 

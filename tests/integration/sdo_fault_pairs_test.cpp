@@ -99,7 +99,7 @@ TEST_CASE("SDO faults: every pair of faults in 12 (LEXICAN_SDO_FAULTS=all: 32) s
   }
 }
 
-TEST_CASE("SDO faults: three at random (LEXICAN_SDO_FAULTS=all: more often) [T11]") {
+TEST_CASE("SDO faults: three random faults (LEXICAN_SDO_FAULTS=all: more often) [T11]") {
   run_triples(all_faults() ? 200000 : 2000, 301);
 }
 

@@ -164,23 +164,23 @@ void strike_all(Side side, std::uint32_t bytes, unsigned stride) {
 
 }  // namespace
 
-TEST_CASE("SDO faults: the client leaves in the middle of a block transfer, at every frame [T11] [T14] [N8]") {
+TEST_CASE("SDO faults: the client leaves at every frame of a block transfer [T11] [T14] [N8]") {
   strike_all(Side::client, 224, 1);
   strike_all(Side::client, 2000, 17);
 }
 
-TEST_CASE("SDO faults: the server leaves in the middle of a block transfer, at every frame [T11] [T14] [N8]") {
+TEST_CASE("SDO faults: the server leaves at every frame of a block transfer [T11] [T14] [N8]") {
   strike_all(Side::server, 224, 1);
   strike_all(Side::server, 2000, 17);
 }
 
-TEST_CASE("SDO faults: the client's COB-IDs change in the middle of a block transfer, at every frame [T11]") {
+TEST_CASE("SDO faults: the client's COB-IDs change at every frame of a block transfer [T11]") {
   Ring ring(224, false);
   strike_all(ring, Side::client, lose_client(0x605, 0x585), 1);
 }
 
 #if CO_SSDO_N >= 2
-TEST_CASE("SDO faults: the server's COB-IDs change in the middle of a block transfer, at every frame [T11]") {
+TEST_CASE("SDO faults: the server's COB-IDs change at every frame of a block transfer [T11]") {
   Ring ring(224, true);
   const Blow lose_server = {"1201h is not valid", [](SdoPair& pair) { pair.server.close_second_channel(); },
                             [](SdoPair& pair) { pair.server.open_second_channel(); }};

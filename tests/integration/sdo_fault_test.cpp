@@ -139,7 +139,7 @@ TEST_CASE("SDO faults: a segmented download with one frame lost, doubled, late o
   run_courses(Direction::download, false);
 }
 
-TEST_CASE("SDO faults: none, and every size up to 2000 bytes (without blocks: 300) is transferred") {
+TEST_CASE("SDO faults: without a fault every size up to 2000 bytes (without blocks: 300) is transferred") {
   for (const bool block : {true, false}) {
     SdoPair pair({1, block});
     for (std::uint32_t bytes = 1; bytes <= (block ? 2000 : 300); ++bytes) {
@@ -152,7 +152,7 @@ TEST_CASE("SDO faults: none, and every size up to 2000 bytes (without blocks: 30
   }
 }
 
-TEST_CASE("SDO faults: one frame lost, doubled, late or swapped, and the server's time-out comes first [T11] [D18]") {
+TEST_CASE("SDO faults: one frame lost, doubled, late or swapped, and the server has the shorter time-out [T11] [D18]") {
   for (const std::uint32_t bytes : {1u, 8u, 28u, 29u, 224u}) {
     for (const Direction direction : both_directions) {
       CAPTURE(bytes);

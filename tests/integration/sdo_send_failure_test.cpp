@@ -208,7 +208,7 @@ void with_all_benches(std::uint16_t tx_queue, const Test& test) {
 
 }  // namespace
 
-TEST_CASE("SDO send failure: a transfer is done, and nothing lost, whichever frames the driver refuses [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete, whichever frames the driver refuses [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (const Fault fault : {Fault::refuse, Fault::error}) {
       for (const std::uint32_t times : {1u, 2u, 3u, 10u, 60u}) {
@@ -220,7 +220,7 @@ TEST_CASE("SDO send failure: a transfer is done, and nothing lost, whichever fra
   });
 }
 
-TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the controller is full for a while [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete when the controller refuses frames temporarily [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (const Milliseconds time : {1ms, 6ms, 9ms, 100ms}) {
       for (std::uint32_t first = 1; first <= offers; ++first) {
@@ -232,7 +232,7 @@ TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the cont
   });
 }
 
-TEST_CASE("SDO send failure: a transfer is done, and nothing lost, if the drivers of both refuse at random [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete if the drivers of both refuse at random [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t) {
     for (const std::uint32_t percent : {10u, 50u, 90u}) {
       CAPTURE(percent);
@@ -241,7 +241,7 @@ TEST_CASE("SDO send failure: a transfer is done, and nothing lost, if the driver
   });
 }
 
-TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the bus stands still for a while [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete when the bus is blocked temporarily [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (const Milliseconds time : {1ms, 30ms, 200ms}) {
       for (std::uint32_t position = 1; position <= 2 * offers; ++position) {
@@ -253,7 +253,7 @@ TEST_CASE("SDO send failure: a transfer is done, and nothing lost, when the bus 
   });
 }
 
-TEST_CASE("SDO send failure: a transfer is done or reported when the bus stands still until time-outs come [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete or reported when the bus is blocked until time-outs [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (const Milliseconds time : {400ms, 900ms, 1300ms, 2500ms}) {
       for (std::uint32_t position = 1; position <= 2 * offers; ++position) {
@@ -266,7 +266,7 @@ TEST_CASE("SDO send failure: a transfer is done or reported when the bus stands 
   });
 }
 
-TEST_CASE("SDO send failure: a transfer is done or reported when a controller is in bus-off for a while [T12]") {
+TEST_CASE("SDO send failure: a transfer is complete or reported when a controller is in bus-off temporarily [T12]") {
   with_all_benches(0, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (const Milliseconds time : {10ms, 300ms, 1500ms}) {
       for (std::uint32_t offer = 1; offer <= offers; ++offer) {
@@ -279,7 +279,7 @@ TEST_CASE("SDO send failure: a transfer is done or reported when a controller is
 }
 
 // A node queues at most three frames at the same time: an answer of its client or server, another answer, a heartbeat.
-TEST_CASE("SDO send failure: three places in the transmit queue are enough, nothing is lost [T12] [Q4]") {
+TEST_CASE("SDO send failure: three slots in the transmit queue are enough for a complete transfer [T12] [Q4]") {
   with_all_benches(3, [](Bench& bench, Direction direction, std::uint32_t offers) {
     for (std::uint32_t first = 1; first <= offers; ++first) {
       CAPTURE(first);
@@ -289,7 +289,7 @@ TEST_CASE("SDO send failure: three places in the transmit queue are enough, noth
   });
 }
 
-TEST_CASE("SDO send failure: with fewer places a transfer is done or reported [T12] [Q4]") {
+TEST_CASE("SDO send failure: with fewer slots a transfer is complete or reported [T12] [Q4]") {
   for (std::uint16_t tx_queue = 1; tx_queue <= 2; ++tx_queue) {
     CAPTURE(tx_queue);
     unsigned done = 0;

@@ -118,7 +118,7 @@ void check_heartbeats(Crowd& crowd, std::chrono::microseconds time) {
 
 }  // namespace
 
-TEST_CASE("several nodes: each boots once and under its own identifier [N4]") {
+TEST_CASE("several nodes: each boots once and with its own CAN-ID [N4]") {
   for (const std::uint8_t nodes : {std::uint8_t{2}, std::uint8_t{16}, std::uint8_t{127}}) {
     CAPTURE(int{nodes});
     Crowd crowd(nodes);
@@ -126,7 +126,7 @@ TEST_CASE("several nodes: each boots once and under its own identifier [N4]") {
   }
 }
 
-TEST_CASE("several nodes: each answers SDO requests under its own identifiers only") {
+TEST_CASE("several nodes: each answers SDO requests with its own CAN-IDs only") {
   for (const std::uint8_t nodes : {std::uint8_t{2}, std::uint8_t{16}, std::uint8_t{127}}) {
     CAPTURE(int{nodes});
     Crowd crowd(nodes);
@@ -145,7 +145,7 @@ TEST_CASE("several nodes: requests to unused node-IDs are not answered") {
   CHECK(crowd.line.take_texts().empty());
 }
 
-TEST_CASE("several nodes: an NMT command to node-ID 0 reaches all, to another one only that node [N1]") {
+TEST_CASE("several nodes: an NMT command to node-ID 0 reaches all, to another node-ID only that node [N1]") {
   for (const std::uint8_t nodes : {std::uint8_t{2}, std::uint8_t{16}, std::uint8_t{127}}) {
     CAPTURE(int{nodes});
     Crowd crowd(nodes);
@@ -154,7 +154,7 @@ TEST_CASE("several nodes: an NMT command to node-ID 0 reaches all, to another on
   }
 }
 
-TEST_CASE("several nodes: a reset of all boots all, in order of the identifiers' priority at a busy bus [N4]") {
+TEST_CASE("several nodes: a reset of all boots all, on a busy bus in the order of their CAN-IDs [N4]") {
   Crowd crowd(16);
   crowd.line.take();
   crowd.line.say("000#8100");

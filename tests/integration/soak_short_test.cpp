@@ -345,7 +345,7 @@ class Soak {
 
 }  // namespace
 
-TEST_CASE("soak: a minute at full bus load, every frame accounted for, heartbeats in time, no queue grows [T16]") {
+TEST_CASE("soak: a minute at full bus load: every frame counted, heartbeats on time, no queue grows [T16]") {
   Soak soak(20160);
   soak.run(test::soak_time(), 1);
   soak.check();
@@ -353,7 +353,7 @@ TEST_CASE("soak: a minute at full bus load, every frame accounted for, heartbeat
   CHECK(soak.latest_heartbeat() <= 131us);  // duration of the longest frame: the nodes run between two frames
 }
 
-TEST_CASE("soak: nodes that are called after 50 frames only keep up, and lose no phase [T16]") {
+TEST_CASE("soak: nodes that are called only after 50 frames lose no frame and no phase [T16]") {
   Soak soak(31168);
   soak.run(10s, 50);
   soak.check();

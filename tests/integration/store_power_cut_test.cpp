@@ -154,7 +154,7 @@ Device device_after(const CO_NVM_SHAPE& shape, const Start& start) {
   return device;
 }
 
-TEST_CASE("parameters: power off at every byte: a group holds its old or its new values [T13]") {
+TEST_CASE("parameters: after power off at every byte a group has its old or its new values [T13]") {
   std::uint64_t cuts = 0;
   for (const CO_NVM_SHAPE& shape : shapes) {
     for (const Start& start : starts) {
@@ -171,7 +171,7 @@ TEST_CASE("parameters: power off at every byte: a group holds its old or its new
   CHECK(cuts > 5000);
 }
 
-TEST_CASE("parameters: power off at every pair of bytes of two stores in a row [T13]") {
+TEST_CASE("parameters: power off at every pair of bytes of two consecutive stores gives old or new values [T13]") {
   std::uint64_t pairs = 0;
   for (const CO_NVM_SHAPE& shape : {shapes[0], shapes[2]}) {
     for (const Start& start : starts) {
@@ -266,7 +266,7 @@ std::uint64_t cut_power_on(const Device& before, const Values& values, Torn torn
   }
 }
 
-TEST_CASE("parameters: power off at every byte, and every pair of bytes, while old records are rewritten [T13]") {
+TEST_CASE("parameters: power off at every byte and pair of bytes while old records are rewritten [T13]") {
   std::uint64_t cuts = 0;
   for (const CO_NVM_SHAPE& shape : shapes) {
     for (const OldRecords& records : all_old_records) {
@@ -305,7 +305,7 @@ TEST_CASE("parameters: after any power failure while old records are rewritten, 
   }
 }
 
-TEST_CASE("parameters: after any power failure the next store works, and is not undone by the one after it [T13]") {
+TEST_CASE("parameters: after any power failure the next store works and is kept by the following one [T13]") {
   for (const CO_NVM_SHAPE& shape : shapes) {
     const Device before = device_after(shape, starts[2]);
     for (const Torn torn : all_torn) {
@@ -319,7 +319,7 @@ TEST_CASE("parameters: after any power failure the next store works, and is not 
   }
 }
 
-TEST_CASE("parameters: writes without effect that are reported as done are noticed: the old values stay [T13]") {
+TEST_CASE("parameters: writes without effect that are reported as done are detected: the old values stay [T13]") {
   for (const CO_NVM_SHAPE& shape : shapes) {
     const Device before = device_after(shape, starts[2]);
     for (std::uint64_t step = 1; step < 400; ++step) {
@@ -336,8 +336,7 @@ TEST_CASE("parameters: writes without effect that are reported as done are notic
   }
 }
 
-TEST_CASE(
-    "parameters: a bit that flips in what is stored is noticed: the values before it are loaded, or the defaults") {
+TEST_CASE("parameters: a flipped bit in a record is detected: previous values or defaults are loaded") {
   for (const CO_NVM_SHAPE& shape : shapes) {
     for (const Start& start : {starts[1], starts[2]}) {
       const Device before = device_after(shape, start);
@@ -353,7 +352,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("parameters: a read that fails or returns other bytes gives old, new or default values, never others") {
+TEST_CASE("parameters: a read that fails or returns other bytes gives old, new or default values") {
   const Device before = device_after(shapes[0], starts[2]);
   for (std::uint64_t read = 1; read < 40; ++read) {
     for (const bool lies : {false, true}) {

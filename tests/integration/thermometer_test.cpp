@@ -64,7 +64,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("demo: the thermometer with a dictionary written by hand boots, and has its heartbeat") {
+TEST_CASE("demo: the thermometer with a handwritten dictionary boots and sends heartbeats") {
   Bench bench;
   CHECK(CONodeGetErr(&bench.node) == CO_ERR_NONE);
   CHECK(bench.after(999ms) == Frames{"707#00", "707#7F"});
@@ -72,7 +72,7 @@ TEST_CASE("demo: the thermometer with a dictionary written by hand boots, and ha
   CHECK(bench.after(200ms) == Frames{"707#7F", "707#7F"});
 }
 
-TEST_CASE("demo: the thermometer sends each new temperature in Operational, and one above its limit is an emergency") {
+TEST_CASE("demo: the thermometer sends each new temperature in Operational, and an emergency above its limit") {
   Bench bench;
   bench.after(1ms);
   demo::set_temperature(bench.node, 215);

@@ -123,8 +123,7 @@ void pass(VirtualClock& clock, std::uint32_t ms, Devices&... devices) {
 
 }  // namespace
 
-TEST_CASE(
-    "nodes on a virtual bus: each boots and answers under its own identifiers, without reaction to the other's SDO") {
+TEST_CASE("nodes on a virtual bus: each boots, answers with its own CAN-IDs and ignores the other's SDO") {
   VirtualClock clock(0xFFFFFF00);
   Line line(clock);
   Device five(line.bus, clock, 5);
@@ -140,7 +139,7 @@ TEST_CASE(
   CHECK(line.heard() == Texts{"586#4B00200000000000"});
 }
 
-TEST_CASE("nodes on a virtual bus: an NMT command to all reaches all, one to a node only that node") {
+TEST_CASE("nodes on a virtual bus: an NMT command to all reaches all, to one node only that node") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);
@@ -155,7 +154,7 @@ TEST_CASE("nodes on a virtual bus: an NMT command to all reaches all, one to a n
   CHECK(CONmtGetMode(&six.node.Nmt) == CO_STOP);
 }
 
-TEST_CASE("nodes on two virtual buses: equal node-IDs do not meet") {
+TEST_CASE("nodes on two virtual buses: nodes with one node-ID are independent") {
   VirtualClock clock;
   Line left(clock);
   Line right(clock);
@@ -191,7 +190,7 @@ TEST_CASE("nodes on a virtual bus: heartbeats of several nodes keep their period
   CHECK(of_six == 4);
 }
 
-TEST_CASE("nodes on a virtual bus: unrelated frames are rejected by the receive filter that the node has set") {
+TEST_CASE("nodes on a virtual bus: unrelated frames are rejected by the receive filter of the node") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);
@@ -205,7 +204,7 @@ TEST_CASE("nodes on a virtual bus: unrelated frames are rejected by the receive 
   CHECK(CONodeGetCounters(&five.node).Received == 0);
 }
 
-TEST_CASE("nodes on a virtual bus: nothing is lost when the controller refuses to send") {
+TEST_CASE("nodes on a virtual bus: no frame is lost when the controller refuses to send") {
   for (std::uint32_t refusals = 1; refusals <= 20; ++refusals) {
     CAPTURE(refusals);
     VirtualClock clock;
@@ -222,7 +221,7 @@ TEST_CASE("nodes on a virtual bus: nothing is lost when the controller refuses t
   }
 }
 
-TEST_CASE("nodes on a virtual bus: a driver error is reported, and the frame is sent when it is over") {
+TEST_CASE("nodes on a virtual bus: a driver error is reported, and the frame is sent afterwards") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5);
@@ -235,7 +234,7 @@ TEST_CASE("nodes on a virtual bus: a driver error is reported, and the frame is 
   CHECK(line.heard() == Texts{"585#4B00200000000000"});
 }
 
-TEST_CASE("nodes on a virtual bus: whatever frame of a transfer was lost, doubled or swapped, the next is served") {
+TEST_CASE("nodes on a virtual bus: after any lost, doubled or swapped frame of a transfer the next one works") {
   for (const Fault fault : {Fault::drop, Fault::duplicate, Fault::reorder}) {
     for (std::uint32_t position = 1; position <= 6; ++position) {
       CAPTURE(static_cast<int>(fault));
@@ -280,7 +279,7 @@ TEST_CASE("nodes on a virtual bus: bus-off, recovery and overrun reach the node 
   CHECK(CONodeGetCounters(&five.node).CanEvents[CO_CAN_OVERRUN] == 1);
 }
 
-TEST_CASE("nodes on a virtual bus: a node that is stopped is off the bus and silent") {
+TEST_CASE("nodes on a virtual bus: a stopped node is off the bus and sends nothing") {
   VirtualClock clock;
   Line line(clock);
   Device five(line.bus, clock, 5, 100);

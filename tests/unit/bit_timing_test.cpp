@@ -69,7 +69,7 @@ bool fits(const BitTiming& timing, const BitTimingLimits& limits) {
 
 }  // namespace
 
-TEST_CASE("bit timing: known good values [301]") {
+TEST_CASE("bit timing: known good values are found [301]") {
   for (const Known& row : known) {
     CAPTURE(row.what);
     CAPTURE(row.rate);
@@ -80,7 +80,7 @@ TEST_CASE("bit timing: known good values [301]") {
   }
 }
 
-TEST_CASE("bit timing: whatever is found keeps to the limits, the rate and CiA's range of the sample point [301]") {
+TEST_CASE("bit timing: results respect the limits, the rate and CiA's range of the sample point [301]") {
   unsigned found = 0;
   for (const BitTimingLimits& limits : {zynqmp, bxcan, fdcan, sja1000, mcp2515}) {
     for (std::uint32_t clock = 4000000; clock <= 120000000; clock += 333000 * test::stride(7)) {
@@ -101,7 +101,7 @@ TEST_CASE("bit timing: whatever is found keeps to the limits, the rate and CiA's
 }
 
 // Compares the result with all possible bit timings.
-TEST_CASE("bit timing: none is nearer to the rate, or as near and nearer to 87.5 %") {
+TEST_CASE("bit timing: the result has the smallest error of the rate, then the sample point nearest to 87.5 %") {
   for (const std::uint32_t clock : {8000000U, 13560000U, 24000000U, 33333333U, 48000000U, 99999001U}) {
     for (const std::uint32_t rate : co::cia_bit_rates) {
       const BitTiming timing = co::find_bit_timing(clock, rate, zynqmp);
@@ -135,7 +135,7 @@ TEST_CASE("bit timing: none is nearer to the rate, or as near and nearer to 87.5
   }
 }
 
-TEST_CASE("bit timing: what cannot be has prescaler 0") {
+TEST_CASE("bit timing: an impossible rate gives prescaler 0") {
   CHECK(co::find_bit_timing(100000000, 10000, zynqmp).prescaler == 0);   // rate too low
   CHECK(co::find_bit_timing(100000000, 800000, zynqmp).prescaler == 0);  // 125 = 5 x 25 quanta: sample point at 68 %
   CHECK(co::find_bit_timing(4000000, 1000000, zynqmp).prescaler == 0);   // only 4 quanta
@@ -146,7 +146,7 @@ TEST_CASE("bit timing: what cannot be has prescaler 0") {
   CHECK(co::find_bit_timing(8000000, 0, zynqmp).prescaler == 0);
 }
 
-TEST_CASE("bit timing: it is a constant, and the table of a driver is one") {
+TEST_CASE("bit timing: it is a constant expression, also for the table of a driver") {
   constexpr BitTiming timing = co::bit_timing<24000000, 500000, co::zynqmp_limits>;
   static_assert(timing.prescaler == 3 && timing.quanta() == 16 && timing.sample_point() == 8750);
   static constexpr auto& rates = co::zynqmp_rates<24000000, 125000, 1000000>;
@@ -154,7 +154,7 @@ TEST_CASE("bit timing: it is a constant, and the table of a driver is one") {
   static_assert(rates[1].Baud == 1000000 && rates[1].Prescaler == 2 && rates[1].Timing == 0x05);
 }
 
-TEST_CASE("bit timing: the macros for C make the same") {
+TEST_CASE("bit timing: the macros for C give the same result") {
   constexpr CO_CAN_ZYNQMP_RATE by_macro[] = {
       CO_CAN_ZYNQMP_RATE_OF(24000000, 10000, 16),  CO_CAN_ZYNQMP_RATE_OF(24000000, 20000, 16),
       CO_CAN_ZYNQMP_RATE_OF(24000000, 50000, 16),  CO_CAN_ZYNQMP_RATE_OF(24000000, 125000, 16),

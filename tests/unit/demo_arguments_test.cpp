@@ -61,7 +61,7 @@ TEST_CASE("demo arguments: node and index are enough to read") {
   CHECK(prepared.request.capacity == 16777216);
 }
 
-TEST_CASE("demo arguments: index and sub-index are hexadecimal, with or without 0x, and decimal behind 0d") {
+TEST_CASE("demo arguments: index and sub-index are hexadecimal, with or without 0x, and decimal after 0d") {
   const auto device = [](const char* index, const char* sub) {
     Arguments arguments = to_read();
     arguments.index = index;
@@ -95,7 +95,7 @@ TEST_CASE("demo arguments: other numbers are decimal or hexadecimal, and within 
   CHECK(prepared.request.capacity == 4294967295);
 }
 
-TEST_CASE("demo arguments: numbers outside their limits are named") {
+TEST_CASE("demo arguments: numbers outside of their limits are refused") {
   const auto with = [](std::string Arguments::*member, const char* text) {
     Arguments arguments = to_read();
     arguments.*member = text;
@@ -118,7 +118,7 @@ TEST_CASE("demo arguments: numbers outside their limits are named") {
   CHECK(with(&Arguments::max, "0") == "--max: '0' is no number in 1...4294967295");
 }
 
-TEST_CASE("demo arguments: the master takes a node-ID that the node does not have") {
+TEST_CASE("demo arguments: the master uses a node-ID that differs from the node") {
   Arguments arguments = to_read();
   arguments.node = "127";
   CHECK(demo::prepare(arguments).request.own_id == 126);
@@ -144,7 +144,7 @@ TEST_CASE("demo arguments: write needs exactly one value, its type, and at least
   CHECK(fault_of(arguments) == "write needs a value, or a --file, and not both");
 }
 
-TEST_CASE("demo arguments: a file is written byte by byte, whatever it holds") {
+TEST_CASE("demo arguments: a file is written unchanged") {
   const std::string content("\0\r\n\xFF\x1A", 5);
   const File file(content);
   Arguments arguments = to_read();
@@ -155,7 +155,7 @@ TEST_CASE("demo arguments: a file is written byte by byte, whatever it holds") {
   CHECK(prepared.request.data == Bytes(content.begin(), content.end()));
 }
 
-TEST_CASE("demo arguments: a file that cannot be read, is empty, or is said to hold a number is refused") {
+TEST_CASE("demo arguments: a file that is unreadable, empty or has a numeric type is refused") {
   const File file("");
   Arguments arguments = to_read();
   arguments.write = true;
@@ -167,7 +167,7 @@ TEST_CASE("demo arguments: a file that cannot be read, is empty, or is said to h
   CHECK(fault_of(arguments) == "--type: a file holds bytes, no u8");
 }
 
-TEST_CASE("demo arguments: a number is read into little room, anything else into as much as is allowed") {
+TEST_CASE("demo arguments: a number has a buffer too small for block transfer, other types one of the allowed size") {
   Arguments arguments = to_read();
   arguments.max = "1000";
   CHECK(demo::prepare(arguments).request.capacity == 1000);
@@ -197,7 +197,7 @@ TEST_CASE("demo arguments: nmt: the five commands of CiA 301, for one node or al
   CHECK(demo::prepare(demo::NmtArguments{"stop", "127", ""}).request.own_id == 126);
 }
 
-TEST_CASE("demo arguments: nmt: another command, no node and a wrong node are refused") {
+TEST_CASE("demo arguments: nmt: an unknown command and a missing or wrong node are refused") {
   const auto fault = [](const char* command, const char* node, const char* own_id) {
     return demo::prepare(demo::NmtArguments{command, node, own_id}).fault;
   };
@@ -229,7 +229,7 @@ std::string fault_of(const LssArguments& arguments) { return demo::prepare(argum
 
 }  // namespace
 
-TEST_CASE("demo arguments: lss: without an address it is about nodes without node-ID") {
+TEST_CASE("demo arguments: lss: without an address nodes without node-ID are used") {
   for (const LssAction action : {LssAction::scan, LssAction::store, LssAction::inquire}) {
     const LssPrepared prepared = demo::prepare(lss(action));
     CHECK(prepared.fault == "");
@@ -258,7 +258,7 @@ TEST_CASE("demo arguments: lss: an address has four numbers") {
   CHECK(fault_of(arguments) == "--address: scan looks for all nodes without node-ID");
 }
 
-TEST_CASE("demo arguments: lss: node-IDs and bit rates that there are") {
+TEST_CASE("demo arguments: lss: only node-IDs and bit rates of CiA 305 are accepted") {
   CHECK(demo::prepare(lss(LssAction::set_id, "1")).request.value == 1);
   CHECK(demo::prepare(lss(LssAction::set_id, "0x7F")).request.value == 127);
   CHECK(fault_of(lss(LssAction::set_id, "0")) == "set-id: '0' is no number in 1...127");
@@ -276,7 +276,7 @@ TEST_CASE("demo arguments: lss: node-IDs and bit rates that there are") {
   CHECK(fault_of(lss(LssAction::set_bit_rate, "fast")) == "set-bitrate: 'fast' is no number in 0...4294967295");
 }
 
-TEST_CASE("demo arguments: lss: what changes nothing is not stored") {
+TEST_CASE("demo arguments: lss: --store without a change is refused") {
   for (const LssAction action : {LssAction::scan, LssAction::inquire}) {
     LssArguments arguments = lss(action);
     arguments.store = true;
@@ -284,7 +284,7 @@ TEST_CASE("demo arguments: lss: what changes nothing is not stored") {
   }
 }
 
-TEST_CASE("demo arguments: lss: times, the own node-ID and --store") {
+TEST_CASE("demo arguments: lss: times, own node-ID and --store are parsed") {
   LssArguments arguments = lss(LssAction::set_id, "5");
   arguments.store = true;
   arguments.own_id = "3";

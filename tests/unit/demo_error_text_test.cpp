@@ -31,19 +31,19 @@ std::string error_text_of(CO_OBJ (&table)[length]) {
 constexpr CO_OBJ error_register = {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 0};
 constexpr CO_OBJ vendor_id = {CO_KEY(0x1018, 1, CO_OBJ_D___R_), CO_TUNSIGNED32, 0};
 
-TEST_CASE("demo errors: no error, no words") {
+TEST_CASE("demo errors: no error gives no text") {
   CO_OBJ table[] = {error_register, vendor_id, CO_OBJ_DICT_ENDMARK};
   CHECK(error_text_of(table).empty());
 }
 
 #if USE_DICT_CHECK
-TEST_CASE("demo errors: name, object and meaning") {
+TEST_CASE("demo errors: name, object and meaning are printed") {
   CO_OBJ table[] = {error_register, CO_OBJ_DICT_ENDMARK};
   CHECK(error_text_of(table) ==
         "CO_ERR_CFG_1018, object 1018h:01: the mandatory object 1018h:1 (vendor-ID) is missing; the node runs");
 }
 
-TEST_CASE("demo errors: a refused dictionary with its fault") {
+TEST_CASE("demo errors: a refused dictionary is printed with its fault") {
   CO_OBJ table[] = {vendor_id, error_register, CO_OBJ_DICT_ENDMARK};
   CHECK(
       error_text_of(table) ==

@@ -10,7 +10,7 @@
 using demo::HeartbeatWatch;
 using test::frame;
 
-TEST_CASE("demo heartbeats: each is due a whole number of heartbeat times after the boot-up [301:7.2.8.2.2.1]") {
+TEST_CASE("demo heartbeats: each is due a multiple of the heartbeat time after the boot-up [301:7.2.8.2.2.1]") {
   HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0xFFFFFF00, 1000);  // the clock wraps soon
   CHECK(watch.number() == 0);
@@ -23,7 +23,7 @@ TEST_CASE("demo heartbeats: each is due a whole number of heartbeat times after 
   CHECK(watch.number() == 3);
 }
 
-TEST_CASE("demo heartbeats: one that is left out makes the next one late") {
+TEST_CASE("demo heartbeats: a missing one makes the next one late") {
   HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 1000);
   watch.sent(frame("705#7F"), 1000, 1000);
@@ -31,7 +31,7 @@ TEST_CASE("demo heartbeats: one that is left out makes the next one late") {
   CHECK(watch.latest() == 1000);
 }
 
-TEST_CASE("demo heartbeats: another heartbeat time and a reset begin anew") {
+TEST_CASE("demo heartbeats: another heartbeat time and a reset restart the check") {
   HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 1000);
   watch.sent(frame("705#7F"), 1000, 1000);
@@ -43,7 +43,7 @@ TEST_CASE("demo heartbeats: another heartbeat time and a reset begin anew") {
   CHECK(watch.number() == 3);
 }
 
-TEST_CASE("demo heartbeats: the node may get its node-ID after it was started") {
+TEST_CASE("demo heartbeats: the node may get its node-ID after its start") {
   HeartbeatWatch watch;
   watch.sent(frame("7E4#4F00000000000000"), 500, 1000);
   watch.sent(frame("77F#00"), 2000, 1000);
@@ -52,7 +52,7 @@ TEST_CASE("demo heartbeats: the node may get its node-ID after it was started") 
   CHECK(watch.number() == 1);
 }
 
-TEST_CASE("demo heartbeats: other frames, and answers to node guarding, are none") {
+TEST_CASE("demo heartbeats: other frames and answers to node guarding are ignored") {
   HeartbeatWatch watch;
   watch.sent(frame("705#00"), 0, 0);
   watch.sent(frame("705#7F"), 1000, 0);

@@ -27,7 +27,7 @@ struct Watcher {
 
 }  // namespace
 
-TEST_CASE("demo progress: bytes, percent and rate in one line") {
+TEST_CASE("demo progress: bytes, percent and rate are in one line") {
   CHECK(demo::progress_text({5000, 10000, 2 * second}) ==
         "[###############...............]  50 %  5000 of 10000 bytes, 2.5 kB/s");
   CHECK(demo::progress_text({10000, 10000, second}) ==
@@ -37,12 +37,12 @@ TEST_CASE("demo progress: bytes, percent and rate in one line") {
         "[##############################] 100 %  4294967295 of 4294967295 bytes, 4294967.3 kB/s");
 }
 
-TEST_CASE("demo progress: a total that is not known is not guessed") {
+TEST_CASE("demo progress: without a total no percent is shown") {
   CHECK(demo::progress_text({5000, 0, 2 * second}) == "5000 bytes, 2.5 kB/s");
   CHECK(demo::progress_text({0, 0, 0}) == "0 bytes");
 }
 
-TEST_CASE("demo progress: lines come once for each quarter") {
+TEST_CASE("demo progress: a line is printed for each quarter") {
   Watcher watcher(Progress::Form::lines);
   for (std::uint32_t done = 0; done <= 1000; ++done) {
     watcher.sees({done, 1000, done * millisecond});
@@ -55,7 +55,7 @@ TEST_CASE("demo progress: lines come once for each quarter") {
   CHECK(watcher.shown[3].find(" 1000 of 1000 bytes") != std::string::npos);
 }
 
-TEST_CASE("demo progress: lines come once a second if the total is not known") {
+TEST_CASE("demo progress: a line is printed once a second if the total is unknown") {
   Watcher watcher(Progress::Form::lines);
   for (std::uint32_t i = 0; i < 25; ++i) {
     watcher.sees({i * 7, 0, i * 100 * millisecond});
@@ -63,7 +63,7 @@ TEST_CASE("demo progress: lines come once a second if the total is not known") {
   CHECK(watcher.shown == std::vector<std::string>{"70 bytes, 0.1 kB/s", "140 bytes, 0.1 kB/s"});
 }
 
-TEST_CASE("demo progress: a bar moves ten times a second, and is not shown at all for a short transfer") {
+TEST_CASE("demo progress: a bar is updated ten times a second and not shown for a short transfer") {
   Watcher watcher(Progress::Form::bar);
   watcher.sees({1000, 1000, 99 * millisecond});
   CHECK(watcher.shown.empty());
@@ -73,7 +73,7 @@ TEST_CASE("demo progress: a bar moves ten times a second, and is not shown at al
   CHECK(watcher.shown.size() == 10);
 }
 
-TEST_CASE("demo progress: no bar is shown while the node has not answered") {
+TEST_CASE("demo progress: no bar is shown before the first answer of the node") {
   Watcher watcher(Progress::Form::bar);
   watcher.sees({0, 1000, 5 * second});
   CHECK(watcher.shown.empty());

@@ -94,7 +94,7 @@ struct Line {
 
 }  // namespace
 
-TEST_CASE("slcan host: frames go over a socket in both directions, behind the commands that open the adapter") {
+TEST_CASE("slcan host: frames are sent over a socket in both directions after the commands that open the adapter") {
   Line line;
   line.can.driver->Init(line.can.context);
   line.can.driver->Enable(line.can.context, 0);
@@ -111,7 +111,7 @@ TEST_CASE("slcan host: frames go over a socket in both directions, behind the co
   CHECK(line.host.bus_fault().empty());
 }
 
-TEST_CASE("slcan host: what arrives ends a wait") {
+TEST_CASE("slcan host: received bytes end a wait") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   line.adapter->send("t0800\r");
@@ -119,7 +119,7 @@ TEST_CASE("slcan host: what arrives ends a wait") {
   CHECK(line.read() == "080#");
 }
 
-TEST_CASE("slcan host: all frames come through although more arrive than it has room for") {
+TEST_CASE("slcan host: no frame is lost when more are received than fit into the buffer") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   constexpr unsigned number = 5000;
@@ -139,7 +139,7 @@ TEST_CASE("slcan host: all frames come through although more arrive than it has 
   CHECK(received == number);
 }
 
-TEST_CASE("slcan host: Send returns 0 for an adapter that accepts nothing, which gets all of it later") {
+TEST_CASE("slcan host: Send returns 0 for an adapter that accepts nothing, and sends all later") {
   Line line;
   std::string expected = "C\rS6\rO\r";
   line.can.driver->Enable(line.can.context, 0);
@@ -159,7 +159,7 @@ TEST_CASE("slcan host: Send returns 0 for an adapter that accepts nothing, which
   CHECK(line.send("080#") == taken);
 }
 
-TEST_CASE("slcan host: an adapter that goes away is reported as text, and no call waits for it") {
+TEST_CASE("slcan host: a removed adapter is reported as text, and no call blocks") {
   Line line;
   line.can.driver->Enable(line.can.context, 0);
   CHECK_FALSE(line.host.interrupted());
@@ -178,7 +178,7 @@ TEST_CASE("slcan host: a refusal of the adapter is reported") {
   CHECK(line.host.bus_fault().find("has refused a command or a frame") != std::string::npos);
 }
 
-TEST_CASE("slcan host, needs devpts: a terminal carries the bytes as they are" * doctest::skip(!has_terminals())) {
+TEST_CASE("slcan host, needs devpts: a terminal transfers bytes unchanged" * doctest::skip(!has_terminals())) {
   const int fd = ::posix_openpt(O_RDWR | O_NOCTTY);
   REQUIRE(fd >= 0);
   REQUIRE(::grantpt(fd) == 0);
@@ -206,7 +206,7 @@ TEST_CASE("slcan host: a failure to open is reported as text") {
   CHECK(host.open("/", 0).find("slcan adapter '/': ") == 0);
 }
 
-TEST_CASE("slcan host, needs devpts: a pseudo-terminal carries frames while another program has opened it, in turn" *
+TEST_CASE("slcan host, needs devpts: a pseudo-terminal transfers frames while another program has it open" *
           doctest::skip(!has_terminals())) {
   const Interruption interruption;
   SlcanHost device(interruption);
@@ -247,7 +247,7 @@ TEST_CASE("slcan host, needs devpts: a pseudo-terminal carries frames while anot
   CHECK(device.bus_fault().empty());
 }
 
-TEST_CASE("linux host: the time of the built-in bus passes only while the program waits") {
+TEST_CASE("linux host: the time of the built-in bus advances only while the program waits") {
   const Interruption interruption;
   demo::VirtualBusHost host(interruption);
   const demo::Timer timer = host.device_timer();

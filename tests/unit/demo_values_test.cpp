@@ -41,7 +41,7 @@ std::string shown(const char* type_name, const Bytes& value) {
 
 }  // namespace
 
-TEST_CASE("demo values: integers lie on the bus with the lowest byte first [301:7.1.4.8]") {
+TEST_CASE("demo values: integers are sent with the lowest byte first [301:7.1.4.8]") {
   CHECK(bytes("u8", "255") == Bytes{0xFF});
   CHECK(bytes("u16", "1000") == Bytes{0xE8, 0x03});
   CHECK(bytes("u24", "0x123456") == Bytes{0x56, 0x34, 0x12});
@@ -54,7 +54,7 @@ TEST_CASE("demo values: integers lie on the bus with the lowest byte first [301:
   CHECK(bytes("i64", "-9223372036854775808") == Bytes{0, 0, 0, 0, 0, 0, 0, 0x80});
 }
 
-TEST_CASE("demo values: each integer type takes its lowest and its highest value, and refuses the next ones") {
+TEST_CASE("demo values: each integer type accepts its lowest and highest value and refuses the next ones") {
   CHECK(bytes("u8", "0") == Bytes{0});
   CHECK(fault("u8", "256") == "256 is out of range, 0...255");
   CHECK(fault("u8", "-1") == "-1 is out of range, 0...255");
@@ -75,7 +75,7 @@ TEST_CASE("demo values: each integer type takes its lowest and its highest value
         "-9223372036854775809 is out of range, -9223372036854775808...9223372036854775807");
 }
 
-TEST_CASE("demo values: what is no integer is refused, not cut to the digits at its begin") {
+TEST_CASE("demo values: a text that is not an integer is refused, also with digits at its begin") {
   for (const char* const text :
        {"", "-", "0x", "12a", "1.5", " 1", "1 ", "--1", "0x-1", "x1", "99999999999999999999x"}) {
     CAPTURE(text);
@@ -98,7 +98,7 @@ TEST_CASE("demo values: reals are IEEE 754 [301:7.1.4.6]") {
   CHECK(shown("r64", {0x9A, 0x99, 0x99, 0x99, 0x99, 0x99, 0xB9, 0x3F}) == "0.1");
 }
 
-TEST_CASE("demo values: booleans, texts and bytes") {
+TEST_CASE("demo values: booleans, texts and bytes are converted") {
   CHECK(bytes("bool", "1") == Bytes{1});
   CHECK(bytes("bool", "true") == Bytes{1});
   CHECK(bytes("bool", "0") == Bytes{0});
@@ -128,13 +128,13 @@ TEST_CASE("demo values: integers are shown in decimal, with their sign") {
   CHECK(shown("i64", {0, 0, 0, 0, 0, 0, 0, 0x80}) == "-9223372036854775808");
 }
 
-TEST_CASE("demo values: bytes of another number than the type has are not shown") {
+TEST_CASE("demo values: a value with another number of bytes than its type is not shown") {
   CHECK(demo::show(type("u16"), {1, 2, 3, 4}).fault == "the object has 4 bytes, a value of this type has 2");
   CHECK(demo::show(type("u16"), {1}).fault == "the object has 1 byte, a value of this type has 2");
   CHECK(demo::show(type("r64"), {}).fault == "the object has 0 bytes, a value of this type has 8");
 }
 
-TEST_CASE("demo values: without a type 1, 2, 4 and 8 bytes are a number, others a hex dump") {
+TEST_CASE("demo values: untyped 1, 2, 4 and 8 bytes are a number, others a hex dump") {
   CHECK(demo::guess({0x0C}) == "0x0C");
   CHECK(demo::guess({0xE8, 0x03}) == "0x03E8");
   CHECK(demo::guess({0x0C, 0xC1, 0x00, 0x00}) == "0x0000C10C");
@@ -147,7 +147,7 @@ TEST_CASE("demo values: without a type 1, 2, 4 and 8 bytes are a number, others 
         "00000010  51                                               |Q|");
 }
 
-TEST_CASE("demo values: a visible string is text without the zeros at its end, if all of it can be read [301:7.1.6]") {
+TEST_CASE("demo values: a visible string is text without trailing zeros if it is printable [301:7.1.6]") {
   CHECK(demo::visible_text({'D', ' ', '1'}) == "D 1");
   CHECK(demo::visible_text({'1', '.', '2', 0, 0}) == "1.2");
   CHECK(demo::visible_text({0x20, 0x7E}) == " ~");
@@ -158,7 +158,7 @@ TEST_CASE("demo values: a visible string is text without the zeros at its end, i
   CHECK(demo::visible_text({}) == "");
 }
 
-TEST_CASE("demo values: the names of the types") {
+TEST_CASE("demo values: the types have their names") {
   for (const char* const name : {"u8", "u64", "i8", "i24", "r32", "r64", "bool", "string", "bytes", "domain"}) {
     CAPTURE(name);
     CHECK(demo::value_type(name).has_value());

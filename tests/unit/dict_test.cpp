@@ -62,7 +62,7 @@ TEST_CASE("dictionary: each entry is found and each gap is not, in tables of eve
   }
 }
 
-TEST_CASE("dictionary: 65535 entries without end mark, first and last key included") {
+TEST_CASE("dictionary: 65535 entries without end mark are found, including the first and last key") {
   std::vector<CO_OBJ> table = table_of(65534);
   table.push_back(byte_at(CO_DEV(0xFFFF, 0xFE), 1));
   CO_DICT dict;
@@ -77,7 +77,7 @@ TEST_CASE("dictionary: 65535 entries without end mark, first and last key includ
   CHECK(CODictFind(&dict, CO_DEV(0xFFFF, 0xFF)) == nullptr);
 }
 
-TEST_CASE("dictionary: all pairs of lookups, independent of the previous lookup") {
+TEST_CASE("dictionary: a lookup does not depend on the previous one, for all pairs") {
   std::vector<CO_OBJ> table = table_of(9);
   CO_DICT dict;
   REQUIRE(CODictInit(&dict, some_node(), table.data(), 9) == 9);
@@ -100,7 +100,7 @@ TEST_CASE("dictionary: an empty table is legal and finds nothing") {
   CHECK(CODictObjInit(&dict, some_node()) == CO_ERR_NONE);
 }
 
-TEST_CASE("dictionary: entries behind the end mark do not exist") {
+TEST_CASE("dictionary: entries behind the end mark are ignored") {
   CO_OBJ table[3] = {byte_at(CO_DEV(0x2000, 0), 1), CO_OBJ_DICT_ENDMARK, byte_at(CO_DEV(0x2001, 0), 1)};
   CO_DICT dict;
   REQUIRE(CODictInit(&dict, some_node(), table, 3) == 1);
@@ -108,7 +108,7 @@ TEST_CASE("dictionary: entries behind the end mark do not exist") {
   CHECK(CODictFind(&dict, CO_DEV(0x2001, 0)) == nullptr);
 }
 
-TEST_CASE("dictionary: arguments that are no table") {
+TEST_CASE("dictionary: arguments without a table are refused") {
   CO_OBJ table[1] = {CO_OBJ_DICT_ENDMARK};
   CO_DICT dict;
   CHECK(CODictInit(nullptr, some_node(), table, 1) == -1);
@@ -121,7 +121,7 @@ TEST_CASE("dictionary: arguments that are no table") {
   CHECK(CODictGetFault(nullptr, nullptr) == CO_DICT_OK);
 }
 
-TEST_CASE("dictionary: entries added to and taken from a table in RAM are seen after CODictInit [OD]") {
+TEST_CASE("dictionary: entries added to and removed from a table in RAM are used after CODictInit [OD]") {
   Fixture node;
   CO_OBJ table[4] = {byte_at(CO_DEV(0x2000, 0), 1), byte_at(CO_DEV(0x2002, 0), 3), CO_OBJ_DICT_ENDMARK,
                      CO_OBJ_DICT_ENDMARK};
@@ -169,7 +169,7 @@ CO_DICT_FAULT fault_of_node_with(CO_OBJ entry, std::uint32_t& key, CO_ERR& error
   return CODictGetFault(&node->Dict, &key);
 }
 
-TEST_CASE("dictionary: a fault of an entry is named, with its key") {
+TEST_CASE("dictionary: a fault of an entry is reported with its key") {
   const Faulty rows[] = {
       {{CO_KEY(0x0000, 1, CO_OBJ_D___R_), CO_TUNSIGNED8, 1}, CO_DICT_RESERVED_INDEX},
       {{CO_KEY(0x0005, 0, CO_OBJ_____R_), CO_TUNSIGNED8, &variable}, CO_DICT_RESERVED_INDEX},
@@ -207,7 +207,7 @@ TEST_CASE("dictionary: a fault of an entry is named, with its key") {
   }
 }
 
-TEST_CASE("dictionary: entries out of order and doubled entries are named") {
+TEST_CASE("dictionary: unordered and duplicate entries are reported") {
   CO_DICT dict;
   std::uint32_t key = 0;
   CO_OBJ swapped[3] = {byte_at(CO_DEV(0x2001, 0), 1), byte_at(CO_DEV(0x2003, 0), 1), byte_at(CO_DEV(0x2002, 0), 1)};
@@ -235,7 +235,7 @@ TEST_CASE("dictionary: a node with a faulty one does not start") {
 
 #else
 
-TEST_CASE("dictionary: without USE_DICT_CHECK a faulty one is taken as it is") {
+TEST_CASE("dictionary: without USE_DICT_CHECK a faulty one is used unchecked") {
   CO_DICT dict;
   std::uint32_t key = 1;
   CO_OBJ swapped[3] = {byte_at(CO_DEV(0x2003, 0), 1), byte_at(CO_DEV(0x2002, 0), 1), byte_at(CO_DEV(0x2001, 0), 1)};
@@ -248,7 +248,7 @@ TEST_CASE("dictionary: without USE_DICT_CHECK a faulty one is taken as it is") {
 
 #endif
 
-TEST_CASE("dictionary: a table in read-only memory") {
+TEST_CASE("dictionary: a table in read-only memory works") {
   static const CO_OBJ table[] = {
       {CO_KEY(0x2000, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, 7},
       {CO_KEY(0x2001, 0, CO_OBJ_____RW), CO_TUNSIGNED32, &variable},
@@ -281,7 +281,7 @@ TEST_CASE("dictionary: Init of every entry runs once, from the first to the last
   CHECK(inits.size() == 6);
 }
 
-TEST_CASE("dictionary: values of one, two and four bytes, with every error") {
+TEST_CASE("dictionary: values of one, two and four bytes are accessed, with every error") {
   Fixture node;
   CO_DICT* const dict = &node->Dict;
   std::uint8_t byte = 0;
@@ -334,7 +334,7 @@ TEST_CASE("dictionary: the access rights of the network do not limit the applica
   CHECK(node.objects.no_access == 6);
 }
 
-TEST_CASE("dictionary: a type without Read or Write function refuses") {
+TEST_CASE("dictionary: a type without Read or Write function refuses the access") {
   const auto four = [](CO_OBJ*, CO_NODE*, std::uint32_t) -> std::uint32_t { return 4; };
   const CO_OBJ_TYPE type = {four, nullptr, nullptr, nullptr, nullptr};
   const CO_OBJ_TYPE empty = {nullptr, nullptr, nullptr, nullptr, nullptr};
@@ -349,7 +349,7 @@ TEST_CASE("dictionary: a type without Read or Write function refuses") {
   CHECK(CODictRdLong(&node->Dict, CO_DEV(0x4001, 0), &value) == CO_ERR_OBJ_SIZE);
 }
 
-TEST_CASE("dictionary: buffers of any length, always from the beginning") {
+TEST_CASE("dictionary: buffers of any length are accessed from the beginning of the object") {
   Fixture node(Setup().with_70000());
   for (const std::uint32_t length : {1U, 255U, 256U, 257U, 512U, 889U, 65536U, 70000U}) {
     CAPTURE(length);
@@ -363,7 +363,7 @@ TEST_CASE("dictionary: buffers of any length, always from the beginning") {
   }
 }
 
-TEST_CASE("dictionary: a buffer longer than the stream is left as it is behind the data") {
+TEST_CASE("dictionary: a buffer longer than the stream is unchanged behind the data") {
   Fixture node;
   Bytes out(20, 0xEE);
   CHECK(CODictRdBuffer(&node->Dict, CO_DEV(0x100A, 0), out.data(), 20) == CO_ERR_NONE);
@@ -372,7 +372,7 @@ TEST_CASE("dictionary: a buffer longer than the stream is left as it is behind t
   CHECK(out[3] == 0xEE);
 }
 
-TEST_CASE("dictionary: buffers and values, with every error") {
+TEST_CASE("dictionary: buffers and values are accessed, with every error") {
   Fixture node;
   std::uint8_t buffer[8] = {1, 2, 3, 4};
   CHECK(CODictWrBuffer(&node->Dict, CO_DEV(0x2004, 0), buffer, 4) == CO_ERR_NONE);

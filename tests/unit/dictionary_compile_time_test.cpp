@@ -111,7 +111,7 @@ std::uint32_t sum_of(int value) { return static_cast<std::uint32_t>(value); }
 
 }  // namespace
 
-TEST_CASE("compile-time dictionary: the first of several faults is named") {
+TEST_CASE("compile-time dictionary: the first of several faults is reported") {
   static constexpr CO_OBJ faulty[] = {
       {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
       {CO_KEY(0x2000, 2, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(7)},
@@ -120,13 +120,13 @@ TEST_CASE("compile-time dictionary: the first of several faults is named") {
   CHECK(finds<faulty>(CO_DICT_DIRECT_ADDRESS, CO_KEY(0x2000, 2, CO_OBJ_____RW)));
 }
 
-TEST_CASE("compile-time dictionary: a table in a function is checked as well") {
+TEST_CASE("compile-time dictionary: a table in a function is checked") {
   static constexpr CO_OBJ local[] = {{CO_KEY(0x1001, 0, CO_OBJ_____R_), CO_TUNSIGNED8, (CO_DATA)(&error_register)}};
   CO_OD_CHECK(local);
   CHECK(co::entry<local, 0x1001, 0>() == &local[0]);
 }
 
-TEST_CASE("compile-time dictionary: an entry found by the compiler is that of the run-time search") {
+TEST_CASE("compile-time dictionary: an entry found by the compiler equals that of the run-time search") {
   CO_NODE node = {};
   REQUIRE(CODictInit(&node.Dict, &node, const_cast<CO_OBJ*>(od), sizeof od / sizeof od[0]) == std::size(od) - 1);
   CHECK(node.Dict.Num == 15);
@@ -134,7 +134,7 @@ TEST_CASE("compile-time dictionary: an entry found by the compiler is that of th
   CHECK(CODictFind(&node.Dict, CO_DEV(0xFFFF, 0xFF)) == co::entry<od, 0xFFFF, 0xFF>());
 }
 
-TEST_CASE("CO_DATA: holds the bit pattern that C code sees") {
+TEST_CASE("CO_DATA: contains the bit pattern that C code reads") {
   std::uintptr_t seen = 0;
   CO_DATA data = (CO_DATA)(&speed);
   std::memcpy(&seen, &data, sizeof seen);
@@ -147,7 +147,7 @@ TEST_CASE("CO_DATA: holds the bit pattern that C code sees") {
   CHECK(seen == UINTPTR_MAX);
 }
 
-TEST_CASE("CO_DATA: returns the value that firmware has stored, with the casts that firmware writes") {
+TEST_CASE("CO_DATA: returns the value that firmware has stored, with the usual casts") {
   CO_OBJ obj = {CO_KEY(0x2100, 1, CO_OBJ_____RW), CO_TUNSIGNED32, (CO_DATA)(&speed)};
   speed = 0x12345678;
   CHECK(*(std::uint32_t*)obj.Data == 0x12345678);

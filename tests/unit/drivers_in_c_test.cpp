@@ -13,7 +13,7 @@
 #include "co_timer_linux.h"
 #include "co_virtual_clock.h"
 
-TEST_CASE("drivers in C: a port of the virtual bus sends to the others and reads from them") {
+TEST_CASE("drivers in C: a port of the virtual bus sends to and receives from the other ports") {
   CO_VIRTUAL_BUS* const bus = COVirtualBusNew();
   CO_VIRTUAL_PORT* const one = COVirtualBusAttach(bus, "one");
   CO_VIRTUAL_PORT* const other = COVirtualBusAttach(bus, "other");
@@ -57,7 +57,7 @@ TEST_CASE("drivers in C: a virtual clock advances by ticks and to the next alarm
   COVirtualClockFree(clock);
 }
 
-TEST_CASE("drivers in C: an interface that does not exist is refused in words") {
+TEST_CASE("drivers in C: a missing interface is refused with a text") {
   CO_SOCKETCAN* const can = COSocketCanNew();
   CHECK(std::strlen(COSocketCanError(can)) == 0);
   CHECK_FALSE(COSocketCanOpen(can, "no-such-can"));
@@ -67,7 +67,7 @@ TEST_CASE("drivers in C: an interface that does not exist is refused in words") 
   COSocketCanFree(can);
 }
 
-TEST_CASE("drivers in C: the Linux timer waits until the node's deadline") {
+TEST_CASE("drivers in C: the Linux timer waits until the deadline of the node") {
   CO_LINUX_TIMER* const timer = COLinuxTimerNew();
   COLinuxTimerDriver.Init(timer, 1000);
   CHECK(COLinuxTimerPollTimeout(timer, UINT32_MAX) == -1);
@@ -79,7 +79,7 @@ TEST_CASE("drivers in C: the Linux timer waits until the node's deadline") {
   COLinuxTimerFree(timer);
 }
 
-TEST_CASE("drivers in C: a file keeps what was written") {
+TEST_CASE("drivers in C: a file stores written bytes") {
   const std::string path = "drivers_in_c_test.nvm";
   std::remove(path.c_str());
   CO_FILE_NVM* memory = COFileNvmNew();

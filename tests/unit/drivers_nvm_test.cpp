@@ -64,14 +64,14 @@ void check_accesses(const CO_IF_NVM_DRV_EX& driver, void* ctx, std::uint32_t cap
 
 }  // namespace
 
-TEST_CASE("NVM in RAM: fresh memory is FFh, accesses are cut at the end, content survives Init") {
+TEST_CASE("NVM in RAM: new memory is FFh, accesses are truncated at the end, and Init keeps the content") {
   Bytes memory(32, 0);
   CO_NVM_RAM ram = {memory.data(), 32};
   CONvmRamClear(&ram);
   check_accesses(RamNvmDriver, &ram, 32);
 }
 
-TEST_CASE("NVM in RAM: a memory of no bytes, and none at all, do no harm") {
+TEST_CASE("NVM in RAM: an empty and a missing memory are handled") {
   CO_NVM_RAM ram = {nullptr, 0};
   CONvmRamClear(&ram);
   CONvmRamClear(nullptr);
@@ -140,7 +140,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 }  // namespace
 
-TEST_CASE("NVM in a file: a new file is FFh, accesses are cut at the capacity, content survives Init") {
+TEST_CASE("NVM in a file: a new file is FFh, accesses are truncated at the capacity, and Init keeps the content") {
   const Directory directory;
   co::FileNvm nvm;
   REQUIRE(nvm.open(directory.file(), 10000));
@@ -149,7 +149,7 @@ TEST_CASE("NVM in a file: a new file is FFh, accesses are cut at the capacity, c
   check_accesses(co::FileNvmDriver, &nvm, 10000);
 }
 
-TEST_CASE("NVM in a file: what was written is there after reopening") {
+TEST_CASE("NVM in a file: written bytes are read after reopening") {
   const Directory directory;
   const Bytes data = {0xDE, 0xAD, 0xBE, 0xEF};
   {
@@ -169,7 +169,7 @@ TEST_CASE("NVM in a file: what was written is there after reopening") {
   CHECK(nvm.write(60, data.data(), 4) == 0);
 }
 
-TEST_CASE("NVM in a file: a short file is filled up, a longer one keeps its rest") {
+TEST_CASE("NVM in a file: a short file is extended; bytes behind the capacity are kept") {
   const Directory directory;
   fill(directory.file(), {1, 2, 3});
   co::FileNvm nvm;
@@ -181,7 +181,7 @@ TEST_CASE("NVM in a file: a short file is filled up, a longer one keeps its rest
   CHECK(content(directory.file()) == Bytes{1, 7, 3, 0xFF, 0xFF, 0xFF});
 }
 
-TEST_CASE("NVM in a file: a read of a file that has become shorter returns the rest and an error") {
+TEST_CASE("NVM in a file: a read of a file that was truncated returns the remaining bytes and an error") {
   const Directory directory;
   co::FileNvm nvm;
   REQUIRE(nvm.open(directory.file(), 16));
@@ -191,7 +191,7 @@ TEST_CASE("NVM in a file: a read of a file that has become shorter returns the r
   CHECK(nvm.error() == directory.file() + " cannot be read: it ends early");
 }
 
-TEST_CASE("NVM in a file: what cannot be opened is named with the reason") {
+TEST_CASE("NVM in a file: a failure to open is reported with the reason") {
   const Directory directory;
   co::FileNvm nvm;
   CHECK_FALSE(nvm.open(directory.path() + "/nowhere/memory", 16));
@@ -205,7 +205,7 @@ TEST_CASE("NVM in a file: what cannot be opened is named with the reason") {
   CHECK(nvm.error().empty());
 }
 
-TEST_CASE("NVM in a file: a device that is full keeps the file from being made, or ends a write where it is full") {
+TEST_CASE("NVM in a file: a full device prevents the creation, or truncates a write") {
   const Directory directory;
   co::FileNvm nvm;
   REQUIRE(nvm.open(directory.file(), 16));
@@ -230,7 +230,7 @@ TEST_CASE("NVM in a file: a device that is full keeps the file from being made, 
   CHECK(content(directory.file()) == Bytes(16, 0xFF));
 }
 
-TEST_CASE("NVM in a file: a relative path is found from the working directory") {
+TEST_CASE("NVM in a file: a relative path is relative to the working directory") {
   const Directory directory;
   char before[PATH_MAX];
   REQUIRE(getcwd(before, sizeof before) != nullptr);

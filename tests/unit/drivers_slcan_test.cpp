@@ -63,7 +63,7 @@ struct Line {
 
 }  // namespace
 
-TEST_CASE("slcan: frames that are sent are lines: t, T, r and R, in capitals") {
+TEST_CASE("slcan: frames are sent as lines: t, T, r and R with capital digits") {
   Line line;
   line.open();
   CHECK(line.send("601#2B1710006400ABCD") == taken);
@@ -80,7 +80,7 @@ TEST_CASE("slcan: frames that are sent are lines: t, T, r and R, in capitals") {
   CHECK(line.starts == 5);
 }
 
-TEST_CASE("slcan: an identifier above 7FFh goes out with 29 bits, a length above 8 as 8") {
+TEST_CASE("slcan: an identifier above 7FFh is sent with 29 bits, a length above 8 as 8") {
   Line line;
   line.open();
   const CO_IF_FRM frame = {0x800, {1, 2, 3, 4, 5, 6, 7, 8}, 15};
@@ -88,7 +88,7 @@ TEST_CASE("slcan: an identifier above 7FFh goes out with 29 bits, a length above
   CHECK(line.take() == "T0000080080102030405060708\r");
 }
 
-TEST_CASE("slcan: lines that are received are frames, small letters and a time stamp included") {
+TEST_CASE("slcan: received lines are frames, including small letters and a time stamp") {
   Line line;
   line.open();
   line.receive("t60182B1710006400abcd\rT1ABCDEF020102\rr7010\rR000000125\rt0800\r");
@@ -105,7 +105,7 @@ TEST_CASE("slcan: lines that are received are frames, small letters and a time s
   CHECK(line.malformed() == 0);
 }
 
-TEST_CASE("slcan: answers, commands of a peer, empty lines and line feeds are passed over") {
+TEST_CASE("slcan: answers, commands of a peer, empty lines and line feeds are ignored") {
   Line line;
   line.open();
   line.receive("\r\rz\rZ\rC\rS6\rO\r\r\nt70117F\r\nt701105\r\n\n");
@@ -115,7 +115,7 @@ TEST_CASE("slcan: answers, commands of a peer, empty lines and line feeds are pa
   CHECK(line.malformed() == 0);
 }
 
-TEST_CASE("slcan: a line that is no frame is dropped and counted, and the next one is received") {
+TEST_CASE("slcan: an invalid line is dropped and counted, and the next one is received") {
   const char* const lines[] = {
       "t",                                // only the letter
       "t70",                              // incomplete identifier
@@ -166,7 +166,7 @@ TEST_CASE("slcan: a line that is no frame is dropped and counted, and the next o
   }
 }
 
-TEST_CASE("slcan: the longest line is a frame") {
+TEST_CASE("slcan: the longest line is received") {
   Line line;
   line.open();
   line.receive("T1ABCDEF081122334455667788ABCD\r");
@@ -174,7 +174,7 @@ TEST_CASE("slcan: the longest line is a frame") {
   CHECK(line.malformed() == 0);
 }
 
-TEST_CASE("slcan: any byte anywhere in a line does no harm, and the next line is received") {
+TEST_CASE("slcan: after any byte anywhere in a line the next line is received") {
   const std::string good = "t60182B17100064000000";
   for (std::size_t place = 0; place <= good.size(); ++place) {
     for (unsigned byte = 0; byte < 256; ++byte) {
@@ -197,7 +197,7 @@ TEST_CASE("slcan: any byte anywhere in a line does no harm, and the next line is
   }
 }
 
-TEST_CASE("slcan: a line cut anywhere is no other frame, whatever comes next") {
+TEST_CASE("slcan: a truncated line is never received as another frame") {
   const std::string good = "t60182B17100064000000";
   for (std::size_t place = 1; place < good.size(); ++place) {
     Line line;
@@ -209,7 +209,7 @@ TEST_CASE("slcan: a line cut anywhere is no other frame, whatever comes next") {
   }
 }
 
-TEST_CASE("slcan: the line in which bytes were lost is no frame") {
+TEST_CASE("slcan: a line with lost bytes is dropped") {
   Line line;
   line.open();
   line.receive("t7011");
@@ -219,7 +219,7 @@ TEST_CASE("slcan: the line in which bytes were lost is no frame") {
   CHECK(line.malformed() == 1);
 }
 
-TEST_CASE("slcan: BELL is counted as a refusal, and ends what was before it") {
+TEST_CASE("slcan: BELL is counted as a refusal and ends the line before it") {
   Line line;
   line.open();
   line.receive("\at70\at7011AA\r");
@@ -228,7 +228,7 @@ TEST_CASE("slcan: BELL is counted as a refusal, and ends what was before it") {
   CHECK(line.malformed() == 0);
 }
 
-TEST_CASE("slcan: Enable closes, sets the bit rate and opens") {
+TEST_CASE("slcan: Enable sends close, the bit rate and open") {
   struct {
     std::uint32_t rate;
     const char* text;
@@ -252,7 +252,7 @@ TEST_CASE("slcan: Enable closes, sets the bit rate and opens") {
   CHECK(line.take() == "C\rS5\rO\r");
 }
 
-TEST_CASE("slcan: nothing is received before Enable and after Close, and Enable and Reset forget what was") {
+TEST_CASE("slcan: nothing is received before Enable and after Close; Enable and Reset drop received bytes") {
   Line line;
   line.receive("t0800\r");
   line.open();
@@ -283,7 +283,7 @@ TEST_CASE("slcan: nothing is sent before Enable and after Close") {
   CHECK(line.take() == "t6010\rC\r");
 }
 
-TEST_CASE("slcan: Send takes all of a frame or nothing, and never waits") {
+TEST_CASE("slcan: Send accepts a complete frame or nothing, and never blocks") {
   Line line;
   line.open();
   CHECK(line.send("601#0102030405060708") == taken);
@@ -298,7 +298,7 @@ TEST_CASE("slcan: Send takes all of a frame or nothing, and never waits") {
   CHECK(line.take() == "t60280102030405060708\rt60380102030405060708\r");
 }
 
-TEST_CASE("slcan: frames leave room for the commands") {
+TEST_CASE("slcan: frames leave space for commands in the buffer") {
   Line line;
   line.open();
   CHECK(line.send("601#0102030405060708") == taken);
@@ -308,7 +308,7 @@ TEST_CASE("slcan: frames leave room for the commands") {
   CHECK(line.take() == "t60180102030405060708\rt60280102030405060708\rC\rC\rS6\rO\r");
 }
 
-TEST_CASE("slcan: a line whose text is not read blocks neither commands nor frames") {
+TEST_CASE("slcan: unread text blocks neither commands nor frames") {
   Line line;
   for (unsigned n = 0; n < 100; ++n) {
     SlcanDriver.Close(&line.can);
@@ -321,7 +321,7 @@ TEST_CASE("slcan: a line whose text is not read blocks neither commands nor fram
   CHECK(line.take() == "t0800\r");
 }
 
-TEST_CASE("slcan: a full ring loses the frames that come, and Read reports it once as an error frame") {
+TEST_CASE("slcan: a full ring drops new frames, and Read reports it once as an error frame") {
   Line line(2);
   line.open();
   line.receive("t0010\rt0020\rt0030\rt0040\r");
@@ -334,7 +334,7 @@ TEST_CASE("slcan: a full ring loses the frames that come, and Read reports it on
   CHECK(line.read().empty());
 }
 
-TEST_CASE("slcan: the CPU may sleep when nothing was received and nothing that was refused could be sent now") {
+TEST_CASE("slcan: the CPU may sleep if nothing is received and no refused frame can be sent") {
   Line line(2);
   line.open();
   CHECK_FALSE(COSlcanIsDue(&line.can));
@@ -360,7 +360,7 @@ TEST_CASE("slcan: the CPU may sleep when nothing was received and nothing that w
   CHECK_FALSE(COSlcanIsDue(&line.can));
 }
 
-TEST_CASE("slcan: whenever Send has refused a frame, COSlcanIsDue is true once all text is sent") {
+TEST_CASE("slcan: after a refused frame COSlcanIsDue is true once all text is sent") {
   for (std::uint32_t before = 0; before < 44; ++before) {
     Line line;
     line.open();
@@ -375,7 +375,7 @@ TEST_CASE("slcan: whenever Send has refused a frame, COSlcanIsDue is true once a
   }
 }
 
-TEST_CASE("slcan: two controllers speak with each other without an adapter") {
+TEST_CASE("slcan: two controllers communicate without an adapter") {
   Line one(64);
   Line other(64);
   SlcanDriver.Enable(&one.can, 500000);
@@ -393,7 +393,7 @@ TEST_CASE("slcan: two controllers speak with each other without an adapter") {
   CHECK(one.malformed() + other.malformed() == 0);
 }
 
-TEST_CASE("slcan: no ring, no room or no way to start sending is refused") {
+TEST_CASE("slcan: a missing ring, buffer or start function is refused") {
   CO_SLCAN can;
   CO_IF_FRM frames[2];
   const auto nothing = [](void*) {};

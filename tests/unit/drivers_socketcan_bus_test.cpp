@@ -110,7 +110,7 @@ Texts received(SocketCan& can) {
 }  // namespace
 
 TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
-  TEST_CASE("socketcan on a bus: frames cross with all flags, and are not heard by their sender") {
+  TEST_CASE("socketcan on a bus: frames are sent with all flags and not received by their sender") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -129,7 +129,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(poll(&wait, 1, 0) == 1);
   }
 
-  TEST_CASE("socketcan on a bus: the kernel passes what the node asks for, error frames always") {
+  TEST_CASE("socketcan on a bus: the kernel passes the identifiers of the filter and all error frames") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -152,7 +152,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(received(b).empty());
   }
 
-  TEST_CASE("socketcan on a bus: more identifiers than the kernel takes let everything through") {
+  TEST_CASE("socketcan on a bus: more identifiers than the kernel accepts disable the filter") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -173,7 +173,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(b.code() == 0);
   }
 
-  TEST_CASE("socketcan on a bus: an interface that goes down is reported once, and works when it is up again") {
+  TEST_CASE("socketcan on a bus: an interface that goes down is reported once and works when it is up again") {
     Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -202,7 +202,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(received(b) == Texts{"605#40"});
   }
 
-  TEST_CASE("socketcan on a bus: an interface that is down can be opened and is used when it comes up") {
+  TEST_CASE("socketcan on a bus: an interface that is down can be opened and is used when it is up") {
     Interface vcan;
     vcan.down();
     SocketCan can;
@@ -214,7 +214,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(send(can, "701#00") == taken);
   }
 
-  TEST_CASE("socketcan on a bus: an interface that vanishes is reported, and found again with its filters") {
+  TEST_CASE("socketcan on a bus: a removed interface is reported, and used again with its filters when it is back") {
     Interface vcan;
     SocketCan b;
     REQUIRE(b.open(interface));
@@ -242,7 +242,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(send(b, "585#60") == taken);
   }
 
-  TEST_CASE("socketcan on a bus: frames that find the kernel's queue full are counted, and reported as overrun") {
+  TEST_CASE("socketcan on a bus: frames dropped by the kernel are counted and reported as overrun") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;
@@ -263,7 +263,8 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(received(b) == Texts{"201#03"});
   }
 
-  TEST_CASE("socketcan on a bus: a full transmit queue is 'not now' and no error" * doctest::skip(!has_slcan())) {
+  TEST_CASE("socketcan on a bus: a full transmit queue makes Send return 0 without an error" *
+            doctest::skip(!has_slcan())) {
     const StuckAdapter adapter;
     REQUIRE(ip({"link", "set", adapter.name(), "up"}));
     SocketCan can;
@@ -277,7 +278,7 @@ TEST_SUITE("socketcan on a bus" * doctest::skip(!has_can())) {
     CHECK(can.error().empty());
   }
 
-  TEST_CASE("socketcan on a bus: going on the bus anew, and a reset, drop what was received before") {
+  TEST_CASE("socketcan on a bus: Enable and Reset drop frames received before") {
     const Interface vcan;
     SocketCan a;
     SocketCan b;

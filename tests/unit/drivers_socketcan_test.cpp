@@ -46,7 +46,7 @@ const char* const missing = "no-such-can-bus";
 
 }  // namespace
 
-TEST_CASE("socketcan: a frame to be sent carries identifier, flags, length and data") {
+TEST_CASE("socketcan: a sent frame has identifier, flags, length and data") {
   can_frame raw = co::to_socketcan(test::frame("601#2B17100064000000"));
   CHECK(raw.can_id == 0x601);
   CHECK(raw.can_dlc == 8);
@@ -73,7 +73,7 @@ TEST_CASE("socketcan: a remote frame has a length and no data") {
   CHECK(back.Data[0] == 0);
 }
 
-TEST_CASE("socketcan: bytes that are not in use never leave the program") {
+TEST_CASE("socketcan: unused bytes are sent as 0") {
   CO_IF_FRM frame = test::frame("181#1122334455667788");
   frame.DLC = 3;
   CHECK(bytes_of(co::to_socketcan(frame)) == "1122330000000000");
@@ -81,7 +81,7 @@ TEST_CASE("socketcan: bytes that are not in use never leave the program") {
   CHECK(bytes_of(co::to_socketcan(frame)) == "0000000000000000");
 }
 
-TEST_CASE("socketcan: DLC 9 to 15 stand for 8 bytes") {
+TEST_CASE("socketcan: DLC 9 to 15 mean 8 bytes") {
   CO_IF_FRM frame = test::frame("181#1122334455667788");
   for (const int dlc : {9, 15, 255}) {
     frame.DLC = static_cast<std::uint8_t>(dlc);
@@ -90,14 +90,14 @@ TEST_CASE("socketcan: DLC 9 to 15 stand for 8 bytes") {
   CHECK(co::from_socketcan(raw_frame(0x181, 15)).DLC == 8);
 }
 
-TEST_CASE("socketcan: a length above 15 is left to the node, which counts it as malformed; no data is copied") {
+TEST_CASE("socketcan: a DLC above 15 is passed to the node without data, which counts it as malformed") {
   const CO_IF_FRM frame = co::from_socketcan(raw_frame(0x181, 64));
   CHECK(frame.DLC == 64);
   CHECK(frame.Data[0] == 0);
   CHECK(frame.Data[7] == 0);
 }
 
-TEST_CASE("socketcan: an identifier beyond 11 bits never becomes another message") {
+TEST_CASE("socketcan: an identifier above 7FFh without flag is sent with 29 bits") {
   CO_IF_FRM frame = test::frame("181#11");
   frame.Identifier = 0x800;  // truncated to 11 bits it would be NMT
   CHECK(co::to_socketcan(frame).can_id == 0x80000800);
@@ -107,7 +107,7 @@ TEST_CASE("socketcan: an identifier beyond 11 bits never becomes another message
   CHECK(co::to_socketcan(frame).can_id == 0xC0001000);
 }
 
-TEST_CASE("socketcan: a received frame keeps every flag and ends at its length") {
+TEST_CASE("socketcan: a received frame keeps every flag and its length") {
   CHECK(test::notation(co::from_socketcan(raw_frame(0x701, 1))) == "701#11");
   CHECK(test::notation(co::from_socketcan(raw_frame(0x9ABCDEF0, 8))) == "1ABCDEF0#1122334455667788");
   CHECK(test::notation(co::from_socketcan(raw_frame(0x40000701, 0))) == "701#R");
@@ -118,7 +118,7 @@ TEST_CASE("socketcan: a received frame keeps every flag and ends at its length")
   CHECK(frame.Data[7] == 0);
 }
 
-TEST_CASE("socketcan: filters match their identifier only, in its format, in data and remote frames") {
+TEST_CASE("socketcan: filters match only their identifier in its format, in data and remote frames") {
   const std::uint32_t ids[] = {0x000, 0x601, CO_IF_FRM_EXT | 0x1ABCDEF0u};
   const std::vector<can_filter> filters = co::socketcan_filters(ids, 3);
   REQUIRE(filters.size() == 3);
@@ -130,13 +130,13 @@ TEST_CASE("socketcan: filters match their identifier only, in its format, in dat
   CHECK(filters[2].can_mask == 0x9FFFFFFF);
 }
 
-TEST_CASE("socketcan: identifiers that are asked for twice make one filter; none asked for makes none") {
+TEST_CASE("socketcan: a repeated identifier makes one filter; without identifiers there is none") {
   const std::uint32_t ids[] = {0x080, 0x080, 0x601, 0x080};
   CHECK(co::socketcan_filters(ids, 4).size() == 2);
   CHECK(co::socketcan_filters(nullptr, 0).empty());
 }
 
-TEST_CASE("socketcan: more identifiers than the kernel takes open the filter") {
+TEST_CASE("socketcan: more identifiers than the kernel accepts disable the filter") {
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < 513; ++id) {
     ids.push_back(id);
@@ -150,7 +150,7 @@ TEST_CASE("socketcan: more identifiers than the kernel takes open the filter") {
   CHECK(co::socketcan_filters(ids.data(), 513).size() == 512);
 }
 
-TEST_CASE("socketcan: a failure to open is reported as text, with the interface") {
+TEST_CASE("socketcan: a failure to open is reported as text with the interface") {
   CHECK(contains(co::socketcan_error(SocketCanStep::name, EINVAL, ""), "1 to 15 characters"));
   CHECK(
       co::socketcan_error(SocketCanStep::socket, EAFNOSUPPORT, "can0") ==
@@ -164,7 +164,7 @@ TEST_CASE("socketcan: a failure to open is reported as text, with the interface"
   CHECK(contains(co::socketcan_error(SocketCanStep::option, ENOPROTOOPT, "can0"), "Protocol not available"));
 }
 
-TEST_CASE("socketcan: an interface name that cannot be is refused before the kernel is asked") {
+TEST_CASE("socketcan: an invalid interface name is refused before the kernel is called") {
   SocketCan can;
   CHECK_FALSE(can.open(""));
   CHECK(can.code() == EINVAL);
@@ -173,7 +173,7 @@ TEST_CASE("socketcan: an interface name that cannot be is refused before the ker
   CHECK(can.fd() == -1);
 }
 
-TEST_CASE("socketcan: without the interface, or without CAN in the kernel, opening fails with the reason") {
+TEST_CASE("socketcan: without the interface or CAN in the kernel opening fails with the reason") {
   SocketCan can;
   CHECK_FALSE(can.open(missing));
   const bool no_can = contains(can.error(), "no CAN sockets");
@@ -185,14 +185,14 @@ TEST_CASE("socketcan: without the interface, or without CAN in the kernel, openi
   CHECK_FALSE(can.up());
 }
 
-TEST_CASE("socketcan: a network interface that is no CAN bus is refused") {
+TEST_CASE("socketcan: an interface that is not CAN is refused") {
   SocketCan can;
   CHECK_FALSE(can.open("lo"));
   CHECK(can.fd() == -1);
   CHECK(can.code() != 0);
 }
 
-TEST_CASE("socketcan: a driver whose interface is away receives nothing, sends nothing, and does not block") {
+TEST_CASE("socketcan: without its interface a driver neither receives nor sends, and does not block") {
   SocketCan can;
   can.open(missing);
   SocketCanDriver.Init(&can);

@@ -6,7 +6,7 @@
 #include "co_nvm_template.h"
 #include "co_timer_template.h"
 
-TEST_CASE("template of a CAN driver: receives nothing, and can send nothing now") {
+TEST_CASE("template of a CAN driver: receives nothing and refuses frames") {
   const CO_IF_CAN_DRV& driver = TemplateCanDriver;
   CO_IF_FRM frame{};
   driver.Init();
@@ -19,7 +19,7 @@ TEST_CASE("template of a CAN driver: receives nothing, and can send nothing now"
   CHECK(driver.Read(&frame) == 0);
 }
 
-TEST_CASE("template of a timer driver: no time passes") {
+TEST_CASE("template of a timer driver: the time does not advance") {
   const CO_IF_TIMER_DRV& driver = TemplateTimerDriver;
   driver.Init(1000000);
   driver.Reload(100);
@@ -31,7 +31,7 @@ TEST_CASE("template of a timer driver: no time passes") {
   CHECK(driver.Update() == 0);
 }
 
-TEST_CASE("template of a memory driver: stores and finds nothing") {
+TEST_CASE("template of a memory driver: stores and reads nothing") {
   const CO_IF_NVM_DRV& driver = TemplateNvmDriver;
   uint8_t byte = 5;
   driver.Init();

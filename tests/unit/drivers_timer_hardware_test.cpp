@@ -95,7 +95,7 @@ struct Mtime {
 
 }  // namespace
 
-TEST_CASE("systick: the clock counts ticks, whatever alarms are set in between") {
+TEST_CASE("systick: the clock counts ticks, independent of alarms") {
   SysTick systick;
   CHECK(systick.now() == 0);
   systick.run(23);
@@ -124,7 +124,7 @@ TEST_CASE("systick: an alarm interrupts in the first cycle of its tick") {
   CHECK(systick.now() == 100);
 }
 
-TEST_CASE("systick: the interrupt may come late, and the clock read before it") {
+TEST_CASE("systick: a late interrupt and a read of the clock before it keep the time") {
   SysTick systick;
   systick.alarm(100);
   systick.run(100 * cycles_per_tick - 3);
@@ -139,7 +139,7 @@ TEST_CASE("systick: the interrupt may come late, and the clock read before it") 
   CHECK(systick.now() == systick.expected());
 }
 
-TEST_CASE("systick: an alarm that is replaced while it is pending does not interrupt, and no time is lost") {
+TEST_CASE("systick: an alarm replaced while it is pending does not interrupt, and no time is lost") {
   SysTick systick;
   systick.alarm(100);
   systick.run(100 * cycles_per_tick + 30);
@@ -153,7 +153,7 @@ TEST_CASE("systick: an alarm that is replaced while it is pending does not inter
   CHECK(systick.now() == 151);
 }
 
-TEST_CASE("systick: far alarms, and the time without any, are reached in steps of all that it counts") {
+TEST_CASE("systick: late alarms and times without an alarm are counted in steps of the counter range") {
   for (const std::uint32_t ticks : std::initializer_list<std::uint32_t>{0u, longest_slice, UINT32_MAX}) {
     SysTick systick;
     systick.alarm(ticks);
@@ -169,7 +169,7 @@ TEST_CASE("systick: far alarms, and the time without any, are reached in steps o
   }
 }
 
-TEST_CASE("systick: any sequence of alarms, late interrupts and looks at the clock keeps the time to the cycle") {
+TEST_CASE("systick: any sequence of alarms, late interrupts and reads keeps the time to the cycle") {
   std::mt19937 generator(1);
   const auto random = [&] { return static_cast<std::uint32_t>(generator()); };
   SysTick systick;
@@ -195,7 +195,7 @@ TEST_CASE("systick: any sequence of alarms, late interrupts and looks at the clo
   CHECK(interrupts > 1000 / test::stride(40));
 }
 
-TEST_CASE("mtime: ticks and alarms, to the cycle, across the wrap of the low word") {
+TEST_CASE("mtime: ticks and alarms are exact to the cycle across the wrap of the low word") {
   for (const std::uint64_t start : {std::uint64_t{0}, std::uint64_t{0xFFFFFFF0}, std::uint64_t{0x1FFFFFFFF}}) {
     CAPTURE(start);
     Mtime mtime(start);
@@ -214,7 +214,7 @@ TEST_CASE("mtime: ticks and alarms, to the cycle, across the wrap of the low wor
   }
 }
 
-TEST_CASE("mtime: far alarms are reached in steps, and the ticks count on across all wraps") {
+TEST_CASE("mtime: late alarms are counted in steps, and ticks continue across all wraps") {
   Mtime mtime(5);
   std::uint64_t total = 0;
   for (const std::uint32_t ticks : std::initializer_list<std::uint32_t>{0u, 1u << 31, UINT32_MAX, 214748365u}) {
@@ -230,7 +230,7 @@ TEST_CASE("mtime: far alarms are reached in steps, and the ticks count on across
   }
 }
 
-TEST_CASE("nrf51: Init starts a clock of 32 bits at the frequency, Alarm sets and ends the interrupt of its register") {
+TEST_CASE("nrf51: Init starts a 32-bit clock with the frequency; Alarm enables and disables its interrupt") {
   CO_NRF51_TIMER_REGS registers{};
   CO_NRF51_TIMER timer{&registers};
   Nrf51TimerDriver.Init(&timer, mega);

@@ -48,7 +48,7 @@ TEST_CASE("linux timer: nanoseconds become ticks exactly, at any frequency and f
   CHECK(ticks_from_ns(second, 0) == 0);
 }
 
-TEST_CASE("linux timer: a tick begins at the first nanosecond that belongs to it") {
+TEST_CASE("linux timer: a tick begins with its first nanosecond") {
   for (const std::uint32_t frequency : {1u, 3u, 300u, 1000u, 1024u, 32768u, 1000000u, 72000000u}) {
     for (const std::uint64_t tick : {1ull, 2ull, 299ull, 1000001ull, 4294967297ull}) {
       CAPTURE(frequency);
@@ -60,7 +60,7 @@ TEST_CASE("linux timer: a tick begins at the first nanosecond that belongs to it
   }
 }
 
-TEST_CASE("linux timer: starts at 0, wraps at 2^32, has no drift") {
+TEST_CASE("linux timer: starts at 0, wraps at 2^32 and has no drift") {
   fake_now = 123456789;
   LinuxTimer timer(fake_clock);
   LinuxTimerDriver.Init(&timer, 1000000);
@@ -76,7 +76,7 @@ TEST_CASE("linux timer: starts at 0, wraps at 2^32, has no drift") {
   CHECK(LinuxTimerDriver.Now(&timer) == 999);
 }
 
-TEST_CASE("linux timer: remembers the alarm, which is replaced by the next and ended by 0") {
+TEST_CASE("linux timer: stores the alarm, which the next one replaces and 0 deletes") {
   fake_now = 0;
   LinuxTimer timer(fake_clock);
   CHECK(timer.until_alarm() == LinuxTimer::never);
@@ -117,7 +117,7 @@ TEST_CASE("linux timer: a wait ends on the tick, never before it") {
   }
 }
 
-TEST_CASE("linux timer: time-outs for poll and ppoll are rounded up, so that no loop spins") {
+TEST_CASE("linux timer: time-outs for poll and ppoll are rounded up, so that no loop polls") {
   fake_now = 0;
   LinuxTimer timer(fake_clock);
   timer.start(1000000);
@@ -138,7 +138,7 @@ TEST_CASE("linux timer: time-outs for poll and ppoll are rounded up, so that no 
   CHECK(timer.poll_timeout(0xFFFFFFFE) == INT_MAX);
 }
 
-TEST_CASE("linux timer: without a frequency the time stands still and nothing comes") {
+TEST_CASE("linux timer: without a frequency the time does not advance and no alarm elapses") {
   fake_now = 0;
   LinuxTimer timer(fake_clock);
   timer.start(0);
@@ -149,7 +149,7 @@ TEST_CASE("linux timer: without a frequency the time stands still and nothing co
   CHECK(timer.poll_timeout(5) == -1);
 }
 
-TEST_CASE("linux timer: runs with the monotonic clock") {
+TEST_CASE("linux timer: uses the monotonic clock") {
   LinuxTimer timer;
   timer.start(1000);
   usleep(20000);
@@ -158,7 +158,7 @@ TEST_CASE("linux timer: runs with the monotonic clock") {
   CHECK(now < 20000);  // allows for a very slow computer
 }
 
-TEST_CASE("linux timer: the descriptor is readable from the alarm on, not before, and not after it was replaced") {
+TEST_CASE("linux timer: the descriptor is readable from the alarm until it is replaced") {
   LinuxTimer timer;
   timer.start(1000);
   timer.set_alarm(30);
@@ -178,7 +178,7 @@ TEST_CASE("linux timer: the descriptor is readable from the alarm on, not before
   CHECK_FALSE(readable(fd, 20));
 }
 
-TEST_CASE("linux timer: a descriptor made after the alarm has come is readable at once") {
+TEST_CASE("linux timer: a descriptor created after the alarm has elapsed is readable at once") {
   LinuxTimer timer;
   timer.start(1000);
   timer.set_alarm(1);

@@ -19,7 +19,7 @@ using co::VirtualTimerDriver;
 
 }  // namespace
 
-TEST_CASE("virtual clock: stands still until it is advanced, and wraps at 2^32 for the nodes") {
+TEST_CASE("virtual clock: advances only by calls, and wraps at 2^32 for the nodes") {
   VirtualClock clock(0xFFFFFFFE);
   VirtualTimer timer(clock);
   CHECK(VirtualTimerDriver.Now(&timer) == 0xFFFFFFFE);
@@ -29,7 +29,7 @@ TEST_CASE("virtual clock: stands still until it is advanced, and wraps at 2^32 f
   CHECK(clock.elapsed() == 5);
 }
 
-TEST_CASE("virtual clock: time and ticks, exact at any frequency, ticks rounded up") {
+TEST_CASE("virtual clock: time and ticks are exact at any frequency, with ticks rounded up") {
   VirtualClock clock;
   CHECK(clock.time() == 0us);
   CHECK(clock.ticks(1s) == 0);  // no frequency yet
@@ -50,7 +50,7 @@ TEST_CASE("virtual clock: time and ticks, exact at any frequency, ticks rounded 
   CHECK(clock.ticks(10 * 365 * 24h) == 10ull * 365 * 86400 * 72000000);
 }
 
-TEST_CASE("virtual clock: alarms come exactly on their tick, in order, once") {
+TEST_CASE("virtual clock: each alarm elapses once, on its tick and in order") {
   VirtualClock clock(1000);
   std::vector<std::string> calls;
   const auto record = [&](const char* name) {
@@ -73,7 +73,7 @@ TEST_CASE("virtual clock: alarms come exactly on their tick, in order, once") {
   CHECK(a.alarms() == 1);
 }
 
-TEST_CASE("virtual clock: an alarm is replaced by the next one, and ended by 0") {
+TEST_CASE("virtual clock: an alarm is replaced by the next one and deleted by 0") {
   VirtualClock clock;
   VirtualTimer timer(clock);
   timer.set_alarm(10);
@@ -103,7 +103,7 @@ TEST_CASE("virtual clock: an alarm function that sets the next alarm is called a
   CHECK(calls == std::vector<std::uint32_t>{10, 20, 30});
 }
 
-TEST_CASE("virtual clock: a simulation can leap from alarm to alarm") {
+TEST_CASE("virtual clock: a simulation can advance to the next alarm") {
   VirtualClock clock(0xFFFFFFFF);
   VirtualTimer a(clock);
   VirtualTimer b(clock);
@@ -132,7 +132,7 @@ TEST_CASE("virtual clock: an alarm function may advance the clock and destroy it
   CHECK(clock.next_alarm() == VirtualClock::never);
 }
 
-TEST_CASE("software timer: counts calls of Update, and tells the end once") {
+TEST_CASE("software timer: counts calls of Update and reports the end once") {
   const CO_IF_TIMER_DRV& driver = SoftwareTimerDriver;
   driver.Init(1000);
   CHECK(driver.Update() == 0);
@@ -148,7 +148,7 @@ TEST_CASE("software timer: counts calls of Update, and tells the end once") {
   CHECK(driver.Update() == 0);
 }
 
-TEST_CASE("software timer: stops, and takes a new time while it runs") {
+TEST_CASE("software timer: it can be stopped, and restarted with a new time") {
   const CO_IF_TIMER_DRV& driver = SoftwareTimerDriver;
   driver.Reload(1);
   driver.Stop();
@@ -164,7 +164,7 @@ TEST_CASE("software timer: stops, and takes a new time while it runs") {
   CHECK(driver.Delay() == 0);
 }
 
-TEST_CASE("software timer: a count-down that begins on the tick of the last one does not drift") {
+TEST_CASE("software timer: a restart on the tick of the end does not drift") {
   const CO_IF_TIMER_DRV& driver = SoftwareTimerDriver;
   driver.Init(1000);
   driver.Reload(7);

@@ -121,11 +121,11 @@ TEST_CASE("frame bits: a remote frame has a length but no data [ISO 11898-1]") {
                  {"12345678#R8", 67}});
 }
 
-TEST_CASE("frame bits: five equal bits at the end of the CRC are followed by a stuff bit, too [ISO 11898-1]") {
+TEST_CASE("frame bits: five equal bits at the end of the CRC are followed by a stuff bit [ISO 11898-1]") {
   check_lengths({{"009#", 52}, {"017#", 50}, {"0E6#", 49}});
 }
 
-TEST_CASE("frame bits: DLC 9 to 15 stand for 8 bytes [ISO 11898-1]") {
+TEST_CASE("frame bits: DLC 9 to 15 mean 8 bytes [ISO 11898-1]") {
   check_lengths({{"123#1122334455667788", 112}, {"123#1122334455667788_9", 111}, {"123#1122334455667788_F", 111}});
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("frame bits: 8 bytes take 111 to 135 bits, 114 on average") {
   CHECK((all + frames / 2) / frames == 114);
 }
 
-TEST_CASE("paced bus: a frame arrives when its last bit is over, 3 bits before the bus is free") {
+TEST_CASE("paced bus: a frame is received at its last bit, 3 bits before the bus is free") {
   const std::pair<std::uint32_t, Time> rates[] = {{1000000, 48us}, {500000, 96us}, {250000, 192us}, {125000, 384us}};
   for (const auto& rate : rates) {
     CAPTURE(rate.first);
@@ -162,7 +162,7 @@ TEST_CASE("paced bus: a frame arrives when its last bit is over, 3 bits before t
   }
 }
 
-TEST_CASE("paced bus: a frame on an idle bus starts at once, the next ones follow without a gap") {
+TEST_CASE("paced bus: a frame on an idle bus starts at once, the next ones without a gap") {
   Bench bench;
   bench.time = 1000us;
   send(bench.a, "080#");
@@ -172,7 +172,7 @@ TEST_CASE("paced bus: a frame on an idle bus starts at once, the next ones follo
   CHECK(bench.arrived_until(2000us) == Texts{at(1500 + 48, "080#")});
 }
 
-TEST_CASE("paced bus: frames that follow one another do not drift, at whatever rate") {
+TEST_CASE("paced bus: consecutive frames have no drift at any rate") {
   for (const std::uint64_t rate : {1000000u, 800000u, 500000u, 83333u, 33333u, 10007u}) {
     CAPTURE(rate);
     Bench bench(static_cast<std::uint32_t>(rate));
@@ -187,7 +187,7 @@ TEST_CASE("paced bus: frames that follow one another do not drift, at whatever r
   }
 }
 
-TEST_CASE("paced bus: when the bus is free again, the highest priority goes first, late-comers included") {
+TEST_CASE("paced bus: when the bus is free the highest priority is sent, including the latest frames") {
   Bench bench;
   send(bench.a, "080#");
   send(bench.b, "300#");
@@ -200,7 +200,7 @@ TEST_CASE("paced bus: when the bus is free again, the highest priority goes firs
                                           at(51 + 51 + 50 + 48, "300#"), at(51 + 51 + 50 + 51 + 48, "100#")});
 }
 
-TEST_CASE("paced bus: a frame on the wire is not interrupted by one that comes a moment later") {
+TEST_CASE("paced bus: a frame on the wire is not interrupted by a later one") {
   Bench bench;
   send(bench.b, "300#");
   bench.time = 1us;
@@ -208,7 +208,7 @@ TEST_CASE("paced bus: a frame on the wire is not interrupted by one that comes a
   CHECK(bench.arrived_until(1ms) == Texts{at(48, "300#"), at(51 + 48, "080#")});
 }
 
-TEST_CASE("paced bus: frames of the same moment on an idle bus go by priority, whatever the order of the calls") {
+TEST_CASE("paced bus: simultaneous frames on an idle bus are sent by priority, for any order of calls") {
   Bench bench;
   bench.time = 100us;
   send(bench.b, "300#");
@@ -218,7 +218,7 @@ TEST_CASE("paced bus: frames of the same moment on an idle bus go by priority, w
   CHECK(bench.arrived_until(1ms) == Texts{at(148, "080#"), at(151 + 48, "300#")});
 }
 
-TEST_CASE("paced bus: who answers as soon as it has received takes part in the next arbitration") {
+TEST_CASE("paced bus: an answer sent at reception takes part in the next arbitration") {
   Bench bench;
   send(bench.a, "080#");
   send(bench.c, "300#");
@@ -228,7 +228,7 @@ TEST_CASE("paced bus: who answers as soon as it has received takes part in the n
   CHECK(bench.arrived_until(1ms) == Texts{at(48, "080#"), at(51 + 47, "201#"), at(51 + 50 + 48, "300#")});
 }
 
-TEST_CASE("paced bus: the transmit queue is full with the frame on the wire, and has a place when that is over") {
+TEST_CASE("paced bus: the frame on the wire occupies a slot of the transmit queue until its end") {
   Bench bench;
   VirtualBus::Port& small = bench.bus.attach({"three buffers", 512, 3});
   small.enable();
@@ -244,7 +244,7 @@ TEST_CASE("paced bus: the transmit queue is full with the frame on the wire, and
   CHECK(bench.arrived_until(1ms).size() == 4);
 }
 
-TEST_CASE("paced bus: frames from outside take their time as well") {
+TEST_CASE("paced bus: frames from outside take their time on the wire") {
   Bench bench;
   bench.bus.inject(test::frame("000#0100"));
   CHECK(bench.arrived_until(64us).empty());
@@ -252,7 +252,7 @@ TEST_CASE("paced bus: frames from outside take their time as well") {
   CHECK(bench.a.waiting() == 1);
 }
 
-TEST_CASE("paced bus: a frame that has started ends although its sender leaves; those behind it are lost") {
+TEST_CASE("paced bus: a started frame is completed although its sender leaves; queued ones are lost") {
   const auto leave_by = [](void (*leave)(VirtualBus::Port&), Time moment) {
     Bench bench;
     send(bench.a, "080#");
@@ -271,7 +271,7 @@ TEST_CASE("paced bus: a frame that has started ends although its sender leaves; 
   }
 }
 
-TEST_CASE("paced bus: a frame after a pause of its sender starts when it is sent") {
+TEST_CASE("paced bus: a frame after a pause of its sender starts at once") {
   Bench bench;
   bench.bus.hold();
   send(bench.a, "080#");
@@ -282,7 +282,7 @@ TEST_CASE("paced bus: a frame after a pause of its sender starts when it is sent
   CHECK(bench.arrived_until(1ms) == Texts{at(548, "080#")});
 }
 
-TEST_CASE("paced bus: between hold and release nothing arrives and nothing starts") {
+TEST_CASE("paced bus: between hold and release no frame is received or started") {
   Bench bench;
   send(bench.a, "080#");
   send(bench.a, "705#05");
@@ -297,7 +297,7 @@ TEST_CASE("paced bus: between hold and release nothing arrives and nothing start
   CHECK(bench.arrived_until(1ms) == Texts{at(500, "080#"), at(556, "705#05")});
 }
 
-TEST_CASE("paced bus: a leap in time loses nothing and keeps the order") {
+TEST_CASE("paced bus: a jump in time loses no frame and keeps the order") {
   Bench bench;
   send(bench.a, "300#");
   send(bench.a, "200#");
@@ -307,7 +307,7 @@ TEST_CASE("paced bus: a leap in time loses nothing and keeps the order") {
   CHECK(bench.trace == Texts{at(10000, "080#"), at(10000, "300#"), at(10000, "200#")});
 }
 
-TEST_CASE("paced bus fault: a dropped frame takes its time") {
+TEST_CASE("paced bus fault: a dropped frame takes its time on the wire") {
   Bench bench;
   bench.bus.add_rule({Fault::drop});
   send(bench.a, "080#");
@@ -317,7 +317,7 @@ TEST_CASE("paced bus fault: a dropped frame takes its time") {
   CHECK(bench.b.waiting() == 1);
 }
 
-TEST_CASE("paced bus fault: a delay begins at the end of the frame, a second copy takes no time") {
+TEST_CASE("paced bus fault: a delay starts at the end of the frame; a second copy takes no time") {
   Bench bench;
   bench.bus.add_rule({Fault::delay, {}, 1, 1, 20us});
   bench.bus.add_rule({Fault::duplicate, {}, 2});
@@ -326,7 +326,7 @@ TEST_CASE("paced bus fault: a delay begins at the end of the frame, a second cop
   CHECK(bench.arrived_until(1ms) == Texts{at(48 + 20, "080#"), at(51 + 56, "705#05"), at(51 + 56, "705#05")});
 }
 
-TEST_CASE("paced bus: without a bit rate frames take no time again") {
+TEST_CASE("paced bus: without a bit rate frames take no time") {
   Bench bench;
   bench.bus.pace(0);
   send(bench.a, "080#");

@@ -52,7 +52,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("virtual bus: a frame reaches every port but its sender, with all flags and bytes") {
+TEST_CASE("virtual bus: a frame reaches every port except its sender with all flags and bytes") {
   Bench bench;
   VirtualBus::Port& c = online(bench.bus, {"c"});
   CHECK(send(bench.a, "123#1122334455667788") == taken);
@@ -64,7 +64,7 @@ TEST_CASE("virtual bus: a frame reaches every port but its sender, with all flag
   CHECK(received(bench.a).empty());
 }
 
-TEST_CASE("virtual bus: a port off the bus neither sends nor receives, and begins anew with empty queues") {
+TEST_CASE("virtual bus: a port off the bus neither sends nor receives, and restarts with empty queues") {
   VirtualBus bus;
   VirtualBus::Port& a = online(bus, {"a"});
   VirtualBus::Port& b = bus.attach();
@@ -82,7 +82,7 @@ TEST_CASE("virtual bus: a port off the bus neither sends nor receives, and begin
   CHECK(received(b).empty());
 }
 
-TEST_CASE("virtual bus: ports with different bit rates do not hear each other, rate 0 fits every rate") {
+TEST_CASE("virtual bus: ports with different bit rates are separate; rate 0 matches every rate") {
   VirtualBus bus;
   VirtualBus::Port& slow = bus.attach({"slow"});
   VirtualBus::Port& fast = bus.attach({"fast"});
@@ -111,7 +111,7 @@ TEST_CASE("virtual bus: frames from outside reach every port") {
   CHECK(bench.trace[0].sender == nullptr);
 }
 
-TEST_CASE("virtual bus: the trace names frame, sender and time in the order of the bus") {
+TEST_CASE("virtual bus: the trace contains frame, sender and time in the order of the bus") {
   Bench bench;
   bench.time = 3ms;
   send(bench.a, "201#01");
@@ -126,7 +126,7 @@ TEST_CASE("virtual bus: the trace names frame, sender and time in the order of t
   CHECK(bench.trace[1].time == 5ms);
 }
 
-TEST_CASE("virtual bus: a trace hook that answers takes its turn after the frame it answers") {
+TEST_CASE("virtual bus: an answer sent by a trace hook follows the traced frame") {
   Bench bench;
   VirtualBus::Port& device = online(bench.bus, {"device"});
   Texts order;
@@ -141,7 +141,7 @@ TEST_CASE("virtual bus: a trace hook that answers takes its turn after the frame
   CHECK(received(bench.b) == Texts{"601#40", "581#60"});
 }
 
-TEST_CASE("virtual bus: pending frames go in the order of CAN arbitration, the frames of one port in their own") {
+TEST_CASE("virtual bus: queued frames are sent in the order of arbitration, those of one port in their order") {
   Bench bench;
   VirtualBus::Port& c = online(bench.bus, {"c"});
   bench.bus.hold();
@@ -155,7 +155,7 @@ TEST_CASE("virtual bus: pending frames go in the order of CAN arbitration, the f
   CHECK(received(c) == Texts{"1FF#", "200#", "300#", "080#", "700#"});
 }
 
-TEST_CASE("virtual bus: data wins over remote, 11 bit over 29 bit with the same base, then the extension") {
+TEST_CASE("virtual bus: data before remote, 11-bit before 29-bit of the same base, then the extension") {
   VirtualBus bus;
   // 123h << 18 = 048C0000h: the 29-bit identifiers with base 123h.
   const Texts by_priority = {"122#", "123#", "123#R", "048C0000#", "048C0000#R", "048C0001#", "048E0000#", "124#"};
@@ -172,7 +172,7 @@ TEST_CASE("virtual bus: data wins over remote, 11 bit over 29 bit with the same 
   CHECK(received(tap) == by_priority);
 }
 
-TEST_CASE("virtual bus: equal identifiers go in the order of attachment") {
+TEST_CASE("virtual bus: equal identifiers are sent in the order of attachment") {
   Bench bench;
   VirtualBus::Port& c = online(bench.bus, {"c"});
   bench.bus.hold();
@@ -182,7 +182,7 @@ TEST_CASE("virtual bus: equal identifiers go in the order of attachment") {
   CHECK(received(c) == Texts{"100#0A", "100#0B"});
 }
 
-TEST_CASE("virtual bus: a full transmit queue refuses without loss and takes more when the bus is free") {
+TEST_CASE("virtual bus: a full transmit queue refuses frames without loss until the bus is free") {
   VirtualBus bus;
   VirtualBus::Port& a = online(bus, {"a", 512, 2});
   VirtualBus::Port& b = online(bus, {"b"});
@@ -195,8 +195,7 @@ TEST_CASE("virtual bus: a full transmit queue refuses without loss and takes mor
   CHECK(received(b) == Texts{"201#01", "201#02", "201#03"});
 }
 
-TEST_CASE(
-    "virtual bus: an accept list lets exactly its identifiers through, in their format, in data and remote frames") {
+TEST_CASE("virtual bus: an accept list passes exactly its identifiers in their format, data and remote frames") {
   Bench bench;
   const std::uint32_t ids[] = {CO_IF_FRM_EXT | 0x201u, 0x601, 0x000, 0x181};  // in any order
   CHECK_FALSE(bench.b.filtered());
@@ -211,7 +210,7 @@ TEST_CASE(
   CHECK(received(bench.b).empty());
 }
 
-TEST_CASE("virtual bus: a port without filters receives everything, whatever the node asks for") {
+TEST_CASE("virtual bus: a port without filters receives every frame") {
   VirtualBus bus;
   VirtualBus::Port& a = online(bus, {"a"});
   VirtualBus::Port& b = online(bus, {"b", 512, 10, false});
@@ -222,7 +221,7 @@ TEST_CASE("virtual bus: a port without filters receives everything, whatever the
   CHECK(received(b) == Texts{"123#"});
 }
 
-TEST_CASE("virtual bus: a full receive queue keeps the oldest frames, counts the lost and reports an overrun once") {
+TEST_CASE("virtual bus: a full receive queue keeps the oldest frames, counts lost ones and reports one overrun") {
   VirtualBus bus;
   VirtualBus::Port& a = online(bus, {"a"});
   VirtualBus::Port& b = online(bus, {"b", 2});
@@ -236,7 +235,7 @@ TEST_CASE("virtual bus: a full receive queue keeps the oldest frames, counts the
   CHECK(received(b) == Texts{"201#05"});
 }
 
-TEST_CASE("virtual bus: error frames are reported to the port, or from outside to all, past every filter") {
+TEST_CASE("virtual bus: error frames reach one port, or from outside all ports, regardless of filters") {
   Bench bench;
   bench.a.filter(nullptr, 0);
   bench.a.report(VirtualBus::error_frame(0x4, 0x20));
@@ -247,7 +246,7 @@ TEST_CASE("virtual bus: error frames are reported to the port, or from outside t
   CHECK(received(bench.b) == Texts{"20000100#0000000000000000"});
 }
 
-TEST_CASE("virtual bus: in bus-off a port neither sends nor receives until it recovers, both are reported") {
+TEST_CASE("virtual bus: a port in bus-off neither sends nor receives until its recovery; both are reported") {
   Bench bench;
   bench.a.bus_off();
   CHECK(send(bench.a, "701#05") == -1);
@@ -262,7 +261,7 @@ TEST_CASE("virtual bus: in bus-off a port neither sends nor receives until it re
   CHECK(send(bench.a, "701#05") == taken);
 }
 
-TEST_CASE("virtual bus: bus-off loses the frames that wait, and ends when the port goes on the bus anew") {
+TEST_CASE("virtual bus: bus-off drops queued frames and ends when the port is enabled again") {
   Bench bench;
   bench.bus.hold();
   send(bench.a, "201#01");
@@ -277,7 +276,7 @@ TEST_CASE("virtual bus: bus-off loses the frames that wait, and ends when the po
   CHECK(received(bench.b) == Texts{"201#02"});
 }
 
-TEST_CASE("virtual bus: recovering without bus-off, and bus-off of a port off the bus, report nothing") {
+TEST_CASE("virtual bus: recovery without bus-off and bus-off of a port off the bus report nothing") {
   Bench bench;
   bench.a.recover();
   CHECK(received(bench.a).empty());
@@ -299,7 +298,7 @@ TEST_CASE("virtual bus: reset empties the queues and keeps the filter") {
   CHECK(received(bench.b) == Texts{"201#03"});
 }
 
-TEST_CASE("virtual bus fault: drop hits the n-th matching frame, as often as told, and is traced as dropped") {
+TEST_CASE("virtual bus fault: drop affects the n-th matching frame as often as configured and is traced") {
   Bench bench;
   const auto rule = bench.bus.add_rule({Fault::drop, is_201, 2, 2});
   for (const char* text : {"201#01", "202#01", "201#02", "202#02", "201#03", "201#04"}) {
@@ -314,7 +313,7 @@ TEST_CASE("virtual bus fault: drop hits the n-th matching frame, as often as tol
   CHECK_FALSE(bench.trace[5].dropped);
 }
 
-TEST_CASE("virtual bus fault: two rules hit two positions; both count every frame, the older one decides") {
+TEST_CASE("virtual bus fault: two rules at two positions both count every frame; the older one decides") {
   Bench bench;
   const auto drop = bench.bus.add_rule({Fault::drop, {}, 2});
   const auto twice = bench.bus.add_rule({Fault::duplicate, {}, 2, 2});
@@ -326,7 +325,7 @@ TEST_CASE("virtual bus fault: two rules hit two positions; both count every fram
   CHECK(bench.bus.struck(twice) == 1);
 }
 
-TEST_CASE("virtual bus fault: a rule without end strikes until the rules are cleared") {
+TEST_CASE("virtual bus fault: an unlimited rule applies until the rules are cleared") {
   Bench bench;
   bench.bus.add_rule({Fault::drop, {}, 1, VirtualBus::always});
   for (int i = 0; i < 100; ++i) {
@@ -338,7 +337,7 @@ TEST_CASE("virtual bus fault: a rule without end strikes until the rules are cle
   CHECK(received(bench.b) == Texts{"201#02"});
 }
 
-TEST_CASE("virtual bus fault: a delayed frame arrives when its time has come, after those that overtook it") {
+TEST_CASE("virtual bus fault: a delayed frame is received at its time, after later frames") {
   Bench bench;
   bench.bus.add_rule({Fault::delay, {}, 1, 2, 20ms});
   CHECK(bench.bus.next_due() == VirtualBus::never);
@@ -360,7 +359,7 @@ TEST_CASE("virtual bus fault: a delayed frame arrives when its time has come, af
   CHECK(bench.bus.next_due() == VirtualBus::never);
 }
 
-TEST_CASE("virtual bus fault: frames delayed to the same moment keep their order") {
+TEST_CASE("virtual bus fault: frames delayed to the same time keep their order") {
   Bench bench;
   bench.bus.add_rule({Fault::delay, {}, 1, 3, 10ms});
   send(bench.a, "203#01");
@@ -383,7 +382,7 @@ TEST_CASE("virtual bus fault: reorder swaps a frame with the next one of the sam
   CHECK(received(c) == Texts{"202#02", "201#01", "203#03"});
 }
 
-TEST_CASE("virtual bus fault: reorder can be bounded in time") {
+TEST_CASE("virtual bus fault: reorder can have a time limit") {
   Bench bench;
   bench.bus.add_rule({Fault::reorder, {}, 1, 1, 50ms});
   send(bench.a, "201#01");
@@ -395,7 +394,7 @@ TEST_CASE("virtual bus fault: reorder can be bounded in time") {
   CHECK(received(bench.b) == Texts{"201#02"});
 }
 
-TEST_CASE("virtual bus fault: refuse answers 0 n times, the frame itself is not lost when it is sent again") {
+TEST_CASE("virtual bus fault: refuse returns 0 n times; the frame is sent when repeated") {
   Bench bench;
   const auto rule = bench.bus.add_rule({Fault::refuse, is_201, 1, 3});
   int attempts = 1;
@@ -407,7 +406,7 @@ TEST_CASE("virtual bus fault: refuse answers 0 n times, the frame itself is not 
   CHECK(received(bench.b) == Texts{"201#01"});
 }
 
-TEST_CASE("virtual bus fault: attempts that were refused do not count as frames on the bus") {
+TEST_CASE("virtual bus fault: refused attempts are not counted as frames on the bus") {
   Bench bench;
   bench.bus.add_rule({Fault::refuse, {}, 1, 2});
   bench.bus.add_rule({Fault::drop, {}, 2});
@@ -417,7 +416,7 @@ TEST_CASE("virtual bus fault: attempts that were refused do not count as frames 
   CHECK(received(bench.b) == Texts{"201#01"});
 }
 
-TEST_CASE("virtual bus fault: error answers -1 and loses the frame") {
+TEST_CASE("virtual bus fault: error returns -1 and drops the frame") {
   Bench bench;
   bench.bus.add_rule({Fault::error, {}, 2});
   CHECK(send(bench.a, "201#01") == taken);
@@ -426,7 +425,7 @@ TEST_CASE("virtual bus fault: error answers -1 and loses the frame") {
   CHECK(received(bench.b) == Texts{"201#01", "201#03"});
 }
 
-TEST_CASE("virtual bus fault: bus-off takes the sender off the bus and reports it there") {
+TEST_CASE("virtual bus fault: bus-off removes the sender from the bus and reports it there") {
   Bench bench;
   bench.bus.add_rule({Fault::bus_off, is_201});
   CHECK(send(bench.a, "201#01") == -1);
@@ -437,7 +436,7 @@ TEST_CASE("virtual bus fault: bus-off takes the sender off the bus and reports i
   CHECK(send(bench.a, "201#01") == taken);
 }
 
-TEST_CASE("virtual bus fault: a rule can look at sender and time, and also applies to frames from outside") {
+TEST_CASE("virtual bus fault: a rule can select sender and time, and applies to frames from outside") {
   Bench bench;
   bench.bus.add_rule(
       {Fault::drop, [](const VirtualBus::Traffic& traffic) { return traffic.sender == nullptr && traffic.time >= 1ms; },
@@ -449,7 +448,7 @@ TEST_CASE("virtual bus fault: a rule can look at sender and time, and also appli
   CHECK(received(bench.b) == Texts{"000#0101", "000#8001"});
 }
 
-TEST_CASE("virtual bus: the driver table does what the port does") {
+TEST_CASE("virtual bus: the driver table has the behaviour of the port") {
   VirtualBus bus;
   VirtualBus::Port& master = online(bus, {"master"});
   VirtualBus::Port& port = bus.attach({"node"});
@@ -474,7 +473,7 @@ TEST_CASE("virtual bus: the driver table does what the port does") {
   CHECK(driver.Send(&port, &frame) == -1);
 }
 
-TEST_CASE("virtual bus: the same traffic gives the same trace, frame for frame") {
+TEST_CASE("virtual bus: equal traffic gives equal traces") {
   const auto run = [] {
     Bench bench;
     bench.bus.add_rule({Fault::delay, {}, 3, 5, 7ms});

@@ -42,7 +42,7 @@ TEST_CASE("error names: each error has a unique name and meaning") {
   CHECK(COErrText(CO_ERR_OBJ_RANGE_LOW) == std::string("the value is too low (SDO abort 0609 0032h)"));
 }
 
-TEST_CASE("error names: numbers that are no errors are unknown") {
+TEST_CASE("error names: undefined numbers are unknown") {
   for (const unsigned number : {1U, 0xFFU, last_error + 1, 0x1FFU}) {
     CAPTURE(number);
     CHECK(COErrName(static_cast<CO_ERR>(number)) == std::string("unknown error"));

@@ -108,8 +108,7 @@ TEST_CASE("failed initialisation: the node does not start, stops and processes n
   });
 }
 
-TEST_CASE(
-    "failed initialisation: each call of CONodeProcess() drops a frame of a driver that is there, and counts it") {
+TEST_CASE("failed initialisation: each CONodeProcess() drops and counts a frame if there is a driver") {
   for (const Failure& failure : failures()) {
     CAPTURE(failure.name);
     Device device;
@@ -142,7 +141,7 @@ TEST_CASE("failed initialisation: timers can be created, serviced, processed and
   });
 }
 
-TEST_CASE("failed initialisation: the dictionary can be asked") {
+TEST_CASE("failed initialisation: the dictionary can be read") {
   with_each_failure([](CO_NODE& node) {
     std::uint32_t value = 0;
     CODictFind(&node.Dict, CO_DEV(0x2000, 0));
@@ -167,7 +166,7 @@ TEST_CASE("failed initialisation: resets and changes of the mode are refused") {
   });
 }
 
-TEST_CASE("failed initialisation: a frame of the application is refused") {
+TEST_CASE("failed initialisation: sending a frame of the application is refused") {
   with_each_failure([](CO_NODE& node) {
     CO_IF_FRM frm = frame("181#0102");
     CHECK(COIfCanSend(&node.If, &frm) == -1);
@@ -177,7 +176,7 @@ TEST_CASE("failed initialisation: a frame of the application is refused") {
   });
 }
 
-TEST_CASE("failed initialisation: a further one that is right makes a node, until it is stopped") {
+TEST_CASE("failed initialisation: a second, successful one gives a working node until it is stopped") {
   for (const Failure& failure : failures()) {
     CAPTURE(failure.name);
     Device device;

@@ -82,7 +82,7 @@ struct Device {
 
 }  // namespace
 
-TEST_CASE("interface: each function reaches its driver") {
+TEST_CASE("interface: each function calls its driver") {
   Device device;
   CO_IF& cif = device.node.If;
   CHECK(device.can.inits == 1);
@@ -106,7 +106,7 @@ TEST_CASE("interface: each function reaches its driver") {
   CHECK(device.nvm.inits == 2);
 }
 
-TEST_CASE("interface: reading tells frames, none and errors apart") {
+TEST_CASE("interface: reading distinguishes frames, no frame and errors") {
   Device device;
   CO_IF_FRM frm = {};
   CHECK(COIfCanRead(&device.node.If, &frm) == 0);
@@ -118,7 +118,7 @@ TEST_CASE("interface: reading tells frames, none and errors apart") {
   CHECK(COIfCanRead(&device.node.If, &frm) == sizeof frm);
 }
 
-TEST_CASE("interface: memory is read and written with the count of the driver, 0 without a driver") {
+TEST_CASE("interface: reading and writing memory returns the count of the driver, 0 without a driver") {
   Device device;
   std::uint8_t buffer[4] = {};
   CHECK(COIfNvmRead(&device.node.If, 6, buffer, 4) == 2);
@@ -131,7 +131,7 @@ TEST_CASE("interface: memory is read and written with the count of the driver, 0
   CHECK(COIfNvmWrite(&without.node.If, 0, buffer, 4) == 0);
 }
 
-TEST_CASE("interface: null pointers are answered, and touch nothing") {
+TEST_CASE("interface: null pointers return an error and change nothing") {
   Device device;
   CO_IF& cif = device.node.If;
   CO_IF unconnected = {};
@@ -164,7 +164,7 @@ TEST_CASE("interface: null pointers are answered, and touch nothing") {
   callbacks().fatal_errors = 0;
 }
 
-TEST_CASE("timers: null pointers are answered, and touch nothing") {
+TEST_CASE("timers: null pointers return an error and change nothing") {
   Device device;
   CO_TMR unconnected = {};
   const CO_TMR_FUNC action = [](void*) {};
@@ -185,7 +185,7 @@ TEST_CASE("timers: null pointers are answered, and touch nothing") {
   callbacks().fatal_errors = 0;
 }
 
-TEST_CASE("node and NMT: null pointers are answered, and touch nothing") {
+TEST_CASE("node and NMT: null pointers return an error and change nothing") {
   CO_NMT unconnected = {};
   callbacks().fatal_errors = 0;
   CONodeStart(nullptr);
@@ -209,7 +209,7 @@ TEST_CASE("node and NMT: null pointers are answered, and touch nothing") {
   callbacks().fatal_errors = 0;
 }
 
-TEST_CASE("ring: null pointers are answered, and touch nothing") {
+TEST_CASE("ring: null pointers return an error and change nothing") {
   CO_IF_FRM memory[2];
   CO_RING ring;
   REQUIRE(CORingInit(&ring, memory, 2));

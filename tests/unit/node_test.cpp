@@ -81,7 +81,7 @@ struct OldNode {
   }
 };
 
-TEST_CASE("node: drivers without context are initialised once, and the controller is put on the bus") {
+TEST_CASE("node: classic drivers are initialised once, and the controller is enabled") {
   OldNode n;
   CHECK(n.init() == CO_ERR_NONE);
   CHECK(n.node.Nmt.Mode == CO_INIT);
@@ -111,7 +111,7 @@ TEST_CASE("node: no driver for memory is needed") {
   CHECK(COIfNvmWrite(&n.node.If, 0, &byte, 1) == 0);
 }
 
-TEST_CASE("node: memory is reached through its driver") {
+TEST_CASE("node: memory is accessed through its driver") {
   OldNode n;
   CHECK(n.init() == CO_ERR_NONE);
   std::uint8_t in[3] = {1, 2, 3};
@@ -121,7 +121,7 @@ TEST_CASE("node: memory is reached through its driver") {
   CHECK(std::memcmp(in, out, 3) == 0);
 }
 
-TEST_CASE("node: the controller is reached through its driver") {
+TEST_CASE("node: the controller is accessed through its driver") {
   OldNode n;
   CHECK(n.init() == CO_ERR_NONE);
   COIfCanReset(&n.node.If);
@@ -139,7 +139,7 @@ TEST_CASE("node: the controller is reached through its driver") {
   CHECK(COIfCanRead(&n.node.If, &frm) == 0);
 }
 
-TEST_CASE("node: what a node cannot do without") {
+TEST_CASE("node: a wrong node-ID, a missing driver and a timer frequency of 0 are refused") {
   struct Case {
     std::string name;
     CO_ERR error;
@@ -168,7 +168,7 @@ TEST_CASE("node: what a node cannot do without") {
 
 #if USE_DICT_CHECK
 
-TEST_CASE("node: missing mandatory objects are told, and the node runs [Q7]") {
+TEST_CASE("node: missing mandatory objects are reported, and the node runs [Q7]") {
   OldNode n;
   n.dictionary[1] = CO_OBJ{CO_KEY(0x1017, 0, CO_OBJ_D___R_), CO_THB_PROD, 0};
   CHECK(n.init() == CO_ERR_CFG_1001_0);
@@ -183,7 +183,7 @@ TEST_CASE("node: missing mandatory objects are told, and the node runs [Q7]") {
 
 #endif
 
-TEST_CASE("node: an object whose Init function fails is told, and the node runs [Q7]") {
+TEST_CASE("node: an object whose Init function fails is reported, and the node runs [Q7]") {
   const auto fails = [](CO_OBJ*, CO_NODE*) -> CO_ERR { return CO_ERR_TYPE_INIT; };
   const CO_OBJ_TYPE type = {nullptr, fails, nullptr, nullptr, nullptr};
   Fixture node(Setup().with({CO_KEY(0x3000, 0, CO_OBJ_____RW), &type, 0}).stay_in_init());
@@ -193,7 +193,7 @@ TEST_CASE("node: an object whose Init function fails is told, and the node runs 
   node.tx("701#00");
 }
 
-TEST_CASE("node: without a dictionary it ends with CO_ERR_NODE_DICT in CO_INVALID, and does not start") {
+TEST_CASE("node: without a dictionary it stays in CO_INVALID with CO_ERR_NODE_DICT and does not start") {
   for (const bool null : {true, false}) {
     CAPTURE(null);
     OldNode n;
@@ -211,7 +211,7 @@ TEST_CASE("node: without a dictionary it ends with CO_ERR_NODE_DICT in CO_INVALI
   }
 }
 
-TEST_CASE("node: the specification need not live longer than the initialisation") {
+TEST_CASE("node: the specification is used only during the initialisation") {
   OldNode n;
   CHECK(n.init() == CO_ERR_NONE);
   std::memset(static_cast<void*>(&n.spec), 0xFF, sizeof n.spec);
@@ -221,7 +221,7 @@ TEST_CASE("node: the specification need not live longer than the initialisation"
   CHECK(bus.sent.size() == 2);
 }
 
-TEST_CASE("node: null arguments") {
+TEST_CASE("node: null arguments are handled") {
   OldNode n;
   CONodeInit(nullptr, &n.spec);
   CONodeInit(&n.node, nullptr);
@@ -233,7 +233,7 @@ TEST_CASE("node: null arguments") {
   CHECK(counters.CanEvents[CO_CAN_RECOVERED] == 0);
 }
 
-TEST_CASE("node: the error is the last one, and reading clears it") {
+TEST_CASE("node: CONodeGetErr returns the last error and clears it") {
   Fixture node;
   node.call([&] { CONmtSetNodeId(&node->Nmt, 3); });
   node.call([&] { COTmrCreate(&node->Tmr, 1, 0, nullptr, nullptr); });
@@ -241,7 +241,7 @@ TEST_CASE("node: the error is the last one, and reading clears it") {
   CHECK(CONodeGetErr(&node.node) == CO_ERR_NONE);
 }
 
-TEST_CASE("node: nothing but reading clears the error") {
+TEST_CASE("node: only reading clears the error") {
   Fixture node(Setup().heartbeat(10));
   node.call([&] { CONmtSetNodeId(&node->Nmt, 3); });
   node.ask("601#4000100000000000", "581#4300100091010F00");
@@ -253,7 +253,7 @@ TEST_CASE("node: nothing but reading clears the error") {
   CHECK(node.error() == CO_ERR_NMT_MODE);
 }
 
-TEST_CASE("node: the user pointer is given back") {
+TEST_CASE("node: the user pointer is returned") {
   Fixture node;
   CHECK(CONodeGetUser(&node.node) == static_cast<void*>(&node));
   OldNode n;
@@ -261,7 +261,7 @@ TEST_CASE("node: the user pointer is given back") {
   CHECK(CONodeGetUser(&n.node) == nullptr);
 }
 
-TEST_CASE("node: lock functions of the extension take the place of COTmrLock and COTmrUnlock") {
+TEST_CASE("node: lock functions of the extension replace COTmrLock and COTmrUnlock") {
   static int depth;
   static int calls;
   depth = calls = 0;
@@ -287,7 +287,7 @@ TEST_CASE("node: lock functions of the extension take the place of COTmrLock and
   CHECK(global == 0);
 }
 
-TEST_CASE("node: several in one program do not know of one another") {
+TEST_CASE("node: several nodes in one program are independent") {
   Fixture one(Setup().node_id(1).heartbeat(10));
   Fixture two(Setup().node_id(2).heartbeat(20));
   one.ask("601#4008100000000000", "581#4108100011000000");
@@ -305,7 +305,7 @@ TEST_CASE("node: several in one program do not know of one another") {
   two.tx("702#7F");
 }
 
-TEST_CASE("node: reset node and reset communication leave the controller on the bus") {
+TEST_CASE("node: reset node and reset communication keep the controller on the bus") {
   Fixture node;
   node.rx("000#8101");
   node.tx("701#00");
@@ -313,7 +313,7 @@ TEST_CASE("node: reset node and reset communication leave the controller on the 
   CHECK(node.can.baud == 250000);
 }
 
-TEST_CASE("node: the version has one source") {
+TEST_CASE("node: the version functions return the version macros") {
   CHECK(COVerMajor() == CO_VER_MAJOR);
   CHECK(COVerMinor() == CO_VER_MINOR);
   CHECK(COVerBuild() == CO_VER_BUILD);

@@ -76,7 +76,7 @@ constexpr std::uint64_t samples[] = {0,
                                      0xFFFFFFFFFFFFFFFF,
                                      0x123456};
 
-TEST_CASE("types: numbers of every width are read and written, from and to buffers of any alignment") {
+TEST_CASE("types: numbers of every width are read and written with buffers of any alignment") {
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     alignas(8) std::uint8_t variable[8];
@@ -102,7 +102,7 @@ TEST_CASE("types: numbers of every width are read and written, from and to buffe
   }
 }
 
-TEST_CASE("types: a width other than the object's is refused and changes nothing") {
+TEST_CASE("types: a width that differs from the object is refused and changes nothing") {
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     alignas(8) std::uint8_t variable[8] = {1, 2, 3, 4, 5, 6, 7, 8};
@@ -119,7 +119,7 @@ TEST_CASE("types: a width other than the object's is refused and changes nothing
   }
 }
 
-TEST_CASE("types: without variable there is no size and no access") {
+TEST_CASE("types: without a variable the size is 0 and accesses are refused") {
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     Entry entry(kind.type, CO_OBJ_____RW, nullptr);
@@ -130,7 +130,7 @@ TEST_CASE("types: without variable there is no size and no access") {
   }
 }
 
-TEST_CASE("types: the value in the entry itself (flag D)") {
+TEST_CASE("types: the value in the entry (flag D) is accessed") {
   for (const Kind& kind : kinds) {
     if (kind.storage > sizeof(std::uintptr_t) || kind.type == CO_TREAL32 || kind.type == CO_TREAL64) continue;
     CAPTURE(kind.name);
@@ -161,7 +161,7 @@ TEST_CASE("types: values given directly in the table are read in any width (flag
   CHECK(i16 == -2);
 }
 
-TEST_CASE("types: values relative to the node-ID, modulo the width (flag N)") {
+TEST_CASE("types: values relative to the node-ID are added modulo the width (flag N)") {
   for (const Kind& kind : kinds) {
     if (kind.type == CO_TREAL32 || kind.type == CO_TREAL64) continue;
     CAPTURE(kind.name);
@@ -180,7 +180,7 @@ TEST_CASE("types: values relative to the node-ID, modulo the width (flag N)") {
   }
 }
 
-TEST_CASE("types: relative to the node-ID and in the entry (flags D and N)") {
+TEST_CASE("types: values relative to the node-ID in the entry are accessed (flags D and N)") {
   Entry entry(CO_TUNSIGNED32, CO_OBJ_DN__RW, 0x600);
   std::uint32_t value = 0;
   CHECK(entry.read(&value, 4) == CO_ERR_NONE);
@@ -195,7 +195,7 @@ TEST_CASE("types: relative to the node-ID and in the entry (flags D and N)") {
   CHECK(value == 3);
 }
 
-TEST_CASE("types: variables at odd addresses") {
+TEST_CASE("types: variables at odd addresses are accessed") {
   for (const Kind& kind : kinds) {
     CAPTURE(kind.name);
     alignas(8) std::uint8_t memory[24];
@@ -213,7 +213,7 @@ TEST_CASE("types: variables at odd addresses") {
   }
 }
 
-TEST_CASE("types: numbers keep their meaning") {
+TEST_CASE("types: signed numbers keep their sign, reals their bits") {
   std::int32_t i24 = 0;
   Entry entry(CO_TSIGNED24, CO_OBJ_____RW, &i24);
   const Bytes minus_two = bytes_of(0xFFFFFE, 3);
@@ -231,7 +231,7 @@ TEST_CASE("types: numbers keep their meaning") {
   CHECK(f == pi);
 }
 
-TEST_CASE("types: BOOLEAN holds 0 or 1") {
+TEST_CASE("types: BOOLEAN accepts 0 or 1") {
   std::uint8_t variable = 0;
   Entry entry(CO_TBOOLEAN, CO_OBJ_____RW, &variable);
   CHECK(entry.size() == 1);
@@ -244,7 +244,7 @@ TEST_CASE("types: BOOLEAN holds 0 or 1") {
   CHECK(entry.write(two, 2) == CO_ERR_BAD_ARG);
 }
 
-TEST_CASE("types: TIME_OF_DAY and TIME_DIFFERENCE, 28 bits of milliseconds and 16 bits of days") {
+TEST_CASE("types: TIME_OF_DAY and TIME_DIFFERENCE have 28 bits of milliseconds and 16 bits of days") {
   CHECK(CO_TTIME_OF_DAY == CO_TTIME_DIFFERENCE);
   CO_TIME_OF_DAY time{0xF2345678, 0xABCD};
   Entry entry(CO_TTIME_OF_DAY, CO_OBJ_____RW, &time);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("types: DOMAIN reads and writes on from its position, clipped at its end") {
+TEST_CASE("types: DOMAIN reads and writes from its position up to its end") {
   std::uint8_t memory[5] = {1, 2, 3, 4, 5};
   CO_OBJ_DOM domain{3, 5, memory};
   Entry entry(CO_TDOMAIN, CO_OBJ_____RW, &domain);
@@ -37,7 +37,7 @@ TEST_CASE("types: DOMAIN reads and writes on from its position, clipped at its e
   CHECK(Bytes(memory, memory + 5) == Bytes{1, 2, 9, 9, 8});
 }
 
-TEST_CASE("types: DOMAIN without memory") {
+TEST_CASE("types: DOMAIN without memory refuses accesses") {
   CO_OBJ_DOM domain{0, 5, nullptr};
   for (const CO_DATA data : {CO_DATA(static_cast<void*>(nullptr)), CO_DATA(&domain)}) {
     Entry entry(CO_TDOMAIN, CO_OBJ_____RW, data);
@@ -48,7 +48,7 @@ TEST_CASE("types: DOMAIN without memory") {
   }
 }
 
-TEST_CASE("types: read-only text up to its NUL") {
+TEST_CASE("types: a read-only text is read up to its NUL") {
   static const std::uint8_t text[] = "Hello World!";
   CO_OBJ_STR string{7, text};
   Entry entry(CO_TSTRING, CO_OBJ_____R_, &string);
@@ -71,7 +71,7 @@ TEST_CASE("types: read-only text up to its NUL") {
   CHECK(none.read(buffer, 1) == CO_ERR_BAD_ARG);
 }
 
-TEST_CASE("types: VISIBLE_STRING ends at its length or at a NUL, and gets a NUL where there is room") {
+TEST_CASE("types: VISIBLE_STRING ends at its length or a NUL, and gets a NUL if it fits") {
   std::uint8_t memory[8] = "abc";
   CO_OBJ_STR_RW string{0, 8, 8, memory};
   Entry entry(CO_TVISIBLE_STRING, CO_OBJ_____RW, &string);
@@ -98,7 +98,7 @@ TEST_CASE("types: VISIBLE_STRING ends at its length or at a NUL, and gets a NUL 
   CHECK(entry.size() == 8);
 }
 
-TEST_CASE("types: OCTET_STRING may hold any bytes") {
+TEST_CASE("types: OCTET_STRING may contain any bytes") {
   std::uint8_t memory[4] = {0, 1, 0, 2};
   CO_OBJ_STR_RW string{0, 3, 4, memory};
   Entry entry(CO_TOCTET_STRING, CO_OBJ_____RW, &string);
@@ -118,7 +118,7 @@ TEST_CASE("types: OCTET_STRING may hold any bytes") {
   CHECK(string.Size == 0);
 }
 
-TEST_CASE("types: UNICODE_STRING is low byte first on the bus, on any CPU") {
+TEST_CASE("types: UNICODE_STRING is sent low byte first on any CPU") {
   std::uint16_t memory[3] = {0x20AC, 0x0041, 0};
   CO_OBJ_STR_RW string{0, 4, 6, reinterpret_cast<std::uint8_t*>(memory)};
   Entry entry(CO_TUNICODE_STRING, CO_OBJ_____RW, &string);
@@ -139,7 +139,7 @@ TEST_CASE("types: UNICODE_STRING is low byte first on the bus, on any CPU") {
   CHECK(string.Size == 6);
 }
 
-TEST_CASE("types: strings without memory") {
+TEST_CASE("types: strings without memory refuse accesses") {
   CO_OBJ_STR_RW string{0, 2, 4, nullptr};
   for (const CO_OBJ_TYPE* type : {CO_TVISIBLE_STRING, CO_TOCTET_STRING, CO_TUNICODE_STRING}) {
     for (const CO_DATA data : {CO_DATA(static_cast<void*>(nullptr)), CO_DATA(&string)}) {

@@ -40,7 +40,7 @@ TEST_CASE("types: COObj functions refuse null arguments") {
   COObjTypeUserSDOAbort(&entry.obj, node, 1);
 }
 
-TEST_CASE("types: without Init and Reset there is nothing to do") {
+TEST_CASE("types: a type without functions succeeds in Init and Reset and refuses reads and writes") {
   const CO_OBJ_TYPE type = {nullptr, nullptr, nullptr, nullptr, nullptr};
   Entry entry(&type, CO_OBJ_____RW, 0);
   CHECK(COObjInit(&entry.obj, &entry.node.node) == CO_ERR_NONE);
@@ -50,7 +50,7 @@ TEST_CASE("types: without Init and Reset there is nothing to do") {
   CHECK(entry.write(buffer, 1) == CO_ERR_OBJ_ACC);
 }
 
-TEST_CASE("types: memory that must not be written is not written (Writable hook)") {
+TEST_CASE("types: memory that must not be written is unchanged (Writable hook)") {
   Fixture* asked = nullptr;
   bool allow = false;
   std::uint32_t calls = 0;

@@ -30,7 +30,7 @@ struct Odd {
   }
 };
 
-TEST_CASE("unaligned: a COB-ID of an SDO server, in the variable and in the buffer, also relative to the node-ID") {
+TEST_CASE("unaligned: a COB-ID of an SDO server works in variable and buffer, also relative to the node-ID") {
   for (unsigned shift = 0; shift < 8; ++shift) {
     for (const bool relative : {false, true}) {
       CAPTURE(shift);
@@ -58,7 +58,7 @@ TEST_CASE("unaligned: a COB-ID of an SDO server, in the variable and in the buff
   }
 }
 
-TEST_CASE("unaligned: the heartbeat time, in the variable and in the buffer") {
+TEST_CASE("unaligned: the heartbeat time works in variable and buffer") {
   for (unsigned shift = 0; shift < 8; ++shift) {
     CAPTURE(shift);
     Odd variable(shift);
@@ -77,7 +77,7 @@ TEST_CASE("unaligned: the heartbeat time, in the variable and in the buffer") {
   }
 }
 
-TEST_CASE("unaligned: a COB-ID and the heartbeat time are of their own length only") {
+TEST_CASE("unaligned: a COB-ID and the heartbeat time with another length are refused") {
   std::uint32_t cob_id = 0x80000000;
   std::uint16_t time = 0;
   Entry id(CO_TSDO_ID, CO_OBJ_____RW, &cob_id);
@@ -99,7 +99,7 @@ TEST_CASE("unaligned: a COB-ID and the heartbeat time are of their own length on
   CHECK(buffer[0] == 0xEE);
 }
 
-TEST_CASE("unaligned: a heartbeat whose time lies at an odd address") {
+TEST_CASE("unaligned: a heartbeat time at an odd address works") {
   for (unsigned shift = 1; shift < 8; shift += 2) {
     CAPTURE(shift);
     Odd variable(shift);
@@ -117,7 +117,7 @@ TEST_CASE("unaligned: a heartbeat whose time lies at an odd address") {
 
 #if CO_SSDO_N >= 2
 
-TEST_CASE("unaligned: an SDO server whose COB-IDs lie at odd addresses") {
+TEST_CASE("unaligned: an SDO server with COB-IDs at odd addresses works") {
   for (unsigned shift = 1; shift < 8; shift += 2) {
     CAPTURE(shift);
     Odd rx(shift);

@@ -62,7 +62,7 @@ void check_stream(const OD_stream_t& stream, const void* memory, OD_size_t lengt
 
 // Errors --------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_getSub: no entry, or one without object, is ODR_IDX_NOT_EXIST") {
+TEST_CASE("OD_getSub: a null entry or one without object is ODR_IDX_NOT_EXIST") {
   OD_IO_t io;
   const OD_entry_t empty = memory_entry(ODT_VAR, nullptr);
   CHECK(OD_getSub(nullptr, 0, &io, false) == ODR_IDX_NOT_EXIST);
@@ -70,12 +70,12 @@ TEST_CASE("OD_getSub: no entry, or one without object, is ODR_IDX_NOT_EXIST") {
   CHECK(OD_getSub(&empty, 0, &io, true) == ODR_IDX_NOT_EXIST);
 }
 
-TEST_CASE("OD_getSub: no OD_IO_t is ODR_DEV_INCOMPAT") {
+TEST_CASE("OD_getSub: a null OD_IO_t is ODR_DEV_INCOMPAT") {
   Fixture node(with_extensible());
   CHECK(OD_getSub(OD_find(&node.od, 0x2004), 0, nullptr, false) == ODR_DEV_INCOMPAT);
 }
 
-TEST_CASE("OD_getSub: a sub-index that the object does not have is ODR_SUB_NOT_EXIST") {
+TEST_CASE("OD_getSub: a missing sub-index is ODR_SUB_NOT_EXIST") {
   Fixture node(with_extensible());
   OD_IO_t io;
   CHECK(OD_getSub(OD_find(&node.od, 0x2004), 1, &io, false) == ODR_SUB_NOT_EXIST);  // a variable has sub-index 0 only
@@ -134,7 +134,7 @@ TEST_CASE("OD_getSub: a record in memory may have gaps") {
   }
 }
 
-TEST_CASE("OD_getSub: an object of no known kind is ODR_DEV_INCOMPAT") {
+TEST_CASE("OD_getSub: an object of unknown kind is ODR_DEV_INCOMPAT") {
   const OD_obj_var_t variable = {{nullptr}, 0, 0};
   for (const unsigned kind : {0U, 4U, 5U, 15U, 0x10U, 0x40U}) {
     CAPTURE(kind);
@@ -144,7 +144,7 @@ TEST_CASE("OD_getSub: an object of no known kind is ODR_DEV_INCOMPAT") {
 
 // Attributes in the table ---------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_getSub: of numbers the length on the bus, their variable, and ODA_MB from two bytes on") {
+TEST_CASE("OD_getSub: a number has its length on the bus, its variable, and ODA_MB from two bytes") {
   Fixture node(with_extensible());
   const struct {
     std::uint16_t index;
@@ -166,7 +166,7 @@ TEST_CASE("OD_getSub: of numbers the length on the bus, their variable, and ODA_
   check_stream(variable(node, 0x2026).stream, nullptr, 6, ODA_SDO_RW | ODA_MB);  // TIME_OF_DAY: not in bus order
 }
 
-TEST_CASE("OD_getSub: of a number with flag D the place in the table") {
+TEST_CASE("OD_getSub: a number with flag D has its address in the table") {
   Fixture node(with_extensible());
   const OD_IO_t io = variable(node, 0x1000);
   const std::uint32_t* const place = static_cast<const std::uint32_t*>(io.stream.dataOrig);
@@ -175,7 +175,7 @@ TEST_CASE("OD_getSub: of a number with flag D the place in the table") {
   CHECK(*place == 0x000F0191);
 }
 
-TEST_CASE("OD_getSub: of texts the capacity and ODA_STR, of octets and domains what they can hold") {
+TEST_CASE("OD_getSub: texts have their capacity and ODA_STR, octets and domains their capacity") {
   Fixture node(with_extensible());
   check_stream(variable(node, 0x2110).stream, node.objects.text_memory, 16, ODA_SDO_RW | ODA_STR);
   check_stream(variable(node, 0x2111).stream, node.objects.octets_memory, 10, ODA_SDO_RW);
@@ -184,7 +184,7 @@ TEST_CASE("OD_getSub: of texts the capacity and ODA_STR, of octets and domains w
   check_stream(variable(node, 0x1008).stream, node.objects.device_name.Start, 17, ODA_SDO_R | ODA_STR);
 }
 
-TEST_CASE("OD_getSub: what only an extension has, has a length and no memory") {
+TEST_CASE("OD_getSub: an object of an extension only has a length and no memory") {
   Fixture node(with_extensible());
   check_stream(variable(node, 0x3001, 0).stream, nullptr, 4, ODA_SDO_RW | ODA_MB);
   check_stream(variable(node, 0x3001, 1).stream, nullptr, 1, ODA_SDO_RW);
@@ -192,7 +192,7 @@ TEST_CASE("OD_getSub: what only an extension has, has a length and no memory") {
   check_stream(variable(node, 0x3002, 1).stream, nullptr, 0, ODA_SDO_RW);
 }
 
-TEST_CASE("OD_getSub: of types of the application what Size tells, 0 if it does not know") {
+TEST_CASE("OD_getSub: an application-defined type has the length of Size, 0 if unknown") {
   LoggedStream stream;
   LoggedStream value;
   stream.data = Bytes(300, 1);
@@ -204,7 +204,7 @@ TEST_CASE("OD_getSub: of types of the application what Size tells, 0 if it does 
   check_stream(variable(node, 0x4000).stream, nullptr, 0, ODA_SDO_RW);
 }
 
-TEST_CASE("OD_getSub: the attributes are the rights of the network") {
+TEST_CASE("OD_getSub: the attributes are the access rights of the network") {
   static std::uint8_t u8 = 0;
   const struct {
     std::uint32_t flags;
@@ -229,7 +229,7 @@ TEST_CASE("OD_getSub: the attributes are the rights of the network") {
   }
 }
 
-TEST_CASE("OD_mappable: any bit of the four kinds of PDO, and false for no stream") {
+TEST_CASE("OD_mappable: true for any of the four bits of PDOs, false for a null stream") {
   for (unsigned attribute = 0; attribute <= 0xFF; ++attribute) {
     OD_stream_t stream{};
     stream.attribute = static_cast<OD_attr_t>(attribute);
@@ -238,7 +238,7 @@ TEST_CASE("OD_mappable: any bit of the four kinds of PDO, and false for no strea
   CHECK_FALSE(OD_mappable(nullptr));
 }
 
-TEST_CASE("OD_rwRestart: the next call begins anew, and no stream is allowed") {
+TEST_CASE("OD_rwRestart: the next call starts at the beginning; a null stream is accepted") {
   OD_stream_t stream{};
   stream.dataOffset = 5;
   stream.dataLength = 9;
@@ -250,7 +250,7 @@ TEST_CASE("OD_rwRestart: the next call begins anew, and no stream is allowed") {
 
 // Extensions ----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_extension_init: the functions of the extension come with its object, unless the original is asked for") {
+TEST_CASE("OD_extension_init: OD_getSub returns the functions of the extension, unless odOrig is set") {
   Fixture node(with_extensible());
   int object = 0;
   OD_extension_t extension{};
@@ -274,7 +274,7 @@ TEST_CASE("OD_extension_init: the functions of the extension come with its objec
   CHECK((variable(node, 0x3000).read == OD_readOriginal));
 }
 
-TEST_CASE("OD_extension_init: a function that is not there refuses with ODR_UNSUPP_ACCESS") {
+TEST_CASE("OD_extension_init: a null function refuses with ODR_UNSUPP_ACCESS") {
   Fixture node(with_extensible());
   OD_extension_t extension{};
   REQUIRE(OD_extension_init(OD_find(&node.od, 0x3000), &extension) == ODR_OK);
@@ -285,13 +285,13 @@ TEST_CASE("OD_extension_init: a function that is not there refuses with ODR_UNSU
   CHECK(extensible == 7);
 }
 
-TEST_CASE("OD_extension_init: no entry is ODR_IDX_NOT_EXIST") {
+TEST_CASE("OD_extension_init: a null entry is ODR_IDX_NOT_EXIST") {
   OD_extension_t extension{};
   CHECK(OD_extension_init(nullptr, &extension) == ODR_IDX_NOT_EXIST);
   CHECK(OD_extension_init(nullptr, nullptr) == ODR_IDX_NOT_EXIST);
 }
 
-TEST_CASE("OD_extension_init: an object that cannot be extended accepts only what changes nothing") {
+TEST_CASE("OD_extension_init: an object that cannot be extended accepts only an extension without effect") {
   Fixture node(with_extensible());
   OD_extension_t extension{};
   extension.read = no_read;
@@ -307,7 +307,7 @@ TEST_CASE("OD_extension_init: an object that cannot be extended accepts only wha
   CHECK(entry->extension == nullptr);
 }
 
-TEST_CASE("OD_extension_init: of an object with several variables it acts on those whose entries say so") {
+TEST_CASE("OD_extension_init: for an object with several variables it applies to entries of extensible types") {
   Fixture node(with_extensible());
   OD_extension_t extension{};
   extension.read = no_read;
@@ -317,7 +317,7 @@ TEST_CASE("OD_extension_init: of an object with several variables it acts on tho
   CHECK((variable(node, 0x3003, 1).read == no_read));
 }
 
-TEST_CASE("OD_extension_init: an object that is nothing but memory can be extended") {
+TEST_CASE("OD_extension_init: an object in memory without a table can be extended") {
   std::uint32_t value = 0;
   const OD_obj_var_t variable = {{&value}, ODA_SDO_RW | ODA_MB, 4};
   OD_entry_t entry = memory_entry(ODT_VAR, &variable);

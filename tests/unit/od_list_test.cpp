@@ -66,7 +66,7 @@ OD_extension_t extension{};
 
 }  // namespace
 
-TEST_CASE("OD_init: the list is sorted by index, names each object once, and ends with an entry of zeros") {
+TEST_CASE("OD_init: the list is sorted by index, has each object once and ends with an entry of zeros") {
   Index index;
   REQUIRE(index.init(od, entries) == ODR_OK);
   REQUIRE(index.od.size == objects);
@@ -83,7 +83,7 @@ TEST_CASE("OD_init: the list is sorted by index, names each object once, and end
   CHECK(is_zero(index.list[objects]));
 }
 
-TEST_CASE("OD_init: the end mark ends the table, and so does its length") {
+TEST_CASE("OD_init: the table ends with the end mark or its length") {
   Index index;
   REQUIRE(index.init(od, 1) == ODR_OK);
   CHECK(index.od.size == 1);
@@ -106,7 +106,7 @@ TEST_CASE("OD_init: an empty table has no objects") {
   CHECK(index.od.size == 0);
 }
 
-TEST_CASE("OD_init: a list that is too short is refused, told its length, and finds nothing") {
+TEST_CASE("OD_init: a list that is too short is refused with its required length and finds nothing") {
   Index index;
   CHECK(index.init(od, entries, objects) == ODR_OUT_OF_MEM);
   CHECK(index.od.size == objects);
@@ -136,7 +136,7 @@ TEST_CASE("OD_init: a table that is not ascending is ODR_DEV_INCOMPAT") {
   CHECK(index.init(twice_with_other_flags, 2) == ODR_DEV_INCOMPAT);
 }
 
-TEST_CASE("OD_init: an object with 256 sub-indexes is found to its last one") {
+TEST_CASE("OD_init: an object with 256 sub-indices is found up to its last one") {
   std::vector<CO_OBJ> table;
   for (unsigned sub = 0; sub < 256; ++sub) {
     table.push_back({CO_KEY(0x2000, sub, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&u8)});
@@ -149,14 +149,14 @@ TEST_CASE("OD_init: an object with 256 sub-indexes is found to its last one") {
   CHECK(unsigned{io.stream.subIndex} == 255);
 }
 
-TEST_CASE("OD_init: extensions stay with their objects when the table has changed") {
+TEST_CASE("OD_init: extensions are kept for their objects when the table changes") {
   Index index;
   REQUIRE(index.init(od, entries) == ODR_OK);
   OD_extension_t other{};
   REQUIRE(OD_extension_init(OD_find(&index.od, 0x2000), &extension) == ODR_OK);
   REQUIRE(OD_extension_init(OD_find(&index.od, 0xFFFF), &other) == ODR_OK);
 
-  SUBCASE("objects are gone") {
+  SUBCASE("objects are removed") {
     const CO_OBJ fewer[] = {od[6], od[11]};
     REQUIRE(index.init(fewer, 2) == ODR_OK);
     CHECK(index.od.size == 2);
@@ -164,12 +164,12 @@ TEST_CASE("OD_init: extensions stay with their objects when the table has change
     CHECK(index.list[1].extension == &other);
     CHECK(is_zero(index.list[2]));
   }
-  SUBCASE("an extended object is gone, those before it stay") {
+  SUBCASE("an extended object is removed, objects before it stay") {
     REQUIRE(index.init(od, 8) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000)->extension == &extension);
     CHECK(is_zero(index.list[index.od.size]));
   }
-  SUBCASE("objects have come") {
+  SUBCASE("objects are added") {
     std::vector<CO_OBJ> more(od, od + 1);
     for (std::uint16_t n = 0x1F00; n < 0x1F10; ++n) {
       more.push_back({CO_KEY(n, 0, CO_OBJ_____RW), CO_TUNSIGNED8, (CO_DATA)(&u8)});
@@ -184,13 +184,13 @@ TEST_CASE("OD_init: extensions stay with their objects when the table has change
     }
     CHECK(index.od.size == 1 + 16 + 4);
   }
-  SUBCASE("the extended object is gone, and comes back without") {
+  SUBCASE("the extended object is removed, and added without extension") {
     REQUIRE(index.init(od, 3) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000) == nullptr);
     REQUIRE(index.init(od, entries) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000)->extension == nullptr);
   }
-  SUBCASE("another list gets them, too") {
+  SUBCASE("another list gets the extensions") {
     OD_entry_t list[OD_LIST_N(objects)];
     REQUIRE(OD_init(&index.od, list, OD_LIST_N(objects), &index.node, const_cast<CO_OBJ*>(od), entries) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000) == &list[3]);
@@ -198,7 +198,7 @@ TEST_CASE("OD_init: extensions stay with their objects when the table has change
     CHECK(list[6].extension == &other);
     CHECK(list[0].extension == nullptr);
   }
-  SUBCASE("a list that is too short does not lose them") {
+  SUBCASE("a list that is too short keeps them") {
     OD_entry_t another[OD_LIST_N(objects)];
     for (OD_entry_t* const list : {index.list, another}) {
       REQUIRE(index.init(od, entries, objects) == ODR_OUT_OF_MEM);
@@ -208,14 +208,14 @@ TEST_CASE("OD_init: extensions stay with their objects when the table has change
       CHECK(OD_find(&index.od, 0xFFFF)->extension == &other);
     }
   }
-  SUBCASE("another node begins without") {
+  SUBCASE("another node starts without extensions") {
     CO_NODE node;
     REQUIRE(OD_init(&index.od, index.list, 40, &node, const_cast<CO_OBJ*>(od), entries) == ODR_OK);
     CHECK(OD_find(&index.od, 0x2000)->extension == nullptr);
   }
 }
 
-TEST_CASE("OD_init: two dictionaries share a constant table and nothing else") {
+TEST_CASE("OD_init: two dictionaries share only a constant table") {
   Index one;
   Index other;
   REQUIRE(one.init(od, entries) == ODR_OK);
@@ -224,7 +224,7 @@ TEST_CASE("OD_init: two dictionaries share a constant table and nothing else") {
   CHECK(OD_find(&other.od, 0x2000)->extension == nullptr);
 }
 
-TEST_CASE("OD_find: each object is found, and no other") {
+TEST_CASE("OD_find: each object is found and no other one") {
   Index index;
   REQUIRE(index.init(od, entries) == ODR_OK);
   unsigned found = 0;
@@ -238,13 +238,13 @@ TEST_CASE("OD_find: each object is found, and no other") {
   CHECK(found == objects);
 }
 
-TEST_CASE("OD_find: no dictionary, an empty one, and one that was not initialised have no objects") {
+TEST_CASE("OD_find: a null, an empty and an uninitialised dictionary have no objects") {
   OD_t empty{};
   CHECK(OD_find(nullptr, 0x1000) == nullptr);
   CHECK(OD_find(&empty, 0x1000) == nullptr);
 }
 
-TEST_CASE("OD_find: a list that the application has made") {
+TEST_CASE("OD_find: a list made by the application is searched") {
   OD_entry_t list[] = {{0x1000, 1, ODT_VAR, nullptr, nullptr}, {0x2000, 1, ODT_VAR, nullptr, nullptr}, {}};
   OD_t own{};
   own.size = 2;
@@ -255,7 +255,7 @@ TEST_CASE("OD_find: a list that the application has made") {
   CHECK(OD_find(&own, 0) == nullptr);
 }
 
-TEST_CASE("OD_getIndex: the index of an entry, 0 of none") {
+TEST_CASE("OD_getIndex: returns the index of an entry, 0 for null") {
   Index index;
   REQUIRE(index.init(od, entries) == ODR_OK);
   CHECK(OD_getIndex(OD_find(&index.od, 0x2001)) == 0x2001);

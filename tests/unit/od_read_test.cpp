@@ -46,7 +46,7 @@ TEST_CASE("OD_readOriginal: a variable without memory is ODR_SUB_NOT_EXIST") {
   CHECK(read(domain, 4) == Given{ODR_SUB_NOT_EXIST, {}});
 }
 
-TEST_CASE("OD_readOriginal: into a buffer of the length or more all bytes come with ODR_OK") {
+TEST_CASE("OD_readOriginal: a buffer of the length or more gets all bytes with ODR_OK") {
   Variables variables;
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
@@ -57,8 +57,7 @@ TEST_CASE("OD_readOriginal: into a buffer of the length or more all bytes come w
   }
 }
 
-TEST_CASE(
-    "OD_readOriginal: pieces of any length come with ODR_PARTIAL, the last with ODR_OK, and then it begins anew") {
+TEST_CASE("OD_readOriginal: pieces return ODR_PARTIAL, the last one ODR_OK, and the next read restarts") {
   Variables variables;
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
@@ -77,7 +76,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("OD_readOriginal: a buffer of no bytes is filled, and there is more") {
+TEST_CASE("OD_readOriginal: a buffer of no bytes returns ODR_PARTIAL") {
   Variables variables;
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
@@ -87,7 +86,7 @@ TEST_CASE("OD_readOriginal: a buffer of no bytes is filled, and there is more") 
   }
 }
 
-TEST_CASE("OD_readOriginal: pieces of different lengths follow one another") {
+TEST_CASE("OD_readOriginal: pieces of different lengths are consecutive") {
   Variables variables;
   for (Variable& one : variables.all()) {
     if (one.value.size() < 4) {
@@ -100,7 +99,7 @@ TEST_CASE("OD_readOriginal: pieces of different lengths follow one another") {
   }
 }
 
-TEST_CASE("OD_readOriginal: an offset at the end or behind it is ODR_DEV_INCOMPAT") {
+TEST_CASE("OD_readOriginal: an offset at or behind the end is ODR_DEV_INCOMPAT") {
   Variables variables;
   for (Variable& one : variables.all()) {
     CAPTURE(one.name);
@@ -117,7 +116,7 @@ TEST_CASE("OD_readOriginal: an offset at the end or behind it is ODR_DEV_INCOMPA
   }
 }
 
-TEST_CASE("OD_rwRestart: an unfinished read begins anew") {
+TEST_CASE("OD_rwRestart: an unfinished read restarts") {
   Variables variables;
   for (Variable& one : variables.all()) {
     if (one.value.size() < 2) {
@@ -130,7 +129,7 @@ TEST_CASE("OD_rwRestart: an unfinished read begins anew") {
   }
 }
 
-TEST_CASE("OD_readOriginal: accesses to one variable do not move one another, nor the application's by CODict") {
+TEST_CASE("OD_readOriginal: accesses to one variable, also by CODict, have independent positions") {
   Variables variables;
   for (Variable& one : variables.all()) {
     if (one.value.size() < 3) {
@@ -150,7 +149,7 @@ TEST_CASE("OD_readOriginal: accesses to one variable do not move one another, no
   }
 }
 
-TEST_CASE("OD_readOriginal: what the type refuses is the result with its abort code") {
+TEST_CASE("OD_readOriginal: a refusal of the type is the result with its abort code") {
   const struct {
     CO_ERR err;
     ODR_t result;
@@ -187,7 +186,7 @@ TEST_CASE("OD_readOriginal: a type that cannot be read is ODR_WRITEONLY") {
 
 // Streams -------------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_readOriginal: an OCTET_STRING ends where its value does") {
+TEST_CASE("OD_readOriginal: an OCTET_STRING ends with its value") {
   Variables variables;
   variables.node.objects.octets.Size = 4;
   OD_IO_t io = variable(variables.node, 0x2111);
@@ -208,7 +207,7 @@ TEST_CASE("OD_readOriginal: an empty stream is ODR_OK at its beginning") {
   CHECK(read(domain, 5) == Given{ODR_OK, {}});
 }
 
-TEST_CASE("OD_readOriginal: a stream of unknown length says at its end how long it was") {
+TEST_CASE("OD_readOriginal: a stream of unknown length returns its length at its end") {
   Variables variables;
   variables.plain.knows_size = false;
   OD_IO_t io = variable(variables.node, 0x4000);
@@ -221,7 +220,7 @@ TEST_CASE("OD_readOriginal: a stream of unknown length says at its end how long 
   CHECK(io.stream.dataOffset == 0);
 }
 
-TEST_CASE("OD_readOriginal: a stream that turns out shorter than what was read of it is ODR_DEV_INCOMPAT") {
+TEST_CASE("OD_readOriginal: a stream that becomes shorter than the read part is ODR_DEV_INCOMPAT") {
   Variables variables;
   variables.plain.knows_size = false;
   OD_IO_t io = variable(variables.node, 0x4000);
@@ -232,7 +231,7 @@ TEST_CASE("OD_readOriginal: a stream that turns out shorter than what was read o
   CHECK(io.read(&io.stream, buffer, 12, &given) == ODR_DEV_INCOMPAT);
 }
 
-TEST_CASE("OD_readOriginal: a stream that an SDO transfer has open is ODR_DATA_DEV_STATE until that ends") {
+TEST_CASE("OD_readOriginal: a stream open in an SDO transfer is ODR_DATA_DEV_STATE until its end") {
   Variables variables;
   for (const std::uint16_t index : std::initializer_list<std::uint16_t>{0x4000, 0x4001}) {
     CAPTURE(index);
@@ -247,7 +246,7 @@ TEST_CASE("OD_readOriginal: a stream that an SDO transfer has open is ODR_DATA_D
   }
 }
 
-TEST_CASE("OD_readOriginal: SDO transfers of strings and domains do not move an access, nor it them") {
+TEST_CASE("OD_readOriginal: SDO transfers of strings and domains and accesses have independent positions") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2100, 15);
   CHECK(read(io, 4) == Given{ODR_PARTIAL, {1, 2, 3, 4}});
@@ -260,7 +259,7 @@ TEST_CASE("OD_readOriginal: SDO transfers of strings and domains do not move an 
   variables.node.ask("601#6000000000000000", "581#0D0F000000000000");
 }
 
-TEST_CASE("OD_readOriginal: a stream that cannot go back is read in one call") {
+TEST_CASE("OD_readOriginal: a stream without Reset is read in one call") {
   static const CO_OBJ_TYPE_EX no_way_back = {
       {[](CO_OBJ*, CO_NODE*, std::uint32_t) { return std::uint32_t{9}; }, nullptr,
        [](CO_OBJ*, CO_NODE*, void* buffer, std::uint32_t size) {
@@ -301,7 +300,7 @@ TEST_CASE("OD_readOriginal: TIME_OF_DAY is read in its six bytes [301:7.1.6.5]")
   CHECK(read(io, 4) == Given{ODR_OK, Bytes(expected.begin() + 4, expected.end())});
 }
 
-TEST_CASE("OD_readOriginal: Begin and End of a type belong to transfers of the network") {
+TEST_CASE("OD_readOriginal: Begin and End of a type are called only by SDO transfers") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4001);
   variables.extended.take_log();

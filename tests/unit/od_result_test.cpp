@@ -45,7 +45,7 @@ constexpr Row rows[] = {
 
 }  // namespace
 
-TEST_CASE("OD_getSDOabCode: each result has its number and its abort code") {
+TEST_CASE("OD_getSDOabCode: each result has its number and abort code") {
   int next = 0;
   for (const Row& row : rows) {
     CAPTURE(row.number);
@@ -57,7 +57,7 @@ TEST_CASE("OD_getSDOabCode: each result has its number and its abort code") {
   CHECK(static_cast<int>(ODR_COUNT) == 26);
 }
 
-TEST_CASE("OD_getSDOabCode: ODR_PARTIAL and numbers that are no result are 0604 0047h") {
+TEST_CASE("OD_getSDOabCode: ODR_PARTIAL and undefined numbers are 0604 0047h") {
   CHECK(static_cast<int>(ODR_PARTIAL) == -1);
   CHECK(OD_getSDOabCode(ODR_PARTIAL) == 0x06040047);
   for (const int number : {-32, -2, 26, 27, 31}) {

@@ -57,7 +57,7 @@ void check_round_trip(const CO_OBJ_TYPE* type, Get<T> get, Set<T> set, T value) 
 
 }  // namespace
 
-TEST_CASE("OD_get_…, OD_set_…: every width and kind of number comes back as it was set") {
+TEST_CASE("OD_get_…, OD_set_…: every width and kind of number is read back") {
   check_round_trip<std::int8_t>(CO_TSIGNED8, OD_get_i8, OD_set_i8, -128);
   check_round_trip<std::int16_t>(CO_TSIGNED16, OD_get_i16, OD_set_i16, -0x1234);
   check_round_trip<std::int32_t>(CO_TSIGNED32, OD_get_i32, OD_set_i32, -0x12345678);
@@ -72,7 +72,7 @@ TEST_CASE("OD_get_…, OD_set_…: every width and kind of number comes back as 
   check_round_trip<double>(CO_TREAL64, OD_get_r64, OD_set_r64, -1e-300);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH, and nothing is written") {
+TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH and nothing is written") {
   Fixture node(Setup().only_small());
   const OD_entry_t* const entry = OD_find(&node.od, 0x2004);
   std::uint8_t u8 = 0x55;
@@ -91,7 +91,7 @@ TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH, and 
   CHECK(OD_get_value(entry, 0, nullptr, 4, false) == ODR_DEV_INCOMPAT);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: of variables of every kind another length is ODR_TYPE_MISMATCH") {
+TEST_CASE("OD_get_value, OD_set_value: another length is ODR_TYPE_MISMATCH for every kind of variable") {
   Variables variables;
   for (const Variable& one : variables.all()) {
     if (one.io.stream.Entry == nullptr) {
@@ -111,7 +111,7 @@ TEST_CASE("OD_get_value, OD_set_value: of variables of every kind another length
   }
 }
 
-TEST_CASE("OD_set_value: an extension that takes fewer bytes is told from one that takes all") {
+TEST_CASE("OD_set_value: an extension that accepts fewer bytes gives ODR_DEV_INCOMPAT") {
   std::uint32_t memory = 1;
   Fixture node(Setup().only_small().with({CO_KEY(0x2000, 0, CO_OBJ_____RW), OD_TUNSIGNED32, (CO_DATA)(&memory)}));
   OD_extension_t extension{nullptr,
@@ -125,7 +125,7 @@ TEST_CASE("OD_set_value: an extension that takes fewer bytes is told from one th
   CHECK(OD_set_u32(OD_find(&node.od, 0x2000), 0, 5, false) == ODR_DEV_INCOMPAT);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: the rights of the network are not asked") {
+TEST_CASE("OD_get_value, OD_set_value: the access rights of the network are not checked") {
   Fixture node(Setup().only_small());
   std::uint32_t value = 0;
   CHECK(OD_set_u32(OD_find(&node.od, 0x2031), 0, 0x12345678, false) == ODR_OK);  // read-only
@@ -140,7 +140,7 @@ TEST_CASE("OD_get_value, OD_set_value: the rights of the network are not asked")
   CHECK(node.objects.no_access == 6);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: numbers of 3, 5, 6 and 7 bytes by their length") {
+TEST_CASE("OD_get_value, OD_set_value: numbers of 3, 5, 6 and 7 bytes are accessed by their length") {
   Fixture node(Setup().only_small());
   std::uint8_t value[8] = {};
   CHECK(OD_get_value(OD_find(&node.od, 0x2003), 0, value, 3, false) == ODR_OK);
@@ -152,7 +152,7 @@ TEST_CASE("OD_get_value, OD_set_value: numbers of 3, 5, 6 and 7 bytes by their l
   CHECK(node.objects.u56 == 0x00FFFFFFFFFFFFFF);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: a value relative to the node-ID is the one that the network sees [301:7.4.1]") {
+TEST_CASE("OD_get_value, OD_set_value: a value relative to the node-ID has it added [301:7.4.1]") {
   Fixture node(Setup().only_small().node_id(5));
   const OD_entry_t* const entry = OD_find(&node.od, 0x2034);
   std::uint32_t value = 0;
@@ -166,7 +166,7 @@ TEST_CASE("OD_get_value, OD_set_value: a value relative to the node-ID is the on
   CHECK(*variable + 5 == after);
 }
 
-TEST_CASE("OD_get_value, OD_set_value: extensions are asked, unless the original is wanted") {
+TEST_CASE("OD_get_value, OD_set_value: extensions are called, unless odOrig is set") {
   std::uint32_t memory = 1;
   Fixture node(Setup().only_small().with({CO_KEY(0x2000, 0, CO_OBJ_____RW), OD_TUNSIGNED32, (CO_DATA)(&memory)}));
   Extended extended;
@@ -191,7 +191,7 @@ TEST_CASE("OD_get_value, OD_set_value: extensions are asked, unless the original
   CHECK((extended.reads == 2 && extended.writes == 2));
 }
 
-TEST_CASE("OD_set_value: what the type refuses is its result") {
+TEST_CASE("OD_set_value: a refusal of the type is the result") {
   std::uint32_t cob_id = 0x80;
   Fixture node(Setup().only_small().with({CO_KEY(0x1014, 0, CO_OBJ__N__RW), CO_TEMCY_ID, (CO_DATA)(&cob_id)}));
   CHECK(OD_set_u32(OD_find(&node.od, 0x1014), 0, 0x00000000, false) == ODR_INVALID_VALUE);
@@ -210,7 +210,7 @@ TEST_CASE("OD_get_value: a stream that ends before its length is ODR_DATA_SHORT"
 
 // OD_getPtr -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("OD_getPtr: the variable of each object with memory, with or without a look at its length") {
+TEST_CASE("OD_getPtr: returns the variable of each object with memory, with or without a check of its length") {
   Fixture node(Setup().only_small());
   const struct {
     std::uint16_t index;
@@ -251,7 +251,7 @@ TEST_CASE("OD_getPtr: no memory, or a length of 0, is ODR_DEV_INCOMPAT") {
   }
 }
 
-TEST_CASE("OD_getPtr: the errors of OD_getSub") {
+TEST_CASE("OD_getPtr: has the errors of OD_getSub") {
   Fixture node(Setup().only_small());
   ODR_t result = ODR_HW;
   CHECK(OD_getPtr(nullptr, 0, 4, &result) == nullptr);
@@ -260,7 +260,7 @@ TEST_CASE("OD_getPtr: the errors of OD_getSub") {
   CHECK(result == ODR_SUB_NOT_EXIST);
 }
 
-TEST_CASE("OD_getPtr: extensions do not matter") {
+TEST_CASE("OD_getPtr: ignores extensions") {
   std::uint32_t memory = 1;
   Fixture node(Setup().only_small().with({CO_KEY(0x2000, 0, CO_OBJ_____RW), OD_TUNSIGNED32, (CO_DATA)(&memory)}));
   OD_extension_t extension{};

@@ -73,7 +73,7 @@ TEST_CASE("OD_writeOriginal: a variable without memory is ODR_SUB_NOT_EXIST") {
   CHECK(write(text, {1}) == ODR_SUB_NOT_EXIST);
 }
 
-TEST_CASE("OD_writeOriginal: an offset at the end or behind it is ODR_DEV_INCOMPAT, and nothing is written") {
+TEST_CASE("OD_writeOriginal: an offset at or behind the end is ODR_DEV_INCOMPAT and nothing is written") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     CAPTURE(one.name);
@@ -85,7 +85,7 @@ TEST_CASE("OD_writeOriginal: an offset at the end or behind it is ODR_DEV_INCOMP
   }
 }
 
-TEST_CASE("OD_writeOriginal: all bytes in one call are ODR_OK, and the next call begins anew") {
+TEST_CASE("OD_writeOriginal: all bytes in one call return ODR_OK, and the next call restarts") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     CAPTURE(one.name);
@@ -97,7 +97,7 @@ TEST_CASE("OD_writeOriginal: all bytes in one call are ODR_OK, and the next call
   }
 }
 
-TEST_CASE("OD_writeOriginal: fewer bytes are ODR_PARTIAL, the last of them ODR_OK, and each is there at once") {
+TEST_CASE("OD_writeOriginal: fewer bytes return ODR_PARTIAL, the last ones ODR_OK; each is written at once") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     CAPTURE(one.name);
@@ -121,7 +121,7 @@ TEST_CASE("OD_writeOriginal: fewer bytes are ODR_PARTIAL, the last of them ODR_O
   }
 }
 
-TEST_CASE("OD_writeOriginal: more than remains is ODR_DATA_LONG: nothing of it is written, what came before stays") {
+TEST_CASE("OD_writeOriginal: more bytes than remain are ODR_DATA_LONG and not written; earlier ones stay") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     CAPTURE(one.name);
@@ -145,7 +145,7 @@ TEST_CASE("OD_writeOriginal: more than remains is ODR_DATA_LONG: nothing of it i
   }
 }
 
-TEST_CASE("OD_writeOriginal: no bytes are ODR_PARTIAL and change nothing") {
+TEST_CASE("OD_writeOriginal: no bytes return ODR_PARTIAL and change nothing") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     CAPTURE(one.name);
@@ -156,7 +156,7 @@ TEST_CASE("OD_writeOriginal: no bytes are ODR_PARTIAL and change nothing") {
   }
 }
 
-TEST_CASE("OD_rwRestart: an unfinished write begins anew, what was written stays") {
+TEST_CASE("OD_rwRestart: an unfinished write restarts; written bytes stay") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     if (one.value.size() < 2 || !keeps_the_rest(one)) {
@@ -172,7 +172,7 @@ TEST_CASE("OD_rwRestart: an unfinished write begins anew, what was written stays
   }
 }
 
-TEST_CASE("OD_writeOriginal: accesses to one variable do not move one another") {
+TEST_CASE("OD_writeOriginal: accesses to one variable have independent positions") {
   Variables variables;
   for (Variable& one : variables.writable()) {
     if (one.value.size() < 3 || !keeps_the_rest(one)) {
@@ -209,8 +209,7 @@ TEST_CASE("OD_writeOriginal: a value relative to the node-ID is stored without i
   CHECK(read(io, 4) == Given{ODR_OK, bytes_of(std::uint32_t{0x601})});
 }
 
-TEST_CASE(
-    "OD_writeOriginal: a number that comes in pieces is written as a whole with each, so its type is asked each time") {
+TEST_CASE("OD_writeOriginal: each piece of a number writes the whole number and calls its type") {
   Variables variables;
   static unsigned writes;
   writes = 0;
@@ -236,7 +235,7 @@ TEST_CASE(
   CHECK(writes == 4);
 }
 
-TEST_CASE("OD_writeOriginal: a change of a number with flag A sends its TPDO, and one that changes nothing does not") {
+TEST_CASE("OD_writeOriginal: a change of a number with flag A sends its TPDO, the same value does not") {
   std::uint8_t memory = 1;
   std::uint32_t cob_id = 0x40000181;
   std::uint8_t type = 254;
@@ -262,8 +261,7 @@ TEST_CASE("OD_writeOriginal: a change of a number with flag A sends its TPDO, an
 
 // Texts, octets and streams -------------------------------------------------------------------------------------------
 
-TEST_CASE(
-    "OD_writeOriginal: a text shorter than its capacity is ODR_PARTIAL, ODR_OK where the caller has said its length") {
+TEST_CASE("OD_writeOriginal: a shorter text is ODR_PARTIAL, or ODR_OK if the caller has set its length") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2110);
   const CO_OBJ_STR_RW& text = variables.node.objects.text;
@@ -281,7 +279,7 @@ TEST_CASE(
   CHECK(text_of(text) == Bytes(16, 'x'));
 }
 
-TEST_CASE("OD_writeOriginal: a zero that ends a text does not belong to it") {
+TEST_CASE("OD_writeOriginal: a zero at the end of a text is not part of it") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2110);
   const CO_OBJ_STR_RW& text = variables.node.objects.text;
@@ -297,7 +295,7 @@ TEST_CASE("OD_writeOriginal: a zero that ends a text does not belong to it") {
   CHECK(text.Size == 11);
 }
 
-TEST_CASE("OD_writeOriginal: of a UNICODE_STRING two zeros end it, and a character keeps its zero") {
+TEST_CASE("OD_writeOriginal: two zeros end a UNICODE_STRING; a zero byte of a character is kept") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2112);
   const CO_OBJ_STR_RW& text = variables.node.objects.unicode;
@@ -311,7 +309,7 @@ TEST_CASE("OD_writeOriginal: of a UNICODE_STRING two zeros end it, and a charact
   CHECK(variables.node.upload(0x2112, 0) == Bytes{'A', 0, 0, 1});
 }
 
-TEST_CASE("OD_writeOriginal: zeros belong to an OCTET_STRING, which may be shorter") {
+TEST_CASE("OD_writeOriginal: zeros are part of an OCTET_STRING, which may be shorter") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2111);
   io.stream.dataLength = 3;
@@ -319,7 +317,7 @@ TEST_CASE("OD_writeOriginal: zeros belong to an OCTET_STRING, which may be short
   CHECK(text_of(variables.node.objects.octets) == Bytes{9, 0, 0});
 }
 
-TEST_CASE("OD_writeOriginal: a domain may be written up to a length that the caller says") {
+TEST_CASE("OD_writeOriginal: a domain is written up to the length that the caller sets") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x2100, 15);
   io.stream.dataLength = 2;
@@ -328,7 +326,7 @@ TEST_CASE("OD_writeOriginal: a domain may be written up to a length that the cal
   CHECK(piece(variables.node.objects.memory[15], 0, 3) == Bytes{0x91, 0x92, 3});
 }
 
-TEST_CASE("OD_writeOriginal: what cannot be written is ODR_READONLY, memory that must not be ODR_UNSUPP_ACCESS") {
+TEST_CASE("OD_writeOriginal: a read-only object is ODR_READONLY, protected memory ODR_UNSUPP_ACCESS") {
   Variables variables;
   OD_IO_t text = variable(variables.node, 0x1008);
   CHECK(write(text, {'x'}) == ODR_READONLY);
@@ -340,7 +338,7 @@ TEST_CASE("OD_writeOriginal: what cannot be written is ODR_READONLY, memory that
   CHECK(protected_node.objects.u32 == 0x44332211);
 }
 
-TEST_CASE("OD_writeOriginal: a stream of the application of unknown length ends where the caller says") {
+TEST_CASE("OD_writeOriginal: an application-defined stream of unknown length ends where the caller sets it") {
   Variables variables;
   variables.plain.knows_size = false;
   OD_IO_t io = variable(variables.node, 0x4000);
@@ -357,7 +355,7 @@ TEST_CASE("OD_writeOriginal: a stream of the application of unknown length ends 
   CHECK(variables.plain.data == expected);
 }
 
-TEST_CASE("OD_writeOriginal: a stream of the application in pieces of any length") {
+TEST_CASE("OD_writeOriginal: an application-defined stream is written in pieces of any length") {
   for (std::size_t count = 1; count <= 20; ++count) {
     CAPTURE(count);
     Variables variables;
@@ -371,7 +369,7 @@ TEST_CASE("OD_writeOriginal: a stream of the application in pieces of any length
   }
 }
 
-TEST_CASE("OD_writeOriginal: nothing empties a stream of the application, where it is all") {
+TEST_CASE("OD_writeOriginal: an empty write of length 0 empties an application-defined stream") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4000);
   CHECK(write(io, {}) == ODR_PARTIAL);
@@ -383,7 +381,7 @@ TEST_CASE("OD_writeOriginal: nothing empties a stream of the application, where 
   CHECK(variables.plain.data.empty());
 }
 
-TEST_CASE("OD_writeOriginal: a type is not asked for a piece of no bytes") {
+TEST_CASE("OD_writeOriginal: a type is not called for a piece of no bytes") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4000);
   CHECK(write(io, {1}) == ODR_PARTIAL);
@@ -392,7 +390,7 @@ TEST_CASE("OD_writeOriginal: a type is not asked for a piece of no bytes") {
   CHECK(variables.plain.take_log().empty());
 }
 
-TEST_CASE("OD_writeOriginal: strings, domains and streams of every length around those of the copies that types get") {
+TEST_CASE("OD_writeOriginal: strings, domains and streams of lengths around the size of a copy are written") {
   for (const std::size_t capacity : std::initializer_list<std::size_t>{5, 31, 32, 33, 64, 100}) {
     for (const std::size_t length :
          {std::size_t{1}, std::size_t{32}, std::size_t{33}, std::size_t{65}, capacity - 1, capacity, capacity + 1}) {
@@ -432,7 +430,7 @@ TEST_CASE("OD_writeOriginal: strings, domains and streams of every length around
   }
 }
 
-TEST_CASE("OD_writeOriginal: what a type refuses in the second copy has its first one written") {
+TEST_CASE("OD_writeOriginal: a refusal of the second copy leaves the first one written") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4000);
   io.stream.dataLength = 40;
@@ -443,7 +441,7 @@ TEST_CASE("OD_writeOriginal: what a type refuses in the second copy has its firs
   CHECK(io.stream.dataOffset == 0);
 }
 
-TEST_CASE("OD_writeOriginal: Begin and End of a type belong to transfers of the network") {
+TEST_CASE("OD_writeOriginal: Begin and End of a type are called only by SDO transfers") {
   Variables variables;
   OD_IO_t io = variable(variables.node, 0x4001);
   variables.extended.take_log();

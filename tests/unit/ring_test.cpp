@@ -12,7 +12,7 @@ namespace {
 using test::is_numbered;
 using test::numbered;
 
-TEST_CASE("ring: frames come out whole and in order") {
+TEST_CASE("ring: frames are read complete and in order") {
   CO_IF_FRM mem[4];
   CO_RING ring;
   REQUIRE(CORingInit(&ring, mem, 4));
@@ -31,7 +31,7 @@ TEST_CASE("ring: frames come out whole and in order") {
   CHECK_FALSE(CORingGet(&ring, &frm));
 }
 
-TEST_CASE("ring: all places can be used; a frame too many is lost and counted, the others stay") {
+TEST_CASE("ring: all slots can be used; a further frame is lost and counted") {
   for (const std::uint16_t size : {std::uint16_t{1}, std::uint16_t{2}, std::uint16_t{7}, std::uint16_t{8}}) {
     CAPTURE(size);
     std::vector<CO_IF_FRM> mem(size);
@@ -56,7 +56,7 @@ TEST_CASE("ring: all places can be used; a frame too many is lost and counted, t
   }
 }
 
-TEST_CASE("ring: order is kept through any number of turns, at any filling") {
+TEST_CASE("ring: the order is kept over many wraps at any filling") {
   for (std::uint16_t size = 1; size <= 5; ++size) {
     for (std::uint16_t filling = 0; filling < size; ++filling) {
       std::vector<CO_IF_FRM> mem(size);
@@ -78,7 +78,7 @@ TEST_CASE("ring: order is kept through any number of turns, at any filling") {
   }
 }
 
-TEST_CASE("ring: the largest size") {
+TEST_CASE("ring: the largest size works") {
   std::vector<CO_IF_FRM> mem(32767);
   CO_RING ring;
   REQUIRE(CORingInit(&ring, mem.data(), 32767));
@@ -100,7 +100,7 @@ TEST_CASE("ring: the largest size") {
   CHECK(CORingLost(&ring) == 3);
 }
 
-TEST_CASE("ring: clearing takes out what it holds, wherever that lies, and what was lost stays counted") {
+TEST_CASE("ring: clearing removes all frames at any position and keeps the count of lost ones") {
   CO_IF_FRM mem[3];
   CO_RING ring;
   REQUIRE(CORingInit(&ring, mem, 3));
@@ -135,7 +135,7 @@ TEST_CASE("ring: the count of lost frames saturates [Q10]") {
   CHECK(CORingLost(&ring) == 65535);
 }
 
-TEST_CASE("ring: arguments out of range make a ring that holds nothing") {
+TEST_CASE("ring: arguments out of range give a ring without slots") {
   CO_IF_FRM mem[2];
   CO_IF_FRM frm = numbered(1);
   CO_RING ring;

@@ -12,7 +12,7 @@ namespace {
 using test::is_numbered;
 using test::numbered;
 
-TEST_CASE("ring: one thread puts while another gets, no frame is partially written, lost or out of order") {
+TEST_CASE("ring: with a writing and a reading thread no frame is partially written, lost or out of order") {
   constexpr std::uint32_t number = 50000;
   CO_IF_FRM mem[16];
   CO_RING ring;
@@ -39,7 +39,7 @@ TEST_CASE("ring: one thread puts while another gets, no frame is partially writt
   CHECK(wrong == 0);
 }
 
-TEST_CASE("ring: one thread puts while another gets and clears, what comes behind is whole and in order") {
+TEST_CASE("ring: with a writing thread and one that reads and clears later frames are complete and in order") {
   constexpr std::uint32_t number = 50000;
   CO_IF_FRM mem[16];
   CO_RING ring;

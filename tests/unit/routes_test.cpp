@@ -60,7 +60,7 @@ TEST_CASE("routes: 11-bit and 29-bit identifiers of the same number are differen
   CHECK(found(node, 0x122).empty());
 }
 
-TEST_CASE("routes: what is not there cannot be removed") {
+TEST_CASE("routes: a missing route cannot be removed") {
   CO_NODE& node = empty_node();
   add(node, 0x601, 2, 0);
   remove(node, 2, 1);
@@ -71,7 +71,7 @@ TEST_CASE("routes: what is not there cannot be removed") {
   CHECK(number_of_routes(node) == 0);
 }
 
-TEST_CASE("routes: sorted whatever was added and removed, and equal identifiers are all found") {
+TEST_CASE("routes: sorted after any additions and removals, and all equal identifiers are found") {
   std::mt19937 random(42);
   constexpr std::uint32_t ids[] = {0x000, 0x07F, 0x080, 0x601, 0x67F, 0x690, 0x7FF, 0x80000601, 0x9FFFFFFF};
   for (unsigned round = 0; round < 200 / stride(10); ++round) {
@@ -97,7 +97,7 @@ TEST_CASE("routes: sorted whatever was added and removed, and equal identifiers 
   }
 }
 
-TEST_CASE("routes: those of an identifier are served in the order of their owners, each once, whatever they change") {
+TEST_CASE("routes: those of an identifier are called once in the order of owners, also if they change routes") {
   CO_NODE& node = empty_node();
   add(node, 0x601, 2, 7);
   add(node, 0x601, 1, 3);
@@ -121,7 +121,7 @@ TEST_CASE("routes: those of an identifier are served in the order of their owner
   CHECK(co::routes::next(node, place, 0x601, node.Routes.Owner[place]) == co::routes::nowhere);
 }
 
-TEST_CASE("routes: a driver that filters is told what to let through before it goes on the bus") {
+TEST_CASE("routes: a driver with a filter gets the identifiers before it is enabled") {
   Fixture node(Setup().stay_in_init().node_id(9));
   CHECK(node.can.filter == std::vector<std::uint32_t>{0x000, 0x609, 0x709});
   CHECK(node.can.filter_off_bus);

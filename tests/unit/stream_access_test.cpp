@@ -10,7 +10,7 @@ using namespace test;
 
 // Values from a domain ------------------------------------------------------------------------------------------------
 
-TEST_CASE("stream access: CODictRdLong and the like begin at the start of a domain, in an upload of it too") {
+TEST_CASE("stream access: CODictRdLong and others start at the beginning of a domain, also during its upload") {
   Fixture node;
   CO_DICT* const dict = &node->Dict;
   node.ask("601#4000210F00000000", "581#4100210F0F000000");
@@ -35,7 +35,7 @@ TEST_CASE("stream access: CODictRdLong and the like begin at the start of a doma
   CHECK(node.objects.memory[15] == Bytes{0x77, 0x66, 0x55, 0x55, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
 }
 
-TEST_CASE("stream access: CODictWrLong begins at the start of a domain, in a download of it too") {
+TEST_CASE("stream access: CODictWrLong starts at the beginning of a domain, also during its download") {
   Fixture node;
   node.ask("601#2100210F0F000000", "581#6000210F00000000");
   node.ask("601#0011121314151617", "581#2000000000000000");
@@ -56,7 +56,7 @@ TEST_CASE("stream access: one byte to a UNICODE_STRING is refused with 0607 0012
   node.ask("601#0D41000000000000", "581#8012210012000706");
 }
 
-TEST_CASE("stream access: whatever is written to a stream without room is refused with 0607 0012h [D5]") {
+TEST_CASE("stream access: any write to a stream without capacity is refused with 0607 0012h [D5]") {
   for (const std::string object : {"102100", "112100", "122100", "002100"}) {
     CAPTURE(object);
     Fixture node(Setup().before_init([](Objects& o) {
@@ -78,7 +78,7 @@ TEST_CASE("stream access: whatever is written to a stream without room is refuse
   }
 }
 
-TEST_CASE("stream access: a string that is written beyond its capacity keeps its memory and at most that size") {
+TEST_CASE("stream access: a string written beyond its capacity keeps its memory and at most that size") {
   Fixture node;
   struct Case {
     std::uint16_t index;
@@ -130,7 +130,7 @@ class ReadOnly : public Fixture {
   std::vector<Asked> asked;
 };
 
-TEST_CASE("stream access: the Writable hook is asked about all of the memory, and can refuse every download") {
+TEST_CASE("stream access: the Writable hook is called for all of the memory and can refuse every download") {
   struct Case {
     std::string object;
     const void* memory;
@@ -162,7 +162,7 @@ TEST_CASE("stream access: the Writable hook is asked about all of the memory, an
   CHECK(node.objects.unicode.Size == 6);
 }
 
-TEST_CASE("stream access: memory whose end only must not be written refuses a short download, too") {
+TEST_CASE("stream access: a protected end of the memory refuses a short download") {
   Fixture* self = nullptr;
   Fixture node(Setup().writable([&](const void* address, std::uint32_t size) {
     const auto* const byte = static_cast<const std::uint8_t*>(address);
@@ -176,7 +176,7 @@ TEST_CASE("stream access: memory whose end only must not be written refuses a sh
   CHECK(node.objects.octets_memory[0] == 1);
 }
 
-TEST_CASE("stream access: memory that becomes unwritable during a download stays as it is from then on") {
+TEST_CASE("stream access: memory that becomes protected during a download is not written from then on") {
   bool allow = true;
   Fixture node(Setup().writable([&](const void*, std::uint32_t) { return allow; }));
   node.ask("601#2100210F0F000000", "581#6000210F00000000");

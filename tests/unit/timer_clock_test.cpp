@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("timer: a late loop runs a cyclic timer once and keeps its phase [Q8]") {
+TEST_CASE("timer: a late main loop runs a cyclic timer once and keeps its phase [Q8]") {
   Timers t;
   t.create(10, 10, 1);
   t.jump(95ms);
@@ -22,7 +22,7 @@ TEST_CASE("timer: a late loop runs a cyclic timer once and keeps its phase [Q8]"
   CHECK(runs().size() == 4);
 }
 
-TEST_CASE("timer: no drift in a million ticks, with cycles that do not divide them [T15]") {
+TEST_CASE("timer: no drift in a million ticks with cycles that do not divide them [T15]") {
   for (const std::uint32_t start : clock_starts) {
     CAPTURE(start);
     Timers t(Setup().clock(start));
@@ -37,7 +37,7 @@ TEST_CASE("timer: no drift in a million ticks, with cycles that do not divide th
   }
 }
 
-TEST_CASE("timer: the longest times [T15]") {
+TEST_CASE("timer: the longest times are kept [T15]") {
   for (const std::uint32_t start : clock_starts) {
     Timers t(Setup().clock(start));
     t.create(0x7FFFFFFF, 0, 1);
@@ -53,7 +53,7 @@ TEST_CASE("timer: the longest times [T15]") {
   }
 }
 
-TEST_CASE("timer: the next deadline") {
+TEST_CASE("timer: the next deadline is that of the first timer") {
   Timers t;
   CHECK(CONodeNextDeadline(&t.node) == 0xFFFFFFFF);
   const std::int16_t far = t.create(100, 0, 1);
@@ -72,7 +72,7 @@ TEST_CASE("timer: the next deadline") {
   t.remove(far);
 }
 
-TEST_CASE("timer: COTmrService tells whether an elapsed timer waits for the loop") {
+TEST_CASE("timer: COTmrService returns whether an elapsed timer is pending for the main loop") {
   Timers t;
   t.elapse_only(0ms, 0);
   t.create(10, 0, 1);
@@ -84,7 +84,7 @@ TEST_CASE("timer: COTmrService tells whether an elapsed timer waits for the loop
   t.elapse_only(5ms, 0);
 }
 
-TEST_CASE("timer: random creations and deletions, against a model") {
+TEST_CASE("timer: random creations and deletions have the results of a model") {
   struct Expected {
     std::int16_t id;
     std::uint64_t at;

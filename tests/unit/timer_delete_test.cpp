@@ -5,7 +5,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("timer: a deleted timer does not run, and cannot be deleted twice") {
+TEST_CASE("timer: a deleted timer does not run and cannot be deleted twice") {
   Timers t;
   const std::int16_t first = t.create(10, 0, 1);
   const std::int16_t second = t.create(10, 0, 2);
@@ -20,7 +20,7 @@ TEST_CASE("timer: a deleted timer does not run, and cannot be deleted twice") {
   CHECK(runs() == Runs{1});
 }
 
-TEST_CASE("timer: deleting the first, the middle or the last leaves the times of the others") {
+TEST_CASE("timer: deleting the first, the middle or the last one does not change the times of the others") {
   for (unsigned deleted = 0; deleted < 3; ++deleted) {
     CAPTURE(deleted);
     Timers t;
@@ -38,7 +38,7 @@ TEST_CASE("timer: deleting the first, the middle or the last leaves the times of
   }
 }
 
-TEST_CASE("timer: ids that never were are not deleted") {
+TEST_CASE("timer: unknown identifiers are refused") {
   Timers t;
   const std::int16_t id = t.create(10, 0, 1);
   for (int other = -3; other <= 32767; ++other) {
@@ -51,7 +51,7 @@ TEST_CASE("timer: ids that never were are not deleted") {
   CHECK(runs() == Runs{1});
 }
 
-TEST_CASE("timer: an old id deletes no younger timer in the same place") {
+TEST_CASE("timer: an old identifier does not delete a newer timer in the same slot") {
   Timers t(Setup().timers(1));
   const std::int16_t old = t.create(1, 0, 1);
   t.after(1ms);
@@ -108,7 +108,7 @@ void delete_target(void* para) {
   plan.result = COTmrDelete(plan.tmr, plan.target);
 }
 
-TEST_CASE("timer: an action deletes its own cyclic timer") {
+TEST_CASE("timer: an action may delete its own cyclic timer") {
   Timers t;
   t.call([&] {
     const std::int16_t id = COTmrCreate(&t.node.Tmr, 5, 5, delete_target, number(1));
@@ -120,7 +120,7 @@ TEST_CASE("timer: an action deletes its own cyclic timer") {
   CHECK(t.armed_timers() == 0);
 }
 
-TEST_CASE("timer: in the action of a timer that runs once its id is used up") {
+TEST_CASE("timer: the identifier of a one-shot timer is invalid within its action") {
   Timers t;
   t.call([&] {
     const std::int16_t id = COTmrCreate(&t.node.Tmr, 5, 0, delete_target, number(1));
@@ -131,7 +131,7 @@ TEST_CASE("timer: in the action of a timer that runs once its id is used up") {
   CHECK(plan.result == -1);
 }
 
-TEST_CASE("timer: an action deletes a timer of the same tick, which then does not run") {
+TEST_CASE("timer: an action may delete a timer of the same tick, which then does not run") {
   for (const std::uint32_t cycle : {0U, 5U}) {
     CAPTURE(cycle);
     Timers t;
@@ -144,7 +144,7 @@ TEST_CASE("timer: an action deletes a timer of the same tick, which then does no
   }
 }
 
-TEST_CASE("timer: an action deletes another one that is still to come") {
+TEST_CASE("timer: an action may delete another timer that has not elapsed") {
   Timers t;
   t.call([&] { COTmrCreate(&t.node.Tmr, 5, 0, delete_target, number(1)); });
   plan = {&t.node.Tmr, t.create(6, 0, 2), -2};
@@ -159,7 +159,7 @@ void create_another(void* para) {
   COTmrCreate(plan.tmr, 5, 0, note, number(7));
 }
 
-TEST_CASE("timer: an action creates a timer, in the place that its own has left") {
+TEST_CASE("timer: an action may create a timer in its own slot") {
   Timers t(Setup().timers(1));
   plan = {&t.node.Tmr, -1, -2};
   t.call([&] { COTmrCreate(&t.node.Tmr, 5, 0, create_another, number(1)); });

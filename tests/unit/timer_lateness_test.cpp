@@ -133,7 +133,7 @@ TEST_CASE("timer lateness: deleting the first timer while its expiry is pending 
   CHECK(runs == Runs{{1, 10}, {1, 20}, {1, 30}});
 }
 
-TEST_CASE("timer lateness: no drift, however often a timer is deleted while its expiry is pending") {
+TEST_CASE("timer lateness: no drift if timers are often deleted while their expiry is pending") {
   Device device(Driver::counter);
   device.create(0, 10, 1);
   for (std::uint64_t tick = 0; tick < 1000; tick += 10) {
@@ -148,7 +148,7 @@ TEST_CASE("timer lateness: no drift, however often a timer is deleted while its 
   }
 }
 
-TEST_CASE("timer lateness: a timer that is created while an expiry is pending runs after its time, none is lost") {
+TEST_CASE("timer lateness: a timer created while an expiry is pending runs after its time, and none is lost") {
   Device device(Driver::counter);
   device.create(0, 10, 1);
   device.create(5, 0, 2);
@@ -159,7 +159,7 @@ TEST_CASE("timer lateness: a timer that is created while an expiry is pending ru
   CHECK(runs == Runs{{2, 5}, {4, 6}, {3, 8}, {1, 10}, {1, 20}});
 }
 
-TEST_CASE("timer lateness: COTmrService reports expired timers, independent of the function that has detected them") {
+TEST_CASE("timer lateness: COTmrService reports expired timers, whichever function has detected them") {
   const auto service = [](Device& device) { return COTmrService(&device.node.Tmr); };
   const std::function<void(Device&)> notices[] = {
       [](Device& d) { d.create(100, 0, 2); },
@@ -180,7 +180,7 @@ TEST_CASE("timer lateness: COTmrService reports expired timers, independent of t
   }
 }
 
-TEST_CASE("timer lateness: a driver without a clock is started when it was stopped, and not at each Reload") {
+TEST_CASE("timer lateness: a driver without a clock is started after a stop, not at each Reload") {
   Device device(Driver::counter);
   CHECK(hardware.starts == 0);
   const std::int16_t cyclic = device.create(0, 10, 1);
@@ -203,7 +203,7 @@ TEST_CASE("timer lateness: a driver without a clock is started when it was stopp
   CHECK(hardware.starts == 3);
 }
 
-TEST_CASE("timer lateness: a cyclic timer keeps its phase when the loop is a cycle late, and before the interrupt") {
+TEST_CASE("timer lateness: a cyclic timer keeps its phase if the main loop is a cycle late or before the interrupt") {
   Device device(Driver::counter);
   device.create(0, 10, 1);
   hardware.now = 10;
@@ -223,7 +223,7 @@ void jump(Device& device, std::uint64_t tick) {
   device.process();
 }
 
-TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks, with either kind of driver") {
+TEST_CASE("timer lateness: a cycle of 2^32 - 1 ticks works with both kinds of drivers") {
   for (const Driver driver : {Driver::counter, Driver::clock}) {
     CAPTURE(driver == Driver::clock);
     Device device(driver);
@@ -272,8 +272,7 @@ TEST_CASE("timer lateness: the only cyclic timer keeps its phase on a driver wit
   CHECK(hardware.reloads == 11);  // once at the start, and in each interrupt and after each run of the timer
 }
 
-TEST_CASE(
-    "timer lateness: elapsed cyclic timers leave the CPU to the loop, whatever their cycles; their phase is kept") {
+TEST_CASE("timer lateness: elapsed cyclic timers of any cycles do not block the main loop and keep their phase") {
   for (const std::uint32_t cycle : {1U, 2U, 7U, 1000U}) {
     CAPTURE(cycle);
     Device device(Driver::counter);
@@ -300,7 +299,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("timer lateness: a timer that is armed elapses at its time while an elapsed cyclic one waits for the loop") {
+TEST_CASE("timer lateness: a timer armed while an elapsed cyclic one is pending elapses on time") {
   Device device(Driver::counter);
   device.create(0, 1, 1);
   device.create(500, 0, 2);
@@ -324,7 +323,7 @@ TEST_CASE("timer lateness: a timer that is armed elapses at its time while an el
   CHECK(std::count(runs.begin(), runs.end(), Run{3, 610}) == 1);
 }
 
-TEST_CASE("timer lateness: time does not go back when a driver without a clock waits for longer than it was told") {
+TEST_CASE("timer lateness: time does not go back when a driver without a clock waits longer than requested") {
   Device device(Driver::counter);
   hardware.shortest = 3;
   device.create(0, 10, 1);
@@ -342,7 +341,7 @@ void walk(Device& device, std::uint64_t tick) {
   while (hardware.now < tick) jump(device, hardware.now + 1);
 }
 
-TEST_CASE("timer lateness: order across the wrap of the clock at 2^32, with either kind of driver") {
+TEST_CASE("timer lateness: the order is kept across the wrap of the clock at 2^32 with both kinds of drivers") {
   constexpr std::uint64_t before_wrap = 0xFFFFFFF0;
   for (const Driver driver : {Driver::counter, Driver::clock}) {
     CAPTURE(driver == Driver::clock);
@@ -390,7 +389,7 @@ std::int16_t create(Device& device, std::uint32_t start, std::uint32_t cycle, CO
   return COTmrCreate(&device.node.Tmr, start, cycle, action, reinterpret_cast<void*>(n));
 }
 
-TEST_CASE("timer lateness: what elapses while actions run waits for the next COTmrProcess()") {
+TEST_CASE("timer lateness: timers that elapse while actions run are run by the next COTmrProcess()") {
   Device device(Driver::clock);
   create(device, 1, 1, take_long, 1);
   device.create(3, 0, 2);
@@ -400,7 +399,7 @@ TEST_CASE("timer lateness: what elapses while actions run waits for the next COT
   CHECK(runs == Runs{{1, 1}, {1, 4}, {2, 7}});
 }
 
-TEST_CASE("timer lateness: all that have elapsed run in one call, however long some of them have waited") {
+TEST_CASE("timer lateness: one call runs all elapsed timers, however long they have been pending") {
   constexpr std::uint64_t late = 3'000'000'000;  // more than 2^31
   for (const Driver driver : {Driver::counter, Driver::clock}) {
     CAPTURE(driver == Driver::clock);
@@ -417,7 +416,7 @@ TEST_CASE("timer lateness: all that have elapsed run in one call, however long s
   }
 }
 
-TEST_CASE("timer lateness: an action deletes the last of the elapsed timers, and later ones elapse meanwhile") {
+TEST_CASE("timer lateness: an action may delete the last elapsed timer while later ones elapse") {
   for (const bool alone : {true, false}) {
     CAPTURE(alone);
     Device device(Driver::clock);
@@ -433,7 +432,7 @@ TEST_CASE("timer lateness: an action deletes the last of the elapsed timers, and
   }
 }
 
-TEST_CASE("timer lateness: an action that calls COTmrProcess() runs the others, each once") {
+TEST_CASE("timer lateness: an action that calls COTmrProcess() runs each of the other timers once") {
   for (const Driver driver : {Driver::counter, Driver::clock}) {
     CAPTURE(driver == Driver::clock);
     Device device(driver);

@@ -51,7 +51,7 @@ void with_each_driver(Check check) {
   }
 }
 
-TEST_CASE("timer order: whichever timers are deleted, those that are started afterwards find their places") {
+TEST_CASE("timer order: after any deletions new timers are sorted correctly") {
   with_each_driver([](const auto& make) {
     for (unsigned deleted = 0; deleted < 16; ++deleted) {
       CAPTURE(deleted);
@@ -78,7 +78,7 @@ TEST_CASE("timer order: whichever timers are deleted, those that are started aft
   });
 }
 
-TEST_CASE("timer order: when all have elapsed or are deleted, the next ones start a new list") {
+TEST_CASE("timer order: after all timers have elapsed or are deleted new ones start a new list") {
   with_each_driver([](const auto& make) {
     const auto timers = make();
     timers->create(1, 0, 1);
@@ -141,7 +141,7 @@ class Model {
   std::uint64_t order_ = 0;
 };
 
-TEST_CASE("timer order: random creations and deletions with drivers without a clock, against a model") {
+TEST_CASE("timer order: random creations and deletions with drivers without a clock have the results of a model") {
   std::mt19937 random(1947);
   for (int round = 0; round < 60; ++round) {
     Counting timers(round % 2 == 0);
@@ -186,7 +186,7 @@ TEST_CASE("timer order: a pool whose size is no power of two has ids for all its
   }
 }
 
-TEST_CASE("timer order: an id comes again when its place was used 32768 / (pool size) times, not before") {
+TEST_CASE("timer order: an identifier is reused after 32768 / (pool size) uses of its slot, not before") {
   Timers t(Setup().timers(4));
   std::vector<std::int16_t> ids;
   for (int use = 0; use <= 8192; ++use) {

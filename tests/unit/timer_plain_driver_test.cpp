@@ -16,7 +16,7 @@ struct OldNode : PlainNode {
 
 const PlainTimer& old = plain_timer();
 
-TEST_CASE("timer: drivers without context, cyclic and tickless, run timers at their times") {
+TEST_CASE("timer: classic drivers, cyclic and tickless, run timers on time") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -40,7 +40,7 @@ TEST_CASE("timer: drivers without context, cyclic and tickless, run timers at th
 bool is_refusing = false;
 std::int16_t send_unless_refusing(CO_IF_FRM*) { return is_refusing ? std::int16_t{0} : sizeof(CO_IF_FRM); }
 
-TEST_CASE("timer: drivers without context: COTmrService() returns 1 in each tick while a frame waits to be sent") {
+TEST_CASE("timer: classic drivers: COTmrService() returns 1 in each tick while a frame is queued") {
   OldNode t(true);
   CO_IF_CAN_DRV can = *t.drivers.Can;
   can.Send = send_unless_refusing;
@@ -58,7 +58,7 @@ TEST_CASE("timer: drivers without context: COTmrService() returns 1 in each tick
   CHECK(COTmrService(&t.node.Tmr) == 0);
 }
 
-TEST_CASE("timer: drivers without context, no drift in a million ticks") {
+TEST_CASE("timer: classic drivers have no drift in a million ticks") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -73,7 +73,7 @@ TEST_CASE("timer: drivers without context, no drift in a million ticks") {
   }
 }
 
-TEST_CASE("timer: drivers without context, no drift when the loop is late") {
+TEST_CASE("timer: classic drivers have no drift with a late main loop") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -91,7 +91,7 @@ TEST_CASE("timer: drivers without context, no drift when the loop is late") {
   }
 }
 
-TEST_CASE("timer: a spurious interrupt is harmless, with no timer in use and with all elapsed") {
+TEST_CASE("timer: a spurious interrupt without timers or with all elapsed has no effect") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -110,7 +110,7 @@ TEST_CASE("timer: a spurious interrupt is harmless, with no timer in use and wit
   }
 }
 
-TEST_CASE("timer: drivers without context, deletion of an elapsed timer with nothing else in use") {
+TEST_CASE("timer: classic drivers: an elapsed timer may be deleted without other timers") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -123,7 +123,7 @@ TEST_CASE("timer: drivers without context, deletion of an elapsed timer with not
   }
 }
 
-TEST_CASE("timer: drivers without context are stopped when nothing is to wait for") {
+TEST_CASE("timer: classic drivers are stopped when no timer is running") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);
@@ -139,7 +139,7 @@ TEST_CASE("timer: drivers without context are stopped when nothing is to wait fo
   }
 }
 
-TEST_CASE("timer: drivers without context, a shorter timer is set in the middle of a longer one") {
+TEST_CASE("timer: classic drivers: a shorter timer may be started within a longer one") {
   for (const bool cyclic : {true, false}) {
     CAPTURE(cyclic);
     OldNode t(cyclic);

@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-TEST_CASE("timer: runs once, exactly when its time has come") {
+TEST_CASE("timer: runs once, exactly at its time") {
   Timers t;
   CHECK(t.create(10, 0, 1) >= 0);
   t.after(9ms);
@@ -42,7 +42,7 @@ TEST_CASE("timer: start time 0 means after a cycle") {
   CHECK(runs().size() == 1);
 }
 
-TEST_CASE("timer: what cannot be started") {
+TEST_CASE("timer: invalid timers are refused") {
   Timers t;
   CHECK(t.create(0, 0, 1) == -1);
   t.error();
@@ -58,7 +58,7 @@ TEST_CASE("timer: what cannot be started") {
   CHECK(COTmrGetMinTime(nullptr, 1) == 0);
 }
 
-TEST_CASE("timer: an exhausted pool is told and counted; a timer that has run is free again") {
+TEST_CASE("timer: an exhausted pool is reported and counted; a timer that has run is free again") {
   Timers t;
   std::set<std::int16_t> ids;
   for (std::uintptr_t n = 0; n < 8; ++n) {
@@ -76,7 +76,7 @@ TEST_CASE("timer: an exhausted pool is told and counted; a timer that has run is
   CHECK(runs() == Runs{0, 1, 50});
 }
 
-TEST_CASE("timer: those that are due at one tick run in the order in which they were started") {
+TEST_CASE("timer: timers due at one tick run in the order in which they were started") {
   Timers t;
   t.create(20, 0, 1);
   t.after(5ms);
@@ -89,7 +89,7 @@ TEST_CASE("timer: those that are due at one tick run in the order in which they 
   CHECK(runs() == Runs{3, 5, 1, 2, 4});
 }
 
-TEST_CASE("timer: order at one tick is kept when the loop is late") {
+TEST_CASE("timer: the order at one tick is kept with a late main loop") {
   Timers t;
   t.create(20, 0, 1);
   t.create(10, 0, 2);
@@ -99,7 +99,7 @@ TEST_CASE("timer: order at one tick is kept when the loop is late") {
   CHECK(runs() == Runs{2, 4, 3, 1});
 }
 
-TEST_CASE("timer: a cyclic timer starts anew with each expiry, behind those started before") {
+TEST_CASE("timer: each expiry of a cyclic timer starts it again, after those started before") {
   Timers t;
   t.create(10, 10, 1);
   t.create(20, 0, 2);
@@ -107,7 +107,7 @@ TEST_CASE("timer: a cyclic timer starts anew with each expiry, behind those star
   CHECK(runs() == Runs{1, 2, 1});
 }
 
-TEST_CASE("timer: the lock is held around the lists, not nested, and not in actions") {
+TEST_CASE("timer: the lock is held around the lists, not nested and not in actions") {
   Timers t;
   static int depth;
   static int deepest;

@@ -57,7 +57,7 @@ TEST_CASE("timer: time is converted to ticks exactly, rounded up, at any frequen
   }
 }
 
-TEST_CASE("timer: the shortest time that can be told apart") {
+TEST_CASE("timer: COTmrGetMinTime returns the shortest time of a tick in the unit") {
   const auto shortest = [](std::uint32_t frequency, std::uint32_t unit) {
     CO_TMR tmr = with_frequency(frequency);
     return COTmrGetMinTime(&tmr, unit);

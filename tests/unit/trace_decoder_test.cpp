@@ -33,7 +33,7 @@ struct Listener {
 
 }  // namespace
 
-TEST_CASE("trace: boot-up and heartbeat name the state [301 error control]") {
+TEST_CASE("trace: boot-up and heartbeat show the state [301 error control]") {
   CHECK(meaning("701#00") == "boot-up");
   CHECK(meaning("77F#04") == "heartbeat: stopped");
   CHECK(meaning("705#05") == "heartbeat: operational");
@@ -41,7 +41,7 @@ TEST_CASE("trace: boot-up and heartbeat name the state [301 error control]") {
   CHECK(meaning("705#12") == "heartbeat: unknown state 12h");
 }
 
-TEST_CASE("trace: NMT commands name the command and the node [301 NMT node control]") {
+TEST_CASE("trace: NMT commands show the command and the node [301 NMT node control]") {
   CHECK(meaning("000#0105") == "NMT start, node 5");
   CHECK(meaning("000#0205") == "NMT stop, node 5");
   CHECK(meaning("000#8000") == "NMT enter pre-operational, all nodes");
@@ -67,7 +67,7 @@ TEST_CASE("trace: an expedited upload shows the object and its value [301 SDO up
   CHECK(meaning("581#4B08100041070000") == "SDO answer: 1008h:00 device name = 0741h");  // not printable
 }
 
-TEST_CASE("trace: a segmented transfer shows size, toggle bit and what is in the segments [301 SDO segments]") {
+TEST_CASE("trace: a segmented transfer shows size, toggle bit and data [301 SDO segments]") {
   CHECK(meaning("601#2100220010270000") == "SDO download 2200h:00 picture, 10000 bytes in segments");
   CHECK(meaning("601#2000220000000000") == "SDO download 2200h:00 picture, segments of unknown size");
   CHECK(meaning("601#0041424344454647") == "SDO download segment: \"ABCDEFG\"");
@@ -124,7 +124,7 @@ TEST_CASE("trace: a PDO whose mapping is known shows its objects [301:7.2.2]") {
   CHECK(hears("205#0C") == "RPDO1");
 }
 
-TEST_CASE("trace: SYNC, TIME and EMCY messages [301:7.2.5, 7.2.6, 7.2.7]") {
+TEST_CASE("trace: SYNC, TIME and EMCY messages are shown [301:7.2.5, 7.2.6, 7.2.7]") {
   CHECK(meaning("080#") == "SYNC");
   CHECK(meaning("080#F0") == "SYNC, counter 240");
   CHECK(meaning("100#952CB3F2313D") == "TIME 12:34:56.789, day 15665");
@@ -135,7 +135,7 @@ TEST_CASE("trace: SYNC, TIME and EMCY messages [301:7.2.5, 7.2.6, 7.2.7]") {
   CHECK(meaning("081#00A0010000000000") == "EMCY A000h unknown error code, error register 01h");
 }
 
-TEST_CASE("trace: LSS: switch state, configure, store [305]") {
+TEST_CASE("trace: LSS: switch state, configure and store are shown [305]") {
   CHECK(meaning("7E5#0400000000000000") == "LSS switch all to waiting");
   CHECK(meaning("7E5#0401000000000000") == "LSS switch all to configuration");
   CHECK(meaning("7E5#4019030000000000") == "LSS switch to configuration: vendor-ID 00000319h");
@@ -154,7 +154,7 @@ TEST_CASE("trace: LSS: switch state, configure, store [305]") {
   CHECK(meaning("7E4#1702000000000000") == "LSS answer: store refused, error 2");
 }
 
-TEST_CASE("trace: LSS: inquire and identify [305]") {
+TEST_CASE("trace: LSS: inquire and identify are shown [305]") {
   CHECK(meaning("7E5#5A00000000000000") == "LSS inquire vendor-ID");
   CHECK(meaning("7E5#5D00000000000000") == "LSS inquire serial number");
   CHECK(meaning("7E4#5B0CC10000000000") == "LSS answer: product code 0000C10Ch");
@@ -171,7 +171,7 @@ TEST_CASE("trace: LSS: inquire and identify [305]") {
   CHECK(meaning("7E5#04000000000000") == "unknown 7E5#04000000000000");
 }
 
-TEST_CASE("trace: LSS: of a fastscan, what is asked bit by bit can be folded [305]") {
+TEST_CASE("trace: LSS: the bits of a fastscan can be folded [305]") {
   CHECK(meaning("7E5#5100000000800000") == "LSS fastscan: who has no node-ID?");
   CHECK(meaning("7E5#51000000801F0303") == "LSS fastscan serial number 80000000h, bits 31...31");
   CHECK(meaning("7E5#510CC10000000102") == "LSS fastscan product code 0000C10Ch, bits 31...0");
@@ -182,7 +182,7 @@ TEST_CASE("trace: LSS: of a fastscan, what is asked bit by bit can be folded [30
   CHECK(place("7E5#1105000000000000") == Place::edge);
 }
 
-TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
+TEST_CASE("trace: frames of no known service are shown as bytes") {
   CHECK(meaning("780#1122334455667788") == "unknown 780#1122334455667788");
   CHECK(meaning("180#11") == "unknown 180#11");  // a PDO of node 0
   CHECK(meaning("500#11") == "unknown 500#11");
@@ -200,7 +200,7 @@ TEST_CASE("trace: what is no frame of a known service is shown as bytes") {
   CHECK(meaning("581#A300000000000000") == "SDO answer: unknown command 581#A300000000000000");
 }
 
-TEST_CASE("trace: 29-bit identifiers, remote frames and error frames are not taken for services") {
+TEST_CASE("trace: 29-bit identifiers, remote frames and error frames are not decoded as services") {
   CHECK(meaning("00000701#00") == "unknown 00000701#00");
   CHECK(meaning("701#R") == "remote frame 701#R");
   CHECK(meaning("181#R8") == "remote frame 181#R8");
@@ -225,7 +225,7 @@ TEST_CASE("trace: only the middle of a segmented transfer can be folded") {
   CHECK(place("00000601#0041424344454647") == Place::outside);
 }
 
-TEST_CASE("trace: a block download, from its begin to its end [301:7.2.4.3.8, 7.2.4.3.9, 7.2.4.3.10]") {
+TEST_CASE("trace: a block download is shown from its begin to its end [301:7.2.4.3.8, 7.2.4.3.9, 7.2.4.3.10]") {
   Listener bus;
   CHECK(bus.hears("601#C600220010000000") == "SDO block download 2200h:00 picture, 16 bytes, CRC");
   CHECK(bus.hears("581#A400220002000000") == "SDO answer: 2200h:00 picture block download, blksize 2, CRC");
@@ -238,7 +238,7 @@ TEST_CASE("trace: a block download, from its begin to its end [301:7.2.4.3.8, 7.
   CHECK(bus.hears("581#A100000000000000") == "SDO answer: block download done");
 }
 
-TEST_CASE("trace: a block upload, from its begin to its end [301:7.2.4.3.13, 7.2.4.3.14, 7.2.4.3.15]") {
+TEST_CASE("trace: a block upload is shown from its begin to its end [301:7.2.4.3.13, 7.2.4.3.14, 7.2.4.3.15]") {
   Listener bus;
   CHECK(bus.hears("601#A4081000027F0000") == "SDO block upload 1008h:00 device name, blksize 2, pst 127, CRC");
   CHECK(bus.hears("581#C60810000F000000") == "SDO answer: 1008h:00 device name block upload, 15 bytes, CRC");
@@ -252,7 +252,7 @@ TEST_CASE("trace: a block upload, from its begin to its end [301:7.2.4.3.13, 7.2
   CHECK(bus.hears("601#A100000000000000") == "SDO block upload done");
 }
 
-TEST_CASE("trace: block transfers without CRC and of unknown size say so [301:7.2.4.3.9, 7.2.4.3.13]") {
+TEST_CASE("trace: block transfers without CRC and of unknown size are shown as such [301:7.2.4.3.9, 7.2.4.3.13]") {
   CHECK(meaning("601#C234120500000000") == "SDO block download 1234h:05, 0 bytes, no CRC");
   CHECK(meaning("601#C434120500000000") == "SDO block download 1234h:05, unknown size, CRC");
   CHECK(meaning("601#C034120500000000") == "SDO block download 1234h:05, unknown size, no CRC");
@@ -264,7 +264,7 @@ TEST_CASE("trace: block transfers without CRC and of unknown size say so [301:7.
   CHECK(meaning("581#C1FFFF0000000000") == "SDO answer: block upload end, 7 bytes in the last segment, CRC FFFFh");
 }
 
-TEST_CASE("trace: within a sub-block a first byte is a sequence number, whatever command it looks like [D21]") {
+TEST_CASE("trace: within a sub-block the first byte is a sequence number, not a command [D21]") {
   Listener bus;
   bus.hears("601#C200220010270000");
   bus.hears("581#A00022007F000000");
@@ -277,7 +277,7 @@ TEST_CASE("trace: within a sub-block a first byte is a sequence number, whatever
   CHECK(bus.hears("601#C108100000000000") == "SDO block download end, 7 bytes in the last segment, CRC 1008h");
 }
 
-TEST_CASE("trace: only the byte 80h is an abort within a sub-block, and ends the transfer [D23]") {
+TEST_CASE("trace: within a sub-block only the byte 80h is an abort, which ends the transfer [D23]") {
   Listener bus;
   bus.hears("601#C200220010270000");
   bus.hears("581#A00022007F000000");
@@ -288,7 +288,7 @@ TEST_CASE("trace: only the byte 80h is an abort within a sub-block, and ends the
   CHECK(bus.hears("601#4008100000000000") == "SDO upload 1008h:00 device name");
 }
 
-TEST_CASE("trace: a sub-block that lost segments goes on after its acknowledge, even behind its last one [D22]") {
+TEST_CASE("trace: after lost segments a sub-block continues behind its acknowledge [D22]") {
   Listener bus;
   bus.hears("601#A00022007F000000");
   bus.hears("581#C200220010000000");
@@ -302,7 +302,7 @@ TEST_CASE("trace: a sub-block that lost segments goes on after its acknowledge, 
   CHECK(bus.hears("581#D500000000000000") == "SDO answer: block upload end, 2 bytes in the last segment, CRC 0000h");
 }
 
-TEST_CASE("trace: behind the last segment of a sub-block frames are commands until the acknowledge") {
+TEST_CASE("trace: after the last segment of a sub-block frames are commands until the acknowledge") {
   Listener bus;
   bus.hears("601#C200220010270000");
   bus.hears("581#A000220001000000");
@@ -311,7 +311,7 @@ TEST_CASE("trace: behind the last segment of a sub-block frames are commands unt
   CHECK(bus.hears("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
 }
 
-TEST_CASE("trace: a server that refuses the block, or answers without one, gets no segments [301:7.2.4.3.13]") {
+TEST_CASE("trace: after a refused block or a normal answer no segments follow [301:7.2.4.3.13]") {
   Listener bus;
   bus.hears("601#A4171000017F0000");
   CHECK(bus.hears("581#4B171000E8030000") == "SDO answer: 1017h:00 heartbeat time = 1000");
@@ -322,7 +322,7 @@ TEST_CASE("trace: a server that refuses the block, or answers without one, gets 
   CHECK(bus.hears("601#2100220010270000") == "SDO download 2200h:00 picture, 10000 bytes in segments");
 }
 
-TEST_CASE("trace: a command of the other direction begins no sub-block") {
+TEST_CASE("trace: a command of the other direction does not begin a sub-block") {
   Listener bus;
   bus.hears("601#C200220010270000");
   CHECK(bus.hears("601#A300000000000000") == "SDO block upload start");
@@ -332,7 +332,7 @@ TEST_CASE("trace: a command of the other direction begins no sub-block") {
   CHECK(bus.hears("581#4308100041424344") == "SDO answer: 1008h:00 device name = \"ABCD\"");
 }
 
-TEST_CASE("trace: the block transfers of several servers do not disturb each other") {
+TEST_CASE("trace: block transfers of several servers are independent") {
   Listener bus;
   bus.hears("601#C200220010270000");
   bus.hears("581#A00022007F000000");
@@ -341,7 +341,7 @@ TEST_CASE("trace: the block transfers of several servers do not disturb each oth
   CHECK(bus.hears("601#4008100000000000") == "SDO download block segment 64, 7 bytes");
 }
 
-TEST_CASE("trace: of a block transfer, segments and acknowledges can be folded, but not the last ones") {
+TEST_CASE("trace: segments and acknowledges of a block transfer can be folded except for the last ones") {
   Listener bus;
   CHECK(bus.place("601#C600220010000000") == Place::edge);
   CHECK(bus.place("581#A400220001000000") == Place::edge);

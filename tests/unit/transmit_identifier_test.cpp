@@ -13,7 +13,7 @@ void send(Fixture& node, std::uint32_t identifier) {
   CHECK(frm.Identifier == identifier);
 }
 
-TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits, up to 7FFh with 11") {
+TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits; up to 7FFh with 11") {
   Fixture node;
   send(node, 0x7FF);
   node.tx("7FF#01");
@@ -27,7 +27,7 @@ TEST_CASE("transmit identifier: above 7FFh without flag it is sent with 29 bits,
   node.tx("000007FF#01");
 }
 
-TEST_CASE("transmit identifier: above 7FFh without flag it waits with the priority of a 29-bit frame [Q4]") {
+TEST_CASE("transmit identifier: above 7FFh without flag it is queued with the priority of a 29-bit frame [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   // 02440000h has the base identifier 091h: of equal base identifiers, the 11-bit frame wins.

@@ -43,7 +43,7 @@ void write_in_diary(void*) {
   Diary::log().push_back("timer");
 }
 
-TEST_CASE("turn: CONodeProcess takes one, whether there is a frame or not, and callbacks run in it") {
+TEST_CASE("node lock: CONodeProcess takes it with and without a frame; callbacks run with it") {
   Fixture node(Setup().turns());
   const Diary diary;
   node.loop();
@@ -54,7 +54,7 @@ TEST_CASE("turn: CONodeProcess takes one, whether there is a frame or not, and c
   CHECK(Diary::take() == Entries{"enter", "mode", "leave"});
 }
 
-TEST_CASE("turn: COTmrProcess takes one for each action") {
+TEST_CASE("node lock: COTmrProcess takes it for each action") {
   Fixture node(Setup().turns());
   const Diary diary;
   node.call([&] { COTmrProcess(&node.node.Tmr); });
@@ -98,7 +98,7 @@ Runs run_late(Threads threads, std::uint32_t start, std::uint32_t far, std::uint
   return all;
 }
 
-TEST_CASE("turn: timers run in their order, however far apart they have elapsed, and wherever the clock starts") {
+TEST_CASE("node lock: timers run in their order for any times and any start of the clock") {
   constexpr std::uint32_t half = 0x80000000U;
   constexpr std::uint32_t starts[] = {0, half - 1, half, 0xFFFFFFFE, 0xFFFFFFFF};
   constexpr std::uint32_t distances[] = {2, half - 1, half, half + 1, half + 2, 0xFFFFFFFE, 0xFFFFFFFF};
@@ -118,7 +118,7 @@ TEST_CASE("turn: timers run in their order, however far apart they have elapsed,
   }
 }
 
-TEST_CASE("turn: CONodeNextDeadline and CONodeRealTime take one") {
+TEST_CASE("node lock: CONodeNextDeadline and CONodeRealTime take it") {
   RealTimeNode node({}, [](Setup& setup) { setup.foreign(); });
   const Diary diary;
   node.call([&] { (void)CONodeNextDeadline(&node.node); });
@@ -130,7 +130,7 @@ TEST_CASE("turn: CONodeNextDeadline and CONodeRealTime take one") {
   CHECK(Diary::take() == Entries{"enter", "can", "leave", "enter", "can", "leave", "enter", "leave", "enter", "leave"});
 }
 
-TEST_CASE("turn: no other function takes one") {
+TEST_CASE("node lock: no other function takes it") {
   PdoTable table;
   table.tpdo[0].on(0x40000181, 255, {0x22010108});
   PdoNode node(table, [](Setup& setup) { setup.turns(); });
@@ -154,7 +154,7 @@ TEST_CASE("turn: no other function takes one") {
   node.frames();
 }
 
-TEST_CASE("turn: a node without Enter, and one that was never initialised, take none") {
+TEST_CASE("node lock: a node without Enter and one that was never initialised do not take it") {
   Fixture node;
   const Diary diary;
   node.loop();
@@ -170,7 +170,7 @@ TEST_CASE("turn: a node without Enter, and one that was never initialised, take 
 
 #if USE_OD
 
-TEST_CASE("turn: CO_LOCK_OD, CO_LOCK_CAN_SEND and CO_LOCK_EMCY are it, and OdLock is not taken") {
+TEST_CASE("node lock: CO_LOCK_OD, CO_LOCK_CAN_SEND and CO_LOCK_EMCY take it and do not call OdLock") {
   Fixture node(Setup().turns());
   const Diary diary;
   callbacks().od_lock = [] { Diary::log().push_back("od"); };
@@ -188,7 +188,7 @@ TEST_CASE("turn: CO_LOCK_OD, CO_LOCK_CAN_SEND and CO_LOCK_EMCY are it, and OdLoc
 
 #endif
 
-TEST_CASE("turn: an action that initialises the node anew ends the turn that it began in") {
+TEST_CASE("node lock: an action that initialises the node again releases the lock that it holds") {
   static Fixture* again;
   Fixture node(Setup().turns());
   again = &node;
@@ -267,7 +267,7 @@ Entries outside_of_turns(const Entries& all) {
   return outside;
 }
 
-TEST_CASE("turn: it is given up while a memory that tells its shape is read, erased and written") {
+TEST_CASE("node lock: released while a memory with geometry is read, erased and written") {
   NotedNvm nvm(true);
   Fixture node(nvm.setup());
   const Diary diary;
@@ -277,7 +277,7 @@ TEST_CASE("turn: it is given up while a memory that tells its shape is read, era
   CHECK(std::count(all.begin(), all.end(), "enter") == std::count(all.begin(), all.end(), "leave"));
 }
 
-TEST_CASE("turn: it is kept while a memory without shape has the bytes of the application") {
+TEST_CASE("node lock: held while a classic memory accesses the bytes of the application") {
   NotedNvm nvm(false);
   Fixture node(nvm.setup());
   const Diary diary;
@@ -285,7 +285,7 @@ TEST_CASE("turn: it is kept while a memory without shape has the bytes of the ap
   CHECK(Diary::take() == Entries{"enter", "read", "write", "leave"});
 }
 
-TEST_CASE("turn: it is kept while what was stored goes to where the application has it") {
+TEST_CASE("node lock: held while a loaded group is copied to the variables of the application") {
   NotedNvm nvm(true);
   Fixture node(nvm.setup());
   node.ask(save, saved);
@@ -299,7 +299,7 @@ TEST_CASE("turn: it is kept while what was stored goes to where the application 
   CHECK(kept == 1);
 }
 
-TEST_CASE("turn: what has none to give up takes none: CONodeInit, and the application without a second thread") {
+TEST_CASE("node lock: CONodeInit and an application without Enter and Leave access the memory without it") {
   NotedNvm nvm(true);
   const Diary diary;
   Fixture node(nvm.setup());
@@ -309,7 +309,7 @@ TEST_CASE("turn: what has none to give up takes none: CONodeInit, and the applic
   CHECK(std::count(all.begin(), all.end(), "leave") == 0);
 }
 
-TEST_CASE("turn: a reset that another thread asks for while the memory works waits until it is done") {
+TEST_CASE("node lock: a reset that another thread requests during a memory access is carried out after it") {
   NotedNvm nvm(true);
   Fixture node(nvm.setup());
   node.frames_per_call(2);
@@ -326,7 +326,7 @@ TEST_CASE("turn: a reset that another thread asks for while the memory works wai
   CHECK(asked);
 }
 
-TEST_CASE("turn: functions that work in the memory run a reset that was requested meanwhile when they are done") {
+TEST_CASE("node lock: functions that access the memory carry out a requested reset when they return") {
   NotedNvm nvm(true);
   Fixture node(nvm.setup());
   const auto with_reset = [&](const std::function<CO_ERR()>& function) {
@@ -357,7 +357,7 @@ TEST_CASE("turn: functions that work in the memory run a reset that was requeste
 
 #endif
 
-TEST_CASE("turn: never nested, whatever comes: NMT, SDO in all its forms, errors, heartbeat, guarding") {
+TEST_CASE("node lock: never nested with NMT, all SDO transfers, errors, heartbeat and guarding") {
   Fixture node(Setup().turns().heartbeat(100).emergencies({{CO_EMCY_REG_GENERAL, 0x1234}}));
   std::size_t turns = 0;
   callbacks().enter = [&] { ++turns; };

@@ -20,7 +20,7 @@ std::vector<std::string> released(Fixture& node) {
 
 using Frames = std::vector<std::string>;
 
-TEST_CASE("transmit queue: a frame goes straight to a driver that takes it") {
+TEST_CASE("transmit queue: a frame is passed directly to a driver that accepts it") {
   Fixture node;
   send(node, "181#0102");
   node.tx("181#0102");
@@ -28,7 +28,7 @@ TEST_CASE("transmit queue: a frame goes straight to a driver that takes it") {
   CHECK(node.counters().Sent == 2);  // including the boot-up message
 }
 
-TEST_CASE("transmit queue: priority is that of the bus, identifiers of 11 before those of 29 bits [Q4]") {
+TEST_CASE("transmit queue: the priority is that of the bus, 11-bit before 29-bit identifiers [Q4]") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   for (const char* text : {"7FF#01", "091#02", "1FFFFFFF#03", "02440000#04", "0243FFFF#05", "080#06", "00000001#07"}) {
@@ -54,7 +54,7 @@ unsigned places_for_application(unsigned length) {
   return length - kept;
 }
 
-TEST_CASE("transmit queue: the application fills all but the places of the node's own frames [Q4]") {
+TEST_CASE("transmit queue: the application can fill all slots except those of the node's own frames [Q4]") {
   for (const unsigned length : {1U, 2U, 3U, 7U, 8U, 20U}) {
     CAPTURE(length);
     Fixture node(Setup().tx_queue(static_cast<std::uint16_t>(length)));
@@ -65,14 +65,14 @@ TEST_CASE("transmit queue: the application fills all but the places of the node'
   }
 }
 
-TEST_CASE("transmit queue: without memory of the application it has CO_TX_QUEUE_N places") {
+TEST_CASE("transmit queue: without memory of the application it has CO_TX_QUEUE_N slots") {
   Fixture node;
   node.can.refuse_all();
   for (int i = 0; i < CO_TX_QUEUE_N; ++i) send(node, "181#01");
   CHECK(released(node).size() == places_for_application(CO_TX_QUEUE_N));
 }
 
-TEST_CASE("transmit queue: one that is full of the node's own frames drops and counts") {
+TEST_CASE("transmit queue: if it is full of the node's own frames a further one is dropped and counted") {
   Fixture node(Setup().tx_queue(2));
   node.can.refuse_all();
   for (int i = 0; i < 4; ++i) node.rx("601#4000100000000000");
@@ -80,7 +80,7 @@ TEST_CASE("transmit queue: one that is full of the node's own frames drops and c
   CHECK(released(node) == Frames{"581#4300100091010F00", "581#4300100091010F00"});
 }
 
-TEST_CASE("transmit queue: a driver that takes some frames gets the others later") {
+TEST_CASE("transmit queue: frames that a driver refuses are sent later") {
   Fixture node(Setup().tx_queue(20));
   node.can.refuse_all();
   for (const char* text : {"181#01", "182#02", "183#03"}) send(node, text);
@@ -92,7 +92,7 @@ TEST_CASE("transmit queue: a driver that takes some frames gets the others later
   node.tx({"182#02", "183#03"});
 }
 
-TEST_CASE("transmit queue: an error of the driver is told and the frame is kept") {
+TEST_CASE("transmit queue: an error of the driver is reported and the frame is kept") {
   Fixture node;
   node.can.refuse_next(1, -1);
   send(node, "181#01");
@@ -101,7 +101,7 @@ TEST_CASE("transmit queue: an error of the driver is told and the frame is kept"
   CHECK(node.error() == CO_ERR_NONE);
 }
 
-TEST_CASE("transmit queue: random frames against a model") {
+TEST_CASE("transmit queue: random frames are sent in the order of a model") {
   std::mt19937 random(7);
   for (unsigned round = 0; round < 100 / stride(10); ++round) {
     Fixture node(Setup().tx_queue(30).only_small());

@@ -84,7 +84,7 @@ void check_round_trip(CO_NODE& node, std::uint16_t index, T value, std::uint8_t 
 
 }  // namespace
 
-TEST_CASE("typed access: every width and kind of number comes back as it was set") {
+TEST_CASE("typed access: every width and kind of number is read back") {
   Node node;
   check_round_trip<std::uint8_t>(node, 0x2001, 0xA5);
   CHECK(u8 == 0xA5);
@@ -114,7 +114,7 @@ TEST_CASE("typed access: every width and kind of number comes back as it was set
   CHECK(u8 == 0xFF);
 }
 
-TEST_CASE("typed access: a value that the object has too few bytes for is refused and not stored") {
+TEST_CASE("typed access: a value too large for the object is refused and not stored") {
   Node node;
   u24 = 1;
   CHECK(co::object<std::uint32_t>(node, 0x2003, 0).set(0x1000000) == CO_ERR_OBJ_RANGE);
@@ -127,7 +127,7 @@ TEST_CASE("typed access: a value that the object has too few bytes for is refuse
   CHECK(co::object<std::uint64_t>(node, 0x2005, 0).set(0x10000000000) == CO_ERR_OBJ_RANGE);
 }
 
-TEST_CASE("typed access: the length is checked when the object is looked up") {
+TEST_CASE("typed access: the length is checked at the lookup") {
   Node node;
   CHECK(co::object<std::uint16_t>(node, 0x2001, 0).error() == CO_ERR_OBJ_SIZE);
   CHECK(co::object<std::uint8_t>(node, 0x2002, 0).error() == CO_ERR_OBJ_SIZE);
@@ -140,7 +140,7 @@ TEST_CASE("typed access: the length is checked when the object is looked up") {
   CHECK(co::object<bool>(node, 0x2002, 0).error() == CO_ERR_OBJ_SIZE);
 }
 
-TEST_CASE("typed access: what went wrong in the look-up is told by every access") {
+TEST_CASE("typed access: the error of the lookup is returned by every access") {
   Node node;
   const auto missing = co::object<std::uint32_t>(node, 0x2100, 1);
   CHECK_FALSE(static_cast<bool>(missing));
@@ -155,7 +155,7 @@ TEST_CASE("typed access: what went wrong in the look-up is told by every access"
   CHECK(u32 == 7);
 }
 
-TEST_CASE("typed access: a result is a value or an error") {
+TEST_CASE("typed access: a result contains a value or an error") {
   Node node;
   u32 = 9;
   const auto good = co::object<std::uint32_t>(node, 0x2004, 0).get();
@@ -167,7 +167,7 @@ TEST_CASE("typed access: a result is a value or an error") {
   CHECK(bad.value_or(1) == 1);
 }
 
-TEST_CASE("typed access: errors of type functions reach the caller") {
+TEST_CASE("typed access: errors of type functions are returned to the caller") {
   Node node;
   const auto object = co::object<std::uint16_t>(node, 0x2040, 0);
   CHECK(object.get().error() == CO_ERR_TYPE_RD);
@@ -175,7 +175,7 @@ TEST_CASE("typed access: errors of type functions reach the caller") {
   CHECK(stored == 0x1234);
 }
 
-TEST_CASE("typed access: values relative to the node-ID are seen with it") {
+TEST_CASE("typed access: values relative to the node-ID have it added") {
   Node node;
   relative = 0x600;
   const auto object = co::object<std::uint32_t>(node, 0x2020, 0);
@@ -184,7 +184,7 @@ TEST_CASE("typed access: values relative to the node-ID are seen with it") {
   CHECK(relative == 0x680);
 }
 
-TEST_CASE("typed access: any byte but 0 is true") {
+TEST_CASE("typed access: any byte except 0 is true") {
   Node node;
   const auto object = co::object<bool>(node, 0x2010, 0);
   boolean = 2;
@@ -193,7 +193,7 @@ TEST_CASE("typed access: any byte but 0 is true") {
   CHECK_FALSE(object.get().value());
 }
 
-TEST_CASE("typed access: the compiler looks up, checks and names the type of a constant key") {
+TEST_CASE("typed access: the compiler finds, checks and selects the type of a constant key") {
   Node node;
   static_assert(std::is_same_v<decltype(co::object<od, 0x2001, 0>(node)), co::Object<std::uint8_t>>);
   static_assert(std::is_same_v<decltype(co::object<od, 0x2002, 0>(node)), co::Object<std::uint16_t>>);
@@ -214,7 +214,7 @@ TEST_CASE("typed access: the compiler looks up, checks and names the type of a c
   CHECK(co::object<od, 0x1000, 0>(node).get().value() == 0x000F0191);
 }
 
-TEST_CASE("typed access: the length of a type of the application is asked for") {
+TEST_CASE("typed access: the length of an application-defined type is read from Size") {
   Node node;
   const auto fitting = co::object<od, 0x2040, 0, std::uint16_t>(node);
   CHECK(fitting.set(0x4321) == CO_ERR_NONE);

@@ -88,7 +88,7 @@ std::size_t sizes[] = {3, 3};
   PASSES(const ELEMENT a[] = {7, 7}; TEST_ASSERT_EACH_EQUAL_##TYPE(7, a, 2));                                    \
   FAILS(const ELEMENT a[] = {7, 8}; TEST_ASSERT_EACH_EQUAL_##TYPE(7, a, 2))
 
-TEST_CASE("Unity: every relation holds for every integer type exactly where it should") {
+TEST_CASE("Unity: every relation holds for the right values of every integer type") {
   CHECK_RELATIONS(INT);
   CHECK_RELATIONS(INT8);
   CHECK_RELATIONS(INT16);
@@ -128,7 +128,7 @@ TEST_CASE("Unity: arrays are compared element by element, in the width of their 
   CHECK_ARRAYS(size_t, std::size_t);
 }
 
-TEST_CASE("Unity: the plain names compare as widely as possible") {
+TEST_CASE("Unity: assertions without a width compare the widest type") {
   PASSES(TEST_ASSERT_EQUAL(1, 1));
   FAILS(TEST_ASSERT_EQUAL(1, 2));
   FAILS(TEST_ASSERT_EQUAL(1, INT64_C(0x100000001)));
@@ -144,7 +144,7 @@ TEST_CASE("Unity: the plain names compare as widely as possible") {
   FAILS(TEST_ASSERT_LESS_OR_EQUAL(1, 2));
 }
 
-TEST_CASE("Unity: numbers are narrowed to their type, signed and unsigned ones ordered by it") {
+TEST_CASE("Unity: numbers are converted to their type and compared with its sign") {
   PASSES(TEST_ASSERT_EQUAL_HEX8(0xFF, -1));
   PASSES(TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, -1));
   FAILS(TEST_ASSERT_EQUAL_HEX64(0xFFFFFFFF, -1));
@@ -160,7 +160,7 @@ TEST_CASE("Unity: numbers are narrowed to their type, signed and unsigned ones o
   PASSES(TEST_ASSERT_EACH_EQUAL_INT8(-128, bytes, 1));
 }
 
-TEST_CASE("Unity: the report says what was expected and what was found, and then the message") {
+TEST_CASE("Unity: a report contains the expected and the actual value, then the message") {
   CHECK(failure_of([] { TEST_ASSERT_EQUAL(5, -6); }) == "Expected 5 Was -6");
   CHECK(failure_of([] { TEST_ASSERT_EQUAL_MESSAGE(5, 6, "why"); }) == "Expected 5 Was 6. why");
   CHECK(failure_of([] { TEST_ASSERT_EQUAL_HEX16(0x5, 0xABCD); }) == "Expected 0x0005 Was 0xABCD");
@@ -177,7 +177,7 @@ TEST_CASE("Unity: the report says what was expected and what was found, and then
   CHECK(failure_of([] { TEST_FAIL_MESSAGE("why"); }) == "why");
 }
 
-TEST_CASE("Unity: a report names file and line of the assertion") {
+TEST_CASE("Unity: a report contains file and line of the assertion") {
   const int line = __LINE__ + 1;
   const auto all = reports_of([] { TEST_FAIL(); });
   REQUIRE(all.size() == 1);
@@ -185,7 +185,7 @@ TEST_CASE("Unity: a report names file and line of the assertion") {
   CHECK(all[0].line == line);
 }
 
-TEST_CASE("Unity: truth, null and empty") {
+TEST_CASE("Unity: truth, null and empty are checked") {
   PASSES(TEST_ASSERT(1));
   FAILS(TEST_ASSERT(0));
   PASSES(TEST_ASSERT_TRUE(2));
@@ -206,7 +206,7 @@ TEST_CASE("Unity: truth, null and empty") {
   FAILS(TEST_ASSERT_NULL_MESSAGE(one_two, "why"));
 }
 
-TEST_CASE("Unity: bits under a mask") {
+TEST_CASE("Unity: bits under a mask are checked") {
   PASSES(TEST_ASSERT_BITS(0xF0, 0x51, 0x52));
   FAILS(TEST_ASSERT_BITS(0xF0, 0x51, 0x61));
   PASSES(TEST_ASSERT_BITS_HIGH(0x30, 0x3F));
@@ -219,7 +219,7 @@ TEST_CASE("Unity: bits under a mask") {
   FAILS(TEST_ASSERT_BIT_LOW(0, 0x01));
 }
 
-TEST_CASE("Unity: strings") {
+TEST_CASE("Unity: strings are compared") {
   PASSES(TEST_ASSERT_EQUAL_STRING("ab", std::string("ab").c_str()));
   FAILS(TEST_ASSERT_EQUAL_STRING("ab", "abc"));
   PASSES(TEST_ASSERT_EQUAL_STRING(NULL, NULL));
@@ -232,7 +232,7 @@ TEST_CASE("Unity: strings") {
   FAILS(TEST_ASSERT_EACH_EQUAL_STRING("a", words, 2));
 }
 
-TEST_CASE("Unity: memory and pointers") {
+TEST_CASE("Unity: memory and pointers are compared") {
   PASSES(TEST_ASSERT_EQUAL_MEMORY("abX", "abY", 2));
   FAILS(TEST_ASSERT_EQUAL_MEMORY("abX", "abY", 3));
   PASSES(TEST_ASSERT_EQUAL_MEMORY_ARRAY(one_two, one_three, sizeof(int), 1));
@@ -248,7 +248,7 @@ TEST_CASE("Unity: memory and pointers") {
   PASSES(TEST_ASSERT_EACH_EQUAL_size_t(3, sizes, 2));
 }
 
-TEST_CASE("Unity: nothing to compare, or one pointer that is null, is a failure") {
+TEST_CASE("Unity: a comparison of no elements or with one null pointer fails") {
   CHECK(failure_of([] { TEST_ASSERT_EQUAL_MEMORY("a", "b", 0); }) == "Nothing to compare");
   CHECK(failure_of([] { TEST_ASSERT_EQUAL_INT_ARRAY(one_two, one_two, 0); }) == "Nothing to compare");
   CHECK(failure_of([] { TEST_ASSERT_EACH_EQUAL_INT(1, one_two, 0); }) == "Nothing to compare");
@@ -257,7 +257,7 @@ TEST_CASE("Unity: nothing to compare, or one pointer that is null, is a failure"
   PASSES(TEST_ASSERT_EQUAL_MEMORY(NULL, NULL, 1));
 }
 
-TEST_CASE("Unity: real numbers, with infinity and NaN equal to themselves") {
+TEST_CASE("Unity: real numbers are compared; infinity and NaN equal themselves") {
   PASSES(TEST_ASSERT_EQUAL_FLOAT(1.0F, 1.000001F));
   FAILS(TEST_ASSERT_EQUAL_FLOAT(1.0F, 1.0001F));
   PASSES(TEST_ASSERT_FLOAT_WITHIN(0.5F, -1.0F, -1.5F));
@@ -280,7 +280,7 @@ struct Witness {
 };
 }  // namespace
 
-TEST_CASE("Unity: a test ends at its first failure, at TEST_IGNORE and at TEST_PASS, and its objects are destroyed") {
+TEST_CASE("Unity: a test ends at its first failure, TEST_IGNORE or TEST_PASS, and its objects are destroyed") {
   after = 0;
   destroyed = false;
   CHECK(only(reports_of([] {
@@ -303,7 +303,7 @@ TEST_CASE("Unity: a test ends at its first failure, at TEST_IGNORE and at TEST_P
   CHECK(after == 0);
 }
 
-TEST_CASE("Unity: messages do not decide a test") {
+TEST_CASE("Unity: messages do not change the result of a test") {
   const auto all = reports_of([] {
     TEST_MESSAGE("one");
     TEST_PASS_MESSAGE("two");
@@ -314,12 +314,12 @@ TEST_CASE("Unity: messages do not decide a test") {
   CHECK(all[2].kind == UNITY_PASSED);
 }
 
-TEST_CASE("Unity: an exception that no assertion threw is a failure") {
+TEST_CASE("Unity: an unexpected exception is a failure") {
   CHECK(failure_of([] { throw std::runtime_error("lost"); }) == "lost");
   CHECK(failure_of([] { throw 5; }) == "exception");
 }
 
-TEST_CASE("Unity: the summary counts failures, and a run without tests is one") {
+TEST_CASE("Unity: the summary counts failures; a run without tests fails") {
   UNITY_BEGIN();
   CHECK(UNITY_END() == 1);
   UNITY_BEGIN();

@@ -77,8 +77,7 @@ class Controller {
 
 // Transmitting --------------------------------------------------------------------------------------------------------
 
-TEST_CASE(
-    "ZynqMP CAN: the controller has one frame at a time, so that a later one of higher priority waits for no more") {
+TEST_CASE("ZynqMP CAN: the controller gets one frame at a time, so that a later one of higher priority can precede") {
   for (const bool level : {false, true}) {
     Controller node;
     node.model.level = level;
@@ -96,8 +95,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "ZynqMP CAN: a frame that has lost the arbitration is overtaken by those of higher priority, one after another") {
+TEST_CASE("ZynqMP CAN: a frame that has lost the arbitration is overtaken by each one of higher priority") {
   Controller node;
   CHECK(node.takes("300#"));
   node.model.begin();
@@ -125,7 +123,7 @@ TEST_CASE(
   CHECK(node.model.sent == Ids{0x100, 0x080, 0x300, 0x300});
 }
 
-TEST_CASE("ZynqMP CAN: what another frame has lost is no reason to overtake the one that is on the wire") {
+TEST_CASE("ZynqMP CAN: a lost arbitration of an earlier frame does not affect the one on the wire") {
   Controller node;
   CHECK(node.takes("300#"));
   node.model.begin();
@@ -142,7 +140,7 @@ TEST_CASE("ZynqMP CAN: what another frame has lost is no reason to overtake the 
   CHECK(node.send("081#") == 0);
 }
 
-TEST_CASE("ZynqMP CAN: 11-bit identifiers come before 29-bit ones of the same base, data before remote frames") {
+TEST_CASE("ZynqMP CAN: 11-bit before 29-bit identifiers of the same base, data before remote frames") {
   Controller node;
   CHECK(node.takes("0C000000#"));  // base identifier 300h
   node.model.begin();
@@ -156,7 +154,7 @@ TEST_CASE("ZynqMP CAN: 11-bit identifiers come before 29-bit ones of the same ba
   CHECK(node.takes("300#"));
 }
 
-TEST_CASE("ZynqMP CAN: nothing overtakes the boot-up message, but a heartbeat is overtaken [301:7.3.2.2.1]") {
+TEST_CASE("ZynqMP CAN: the boot-up message is never overtaken, a heartbeat is [301:7.3.2.2.1]") {
   Controller node;
   CHECK(node.takes("705#00"));
   node.model.begin();
@@ -171,7 +169,7 @@ TEST_CASE("ZynqMP CAN: nothing overtakes the boot-up message, but a heartbeat is
   CHECK(node.model.sent == Ids{0x705, 0x080, 0x705});
 }
 
-TEST_CASE("ZynqMP CAN: a frame that is sent at once does not block the next, whatever the interrupts do") {
+TEST_CASE("ZynqMP CAN: a frame that is sent at once does not block the next one, for any interrupts") {
   for (const bool level : {false, true}) {
     Controller node;
     node.model.level = level;
@@ -184,7 +182,7 @@ TEST_CASE("ZynqMP CAN: a frame that is sent at once does not block the next, wha
 }
 
 // In each register access in turn, the transmission ends, without or with the interrupt.
-TEST_CASE("ZynqMP CAN: an end of transmission in any moment blocks nothing") {
+TEST_CASE("ZynqMP CAN: an end of transmission at any time blocks no frame") {
   for (const bool level : {false, true}) {
     for (unsigned moment = 0; moment < 16; ++moment) {
       for (const bool with_interrupt : {false, true}) {
@@ -214,7 +212,7 @@ TEST_CASE("ZynqMP CAN: an end of transmission in any moment blocks nothing") {
   }
 }
 
-TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once, an empty FIFO never") {
+TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once; an empty FIFO does not interrupt") {
   Controller node;
   CHECK_FALSE(node.model.interrupt());
   CHECK(node.takes("300#"));
@@ -226,7 +224,7 @@ TEST_CASE("ZynqMP CAN: the end of a transmission interrupts once, an empty FIFO 
   CHECK_FALSE(node.model.interrupt());
 }
 
-TEST_CASE("ZynqMP CAN: an identifier above 7FFh goes out with 29 bits, more than 8 bytes as 8") {
+TEST_CASE("ZynqMP CAN: an identifier above 7FFh is sent with 29 bits, more than 8 bytes as 8") {
   Controller node;
   CO_IF_FRM frm = {0x800, {1, 2, 3, 4, 5, 6, 7, 8}, 15};
   CHECK(ZynqmpCanDriver.Send(&node.can, &frm) > 0);
@@ -241,7 +239,7 @@ TEST_CASE("ZynqMP CAN: an identifier above 7FFh goes out with 29 bits, more than
 
 // Receiving -----------------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: a DLC above 8 stands for 8 bytes; both kinds of identifiers and remote frames [ISO 11898-1]") {
+TEST_CASE("ZynqMP CAN: a DLC above 8 means 8 bytes, for both formats and remote frames [ISO 11898-1]") {
   Controller node;
   node.model.receive({0x123U << 21, 15U << 28, 0x01020304, 0x05060708});
   node.model.receive({(0x123U << 21) | (1U << 20), 0, 0, 0});
@@ -255,7 +253,7 @@ TEST_CASE("ZynqMP CAN: a DLC above 8 stands for 8 bytes; both kinds of identifie
   CHECK(node.read() == "0");
 }
 
-TEST_CASE("ZynqMP CAN: a full queue and a full FIFO lose frames, told once and before the frames that are left") {
+TEST_CASE("ZynqMP CAN: a full queue and a full FIFO drop frames, reported once before the remaining ones") {
   Controller node;
   for (unsigned n = 0; n < queue_frames + 3; ++n) {
     node.model.receive(0x100 + n);
@@ -283,7 +281,7 @@ TEST_CASE("ZynqMP CAN: a full queue and a full FIFO lose frames, told once and b
 
 // Error states --------------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: error passive and active again are told once each") {
+TEST_CASE("ZynqMP CAN: error passive and its end are reported once each") {
   Controller node;
   CHECK(node.read() == "0");
   node.model.set_state(co::zynqmp::error_passive);
@@ -294,8 +292,7 @@ TEST_CASE("ZynqMP CAN: error passive and active again are told once each") {
   CHECK(node.read() == "0");
 }
 
-TEST_CASE(
-    "ZynqMP CAN: in bus-off the controller stays off the bus until a reset, and is back when it is error active") {
+TEST_CASE("ZynqMP CAN: in bus-off the controller is off the bus until a reset and back when error active") {
   Controller node;
   CHECK(node.takes("300#"));
   node.model.go_bus_off();
@@ -319,7 +316,7 @@ TEST_CASE(
   CHECK(node.model.sent == Ids{0x080});
 }
 
-TEST_CASE("ZynqMP CAN: back from bus-off as error passive, both are told; Enable begins anew") {
+TEST_CASE("ZynqMP CAN: recovery from bus-off as error passive reports both; Enable starts anew") {
   Controller node;
   node.model.go_bus_off();
   node.interrupt();
@@ -334,7 +331,7 @@ TEST_CASE("ZynqMP CAN: back from bus-off as error passive, both are told; Enable
   CHECK(node.read() == "0");
 }
 
-TEST_CASE("ZynqMP CAN: frames received before bus-off are read, an overrun is told with it") {
+TEST_CASE("ZynqMP CAN: frames received before bus-off are read; an overrun is reported with it") {
   Controller node;
   for (unsigned n = 0; n < queue_frames + 1; ++n) {
     node.model.receive(0x100 + n);
@@ -350,8 +347,7 @@ constexpr CO_OBJ od[] = {
     {CO_KEY(0x1014, 0, CO_OBJ_DN__R_), CO_TEMCY_ID, (CO_DATA)(0x80)},
 };
 
-TEST_CASE(
-    "ZynqMP CAN: a node is told of bus-off; COIfCanReset brings it back, which it reports with 8140h [301:7.2.7.1]") {
+TEST_CASE("ZynqMP CAN: bus-off is reported to the node, and the recovery by COIfCanReset with 8140h [301:7.2.7.1]") {
   Controller controller;
   CO_NODE node;
   co::VirtualClock clock;
@@ -394,7 +390,7 @@ TEST_CASE(
 
 // On and off the bus --------------------------------------------------------------------------------------------------
 
-TEST_CASE("ZynqMP CAN: a reset drops what was received, and the frame that the controller has goes out [T14]") {
+TEST_CASE("ZynqMP CAN: a reset drops received frames; the frame in the controller is sent [T14]") {
   Controller node;
   CHECK(node.takes("585#01"));
   node.model.begin();
@@ -445,7 +441,7 @@ TEST_CASE("ZynqMP CAN: a reset in bus-off empties both directions and keeps filt
   CHECK(node.takes("300#"));
 }
 
-TEST_CASE("ZynqMP CAN: it waits until a reset and a change of the filters are done, but not for ever") {
+TEST_CASE("ZynqMP CAN: it waits for a limited time until a reset or a change of filters is done") {
   const Ids ids = {0x123, 0x456};
   for (const unsigned latency : {3U, 100000U}) {
     Controller node;
@@ -467,7 +463,7 @@ TEST_CASE("ZynqMP CAN: it waits until a reset and a change of the filters are do
   }
 }
 
-TEST_CASE("ZynqMP CAN: closed, or with an unknown bit rate, it is off the bus, and an interrupt changes nothing") {
+TEST_CASE("ZynqMP CAN: closed or with an unknown bit rate it is off the bus, and interrupts have no effect") {
   Controller node;
   for (unsigned way = 0; way < 2; ++way) {
     if (way == 0) {
@@ -488,7 +484,7 @@ TEST_CASE("ZynqMP CAN: closed, or with an unknown bit rate, it is off the bus, a
   }
 }
 
-TEST_CASE("ZynqMP CAN: it sleeps unless a frame is being sent, off the bus or in bus-off not at all") {
+TEST_CASE("ZynqMP CAN: it sleeps unless a frame is being sent; never when closed or in bus-off") {
   Controller node;
   CHECK(node.takes("300#"));
   COCanZynqmpSleep(&node.can);
@@ -501,7 +497,7 @@ TEST_CASE("ZynqMP CAN: it sleeps unless a frame is being sent, off the bus or in
   CHECK(node.model.value(Register::mode_select) == 0);
 }
 
-TEST_CASE("ZynqMP CAN: null pointers are taken") {
+TEST_CASE("ZynqMP CAN: null pointers are accepted") {
   COCanZynqmpInterrupt(nullptr);
   COCanZynqmpSleep(nullptr);
   CHECK(COCanZynqmpLost(nullptr) == 0);
@@ -526,7 +522,7 @@ unsigned standard_ids_that_pass(const co::zynqmp::Acceptance& all) {
 }
 
 TEST_CASE(
-    "ZynqMP CAN filters: up to four identifiers exactly, repeated ones count once, none lets everything through") {
+    "ZynqMP CAN filters: up to four identifiers match exactly; repeated ones count once; none passes all frames") {
   const Ids ids = {0x000, 0x123, 0x123, 0x605, 0x7E5};
   const auto all = co::zynqmp::acceptance_of(ids.data(), 5);
   CHECK(all.number == 4);
@@ -535,13 +531,13 @@ TEST_CASE(
   CHECK(co::zynqmp::acceptance_of(nullptr, 0).number == 0);
 }
 
-TEST_CASE("ZynqMP CAN filters: a usual slave gets its nine identifiers and no other") {
+TEST_CASE("ZynqMP CAN filters: a usual slave receives its nine identifiers and no others") {
   const Ids ids = {0x000, 0x080, 0x205, 0x305, 0x405, 0x505, 0x605, 0x705, 0x7E5};
   const auto all = co::zynqmp::acceptance_of(ids.data(), 9);
   CHECK(standard_ids_that_pass(all) == 9);
 }
 
-TEST_CASE("ZynqMP CAN filters: of five identifiers the two are put together that let fewest others through") {
+TEST_CASE("ZynqMP CAN filters: of five identifiers the pair is merged that passes the fewest others") {
   std::mt19937 random(2);
   for (unsigned turn = 0; turn < 200; ++turn) {
     Ids ids(5);
@@ -568,13 +564,13 @@ TEST_CASE("ZynqMP CAN filters: of five identifiers the two are put together that
   }
 }
 
-TEST_CASE("ZynqMP CAN filters: wide ones are put together rather than narrow ones, where that lets fewer through") {
+TEST_CASE("ZynqMP CAN filters: wide filters are merged instead of narrow ones if that passes fewer frames") {
   const Ids ids = {0, 1, 2, 3, 4, 5, 6, 7, 0x100, 0x20F, 0x43C};
   const auto all = co::zynqmp::acceptance_of(ids.data(), static_cast<std::uint16_t>(ids.size()));
   CHECK(standard_ids_that_pass(all) == 11);
 }
 
-TEST_CASE("ZynqMP CAN filters: whatever is wanted passes, in data and remote frames, however much it is") {
+TEST_CASE("ZynqMP CAN filters: any number of requested identifiers passes, in data and remote frames") {
   std::mt19937 random(1);
   for (unsigned turn = 0; turn < 300; ++turn) {
     Ids ids(random() % 40 + 1);
