@@ -3,7 +3,7 @@
 """rules.py [--coverage] ROOT | --self-test
 
 Compares the tags of rules, such as [D11], in sources and tests with tests/conformance/RULES.md. Prints "1..N" and a
-line "ok …" or "not ok …" for each rule, which needs a test, and for each tag that is on no line of the page.
+line "ok …" or "not ok …" for each rule, which needs a test, and for each tag that is not on the page.
 --coverage prints the tests of each rule instead.
 """
 import re
@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ROW = re.compile(r"^\| ([A-Z]{1,3}[0-9]{1,2}) \| (.+) \| (.+) \|$", re.MULTILINE)
-# Not an index of an array: those stand behind a name.
+# Not an index of an array: those follow a name.
 TAGS = re.compile(r"(?<![\w\])])\[([A-Z]{1,3}[0-9]{1,2}(?:, [A-Z]{1,3}[0-9]{1,2})*)\]")
 TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 PLACES = ("src", "include", "drivers", "demo", "tests")
@@ -41,9 +41,9 @@ def compare(page, files):
 def verdicts(page, files):
     rules, tests, unknown = compare(page, files)
     lines = [(bool(tests[tag]), f"[{tag}] has a test: {rules[tag]}") for tag in rules]
-    lines += [(False, f"[{tag}] in {name} is no rule of RULES.md") for tag, name in sorted(unknown.items())]
+    lines += [(False, f"[{tag}] in {name} is not a rule of RULES.md") for tag, name in sorted(unknown.items())]
     repeated = len(ROW.findall(page)) - len(rules)
-    return lines + [(repeated == 0, "each rule stands in RULES.md once")]
+    return lines + [(repeated == 0, "each rule is listed in RULES.md once")]
 
 
 def self_test():
@@ -53,11 +53,11 @@ def self_test():
         ("a rule with a test", page, test, True),
         ("a rule with a test of two rules", page + "| D2 | Two. | ours |\n", {"tests/a.cpp": '"a [D1, D2]"'}, True),
         ("a rule without a test", page + "| D2 | Two. | ours |\n", test, False),
-        ("a rule that only a comment names", page, {"src/a.cpp": "// [D1]"}, False),
+        ("a rule with a tag in a comment only", page, {"src/a.cpp": "// [D1]"}, False),
         ("an unknown tag in a source", page, {**test, "src/a.cpp": "// [D2]"}, False),
         ("an unknown tag in a test", page, {"tests/a.cpp": '"a [D1] [X9]"'}, False),
         ("an index of an array", page, {**test, "src/a.cpp": "a[N2] = b()[N3];"}, True),
-        ("a rule that stands there twice", page + page, test, False),
+        ("a duplicate rule", page + page, test, False),
     ]
     return [(all(good for good, _ in verdicts(text, files)) == want, f"self-test: {name}") for name, text, files, want in cases]
 

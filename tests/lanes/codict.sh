@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the tool for device descriptions${full:+ with its program, with sanitizers; LEXICAN_CORPUS may name a directory of descriptions to be read}"
+about="the tool for device descriptions${full:+ with its program, with sanitizers; LEXICAN_CORPUS may be a directory of device descriptions that are read}"
 minutes=${full:+9}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="codict, linked statically: it runs without any library of the machine"
+about="codict linked statically: it runs without shared libraries"
 minutes=3
 packages=("${build_packages[@]}" "${tool_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="demo/run as a user runs it: builds the demo, shows it, serves it on a pseudo-terminal; the commands of README"
+about="demo/run: builds the demo, shows it and serves it on a pseudo-terminal; the commands of README"
 minutes=2
 packages=(g++ cmake ninja-build=ninja libcli11-dev=/usr/include/CLI/CLI.hpp)
 

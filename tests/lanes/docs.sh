@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the site of the documentation: it builds without a warning, every symbol of the headers has a comment, links lead somewhere, and no page loads anything from other machines"
+about="the documentation site: builds without warnings, comments for every symbol of the headers, valid links, no content from other hosts"
 minutes=1
 packages=(mkdocs mkdocs-material=/usr/share/mkdocs/themes/material/mkdocs_theme.yml graphviz=dot doxygen python3)
 

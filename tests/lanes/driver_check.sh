@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the driver check of docs/porting.md on our own drivers, and on drivers that break a promise, each of which it must find"
+about="the driver check of docs/porting.md on the drivers of Lexican, and on faulty drivers, whose faults it must detect"
 minutes=2
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${arm_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="sources that must be refused, with the right message, by gcc, clang and arm-none-eabi-gcc"
+about="sources that gcc, clang and arm-none-eabi-gcc must reject with the expected message"
 minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the most instructions that any frame takes, of the fuzz targets' committed inputs and of sweeps, and that docs/speed.md tells them"
+about="maximum instructions per frame in the committed inputs of the fuzz targets and in sweeps; compared with docs/speed.md"
 minutes=1
 packages=(cmake ninja-build=ninja "${arm_packages[@]}" qemu-system-arm python3)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-about="all doctest cases of hosts on a 32-bit CPU: i686, by this machine's own CPU where it can, else emulated"
+about="all doctest cases of hosts on i686 (32 bits), native if this CPU supports it, else emulated"
 packages=("${build_packages[@]}" g++-i686-linux-gnu=i686-linux-gnu-g++ qemu-user-static=qemu-i386-static)
 
 lane() {

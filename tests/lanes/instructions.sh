@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on the host, and that docs/speed.md tells them"
+about="instructions of operations on Cortex-M3 and Cortex-M0+ (emulated) and on the host; compared with docs/speed.md"
 minutes=1
 packages=(cmake ninja-build=ninja g++ valgrind "${arm_packages[@]}" qemu-system-arm python3)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The rules of inclusion: include < wire < hal < base < dictionary < storage < service < od < node, drivers know only include.
-The rooms of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none knows one beside it.
+"""The include rules: include < wire < hal < base < dictionary < storage < service < od < node; drivers include only include/.
+The modules of tools/codict/src: text < model < eds, xdd < check, gen and so on < network < catalogue < cli; none includes one of
+its own level.
 
-layers.py ROOT         checks a source tree, a case per room
-layers.py --self-test  plants a violation of each rule in a small tree and must find it
+layers.py ROOT         checks a source tree, one case for each module
+layers.py --self-test  checks that a violation of each rule is found in a small tree
 Both print "1..N" and N lines "ok …" or "not ok …".
 """
 import re
@@ -12,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-ROOMS = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "node"]
+MODULES = ["wire", "hal", "base", "dictionary", "storage", "service", "od", "node"]
 CODICT_LEVELS = [{"text"}, {"model"}, {"eds", "xdd"}, {"check", "convert", "diff", "doc", "gen", "json", "project"}, {"network"}, {"catalogue"}, {"cli"}]
 # Headers of the standard library that need neither an operating system nor allocation.
 FREESTANDING = {
@@ -34,17 +35,17 @@ class Tree:
     def is_public(self, name):
         return any((self.root / place / name).is_file() for place in ("include", "config"))
 
-    def rooms(self):
+    def directories(self):
         """The directories to check, each with its rule."""
         yield "include", self.in_include
-        for room in ROOMS:
-            yield f"src/{room}", self.in_src
+        for module in MODULES:
+            yield f"src/{module}", self.in_src
         yield "drivers", self.in_drivers
-        for room in sorted(p.name for p in (self.root / "tools/codict/src").iterdir() if p.is_dir()):
-            yield f"tools/codict/src/{room}", self.in_codict
+        for module in sorted(p.name for p in (self.root / "tools/codict/src").iterdir() if p.is_dir()):
+            yield f"tools/codict/src/{module}", self.in_codict
 
     def faults(self, directory, rule):
-        """What is wrong below a directory; None if nothing is there to be checked."""
+        """Returns the violations below a directory; None if it contains no sources."""
         files = sources(self.root / directory)
         if not files:
             return None
@@ -72,12 +73,12 @@ class Tree:
         source = self.root / "src"
         here = file.relative_to(source).parts
         there = Path(name).parts
-        if there[0] not in ROOMS or not (source / name).is_file():
-            return "neither a public header nor room/file"
-        if ROOMS.index(there[0]) > ROOMS.index(here[0]):
-            return f"{there[0]} lies above {here[0]}"
-        in_service_room = len(here) > 2 and len(there) > 2
-        if here[0] == there[0] == "service" and in_service_room and here[1] != there[1]:
+        if there[0] not in MODULES or not (source / name).is_file():
+            return "neither a public header nor module/file"
+        if MODULES.index(there[0]) > MODULES.index(here[0]):
+            return f"{there[0]} is above {here[0]}"
+        in_service_module = len(here) > 2 and len(there) > 2
+        if here[0] == there[0] == "service" and in_service_module and here[1] != there[1]:
             return "one service never includes another"
         return None
 
@@ -88,10 +89,10 @@ class Tree:
         there = Path(name).parts[0]
         if here == there:
             return None
-        levels = [[n for n, rooms in enumerate(CODICT_LEVELS) if room in rooms] for room in (there, here)]
+        levels = [[n for n, modules in enumerate(CODICT_LEVELS) if module in modules] for module in (there, here)]
         if not all(levels):
-            return "not a room of the table"
-        return None if levels[0] < levels[1] else f"{there} does not lie below {here}"
+            return "not a module of the table"
+        return None if levels[0] < levels[1] else f"{there} is not below {here}"
 
     def in_drivers(self, file, name, system):
         if system or self.is_public(name):
@@ -101,15 +102,15 @@ class Tree:
         for path in own:
             if path.is_file() and path.resolve().relative_to((self.root / "drivers").resolve()).parts[0] == kind:
                 return None
-        return "drivers include only include/, the system and their own room"
+        return "drivers include only include/, the system and their own directory"
 
 
 def check(root):
     tree = Tree(root)
-    rooms = list(tree.rooms())
-    print(f"1..{len(rooms)}")
+    directories = list(tree.directories())
+    print(f"1..{len(directories)}")
     good = True
-    for directory, rule in rooms:
+    for directory, rule in directories:
         faults = tree.faults(directory, rule)
         if faults == []:
             print(f"ok {directory}")
@@ -176,7 +177,7 @@ def faults_of(extra=None):
     with tempfile.TemporaryDirectory() as root:
         plant(root, extra)
         tree = Tree(root)
-        return [fault for directory, rule in tree.rooms() for fault in tree.faults(directory, rule)]
+        return [fault for directory, rule in tree.directories() for fault in tree.faults(directory, rule)]
 
 
 def self_test():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the rules of inclusion between the rooms, the tags of rules in the tests, and that a violation is found"
+about="the include rules between modules and the tags of rules in the tests, with self-tests"
 minutes=1
 packages=(python3)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="small C and C++ projects that use the library in every way that is promised${full:+, and codict, also for another machine}"
+about="small C and C++ projects that use the library in each documented way${full:+, and codict, also cross-compiled}"
 minutes=${full:+3}
 : "${minutes:=2}"
 packages=("${build_packages[@]}" pkg-config)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="docs/porting.md: its code is that of files which compile, for this machine and for Cortex-M0; so do the templates"
+about="docs/porting.md: its code equals files that compile for this host and Cortex-M0, like the driver templates"
 minutes=1
 packages=(python3 gcc clang "${arm_packages[@]}")
 

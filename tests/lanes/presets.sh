@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the configurations of config/presets (full is that of all other lanes)"
+about="the configurations of config/presets (all other lanes use full)"
 minutes=6
 packages=("${build_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the example of a node in a task of FreeRTOS, on threads under the thread sanitizer: a master reads a device"
+about="the FreeRTOS example on threads with the thread sanitizer: a master reads a device"
 minutes=1
 packages=("${build_packages[@]}" "${clang_packages[@]}" "${arm_packages[@]}")
 

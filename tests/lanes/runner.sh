@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the test runner itself: it notices cases that did not run, and programs that end early"
+about="the test runner: it detects cases that did not run and programs that end early"
 minutes=1
 packages=()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the SDO server beside its model: all pairs of requests from every state, all triples, 20 million of chance, gcc -O2"
+about="the SDO server against its model: all pairs and triples of requests from every state, 20 million random ones, gcc -O2"
 packages=("${build_packages[@]}")
 
 lane() {

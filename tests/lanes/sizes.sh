@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="bytes of flash and RAM of whole nodes, their modules, switches, and one more of a thing, and that docs/sizes.md tells them"
+about="flash and RAM of nodes, modules, settings and each additional object; compared with docs/sizes.md"
 minutes=3
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}" gcc-riscv64-unknown-elf=riscv64-unknown-elf-g++
   picolibc-riscv64-unknown-elf=/usr/lib/picolibc/riscv64-unknown-elf/lib/libc.a)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="how fast SDO transfers are on a simulated bus, and that docs/speed.md tells it"
+about="duration of SDO transfers on a simulated bus; compared with docs/speed.md"
 minutes=1
 packages=("${build_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="how deep the stack gets in every function of the API, on a Cortex-M0+, and that docs/sizes.md tells it"
+about="stack depth of every API function on a Cortex-M0+; compared with docs/sizes.md"
 minutes=1
 packages=(cmake ninja-build=ninja python3 "${arm_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="all doctest cases with their whole sweeps, clang with address and undefined behaviour sanitizers"
+about="all doctest cases with complete sweeps, clang with address and undefined behaviour sanitizers"
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 
 lane() {

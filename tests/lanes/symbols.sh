@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="what the library may not need or contain: heap, exceptions, C++ run time, static objects, software reals"
+about="forbidden symbols in the library: heap, exceptions, C++ run time, static objects, software floating point"
 minutes=1
 packages=("${build_packages[@]}" clang "${arm_packages[@]}")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-about="the cases of the lane target on a Cortex-M3, a Cortex-M4F (by doctest itself, too), a RISC-V and an s390x, emulated"
+about="the cases of lane target on an emulated Cortex-M3, Cortex-M4F (also with doctest), RISC-V and s390x"
 . "$root/tests/lanes/boards.sh"
 packages=("${board_packages[@]}" "${s390x_packages[@]}")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-about="what has threads, under the thread sanitizer: the interrupt's and the loop's end of a ring, a node of two threads"
+about="tests with threads and the thread sanitizer: a ring with a writing and a reading thread, a node with two threads"
 minutes=2
 packages=("${build_packages[@]}" "${clang_packages[@]}")
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 . "$root/tests/lanes/tidy.sh"
-about="clang-tidy over tools, which takes minutes"
+about="clang-tidy over tools"
 unset minutes
 packages+=("${tool_packages[@]}")
 places=(tools)
