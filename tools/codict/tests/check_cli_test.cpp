@@ -36,7 +36,7 @@ const std::string unlisted = " --disable eds-list-unlisted ";
 
 }  // namespace
 
-TEST_CASE("codict check --error-format github: workflow commands, with signs escaped where they would mean something") {
+TEST_CASE("codict check --error-format github: workflow commands are printed with escaped special characters") {
   CHECK(check("--error-format github octal.eds").out ==
         "::warning file=octal.eds,line=30,col=14,title=od-value-octal::2000h 'Ten': '012' is octal, read as 10"
         "%0Afix: write it without the leading 0, or with 0x\n"
@@ -48,7 +48,7 @@ TEST_CASE("codict check --error-format github: workflow commands, with signs esc
         "%0Afix: check the spelling%0Aand 1 more\n");
 }
 
-TEST_CASE("codict check --error-format sarif: one run over all files, with the rules that were broken") {
+TEST_CASE("codict check --error-format sarif: one run over all files has the rules with findings") {
   const Ran ran = check("--level note --error-format sarif octal.eds bit_pattern.eds");
   CHECK(ran.status == 1);
   CHECK(ran.err.empty());
@@ -77,7 +77,7 @@ TEST_CASE("codict check --error-format sarif: one run over all files, with the r
   }
 }
 
-TEST_CASE("codict check --error-format sarif: columns are characters, paths are URIs, what cannot be read is said") {
+TEST_CASE("codict check --error-format sarif: columns are characters, paths are URIs, unreadable files are reported") {
   const Ran ran = check_text("\xC3\xA4 b.eds", "[FileInfo]\n\xC3\xA4\xC3\xB6=1\n", "--error-format sarif");
   REQUIRE_FALSE(ran.out.empty());
   const Json run = Json::parse(ran.out).at("runs").at(0);
@@ -104,7 +104,7 @@ TEST_CASE("codict check --werror: warnings are errors") {
   CHECK(check("--level error --werror bit_pattern.eds").status == 0);  // notes do not become errors
 }
 
-TEST_CASE("codict check --disable: every rule can be named, and for a wrong one similar rules are suggested") {
+TEST_CASE("codict check --disable: every rule is accepted; for an unknown one similar rules are suggested") {
   CHECK(check("--disable gen-limits --disable suppression-unused bit_pattern.eds").status == 0);
   const Ran wrong = check("--disable od-value-octl octal.eds");
   CHECK(wrong.status == 2);
@@ -112,7 +112,7 @@ TEST_CASE("codict check --disable: every rule can be named, and for a wrong one 
   CHECK(check("--disable weather octal.eds").err == "codict: there is no rule weather: codict explain names all\n");
 }
 
-TEST_CASE("codict check --profile: a device profile is checked where that is asked for") {
+TEST_CASE("codict check --profile: a device profile is checked on request") {
   const std::string text =
       "[1000]\nParameterName=x\nObjectType=7\nDataType=7\nAccessType=ro\nDefaultValue=0x192\n" + variable("6040", "");
   const auto profile_findings = [&text](const char* options) {
@@ -193,7 +193,7 @@ TEST_CASE("codict check: a comment suppresses rules in the element behind it, or
   CHECK(count("<!-- codict: ignore\n xdd-access-case\n-->\n", "") == 0);
 }
 
-TEST_CASE("codict check: each of many comments has its effect, and those without one are told") {
+TEST_CASE("codict check: each of many comments has its effect; those without an effect are reported") {
   std::string text = "; codict: ignore eds-key-unknown\n[FileInfo]\n";
   for (int n = 0; n < 12000; ++n) {
     text += "; codict: ignore eds-key-length\nOwn" + std::to_string(n) + "=1\n";
@@ -205,14 +205,14 @@ TEST_CASE("codict check: each of many comments has its effect, and those without
   CHECK_FALSE(test::has(ran.out, "eds-file-version]"));
 }
 
-TEST_CASE("codict check: a comment for the whole file and one in it both have an effect") {
+TEST_CASE("codict check: a comment for the whole file and one for a section both have an effect") {
   const Ran ran = check_text("a.eds", "; codict: ignore eds-key-unknown\n" +
                                           variable("2000", "; codict: ignore eds-key-unknown\nOwn=1\nOther=2"));
   CHECK_FALSE(test::has(ran.out, "eds-key-unknown]"));
   CHECK_FALSE(test::has(ran.out, "suppression-unused"));
 }
 
-TEST_CASE("codict check: a suppression without an effect, and one of no rule, are findings") {
+TEST_CASE("codict check: a suppression without an effect or of an unknown rule is a finding") {
   const std::string text =
       "[FileInfo]\n; codict: ignore od-limitt\n" + variable("2000", "") + "; codict: ignore od-limit gen-limits\n";
   CHECK(check_text("a.eds", text, unlisted).out ==
@@ -246,7 +246,7 @@ TEST_CASE("codict check: very many comments for one place have the effect of one
   CHECK_FALSE(test::has(xml.out, "suppression-unused"));
 }
 
-TEST_CASE("codict gen: comments suppress its warnings, and never its errors") {
+TEST_CASE("codict gen: comments suppress its warnings and never its errors") {
   const Directory directory;
   const auto told = [&directory](const char* comment, const char* lines) {
     test::write_bytes(directory / "a.eds", "; codict: ignore od-mandatory\n[FileInfo]\n" +
@@ -260,7 +260,7 @@ TEST_CASE("codict gen: comments suppress its warnings, and never its errors") {
   CHECK(told("; codict: ignore gen-value\n", "DefaultValue=300").find("[gen-value]") != std::string::npos);
 }
 
-TEST_CASE("codict check --baseline: what is known is not told, wherever it stands") {
+TEST_CASE("codict check --baseline: known findings are not reported, also at another line") {
   const Directory directory;
   const auto run = [&directory](const std::string& arguments) {
     return test::run_codict(directory / "", "check" + quiet + unlisted + arguments);
@@ -282,7 +282,7 @@ TEST_CASE("codict check --baseline: what is known is not told, wherever it stand
   CHECK(run("--baseline base.json --disable od-value-octal a.eds").err.empty());
 }
 
-TEST_CASE("codict check --baseline: equal findings count, and what is XML is known by its element") {
+TEST_CASE("codict check --baseline: equal findings are counted; XML findings are compared by element") {
   const Directory directory;
   const auto run = [&directory](const std::string& arguments) {
     return test::run_codict(directory / "", "check --level note" + quiet + arguments);
@@ -320,7 +320,7 @@ TEST_CASE("codict check --baseline: equal findings count, and what is XML is kno
   CHECK(twice.err == "codict: 1 note\n");
 }
 
-TEST_CASE("codict check --baseline: a file that is none is refused") {
+TEST_CASE("codict check --baseline: a file that is not a baseline is refused") {
   const Directory directory;
   test::write_bytes(directory / "a.eds", variable("2000", ""));
   const auto refused = [&directory](const std::string& text) {
@@ -344,7 +344,7 @@ TEST_CASE("codict check --baseline: a file that is none is refused") {
   CHECK(test::run_codict(directory / "", "check --baseline base.json --write-baseline new.json a.eds").status == 2);
 }
 
-TEST_CASE("codict explain: what a rule says, or all rules") {
+TEST_CASE("codict explain: prints one rule or all rules") {
   const auto explain = [](const std::string& arguments) {
     return test::run_codict(test::fixture(""), "explain " + arguments);
   };
@@ -365,7 +365,7 @@ TEST_CASE("codict explain: what a rule says, or all rules") {
   CHECK(Json::parse(explain("--json").out).at("rules").size() > 140);
 }
 
-TEST_CASE("codict check: findings beyond the limit hide no error, are counted, and tell the exit status") {
+TEST_CASE("codict check: findings beyond the limit are counted, hide no error and keep the exit status") {
   const Directory directory;
   std::string text = "[2000]\nParameterName=x\nObjectType=7\n";
   for (int n = 0; n < 100100; ++n) {

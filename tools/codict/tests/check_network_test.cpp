@@ -65,13 +65,13 @@ std::string of_rpdo(std::initializer_list<std::string> mapping, const std::strin
 
 }  // namespace
 
-TEST_CASE("check: a PDO that maps what can be mapped is right") {
+TEST_CASE("check: a PDO that maps mappable objects has no findings") {
   CHECK(of_tpdo({"1", "0x20000010"}) == "");
   CHECK(of_rpdo({"1", "0x20000010"}) == "");
   CHECK(of_tpdo({"4", "0x20000010", "0x20000010", "0x20000010", "0x20000010"}) == "");
 }
 
-TEST_CASE("check: pdo-empty: a PDO with a valid COB-ID maps an object") {
+TEST_CASE("check: pdo-empty: a PDO with a valid COB-ID must map an object") {
   const auto with = [](const char* cob_id, std::initializer_list<std::string> mapping) {
     return found(check::check_pdo_parameters, record("1800", {"2", cob_id, "255"}) + record("1A00", mapping) + number);
   };
@@ -85,7 +85,7 @@ TEST_CASE("check: pdo-empty: a PDO with a valid COB-ID maps an object") {
   CHECK(of_rpdo({"0"}) == "pdo-empty: RPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
-TEST_CASE("check: pdo-pair: communication parameters and mapping come together, but not where PDOs are compact") {
+TEST_CASE("check: pdo-pair: communication and mapping parameters both exist, except for compact PDOs") {
   CHECK(found(check::check_pdo_parameters, tpdo_communication) == "pdo-pair: TPDO 1 has no mapping parameter\n");
   CHECK(found(check::check_pdo_parameters, record("1601", {"0"})) ==
         "pdo-pair: RPDO 2 has no communication parameter\n");
@@ -94,7 +94,7 @@ TEST_CASE("check: pdo-pair: communication parameters and mapping come together, 
         "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
-TEST_CASE("check: pdo-object: what is mapped is described") {
+TEST_CASE("check: pdo-object: a mapped object must be described") {
   CHECK(of_tpdo({"1", "0x20010010"}) == "pdo-object: mapped object 2001h does not exist\n");
   CHECK(of_tpdo({"1", "0x20000110"}) == "pdo-object: mapped object 2000h:01 does not exist\n");
 }
@@ -109,7 +109,7 @@ std::string refused(const char* pdo, const std::string& access, const char* mapp
 
 }  // namespace
 
-TEST_CASE("check: pdo-access: what is mapped may be mapped, in that direction") {
+TEST_CASE("check: pdo-access: a mapped object must be mappable in the direction of the PDO") {
   const auto tpdo = [](const char* access) { return of_tpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
   const auto rpdo = [](const char* access) { return of_rpdo({"1", "0x20000010"}, variable("2000", "6", access)); };
   for (const char* const access : {"ro", "rwr", "const"}) {
@@ -123,7 +123,7 @@ TEST_CASE("check: pdo-access: what is mapped may be mapped, in that direction") 
   CHECK(of_tpdo({"1", "0x20000010"}, variable("2000", "6", "rw", "", "0")) == refused("TPDO 1", "rw", "no"));
 }
 
-TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the description names the object") {
+TEST_CASE("check: pdo-access: PDOMapping=0 is reported for each mapping that contains the object") {
   const std::string no_tpdo = refused("TPDO 1", "rw", "no");
   const std::string no_rpdo = refused("RPDO 1", "rw", "no");
   const std::string unsaid = "[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=0\n";
@@ -147,7 +147,7 @@ TEST_CASE("check: pdo-access: PDOMapping=0 is named wherever a mapping of the de
   CHECK(of_tpdo({"0", "0x20000010"}, unsaid) == "pdo-empty: TPDO 1 has a valid COB-ID, but maps no object\n");
 }
 
-TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may be a byte") {
+TEST_CASE("check: pdo-bits, pdo-part: an object must be mapped completely; a BOOLEAN may be a byte") {
   CHECK(of_tpdo({"1", "0x20000020"}) == "pdo-bits: mapping of 32 bits, but 2000h 'x' has 16\n");
   CHECK(of_tpdo({"1", "0x20000008"}) == "pdo-part: mapping of 8 bits, but 2000h 'x' has 16\n");
   CHECK(of_tpdo({"1", "0x20000001"}, variable("2000", "1", "ro")) == "");
@@ -157,14 +157,14 @@ TEST_CASE("check: pdo-bits, pdo-part: an object is mapped whole; a BOOLEAN may b
   CHECK(of_tpdo({"1", "0x20000040"}, variable("2000", "0x0A", "ro")) == "");
 }
 
-TEST_CASE("check: pdo-length: 64 bits fit") {
+TEST_CASE("check: pdo-length: a mapping has at most 64 bits") {
   const std::string wide = variable("2000", "7", "rw");
   CHECK(of_tpdo({"2", "0x20000020", "0x20000020"}, wide) == "");
   CHECK(of_tpdo({"3", "0x20000020", "0x20000020", "0x20000020"}, wide) ==
         "pdo-length: TPDO 1 has 96 bits, more than 64\n");
 }
 
-TEST_CASE("check: pdo-gap, pdo-mapped-count: sub-index 0 counts what is mapped") {
+TEST_CASE("check: pdo-gap, pdo-mapped-count: sub-index 0 must count the mapped objects") {
   CHECK(of_tpdo({"2", "0x20000010"}) == "pdo-gap: sub-index 0 is 2, but the number of mapped objects is 1\n");
   CHECK(of_tpdo({"2", "0x20000010", "0"}) == "pdo-gap: sub-index 0 is 2, but the number of mapped objects is 1\n");
   CHECK(of_tpdo({"1", "0x20000010", "0"}) == "");
@@ -173,7 +173,7 @@ TEST_CASE("check: pdo-gap, pdo-mapped-count: sub-index 0 counts what is mapped")
   CHECK(of_tpdo({"0xFF"}) == "");
 }
 
-TEST_CASE("check: pdo-dummy: in RPDOs, of types that the device says") {
+TEST_CASE("check: pdo-dummy: dummies are allowed in RPDOs with types that the device lists") {
   CHECK(of_tpdo({"1", "0x00050008"}) == "pdo-dummy: dummy mapping in a TPDO\n");
   CHECK(of_rpdo({"1", "0x00050008"}) == "pdo-dummy: dummy mapping of UNSIGNED8, which the device does not support\n");
   CHECK(of_rpdo({"1", "0x00050008"}, "[DummyUsage]\nDummy0005=1\n") == "");
@@ -181,14 +181,14 @@ TEST_CASE("check: pdo-dummy: in RPDOs, of types that the device says") {
         "pdo-dummy: dummy mapping of UNSIGNED8, which the device does not support\n");
 }
 
-TEST_CASE("check: pdo-granularity: lengths are multiples of it") {
+TEST_CASE("check: pdo-granularity: mapped lengths must be multiples of it") {
   const std::string bit = variable("2000", "1", "ro");
   CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=8\n") ==
         "pdo-granularity: mapped length 1 is not a multiple of the granularity 8\n");
   CHECK(of_tpdo({"1", "0x20000001"}, bit + "[DeviceInfo]\nGranularity=1\n") == "");
 }
 
-TEST_CASE("check: pdo-type: types that CiA 301 has, remote ones for TPDOs only") {
+TEST_CASE("check: pdo-type: types must be defined by CiA 301, remote ones for TPDOs only") {
   const auto type = [](const char* index, const char* mapping, const char* value) {
     return found(check::check_pdo_parameters, record(index, {"2", "0x80000000", value}) + record(mapping, {"0"}));
   };
@@ -209,7 +209,7 @@ TEST_CASE("check: pdo-type: types that CiA 301 has, remote ones for TPDOs only")
   }
 }
 
-TEST_CASE("check: pdo-time: inhibit and event time belong to PDOs with events") {
+TEST_CASE("check: pdo-time: inhibit and event time need event-driven PDOs") {
   const auto times = [](const char* type, const char* inhibit, const char* event) {
     return found(check::check_pdo_parameters,
                  record("1800", {"5", "0x80000000", type, inhibit, "", event}) + record("1A00", {"0"}));
@@ -220,7 +220,7 @@ TEST_CASE("check: pdo-time: inhibit and event time belong to PDOs with events") 
   CHECK(times("254", "10", "10") == "");
 }
 
-TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
+TEST_CASE("check: pdo-sync-missing: a synchronous PDO needs 1005h") {
   const auto with = [](const char* communication, const char* mapping, const char* cob_id, const char* type,
                        const std::string& others = "") {
     return found(check::check_pdo_parameters,
@@ -241,14 +241,14 @@ TEST_CASE("check: pdo-sync-missing: a PDO that goes with SYNC needs 1005h") {
         tpdo);
 }
 
-TEST_CASE("check: a DCF's values are checked, where it has them") {
+TEST_CASE("check: values of a DCF are checked instead of defaults") {
   std::string mapping = record("1A00", {"1", "0x20000010"});
   mapping += "ParameterValue=0x20000020\n";
   CHECK(found(check::check_pdo_parameters, tpdo_communication + mapping + number) ==
         "pdo-bits: mapping of 32 bits, but 2000h 'x' has 16\n");
 }
 
-TEST_CASE("check: cob-id-restricted: what CiA 301 keeps for other services [301: table 40]") {
+TEST_CASE("check: cob-id-restricted: a CAN-ID reserved by CiA 301 is reported [301: table 40]") {
   const auto emcy = [](const std::string& value) {
     return found(check::check_cob_ids, variable("1014", "7", "rw", value));
   };
@@ -264,13 +264,13 @@ TEST_CASE("check: cob-id-restricted: what CiA 301 keeps for other services [301:
   CHECK(emcy("0x20000001") == "");
 }
 
-TEST_CASE("check: cob-id-form: more than 11 bits need bit 29") {
+TEST_CASE("check: cob-id-form: a CAN-ID above 7FFh needs bit 29") {
   CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x881")) ==
         "cob-id-form: COB-ID 881h has more than 11 bits, but bit 29 is 0\n");
   CHECK(found(check::check_cob_ids, variable("1014", "7", "rw", "0x20000881")) == "");
 }
 
-TEST_CASE("check: cob-id-twice: an identifier has one service, with a node-ID and without") {
+TEST_CASE("check: cob-id-twice: a CAN-ID must have one service, with and without a node-ID") {
   const std::string sync = variable("1005", "7", "rw", "0x80");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "$NODEID+0x80")) == "");
   CHECK(found(check::check_cob_ids, sync + variable("1014", "7", "rw", "0x80")) ==
@@ -283,7 +283,7 @@ TEST_CASE("check: cob-id-twice: an identifier has one service, with a node-ID an
       "cob-id-restricted: COB-ID 5C0h is restricted by CiA 301 (default SDO)\n");
 }
 
-TEST_CASE("check: od-mandatory, od-error-control: what each device has") {
+TEST_CASE("check: od-mandatory, od-error-control: missing mandatory objects are reported") {
   const std::string all = variable("1000", "7", "ro", "0") + variable("1001", "5", "ro", "0") +
                           record("1018", {"1", "1"}) + variable("1017", "6", "rw", "0");
   CHECK(found(check::check_services, all) == "");
@@ -304,7 +304,7 @@ std::string of_services(const std::string& objects) { return found(check::check_
 
 }  // namespace
 
-TEST_CASE("check: sdo-default: the first server's identifiers are fixed [301: 7.5.2.33]") {
+TEST_CASE("check: sdo-default: the COB-IDs of the first server are fixed [301: 7.5.2.33]") {
   CHECK(of_services(record("1200", {"2", "$NODEID+0x600", "$NODEID+0x580"})) == "");
   CHECK(of_services(record("1200", {"2", "0x600", "0x580"})) == "");
   CHECK(of_services(record("1200", {"2", "$NODEID+0x580", "$NODEID+0x600"})) ==
@@ -315,7 +315,7 @@ TEST_CASE("check: sdo-default: the first server's identifiers are fixed [301: 7.
         "sdo-default: COB-ID 0x605 is not 600h plus the node-ID\n");
 }
 
-TEST_CASE("check: heartbeat-consumer: node-ID and time, each node once [301: 7.5.2.19]") {
+TEST_CASE("check: heartbeat-consumer: node-ID and time must be valid, each node once [301: 7.5.2.19]") {
   CHECK(of_services(record("1016", {"3", "0x007F03E8", "0x000103E8", "0"})) == "");
   CHECK(of_services(record("1016", {"1", "0x00800001"})) ==
         "heartbeat-consumer: 0x00800001 has node-ID 128, not 1 to 127\n");
@@ -328,7 +328,7 @@ TEST_CASE("check: heartbeat-consumer: node-ID and time, each node once [301: 7.5
   CHECK(of_services(record("1016", {"2", "0x00050001", "0x00050000"})) == "");
 }
 
-TEST_CASE("check: sync-window: no longer than the cycle") {
+TEST_CASE("check: sync-window: must not exceed the cycle") {
   const auto sync = [](const char* cycle, const char* window) {
     return of_services(variable("1006", "7", "rw", cycle) + variable("1007", "7", "rw", window));
   };
@@ -337,7 +337,7 @@ TEST_CASE("check: sync-window: no longer than the cycle") {
   CHECK(sync("0", "1001") == "");
 }
 
-TEST_CASE("check: pdo-multiplexed: sub-index 0 FEh or FFh, and what belongs to it [301: 7.2.2.6]") {
+TEST_CASE("check: pdo-multiplexed: sub-index 0 FEh or FFh needs the objects of MPDOs [301: 7.2.2.6]") {
   const auto of_mode = [](const char* mode, const char* type, const std::string& more = "") {
     return found(check::check_multiplexed,
                  record("1800", {"2", "$NODEID+0x180", type}) + record("1A00", {mode}) + more);
@@ -361,7 +361,7 @@ TEST_CASE("check: pdo-multiplexed: sub-index 0 FEh or FFh, and what belongs to i
         "pdo-multiplexed-list: source address mode without dispatching list\n");
 }
 
-TEST_CASE("check: od-type-complex, od-unmappable: a value has one type, and what is mapped a length") {
+TEST_CASE("check: od-type-complex, od-unmappable: a value needs a basic type, a mapped object a length") {
   const auto type = [](const char* code, const char* mapping) {
     return found(check::check_structure, variable("2000", code, "rw", "", mapping));
   };
@@ -371,7 +371,7 @@ TEST_CASE("check: od-type-complex, od-unmappable: a value has one type, and what
   CHECK(type("0x0F", "1") == "od-unmappable: DOMAIN with PDO mapping\n");
 }
 
-TEST_CASE("check: od-array-types: elements of an ARRAY have one type; sub-indexes 0 and FFh are none") {
+TEST_CASE("check: od-array-types: elements of an ARRAY must have one type, except sub-indices 0 and FFh") {
   const auto array = [](const char* kind, const char* last, const char* sub = "2") {
     return found(check::check_structure, std::string("[2000]\nParameterName=x\nObjectType=") + kind +
                                              "\n[2000sub0]\nParameterName=x\nDataType=5\nAccessType=ro\n"
@@ -384,7 +384,7 @@ TEST_CASE("check: od-array-types: elements of an ARRAY have one type; sub-indexe
   CHECK(array("8", "7", "FF") == "");
 }
 
-TEST_CASE("check: od-link, od-module-…: what is named is there, and what a module adds is new") {
+TEST_CASE("check: od-link, od-module-…: links must exist, and modules must add new objects") {
   const std::string module = "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=x\n";
   const std::string list = record("1027", {"1", "1"});
   const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
@@ -400,7 +400,7 @@ TEST_CASE("check: od-link, od-module-…: what is named is there, and what a mod
         "od-module-number: connected module 2 is not described\n");
 }
 
-TEST_CASE("check: od-former, od-store-pair, od-granularity: objects that are gone, pairs, and the width of a PDO") {
+TEST_CASE("check: od-former, od-store-pair, od-granularity: obsolete objects, missing pairs, PDO widths are reported") {
   const auto check = [](const std::string& eds) { return found(check::check_structure, eds); };
   for (const char* const index : {"1004", "100B", "100E", "100F"}) {
     CHECK(check(variable(index, "7", "ro")) == "od-former: object is no longer defined by CiA 301\n");
@@ -413,7 +413,7 @@ TEST_CASE("check: od-former, od-store-pair, od-granularity: objects that are gon
   CHECK(check("[DeviceInfo]\nGranularity=65\n") == "od-granularity: granularity 65 is above 64 bits\n");
 }
 
-TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it is not what is in use") {
+TEST_CASE("check: od-sub-zero-large: must not exceed the highest sub-index, except for a count of used ones") {
   const auto zero = [](const char* index, const char* access, const char* value) {
     return found(check::check_objects, std::string("[") + index + "]\nParameterName=x\nObjectType=8\n[" + index +
                                            "sub0]\nParameterName=x\nDataType=5\nAccessType=" + access +
@@ -426,7 +426,7 @@ TEST_CASE("check: od-sub-zero-large: not above the highest sub-index, where it i
   CHECK(zero("1003", "ro", "8") == "");
 }
 
-TEST_CASE("check: od-standard-…: objects of the communication profile are what CiA 301 says [301: 7.5.2]") {
+TEST_CASE("check: od-standard-…: communication objects must agree with CiA 301 [301: 7.5.2]") {
   const auto check = [](const std::string& eds) { return found(check::check_standard, eds); };
   const auto other_type = [](const char* type, const char* right) {
     return std::string("od-standard-type: data type ") + type + ", but CiA 301 defines " + right + "\n";
@@ -444,7 +444,7 @@ TEST_CASE("check: od-standard-…: objects of the communication profile are what
   CHECK(check("[1010]\nParameterName=x\n[1010sub1]\nParameterName=x\nDataType=7\nAccessType=rw\n") == "");
 }
 
-TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 are what these profiles say") {
+TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 must agree with these profiles") {
   const auto io = [](const Device& device, Findings& findings) { check::check_profile(device, 401, findings); };
   const auto drive = [](const Device& device, Findings& findings) { check::check_profile(device, 402, findings); };
   const auto array = [](const std::string& index, const std::string& type, const std::string& access) {
@@ -471,7 +471,7 @@ TEST_CASE("check: profile-…: objects of CiA 401 and CiA 402 are what these pro
         "profile-object-missing: bit 17 announces digital outputs, but 6200h is missing\n");
 }
 
-TEST_CASE("check: the profile of a device is the lower half of object 1000h, and of an unknown one nothing is said") {
+TEST_CASE("check: the profile is the lower half of object 1000h; an unknown one is not checked") {
   CHECK(check::profile_of(device_of(variable("1000", "7", "ro", "0x00020192"))) == 402);
   CHECK(check::profile_of(device_of(variable("1000", "7", "ro", ""))) == 0);
   CHECK(check::profile_of(device_of(variable("1001", "5", "ro", "1"))) == 0);

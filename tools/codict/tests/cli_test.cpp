@@ -26,7 +26,7 @@ using test::run;
 
 }  // namespace
 
-TEST_CASE("codict: without a command, or with a wrong one, it says how it is used") {
+TEST_CASE("codict: without a command or with an unknown one the usage is printed") {
   CHECK(run("").status == 2);
   CHECK(run("chek octal.eds").status == 2);
   CHECK(run("check").status == 2);
@@ -39,14 +39,14 @@ TEST_CASE("codict: without a command, or with a wrong one, it says how it is use
   CHECK(has(run("check --nonsense octal.eds").err, "--nonsense"));
 }
 
-TEST_CASE("codict: an unknown word for an option is refused with the words that it accepts") {
+TEST_CASE("codict: an unknown value of an option is refused with a list of the accepted ones") {
   const Ran wrong = run("check octal.eds --level loud");
   CHECK(wrong.status == 2);
   CHECK(has(wrong.err, "--level: loud not in {note,warning,error}\n"));
   CHECK(run("check octal.eds --level 2").status == 2);
 }
 
-TEST_CASE("codict: no help has control characters, and all formats are named") {
+TEST_CASE("codict: the help has no control characters and lists all formats") {
   CHECK(has(run("--help").out, "XPD"));
   for (const char* command : {"check", "completion", "convert", "diff", "doc", "explain", "fmt", "gen", "get", "info",
                               "list", "man", "merge", "new", "pdo", "set", "size"}) {
@@ -77,7 +77,7 @@ Ran run_with_file_calls(const Directory& directory, const std::string& arguments
 
 }  // namespace
 
-TEST_CASE("codict completion: bash completes commands, and the options of a command") {
+TEST_CASE("codict completion: bash completes commands and their options") {
   CHECK(completed("codict che") == "check\n");
   CHECK(completed("codict check --er") == "--error-format\n");
   CHECK(completed("codict --ver") == "--version\n");
@@ -86,7 +86,7 @@ TEST_CASE("codict completion: bash completes commands, and the options of a comm
   CHECK(run("completion").err.empty());
 }
 
-TEST_CASE("codict: a file that is written is on the medium before it gets its name, and the name before codict ends") {
+TEST_CASE("codict: a file is synchronised before it is renamed, and the directory before codict ends") {
   if (test::run_shell("ldd '" LEXICAN_CODICT_PROGRAM "'").status != 0) {
     return;  // LD_PRELOAD has no effect on a static program
   }
@@ -98,7 +98,7 @@ TEST_CASE("codict: a file that is written is on the medium before it gets its na
   CHECK(test::bytes_of(directory / "copy.eds") == test::bytes_of(directory / "drive.eds"));
 }
 
-TEST_CASE("codict: a file whose directory cannot be synchronised is written: a warning, or nothing if unsupported") {
+TEST_CASE("codict: a file whose directory cannot be synchronised is written, with a warning unless unsupported") {
   if (test::run_shell("ldd '" LEXICAN_CODICT_PROGRAM "'").status != 0) {
     return;
   }
@@ -145,7 +145,7 @@ TEST_CASE("codict completion fish: the script has all commands, options and word
   }
 }
 
-TEST_CASE("codict man: the manual page has all commands and options, and nothing that roff complains about") {
+TEST_CASE("codict man: the manual page has all commands and options and no roff warnings") {
   const Ran page = run("man");
   CHECK(page.status == 0);
   for (const char* words :
@@ -162,7 +162,7 @@ TEST_CASE("codict man: the manual page has all commands and options, and nothing
   }
 }
 
-TEST_CASE("codict: help and version are products, and all is well") {
+TEST_CASE("codict: help and version are written to standard output with status 0") {
   const Ran help = run("--help");
   CHECK(help.status == 0);
   CHECK(help.err.empty());
@@ -173,7 +173,7 @@ TEST_CASE("codict: help and version are products, and all is well") {
   CHECK(run("--version").out.substr(0, 7) == "codict ");
 }
 
-TEST_CASE("codict: what cannot be read is said in one line, with status 2") {
+TEST_CASE("codict: a file that cannot be read is reported in one line with status 2") {
   for (const char* command : {"check", "info", "list"}) {
     const Ran missing = run(std::string(command) + " missing.eds");
     CHECK(missing.status == 2);
@@ -195,7 +195,7 @@ Ran check(const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("codict check: a finding has its place, its line with a caret, its rule, and what to do") {
+TEST_CASE("codict check: a finding has file, line with a caret, rule and remedy") {
   const Ran ran = check("octal.eds");
   CHECK(ran.status == 1);
   CHECK(ran.out == R"(octal.eds:30:14: warning: 2000h 'Ten': '012' is octal, read as 10 [od-value-octal]
@@ -210,7 +210,7 @@ octal.eds:37:16: error: 2001h 'No number': '018' begins with 0, but is not an oc
   CHECK(ran.err == "codict: 1 error, 1 warning\n");
 }
 
-TEST_CASE("codict check: equal findings are folded, unless all are wanted") {
+TEST_CASE("codict check: equal findings are folded unless all are requested") {
   const Ran folded = check("--level note storage_location.eds bit_pattern.eds");
   CHECK(folded.out.find("bit_pattern.eds:32:14: note: ") != std::string::npos);
   CHECK(folded.out.find("    and 2 more\n") != std::string::npos);
@@ -220,7 +220,7 @@ TEST_CASE("codict check: equal findings are folded, unless all are wanted") {
   CHECK(all.out.find("more") == std::string::npos);
 }
 
-TEST_CASE("codict check: only what has the level is shown, and counts") {
+TEST_CASE("codict check: only findings of the requested level are shown and counted") {
   CHECK(check("bit_pattern.eds").status == 0);
   CHECK(check("bit_pattern.eds").out.empty());
   CHECK(check("bit_pattern.eds").err.empty());
@@ -230,14 +230,14 @@ TEST_CASE("codict check: only what has the level is shown, and counts") {
   CHECK(check("--level loud octal.eds").status == 2);
 }
 
-TEST_CASE("codict check: a rule can be left out by its name") {
+TEST_CASE("codict check: a rule can be disabled by its name") {
   CHECK(check("--disable od-value-octal --disable od-value-octal-digit octal.eds").status == 0);
   const Ran unknown = check("--disable od-value-hexal octal.eds");
   CHECK(unknown.status == 2);
   CHECK(unknown.err == "codict: there is no rule od-value-hexal: od-value-octal?\n");
 }
 
-TEST_CASE("codict check: the worst of several files is the status") {
+TEST_CASE("codict check: the status is that of the worst file") {
   CHECK(check("semicolon.eds dos_lines.eds").status == 0);
   CHECK(check("semicolon.eds octal.eds").status == 1);
   const Ran ran = check("missing.eds octal.eds");
@@ -245,7 +245,7 @@ TEST_CASE("codict check: the worst of several files is the status") {
   CHECK(ran.out.find("octal.eds:30:14") != std::string::npos);
 }
 
-TEST_CASE("codict check: carets stand under letters of any encoding, in lines of any length") {
+TEST_CASE("codict check: carets are below characters of any encoding in lines of any length") {
   const Ran dos = check("--level note cp850.eds");
   CHECK(dos.out.find(u8"    ParameterName=Größe für Öl\n                    ^~\n") != std::string::npos);
   const Ran longest = check("--level note long_line.eds");
@@ -256,7 +256,7 @@ TEST_CASE("codict check: carets stand under letters of any encoding, in lines of
         std::string::npos);
 }
 
-TEST_CASE("codict check: JSON is for programs") {
+TEST_CASE("codict check: JSON is printed for programs") {
   const Ran ran = check("--json --level note bit_pattern.eds semicolon.eds");
   CHECK(ran.status == 1);
   const Json json = Json::parse(ran.out);
@@ -272,13 +272,13 @@ TEST_CASE("codict check: JSON is for programs") {
   CHECK(finding.at("count") == 3);
 }
 
-TEST_CASE("codict: - is the standard input") {
+TEST_CASE("codict: - reads the standard input") {
   const Ran ran = check("- <octal.eds");
   CHECK(ran.status == 1);
   CHECK(ran.out.substr(0, 14) == "<stdin>:30:14:");
 }
 
-TEST_CASE("codict check: a whole device has no findings; what it lacks are findings") {
+TEST_CASE("codict check: a complete device has no findings; missing parts are findings") {
   const Ran whole = run("check --level note drive.eds");
   CHECK(whole.status == 0);
   CHECK(whole.out.empty());
@@ -289,14 +289,14 @@ TEST_CASE("codict check: a whole device has no findings; what it lacks are findi
       std::string::npos);
 }
 
-TEST_CASE("codict diff: a device is the same as itself") {
+TEST_CASE("codict diff: a device has no differences to itself") {
   const Ran ran = run("diff drive.eds drive.eds");
   CHECK(ran.status == 0);
   CHECK(ran.out.empty());
   CHECK(ran.err.empty());
 }
 
-TEST_CASE("codict diff: differences are told by kind, with the place and both values") {
+TEST_CASE("codict diff: differences are sorted by kind, with place and both values") {
   const Directory directory;
   const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro name=Velocity").status == 0);
@@ -312,7 +312,7 @@ TEST_CASE("codict diff: differences are told by kind, with the place and both va
   CHECK(run("diff drive.eds missing.eds").status == 2);
 }
 
-TEST_CASE("codict diff: a release is refused while it breaks networks under the same major revision number") {
+TEST_CASE("codict diff: a release that breaks networks needs a new major revision number") {
   const Directory directory;
   const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
@@ -323,7 +323,7 @@ TEST_CASE("codict diff: a release is refused while it breaks networks under the 
   CHECK(run("diff --release drive.eds " + other).status == 0);
 }
 
-TEST_CASE("codict diff: JSON has the lines of both files") {
+TEST_CASE("codict diff: JSON contains the lines of both files") {
   const Directory directory;
   const std::string other = copy_to(directory, "drive.eds");
   REQUIRE(run("set --force " + other + " 2000 access=ro").status == 0);
@@ -337,7 +337,7 @@ TEST_CASE("codict diff: JSON has the lines of both files") {
   CHECK(difference.at("before").at("line") == difference.at("after").at("line"));
 }
 
-TEST_CASE("codict doc: the ending of the output says what it is") {
+TEST_CASE("codict doc: the format is selected by the suffix of the output") {
   const Directory directory;
   CHECK(run("doc drive.eds -o " + directory / "drive.md").status == 0);
   CHECK(bytes_of(directory / "drive.md").find("# Drive 7") == 0);
@@ -350,13 +350,13 @@ TEST_CASE("codict doc: the ending of the output says what it is") {
   CHECK(run("doc missing.eds --to md -o -").status == 2);
 }
 
-TEST_CASE("codict convert: the same format has the same bytes") {
+TEST_CASE("codict convert: the same format gives the same bytes") {
   CHECK(run("convert dos_lines.eds --to eds -o -").out == bytes_of(test::fixture("dos_lines.eds")));
   CHECK(run("convert cp850.eds --to eds -o -").out == bytes_of(test::fixture("cp850.eds")));
   CHECK(run("convert commissioning.dcf --to dcf -o -").out == bytes_of(test::fixture("commissioning.dcf")));
 }
 
-TEST_CASE("codict convert: an EDS becomes a DCF, and is the same device") {
+TEST_CASE("codict convert: an EDS converted to a DCF describes the same device") {
   const Directory directory;
   CHECK(run("convert drive.eds -o " + directory / "drive.dcf").status == 0);
   CHECK(bytes_of(directory / "drive.dcf").find("[DeviceComissioning]\r\n") != std::string::npos);
@@ -367,7 +367,7 @@ TEST_CASE("codict convert: an EDS becomes a DCF, and is the same device") {
   CHECK(run("convert missing.eds --to dcf -o -").status == 2);
 }
 
-TEST_CASE("codict convert: an EDS becomes an XDD and an EDS again, and is the same device") {
+TEST_CASE("codict convert: an EDS converted to an XDD and back describes the same device") {
   const Directory directory;
   for (const char* const name : {"drive.xdd", "drive.xdc"}) {
     CHECK(run("convert drive.eds -o " + directory / name).status == 0);
@@ -380,7 +380,7 @@ TEST_CASE("codict convert: an EDS becomes an XDD and an EDS again, and is the sa
   CHECK(run("convert drive.eds --to xdd -o -").out.find("http://www.canopen.org/xml/1.1") != std::string::npos);
 }
 
-TEST_CASE("codict convert: what the other format has no words for is told, or keeps it from being written") {
+TEST_CASE("codict convert: values that the other format cannot express are reported or prevent the output") {
   const Directory directory;
   const Ran told = run("convert xdd/device10.xdd -o " + directory / "valve.eds");
   CHECK(told.status == 0);
@@ -402,7 +402,7 @@ TEST_CASE("codict convert: what the other format has no words for is told, or ke
   CHECK(run("convert xdd/device10.xdd --to xdc -o -").out == bytes_of(test::fixture("xdd/device10.xdd")));
 }
 
-TEST_CASE("codict convert: the product has the name of its file, and comments of XML are told as lost") {
+TEST_CASE("codict convert: the output has its own file name; lost comments of XML are reported") {
   const Directory directory;
   const Ran ran = run("convert xdd/enumeration.xdd -o " + directory / "other.eds");
   CHECK(has(ran.err, "1 comments"));
@@ -412,14 +412,14 @@ TEST_CASE("codict convert: the product has the name of its file, and comments of
   CHECK(has(run("convert xdd/enumeration.xdd --to eds -o -").out, "FileName=enumeration.xdd\r\n"));
 }
 
-TEST_CASE("codict convert: an EDS without a granularity has none after it was an XDD") {
+TEST_CASE("codict convert: an EDS without granularity has none after a conversion to XDD and back") {
   const Directory directory;
   CHECK(run("convert semicolon.eds -o " + directory / "device.xdd").status == 0);
   CHECK(run("convert " + directory / "device.xdd" + " -o " + directory / "device.eds").status == 0);
   CHECK_FALSE(has(bytes_of(directory / "device.eds"), "Granularity"));
 }
 
-TEST_CASE("codict: what an XDD says is shown and changed as what an EDS says") {
+TEST_CASE("codict: an XDD is shown and changed like an EDS") {
   CHECK(run("info xdd/device10.xdd").out.find("Format           XDC 1.0\n") != std::string::npos);
   CHECK(run("get xdd/device10.xdd 2000 access").out == "readWriteOutput\n");
   CHECK(run("get xdd/device10.xdd 2000").out.find("name=Mode\n") == 0);
@@ -441,7 +441,7 @@ TEST_CASE("codict: what an XDD says is shown and changed as what an EDS says") {
   CHECK(run("doc xdd/device10.xdd --to md -o -").out.find("## <a id=\"g-1\"></a>Working\n") != std::string::npos);
 }
 
-TEST_CASE("codict: XML that is no description is refused with one message") {
+TEST_CASE("codict: XML that is not a device description is refused with one message") {
   const Directory directory;
   std::ofstream(directory / "other.xml") << "<?xml version=\"1.0\"?>\n<html/>\n";
   const Ran ran = run("check " + directory / "other.xml");
@@ -450,7 +450,7 @@ TEST_CASE("codict: XML that is no description is refused with one message") {
   CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
 }
 
-TEST_CASE("codict info: what device it is") {
+TEST_CASE("codict info: prints the identity and features of the device") {
   const Ran ran = run("info file_info.eds");
   CHECK(ran.status == 0);
   CHECK(ran.out == R"(File             file_info.eds
@@ -477,7 +477,7 @@ SDO clients      0
   CHECK(json.at("variables") == 270);
 }
 
-TEST_CASE("codict list: all objects with their types and values") {
+TEST_CASE("codict list: prints all objects with their types and values") {
   const Ran ran = run("list sub_zero.eds");
   CHECK(ran.status == 0);
   CHECK(ran.out.substr(0, ran.out.find("2001")) == R"(1000     UNSIGNED32      ro         0x00000000         Device type
@@ -495,7 +495,7 @@ TEST_CASE("codict list: all objects with their types and values") {
   CHECK(json.at("objects").at(4).at("name") == "Second gain");
 }
 
-TEST_CASE("codict get: one value as it is written, or all of an object or section") {
+TEST_CASE("codict get: prints one value as it is written, or all of an object or section") {
   CHECK(run("get octal.eds 0x2000 default").out == "012\n");
   CHECK(run("get octal.eds 2000:0 DefaultValue").out == "012\n");
   CHECK(run("get sub_zero.eds 2000sub7 name").out == "Part 7\n");
@@ -519,7 +519,7 @@ bool has_escape(const Ran& ran) { return (ran.out + ran.err).find_first_of("\x1B
 
 }  // namespace
 
-TEST_CASE("codict: control characters of a description are question marks, but in a value that get writes to a file") {
+TEST_CASE("codict: control characters are printed as question marks, except in a value that get writes to a file") {
   const Directory directory;
   const std::string path = directory / "hostile.eds";
   const std::string other = copy_to(directory, "drive.eds");
@@ -542,7 +542,7 @@ TEST_CASE("codict: control characters of a description are question marks, but i
   CHECK(has(run_at_terminal("get " + path + " 2000").out, "ParameterName=a?[2Jb?1mc?\r\n"));
 }
 
-TEST_CASE("codict get: what is not there is named") {
+TEST_CASE("codict get: a missing object or key is reported") {
   CHECK(run("get octal.eds 0x2005").err == "codict: octal.eds: there is no object 2005\n");
   CHECK(run("get octal.eds Weather").err == "codict: octal.eds: neither an object nor a section: Weather\n");
   CHECK(run("get octal.eds 0x2000 high").err == "codict: octal.eds: [2000] has no HighLimit\n");
@@ -551,7 +551,7 @@ TEST_CASE("codict get: what is not there is named") {
   CHECK(run("get octal.eds 0x2000 high").status == 2);
 }
 
-TEST_CASE("codict set: one line changes, and all other bytes stay") {
+TEST_CASE("codict set: one line changes and all other bytes stay") {
   const Directory directory;
   const std::string path = copy_to(directory, "dos_lines.eds");
   std::string expected = bytes_of(path);
@@ -564,7 +564,7 @@ TEST_CASE("codict set: one line changes, and all other bytes stay") {
   CHECK(bytes_of(path) == expected);
 }
 
-TEST_CASE("codict set: another file, or the standard output, is written instead") {
+TEST_CASE("codict set: the output may be another file or the standard output") {
   const Directory directory;
   CHECK(run("set octal.eds 2000 default=3 -o '" + directory / "new.eds" + "'").status == 0);
   CHECK(bytes_of(directory / "new.eds").find("DefaultValue=3\n") != std::string::npos);
@@ -572,7 +572,7 @@ TEST_CASE("codict set: another file, or the standard output, is written instead"
   CHECK(run("get octal.eds 2000 default").out == "012\n");
 }
 
-TEST_CASE("codict set: a value that is an error is not written, unless it must be") {
+TEST_CASE("codict set: a value with errors is not written without --force") {
   const Directory directory;
   const std::string path = copy_to(directory, "dos_lines.eds");
   const std::string before = bytes_of(path);
@@ -588,7 +588,7 @@ TEST_CASE("codict set: a value that is an error is not written, unless it must b
   CHECK(bytes_of(path) != before);
 }
 
-TEST_CASE("codict set: an error that was there before is no reason to refuse") {
+TEST_CASE("codict set: errors that were present before do not prevent the change") {
   const Directory directory;
   const std::string path = copy_to(directory, "octal.eds");
   CHECK(run("set '" + path + "' 0x2000 default=1").status == 0);
@@ -596,7 +596,7 @@ TEST_CASE("codict set: an error that was there before is no reason to refuse") {
   CHECK(run("get '" + path + "' FileInfo ModifiedBy").out == "me\n");
 }
 
-TEST_CASE("codict set: wrong use is said, and nothing is written") {
+TEST_CASE("codict set: wrong usage is reported and nothing is written") {
   CHECK(run("set octal.eds 0x2000").status == 2);
   CHECK(run("set octal.eds 0x2000 default").err == "codict: octal.eds: not of the form field=value: default\n");
   CHECK(run("set octal.eds 0x2009 default=1").status == 2);

@@ -38,12 +38,12 @@ const char* const made[] = {"clock_od.h", "clock_od.cpp", "clock.eds"};
 
 }  // namespace
 
-TEST_CASE("demo: nothing is to be said of the description of the clock, not even a note; of its EDS no warning") {
+TEST_CASE("demo: the description of the clock has no findings and no notes; its EDS has no warnings") {
   CHECK(run_shell("'" LEXICAN_CODICT_PROGRAM "' check --level note '" + root + "/demo/clock/clock.xdd'").status == 0);
   CHECK(run_shell("'" LEXICAN_CODICT_PROGRAM "' check '" + root + "/demo/clock/generated/clock.eds'").status == 0);
 }
 
-TEST_CASE("demo: the dictionary and the EDS of the clock that are committed are those of its description") {
+TEST_CASE("demo: the committed dictionary and EDS of the clock are generated from its description") {
   const Copy copy;
   CHECK(copy.generate("--check").status == 0);
   for (const char* name : made) {
@@ -62,7 +62,7 @@ TEST_CASE("demo: the dictionary and the EDS of the clock that are committed are 
   CHECK(copy.generate("--check").status == 0);
 }
 
-TEST_CASE("demo: another description makes another dictionary and another EDS") {
+TEST_CASE("demo: another description gives another dictionary and another EDS") {
   const Copy copy;
   const std::string path = copy.directory / "demo/clock/clock.xdd";
   std::string text = bytes_of(path);

@@ -52,7 +52,7 @@ std::string line(const std::string& before, const std::string& after) {
 
 }  // namespace
 
-TEST_CASE("diff: a device has no differences to itself, however its numbers are written") {
+TEST_CASE("diff: a device has no differences to itself in any notation of numbers") {
   CHECK(lines(speed, speed).empty());
   CHECK(lines(speed, replaced(speed, "DefaultValue=5", "DefaultValue=0x05")).empty());
   CHECK(lines(speed, replaced(speed, "LowLimit=-10", "LowLimit=0xFFF6")).empty());
@@ -61,19 +61,19 @@ TEST_CASE("diff: a device has no differences to itself, however its numbers are 
             .empty());
 }
 
-TEST_CASE("diff: an object that is gone breaks networks, one more does not") {
+TEST_CASE("diff: a removed object breaks networks, an added one does not") {
   CHECK(line(speed, "") == "breaking 2000h object: Speed -> ");
   CHECK(line("", speed) == "compatible 2000h object:  -> Speed");
 }
 
-TEST_CASE("diff: sub-objects that are gone break networks, more of them do not") {
+TEST_CASE("diff: removed sub-objects break networks, added ones do not") {
   const std::string record = "[2100]\nParameterName=R\nObjectType=9\nSubNumber=1\n";
   const std::string sub = "[2100sub1F]\nParameterName=Last\nDataType=5\nAccessType=ro\n";
   CHECK(line(record + sub, record) == "breaking 2100h:1F sub-object: Last -> ");
   CHECK(line(record, record + sub) == "compatible 2100h:1F sub-object:  -> Last");
 }
 
-TEST_CASE("diff: less access breaks networks, more does not") {
+TEST_CASE("diff: reduced access breaks networks, extended access does not") {
   CHECK(line(speed, replaced(speed, "=rw", "=ro")) == "breaking 2000h access: rw -> ro");
   CHECK(line(speed, replaced(speed, "=rw", "=wo")) == "breaking 2000h access: rw -> wo");
   CHECK(line(replaced(speed, "=rw", "=ro"), speed) == "compatible 2000h access: ro -> rw");
@@ -82,7 +82,7 @@ TEST_CASE("diff: less access breaks networks, more does not") {
   CHECK(line(replaced(speed, "=rw", "=wo"), replaced(speed, "=rw", "=ro")) == "breaking 2000h access: wo -> ro");
 }
 
-TEST_CASE("diff: a direction in which an object can no longer be mapped breaks networks") {
+TEST_CASE("diff: a removed direction of mapping breaks networks") {
   CHECK(line(speed, replaced(speed, "PDOMapping=1", "PDOMapping=0")) == "breaking 2000h PDO mapping: 1 -> 0");
   CHECK(line(replaced(speed, "PDOMapping=1", "PDOMapping=0"), speed) == "compatible 2000h PDO mapping: 0 -> 1");
   CHECK(line(speed, replaced(speed, "=rw", "=rwr")) == "breaking 2000h access: rw -> rwr");
@@ -96,7 +96,7 @@ TEST_CASE("diff: another type breaks networks") {
              "[2000]\nObjectType=2\nDataType=15\nAccessType=rw\n") == "breaking 2000h object type: 7 -> 2");
 }
 
-TEST_CASE("diff: narrower limits break networks, wider ones do not, nor those that are gone") {
+TEST_CASE("diff: narrower limits break networks; wider and removed ones do not") {
   CHECK(line(speed, replaced(speed, "=-10", "=-9")) == "breaking 2000h low limit: -10 -> -9");
   CHECK(line(speed, replaced(speed, "=-10", "=-11")) == "compatible 2000h low limit: -10 -> -11");
   CHECK(line(speed, replaced(speed, "HighLimit=10", "HighLimit=9")) == "breaking 2000h high limit: 10 -> 9");
@@ -105,7 +105,7 @@ TEST_CASE("diff: narrower limits break networks, wider ones do not, nor those th
   CHECK(line(replaced(speed, "HighLimit=10\n", ""), speed) == "breaking 2000h high limit:  -> 10");
 }
 
-TEST_CASE("diff: another default is compatible, but not of a PDO, a COB-ID or the identity") {
+TEST_CASE("diff: another default is compatible, except for PDOs, COB-IDs and the identity") {
   CHECK(line(speed, replaced(speed, "DefaultValue=5", "DefaultValue=6")) == "compatible 2000h default: 5 -> 6");
   CHECK(line(speed, replaced(speed, "DefaultValue=5\n", "")) == "compatible 2000h default: 5 -> ");
   const auto kind_of = [](const std::string& section) {
@@ -120,7 +120,7 @@ TEST_CASE("diff: another default is compatible, but not of a PDO, a COB-ID or th
   }
 }
 
-TEST_CASE("diff: of the identity, vendor and product break networks, revision and serial number do not") {
+TEST_CASE("diff: vendor-ID and product code break networks; revision and serial number do not") {
   const auto identity = [](const std::string& sub, const std::string& value) {
     return "[1018]\nObjectType=9\n[1018sub" + sub + "]\nDataType=7\nAccessType=ro\nDefaultValue=" + value + "\n";
   };
@@ -133,7 +133,7 @@ TEST_CASE("diff: of the identity, vendor and product break networks, revision an
   CHECK(line("[DeviceInfo]\nVendorNumber=1\n", "[DeviceInfo]\nVendorNumber=2\n") == "breaking vendor number: 1 -> 2");
 }
 
-TEST_CASE("diff: fewer services break networks, more do not") {
+TEST_CASE("diff: removed services break networks, added ones do not") {
   const auto info = [](const std::string& line) { return "[DeviceInfo]\n" + line + "\n"; };
   CHECK(line(info("BaudRate_125=1"), info("BaudRate_125=0")) == "breaking 125 kbit/s: 1 -> 0");
   CHECK(line(info("BaudRate_125=0"), info("BaudRate_125=1")) == "compatible 125 kbit/s: 0 -> 1");
@@ -148,7 +148,7 @@ TEST_CASE("diff: fewer services break networks, more do not") {
   CHECK(line("[DummyUsage]\nDummy0005=1\n", "[DummyUsage]\nDummy0005=0\n") == "breaking dummy of type 5: 1 -> 0");
 }
 
-TEST_CASE("diff: names concern people, dates the file, values and node-IDs one device") {
+TEST_CASE("diff: names, file dates, and values and node-IDs of one device are separate kinds") {
   CHECK(line(speed, replaced(speed, "Speed", "Velocity")) == "text 2000h name: Speed -> Velocity");
   CHECK(line("[FileInfo]\nCreationDate=01-02-2003\n", "[FileInfo]\nCreationDate=01-02-2004\n") ==
         "file date of creation: 01-02-2003 -> 01-02-2004");
@@ -157,7 +157,7 @@ TEST_CASE("diff: names concern people, dates the file, values and node-IDs one d
         "configuration node-ID: 1 -> 2");
 }
 
-TEST_CASE("diff: a day and a time are the same in the form of an EDS and of XML") {
+TEST_CASE("diff: equal dates and times in the forms of EDS and XML are equal") {
   const auto file = [](const std::string& date, const std::string& time) {
     return "[FileInfo]\nCreationDate=" + date + "\nCreationTime=" + time + "\n";
   };
@@ -168,7 +168,7 @@ TEST_CASE("diff: a day and a time are the same in the form of an EDS and of XML"
         "file time of creation: 09:30PM -> 09:30:00");
 }
 
-TEST_CASE("diff: values of properties are compared, those of CANopenNode and unknown ones") {
+TEST_CASE("diff: properties are compared, those of CANopenNode and unknown ones") {
   const std::string original = test::bytes_of_fixture("device10.xdd");
   const auto changed = [&original](const std::string& name, const std::string& value, const std::string& other) {
     const std::string property = "<property name=\"" + name + "\" value=\"";
@@ -192,7 +192,7 @@ TEST_CASE("diff: values of properties are compared, those of CANopenNode and unk
   CHECK(changed("Own", "kept", "changed") == "text property Own");
 }
 
-TEST_CASE("diff: the values of an enumeration are those of the objects that have its type") {
+TEST_CASE("diff: the values of an enumeration are compared for each object of its type") {
   const std::string type =
       "<enum name=\"Mode\" uniqueID=\"T_Mode\"><enumValue value=\"1\"><label lang=\"en\">on</label></enumValue>"
       "<enumValue value=\"2\"/><USINT/></enum>";
@@ -224,7 +224,7 @@ TEST_CASE("diff: the values of an enumeration are those of the objects that have
   CHECK(told(replaced(type, ">on<", ">ready<")) == "text 2000h name of allowed value 1: on -> ready\n");
 }
 
-TEST_CASE("diff: the objects of modules are compared by module") {
+TEST_CASE("diff: objects of modules are compared by module") {
   const auto coupler = [](const std::string& access) {
     return "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=Input\n[M1FixedObjects]\nNrOfEntries=1\n"
            "1=0x6100\n[M1Fixed6100]\nParameterName=Bits\nObjectType=7\nDataType=5\nAccessType=" +
@@ -233,7 +233,7 @@ TEST_CASE("diff: the objects of modules are compared by module") {
   CHECK(line(coupler("rw"), coupler("ro")) == "breaking module 1, 6100h access: rw -> ro");
 }
 
-TEST_CASE("diff: what breaks networks is announced by the major revision number [301: 7.5.2.18]") {
+TEST_CASE("diff: a change that breaks networks needs a new major revision number [301: 7.5.2.18]") {
   const auto device = [](const std::string& revision, const std::string& access) {
     return device_of("[1018]\nObjectType=9\n[1018sub3]\nDataType=7\nAccessType=ro\nDefaultValue=" + revision +
                      "\n[2000]\nObjectType=7\nDataType=5\nAccessType=" + access + "\n");
@@ -251,7 +251,7 @@ TEST_CASE("diff: what breaks networks is announced by the major revision number 
                 device_of("[DeviceInfo]\nRevisionNumber=0x20000\n")));
 }
 
-TEST_CASE("diff: ranges and steps count: what is allowed no more breaks networks") {
+TEST_CASE("diff: ranges and steps are compared: a removed value breaks networks") {
   const auto xdd = [](const std::string& ranges) {
     return test::xdd_with(
         "<CANopenObject index=\"2000\" name=\"x\" objectType=\"7\" dataType=\"05\" uniqueIDRef=\"p\"/>",
@@ -281,7 +281,7 @@ TEST_CASE("diff: ranges and steps count: what is allowed no more breaks networks
   CHECK(differences(range("1", "5", "2"), range("1", "5")) == "compatible step: 2 -> \n");
 }
 
-TEST_CASE("diff: a file version that is written in the same way is the same") {
+TEST_CASE("diff: equal file versions in another notation are equal") {
   const test::XmlReading xml(
       "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\"><ISO15745Profile>"
       "<ProfileBody fileVersion=\"1.0\"><DeviceIdentity/></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>");

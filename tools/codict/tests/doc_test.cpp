@@ -62,7 +62,7 @@ Options for_node(std::uint8_t node_id) {
 
 }  // namespace
 
-TEST_CASE("doc: a device's features and bit rates are told, those that it has") {
+TEST_CASE("doc: the supported features and bit rates of a device are listed") {
   const std::string text = markdown(device_of(drive), {});
   CHECK(has(text, "# Drive \\<7\\>\n"));
   CHECK(has(text, "| Vendor | Ends \\& Means |"));
@@ -70,7 +70,7 @@ TEST_CASE("doc: a device's features and bit rates are told, those that it has") 
   CHECK(has(text, "| TPDOs | 1 |"));
 }
 
-TEST_CASE("doc: COB-IDs are those of the node-ID that is asked for") {
+TEST_CASE("doc: COB-IDs have the requested node-ID added") {
   const std::string text = markdown(device_of(drive), for_node(5));
   CHECK(has(text, "## <a id=\"cob-ids\"></a>COB-IDs of node 5"));
   CHECK(has(text, "| 705h | Heartbeat | CiA 301 |"));
@@ -79,7 +79,7 @@ TEST_CASE("doc: COB-IDs are those of the node-ID that is asked for") {
   CHECK(has(text, "| 185h | TPDO 1 | 1800h:1 |"));
 }
 
-TEST_CASE("doc: a COB-ID that is off or missing is shown as such; bit 31 of SYNC has another meaning") {
+TEST_CASE("doc: a COB-ID that is off or missing is shown as such; bit 31 of SYNC is ignored") {
   const auto cob_id = [](const char* index, const char* value) {
     const Device device =
         device_of("[" + std::string(index) +
@@ -95,7 +95,7 @@ TEST_CASE("doc: a COB-ID that is off or missing is shown as such; bit 31 of SYNC
   CHECK(cob_id("1012", "0x80000100") == "100h");
 }
 
-TEST_CASE("doc: a PDO tells its parts with their bits, as far as its mapping is in force") {
+TEST_CASE("doc: the objects of a PDO are listed with their bits, up to its number of mapped objects") {
   const Contents contents = contents_of(device_of(drive), {});
   REQUIRE(contents.pdos.size() == 1);
   const PdoItem& pdo = contents.pdos.front();
@@ -112,7 +112,7 @@ TEST_CASE("doc: a PDO tells its parts with their bits, as far as its mapping is 
   CHECK(pdo.parts[2].name == "not used");
 }
 
-TEST_CASE("doc: a PDO's picture has a box for each byte's share of each part") {
+TEST_CASE("doc: the picture of a PDO has a box for each byte of each object") {
   const std::string svg = picture_of(contents_of(device_of(drive), {}).pdos.front());
   // The object of 16 bits has two boxes, that of 4 bits one, the dummy object of 8 bits from bit 20 on two.
   CHECK(occurrences(svg, "<rect ") == 5);
@@ -122,14 +122,14 @@ TEST_CASE("doc: a PDO's picture has a box for each byte's share of each part") {
   CHECK(has(svg, "2001h:1 State &lt;b&gt;"));
 }
 
-TEST_CASE("doc: a mapping of more than 64 bits has a picture of 64") {
+TEST_CASE("doc: the picture of a mapping of more than 64 bits has 64") {
   PdoItem pdo;
   pdo.parts.push_back({"2000h", "", "x", 0, 255});
   pdo.bits = 255;
   CHECK(occurrences(picture_of(pdo), "<rect ") == 8);
 }
 
-TEST_CASE("doc: nothing in a description is taken for Markdown or HTML") {
+TEST_CASE("doc: texts of a description are escaped for Markdown and HTML") {
   const Device device = device_of(drive);
   CHECK(has(markdown(device, {}), "Speed\\|\\*x\\*"));
   const std::string page = html(device, {});
@@ -140,14 +140,14 @@ TEST_CASE("doc: nothing in a description is taken for Markdown or HTML") {
   CHECK(escaped_html("a\"b'c\x01") == "a&quot;b&#39;c ");
 }
 
-TEST_CASE("doc: objects have anchors by their numbers, which stay") {
+TEST_CASE("doc: objects have stable anchors with their indices") {
   const std::string page = html(device_of(drive), {});
   CHECK(has(page, "id=\"o-2000\""));
   CHECK(has(page, "id=\"o-2001-1\""));
   CHECK(has(markdown(device_of(drive), {}), "<a id=\"o-2001-1\"></a>2001h:1"));
 }
 
-TEST_CASE("doc: objects stand in chapters by the areas of the dictionary") {
+TEST_CASE("doc: chapters are the areas of the object dictionary") {
   const Contents contents = contents_of(device_of(drive), {});
   REQUIRE(contents.chapters.size() == 2);
   CHECK(contents.chapters[0].title == "Communication profile");
@@ -156,7 +156,7 @@ TEST_CASE("doc: objects stand in chapters by the areas of the dictionary") {
   CHECK(contents.chapters[1].objects.size() == 2);
 }
 
-TEST_CASE("doc: groups of the description are chapters, and an object stands in one only") {
+TEST_CASE("doc: groups of the description are chapters, and an object is in one chapter only") {
   Device device = device_of(drive);
   device.find(0x2000)->parameter_id.text = "UID_speed";
   lexican::codict::Group inner;
@@ -177,7 +177,7 @@ TEST_CASE("doc: groups of the description are chapters, and an object stands in 
   CHECK(contents.chapters[3].objects.size() == 1);
 }
 
-TEST_CASE("doc: an object tells its type, access, mapping, default and range") {
+TEST_CASE("doc: an object has its type, access, mapping, default and range") {
   const Contents contents = contents_of(device_of(drive), {});
   const Item& speed = contents.chapters[1].objects[0].object;
   CHECK(speed.type == "INTEGER16");
@@ -187,7 +187,7 @@ TEST_CASE("doc: an object tells its type, access, mapping, default and range") {
   CHECK(speed.range == "-10 … 10");
 }
 
-TEST_CASE("doc: an enumeration tells its values with their names, and a string its room") {
+TEST_CASE("doc: an enumeration lists its values with names, a string its capacity") {
   const test::XmlReading xdd = test::fixture_xml("enumeration.xdd");
   const std::string text = markdown(xdd.device, for_node(1));
   CHECK(has(text, "0: off. 1: on."));
@@ -198,7 +198,7 @@ TEST_CASE("doc: an enumeration tells its values with their names, and a string i
   CHECK(has(page, "Has room for 16 characters."));
 }
 
-TEST_CASE("doc: the same device has the same page, byte for byte") {
+TEST_CASE("doc: the same device gives the same page byte for byte") {
   CHECK(html(device_of(drive), {}) == html(device_of(drive), {}));
   CHECK(html(device_of(""), {}) == html(device_of(""), {}));
 }

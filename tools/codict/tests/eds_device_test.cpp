@@ -8,7 +8,7 @@ using namespace lexican::codict;
 using test::meaning;
 using test::Reading;
 
-TEST_CASE("EDS: FileInfo is read, and remarked on where its form is another [306: 4.4]") {
+TEST_CASE("EDS: FileInfo is read; deviations in its form are reported [306: 4.4]") {
   const Reading eds("file_info.eds");
   const FileInfo& file = eds.device.file;
   CHECK(file.file_name.text == "another.eds");
@@ -28,7 +28,7 @@ TEST_CASE("EDS: FileInfo is read, and remarked on where its form is another [306
         "17:14 od-identity\n32:11 od-pdo-count\n37:1 eds-key-unknown\n44:7 eds-list-count\n");
 }
 
-TEST_CASE("EDS: DeviceInfo is read, with keys of former and later versions [306: 4.5]") {
+TEST_CASE("EDS: DeviceInfo is read with keys of earlier and later versions [306: 4.5]") {
   const Reading eds("file_info.eds");
   const Identity& identity = eds.device.identity;
   CHECK(identity.vendor_name.text == "Example");
@@ -80,7 +80,7 @@ TEST_CASE("DCF: commissioning is read [306: 5.3]") {
   CHECK(commissioning.serial_number.value == 0x12345678);
 }
 
-TEST_CASE("DCF: DeviceCommissioning with two m is read, once") {
+TEST_CASE("DCF: a duplicate section in the spelling DeviceCommissioning is read once") {
   const Reading dcf("commissioning.dcf");
   CHECK(dcf.device.commissioning.node_id.value == 200);
   CHECK(dcf.device.commissioning.network_reference.value == 2);
@@ -100,7 +100,7 @@ TEST_CASE("DCF: ParameterValue, Denotation and the files of a DOMAIN are read [3
   CHECK(dcf.at(0x2001).access.value == Access::rw);
 }
 
-TEST_CASE("DCF: compact storage stands for sub-objects like the object [306: 4.6.4]") {
+TEST_CASE("DCF: compact storage expands to sub-objects with the attributes of the object [306: 4.6.4]") {
   const Reading dcf("compact.dcf");
   const Object& object = *dcf.device.find(0x2000);
   CHECK(object.subs.size() == 13);
@@ -128,7 +128,7 @@ TEST_CASE("DCF: names, values, denotations and links of compact storage are read
   CHECK(dcf.found() == "48:1 eds-compact-entry\n53:4 od-value-range\n75:15 od-value-range\n");
 }
 
-TEST_CASE("EDS: modules and what they add are read [306: 4.7]") {
+TEST_CASE("EDS: modules and their objects are read [306: 4.7]") {
   const Reading eds("modules.eds");
   CHECK(eds.device.module_count.value == 3);
   CHECK(eds.device.modules.size() == 2);

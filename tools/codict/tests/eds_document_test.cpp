@@ -39,7 +39,7 @@ std::string added(const std::string& bytes, const char* section, const char* key
 
 }  // namespace
 
-TEST_CASE("EDS: without a change, what is written is what was read") {
+TEST_CASE("EDS: without a change the written bytes are those read") {
   for (const auto& entry : std::filesystem::directory_iterator(test::fixture(""))) {
     if (!entry.is_regular_file()) {
       continue;
@@ -49,7 +49,7 @@ TEST_CASE("EDS: without a change, what is written is what was read") {
   }
 }
 
-TEST_CASE("EDS: any bytes at all are kept, and read") {
+TEST_CASE("EDS: any bytes are read and kept") {
   std::string bytes;
   for (unsigned n = 0; n < 20000; ++n) {
     bytes += "[]=;#\r\n10Asub $\x80\xFF"[(n * n * 7 + n / 3) % 18];
@@ -60,7 +60,7 @@ TEST_CASE("EDS: any bytes at all are kept, and read") {
   eds::read(document, findings);
 }
 
-TEST_CASE("EDS: sections and keys are found in capitals or not") {
+TEST_CASE("EDS: sections and keys are case-insensitive") {
   const Document document = document_of("[FileInfo]\nFileName = a.eds \n[1A00sub1]\nDataType=5\n");
   CHECK(document.sections().size() == 2);
   CHECK(document.find("1a00SUB1") == &document.sections()[1]);
@@ -72,21 +72,21 @@ TEST_CASE("EDS: sections and keys are found in capitals or not") {
   CHECK(document.find(document.sections()[1], "FileName") == nullptr);
 }
 
-TEST_CASE("EDS: a new value replaces the old one alone") {
+TEST_CASE("EDS: a new value replaces only the old one") {
   const std::string bytes = "[2000]\r\nDefaultValue = \t5 \r\n;end\r\n";
   CHECK(changed(bytes, "2000", "DefaultValue", "17") == "[2000]\r\nDefaultValue = \t17 \r\n;end\r\n");
   CHECK(changed("[2000]\nDefaultValue=\n", "2000", "defaultvalue", "1") == "[2000]\nDefaultValue=1\n");
   CHECK(changed("[2000]\nDefaultValue= ", "2000", "DefaultValue", "1") == "[2000]\nDefaultValue=1 ");
 }
 
-TEST_CASE("EDS: a new key is the last of its section, in the manner of the lines around it") {
+TEST_CASE("EDS: a new key is added at the end of its section with the formatting of adjacent lines") {
   CHECK(added("[2000]\r\nA = 1\r\n\r\n[2001]\r\n", "2000", "B", "2") == "[2000]\r\nA = 1\r\nB = 2\r\n\r\n[2001]\r\n");
   CHECK(added("[2000]\n\n[2001]\n", "2000", "B", "2") == "[2000]\nB=2\n\n[2001]\n");
   CHECK(added("[2000]\r\nA=1", "2000", "B", "2") == "[2000]\r\nA=1\r\nB=2");
   CHECK(added("[2000]", "2000", "B", "2") == "[2000]\nB=2");
 }
 
-TEST_CASE("EDS: a new value is written in the encoding of the file, if it has the letters") {
+TEST_CASE("EDS: a new value is written in the encoding of the file if it contains the characters") {
   const std::string dos = "[2000]\nParameterName=Gr\x94\xE1\x65\n";
   CHECK(changed(dos, "2000", "ParameterName", u8"Öl") == "[2000]\nParameterName=\x99l\n");
   const Document document = document_of(dos);
@@ -97,7 +97,7 @@ TEST_CASE("EDS: a new value is written in the encoding of the file, if it has th
   CHECK(edits.is_empty());
 }
 
-TEST_CASE("EDS: the comments of a section are those behind its name") {
+TEST_CASE("EDS: the comments of a section follow its name") {
   const Document document = document_of("; before\n[2000]\n;one\nA=1;no\n ;two\n[2001]\n;three\n");
   const std::vector<Span> comments = document.comments(document.sections()[0]);
   REQUIRE(comments.size() == 2);

@@ -67,16 +67,16 @@ std::size_t check_all_in(const std::string& directory) {
 
 }  // namespace
 
-TEST_CASE("EDS normal form: each fixture is the same device, has lost nothing, and its normal form is itself") {
+TEST_CASE("EDS normal form: each fixture describes the same device without loss, and the form is stable") {
   CHECK(check_all_in(test::fixture("")) > 50);
 }
 
-TEST_CASE("EDS normal form: each description of the corpus is the same device, and has lost nothing" *
+TEST_CASE("EDS normal form: each description of the corpus describes the same device without loss" *
           test::skipped_without_corpus()) {
   CHECK(check_all_in(test::corpus()) > 50);
 }
 
-TEST_CASE("EDS normal form: sections have the order of CiA 306, and comments stay with what they precede") {
+TEST_CASE("EDS normal form: sections have the order of CiA 306; comments stay before their lines") {
   CHECK(formatted(
             "; Top\n[2000sub1]\nParameterName=b\n\n"
             "; The object\n; in two lines\n[2000]\n; its name\nParameterName=a\n;StorageLocation=RAM\n"
@@ -90,7 +90,7 @@ TEST_CASE("EDS normal form: sections have the order of CiA 306, and comments sta
         "[2000sub1]\nParameterName=b\n\n[Mine]\nx=1\n\n; End\n");
 }
 
-TEST_CASE("EDS normal form: names and numbers are as the standard writes them, and values stay") {
+TEST_CASE("EDS normal form: names and numbers have the notation of the standard; values are kept") {
   CHECK(formatted("[1a00Sub01]\nParameterName = x y \nObjectType=0x07\nDataType=5\nAccessType=RW\n"
                   "DefaultValue=0x180+$NodeID\nLowLimit=010\nHighLimit=0xff\n") ==
         "[1A00sub1]\nParameterName=x y\nObjectType=0x7\nDataType=0x0005\nAccessType=rw\n"
@@ -101,7 +101,7 @@ TEST_CASE("EDS normal form: names and numbers are as the standard writes them, a
   CHECK(formatted("[2000] what\nDataType=5\nDataType=6\n") == "[2000] what\nDataType=0x0005\nDataType=6\n");
 }
 
-TEST_CASE("EDS normal form: keys and hexadecimal numbers are spelled as the standard does, others stay") {
+TEST_CASE("EDS normal form: keys and hexadecimal numbers have the spelling of the standard") {
   CHECK(formatted("[FILEINFO]\nFILENAME=x\nOwn key=1\n[deviceinfo]\nvendornumber=0X5\nbaudrate_125=1\n") ==
         "[FileInfo]\nFileName=x\nOwn key=1\n\n[DeviceInfo]\nVendorNumber=0X5\nbaudrate_125=1\n");
   CHECK(formatted("[2000]\nparametername=x\nDATATYPE=0X5\ndefaultvalue=0X10\nsubNumber=0\ncolour=red\n") ==
@@ -109,7 +109,7 @@ TEST_CASE("EDS normal form: keys and hexadecimal numbers are spelled as the stan
   CHECK(formatted("[2000]\nDataType=9\nDefaultValue=0X10\n") == "[2000]\nDataType=0x0009\nDefaultValue=0X10\n");
 }
 
-TEST_CASE("EDS normal form: counts of lists and sub-objects are right") {
+TEST_CASE("EDS normal form: counts of lists and sub-objects are corrected") {
   CHECK(formatted("[ManufacturerObjects]\nSupportedObjects=7\n1=0x2000\n2=0x200a\n\n[2000]\nSubNumber=9\n\n"
                   "[2000sub0]\nDataType=5\n\n[2000subFF]\nDataType=7\n\n[2000Value]\nNrOfEntries=0x1\n2=5\n") ==
         "[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x200A\n\n[2000]\nSubNumber=1\n\n"
@@ -119,7 +119,7 @@ TEST_CASE("EDS normal form: counts of lists and sub-objects are right") {
   CHECK(formatted("[Comments]\nLines=1\nLine1=\nLine2=\n") == "[Comments]\nLines=2\nLine1=\nLine2=\n");
 }
 
-TEST_CASE("EDS normal form: line ends and letters are those of the file") {
+TEST_CASE("EDS normal form: line ends and encoding are those of the file") {
   CHECK(formatted("[Mine]\r\nx=\xF6\r\n[2000]\r\nParameterName=\x94") ==
         "[2000]\r\nParameterName=\x94\r\n\r\n[Mine]\r\nx=\xF6\r\n");
   CHECK(formatted("\xEF\xBB\xBF[2000]\nParameterName=a\n[FileInfo]\n") ==
@@ -128,7 +128,7 @@ TEST_CASE("EDS normal form: line ends and letters are those of the file") {
   CHECK(formatted("").empty());
 }
 
-TEST_CASE("EDS normal form: $NODEID in a text is a part of it") {
+TEST_CASE("EDS normal form: $NODEID in a text is kept") {
   for (const char* type : {"0x0009", "0x000A", "0x000B", "0x000F", "0x0008"}) {
     CAPTURE(type);
     const std::string text = std::string("[2000]\nDataType=") + type + "\nDefaultValue=1+$NodeID\n";
@@ -139,7 +139,7 @@ TEST_CASE("EDS normal form: $NODEID in a text is a part of it") {
   CHECK(formatted("[2000]\nDefaultValue=1+$NodeID\n") == "[2000]\nDefaultValue=$NODEID+0x1\n");
 }
 
-TEST_CASE("EDS normal form: a comment that suppresses a rule for one section does not come to the top of the file") {
+TEST_CASE("EDS normal form: a comment that suppresses a rule for one section is not moved to the top of the file") {
   const std::string once = formatted(
       "[2000]\nParameterName=a\n; codict: ignore eds-file-date\n[FileInfo]\nFileName=x\n[1000]\nParameterName=b\n");
   CHECK(once ==
@@ -150,7 +150,7 @@ TEST_CASE("EDS normal form: a comment that suppresses a rule for one section doe
         "; codict: ignore od-limit\n\n; codict: ignored\n[FileInfo]\n\n[2000]\nParameterName=a\n");
 }
 
-TEST_CASE("EDS normal form: numbers that are none stay") {
+TEST_CASE("EDS normal form: invalid numbers are kept") {
   const std::string text = "[FileInfo]\nFileVersion=1.2.3\n\n[DeviceInfo]\nNrOfRXPDO=many\nGranularity=8 ; bits\n";
   CHECK(formatted(text) == text);
 }

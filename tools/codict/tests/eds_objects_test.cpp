@@ -8,7 +8,7 @@ using namespace lexican::codict;
 using test::meaning;
 using test::Reading;
 
-TEST_CASE("EDS: access types are read in capitals, too, and others are unknown") {
+TEST_CASE("EDS: access types are case-insensitive; other words are unknown") {
   const Reading eds("access.eds");
   CHECK(eds.at(0x2000).access.value == Access::rww);
   CHECK(eds.at(0x2001).access.value == Access::constant);
@@ -17,7 +17,7 @@ TEST_CASE("EDS: access types are read in capitals, too, and others are unknown")
   CHECK(eds.found() == "30:12 eds-access-case\n36:12 eds-access-case\n43:12 eds-access-unknown\n");
 }
 
-TEST_CASE("EDS: without ObjectType, an object is a VAR, or with sub-objects a RECORD") {
+TEST_CASE("EDS: without ObjectType an object is a VAR, or a RECORD if it has sub-objects") {
   const Reading eds("object_type_missing.eds");
   CHECK(eds.device.find(0x2000)->object_code.value == ObjectCode::variable);
   CHECK(eds.device.find(0x2001)->object_code.value == ObjectCode::record);
@@ -37,7 +37,7 @@ TEST_CASE("EDS: an empty value counts as a missing key [306: 4.2]") {
   CHECK(eds.found() == "24:2 eds-key-missing\n24:2 eds-key-missing\n24:2 eds-key-missing\n");
 }
 
-TEST_CASE("EDS: a key at a wrong place is kept") {
+TEST_CASE("EDS: a key in a wrong section is kept") {
   const Reading eds("key_misplaced.eds");
   CHECK(eds.device.find(0x2000)->data_type.text == "0x0005");
   CHECK(eds.at(0x2000, 0).others.at(0).text.text == "1");
@@ -51,7 +51,7 @@ TEST_CASE("EDS: an unknown key is kept") {
   CHECK(eds.found() == "29:1 eds-key-unknown\n");
 }
 
-TEST_CASE("EDS: blanks are accepted around a key and its value, and left out inside a key") {
+TEST_CASE("EDS: blanks around a key and its value, and within a key, are ignored") {
   const Reading eds("key_blanks.eds");
   CHECK(eds.device.optional.count.value == 1);
   CHECK(eds.at(0x1001).name.text == "Error register");
@@ -59,7 +59,7 @@ TEST_CASE("EDS: blanks are accepted around a key and its value, and left out ins
   CHECK(eds.found() == "21:1 eds-syntax-key\n22:4 eds-list-wrong\n");
 }
 
-TEST_CASE("EDS: Factor, Unit and Description are keys of python-canopen") {
+TEST_CASE("EDS: Factor, Unit and Description of python-canopen are read") {
   const Reading eds("python_canopen.eds");
   CHECK(eds.device.dialect == "python-canopen");
   CHECK(eds.at(0x2000).multiplier.text == "0.1");
@@ -68,13 +68,13 @@ TEST_CASE("EDS: Factor, Unit and Description are keys of python-canopen") {
   CHECK(eds.found() == "29:1 eds-dialect\n30:1 eds-dialect\n31:1 eds-dialect\n");
 }
 
-TEST_CASE("EDS: a storage group may be hidden in a comment") {
+TEST_CASE("EDS: a storage group in a comment is read") {
   const Reading eds("storage_location.eds");
   CHECK(eds.at(0x2000).node.storage_group.value == "PERSIST_COMM");
   CHECK(eds.found() == "27:2 eds-hidden-key\n");
 }
 
-TEST_CASE("EDS: an object that no list has is read") {
+TEST_CASE("EDS: an object missing in all lists is read") {
   const Reading eds("unlisted.eds");
   CHECK(meaning(eds.value(0x2000)) == "3");
   CHECK_FALSE(eds.device.find(0x2000)->is_listed);
@@ -87,14 +87,14 @@ TEST_CASE("EDS: without lists, all objects are read") {
   CHECK(eds.found() == "1:1 eds-section-missing\n1:1 eds-section-missing\n4:2 eds-list-unlisted\n");
 }
 
-TEST_CASE("EDS: an object in a list has a section") {
+TEST_CASE("EDS: a listed object without a section is reported") {
   const Reading eds("listed_without_section.eds");
   CHECK(eds.device.manufacturer.indexes.size() == 2);
   CHECK(eds.device.find(0x2001) == nullptr);
   CHECK(eds.found() == "23:3 eds-list-no-section\n");
 }
 
-TEST_CASE("EDS: all entries of a list count, whatever its number says") {
+TEST_CASE("EDS: all entries of a list are read, whatever its number") {
   const Reading eds("list_count.eds");
   CHECK(eds.device.find(0x2001)->is_listed);
   CHECK(eds.found() == "21:18 eds-list-count\n");
@@ -117,7 +117,7 @@ TEST_CASE("EDS: an entry of a list is a number, and not empty") {
   CHECK(eds.found() == "21:18 eds-list-count\n23:3 od-value-number\n24:1 eds-list-entry\n");
 }
 
-TEST_CASE("EDS: SubNumber counts the sub-objects, FFh not with them, and what is described decides [306: 4.6.3]") {
+TEST_CASE("EDS: SubNumber excludes FFh; a wrong one is reported and the described sub-objects are used [306: 4.6.3]") {
   const Reading eds("sub_number.eds");
   CHECK(eds.device.find(0x2000)->subs.size() == 5);
   CHECK(eds.device.find(0x2000)->sub_number.value == 5);
@@ -134,7 +134,7 @@ TEST_CASE("sub-index 0 is there, and its default is the highest sub-index") {
   CHECK(eds.found() == "32:2 od-sub-zero-value\n52:2 od-sub-zero-missing\n74:14 od-sub-zero-small\n");
 }
 
-TEST_CASE("EDS: lists of compact storage add what sections leave open, and never replace what they say") {
+TEST_CASE("EDS: lists of compact storage add missing values and never replace those of sections") {
   const Reading reading("lists_without_compact.dcf");
   CHECK(reading.at(0x2000, 2).name.text == "Second");
   CHECK(reading.at(0x2000, 2).denotation.text == "gear");

@@ -29,44 +29,44 @@ bool says(const std::string& why, const char* word) { return why.find(word) != s
 
 }  // namespace
 
-TEST_CASE("no EDS: an empty file") {
+TEST_CASE("no EDS: an empty file is refused") {
   CHECK(says(refusal_of(""), "empty"));
   CHECK(says(refusal_of(" \r\n\t\n"), "empty"));
   CHECK(says(refusal_of("\xEF\xBB\xBF\n"), "empty"));
 }
 
-TEST_CASE("no EDS: other characters, and no characters") {
+TEST_CASE("no EDS: UTF-16, binary bytes and XML are refused") {
   CHECK(says(refusal_of(std::string("\xFF\xFE[\0F\0", 6)), "UTF-16"));
   CHECK(says(refusal_of(std::string("[FileInfo]\0", 11)), "no text"));
   CHECK(says(refusal_of("\xEF\xBB\xBF<?xml version=\"1.0\"?>"), "XML"));
 }
 
-TEST_CASE("no EDS: one of ODVA") {
+TEST_CASE("no EDS: an EDS of ODVA is refused") {
   CHECK(says(refusal_of("$ Made by hand\n[File]\n  DescText = \"x\";\n[Device]\n  VendCode = 1;\n"), "ODVA"));
 }
 
-TEST_CASE("no EDS: the name that a symbolic link had") {
+TEST_CASE("no EDS: the target of a symbolic link stored as text is refused") {
   CHECK(says(refusal_of("../../common/Motor.dcf"), "../../common/Motor.dcf"));
 }
 
-TEST_CASE("no EDS: constraints of an FPGA design") {
+TEST_CASE("no EDS: constraints of an FPGA design are refused") {
   CHECK(says(refusal_of("###CLOCK\nset_property PACKAGE_PIN F19 [get_ports reset]\n"), "FPGA"));
 }
 
-TEST_CASE("no EDS: types as words, in the dialect of socanmatic") {
+TEST_CASE("no EDS: types as words, in the dialect of socanmatic, are refused") {
   CHECK(says(refusal_of("[2000]\nParameterName=x\nObjectType=VAR\nDataType=UNSIGNED32\n"), "socanmatic"));
 }
 
-TEST_CASE("no EDS: the topology of a network") {
+TEST_CASE("no EDS: the topology of a network is refused") {
   CHECK(says(refusal_of("[TOPOLOGY]\nNetName=None\nNodes=0x01\n"), "topology"));
 }
 
-TEST_CASE("no EDS: any other text") {
+TEST_CASE("no EDS: any other text is refused") {
   CHECK(says(refusal_of("[general]\nname=value\n"), "no section"));
   CHECK(says(refusal_of("Dear reader,\nthis is a letter.\n"), "no section"));
 }
 
-TEST_CASE("no EDS: more than any device needs") {
+TEST_CASE("no EDS: more than 16 MB or 100000 sections are refused") {
   CHECK(says(refusal_of(std::string(17 * 1024 * 1024, ';')), "16 MB"));
   std::string sections;
   for (int n = 0; n <= 100000; ++n) {
@@ -75,7 +75,7 @@ TEST_CASE("no EDS: more than any device needs") {
   CHECK(says(refusal_of(sections), "100000 sections"));
 }
 
-TEST_CASE("an EDS: compact storage stands for 50000 sub-objects, and fills no memory with more") {
+TEST_CASE("an EDS: compact storage expands to at most 50000 sub-objects") {
   std::string objects;
   constexpr unsigned fitting = 50000 / 254;
   for (unsigned n = 0; n <= fitting; ++n) {
@@ -92,7 +92,7 @@ TEST_CASE("an EDS: compact storage stands for 50000 sub-objects, and fills no me
   CHECK(findings.count(eds::rules::compact_limit) == 1);
 }
 
-TEST_CASE("an EDS: one section that it knows is enough") {
+TEST_CASE("an EDS: one known section is enough") {
   CHECK(refusal_of("[deviceinfo]").empty());
   CHECK(refusal_of("[1000]\n").empty());
   CHECK(refusal_of("[1a00SUB1]\n").empty());

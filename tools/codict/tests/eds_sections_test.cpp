@@ -10,7 +10,7 @@ using namespace lexican::codict;
 using test::meaning;
 using test::Reading;
 
-TEST_CASE("EDS: the name of an object's section is case-insensitive, and leading zeros do not matter") {
+TEST_CASE("EDS: the section name of an object is case-insensitive, with or without leading zeros") {
   const Reading eds("section_form.eds");
   CHECK(eds.at(0x200A, 1).name.text == "First");
   CHECK(meaning(eds.value(0x200A, 0)) == "1");
@@ -19,13 +19,13 @@ TEST_CASE("EDS: the name of an object's section is case-insensitive, and leading
         "24:2 eds-section-form\n29:2 eds-section-form\n36:2 eds-section-zeros\n42:2 eds-section-zeros\n");
 }
 
-TEST_CASE("EDS: text behind a section's name is passed over") {
+TEST_CASE("EDS: text after a section name is ignored") {
   const Reading eds("section_tail.eds");
   CHECK(eds.at(0x2000).name.text == "Speed");
   CHECK(eds.found() == "24:8 eds-syntax-section-tail\n");
 }
 
-TEST_CASE("EDS: a section without its bracket is read, one without a name is kept") {
+TEST_CASE("EDS: a section without its closing bracket is read; one without a name is kept") {
   const Reading eds("section_open.eds");
   CHECK(eds.at(0x2000).name.text == "Speed");
   CHECK(eds.device.others.at(0).children.at(0).name == "Word");
@@ -69,21 +69,21 @@ TEST_CASE("EDS: a section with a sub-index beyond FFh is an error that suggests 
   CHECK(found("M1FixedD000sub255x") == "");
 }
 
-TEST_CASE("EDS: sub-indexes beyond FFh are found in the sections of modules, too") {
+TEST_CASE("EDS: sub-indices above FFh are reported in the sections of modules") {
   Findings findings;
   const eds::Document document(Source("module.eds", "[M1Fixed6000sub100]\nParameterName=x\n"), findings);
   eds::read(document, findings);
   CHECK(findings.count(eds::rules::sub_index) == 1);
 }
 
-TEST_CASE("EDS: of two keys of a name the first one is used, and the second one kept") {
+TEST_CASE("EDS: of duplicate keys the first one is used and the second one kept") {
   const Reading eds("duplicate_key.eds");
   CHECK(eds.at(0x2000).name.text == "First");
   CHECK(eds.at(0x2000).others.at(0).text.text == "Second");
   CHECK(eds.found() == "26:1 eds-duplicate-key\n");
 }
 
-TEST_CASE("EDS: of two sections of an object the first one is used, and the second one kept") {
+TEST_CASE("EDS: of duplicate sections of an object the first one is used and the second one kept") {
   const Reading eds("duplicate_section.eds");
   CHECK(eds.at(0x2000).name.text == "First");
   CHECK(eds.at(0x2001, 0).name.text == "First");
@@ -92,7 +92,7 @@ TEST_CASE("EDS: of two sections of an object the first one is used, and the seco
   CHECK(eds.found() == "31:2 eds-duplicate-section\n49:2 eds-section-zeros\n49:2 eds-duplicate-section\n");
 }
 
-TEST_CASE("EDS: a sub-object without its object is read, a list without its object is kept") {
+TEST_CASE("EDS: a sub-object without its object is read; a list without its object is kept") {
   const Reading eds("orphan.eds");
   CHECK(meaning(eds.value(0x2000, 1)) == "4");
   CHECK(eds.device.find(0x2000)->object_code.value == ObjectCode::record);
@@ -108,13 +108,13 @@ TEST_CASE("EDS: a file may consist of one object") {
         "1:1 eds-section-missing\n1:1 eds-section-missing\n1:1 eds-section-missing\n1:2 eds-list-unlisted\n");
 }
 
-TEST_CASE("EDS: lines with other signs of comments are comments") {
+TEST_CASE("EDS: lines with other comment characters are comments") {
   const Reading eds("comments.eds");
   CHECK(eds.at(0x2000).name.text == "One");
   CHECK(eds.found() == "24:1 eds-syntax-comment\n25:2 eds-syntax-comment\n26:1 eds-syntax-indent\n");
 }
 
-TEST_CASE("EDS: a line that is nothing is passed over") {
+TEST_CASE("EDS: a line without a key is ignored") {
   CHECK(Reading("line_without_key.eds").found() == "20:1 eds-syntax-line\n21:1 eds-syntax-line\n");
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("EDS: a line of more than 255 characters is read") {
   CHECK(eds.found() == "29:256 eds-syntax-length\n");
 }
 
-TEST_CASE("EDS: lines end with LF or CR LF, and the last one as it likes") {
+TEST_CASE("EDS: lines end with LF or CR LF, the last one with either or none") {
   const Reading mixed("line_ends.eds");
   CHECK(mixed.device.manufacturer.count.value == 1);
   CHECK(mixed.at(0x2000).access.value == Access::rw);
@@ -140,7 +140,7 @@ TEST_CASE("EDS: lines end with LF or CR LF, and the last one as it likes") {
   CHECK(dos.found().empty());
 }
 
-TEST_CASE("EDS: letters beyond ASCII are those of UTF-8, or a guess") {
+TEST_CASE("EDS: characters beyond ASCII are read as UTF-8, else with a guessed encoding") {
   const Reading utf8("utf8.eds");
   CHECK(utf8.at(0x2000).name.text == u8"Größe");
   CHECK(utf8.found() == "25:17 eds-encoding-utf8\n");

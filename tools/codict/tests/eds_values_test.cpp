@@ -16,14 +16,14 @@ TEST_CASE("EDS: a number with a leading zero is octal, and 8 is no octal digit [
   CHECK(eds.found() == "30:14 od-value-octal\n37:16 od-value-octal-digit\n");
 }
 
-TEST_CASE("EDS: a suffix of C is left out, an h at the end means hexadecimal") {
+TEST_CASE("EDS: a suffix of C is ignored; a final h means hexadecimal") {
   const Reading eds("number_suffix.eds");
   CHECK(meaning(eds.value(0x2000)) == "1311768467294899695");
   CHECK(meaning(eds.value(0x2001)) == "128");
   CHECK(eds.found() == "30:32 od-value-suffix\n37:18 od-value-suffix\n");
 }
 
-TEST_CASE("EDS: a comment behind a number or an access type is left out") {
+TEST_CASE("EDS: a comment after a number or an access type is ignored") {
   const Reading eds("number_comment.eds");
   CHECK(meaning(eds.value(0x2000)) == "1005");
   CHECK(eds.value(0x2000).text == "0x3ED ; prevent homing");
@@ -31,7 +31,7 @@ TEST_CASE("EDS: a comment behind a number or an access type is left out") {
   CHECK(eds.found() == "30:19 od-value-comment\n36:14 od-value-comment\n");
 }
 
-TEST_CASE("EDS: an integer may have zeros behind a point, and nothing else there") {
+TEST_CASE("EDS: an integer may have a decimal point with zeros only") {
   const Reading eds("number_fraction.eds");
   CHECK(meaning(eds.value(0x2000)) == "3");
   CHECK(meaning(eds.value(0x2001)) == "malformed");
@@ -46,7 +46,7 @@ TEST_CASE("EDS: true and false are numbers, other words are not") {
   CHECK(eds.found() == "31:14 od-value-word\n38:14 od-value-word\n45:14 od-value-number\n");
 }
 
-TEST_CASE("EDS: a number fits its data type") {
+TEST_CASE("EDS: a number must fit its data type") {
   const Reading eds("number_range.eds");
   CHECK(meaning(eds.value(0x2000)) == "malformed");
   CHECK(meaning(eds.value(0x2001)) == "malformed");
@@ -54,7 +54,7 @@ TEST_CASE("EDS: a number fits its data type") {
   CHECK(eds.found() == "31:14 od-value-range\n38:14 od-value-range\n45:14 od-value-range\n");
 }
 
-TEST_CASE("EDS: a negative number may be written as its bit pattern, of the width of its type") {
+TEST_CASE("EDS: a negative number may be written as a bit pattern of the width of its type") {
   const Reading eds("bit_pattern.eds");
   CHECK(meaning(eds.value(0x2000)) == "-1");
   CHECK(meaning(eds.value(0x2001)) == "-128");
@@ -63,7 +63,7 @@ TEST_CASE("EDS: a negative number may be written as its bit pattern, of the widt
   CHECK(eds.found() == "32:14 od-value-bit-pattern\n39:14 od-value-bit-pattern\n46:14 od-value-bit-pattern\n");
 }
 
-TEST_CASE("EDS: $NODEID is added to a number, in every form that is found [306: 4.6.5]") {
+TEST_CASE("EDS: $NODEID is added to a number in every notation [306: 4.6.5]") {
   const Reading eds("node_id.eds");
   CHECK(meaning(eds.value(0x2000)) == "$NODEID+384");
   CHECK(meaning(eds.value(0x2001)) == "$NODEID+384");
@@ -105,14 +105,14 @@ TEST_CASE("EDS: quotes are a part of a string") {
   CHECK(eds.found() == "29:14 od-value-quotes\n");
 }
 
-TEST_CASE("EDS: what follows a semicolon in a text is a part of it") {
+TEST_CASE("EDS: text after a semicolon in a value is part of it") {
   const Reading eds("semicolon.eds");
   CHECK(eds.at(0x2000).name.text == "A;B=C [D]");
   CHECK(meaning(eds.value(0x2000)) == "\"one; two\"");
   CHECK(eds.found().empty());
 }
 
-TEST_CASE("limits are compared as what they mean, and values with them") {
+TEST_CASE("limits and values are compared by their meaning") {
   const Reading eds("limits.eds");
   CHECK(meaning(eds.at(0x2000).high_limit) == "-2147483648");
   CHECK(meaning(eds.at(0x2002).low_limit) == "-32768");
@@ -120,7 +120,7 @@ TEST_CASE("limits are compared as what they mean, and values with them") {
         "31:10 od-limit-order\n32:11 od-value-bit-pattern\n39:14 od-limit\n49:10 od-value-bit-pattern\n");
 }
 
-TEST_CASE("EDS: a type of the device's own is looked up in its object") {
+TEST_CASE("EDS: a type defined by the device is looked up in its object") {
   const Reading eds("type_own.eds");
   CHECK(eds.at(0x2000).data_type.value == 0x40);
   CHECK(data_type_of(eds.device, 0x40).kind == lexican::codict::TypeKind::structure);

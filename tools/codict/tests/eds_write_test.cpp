@@ -52,7 +52,7 @@ void check_round_trip(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("EDS writer: each fixture, written and read again, is the same device") {
+TEST_CASE("EDS writer: each fixture that is written and read again is the same device") {
   const std::vector<std::string> paths = test::files_in(test::fixture(""), test::eds_endings());
   CHECK(paths.size() > 50);
   for (const std::string& path : paths) {
@@ -60,14 +60,14 @@ TEST_CASE("EDS writer: each fixture, written and read again, is the same device"
   }
 }
 
-TEST_CASE("EDS writer: each description of the corpus, written and read again, is the same device" *
+TEST_CASE("EDS writer: each description of the corpus that is written and read again is the same device" *
           test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::eds_endings())) {
     check_round_trip(path);
   }
 }
 
-TEST_CASE("EDS writer: objects stand in their lists, with their sub-objects, by index [306: 4.6]") {
+TEST_CASE("EDS writer: objects are written in their lists and with their sub-objects, by index [306: 4.6]") {
   CHECK(written(device_of("[2000]\nParameterName=Speed\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=5\n"
                           "[1018sub1]\nParameterName=Vendor\nDataType=7\nAccessType=ro\nDefaultValue=0x12\n"
                           "[1018]\nParameterName=Identity\nObjectType=9\nSubNumber=7\n"
@@ -84,7 +84,7 @@ TEST_CASE("EDS writer: objects stand in their lists, with their sub-objects, by 
         "[2000]\nParameterName=Speed\nObjectType=0x7\nDataType=0x0006\nAccessType=rw\nDefaultValue=5\n");
 }
 
-TEST_CASE("EDS writer: what is configured belongs to a DCF") {
+TEST_CASE("EDS writer: configured values are written to a DCF only") {
   const Device device = device_of(
       "[DeviceComissioning]\nNodeID=5\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=6\nAccessType=rw\n"
       "DefaultValue=5\nParameterValue=7\nDenotation=left\n");
@@ -98,7 +98,7 @@ TEST_CASE("EDS writer: what is configured belongs to a DCF") {
   CHECK(has(eds, "DefaultValue=5\n"));
 }
 
-TEST_CASE("EDS writer: values are in the words of CiA 306, whichever words they had") {
+TEST_CASE("EDS writer: values are written with the words of CiA 306") {
   const auto value = [](const std::string& type, const std::string& text) {
     const std::string eds = written(device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=" + type +
                                               "\nAccessType=rw\nDefaultValue=" + text + "\n"));
@@ -118,7 +118,7 @@ TEST_CASE("EDS writer: values are in the words of CiA 306, whichever words they 
   CHECK(value("9", "text, with = and ;") == "text, with = and ;");
 }
 
-TEST_CASE("EDS writer: access and direction of PDOs are one word") {
+TEST_CASE("EDS writer: access and direction of PDOs are written as one word") {
   const auto access = [](Access given, PdoMapping mapping) {
     Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\n");
     device.objects.front().access.value = given;
@@ -144,7 +144,7 @@ TEST_CASE("EDS writer: compact storage stays compact, with its own names and val
   CHECK_FALSE(has(dcf, "2000sub"));
 }
 
-TEST_CASE("EDS writer: what CiA 306 does not know stays where it was") {
+TEST_CASE("EDS writer: keys and sections unknown to CiA 306 stay at their places") {
   const std::string eds =
       written(device_of("[DeviceInfo]\nProductVersion=1\nColour=red\n[Tools]\nItems=0\n[Mine]\na=b\n"
                         "[2000]\nParameterName=x\nObjectType=7\nDataType=6\nAccessType=rw\nMyKey=my value\n"));
@@ -156,13 +156,13 @@ TEST_CASE("EDS writer: what CiA 306 does not know stays where it was") {
             "[DeviceComissioning]\nNodeID=5\nColour=red\n"));
 }
 
-TEST_CASE("EDS writer: no text can begin another line") {
+TEST_CASE("EDS writer: a text cannot begin another line") {
   Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=a\n");
   device.objects.front().name.text = "a\n[3000]\r\nb";
   CHECK(device_of(written(device)).objects.size() == 1);
 }
 
-TEST_CASE("EDS: dates and times of XML Schema are written as CiA 306 wants them") {
+TEST_CASE("EDS writer: dates and times of XML Schema are written in the form of CiA 306") {
   const std::pair<const char*, const char*> times[] = {{"00:05:59", "12:05AM"}, {"09:30:00Z", "09:30AM"},
                                                        {"12:00:00", "12:00PM"}, {"23:59:00", "11:59PM"},
                                                        {"09:30PM", "09:30PM"},  {"noon", "noon"}};
@@ -179,7 +179,7 @@ TEST_CASE("EDS: dates and times of XML Schema are written as CiA 306 wants them"
   }
 }
 
-TEST_CASE("EDS writer: what is no number and no flag stays as it is written, and is no 0") {
+TEST_CASE("EDS writer: invalid numbers and flags are written unchanged, not as 0") {
   const std::string dcf =
       "[FileInfo]\nFileVersion=1.2.3\nFileRevision=300\n[DeviceInfo]\nNrOfRXPDO=many\nLSS_Supported=maybe\n"
       "BaudRate_500=often\n[DummyUsage]\nDummy0005=perhaps\n[DynamicChannels]\nNrOfSeg=1\nType1=five\nDir1=up\n"
@@ -197,7 +197,7 @@ TEST_CASE("EDS writer: what is no number and no flag stays as it is written, and
   CHECK(has(written(device_of("[DeviceInfo]\nNrOfRXPDO=8u\nNrOfTXPDO=0 ; none\n")), "NrOfRXPDO=8\nNrOfTXPDO=0\n"));
 }
 
-TEST_CASE("EDS writer: no text makes a file that is no text") {
+TEST_CASE("EDS writer: no text produces a file that cannot be read") {
   Device device = device_of("[2000]\nParameterName=x\nObjectType=7\nDataType=9\nAccessType=rw\nDefaultValue=a\n");
   device.objects.front().name.text = std::string("a\0b", 3);
   device.others.push_back(

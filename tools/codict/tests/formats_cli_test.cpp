@@ -17,7 +17,7 @@ using test::Ran;
 using test::run;
 using Json = nlohmann::json;
 
-TEST_CASE("codict convert: JSON has all that the other formats say, and becomes them again") {
+TEST_CASE("codict convert: JSON contains all information of the other formats and converts back") {
   const Directory directory;
   const std::string json = directory / "device.json";
   const std::string again = directory / "device10.xdd";
@@ -34,7 +34,7 @@ TEST_CASE("codict convert: JSON has all that the other formats say, and becomes 
             .status == 0);
 }
 
-TEST_CASE("codict set: a file has no name of another format") {
+TEST_CASE("codict set: an output with the suffix of another format is refused") {
   const Directory directory;
   const Ran xml = run("set xdd/device10.xdd 2000 default=1 -o " + directory / "device.eds");
   CHECK(xml.status == 2);
@@ -46,7 +46,7 @@ TEST_CASE("codict set: a file has no name of another format") {
   CHECK(run("set drive.eds 2000 default=1 -o " + directory / "drive.txt").status == 0);
 }
 
-TEST_CASE("codict: what fails says what was asked for") {
+TEST_CASE("codict: a failure message contains the request") {
   const Directory directory;
   CHECK(has(run("get xdd/device10.xdd FileInfo").err, "no object: FileInfo; only an EDS or DCF has sections\n"));
   CHECK(has(run("merge drive.eds --set version=1.2 -o " + directory / "drive.eds").err,
@@ -55,7 +55,7 @@ TEST_CASE("codict: what fails says what was asked for") {
             "--set nonsense=1: neither a word (vendor,"));
 }
 
-TEST_CASE("codict convert: the JSON of an EDS becomes an EDS, which is not the same bytes") {
+TEST_CASE("codict convert: the JSON of an EDS converts to an equivalent EDS with other bytes") {
   const Directory directory;
   CHECK(run("convert drive.eds -o " + directory / "drive.json").status == 0);
   CHECK(run("convert " + directory / "drive.json" + " -o " + directory / "drive.eds").status == 0);
@@ -63,7 +63,7 @@ TEST_CASE("codict convert: the JSON of an EDS becomes an EDS, which is not the s
   CHECK(run("diff drive.eds " + directory / "drive.eds").status == 0);
 }
 
-TEST_CASE("codict: JSON is read by all commands that read descriptions") {
+TEST_CASE("codict: all commands that read descriptions read JSON") {
   const Directory directory;
   const std::string json = directory / "drive.json";
   REQUIRE(run("convert drive.eds -o " + json).status == 0);
@@ -81,7 +81,7 @@ TEST_CASE("codict: JSON is read by all commands that read descriptions") {
   CHECK(refused.err == "codict: " + json + ": values of JSON are changed by programs for JSON\n");
 }
 
-TEST_CASE("codict: JSON that is no description is refused with one message that has line and column") {
+TEST_CASE("codict: JSON that is not a description is refused with one message with line and column") {
   const Directory directory;
   const std::string path = directory / "other.json";
   test::write_bytes(path, "{\n  \"schema\": \"codict-check-1\"\n}\n");
@@ -122,7 +122,7 @@ std::string overlay(const Directory& directory, const char* name, const std::str
 
 }  // namespace
 
-TEST_CASE("codict merge: overlays of any format, one after the other, and values of a build") {
+TEST_CASE("codict merge: overlays of any format are applied in order, with values of a build") {
   const Directory directory;
   const std::string first = overlay(directory, "first.eds", "[2000]\nDefaultValue=7\nLowLimit=1\n");
   const std::string second = overlay(directory, "second.json", R"({"schema": "codict-device-1", "devices": [
@@ -143,7 +143,7 @@ TEST_CASE("codict merge: overlays of any format, one after the other, and values
   CHECK(run("merge drive.eds -o -").out == bytes_of(test::fixture("drive.eds")));
 }
 
-TEST_CASE("codict merge: overlays that contradict the base or one another are told") {
+TEST_CASE("codict merge: overlays that contradict the base or one another are reported") {
   const Directory directory;
   const std::string first = overlay(directory, "first.eds", "[2000]\nDefaultValue=7\nDataType=0x0007\n");
   const std::string second = overlay(directory, "second.eds", "[2000]\nDefaultValue=8\n");
@@ -158,7 +158,7 @@ TEST_CASE("codict merge: overlays that contradict the base or one another are to
   CHECK(json.at("replaced").at(2).at("by") == second);
 }
 
-TEST_CASE("codict merge: what cannot be merged is said, and nothing is written") {
+TEST_CASE("codict merge: input that cannot be merged is reported and nothing is written") {
   const Directory directory;
   const std::string out = directory / "out.eds";
   CHECK(run("merge drive.eds missing.eds -o " + out).status == 2);
@@ -174,7 +174,7 @@ TEST_CASE("codict merge: what cannot be merged is said, and nothing is written")
   CHECK_FALSE(std::filesystem::exists(out));
 }
 
-TEST_CASE("codict fmt: a file becomes its normal form, and --check says whether it would") {
+TEST_CASE("codict fmt: a file is rewritten in its normal form; --check returns whether it would change") {
   const Directory directory;
   const std::string path = test::copy_to(directory, "section_form.eds");
   const Ran no = run("fmt --check " + path);
@@ -191,7 +191,7 @@ TEST_CASE("codict fmt: a file becomes its normal form, and --check says whether 
   CHECK(run("fmt missing.eds").status == 2);
 }
 
-TEST_CASE("codict size: RAM and flash of what gen makes") {
+TEST_CASE("codict size: prints RAM and flash of the generated dictionary") {
   const Directory directory;
   const std::string sizes = run("size gen/small.eds").out;
   CHECK(sizes ==
@@ -215,7 +215,7 @@ TEST_CASE("codict size: RAM and flash of what gen makes") {
   CHECK(run("size missing.eds").status == 2);
 }
 
-TEST_CASE("codict pdo: what each PDO has, where its bits lie, and when it is sent") {
+TEST_CASE("codict pdo: prints the objects of each PDO, their bits and the transmission") {
   const Ran ran = run("pdo --node-id 5 drive.eds");
   CHECK(ran.status == 0);
   CHECK(ran.out == R"(RPDO 1: COB-ID 205h; by events of the device profile; 24 bits
@@ -240,7 +240,7 @@ TPDO 1: COB-ID 185h; by events of the manufacturer; 40 bits
   CHECK(run("pdo octal.eds").out.empty());
 }
 
-TEST_CASE("codict pdo: times are told, bits that lie across bytes are drawn, and JSON has it all") {
+TEST_CASE("codict pdo: times are printed, bits across bytes are drawn, and JSON has all of it") {
   const Directory directory;
   const std::string path = directory / "bits.eds";
   test::write_bytes(path,
@@ -273,8 +273,7 @@ TEST_CASE("codict pdo: times are told, bits that lie across bytes are drawn, and
   CHECK(pdo.at("mapped").at(1).at("index") == 0x2001);
 }
 
-TEST_CASE(
-    "codict pdo, codict doc: without --node-id, COB-IDs are those of the node-ID that the description configures") {
+TEST_CASE("codict pdo, codict doc: without --node-id COB-IDs use the configured node-ID") {
   CHECK(has(run("pdo xdd/device10.xdd").out, "TPDO 1: COB-ID 185h"));
   CHECK(has(run("pdo --node-id 2 xdd/device10.xdd").out, "TPDO 1: COB-ID 182h"));
   CHECK(has(run("doc xdd/device10.xdd --to md -o -").out, "COB-IDs of node 5\n"));
@@ -289,7 +288,7 @@ TEST_CASE(
   CHECK(with("0") == 1);
 }
 
-TEST_CASE("codict set: what compact storage implies gets its entry in a list, and the list its count [306: 4.6.4]") {
+TEST_CASE("codict set: an element of compact storage gets a list entry and the list a new count [306: 4.6.4]") {
   const Directory directory;
   const std::string path = test::copy_to(directory, "compact.dcf");
   REQUIRE(run("get " + path + " 2000Value NrOfEntries").status == 0);
@@ -323,7 +322,7 @@ const char* const typed_by_parameter =
 
 }  // namespace
 
-TEST_CASE("codict set: what an XDD does not say of an object becomes an attribute of it") {
+TEST_CASE("codict set: a value missing in an XDD is added as an attribute of its object") {
   const Directory directory;
   const std::string path = directory / "device.xdd";
   test::write_bytes(path, typed_by_parameter);
@@ -343,7 +342,7 @@ TEST_CASE("codict set: what an XDD does not say of an object becomes an attribut
   CHECK(bytes_of(path) == wanted);
 }
 
-TEST_CASE("codict set: a type that a parameter has is changed there, and where the object says it, too") {
+TEST_CASE("codict set: a type of a parameter is changed there and in the object") {
   const Directory directory;
   const std::string path = directory / "device.xdd";
   test::write_bytes(path, typed_by_parameter);
@@ -372,7 +371,7 @@ TEST_CASE("codict set: a type that a parameter has is changed there, and where t
   CHECK(bytes_of(path) == wanted);
 }
 
-TEST_CASE("codict set: a type that others may have as well is not changed, and it is said why") {
+TEST_CASE("codict set: a type that others may share is refused with the reason") {
   const Directory directory;
   const std::string path = copy_to(directory, "xdd/device10.xdd");
   CHECK(run("set " + path + " 2000 type=06").err ==
@@ -386,7 +385,7 @@ TEST_CASE("codict set: a type that others may have as well is not changed, and i
   CHECK(bytes_of(path) == bytes_of(test::fixture("xdd/device10.xdd")));
 }
 
-TEST_CASE("codict: no command writes over what it reads, or two files into one") {
+TEST_CASE("codict: no command overwrites its input or writes two outputs to one file") {
   const Directory directory;
   const std::string eds = copy_to(directory, "drive.eds");
   const std::string overlay = directory / "overlay.eds";
@@ -417,7 +416,7 @@ TEST_CASE("codict set: two values for one field, and more than one line, are ref
   CHECK(bytes_of(dcf) == bytes_of(test::fixture("compact.dcf")));
 }
 
-TEST_CASE("codict merge: of an overlay in another format, only what it says of the device counts") {
+TEST_CASE("codict merge: of an overlay in another format only values of the device are merged") {
   const Directory directory;
   const std::string json = directory / "overlay.json";
   test::write_bytes(json, R"({"schema": "codict-device-1", "devices": [{"format": "xdd11",
@@ -428,7 +427,7 @@ TEST_CASE("codict merge: of an overlay in another format, only what it says of t
   CHECK_FALSE(has(merged, "DeviceComissioning"));
 }
 
-TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where that is asked for") {
+TEST_CASE("codict convert: each edition of CiA 311 is converted to the other one on request") {
   const Directory directory;
   const std::string newer = directory / "newer.xdd";
   const std::string older = directory / "older.xdd";
@@ -447,13 +446,13 @@ TEST_CASE("codict convert: each edition of CiA 311 becomes the other one, where 
   CHECK_FALSE(std::filesystem::exists(directory / "no.xdd"));
 }
 
-TEST_CASE("codict convert: what CiA 311 cannot say of one device is told") {
+TEST_CASE("codict convert: values of one device that CiA 311 cannot express are reported") {
   CHECK(has(run("convert compact.dcf --to xdc -o -").err, "1 serial numbers"));
   CHECK_FALSE(has(run("convert compact.dcf --to dcf -o -").err, "serial numbers"));
   CHECK_FALSE(has(run("convert compact.dcf --to xdd -o -").err, "serial numbers"));  // an XDD has no commissioning
 }
 
-TEST_CASE("codict convert: further devices, and characters that a format cannot have, are told") {
+TEST_CASE("codict convert: further devices and characters that a format cannot contain are reported") {
   const Directory directory;
   const std::string out = directory / "one.eds";
   const Ran several = run("convert xdd/several.nxdd --strict-loss -o " + out);
@@ -475,7 +474,7 @@ TEST_CASE("codict convert: further devices, and characters that a format cannot 
         "b\xEF\xBF\xBD\n");
 }
 
-TEST_CASE("codict merge: elements of compact storage get their values in lists, as with set") {
+TEST_CASE("codict merge: elements of compact storage get their values in lists, like with set") {
   const Directory directory;
   const std::string out = directory / "out.dcf";
   const Ran ran = run("merge compact.dcf --set 2000:5.value=9 --set 2000:5.name=Fifth -o " + out);
@@ -485,7 +484,7 @@ TEST_CASE("codict merge: elements of compact storage get their values in lists, 
   CHECK(has(run("merge compact.dcf --set 2000:5.access=ro -o " + out).err, "2000:05 is in compact storage"));
 }
 
-TEST_CASE("codict merge: what is new in the output is told at its place there") {
+TEST_CASE("codict merge: findings of new parts have their place in the output") {
   const Directory directory;
   const std::string out = directory / "out.eds";
   const Ran ran = run("merge drive.eds --set 2000.default=70000 -o " + out);
@@ -495,7 +494,7 @@ TEST_CASE("codict merge: what is new in the output is told at its place there") 
   CHECK(has(run("merge drive.eds --set 2000.default=70000 -o -").err, "<stdout>:"));
 }
 
-TEST_CASE("codict convert: --node-id, --bit-rate and --node-name make the description of one node") {
+TEST_CASE("codict convert: --node-id, --bit-rate and --node-name give the description of one node") {
   const Directory directory;
   const std::string options = " --node-id 5 --bit-rate 250 --node-name \"Inlet valve\"";
   const std::string dcf = directory / "node.dcf";
@@ -518,7 +517,7 @@ TEST_CASE("codict convert: --node-id, --bit-rate and --node-name make the descri
   CHECK(has(run("info " + other).out, "XDC 1.1"));
 }
 
-TEST_CASE("codict convert: settings of a node that no node can have, or a format without nodes, are refused") {
+TEST_CASE("codict convert: invalid node settings, or a format without nodes, are refused") {
   const Directory directory;
   const std::string dcf = directory / "node.dcf";
   for (const char* wrong :

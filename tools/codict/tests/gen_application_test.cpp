@@ -36,7 +36,7 @@ const std::string own = "<property name=\"CO_extensionIO\" value=\"true\"/>";
 
 }  // namespace
 
-TEST_CASE("gen: a type of the application's has a variable where there is a value, and its limits are its own affair") {
+TEST_CASE("gen: an application-defined type has a variable if it has a value; its limits are not checked") {
   const std::string text = generated(
       " access=\"readWrite\"><USINT/><defaultValue value=\"7\"/><allowedValues><range><minValue value=\"0\"/>"
       "<maxValue value=\"9\"/></range></allowedValues>" +
@@ -49,7 +49,7 @@ TEST_CASE("gen: a type of the application's has a variable where there is a valu
   CHECK_FALSE(has(text, "limits_1"));
 }
 
-TEST_CASE("gen: a type of the application's without a value, or of any length, has no variable") {
+TEST_CASE("gen: an application-defined type without a value or of any length has no variable") {
   const std::string text = generated(" access=\"readWrite\"><USINT/>" + own,
                                      " access=\"readWrite\"><STRING/><defaultValue value=\"text\"/>" + own);
   CHECK(has(text, "{SMALL_2000_0 | CO_OBJ_____RW, &small_2000_0_type, (CO_DATA)(0)},"));

@@ -24,7 +24,7 @@ const std::string small = "'" + test::fixture("gen/small.eds") + "'";
 
 }  // namespace
 
-TEST_CASE("codict gen: files that would not change keep their time, and --check says whether they would") {
+TEST_CASE("codict gen: unchanged files keep their time; --check returns whether they would change") {
   const test::Directory directory;
   CHECK(run(directory, small + " -o new --check").status == 1);
   CHECK(run(directory, small + " -o new").status == 0);
@@ -41,7 +41,7 @@ TEST_CASE("codict gen: files that would not change keep their time, and --check 
   CHECK(checked.err == "codict: new/small_od.h is out of date\n");
 }
 
-TEST_CASE("codict gen: an error is shown with file, line, column and rule, and nothing is written") {
+TEST_CASE("codict gen: an error is shown with file, line, column and rule and nothing is written") {
   const test::Directory directory;
   std::ofstream(directory / "bad.eds") << "[2000]\nParameterName=Bad\nDataType=5\nAccessType=rw\nDefaultValue=256\n";
   const Ran ran = run(directory, "bad.eds -o new");
@@ -51,7 +51,7 @@ TEST_CASE("codict gen: an error is shown with file, line, column and rule, and n
   CHECK_FALSE(std::filesystem::exists(directory / "new"));
 }
 
-TEST_CASE("codict gen: of a description with errors, nothing is made without --force") {
+TEST_CASE("codict gen: from a description with errors nothing is generated without --force") {
   const test::Directory directory;
   std::string eds = bytes_of(test::fixture("gen/small.eds"));
   eds.replace(eds.find("DefaultValue=100"), 16, "DefaultValue=501");
@@ -72,7 +72,7 @@ TEST_CASE("codict gen: of a description with errors, nothing is made without --f
   CHECK(run(directory, "bad.eds -o known").status == 0);
 }
 
-TEST_CASE("codict: where XML can be read no further, every command says so, and gen makes nothing of the rest") {
+TEST_CASE("codict: XML with a syntax error is reported by every command, and gen generates nothing") {
   const test::Directory directory;
   CHECK(run(directory, small + " -o new --xdd whole.xdd").status == 0);
   std::string xdd = bytes_of(directory / "whole.xdd");
@@ -91,7 +91,7 @@ TEST_CASE("codict: where XML can be read no further, every command says so, and 
   }
 }
 
-TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary makes, and --check checks them, too") {
+TEST_CASE("codict gen: --eds and --xdd write descriptions of the generated dictionary, which --check compares") {
   const test::Directory directory;
   const std::string descriptions = " -o new --eds device.eds --xdd device.xdd ";
   CHECK(run(directory, small + descriptions + "--check").err.find("device.eds is missing") != std::string::npos);
@@ -110,7 +110,7 @@ TEST_CASE("codict gen: --eds and --xdd write descriptions of what the dictionary
   CHECK(bytes_of(directory / "device.eds").find("FileName=device.eds\r\n") != std::string::npos);
 }
 
-TEST_CASE("codict gen: the report says what the parts cost, for people and for programs") {
+TEST_CASE("codict gen: the report has the cost of each part, as text and as JSON") {
   const test::Directory directory;
   const Ran text = run(directory, small + " -o new --report");
   CHECK(text.out.find("\nDRIVE ") != std::string::npos);
@@ -122,7 +122,7 @@ TEST_CASE("codict gen: the report says what the parts cost, for people and for p
   CHECK(json["parts"][1]["entries"] == 2);
 }
 
-TEST_CASE("codict gen: the output names storage groups with their sub-indexes, and what the application defines") {
+TEST_CASE("codict gen: the output lists storage groups with sub-indices, and application-defined symbols") {
   const test::Directory directory;
   const Ran ran = run(directory, small + " -o new");
   CHECK(ran.status == 0);
@@ -139,8 +139,7 @@ TEST_CASE("codict gen: the output names storage groups with their sub-indexes, a
   CHECK(json["external"] == nlohmann::json{"extern CO_OBJ_DOM small_2002_0;"});
 }
 
-TEST_CASE(
-    "codict gen: --stubs writes first versions once, and never overwrites what the application has made of them") {
+TEST_CASE("codict gen: --stubs writes files once and never overwrites them") {
   const test::Directory directory;
   CHECK(run(directory, small + " -o new --stubs stubs.c").err.empty());
   CHECK(test::has(bytes_of(directory / "stubs.c"), "CO_OBJ_DOM small_2002_0 = {"));
@@ -174,7 +173,7 @@ TEST_CASE("codict gen: --store gives a storage group its sub-index of 1010h") {
   CHECK(test::run_codict(directory / "", "size " + small + " --store DRIVE=none").status == 0);
 }
 
-TEST_CASE("codict gen: --verify says what it needs, before anything is written") {
+TEST_CASE("codict gen: --verify reports missing programs before anything is written") {
   const test::Directory directory;
   const std::pair<const char*, const char*> cases[] = {
       {"", "codict does not contain: name its sources, --stack DIR"},
@@ -195,7 +194,7 @@ TEST_CASE("codict gen: --verify says what it needs, before anything is written")
   CHECK(test::has(bytes_of(directory / "new/verify.c"), "{SMALL_2000_0, \"Speed\"},"));
 }
 
-TEST_CASE("codict gen: wrong use ends with 2") {
+TEST_CASE("codict gen: wrong usage ends with status 2") {
   const test::Directory directory;
   CHECK(run(directory, small).status == 2);
   CHECK(run(directory, small + " -o new --name Large").status == 2);

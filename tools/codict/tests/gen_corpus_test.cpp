@@ -95,7 +95,7 @@ void in_two_threads(std::size_t number, Job job) {
 
 }  // namespace
 
-TEST_CASE("gen: of each description in the corpus comes a dictionary that compiles" * test::skipped_without_corpus()) {
+TEST_CASE("gen: each description in the corpus gives a dictionary that compiles" * test::skipped_without_corpus()) {
   const test::Directory directory;
   const std::vector<Named> all = devices();
   std::vector<std::string> faults(2 * all.size());

@@ -42,7 +42,7 @@ std::string matching_eds(const std::string& objects, const std::string& paramete
 
 }  // namespace
 
-TEST_CASE("gen: a disabled object is in no description of the device") {
+TEST_CASE("gen: a disabled object is in no generated description") {
   const std::string eds = matching_eds(
       variable("2000") + variable("2001"),
       parameter("2000", "read", "<USINT/><defaultValue value=\"1\"/><property name=\"CO_disabled\" value=\"true\"/>") +
@@ -51,7 +51,7 @@ TEST_CASE("gen: a disabled object is in no description of the device") {
   CHECK(has(eds, "SupportedObjects=1\n1=0x2001\n"));
 }
 
-TEST_CASE("gen: the sub-index 0 that was missing is described") {
+TEST_CASE("gen: a missing sub-index 0 is added to the description") {
   const std::string eds = matching_eds(
       object("2000", 9, "><CANopenSubObject subIndex=\"03\" name=\"Value\" objectType=\"7\" uniqueIDRef=\"P1\"/>") +
           "</CANopenObject>",
@@ -62,7 +62,7 @@ TEST_CASE("gen: the sub-index 0 that was missing is described") {
             "AccessType=const\nDefaultValue=3\n"));
 }
 
-TEST_CASE("gen: COB-IDs and types that were put right are described as they are now") {
+TEST_CASE("gen: corrected COB-IDs and types are written to the description") {
   const std::string eds = matching_eds(
       object("1200", 9, "><CANopenSubObject subIndex=\"01\" name=\"COB-ID\" objectType=\"7\" uniqueIDRef=\"P1\"/>") +
           "</CANopenObject>" + variable("1017"),
@@ -76,7 +76,7 @@ TEST_CASE("gen: COB-IDs and types that were put right are described as they are 
             "DefaultValue=1000\n"));
 }
 
-TEST_CASE("gen: the history of errors is described without the errors that have not happened") {
+TEST_CASE("gen: the error history is described without entries for its errors") {
   const std::string eds = matching_eds(
       object("1003", 8, "><CANopenSubObject subIndex=\"00\" name=\"Number\" objectType=\"7\" uniqueIDRef=\"P0\"/>") +
           "<CANopenSubObject subIndex=\"01\" name=\"Error\" objectType=\"7\" uniqueIDRef=\"P1\"/></CANopenObject>",
@@ -86,7 +86,7 @@ TEST_CASE("gen: the history of errors is described without the errors that have 
   CHECK_FALSE(has(eds, "AccessType=ro\nDefaultValue"));
 }
 
-TEST_CASE("gen: what is configured is the default value of the device that is made of it") {
+TEST_CASE("gen: configured values are the default values of the generated device") {
   const std::string eds =
       matching_eds(variable("2000"),
                    parameter("2000", "readWrite", "<USINT/><actualValue value=\"9\"/><defaultValue value=\"1\"/>"));
@@ -94,7 +94,7 @@ TEST_CASE("gen: what is configured is the default value of the device that is ma
   CHECK_FALSE(has(eds, "ParameterValue"));
 }
 
-TEST_CASE("gen: values of compact storage are the default values of sub-objects that are described one by one") {
+TEST_CASE("gen: values of compact storage are the defaults of sub-objects described separately") {
   const std::string bytes =
       "[2000]\nParameterName=Gain\nObjectType=8\nDataType=6\nAccessType=rw\nDefaultValue=100\nCompactSubObj=3\n"
       "[2000Value]\nNrOfEntries=1\n2=0x10\n";

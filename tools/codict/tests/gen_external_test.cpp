@@ -75,7 +75,7 @@ TEST_CASE("gen: objects that the stack reads and writes are never external") {
   CHECK(plain.files.at(1).bytes.find("&small_ram.od_1003_0") != std::string::npos);
 }
 
-TEST_CASE("gen: the stubs define all that the application has to define, and compile in both languages") {
+TEST_CASE("gen: the stubs define all application-defined symbols and compile in both languages") {
   const std::string objects = variable("2000", "000F", "rw") + variable("2001", "0009", "ro") +
                               variable("2002", "0009", "rw") + variable("2003", "000B", "rw") +
                               variable("2004", "0008", "rw") + variable("2005", "000C", "rw") +

@@ -165,7 +165,7 @@ const char* const too_low = "abort 06090032";
 
 }  // namespace
 
-TEST_CASE("gen: every object of a generated dictionary answers with its default value") {
+TEST_CASE("gen: every object of a generated dictionary returns its default value") {
   for (const Dictionary& dictionary : dictionaries) {
     CAPTURE(dictionary.language);
     Memory memory;
@@ -183,7 +183,7 @@ TEST_CASE("gen: every object of a generated dictionary answers with its default 
   }
 }
 
-TEST_CASE("gen: a value outside of its limits is refused with 0609 0031h or 0032h, and changes nothing") {
+TEST_CASE("gen: a value outside of its limits is refused with 0609 0031h or 0032h and changes nothing") {
   struct Limit {
     std::uint16_t index;
     const char* lowest;
@@ -227,7 +227,7 @@ TEST_CASE("gen: a value outside of its limits is refused with 0609 0031h or 0032
   }
 }
 
-TEST_CASE("gen: a PDO does not write what lies outside of its limits") {
+TEST_CASE("gen: a PDO does not write values outside of the limits") {
   for (const Dictionary& dictionary : dictionaries) {
     CAPTURE(dictionary.language);
     Memory memory;
@@ -247,7 +247,7 @@ TEST_CASE("gen: a PDO does not write what lies outside of its limits") {
   }
 }
 
-TEST_CASE("gen: a storage group keeps its values over a loss of power, and gets its default values back") {
+TEST_CASE("gen: a storage group keeps its values over power loss and can be restored to its defaults") {
   const std::map<std::uint16_t, std::string> changed = {
       {0x2100, "09"}, {0x2101, "01 00"},       {0x2102, "01 02 03 04 05 06 07 08"}, {0x2103, "61 62"},
       {0x2104, "10"}, {0x2105, "31 00 32 00"}, {0x2106, "05 04 03 02 01"},          {0x2107, "00 00 00 00 00 00 F0 3F"},
@@ -286,7 +286,7 @@ TEST_CASE("gen: a storage group keeps its values over a loss of power, and gets 
   }
 }
 
-TEST_CASE("gen: whatever is written of a storage group, 1020h is 0 [301:7.5.2.23]") {
+TEST_CASE("gen: any write to a storage group sets 1020h to 0 [301:7.5.2.23]") {
   const std::map<std::uint32_t, std::string> changed = {
       {0x101602, "E8 03 07 00"}, {0x210000, "09"}, {0x210300, "61 62"}, {0x210500, "31 00"}, {0x210600, "05"}};
   for (const Dictionary& dictionary : dictionaries) {
@@ -309,7 +309,7 @@ TEST_CASE("gen: whatever is written of a storage group, 1020h is 0 [301:7.5.2.23
 const char* const reset_node = "81 05";
 const char* const reset_communication = "82 05";
 
-TEST_CASE("gen: reset communication gives 1017h its default value, and heartbeats their period [301:7.3.2.2]") {
+TEST_CASE("gen: reset communication sets 1017h and the heartbeat period to their defaults [301:7.3.2.2]") {
   for (const Dictionary& dictionary : dictionaries) {
     CAPTURE(dictionary.language);
     Memory memory;
@@ -321,7 +321,7 @@ TEST_CASE("gen: reset communication gives 1017h its default value, and heartbeat
   }
 }
 
-TEST_CASE("gen: resets give every entry that the network has written its default value [301:7.3.2.2]") {
+TEST_CASE("gen: resets set every entry that was written by SDO to its default value [301:7.3.2.2]") {
   // The COB-IDs disable the PDOs, so that their mapping may change.
   const std::vector<std::pair<std::uint32_t, std::string>> of_communication = {
       {0x100500, "81 00 00 00"}, {0x100600, "10 27 00 00"}, {0x100700, "E8 03 00 00"}, {0x101400, "85 00 00 80"},
@@ -380,7 +380,7 @@ TEST_CASE("gen: resets give every entry that the network has written its default
   }
 }
 
-TEST_CASE("gen: reset communication brings back what was stored of the communication profile") {
+TEST_CASE("gen: reset communication loads the stored communication objects") {
   for (const Dictionary& dictionary : dictionaries) {
     CAPTURE(dictionary.language);
     Memory memory;
@@ -396,7 +396,7 @@ TEST_CASE("gen: reset communication brings back what was stored of the communica
   }
 }
 
-TEST_CASE("gen: a PDO that the network has mapped anew is mapped as by default after reset communication") {
+TEST_CASE("gen: a PDO that was mapped anew by SDO has its default mapping after reset communication") {
   for (const Dictionary& dictionary : dictionaries) {
     CAPTURE(dictionary.language);
     Memory memory;
@@ -419,7 +419,7 @@ TEST_CASE("gen: a PDO that the network has mapped anew is mapped as by default a
   }
 }
 
-TEST_CASE("gen: variables that the network only reads belong to the application: resets leave them alone") {
+TEST_CASE("gen: resets do not change variables that SDO can only read") {
   Memory memory;
   every_c_set_defaults();
   CHECK(every_c_ram.read_only == 7);
@@ -456,7 +456,7 @@ TEST_CASE("gen: the demo clock: 1017h written as 250 and not stored is 1000 afte
   CHECK(node.read(0x2100, 2) == "00");
 }
 
-TEST_CASE("gen: a PDO whose mapping names an object with PDOMapping=0 works; the network cannot map the object") {
+TEST_CASE("gen: a constant mapping of an object with PDOMapping=0 works; SDO cannot map the object") {
   struct Unmappable {
     const CO_OBJ* od;
     std::uint16_t length;

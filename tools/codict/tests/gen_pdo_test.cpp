@@ -49,7 +49,7 @@ bool is_off(const Generated& generated) {
 
 }  // namespace
 
-TEST_CASE("gen: a PDO whose mapping is right stays on") {
+TEST_CASE("gen: a PDO with a correct mapping stays on") {
   for (const char direction : {'T', 'R'}) {
     const Generated generated = generate(pdo(direction, "$NODEID+0x180", "2", {"0x20000010", "0x20030008"}) + objects);
     CHECK(generated.found == "");
@@ -61,7 +61,7 @@ TEST_CASE("gen: a PDO whose mapping is right stays on") {
   CHECK(generate(pdo('T', "$NODEID+0x80000180", "0", {}) + objects).found == "");
 }
 
-TEST_CASE("gen: a PDO that maps nothing, or what it cannot map, is switched off and named with its reason") {
+TEST_CASE("gen: a PDO that maps no object or an unmappable one is switched off and reported with the reason") {
   struct Case {
     char direction;
     const char* number;
@@ -97,14 +97,14 @@ TEST_CASE("gen: a PDO without mapping parameter, or with COB-ID 0, is switched o
   CHECK(configuration_of(zero).find("{0x80000000u},  // od_1802_1") != std::string::npos);
 }
 
-TEST_CASE("gen: the description of what is made has the PDO off, too") {
+TEST_CASE("gen: the generated description has the PDO switched off") {
   const Generated generated = generate(pdo('T', "$NODEID+0x180", "0", {}) + objects);
   const Object* const communication = generated.output.device.find(0x1802);
   REQUIRE(communication != nullptr);
   CHECK(communication->find(1)->default_value.text == "$NODEID+0x80000180");
 }
 
-TEST_CASE("gen: a constant COB-ID, one with limits, and hostile mappings of a PDO that is switched off compile") {
+TEST_CASE("gen: a PDO that is switched off compiles with constant COB-IDs, limits and any mapping") {
   const std::string constant = record("1802") + sub("1802sub0", 5, "ro", "2") +
                                sub("1802sub1", 7, "const", "0x1FF\nLowLimit=1\nHighLimit=0x7FF") +
                                sub("1802sub2", 5, "const", "255");

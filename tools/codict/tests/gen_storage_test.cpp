@@ -100,7 +100,7 @@ TEST_CASE("gen: the storage groups of CANopenNode's example device are stored as
   CHECK(saves(generated, "1010_6", "persist_test_auto"));
 }
 
-TEST_CASE("gen: without such names, 2 is communication, 3 is application and 4 is the manufacturer's") {
+TEST_CASE("gen: without such names 2 is communication, 3 application and 4 manufacturer") {
   const Names names = {{2, "Sub 2"}, {3, "Store parameters 3"}, {4, "Sub 4"}};
   const Generated generated = generate(stores("1010", names) + stored("1017", "PERSIST_COMM") +
                                        stored("2000", "PERSIST_APP") + stored("2001", "PERSIST_MFR"));
@@ -143,7 +143,7 @@ TEST_CASE("gen: 1011h restores a group by the sub-index that names it, else by t
   CHECK(missing.found.find("gen-restore\n") != std::string::npos);
 }
 
-TEST_CASE("gen: RAM, ROM and constants are no storage groups") {
+TEST_CASE("gen: RAM, ROM and constants are not storage groups") {
   for (const char* group : {"RAM", "ROM", "rom", "const", "CONSTANT"}) {
     CAPTURE(group);
     const Generated generated =
@@ -179,7 +179,7 @@ TEST_CASE("gen: --store gives a storage group its sub-index, or leaves it in RAM
   }
 }
 
-TEST_CASE("gen: the error of a storage group without sub-index says which there are, and what to do") {
+TEST_CASE("gen: the error of a storage group without sub-index lists the possible ones and the remedy") {
   const Names names = {{2, "Save communication parameters"}, {3, "Save calibration"}};
   const Generated generated = generate(stores("1010", names) + stored("2000", "PERSIST_APP"));
   CHECK(
@@ -188,7 +188,7 @@ TEST_CASE("gen: the error of a storage group without sub-index says which there 
   CHECK(generated.says("--store PERSIST_APP=SUB"));
 }
 
-TEST_CASE("gen: names of sub-indexes and storage groups may be anything") {
+TEST_CASE("gen: names of sub-indices and storage groups may contain any characters") {
   const std::string junk(500, '_');
   for (const std::string& name :
        {std::string(), junk, std::string("\xFF\xFE="), std::string("PERSIST_"), std::string("=")}) {

@@ -26,7 +26,7 @@ const std::string type_object = variable("1000", 7, "ro", "DefaultValue=0");
 
 }  // namespace
 
-TEST_CASE("gen: the files of a small device are these, to the byte") {
+TEST_CASE("gen: the files of a small device equal the expected ones") {
   const std::string eds = fixture_text("gen/small.eds");
   for (const gen::Language language : {gen::Language::c, gen::Language::cpp}) {
     gen::Options options;
@@ -39,7 +39,7 @@ TEST_CASE("gen: the files of a small device are these, to the byte") {
   }
 }
 
-TEST_CASE("gen: what cannot be generated is an error at its place, and there are no files") {
+TEST_CASE("gen: input that cannot be generated is an error at its place and no file is written") {
   const std::pair<std::string, const char*> cases[] = {
       {variable("2000", 5, "UNKNOWN"), "5:12 gen-access\n"},
       {variable("2000", 5, "rw", "DefaultValue=300"), "6:14 gen-value\n"},
@@ -62,7 +62,7 @@ TEST_CASE("gen: what cannot be generated is an error at its place, and there are
   CHECK(generate("[FileInfo]\n").found == "1:1 gen-count\n");
 }
 
-TEST_CASE("gen: what is put right is said") {
+TEST_CASE("gen: corrections are reported") {
   const std::pair<std::string, const char*> cases[] = {
       {record("2000") + sub("2000sub1", 5, "rw", "1"), "1:2 gen-sub-0\n"},
       {record("1200") + sub("1200sub0", 5, "ro", "2") + sub("1200sub1", 7, "ro", "0x600"), "17:14 gen-cob-id\n"},
@@ -92,7 +92,7 @@ TEST_CASE("gen: what is put right is said") {
   }
 }
 
-TEST_CASE("gen: an object of the communication profile has the type of CiA 301, whatever the description says") {
+TEST_CASE("gen: a communication object has the type of CiA 301, whatever the description contains") {
   const Generated wide = generate(variable("1017", 7, "rw", "DefaultValue=1000"));
   CHECK(wide.found == "1:2 gen-place\n");
   CHECK(wide.has("uint16_t od_1017_0;"));
@@ -117,7 +117,7 @@ TEST_CASE("gen: a time may be written as days and milliseconds") {
   }
 }
 
-TEST_CASE("gen: what 1010h stores with its one sub-index is one group, whatever the storage groups are called") {
+TEST_CASE("gen: with one sub-index in 1010h all storage groups are one group") {
   const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
   const Generated generated = generate(store + variable("2000", 5, "rw", ";StorageLocation=DRIVE\n") +
                                        variable("2001", 5, "rw", ";StorageLocation=RAM\n") +
@@ -129,7 +129,7 @@ TEST_CASE("gen: what 1010h stores with its one sub-index is one group, whatever 
   CHECK_FALSE(generated.has("eeprom"));
 }
 
-TEST_CASE("gen: entries with one name get their index behind it; --unique-names forbids it and names both") {
+TEST_CASE("gen: entries with equal names get their index appended; --unique-names forbids it and reports both") {
   const std::string eds =
       "[2000]\nParameterName=Speed\nDataType=5\nAccessType=rw\n"
       "[2001]\nParameterName=speed\nDataType=5\nAccessType=rw\n";
@@ -142,7 +142,7 @@ TEST_CASE("gen: entries with one name get their index behind it; --unique-names 
   CHECK(generate(eds, options).found == "1:2 gen-name\n5:2 gen-name\n");
 }
 
-TEST_CASE("gen: a name that is made for the dictionary is none of an entry") {
+TEST_CASE("gen: names used by the generated dictionary are not given to entries") {
   const char* const names[] = {"OD NUM", "Para base", "Drive layout", "unused"};
   std::string eds = variable("1FFF", 5, "rw", ";StorageLocation=DRIVE\n");
   for (int n = 0; n < 4; ++n) {
@@ -154,14 +154,14 @@ TEST_CASE("gen: a name that is made for the dictionary is none of an entry") {
   }
 }
 
-TEST_CASE("gen: a disabled object and the definition of a type have no entry, and a note") {
+TEST_CASE("gen: a disabled object and a type definition have no entry and a note") {
   const Generated generated =
       generate("[5]\nParameterName=Dummy\nObjectType=5\nDataType=5\nAccessType=ro\n" + type_object);
   CHECK(generated.notes == "1:2 gen-left-out\n");
   CHECK(generated.has("#define SMALL_OD_NUM 1 "));
 }
 
-TEST_CASE("gen: a configured value goes before the default value") {
+TEST_CASE("gen: a configured value replaces the default value") {
   const Generated generated = generate(variable("2000", 5, "const", "DefaultValue=1\nParameterValue=2"));
   CHECK(generated.has("{SMALL_2000_0 | CO_OBJ_D___R_, CO_TUNSIGNED8, (CO_DATA)(2u)},"));
 }
@@ -174,7 +174,7 @@ TEST_CASE("gen: a configuration that is too small stops the compiler") {
   CHECK(generated.has("#if !USE_TIME\n#error"));
 }
 
-TEST_CASE("gen: the default value of a string that can be written is no hint how long it may become") {
+TEST_CASE("gen: the default value of a writable string does not limit its length") {
   constexpr int visible_string = 9;
   constexpr const char* text = "DefaultValue=cellar";
   CHECK(generate(variable("2000", visible_string, "rw", text)).has("uint8_t od_2000_0_memory[33];"));
@@ -184,21 +184,21 @@ TEST_CASE("gen: the default value of a string that can be written is no hint how
   CHECK(generate(variable("2000", visible_string, "rw", text), options).has("uint8_t od_2000_0_memory[7];"));
 }
 
-TEST_CASE("gen: limits that no value can break have no type") {
+TEST_CASE("gen: limits equal to the range of the type need no type of their own") {
   CHECK_FALSE(generate(variable("2000", 5, "rw", "LowLimit=0\nHighLimit=255")).has("limits_1"));
   CHECK_FALSE(generate(variable("2000", 3, "rw", "LowLimit=-32768\nHighLimit=0x7FFF")).has("limits_1"));
   CHECK(generate(variable("2000", 3, "rw", "LowLimit=-32767")).has("limits_1"));
   CHECK_FALSE(generate(variable("2000", 3, "ro", "LowLimit=5")).has("limits_1"));
 }
 
-TEST_CASE("gen: entries that are alike share the type with their limits") {
+TEST_CASE("gen: entries with equal limits share a type") {
   const char* const limits = "DefaultValue=3\nLowLimit=2\nHighLimit=9";
   const Generated generated = generate(variable("2000", 6, "rw", limits) + variable("2001", 6, "rw", limits));
   CHECK(generated.has("limits_1"));
   CHECK_FALSE(generated.has("limits_2"));
 }
 
-TEST_CASE("gen: the version of a stored layout changes with its entries, and with nothing else") {
+TEST_CASE("gen: the version of a stored layout changes only with its entries") {
   const std::string store = record("1010") + sub("1010sub0", 5, "ro", "1") + sub("1010sub1", 7, "rw", "1");
   const auto layout_of = [&](const std::string& variables) {
     const std::string header = generate(store + variables).header();
@@ -212,7 +212,7 @@ TEST_CASE("gen: the version of a stored layout changes with its entries, and wit
   CHECK(layout != layout_of(variable("2001", 5, "rw", ";StorageLocation=APP\n")));
 }
 
-TEST_CASE("gen: resets copy the default values from the first variable on that they set") {
+TEST_CASE("gen: resets copy the default values beginning with the first variable that they set") {
   const Generated generated =
       generate(variable("2001", 7, "rw") + variable("2000", 6, "ro") + variable("1005", 7, "rw", "DefaultValue=0x80") +
                variable("1017", 6, "rw", "DefaultValue=5") + variable("2002", 6, "rwr"));
@@ -231,12 +231,12 @@ TEST_CASE("gen: resets copy the default values from the first variable on that t
   CHECK(generated.has("#define SMALL_OD_NUM 6 "));
 }
 
-TEST_CASE("gen: reset communication sets nothing where the network writes no object of the communication profile") {
+TEST_CASE("gen: reset communication sets nothing if SDO can write no communication object") {
   const Generated generated = generate(variable("1001", 5, "ro") + variable("2000", 5, "rw"));
   CHECK(generated.has("reset == CO_RESET_NODE ? offsetof(small_ram_t, od_2000_0) : sizeof small_ram;"));
 }
 
-TEST_CASE("gen: what the network only reads has its value from the compiler, and 1003h is the stack's") {
+TEST_CASE("gen: objects that SDO can only read are initialised by the compiler; 1003h belongs to the stack") {
   const Generated generated = generate(type_object + variable("1001", 5, "ro") + record("1003") +
                                        sub("1003sub0", 5, "rw", "0") + sub("1003sub1", 7, "ro", ""));
   CHECK(generated.has("small_ram_t small_ram = {"));
@@ -266,14 +266,14 @@ TEST_CASE(
             .has("CO_RESET_NODE, NULL, CO_PARA___E | CO_PARA_VERSION(SMALL_COMM_LAYOUT), 0, 0};"));
 }
 
-TEST_CASE("gen: a storage group that no 1010h loads has its default values, as nothing was stored") {
+TEST_CASE("gen: a storage group that no 1010h loads has its default values") {
   const char* const group = "DefaultValue=5\n;StorageLocation=APP\n";
   const Generated generated = generate(variable("1017", 6, "rw", group) + variable("2000", 7, "rw", group));
   CHECK(generated.has("memcpy(&small_app, &small_app_default, reset == CO_RESET_NODE ? sizeof small_app : 2);"));
   CHECK(generated.has("power_on_type"));
 }
 
-TEST_CASE("gen: the size of the RAM has the padding between variables, where addresses have 32 bits") {
+TEST_CASE("gen: the RAM size includes padding between variables for 32-bit addresses") {
   // 1 byte, 4 of the domain, 3 padding, 12 of its CO_OBJ_DOM, 4 padding, 8
   const std::string octets = variable("2000", 15, "rw", "DefaultValue=01020304");
   const auto wide_at = [](const char* index) { return variable(index, 0x1B, "rw", "DefaultValue=1"); };
@@ -307,7 +307,7 @@ TEST_CASE("gen: an object gets flag P if a constant mapping in use names it, so 
   CHECK_FALSE(flags("rw", "1", "rw"));
 }
 
-TEST_CASE("gen: words become identifiers of C") {
+TEST_CASE("gen: words are converted to identifiers of C") {
   CHECK(gen::identifier("Time of day (UTC)") == "time_of_day_utc");
   CHECK(gen::identifier("  2nd  ") == "n2nd");
   CHECK(gen::identifier("default") == "default_");
@@ -319,7 +319,7 @@ TEST_CASE("gen: words become identifiers of C") {
   CHECK(gen::default_name("\xE2\x82\xAC.eds") == "device");
 }
 
-TEST_CASE("gen: what a comment or string of C would take for something else is no more") {
+TEST_CASE("gen: special characters in comments and strings of C are escaped") {
   CHECK(gen::comment_text("*/ \\ ?\?/ \n") == "./ . ../ .");
   CHECK(gen::string_literal("a\"\\\n1?") == "\"a\\042\\134\\0121\\077\"");
 }

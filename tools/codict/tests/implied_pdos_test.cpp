@@ -46,7 +46,7 @@ const std::string described =
 
 }  // namespace
 
-TEST_CASE("EDS: PDOs that CompactPDO stands for are made, with the sub-indexes of its bits") {
+TEST_CASE("EDS: PDOs implied by CompactPDO are added with the sub-indices of its bits") {
   const Device306 eds("NrOfRXPDO=5\nNrOfTXPDO=2\nCompactPDO=0x17\n", described);
   CHECK(pdos_of(eds.device).size() == 7);
   CHECK(eds.default_of(0x1400, 0) == "5");
@@ -69,7 +69,7 @@ TEST_CASE("EDS: PDOs that CompactPDO stands for are made, with the sub-indexes o
         "2 parameter objects of TPDOs have no section; CompactPDO implies them, disabled\n");
 }
 
-TEST_CASE("EDS: implied PDOs take the lowest free indexes, and half described ones get their other half") {
+TEST_CASE("EDS: implied PDOs get the lowest free indices; incomplete ones are completed") {
   const Device306 eds("NrOfTXPDO=3\nCompactPDO=1\nGranularity=1\n",
                       "[1801]\nParameterName=x\nObjectType=9\n[1801sub1]\nParameterName=x\nDataType=7\n");
   CHECK(eds.default_of(0x1800, 2) == "255");  // value that CiA 301 requires
@@ -79,14 +79,14 @@ TEST_CASE("EDS: implied PDOs take the lowest free indexes, and half described on
   CHECK(eds.device.find(0x1400) == nullptr);
 }
 
-TEST_CASE("EDS: without CompactPDO, or where all PDOs are described, none is made") {
+TEST_CASE("EDS: without CompactPDO, or if all PDOs are described, none is added") {
   CHECK(Device306("NrOfTXPDO=2\n", described).device.objects.size() == 2);
   CHECK(Device306("NrOfTXPDO=2\nCompactPDO=0\n", described).device.objects.size() == 2);
   CHECK(Device306("NrOfTXPDO=1\nCompactPDO=3\n", described).notes().empty());
   CHECK(Device306("NrOfTXPDO=0\nCompactPDO=3\n", described).notes().empty());
 }
 
-TEST_CASE("EDS: CompactPDO fills no memory") {
+TEST_CASE("EDS: CompactPDO allocates a limited amount of memory") {
   const Device306 eds("NrOfRXPDO=65535\nNrOfTXPDO=65535\nCompactPDO=0xFFFFFFFF\nGranularity=1\n");
   CHECK(eds.findings.count(eds::rules::compact_limit) == 1);
   CHECK(eds.device.objects.size() == 1024);  // 512 PDOs of one direction, two objects each
@@ -94,7 +94,7 @@ TEST_CASE("EDS: CompactPDO fills no memory") {
   CHECK(eds.default_of(0x1400, 7) == "missing");
 }
 
-TEST_CASE("EDS: implied PDOs have no findings, become sections of a DCF, and entries of a dictionary") {
+TEST_CASE("EDS: implied PDOs have no findings and become sections of a DCF and entries of a dictionary") {
   Device306 eds("NrOfRXPDO=1\nNrOfTXPDO=0\nCompactPDO=0x3F\n");
   Findings findings;
   check::check_all(eds.device, findings);

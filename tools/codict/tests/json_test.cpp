@@ -119,16 +119,16 @@ std::size_t check_round_trips(const std::string& directory) {
 
 }  // namespace
 
-TEST_CASE("JSON: each fixture, written and read again, is the same device in all that it says") {
+TEST_CASE("JSON: each fixture that is written and read again is the same device") {
   CHECK(check_round_trips(test::fixture("")) > 60);
 }
 
-TEST_CASE("JSON: each description of the corpus, written and read again, is the same device" *
+TEST_CASE("JSON: each description of the corpus that is written and read again is the same device" *
           test::skipped_without_corpus()) {
   CHECK(check_round_trips(test::corpus()) > 0);
 }
 
-TEST_CASE("JSON: what is no JSON is refused with its line and column") {
+TEST_CASE("JSON: invalid JSON is refused with its line and column") {
   const auto refusal = [](const std::string& bytes) { return JsonReading(bytes).refusal; };
   CHECK(has(refusal("{\n  \"schema\": codict\n}"), "line 2, column 13: this is no JSON"));
   CHECK(has(refusal("{"), "line 1, column 2: this is no JSON"));
@@ -138,7 +138,7 @@ TEST_CASE("JSON: what is no JSON is refused with its line and column") {
   CHECK_FALSE(has(refusal("{\n  \"schema\": codict\n}"), "\n"));
 }
 
-TEST_CASE("JSON: what is no description is called what it is") {
+TEST_CASE("JSON: another kind of JSON is refused with its name") {
   const auto refusal = [](const std::string& bytes) { return JsonReading(bytes).refusal; };
   CHECK(has(refusal(R"({"fileInfo": {}, "deviceInfo": {}, "objects": {}})"), "a project of CANopenEditor in JSON"));
   CHECK(has(refusal(R"({"$schema": "x", "version": "2.1.0", "runs": []})"), "a SARIF log"));
@@ -153,7 +153,7 @@ TEST_CASE("JSON: what is no description is called what it is") {
   }
 }
 
-TEST_CASE("JSON: another schema is refused, and so is a description of no device") {
+TEST_CASE("JSON: another schema and a description of no device are refused") {
   const auto refusal = [](const std::string& bytes) { return JsonReading(bytes).refusal; };
   const std::string wanted = "no device description, which has \"schema\": \"codict-device-1\"";
   CHECK(refusal("{}") == "line 1, column 1: this is an empty JSON object: " + wanted);
@@ -168,7 +168,7 @@ TEST_CASE("JSON: another schema is refused, and so is a description of no device
   CHECK(has(refusal(R"({"schema": "codict-device-1", "devices": 1})"), "there are no devices"));
 }
 
-TEST_CASE("JSON: what is too deep, or has too many values, is refused") {
+TEST_CASE("JSON: too deep nesting and too many values are refused") {
   const std::string deep(1000000, '[');
   CHECK(has(JsonReading("{\"a\":" + deep).refusal, "more than 200 levels"));
   std::string many = "{\"a\":[0";
@@ -178,7 +178,7 @@ TEST_CASE("JSON: what is too deep, or has too many values, is refused") {
   CHECK(has(JsonReading(many + "]}").refusal, "more than 1000000 values"));
 }
 
-TEST_CASE("JSON: a member of a wrong type is a finding at its place, and left out") {
+TEST_CASE("JSON: a member of a wrong type is a finding at its place and ignored") {
   const JsonReading reading(with(R"("name": 5,
 "object_code": "var", "data_type": "x",
 "access": "often",
@@ -194,7 +194,7 @@ TEST_CASE("JSON: a member of a wrong type is a finding at its place, and left ou
   CHECK(reading.device().objects.at(0).access.value == Access::unknown);
 }
 
-TEST_CASE("JSON: wrong types at any place are findings, never more") {
+TEST_CASE("JSON: wrong types at any place are findings only") {
   Findings findings;
   const eds::Document document(Source("drive.eds", test::bytes_of(test::fixture("gen/every_kind.eds"))), findings);
   const std::string whole = json::write(eds::read(document, findings));
@@ -212,14 +212,14 @@ TEST_CASE("JSON: wrong types at any place are findings, never more") {
   }
 }
 
-TEST_CASE("JSON: a member that the schema does not have, or a second one, is said") {
+TEST_CASE("JSON: an unknown or duplicate member is reported") {
   const JsonReading reading(with(R"("nme": "x", "name": "a", "name": "b")") + "\n");
   CHECK(reading.found() == "2:18 json-unknown\n2:43 json-duplicate\n");
   CHECK(reading.device().objects.at(0).name.text == "a");
   CHECK(JsonReading(R"({"schema": "codict-device-1", "devices": [{}]})").found() == "1:43 json-missing\n");
 }
 
-TEST_CASE("JSON: objects are sorted, and a second one of an index is said") {
+TEST_CASE("JSON: objects are sorted, and a duplicate index is reported") {
   const JsonReading reading(R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [
 {"index": 8193, "name": "b", "subs": [{"sub_index": 2}, {"sub_index": 1}]},
 {"index": 8192, "name": "a"},
@@ -230,7 +230,7 @@ TEST_CASE("JSON: objects are sorted, and a second one of an index is said") {
   CHECK(reading.device().find(0x2001)->find(1) != nullptr);
 }
 
-TEST_CASE("JSON: a value alone has a text, and a text alone a meaning") {
+TEST_CASE("JSON: a value without text gets one, and a text without value is parsed") {
   const JsonReading values(with(R"("object_code": "var", "data_type": 6, "access": "rw", "default_value": 500)"));
   CHECK(values.found().empty());
   const Object& object = values.device().objects.at(0);
@@ -252,7 +252,7 @@ TEST_CASE("JSON: a value alone has a text, and a text alone a meaning") {
   CHECK(test::meaning(value_of(JsonReading(with(R"("default_value": -1.5)")))) == "-1.5");
 }
 
-TEST_CASE("JSON: the text of a value that says something else than the value is an error") {
+TEST_CASE("JSON: a text that contradicts its value is an error") {
   CHECK(JsonReading(with(R"("default_value": {"kind": "integer", "value": 5, "text": "4"})")).found() ==
         "2:75 json-contradiction\n");
   CHECK(JsonReading(with(R"("default_value": {"kind": "integer", "value": 5, "text": "$NODEID+5"})")).found() ==
@@ -269,7 +269,7 @@ TEST_CASE("JSON: the text of a value that says something else than the value is 
   }
 }
 
-TEST_CASE("JSON: a value means what its data type makes of it") {
+TEST_CASE("JSON: a value is interpreted by its data type") {
   CHECK(JsonReading(with(R"("data_type": 5, "default_value": 300)")).has("od-value-range"));
   CHECK(JsonReading(with(R"("data_type": 5, "default_value": 1.5)")).has("od-value-fraction"));
   CHECK(test::meaning(value_of(JsonReading(with(R"("data_type": 8, "default_value": 1)")))) == "1");
@@ -278,7 +278,7 @@ TEST_CASE("JSON: a value means what its data type makes of it") {
             .has("od-value-number"));
 }
 
-TEST_CASE("JSON: texts of all letters come back") {
+TEST_CASE("JSON: texts of all characters are kept") {
   Description description;
   Device& device = description.devices.emplace_back();
   const std::string text = "\"\\\b\n\t\x01\x7F/ \xC3\xB6 \xF0\x9F\x98\x80 \\\"";
@@ -288,7 +288,7 @@ TEST_CASE("JSON: texts of all letters come back") {
   CHECK(has(std::string(reading.document.source().slice(reading.device().file.description.span)), "\\u000a"));
 }
 
-TEST_CASE("JSON: the text of a number, a flag or a word that says something else than the value is an error") {
+TEST_CASE("JSON: a text that contradicts its number, flag or word is an error") {
   for (const char* members :
        {R"("data_type": {"value": 7, "text": "0x0006"})", R"("sub_number": {"value": 3, "text": "4"})",
         R"("access": {"value": "rw", "text": "ro"})", R"("flags": {"value": 0, "text": "2"})",
@@ -306,14 +306,14 @@ TEST_CASE("JSON: the text of a number, a flag or a word that says something else
             .empty());
 }
 
-TEST_CASE("JSON: attributes of XML are hexadecimal, or words of their own") {
+TEST_CASE("JSON: attributes of XML are hexadecimal or words") {
   std::string xdd = with(R"("data_type": {"value": 12, "text": "0C"}, "flags": {"value": 16, "text": "0010"},
 "pdo_mapping": {"value": "rpdo", "text": "RPDO"}, "access": {"value": "rw", "text": "readWrite"})");
   xdd.replace(xdd.find("\"eds\""), 5, "\"xdd11\"");
   CHECK(JsonReading(xdd).found().empty());
 }
 
-TEST_CASE("JSON: what is wrong about the numbers of an EDS is not hidden") {
+TEST_CASE("JSON: wrong counts of an EDS are reported") {
   CHECK(JsonReading(with(R"("flags": {"value": 0, "text": "many"})")).found() == "2:48 od-value-number\n");
   CHECK(JsonReading(with(R"("flags": {"value": 8, "text": "010"})")).has("od-value-octal"));
   const JsonReading file(R"({"schema": "codict-device-1", "devices": [{"format": "eds",

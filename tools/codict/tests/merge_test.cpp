@@ -35,7 +35,7 @@ std::string merged(const std::string& base, const std::string& overlay) { return
 
 }  // namespace
 
-TEST_CASE("merge: what an overlay says replaces what the base says, and all other bytes stay") {
+TEST_CASE("merge: values of an overlay replace those of the base, and all other bytes stay") {
   const Merging merging("; Mine\r\n[1a00Sub1]\r\nDefaultValue =  5 \r\nParameterName=x\r\n\r\n",
                         "[1A00sub1]\nDefaultValue=6\n");
   CHECK(merging.bytes == "; Mine\r\n[1a00Sub1]\r\nDefaultValue =  6 \r\nParameterName=x\r\n\r\n");
@@ -47,19 +47,19 @@ TEST_CASE("merge: what an overlay says replaces what the base says, and all othe
   CHECK(Merging("[2000]\nDataType=5\n", "[2000]\nDataType=6\n").replaced.at(0).is_definition());
 }
 
-TEST_CASE("merge: what means the same is left as it is written") {
+TEST_CASE("merge: equal values in another notation are not changed") {
   const std::string base = "[2000]\nDataType=0x0005\nDefaultValue=0x180+$NODEID\n";
   CHECK(merged(base, "[2000]\nDataType=5\nDefaultValue=$NODEID+0x180\n") == base);
   CHECK(Merging(base, "[2000]\nDataType=5\n").replaced.empty());
   CHECK(merged(base, "[2000]\nDefaultValue=0x180\n") == "[2000]\nDataType=0x0005\nDefaultValue=0x180\n");
 }
 
-TEST_CASE("merge: new keys are behind those that are there, even where the last one gets its first value") {
+TEST_CASE("merge: new keys follow the existing ones, also after an empty last one") {
   CHECK(merged("[2000]\nParameterName=\n[Mine]\n", "[2000]\nLowLimit=0\nHighLimit=9\nParameterName=x\n[Mine]\na=b\n") ==
         "[2000]\nParameterName=x\nLowLimit=0\nHighLimit=9\n[Mine]\na=b\n");
 }
 
-TEST_CASE("merge: new objects stand in order, and are in their lists") {
+TEST_CASE("merge: new objects are inserted in order and added to their lists") {
   CHECK(
       merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2005\n\n[2000]\nParameterName=a\n\n"
              "[2005]\nParameterName=b\n",
@@ -72,7 +72,7 @@ TEST_CASE("merge: new objects stand in order, and are in their lists") {
         "[FileInfo]\nFileName=x\n\n[OptionalObjects]\nSupportedObjects=1\n1=0x1008\n\n[1008]\nParameterName=a\n");
 }
 
-TEST_CASE("merge: a new object stands behind the keys that tools hide in comments, and in front of other comments") {
+TEST_CASE("merge: a new object follows keys that tools hide in comments and precedes other comments") {
   CHECK(merged("[2000]\nParameterName=a\n;StorageLocation=RAM\n; Five\n[2005]\nParameterName=b\n",
                "[2003]\nParameterName=c\n") ==
         "[2000]\nParameterName=a\n;StorageLocation=RAM\n\n[2003]\nParameterName=c\n; Five\n[2005]\nParameterName=b\n"
@@ -91,28 +91,28 @@ TEST_CASE("merge: values of compact storage are counted") {
         "[2000Value]\nNrOfEntries=2\n1=6\n3=7\n");
 }
 
-TEST_CASE("merge: letters that the encoding of the base lacks are refused") {
+TEST_CASE("merge: characters missing in the encoding of the base are refused") {
   const std::string base = test::bytes_of(test::fixture("cp850.eds"));
   CHECK(Merging(base, "[FileInfo]\nDescription=\xC3\xB6\n").is_possible);
   CHECK_FALSE(Merging(base, "[FileInfo]\nDescription=\xE2\x86\x92\n").is_possible);
   CHECK_FALSE(Merging(base, "[2009]\nParameterName=\xE2\x86\x92\n").is_possible);
 }
 
-TEST_CASE("merge: texts that only look like one number are two texts") {
+TEST_CASE("merge: texts that resemble equal numbers are different") {
   CHECK(merged("[2000]\nDataType=9\nDefaultValue=007\nParameterName=10\n",
                "[2000]\nDefaultValue=7\nParameterName=0xA\n") ==
         "[2000]\nDataType=9\nDefaultValue=7\nParameterName=0xA\n");
   CHECK(merged("[2000]\nAccessType=RW\n", "[2000]\nAccessType=rw\n") == "[2000]\nAccessType=RW\n");
 }
 
-TEST_CASE("merge: what a section gets more stands in it, not in the new section behind it") {
+TEST_CASE("merge: new keys of a section are added to it, not to a new section after it") {
   CHECK(merged("[ManufacturerObjects]\nSupportedObjects=0\n", "[2000]\nParameterName=a\n") ==
         "[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\n[2000]\nParameterName=a\n");
   CHECK(merged("[2000]\nCompactSubObj=5\n", "[2000sub3]\nParameterName=a\n") ==
         "[2000]\nCompactSubObj=5\nSubNumber=1\n\n[2000sub3]\nParameterName=a\n");
 }
 
-TEST_CASE("merge: a list with gaps gets numbers behind its last one, and sub-index FFh is none of SubNumber") {
+TEST_CASE("merge: a list with gaps is extended after its last number; FFh is not counted in SubNumber") {
   CHECK(merged("[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n5=0x2001\n[2000]\n[2001]\n",
                "[2002]\nParameterName=a\n") ==
         "[ManufacturerObjects]\nSupportedObjects=3\n1=0x2000\n5=0x2001\n6=0x2002\n[2000]\n[2001]\n\n[2002]\n"
@@ -121,7 +121,7 @@ TEST_CASE("merge: a list with gaps gets numbers behind its last one, and sub-ind
         "[2000]\nSubNumber=1\n[2000sub0]\nDefaultValue=1\n\n[2000subFF]\nDefaultValue=7\n");
 }
 
-TEST_CASE("merge: a storage group that is hidden in a comment is a value like others") {
+TEST_CASE("merge: a storage group in a comment is merged like other values") {
   CHECK(merged("[2000]\nParameterName=a\n\n[2001]\nParameterName=b\n;StorageLocation=RAM\n",
                "[2000]\nLowLimit=0\n;StorageLocation=ROM\n[2001]\n; why\n;StorageLocation=PERSIST\n") ==
         "[2000]\nParameterName=a\nLowLimit=0\n;StorageLocation=ROM\n\n[2001]\nParameterName=b\n"
@@ -139,7 +139,7 @@ TEST_CASE("merge: both spellings of DeviceComissioning are one section") {
         "[DeviceComissioning]\nNodeID=6\n");
 }
 
-TEST_CASE("merge: a section of very many keys does not take for ever") {
+TEST_CASE("merge: a section of very many keys is merged in limited time") {
   std::string base = "[Mine]\n";
   std::string overlay = "[Mine]\n";
   for (int n = 0; n < 100000; ++n) {
@@ -152,7 +152,7 @@ TEST_CASE("merge: a section of very many keys does not take for ever") {
   CHECK((std::clock() - begin) / CLOCKS_PER_SEC < 30);  // limit for slow test builds with all checks
 }
 
-TEST_CASE("merge: a whole description with another vendor or product number is of another product") {
+TEST_CASE("merge: a complete description with another vendor-ID or product code is another product") {
   const auto device = [](const std::string& text) {
     Findings findings;
     return eds::read(eds::Document(Source("a.eds", text), findings), findings).devices.front();
@@ -168,7 +168,7 @@ TEST_CASE("merge: a whole description with another vendor or product number is o
   CHECK(convert::other_product(base, device("[DeviceInfo]\nProductNumber=0\n" + type)).empty());
 }
 
-TEST_CASE("commission: node-ID, bit rate and name of a DCF are set, and no other byte changes") {
+TEST_CASE("commission: node-ID, bit rate and name of a DCF are set and no other byte changes") {
   Findings findings;
   const auto commissioned = [&findings](const std::string& dcf, const convert::NodeSettings& settings) {
     std::string bytes;

@@ -67,7 +67,7 @@ TEST_CASE("network: the length of a frame with known data counts its stuff bits"
   CHECK(exact_bits({0x705, false, true, 1}, "") == 49);
 }
 
-TEST_CASE("network: no frame is longer than the longest one, and the mean lies between") {
+TEST_CASE("network: no frame is longer than the maximum, and the mean is between both") {
   std::uint32_t random = 1;
   for (std::uint8_t bytes = 0; bytes <= 8; ++bytes) {
     double sum = 0;
@@ -90,7 +90,7 @@ TEST_CASE("network: no frame is longer than the longest one, and the mean lies b
   }
 }
 
-TEST_CASE("network: the example of Davis et al. 2007: the second instance of C is the late one") {
+TEST_CASE("network: the example of Davis et al. 2007: the second instance of C has the longest response") {
   // 125 kbit/s, 7 bytes: 125 bits, 1 ms. A every 2.5 ms, B and C every 3.5 ms.
   const Nanoseconds c = longest_bits({1, false, false, 7}) * 8 * us;
   CHECK(c == ms);
@@ -125,25 +125,25 @@ TEST_CASE("network: response times are those of a simulation of the worst case")
   CHECK(later > 30);
 }
 
-TEST_CASE("network: one stream waits for nothing; two wait for one another") {
+TEST_CASE("network: one stream has no waiting time; each of two waits for the other") {
   CHECK(response_times({}, us).empty());
   CHECK(response_times({{100 * us, ms, 0}}, us) == Times{100 * us});
   // The first stream is blocked by a frame that has just begun, the second one waits for the first one.
   CHECK(response_times({{100 * us, ms, 0}, {130 * us, ms, 0}}, us) == Times{230 * us, 230 * us});
 }
 
-TEST_CASE("network: jitter delays the stream itself and adds to what lower ones wait for") {
+TEST_CASE("network: jitter delays the stream and increases the waiting time of lower ones") {
   // Within 110 us, the jitter of 950 us lets two frames of the first stream arrive.
   CHECK(response_times({{100 * us, ms, 950 * us}, {100 * us, 10 * ms, 0}}, us) == Times{1150 * us, 300 * us});
 }
 
-TEST_CASE("network: a stream without a period blocks, and has no response time") {
+TEST_CASE("network: a stream without a period blocks and has no response time") {
   CHECK(response_times({{100 * us, ms, 0}, {135 * us, 0, 0}}, us) == Times{235 * us, std::nullopt});
   // At a higher priority it does not count.
   CHECK(response_times({{135 * us, 0, 0}, {100 * us, ms, 0}}, us) == Times{std::nullopt, 100 * us});
 }
 
-TEST_CASE("network: a bus that is full has no response times below") {
+TEST_CASE("network: a full bus gives no response times for lower streams") {
   CHECK(response_times({{600 * us, ms, 0}, {600 * us, ms, 0}}, us) == Times{1200 * us, std::nullopt});
 }
 

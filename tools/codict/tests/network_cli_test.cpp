@@ -12,7 +12,7 @@
 using test::has;
 using test::Ran;
 
-TEST_CASE("codict network: a plan is checked, and its files are written") {
+TEST_CASE("codict network: a plan is checked and its files are written") {
   const test::Directory directory;
   const Ran ran = test::run_codict(directory / "", "network '" + test::fixture("network/plan.yaml") + "' -o out");
   CHECK(ran.err == "");
@@ -28,7 +28,7 @@ TEST_CASE("codict network: a plan is checked, and its files are written") {
   CHECK(test::run_codict(directory / "out", "check master.dcf drive_x.dcf io.dcf").out == "");
 }
 
-TEST_CASE("codict network: findings have their place in the plan, and nothing is written with errors") {
+TEST_CASE("codict network: findings have their place in the plan; nothing is written with errors") {
   const test::Directory directory;
   std::string plan = test::bytes_of(test::fixture("network/plan.yaml"));
   test::copy_to(directory, "network/drive.eds");
@@ -44,7 +44,7 @@ TEST_CASE("codict network: findings have their place in the plan, and nothing is
   CHECK(std::filesystem::exists(directory / "out/io.bin"));
 }
 
-TEST_CASE("codict network: a key that is not known and a description that is missing") {
+TEST_CASE("codict network: an unknown key and a missing description are reported") {
   const test::Directory directory;
   test::write_bytes(directory / "plan.yaml", "master: {node_id: 1, driver: x}\n");
   Ran ran = test::run_codict(directory / "", "network plan.yaml");
@@ -56,7 +56,7 @@ TEST_CASE("codict network: a key that is not known and a description that is mis
   CHECK(has(ran.err, "none.eds"));
 }
 
-TEST_CASE("codict network: wrong use") {
+TEST_CASE("codict network: wrong usage is reported") {
   const test::Directory directory;
   CHECK(test::run_codict(directory / "", "network a.yaml b.dcf").status == 2);
   CHECK(test::run_codict(directory / "", "network none.yaml").status == 2);
@@ -74,7 +74,7 @@ TEST_CASE("codict network: an input is not overwritten") {
   CHECK(has(again.err, "drive_x.dcf: an input would be overwritten"));
 }
 
-TEST_CASE("codict network: JSON for programs") {
+TEST_CASE("codict network: JSON is printed for programs") {
   const Ran ran = test::run("network network/plan.yaml --json");
   CHECK(ran.status == 0);
   CHECK(has(ran.out, "\"schema\": \"codict-network-1\""));

@@ -113,7 +113,7 @@ TEST_CASE("network: values of a wrong kind or out of range are errors with what 
         "2:23: net-missing: a.sdo: entry without value (write {index: 0x2000, sub_index: 0, value: 1})\n");
 }
 
-TEST_CASE("network: the name of a node is one of files") {
+TEST_CASE("network: the name of a node must be a valid file name") {
   CHECK(
       found(master + "a/b: {dcf: a.eds}\n") ==
       "2:1: net-value: invalid name of a node: \"a/b\" (use at most 64 letters, digits, - and _: files are named after "
@@ -141,7 +141,7 @@ TEST_CASE("network: YAML that is hostile or not YAML is refused with its place")
   CHECK(found(std::string("a: 1\0b", 6)) == "1:1: net-yaml: the plan is not UTF-8 text (save it as UTF-8)\n");
 }
 
-TEST_CASE("network: deep, large and many") {
+TEST_CASE("network: deep nesting, large files and too many values are refused") {
   CHECK(found("a: " + std::string(1000, '[')).find("16 levels of nesting") != std::string::npos);
   CHECK(found(std::string(500000, '[')).find("net-yaml") != std::string::npos);
   CHECK(found(std::string(network::yaml::size_limit + 1, 'a')).find("the limit is 1048576") != std::string::npos);
@@ -152,7 +152,7 @@ TEST_CASE("network: deep, large and many") {
   CHECK(found(many + "1]").find("more than 100000 values") != std::string::npos);
 }
 
-TEST_CASE("network: any bytes are a plan or refused") {
+TEST_CASE("network: any bytes are a plan or are refused") {
   const std::string plan = "master: {node_id: 1}\na:\n  dcf: \"x\"\n  tpdo: {1: {mapping: [{index: 1}]}}\n  sdo: []\n";
   std::uint32_t random = 7;
   for (int n = 0; n < 4000; ++n) {
