@@ -21,11 +21,14 @@ void uart_interrupt(CO_SLCAN& can);
 /// Returns true if the UART will interrupt, so that the CPU may sleep.
 bool uart_lets_sleep();
 
+/// Timer driver with its context, for CO_NODE_EXT.
 struct BoardTimer {
   const CO_IF_TIMER_DRV_EX* driver;
   void* context;
 };
 
+/// Returns the timer of the board. Enables its interrupt if it is not part of the CPU; the driver enables that of
+/// SysTick.
 BoardTimer board_timer();
 /// Handles the interrupt of the timer. Call it before COTmrService().
 void timer_interrupt();

@@ -10,6 +10,7 @@ volatile std::uint32_t* registers(std::uintptr_t offset) {
   return reinterpret_cast<volatile std::uint32_t*>(board::timer_base + offset);
 }
 
+// mtime, mtimecmp and the frequency of mtime.
 CO_MTIME timer = {registers(0xBFF8), registers(0x4000), board::timer_hz, {}, 0};
 
 }  // namespace

@@ -79,6 +79,7 @@ std::string read_file(const std::string& name, Bytes& bytes) {
   return in ? read_all(in, bytes) : std::strerror(errno);
 }
 
+/// Returns true if the value is a string or bytes, whose number is not fixed.
 bool is_any_bytes(const std::optional<ValueType>& type) { return !type || type->size == 0; }
 
 Bytes data_to_write(const Arguments& arguments, const std::optional<ValueType>& type, Conversion& conversion) {

@@ -91,7 +91,7 @@ bool scan(LssMaster& master, std::ostream& out) {
     }
     found.push_back(address);
   }
-  return master.nobody_found();
+  return master.no_node_found();
 }
 
 bool select(LssMaster& master, const LssRequest& request, std::ostream& out) {

@@ -10,8 +10,8 @@
 
 namespace demo {
 
-/// Goes on the bus as a node and executes the request; all slaves are then in the state waiting. Found slaves and
-/// inquired values are printed to \a out, faults to \a err. Returns the exit code.
+/// Starts a separate node on the bus and executes the request; all slaves are then in the state waiting. Prints found
+/// slaves and inquired values to \a out, faults to \a err. Returns the exit code.
 int carry_out(const LssRequest& request, Host& host, std::ostream& out, std::ostream& err);
 
 }  // namespace demo

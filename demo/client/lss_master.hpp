@@ -30,7 +30,8 @@ class LssMaster {
   LssMaster(const LssMaster&) = delete;
   LssMaster& operator=(const LssMaster&) = delete;
 
-  /// Runs a service. An interruption of the program cancels it. Returns false if it fails; fault() returns the reason.
+  /// Runs a service: one of the functions COLssm…(), to whose arguments it adds the callback. An interruption of the
+  /// program cancels the service. Returns false if it fails; fault() returns the reason.
   template <class... Argument, class... Given>
   bool run(CO_ERR (*service)(CO_LSSM*, Argument...), Given... given) {
     begin();
@@ -52,7 +53,7 @@ class LssMaster {
   unsigned answers() const { return lssm_.Heard; }
   std::uint32_t value() const { return lssm_.Value; }
   LssAddress address() const { return {lssm_.Address[0], lssm_.Address[1], lssm_.Address[2], lssm_.Address[3]}; }
-  bool nobody_found() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
+  bool no_node_found() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_NOT_FOUND; }
   bool timed_out() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_TIMEOUT; }
   bool cancelled() const { return fault_.empty() && error_ == CO_ERR_NONE && result_ == CO_LSSM_CANCELLED; }
   std::string fault() const;

@@ -10,7 +10,7 @@
 
 namespace demo {
 
-/// Goes on the bus as a node and sends the command. Prints faults to \a err. Returns the exit code.
+/// Starts a separate node on the bus and sends the command. Prints faults to \a err. Returns the exit code.
 int carry_out(const NmtRequest& request, Host& host, std::ostream& err);
 
 }  // namespace demo

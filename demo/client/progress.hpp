@@ -40,7 +40,7 @@ class Progress {
   Form form_;
   std::function<void(const std::string&)> show_;
   std::uint32_t quarters_ = 0;  // already shown
-  Micros said_at_ = 0;
+  Micros said_at_ = 0;          // elapsed time when the last text was shown
 };
 
 }  // namespace demo

@@ -18,6 +18,7 @@ constexpr std::uint16_t number_of_errors = sizeof errors / sizeof errors[0];
 
 // --- An application-specific type: a figure of the time of day. Stored like UNSIGNED8, with an upper limit.
 
+// A figure is an hour, a minute or a second: 2100h sub-index 1, 2 or 3.
 std::uint32_t figure_size(CO_OBJ* obj, CO_NODE* node, std::uint32_t width) {
   return CO_TUNSIGNED8->Size(obj, node, width);
 }
@@ -26,6 +27,8 @@ CO_ERR figure_read(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size)
   return CO_TUNSIGNED8->Read(obj, node, buffer, size);
 }
 
+// Refuses a figure above its limit with an abort code, and raises an error. The EMCY message and the error history
+// contain the sub-index and the refused figure.
 CO_ERR figure_write(CO_OBJ* obj, CO_NODE* node, void* buffer, std::uint32_t size) {
   const std::uint8_t sub = CO_GET_SUB(obj->Key);
   const std::uint8_t figure = *static_cast<const std::uint8_t*>(buffer);

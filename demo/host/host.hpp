@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file host.hpp
-/// Bus and time of device and master: real ones, or simulated ones in tests.
+/// Bus and time of device and master: real ones, or simulated ones (VirtualBusHost, and hosts of tests).
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace demo {
 
-using Micros = std::uint64_t;
+using Micros = std::uint64_t;  // microseconds
 constexpr Micros millisecond = 1'000;
 constexpr Micros second = 1'000'000;
 constexpr Micros for_ever = UINT64_MAX;

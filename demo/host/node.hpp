@@ -76,7 +76,7 @@ class Node {
     static void show(void* tap, bool received, const CO_IF_FRM& frame);
   };
 
-  static Node* at_work_;  // null: none
+  static Node* at_work_;  // node that is being created or processed, for load_lss() and store_lss(); null: none
 
   Tap tap_;
   CO_NODE_EXT extension_{};

@@ -9,18 +9,19 @@
 
 namespace demo {
 
+/// Entries of an object dictionary.
 struct Table {
   CO_OBJ* first;
   std::uint16_t length;
 };
 
-/// Errors of a device.
+/// Errors that a device can raise (CO_NODE_SPEC.EmcyCode).
 struct Errors {
   CO_EMCY_TBL* first;
   std::uint16_t number;
 };
 
-constexpr std::uint8_t no_node_id = 255;
+constexpr std::uint8_t no_node_id = 255;  // node-ID of an unconfigured node [305]
 
 /// Bytes at the beginning of the node's memory used for node-ID and bit rate.
 #if USE_LSS && USE_PARA

@@ -10,7 +10,8 @@
 
 namespace demo {
 
-/// Goes on the bus as a node and runs the tour with the clock \a node. Prints to \a out. Returns the exit code.
+/// Starts a separate node on the bus and runs the tour with the clock whose node-ID is \a node. Prints to \a out.
+/// Returns the exit code.
 int take_tour_with(std::uint8_t node, Host& host, View::Style style, std::ostream& out);
 
 }  // namespace demo

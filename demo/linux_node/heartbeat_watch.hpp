@@ -9,8 +9,8 @@
 
 namespace demo {
 
-/// The n-th heartbeat is due n heartbeat times after the boot-up message, which counts as the first [301:7.2.8.2.2.1];
-/// a late one does not shift the others.
+/// Measures the lateness of heartbeats. The n-th heartbeat is due n heartbeat times after the boot-up message, which
+/// counts as the first [301:7.2.8.2.2.1]; a late one does not shift the others.
 class HeartbeatWatch {
  public:
   /// Evaluates a frame that the node has sent at \a tick. \a period: its current heartbeat time in ticks, 0: none.

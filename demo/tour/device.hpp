@@ -9,6 +9,7 @@
 
 namespace demo {
 
+/// Differences between the clocks that the tour has to consider.
 struct DeviceTraits {
   std::uint32_t picture_width;   // pixels
   std::uint32_t picture_height;  // pixels

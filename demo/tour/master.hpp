@@ -24,7 +24,8 @@ enum class State : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, pre
 
 class Master {
  public:
-  /// Goes on the bus. \a node_id: the remote node; \a host and \a device must outlive the master.
+  /// Starts the master's node on the bus. \a node_id: the remote node; \a host and \a device must outlive the master.
+  /// \a observer: called for each frame.
   Master(Host& host, Device& device, std::uint8_t node_id, Node::Observer observer = {});
 
   bool command(Nmt command);

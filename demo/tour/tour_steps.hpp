@@ -12,9 +12,10 @@
 
 namespace demo {
 
+/// Result of a step.
 struct Finding {
-  bool good;
-  std::string text;
+  bool good;         // as expected
+  std::string text;  // shown to the user
 };
 
 struct Tour {

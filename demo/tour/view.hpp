@@ -58,7 +58,7 @@ class View {
   Style style_;
   bool bar_shown_ = false;      // the bar is the last line, without a line end
   unsigned segments_ = 0;       // segments of the current transfer
-  std::vector<Row> held_back_;  // rows that are printed if the transfer ends soon
+  std::vector<Row> held_back_;  // rows that are printed only if the transfer is too short to be folded
 };
 
 }  // namespace demo

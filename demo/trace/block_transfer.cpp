@@ -35,7 +35,7 @@ Role BlockTransfer::segment(const CO_IF_FRM& frame) {
 
 Role BlockTransfer::request(const CO_IF_FRM& frame) {
   if (command(frame) == download_request) {
-    if ((frame.Data[0] & end) == 0) {  // otherwise bit 1 is the size indicator
+    if ((frame.Data[0] & end) == 0) {  // bit 0 is the sub-command; bit 1 of an initiate request is the size indicator s
       begin(Sender::client, 0);
     }
     return Role::command;
@@ -43,7 +43,7 @@ Role BlockTransfer::request(const CO_IF_FRM& frame) {
   if (command(frame) == upload_request && step(frame) == initiate) {
     begin(Sender::server, frame.Data[4]);
   } else if (command(frame) != upload_request || step(frame) == end) {
-    begin(Sender::nobody, 0);
+    begin(Sender::none, 0);
   } else if (sender_ == Sender::server) {
     return step(frame) == start ? open(block_size_) : acknowledge(frame);
   }
@@ -55,7 +55,7 @@ Role BlockTransfer::response(const CO_IF_FRM& frame) {
     return Role::command;
   }
   if (command(frame) != download_response || step(frame) == end) {
-    begin(Sender::nobody, 0);
+    begin(Sender::none, 0);
   } else if (sender_ == Sender::client) {
     return step(frame) == initiate ? open(frame.Data[4]) : acknowledge(frame);
   }

@@ -10,7 +10,7 @@
 
 namespace demo::trace {
 
-enum class Sender : std::uint8_t { nobody, client, server };
+enum class Sender : std::uint8_t { none, client, server };
 
 /// Role of a frame in a block transfer.
 enum class Role {
@@ -34,10 +34,10 @@ class BlockTransfer {
   void begin(Sender sender, std::uint8_t block_size);
   Role open(std::uint8_t block_size);
 
-  Sender sender_ = Sender::nobody;  // sender of the segments
-  bool open_ = false;               // within a sub-block
-  std::uint8_t block_size_ = 0;     // segments of the sub-block
-  std::uint8_t last_ = 0;           // sequence number of the last segment; 0: not yet seen
+  Sender sender_ = Sender::none;  // sender of the segments; none: no block transfer
+  bool open_ = false;             // within a sub-block
+  std::uint8_t block_size_ = 0;   // segments of the sub-block
+  std::uint8_t last_ = 0;         // sequence number of the last segment; 0: not yet seen
 };
 
 }  // namespace demo::trace

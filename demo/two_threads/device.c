@@ -17,7 +17,7 @@
 #define SYNC_MICROSECONDS 5000u
 #define TEMPERATURE_ERROR 0u
 
-// Data shared by the threads. The pairs hold a number and its complement.
+// Data shared by the threads. Each pair contains a value and its complement, so that a partial update is detected.
 static uint32_t Input[2] = {0, ~0u};
 static uint32_t Output[2] = {0, ~0u};
 static uint8_t Alarm;
@@ -75,7 +75,7 @@ static atomic_bool Stops;
 static pthread_t RealTimeThread;
 static pthread_t MainlineThread;
 
-#ifdef WITHOUT_TURNS  // for the test that the thread sanitizer reports the missing lock
+#ifdef WITHOUT_TURNS  // no node lock: for the test that the thread sanitizer reports the data races
 static void Enter(void* user) { CO_UNUSED(user); }
 static void Leave(void* user) { CO_UNUSED(user); }
 #else

@@ -13,21 +13,23 @@
 
 typedef struct DEVICE_REPORT_T {
   uint32_t Cycles;        // cycles of the real-time thread
-  uint32_t Received;      // RPDOs that were written
-  uint32_t Torn;          // inconsistent pairs
-  uint32_t Lost;          // frames
+  uint32_t Received;      // RPDOs that were written to the dictionary
+  uint32_t Torn;          // pairs of values that were read inconsistently
+  uint32_t Lost;          // frames that the node dropped, and overruns of the controller
   uint32_t LongestCycle;  // execution time of the real-time thread in µs, including waiting for the lock
 } DEVICE_REPORT;
 
-// Starts the device. Prints the error of the node, if there is one, and returns it.
+// Starts the node and its threads. Prints the error of the node, if there is one, and returns it.
 CO_ERR DeviceStart(void* controller);
+// Ends the threads and stops the node. Returns the numbers of the whole run.
 DEVICE_REPORT DeviceStop(void);
 
-// Returns the value of 2100h that another start loads.
+// Initialises the node again, and returns the value of 2100h that it loads. Call it after DeviceStop().
 uint32_t DeviceStoredLimit(void);
 
 // Counts a received RPDO; for COPdoUpdate().
 void DeviceUpdate(void);
+// Returns true for the device's node, false for the partner's.
 bool IsDevice(const CO_NODE* node);
 
 #endif

@@ -11,7 +11,7 @@
 #define ROUNDS 20u
 #define PDOS 200u
 #define ANSWERS 50u
-#define PATIENCE 60000000u  // µs
+#define PATIENCE 60000000u  // time limit of each wait, µs
 
 static unsigned Failures;
 
@@ -55,16 +55,16 @@ static void WriteParameters(uint32_t round) {
   }
   Check(PartnerWrite(CO_DEV(0x2100, 0), &round, sizeof(round)), "a number is written");
   Check(PartnerWrite(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are written");
-  Check(PartnerWrite(CO_DEV(0x1010, 1), "save", 4), "and stored");
+  Check(PartnerWrite(CO_DEV(0x1010, 1), "save", 4), "the parameters are stored");
   Check(PartnerFinds(CO_DEV(0x2100, 0), &round, sizeof(round)), "the number is read back");
   Check(PartnerFinds(CO_DEV(0x2101, 0), profile, PROFILE_SIZE), "600 bytes are read back");
 }
 
 static void GiveAlarm(uint32_t round, uint8_t alarm) {
-  const uint32_t number = 2 * round - alarm;  // expected count of alarms and their ends
+  const uint32_t number = 2 * round - alarm;  // expected number of raised and resolved alarms so far
   Check(PartnerWrite(CO_DEV(0x2102, 0), &alarm, 1), "the alarm is written");
-  Check(Reaches(&Partner.Errors, number), "an EMCY message tells of it");
-  Check(Reaches(&Partner.Events, number), "a PDO, too");
+  Check(Reaches(&Partner.Errors, number), "an EMCY message reports it");
+  Check(Reaches(&Partner.Events, number), "an event-driven PDO reports it");
 }
 
 int main(void) {
@@ -76,13 +76,13 @@ int main(void) {
     GiveAlarm(round, 1);
     GiveAlarm(round, 0);
   }
-  Check(Reaches(&Partner.Pdos, PDOS), "PDOs come with each SYNC");
+  Check(Reaches(&Partner.Pdos, PDOS), "a PDO follows each SYNC");
   Check(Reaches(&Partner.Answers, ANSWERS), "the device answers the partner's PDOs");
   const DEVICE_REPORT device = DeviceStop();
   PartnerStop();
-  Check(device.Torn == 0 && Partner.Torn == 0, "what belongs together is seen together");
+  Check(device.Torn == 0 && Partner.Torn == 0, "the two values of each pair match");
   Check(device.Lost == 0, "no frame is lost");
-  Check(DeviceStoredLimit() == ROUNDS, "what was stored last is loaded at the next start");
+  Check(DeviceStoredLimit() == ROUNDS, "the last stored value is loaded at the next start");
   printf("%u cycles of 1 ms, the longest %u us; PDOs %u and %u, EMCY %u, stored %u times: %s\n",
          (unsigned)device.Cycles, (unsigned)device.LongestCycle, (unsigned)Partner.Pdos, (unsigned)device.Received,
          (unsigned)Partner.Errors, (unsigned)ROUNDS, Failures == 0 ? "all right" : "FAILED");

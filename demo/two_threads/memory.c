@@ -8,7 +8,7 @@
 #define CAPACITY 4096u
 #define ERASE_SIZE 1024u
 #define PROGRAM_SIZE 8u
-#define PROGRAM_MICROSECONDS 300u  // for a piece
+#define PROGRAM_MICROSECONDS 300u  // for each call of Write()
 #define ERASE_MICROSECONDS 4000u
 
 static uint8_t Bytes[CAPACITY];

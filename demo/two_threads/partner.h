@@ -6,12 +6,13 @@
 
 #include "co_core.h"
 
-// Numbers of messages from the device.
+// Numbers of messages from the device. Each PDO contains a value and its complement; the device answers each value of
+// the partner with the value + 1.
 typedef struct PARTNER_REPORT_T {
-  uint32_t Pdos;     // of these: the device has received the partner's PDO
-  uint32_t Answers;  // of these: the device has got what the partner has sent
+  uint32_t Pdos;     // synchronous PDOs
+  uint32_t Answers;  // synchronous PDOs that answer the partner's last value
   uint32_t Events;   // event-driven PDOs
-  uint32_t Torn;     // inconsistent pairs
+  uint32_t Torn;     // synchronous PDOs whose two values do not match
   uint32_t Errors;   // EMCY messages, of raised and resolved errors
 } PARTNER_REPORT;
 
@@ -27,8 +28,9 @@ void PartnerTurn(void);
 // Starts all nodes (NMT).
 void PartnerStartNetwork(void);
 
-// SDO transfers with the device. They return false if the transfer is aborted, or the bytes differ.
+// Writes an object of the device by SDO. Returns false if the transfer is aborted.
 bool PartnerWrite(uint32_t key, const void* data, uint32_t size);
+// Reads an object of the device by SDO. Returns false if the transfer is aborted, or if the object has other content.
 bool PartnerFinds(uint32_t key, const void* data, uint32_t size);
 
 // Process messages of the device; for COPdoUpdate() and COEmcyReceived().

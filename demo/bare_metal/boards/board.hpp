@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file board.hpp
-/// Functions that a program without an operating system uses of its board. The boards are machines of QEMU; machine.hpp
-/// and cpu.hpp are those of the board that the program is linked for (boards.cmake).
+/// Board support functions for a program without an operating system. The boards are machines of QEMU. boards.cmake
+/// adds the directories of one board to the include path, so machine.hpp and cpu.hpp are those of that board.
 #pragma once
 
 #include "cpu.hpp"
@@ -22,7 +22,7 @@ void enable_timer_interrupt();
 void print(const char* text);
 void print_hex(std::uint32_t number);
 
-/// Ends QEMU with this status.
+/// Ends QEMU; \a status becomes its exit status.
 [[noreturn]] void leave(int status);
 
 }  // namespace board
