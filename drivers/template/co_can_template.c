@@ -75,6 +75,7 @@ void TemplateCanInterrupt(void) {
   NotedEvents = (uint8_t)(NotedEvents | events);
 }
 
+// Returns and clears the events noted by the interrupt, which must not add one between the two steps.
 static uint8_t TakeNotes(void) {
   // Here: disable the controller's interrupts.
   const uint8_t events = NotedEvents;

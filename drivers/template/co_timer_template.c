@@ -42,7 +42,7 @@ static void Reload(uint32_t ticks) {
   // Here: enable the compare interrupt.
 }
 
-// Returns the ticks until the expiry, 0: elapsed.
+// Returns the ticks until the expiry; 0: the time has elapsed, or the timer is stopped.
 static uint32_t Delay(void) {
   const int32_t until_match = 0;  // Here: compare - counter, negative if it is over, in the width of the counter.
   const int32_t ticks = (int32_t)Left + until_match;

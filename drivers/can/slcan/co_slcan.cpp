@@ -7,8 +7,8 @@ constexpr int16_t taken = sizeof(CO_IF_FRM);
 constexpr uint8_t end_of_line = '\r';
 constexpr uint8_t bell = 7;
 
-// Bytes of the transmit buffer that frames leave free, enough for the commands of two calls: the node sends a refused
-// frame again, but not a command.
+// Bytes of the transmit buffer that frames must not use. They suffice for the commands of two calls of Enable or Close:
+// the node repeats a frame that Send has refused, but not a command.
 constexpr uint32_t room_for_commands = 16;
 
 constexpr uint8_t broken = UINT8_MAX;  // value of LineLen: the line cannot become a frame

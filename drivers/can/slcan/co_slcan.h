@@ -39,8 +39,10 @@
 extern "C" {
 #endif
 
-#define CO_SLCAN_LINE 30u      ///< characters of the longest frame, time stamp included, without CR
-#define CO_SLCAN_TX_BYTES 64u  ///< capacity of the transmit buffer, bytes: two frames and the commands; a power of two
+#define CO_SLCAN_LINE 30u  ///< characters of the longest frame, time stamp included, without CR
+/// Capacity of the transmit buffer in bytes, a power of two: 16 bytes for commands, and two frames with 11-bit
+/// identifiers or one with 29 bits.
+#define CO_SLCAN_TX_BYTES 64u
 
 /// State of a controller. The application may write Baud; the driver owns all other members.
 typedef struct CO_SLCAN_T {

@@ -23,6 +23,7 @@ constexpr can_err_mask_t reported_errors = CAN_ERR_BUSOFF | CAN_ERR_CRTL | CAN_E
 // More frames than a receive queue holds: drain() must end on a bus that is faster than this loop.
 constexpr int drain_limit = 4096;
 
+// Returns true for errors after which the call can be repeated.
 bool not_now(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == ENOBUFS || error == EINTR; }
 
 // Returns true if the device of the socket no longer exists. The socket stays unusable even if a device of this name
@@ -216,6 +217,7 @@ long SocketCan::receive(can_frame& frame) {
   return bytes;
 }
 
+// Adds the frames that the kernel has lost since the last call. \a total: its counter for this socket.
 void SocketCan::note_lost(std::uint32_t total) {
   const std::uint32_t more = total - lost_on_socket_;
   lost_on_socket_ = total;
@@ -223,13 +225,14 @@ void SocketCan::note_lost(std::uint32_t total) {
   overrun_ = overrun_ || more != 0;
 }
 
-// Stores the error and its text. The function that opened the socket closes it.
+// Stores the error of a step of opening, and its text. Returns false. open_socket() closes the socket then.
 bool SocketCan::fail(SocketCanStep step, int error) {
   code_ = error;
   error_ = socketcan_error(step, error, interface_);
   return false;
 }
 
+// Stores the error of a transfer and its text. Closes the socket if the interface has vanished. Returns -1.
 std::int16_t SocketCan::failed(const char* action, int error) {
   code_ = error;
   error_ = "CAN interface '" + interface_ + "': " + action + " failed: " + std::generic_category().message(error);

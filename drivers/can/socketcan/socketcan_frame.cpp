@@ -20,7 +20,7 @@ static_assert(CO_IF_FRM_EXT == CAN_EFF_FLAG && CO_IF_FRM_RTR == CAN_RTR_FLAG && 
 
 namespace {
 
-constexpr std::uint8_t highest_dlc = 15;
+constexpr std::uint8_t highest_dlc = 15;  // of a classic frame; 9 to 15 mean 8 bytes
 
 std::uint8_t bytes_in_use(std::uint8_t length) { return std::min<std::uint8_t>(length, CAN_MAX_DLEN); }
 

@@ -27,6 +27,7 @@ std::uint32_t arbitration(const CO_IF_FRM& frame) {
   return ((id >> 18) << 21) | (3u << 19) | ((id & 0x3FFFF) << 1) | rtr;
 }
 
+// Returns true for faults that are results of send().
 bool seen_by_sender(VirtualBus::Fault fault) {
   return fault == VirtualBus::Fault::refuse || fault == VirtualBus::Fault::error || fault == VirtualBus::Fault::bus_off;
 }
@@ -96,6 +97,7 @@ CO_IF_FRM VirtualBus::error_frame(std::uint32_t error_class, std::uint8_t contro
   return {CO_IF_FRM_ERROR | (error_class & CO_IF_FRM_ID), {0, controller, 0, 0, 0, 0, 0, 0}, error_dlc};
 }
 
+// Counts a frame in all rules of a phase that match it. Returns the rule whose fault affects the frame; null: none.
 const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) {
   CountedRule* decides = nullptr;
   for (std::size_t i = 0; i < rules_.size(); ++i) {  // by index: a match may add rules
@@ -117,6 +119,7 @@ const VirtualBus::Rule* VirtualBus::strike(const Traffic& traffic, Phase phase) 
   return &decides->rule;
 }
 
+// Returns the port whose first frame wins the arbitration; null if no frame is queued.
 VirtualBus::Port* VirtualBus::winner() const {
   Port* best = outside_->transmit_.empty() ? nullptr : outside_.get();
   for (const auto& port : ports_) {
@@ -130,6 +133,8 @@ VirtualBus::Port* VirtualBus::winner() const {
   return best;
 }
 
+// Transmits and delivers everything that is due. Has no effect when it is called by a trace hook or rule, whose frames
+// the outer call transmits.
 void VirtualBus::run() {
   if (held_ || running_) {
     return;
@@ -261,6 +266,7 @@ void VirtualBus::deliver_first(const std::function<bool(const Late&)>& ready) {
   }
 }
 
+// Returns a port for Traffic::sender: null for the port of inject().
 const VirtualBus::Port* VirtualBus::visible(const Port& port) const {
   return (&port == outside_.get()) ? nullptr : &port;
 }

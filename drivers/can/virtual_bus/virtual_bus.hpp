@@ -149,20 +149,22 @@ class VirtualBus {
  private:
   struct CountedRule {
     Rule rule;
-    std::uint32_t seen = 0;
-    std::uint32_t struck = 0;
+    std::uint32_t seen = 0;    // frames for which match returned true
+    std::uint32_t struck = 0;  // frames that the fault has affected
   };
+  // A frame that a rule for Fault::delay or Fault::reorder has postponed.
   struct Late {
     CO_IF_FRM frame;
     const Port* sender;
     Time due;
     bool behind_next;  // reorder: arrives after the next frame of the sender
   };
+  // The frame on the wire of a paced bus.
   struct OnWire {
     CO_IF_FRM frame;
     const Port* sender;
   };
-  enum class Phase { send, bus };
+  enum class Phase { send, bus };  // rules that count calls of send(), or frames on the bus
 
   const Rule* strike(const Traffic& traffic, Phase phase);
   Port* winner() const;
@@ -185,8 +187,8 @@ class VirtualBus {
 
   std::deque<CountedRule> rules_;
   std::vector<std::unique_ptr<Port>> ports_;
-  std::unique_ptr<Port> outside_;
-  std::vector<Late> late_;  // ordered by due time, then by time of sending
+  std::unique_ptr<Port> outside_;  // sender of the frames of inject()
+  std::vector<Late> late_;         // ordered by due time, then by time of sending
   std::function<void(const Traffic&)> trace_;
   std::function<Time()> source_;
   std::optional<PacedWire> wire_;  // set on a paced bus

@@ -11,11 +11,13 @@ namespace {
 constexpr std::uint32_t standard_bits = (0x7FFU << standard_shift) | extended;
 constexpr std::uint32_t extended_bits = standard_bits | (0x3FFFFU << extension_shift);
 
+// Returns the filter that only one identifier passes.
 AcceptanceFilter exactly(std::uint32_t identifier) {
   const bool is_extended = (identifier & CO_IF_FRM_EXT) != 0;
   return {is_extended ? extended_bits : standard_bits, identifier_word(identifier)};
 }
 
+// Returns the narrowest filter that accepts everything that either filter accepts.
 AcceptanceFilter both(const AcceptanceFilter& a, const AcceptanceFilter& b) {
   const std::uint32_t mask = a.mask & b.mask & ~(a.word ^ b.word);
   return {mask, a.word & mask};
@@ -31,6 +33,7 @@ std::int32_t width(const AcceptanceFilter& filter) {
   return ids;
 }
 
+// Returns the number of identifiers that pass a merged filter, but neither of its parts; negative if the parts overlap.
 std::int32_t added_by_merging(const AcceptanceFilter& a, const AcceptanceFilter& b) {
   return width(both(a, b)) - width(a) - width(b);
 }

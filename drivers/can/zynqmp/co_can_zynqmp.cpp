@@ -9,7 +9,7 @@
 namespace co::zynqmp {
 namespace {
 
-constexpr std::int16_t taken = sizeof(CO_IF_FRM);
+constexpr std::int16_t taken = sizeof(CO_IF_FRM);  // result of Read and Send: a frame was read or accepted
 constexpr unsigned fifo_frames = 64;
 constexpr std::uint8_t bytes_at_most = 8;
 constexpr std::uint32_t standard_ids = 0x7FF;
@@ -102,6 +102,7 @@ void await(const CO_CAN_ZYNQMP& can, std::uint32_t bit, std::uint32_t value) {
   }
 }
 
+// Resets the controller, which then is in configuration mode with its interrupts disabled.
 void go_off_the_bus(CO_CAN_ZYNQMP& can) {
   silence(can);
   write(can.Registers, Register::software_reset, soft_reset);
@@ -121,6 +122,7 @@ void forget_received(CO_CAN_ZYNQMP& can) {
   can.ToldLost = 0;
 }
 
+// Enables the interrupts, with all_sent only while a frame is being sent.
 void want_interrupts(const CO_CAN_ZYNQMP& can) {
   write(can.Registers, Register::interrupt_enable, can.IsSending != 0 ? always_wanted | all_sent : always_wanted);
 }
@@ -174,6 +176,7 @@ void write_frame(const CO_CAN_ZYNQMP& can, Register buffer, std::uint32_t word, 
   write(can.Registers, buffer + 3, word_at(frame.Data + 4));
 }
 
+// Returns true while the FIFO contains a frame that has not been sent.
 bool is_sending(CO_CAN_ZYNQMP& can) {
   if (can.IsSending != 0 && has(can, all_sent)) {
     can.IsSending = 0;
@@ -207,6 +210,7 @@ bool may_overtake(const CO_CAN_ZYNQMP& can, std::uint32_t word) {
   return word < can.SendingWord && has(can, arbitration_lost);
 }
 
+// Writes a frame to the high priority buffer, which the controller sends before the frame in the FIFO.
 void send_first(const CO_CAN_ZYNQMP& can, std::uint32_t word, const CO_IF_FRM& frame) {
   clear(can, arbitration_lost);
   write_frame(can, Register::transmit_first, word, frame);
@@ -241,6 +245,8 @@ std::uint8_t state_of(const CO_CAN_ZYNQMP& can) {
   }
 }
 
+// Adds a change of the controller's state to an error frame. The end of bus-off is a restart; a return from error
+// passive is reported as error active.
 void tell_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
   if (state == told_bus_off) {
     report.Identifier |= class_bus_off;
@@ -254,6 +260,7 @@ void tell_state(CO_CAN_ZYNQMP& can, std::uint8_t state, CO_IF_FRM& report) {
   can.Told = state;
 }
 
+// Adds lost frames to an error frame; they are reported as an overflow.
 void tell_lost(CO_CAN_ZYNQMP& can, std::uint32_t lost, CO_IF_FRM& report) {
   report.Identifier |= class_controller;
   report.Data[1] = static_cast<std::uint8_t>(report.Data[1] | detail_overflow);
@@ -362,7 +369,7 @@ void COCanZynqmpInterrupt(CO_CAN_ZYNQMP* can) {
     store(can->Overflows, can->Overflows + 1);
   }
   if ((status & bus_off) != 0) {
-    write(can->Registers, Register::software_reset, 0);
+    write(can->Registers, Register::software_reset, 0);  // no automatic recovery
     store(can->IsBusOff, std::uint8_t{1});
   }
   clear(*can, status & (receive_overflow | bus_off | woken));

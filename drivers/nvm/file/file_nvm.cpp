@@ -103,6 +103,7 @@ std::uint32_t FileNvm::write(std::uint32_t start, const std::uint8_t* buffer, st
   return done;
 }
 
+// Extends the file with FFh to the capacity, and synchronises it.
 bool FileNvm::fill_up() {
   struct stat status {};
   if (::fstat(fd_, &status) != 0) {
@@ -128,6 +129,7 @@ bool FileNvm::fill_up() {
   return true;
 }
 
+// Returns the number of bytes of an access that are within the capacity.
 std::uint32_t FileNvm::inside(std::uint32_t start, std::uint32_t size) const {
   return (start >= capacity_) ? 0 : std::min(size, capacity_ - start);
 }
@@ -136,6 +138,7 @@ std::uint32_t FileNvm::put(std::uint32_t start, const std::uint8_t* buffer, std:
   return all(size, [&](std::uint32_t at) { return ::pwrite(fd_, buffer + at, size - at, place(start, at)); });
 }
 
+// Stores the text of an error. errno: its reason; 0: the end of the file was reached. Returns false.
 bool FileNvm::fail(const char* action) {
   const std::string reason = (errno == 0) ? "it ends early" : std::generic_category().message(errno);
   error_ = path_ + " " + action + ": " + reason;

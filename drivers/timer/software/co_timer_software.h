@@ -4,7 +4,7 @@
 /// The simplest timer on a microcontroller; C and C++, bare metal.
 ///
 ///     CO_IF_DRV drivers = { &MyCanDriver, &SoftwareTimerDriver, &MyNvmDriver };
-///     spec.TmrFreq = 1000;                                   // the interrupt comes 1000 times per second
+///     spec.TmrFreq = 1000;                                   // the interrupt occurs 1000 times per second
 ///     void SysTick_Handler(void) { COTmrService(&node.Tmr); }
 ///
 /// Each call of COTmrService() is one tick, so CO_NODE_SPEC.TmrFreq must be the frequency of these calls; Init ignores

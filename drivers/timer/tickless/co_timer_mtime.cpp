@@ -12,8 +12,10 @@ CO_MTIME& mtime(void* ctx) { return *static_cast<CO_MTIME*>(ctx); }
 // Returns the low word, which wraps at 2^32 like CO_CYCLE_CLOCK.
 uint32_t cycle(const CO_MTIME& t) { return t.Time[0]; }
 
+// Counts a change of the clock. now() repeats its reading if the number has changed meanwhile.
 void change(CO_MTIME& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
 
+// Returns mtime. Repeats the reading if the low word has wrapped between the readings of the high word.
 uint64_t time(const CO_MTIME& t) {
   uint32_t high = t.Time[1];
   for (;;) {

@@ -21,7 +21,8 @@ constexpr uint32_t lead = 4;
 
 CO_NRF51_TIMER_REGS& registers(void* ctx) { return *static_cast<CO_NRF51_TIMER*>(ctx)->Regs; }
 
-// Returns the current time. If the interrupt captures between the two lines, the result is its reading, which is newer.
+// Captures and returns the current time. If the interrupt calls this function between the two lines, the result is the
+// time that it has captured, which is newer.
 uint32_t look(CO_NRF51_TIMER_REGS& regs) {
   regs.Capture[present] = 1;
   return regs.Compare[present];
@@ -44,7 +45,8 @@ void init(void* ctx, uint32_t freq) {
 
 uint32_t now(void* ctx) { return look(registers(ctx)); }
 
-// A compare value that has already passed when it is written would match one wrap of the clock later.
+// Sets the compare value. If it has already passed when it is written, it would match one wrap of the clock later:
+// repeats the write with a later value until it is in the future.
 void alarm(void* ctx, uint32_t ticks) {
   CO_NRF51_TIMER_REGS& regs = registers(ctx);
   regs.InterruptsOff = due_interrupt;

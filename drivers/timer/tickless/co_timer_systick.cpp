@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// SysTick counts from Reload to 0, then from the value of Reload at that moment; a write of any value to Value sets it
-// to 0, and the next cycle reloads it. A slice is the time from a reload to the next 0. So a slice of any length can be
-// followed by one of 2^24 cycles, during which no wrap gets lost.
+// SysTick counts down. One cycle after it has reached 0, it loads the current value of Reload. A write of any value to
+// Value sets it to 0, so that the next cycle loads Reload. A slice is the time from such a load to the next 0.
+//
+// For an alarm, the driver begins a slice of the required length, and then sets Reload to 2^24 - 1 for the slice after
+// it. So the interrupt at the end of the first slice may be late without losing a wrap.
 #include "co_timer_systick.h"
 
 #include "cycle_clock.hpp"
@@ -28,13 +30,14 @@ struct Reading {
   bool wrapped_after;
 };
 
-// Returns the cycles since the beginning of the slice. If the slice has ended between the two readings of the flag, the
-// value shows on which side it was read; 0 is the end itself.
+// Returns the cycles since the beginning of the slice. If the slice has ended between the two readings of the flag, a
+// value in the upper half belongs to the next slice, which has 2^24 cycles. The value 0 is the end of the slice.
 uint32_t passed(const CO_SYSTICK& t, const Reading& reading) {
   const bool is_of_next = reading.wrapped_before || (reading.wrapped_after && reading.value > most / 2);
   return reading.value != 0 && is_of_next ? t.Slice + most - reading.value : t.Slice - reading.value;
 }
 
+// Returns the current cycle of the clock.
 uint32_t cycle(const CO_SYSTICK& t) {
   const bool before = has_wrapped(t);
   const uint32_t value = t.Regs->Value;
@@ -50,6 +53,7 @@ uint32_t cycle(const CO_SYSTICK& t) {
   return value;
 }
 
+// Returns the cycles that exchange() needs between its reading and its write of Value.
 [[gnu::noinline]] uint32_t measure(CO_SYSTICK_REGS& regs, uint32_t reload) {
   const uint32_t value = regs.Value;
   regs.Reload = reload;
@@ -65,6 +69,7 @@ void await_begin(const CO_SYSTICK& t) {
   }
 }
 
+// Counts a change of the clock. now() repeats its reading if the number has changed meanwhile.
 void change(CO_SYSTICK& t) { __atomic_store_n(&t.Turn, t.Turn + 1, __ATOMIC_RELEASE); }
 
 // Begins a slice of 2^24 cycles: adds the elapsed part of the previous slice to the clock and clears its interrupt.
@@ -90,7 +95,7 @@ void end_slice(CO_SYSTICK& t) {
 // with that of the new slice.
 void begin_slice(CO_SYSTICK& t, uint32_t end) {
   const uint32_t left = end - (t.Begin + t.Slice - t.Regs->Value + t.Start);
-  const uint32_t slice = left - least <= most - least ? left : least;
+  const uint32_t slice = left - least <= most - least ? left : least;  // least, too, if the end is near or has passed
   t.Begin += t.Slice - exchange(*t.Regs, slice - 1) + t.Start;
   t.Slice = slice;
   await_begin(t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file cycle_clock.hpp
-/// Conversion of cycles to ticks with 32-bit divisions, for drivers with a CO_CYCLE_CLOCK. settle() or until() has to
+/// Conversion of cycles to ticks with 32-bit divisions, for drivers with a CO_CYCLE_CLOCK. update() or until() has to
 /// be called at least once in 2^32 cycles.
 #pragma once
 
@@ -22,16 +22,16 @@ inline uint32_t ticks(const CO_CYCLE_CLOCK& clock, uint32_t cycle) {
 }
 
 /// Adds the complete ticks since the last update to the clock. \a cycle: the present cycle.
-inline void settle(CO_CYCLE_CLOCK& clock, uint32_t cycle) {
+inline void update(CO_CYCLE_CLOCK& clock, uint32_t cycle) {
   const uint32_t passed = (cycle - clock.Cycle) / clock.PerTick;
   clock.Tick += passed;
   clock.Cycle += passed * clock.PerTick;
 }
 
-/// Updates the clock like settle(). Returns the cycles until \a ticks ticks have passed, at most \a most; 0 ticks:
+/// Updates the clock like update(). Returns the cycles until \a ticks ticks have passed, at most \a most; 0 ticks:
 /// returns \a most.
 inline uint32_t until(CO_CYCLE_CLOCK& clock, uint32_t cycle, uint32_t ticks, uint32_t most) {
-  settle(clock, cycle);
+  update(clock, cycle);
   if (ticks == 0 || ticks > most / clock.PerTick) {
     return most;
   }
