@@ -17,6 +17,7 @@ struct Page {
   std::string_view text;  ///< Markdown without title and severity
 };
 
+/// Returns the pages of all rules, defined in rule_pages.cpp, which the build generates.
 const std::vector<Page>& all_pages();
 
 /// Returns the section of the reference about one rule: title, severity, fault, and its page.

@@ -41,8 +41,8 @@ struct Difference {
   std::string what;  ///< "access", "PDO mapping", "object"
   std::string before;
   std::string after;
-  Span before_span;  ///< place in the first source
-  Span after_span;   ///< place in the second source; both are empty at 0 if there is no such place
+  Span before_span;  ///< place in the first source; empty at offset 0 if the text is not in it
+  Span after_span;   ///< place in the second source; empty at offset 0 if the text is not in it
 };
 
 /// Returns the differences: first those of the device, then of each object, followed by those of its sub-objects.

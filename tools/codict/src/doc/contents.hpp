@@ -13,6 +13,7 @@
 
 namespace lexican::codict::doc {
 
+/// Name and value of a property, or of an allowed value.
 struct Fact {
   std::string_view name;
   std::string value;
@@ -41,10 +42,11 @@ struct ObjectItem {
   std::vector<Item> subs;
 };
 
+/// Objects of a group of the description, or of an area of the dictionary.
 struct Chapter {
   std::string title;
   std::string anchor;
-  std::string words;
+  std::string words;   ///< description of the group
   unsigned level = 0;  ///< nesting depth of the chapter
   std::vector<ObjectItem> objects;
 };
@@ -56,6 +58,7 @@ struct CobIdRow {
   std::string source;      ///< "1800h:1", "CiA 301"
 };
 
+/// Mapped object of a PDO.
 struct PdoPart {
   std::string number;  ///< "2000h:1"
   std::string anchor;  ///< anchor of the object; empty if the object is not described

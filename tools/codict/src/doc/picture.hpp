@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file picture.hpp
+/// Pictures of PDO mappings for the HTML page.
 #pragma once
 
 #include <string>

@@ -28,7 +28,7 @@ struct Key {
 struct Section {
   Span name;               ///< inside the brackets
   std::uint32_t line = 0;  ///< line of its header
-  std::uint32_t end = 0;   ///< number of the line behind its last one
+  std::uint32_t end = 0;   ///< number of the line after its last one
   bool is_duplicate = false;
   std::vector<Key> keys;
   std::vector<std::uint32_t> by_name;  ///< indexes in `keys`, sorted by name and position
@@ -54,7 +54,7 @@ class Document {
   /// Returns the comments of a section that begin with a semicolon, without the semicolon, as spans of the source.
   std::vector<Span> comments(const Section& section) const;
 
-  /// Returns the number of the section's last line that is neither empty nor a comment. Comments behind it belong to
+  /// Returns the number of the section's last line that is neither empty nor a comment. Comments after it belong to
   /// the next section. A key that a tool has hidden in a comment (";StorageLocation=RAM") counts as a key.
   std::uint32_t last_line(const Section& section) const;
 

@@ -26,6 +26,7 @@ struct Reader {
 };
 
 Text text_of(const Document& document, const Key& key);
+/// Return a key or a section as a part that the model does not interpret.
 Kept kept(const Document& document, const Key& key);
 Kept kept(const Document& document, const Section& section);
 
@@ -37,6 +38,7 @@ struct Slot {
   std::size_t longest = 0;  ///< limit of CiA 306 in characters; 0: no limit
 };
 
+/// Reports a text that exceeds a limit in characters; 0: no limit.
 void report_length(const Text& text, std::size_t longest, Findings& findings);
 
 /// Returns the span of a section from its header to its last line.
@@ -64,6 +66,7 @@ template <typename T, std::size_t size>
 void read_section(T& target, const Section& section, const std::array<Slot<T>, size>& slots, std::vector<Kept>& others,
                   const Reader& reader);
 
+/// Adds a key without a slot to `others`. Reports it as unknown, unless it is a duplicate or has no value.
 void keep_key(const Key& key, std::vector<Kept>& others, const Reader& reader);
 
 template <typename T, std::size_t size>
@@ -82,12 +85,14 @@ struct NumberedKey {
   const Key* key = nullptr;
 };
 
+/// A list of CiA 306: a key with the number of entries, and numbered entries.
 struct NumberedList {
   Field<std::uint32_t> count;
   std::vector<NumberedKey> entries;  ///< sorted by number
-  std::vector<const Key*> others;
+  std::vector<const Key*> others;    ///< keys of the section that do not belong to the list
 };
 
+/// Whether the numbers of a list may have gaps.
 enum class Gaps : bool { are_wrong, are_right };
 
 /// Reads a section that is a list with a count (count_key: "NrOfEntries"). Reports a wrong count, entries without a

@@ -27,13 +27,14 @@ struct SectionName {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
   bool is_sub = false;         ///< for module_fixed: the name has a sub-index
-  std::string_view large_sub;  ///< digits of a sub-index above FFh of `index`; kind is `other`
+  std::string_view large_sub;  ///< for 1A00sub100: the digits "100", which exceed FFh; kind is then `other`
   std::uint16_t module = 0;
   std::string_view word;       ///< for header and module: the word as CiA 306 spells it
   bool has_odd_zeros = false;  ///< the index has other than four digits, or the sub-index has leading zeros
   bool has_odd_case = false;   ///< lower-case digits, or upper-case letters in "sub"
 };
 
+/// Interprets the name of a section; kind `other` if CiA 306 does not define such a name.
 SectionName section_name(std::string_view name);
 
 /// Returns whether a section describes an object or a part of one.

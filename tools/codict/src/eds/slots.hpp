@@ -103,6 +103,7 @@ inline constexpr std::array<Slot<SubExtension>, 2> extension_slots = {{
     {"ObjExtend", [](SubExtension& e) -> Text& { return e.object_extension; }},
 }};
 
+/// Returns the text of the first label. Adds an empty label if there is none.
 inline Text& first_of(std::vector<Label>& labels) {
   return labels.empty() ? labels.emplace_back().text : labels.front().text;
 }

@@ -35,6 +35,7 @@ enum class Service : std::uint8_t {
   consumer,  ///< the entry is a heartbeat consumer (CO_HBCONS)
 };
 
+/// Entries of the communication profile that a service of the stack uses in one way.
 struct Place {
   std::uint16_t first;
   std::uint16_t last;

@@ -47,7 +47,7 @@ struct Limits {
   std::string high;            ///< literal; empty: no limit
   std::uint64_t low_bits = 0;  ///< limits as bit patterns; without a limit, the lowest and highest of the width
   std::uint64_t high_bits = 0;
-  bool holds_default = true;
+  bool holds_default = true;  ///< the default value is within the limits
 };
 
 /// Entry of the table.
@@ -118,9 +118,10 @@ struct Group {
   std::uint32_t unused = 0;       ///< padding bytes at the end, so that the size is aligned on every CPU
 };
 
+/// Mapping parameter of a PDO, for the compile-time check of its length.
 struct PdoSum {
-  std::uint16_t index = 0;
-  std::vector<unsigned> bits;
+  std::uint16_t index = 0;     ///< of the mapping parameter
+  std::vector<unsigned> bits;  ///< length of each mapped object
 };
 
 struct Plan {

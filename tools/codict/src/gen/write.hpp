@@ -43,8 +43,7 @@ std::string write_requirements(const Plan& plan);
 /// the stack reports.
 std::string write_verify(const Plan& plan, const Options& options);
 
-///
-/// ame Names used in header and source
+/// \name Names used in header and source
 /// \{
 std::string macro_of(const Item& item, const Options& options);     ///< "CLOCK_2100_1"
 std::string external_of(const Item& item, const Options& options);  ///< "clock_2200_0"

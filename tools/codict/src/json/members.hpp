@@ -18,6 +18,8 @@ template <typename Visit, typename T>
 using Part = std::conditional_t<Visit::is_reading, T, const T>;
 
 // The functions call visit(name, member), or visit.required(name, number) for a member that identifies the part.
+// visit.end_of(part) follows the members of an entry and of the device. At the end of the device the reader interprets
+// the values, because all data types are known then.
 
 template <typename Visit>
 void members(Visit& visit, Part<Visit, Kept>& kept) {

@@ -18,7 +18,7 @@ namespace lexican::codict::json {
 /// Returns whether the bytes begin like JSON, and not like another description.
 bool is_json(const Source& source);
 
-/// Never refuses bytes: only the parsed document shows whether it is a description.
+/// Returns an empty text: no bytes are refused, because only the parsed document shows whether it is a description.
 inline std::string refusal(const Source& /*source*/) { return {}; }
 /// Returns an empty text if the document is a description; else a message that says what it is.
 std::string refusal(const Document& document);

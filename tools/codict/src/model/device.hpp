@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file device.hpp
-/// The model of a device description, as plain data for all formats. Members hold what only one format can express,
-/// too; what no standard defines is kept by name, so that reading loses nothing.
+/// The model of a device description, as plain data for all formats. It has members for data that only one format can
+/// express, too. Data that no standard defines is stored with its name (struct Kept), so that reading loses nothing.
 ///
 /// Objects are sorted by index, their sub-objects by sub-index, without duplicates.
 #pragma once
@@ -28,6 +28,7 @@ struct Kept {
 
 // Words [311: 7.2: labels] -----------------------------------------------------------------------------------------
 
+/// A text in one language, or a reference to such a text.
 struct Label {
   std::string language;  ///< "en", "de-AT"; empty if not given
   Text text;
@@ -35,6 +36,7 @@ struct Label {
   std::string uri;
 };
 
+/// Names and descriptions of a part, in any number of languages.
 struct Words {
   std::vector<Label> labels;
   std::vector<Label> descriptions;
@@ -43,6 +45,7 @@ struct Words {
 /// Returns the text in a language, else the first text; empty if there is none.
 std::string_view text_in(const std::vector<Label>& labels, std::string_view language);
 
+/// Physical unit of an entry.
 struct Unit {
   Words words;
   Text multiplier;
@@ -58,18 +61,21 @@ struct AllowedValue {
   Text multiplier;
 };
 
+/// A range of allowed values.
 struct Range {
   Value minimum;
   Value maximum;
   Value step;
 };
 
+/// Values and ranges to which an entry is restricted, in addition to its limits.
 struct Allowed {
   std::vector<AllowedValue> values;
   std::vector<Range> ranges;
   Text template_id;  ///< id of an AllowedTemplate
 };
 
+/// Allowed values that several parameters share. [311]
 struct AllowedTemplate {
   Text id;
   Allowed allowed;
@@ -128,6 +134,7 @@ struct NodeProperties {
   Field<bool> flags_pdo;                   ///< CO_flagsPDO, of the older generation
 };
 
+/// A named text that an application adds to an object. [311: property]
 struct Property {
   std::string name;
   Text value;
@@ -239,6 +246,7 @@ struct ProfileHeader {
   std::vector<Kept> others;
 };
 
+/// Version of a part of the device. [311]
 struct Version {
   Text type;  ///< SW, FW, HW
   Text text;
@@ -310,11 +318,14 @@ struct Commissioning {
   Field<std::uint32_t> network_reference;  ///< NetRefd
 };
 
+/// A data type that the device supports as a dummy entry of an RPDO. [306: DummyUsage]
 struct Dummy {
-  std::uint16_t type = 0;
+  std::uint16_t type = 0;  ///< index of the data type
   Field<bool> supported;
 };
 
+/// Range of objects that a programmable device creates for its network variables. [306: DynamicChannels; 311:
+/// dynamicChannels]
 struct DynamicChannel {
   Field<std::uint16_t> data_type;
   Field<Access> access;  ///< gives the direction

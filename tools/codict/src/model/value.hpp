@@ -20,7 +20,7 @@ struct Text {
   bool is_empty() const { return text.empty(); }
 };
 
-/// A text with its meaning. `value` is valid without a given text, too: the standard's default then.
+/// A text with its meaning. If the text is not given, `value` is the default of the standard.
 template <typename T>
 struct Field : Text {
   T value{};

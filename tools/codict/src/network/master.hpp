@@ -11,8 +11,8 @@
 
 namespace lexican::codict::network {
 
-/// Returns the master of a network whose other nodes are configured. consumer_times: of the heartbeats of these nodes,
-/// in ms; 0 where there is none.
+/// Returns the master of a network whose slaves are already configured. consumer_times: heartbeat consumer time for
+/// each slave, in ms; 0: it has no heartbeat.
 Node generated_master(const Plan& plan, const Network& network, const std::vector<std::uint64_t>& consumer_times,
                       Findings& findings);
 

@@ -58,7 +58,7 @@ bool is_named(std::string_view name, std::string_view wanted, Span span, const R
 /// Keep an attribute or element without a slot. Add a finding if CiA 311 does not define it.
 void keep(pugi::xml_attribute attribute, std::vector<Kept>& others, const Reader& reader);
 void keep(pugi::xml_node element, std::vector<Kept>& others, const Reader& reader);
-/// Keeps the unread parts of an element, if there are any.
+/// Keeps the parts of an element that the reader left (`rest`), if there are any, under the name of the element.
 void keep_rest(pugi::xml_node element, std::vector<Kept> rest, std::vector<Kept>& others, const Reader& reader);
 
 void report_duplicate(Span place, const Reader& reader);

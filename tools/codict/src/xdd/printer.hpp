@@ -18,9 +18,10 @@ class Rest {
   Rest() = default;
   explicit Rest(const std::vector<Kept>& others);
 
-  /// Remove and return the first kept part with a name (take), or the first that is the unread rest of an element whose
-  /// text or attribute has been read (take_left); null if there is none.
+  /// Removes and returns the first kept part with a name; null if there is none.
   const Kept* take(std::string_view name);
+  /// Like take(), but skips parts that were kept with their text or with this attribute: only the rest of an element is
+  /// returned whose text or attribute the reader has stored in the model.
   const Kept* take_left(std::string_view name, std::string_view attribute);
   const std::vector<const Kept*>& all() const { return all_; }
 
@@ -31,6 +32,7 @@ class Rest {
 /// Returns the kept parts inside of an element; none if the element has no kept rest.
 Rest rest_of(const Kept* left);
 
+/// Buffer for an XML text. Elements are indented and closed in the order of open() and close().
 class Printer {
  public:
   explicit Printer(Edition edition);

@@ -14,6 +14,8 @@ namespace lexican::codict::xdd {
 
 void print_words(Printer& out, const Words& words);
 
+// Parameters named left: kept parts of the element that is written, which the reader left; null: none.
+
 // write_network.cpp
 void print_transport(Printer& out, const Device& device, const Kept* left, const Kept* rates_left);
 void print_management(Printer& out, const Device& device, const Kept* left);
