@@ -217,6 +217,7 @@ class Items {
     }
   }
 
+  // Returns the number of mapped objects that precede the first sub-index without one.
   static std::uint8_t mapped_objects(const Object& object) {
     std::uint8_t number = 0;
     for (const Sub& sub : object.subs) {

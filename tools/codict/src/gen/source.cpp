@@ -452,6 +452,7 @@ class SourceText {
     }
   }
 
+  // Returns the CO_PARA for a sub-index of 1010h or 1011h; no_group if the sub-index has no storage group.
   std::string para_of(const Item& item) const {
     const bool stores = item.index == 0x1010;
     for (const Group& group : plan_.groups) {
@@ -587,7 +588,7 @@ class SourceText {
     out_.raw("};\n");
   }
 
-  // Proofs -----------------------------------------------------------------------------------------------------------
+  // Compile-time checks ----------------------------------------------------------------------------------------------
 
   void write_proofs() {
     out_.raw("\n// Compile-time checks of the table.\n");

@@ -194,6 +194,7 @@ class Assignment {
         return (words_[n] == Words{purpose} || has_other_words) && is_place_of(purpose, place);
       });
     }
+    // Other groups may use a sub-index for manufacturer-defined parameters.
     set_where([this](std::size_t n, const StoreSub& place) {
       return words_[n].size() > 1 && is_place_of(manufacturer, place);
     });
@@ -345,6 +346,7 @@ void report_unused(const Plan& plan, Findings& findings) {
   }
 }
 
+// Assigns the sub-indexes of 1010h: by option, then sub-index 1 if 1010h has no other, then by names and purposes.
 void assign_stores(Plan& plan, const Options& options, Assignment& stores, Findings& findings) {
   set_by_option(plan, options, stores, findings);
   if (stores.has_only_all() && plan.groups.size() > 1) {

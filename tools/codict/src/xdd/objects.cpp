@@ -172,6 +172,7 @@ void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, E
   entry.others.push_back({"@" + std::string(attribute), static_cast<const Text&>(own), {}, own.span});
 }
 
+// Uses the range of allowed values as limits, if there is exactly one.
 void take_limits_of_range(Entry& entry) {
   if (entry.allowed.ranges.size() == 1) {
     entry.low_limit = entry.allowed.ranges.front().minimum;
@@ -179,6 +180,7 @@ void take_limits_of_range(Entry& entry) {
   }
 }
 
+// Returns whether the access types agree: that of a parameter may add the direction of PDO mapping to rw.
 bool is_same_access(Access own, Access of_parameter) {
   return own == of_parameter || (own == Access::rw && (of_parameter == Access::rwr || of_parameter == Access::rww));
 }

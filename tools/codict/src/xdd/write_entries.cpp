@@ -56,12 +56,13 @@ bool has_limits_of_range(const Entry& entry) {
          ranges[0].maximum.text == entry.high_limit.text;
 }
 
-// Returns whether a value is written. CiA 306 need not give the value of sub-index 0; here it is always written.
+// Returns whether a value is written. An EDS may omit the value of sub-index 0; an XDD from this writer always has it.
 bool is_said(const Value& value) { return value.is_given || value.is_integer(); }
 std::string value_text(const Value& value) {
   return value.is_empty() && value.is_integer() ? value.written_integer() : value.text;
 }
 
+// Return the uniqueID of a parameter that has none in the description.
 std::string made_id(const Object& object) { return "UID_OBJ_" + hex(object.index, 4); }
 std::string made_id(const Object& object, const Sub& sub) {
   return "UID_SUB_" + hex(object.index, 4) + hex(sub.sub_index, 2);
