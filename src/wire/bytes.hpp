@@ -22,14 +22,14 @@ constexpr void put_u32(uint8_t* p, uint32_t value) {
   p[3] = static_cast<uint8_t>(value >> 24);
 }
 
-// Reads a word of the bus at an aligned address.
+// Reads a 32-bit word in the byte order of the bus. p: aligned to 4 bytes
 inline uint32_t get_aligned(const uint8_t* p) {
   uint32_t value = 0;
   __builtin_memcpy(&value, __builtin_assume_aligned(p, sizeof value), sizeof value);
   return host_is_little_endian ? value : __builtin_bswap32(value);
 }
 
-// Writes a word of the bus to an aligned address.
+// Writes a 32-bit word in the byte order of the bus. p: aligned to 4 bytes
 inline void put_aligned(uint8_t* p, uint32_t value) {
   value = host_is_little_endian ? value : __builtin_bswap32(value);
   __builtin_memcpy(__builtin_assume_aligned(p, sizeof value), &value, sizeof value);
@@ -68,7 +68,8 @@ inline void copy_segment(uint8_t* __restrict to, const uint8_t* __restrict from)
   }
 }
 
-// Converts a number of n bytes from the byte order of the bus to that of the CPU, or back.
+// Converts a number of n bytes from the byte order of the bus to that of the CPU, or back. No effect on a
+// little-endian CPU.
 constexpr void swap_host([[maybe_unused]] uint8_t* p, [[maybe_unused]] uint32_t n) {
   if constexpr (!host_is_little_endian) {
     for (uint32_t low = 0, high = n; low + 1 < high; ++low) {

@@ -6,11 +6,13 @@
 
 namespace co::wire {
 
-// Returns the CRC after data bits. x: the data bits, with the CRC before them XORed to the first ones. As a polynomial
-// p of these bits, the CRC is p * x^16 modulo x^16 + x^12 + x^5 + 1. This is p * (x^12 + x^5 + 1), whose part above 16
-// bits, g(p) = p >> 4 ^ p >> 11 ^ p >> 16, is reduced in the same way. So the CRC is the lowest 16 bits of (x^12 + x^5
-// + 1) times p + g(p) + g(g(p)) + ..., where g^8 and all later terms are 0: that sum is (1 + g)(1 + g^2)(1 + g^4)
-// applied to p, where g^2 is >> 8 ^ >> 22 and g^4 is >> 16.
+// Returns the CRC after up to 32 data bits. x: the data bits; the CRC of the data before them is XORed to the first 16.
+//
+// Derivation, with the bits of x as a polynomial p over GF(2), z the variable and G = z^16 + z^12 + z^5 + 1: the CRC is
+// p * z^16 modulo G. Because z^16 = z^12 + z^5 + 1 modulo G, it is p * (z^12 + z^5 + 1); the bits of this product from
+// bit 16 on are g(p) = p >> 4 ^ p >> 11 ^ p >> 16, which are reduced in the same way. So the CRC is the lowest 16 bits
+// of (z^12 + z^5 + 1) times the sum p + g(p) + g(g(p)) + ..., in which g applied 8 times gives 0. The sum is (1 + g)(1
+// + g^2)(1 + g^4) applied to p. Mixed terms cancel over GF(2): g^2 is >> 8 ^ >> 22 (>> 32 gives 0), and g^4 is >> 16.
 [[gnu::always_inline]] constexpr uint32_t crc16_of(uint32_t x) {
   x ^= x >> 16;
   x ^= (x >> 8) ^ (x >> 22);

@@ -14,10 +14,11 @@ constexpr CO_EMCY_MSG emcy_message(uint16_t code, const uint8_t* msef) {
   return {code | (uint32_t{msef[0]} << 24), get_u32(msef + 1)};
 }
 
-// Returns a message with an error code and the third of these five bytes; the others are 0.
+// Returns the message of a fault of the stack: an error code, and detail (a node-ID or the number of a PDO) as third
+// byte of the manufacturer-specific error field. The other bytes are 0: the first two are also in 1003h. [301:7.5.2.4]
 constexpr CO_EMCY_MSG emcy_message(uint16_t code, uint8_t detail) { return {code, uint32_t{detail} << 8}; }
 
-// Returns the message with the error register, which follows the error code.
+// Returns the message with the error register, byte 2 of the frame, behind the error code.
 constexpr CO_EMCY_MSG with_register(const CO_EMCY_MSG& msg, uint8_t reg) {
   return {msg.Low | (uint32_t{reg} << 16), msg.High};
 }

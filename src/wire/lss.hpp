@@ -32,6 +32,7 @@ enum class Lss : uint8_t {
 inline constexpr uint8_t lss_address_parts = 4;
 inline constexpr uint8_t lss_identify_parts = 6;
 
+// Returns whether "configure node-ID" accepts this value: a node-ID, or 255 for an unconfigured node.
 constexpr bool may_be_configured(uint8_t id) { return is_node_id(id) || id == no_node_id; }
 
 // Returns the bit rate of an index of table 0, in bit/s; 0: there is none. [305 table 1]
@@ -58,12 +59,12 @@ inline CO_IF_FRM lss_frame(uint32_t identifier, uint8_t command) {
   return frame;
 }
 
-// Parameters of LSS fastscan. part and next: indexes of parts of the LSS address.
+// Parameters of LSS fastscan. A part of the LSS address is named by its index, 0…3.
 struct Fastscan {
-  uint32_t number;
-  uint8_t bit;  // lowest bit that is compared; 80h: all slaves begin fastscan
-  uint8_t part;
-  uint8_t next;
+  uint32_t number;  // IDNumber
+  uint8_t bit;      // BitCheck: lowest bit that is compared; 80h: all slaves begin fastscan
+  uint8_t part;     // LSSSub: the part that is compared
+  uint8_t next;     // LSSNext: the part that follows when all bits of this one have matched
 };
 inline constexpr uint8_t fastscan_begin = 0x80;
 
@@ -78,6 +79,7 @@ inline Fastscan get_fastscan(const CO_IF_FRM& frame) {
   return {get_u32(frame.Data + 1), frame.Data[5], frame.Data[6], frame.Data[7]};
 }
 
+// Returns whether all parameters are in range. fastscan_begin is no bit to compare, and out of range.
 constexpr bool is_possible(const Fastscan& scan) {
   return scan.bit < 32 && scan.part < lss_address_parts && scan.next < lss_address_parts;
 }

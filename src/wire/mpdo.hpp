@@ -31,7 +31,8 @@ inline CO_IF_FRM mpdo(uint32_t identifier, uint8_t address, uint32_t key, uint32
 static_assert(mpdo_low(0x85, CO_DEV(0x6200, 0x01)) == 0x01620085);
 static_assert(mpdo_key(0x01620085) == CO_DEV(0x6200, 0x01) && mpdo_address(0x01620085) == 0x85);
 
-// Returns the block size of an entry of a list, whose high word is given; a single object may have the block size 0.
+// Returns the number of consecutive sub-indices in an entry of a list. high: the 32 bits of the entry that begin with
+// the block size; block size 0 stands for a single object.
 constexpr uint8_t mpdo_block(uint32_t high) { return static_cast<uint8_t>((high >> 24) != 0 ? high >> 24 : 1U); }
 
 // Returns the key in an entry of the object scanner list: block size, index, sub-index.
@@ -40,8 +41,8 @@ constexpr uint32_t scan_key(uint32_t entry) { return entry << 8; }
 static_assert(mpdo_block(0x03600001) == 3 && scan_key(0x03600001) == CO_DEV(0x6000, 0x01));
 static_assert(mpdo_block(0x00600001) == 1);
 
-// Returns a part of an entry of the object dispatching list: block size, own index and sub-index; index, sub-index and
-// node-ID of the producer.
+// Return parts of an entry of the object dispatching list. dispatch_own(): block size, index and sub-index of the
+// object of this node; dispatch_key(): its key; dispatch_producer(): index, sub-index and node-ID of the producer.
 constexpr uint32_t dispatch_own(uint64_t entry) { return static_cast<uint32_t>(entry >> 32); }
 constexpr uint32_t dispatch_key(uint64_t entry) { return dispatch_own(entry) << 8; }
 constexpr uint32_t dispatch_producer(uint64_t entry) { return static_cast<uint32_t>(entry); }

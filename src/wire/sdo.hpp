@@ -38,7 +38,7 @@ enum class Response : uint8_t {
   initiate_block_download,
   end_block_download,
   acknowledge_block,
-  none,
+  none,  // A3h is "start upload" of a client; no response has this command
   initiate_block_upload,
   end_block_upload,
   unknown,
