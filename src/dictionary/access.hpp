@@ -42,8 +42,8 @@ class Nested {
   uint32_t abort_;
 };
 
-// Clears the object of each SDO server channel whose entry is no longer at the same place in the dictionary. The server
-// then aborts the transfer (0800 0022h).
+// Clears the object of each SDO server channel whose entry is no longer at the same place in the dictionary, because
+// CODictInit() was called with another table. The server then aborts the transfer (0800 0022h).
 void lose_moved(CO_NODE& node);
 
 // Returns whether an SDO server channel other than by has the object open. by: null if every channel counts.
@@ -69,8 +69,8 @@ void lose_moved(CO_NODE& node);
 // Returns the abort code for the result of a type function: the code that was set by COObjTypeUserSDOAbort(), else the
 // code of err.
 [[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
-// Returns the abort code for the result of a Read, Write or End function. Only a hardware error (0606 0000h) becomes
-// the node's error: any other is a refused request of the client.
+// Returns the abort code for an error of a Read, Write or End function, like abort_for(). Reports a hardware error
+// (0606 0000h) as the node's error, too; any other error only refuses the request of the client.
 [[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

@@ -58,6 +58,8 @@ CO_ERR check(CO_DICT& dict) {
 CO_ERR check(CO_DICT&) { return CO_ERR_NONE; }
 #endif
 
+// Reads or writes a value of width bytes through the type of its entry, from position 0. Returns CO_ERR_OBJ_SIZE if the
+// object has another length.
 CO_ERR access(CO_DICT* dict, uint32_t key, void* value, uint32_t width,
               CO_ERR (*run)(CO_OBJ&, CO_NODE_T&, void*, uint32_t)) {
   if (dict == nullptr || dict->Node == nullptr || value == nullptr) {
@@ -121,8 +123,8 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
   return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
 }
 
-// Prepares the binary search: divides the table into two parts that overlap, each as long as the largest power of two
-// that fits.
+// Prepares the binary search. It searches one of two parts of the table that overlap: the first 2^Steps entries, from
+// Root, or the last 2^Steps, from Split. 2^Steps is the largest power of two that is not above the number of entries.
 void prepare_search(CO_DICT& dict) {
   uint32_t half = 1;
   while (half * 2 <= dict.Num) {
@@ -136,6 +138,7 @@ void prepare_search(CO_DICT& dict) {
 
 }  // namespace
 
+// Compares the entry behind the one found last first: most accesses are to the next sub-index.
 CO_OBJ* find(CO_DICT& dict, uint32_t key) {
   CO_OBJ* found = dict.Next;
   if (found == nullptr) {  // an empty table
@@ -175,7 +178,7 @@ void set_power_on_values(CO_NODE& node, CO_NMT_RESET type) {
   }
 }
 
-// Uses the small search: called only after a lookup has failed.
+// Uses first_from(), which is slower than find() and needs no prepared search: called only after find() has failed.
 bool has_index(const CO_DICT& dict, uint32_t key) {
   const uint32_t place = first_from(dict.Root, dict.Num, CO_DEV(CO_GET_IDX(key), 0));
   return place < dict.Num && CO_GET_IDX(dict.Root[place].Key) == CO_GET_IDX(key);

@@ -10,7 +10,7 @@
 
 namespace co::integer {
 
-// T with which a variable of any type may be accessed.
+// T as a type whose lvalues may alias variables of any type.
 template <class T>
 struct Aliasing {
   typedef T type __attribute__((may_alias));
@@ -70,18 +70,21 @@ inline void store(void* to, T value, unsigned bytes) {
   }
 }
 
-// Returns the address of an entry's value; with flag D the value is stored in the lowest bytes of Data.
+// Returns the address of an entry's value of storage bytes; with flag D the value is in the least significant bytes of
+// Data.
 inline void* place_of(CO_OBJ& obj, unsigned storage) {
   const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
   return CO_IS_DIRECT(obj.Key) != 0 ? reinterpret_cast<uint8_t*>(&obj.Data) + above : data_of<void>(obj);
 }
 
+// Returns the node-ID if the value is relative to it (flag N), else 0.
 inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
   return CO_IS_NODEID(obj.Key) != 0 ? node.NodeId : 0U;
 }
 
-// Stores a value in the variable of an entry, and reports a change if its TPDOs are event-driven (flag A). With flag D
-// all bytes of Data are written.
+// Stores a value in the variable of an entry. With flag A (event-driven TPDOs) a value that is stored already is not
+// written, and any other is reported as a change. With flag D all bytes of Data are written. storage: bytes of the
+// variable, which may be more than those of the number
 template <class T>
 inline CO_ERR keep(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
   void* const place = place_of(obj, storage);

@@ -14,7 +14,8 @@ namespace {
 #if USE_OD
 
 // Scope of an access to an extended stream; its end restores the application's own access. All extended streams share
-// one OD_TRANSFER for the application; it is not restored if an object has got another extension meanwhile.
+// one OD_TRANSFER for the application. It is not restored if an object has got another extension meanwhile, because
+// that may have ended the application's access (OD_extension_init()).
 class KeptAccess {
  public:
   explicit KeptAccess(const CO_NODE& node) : od_(node.Ext->Od) {
