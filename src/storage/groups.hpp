@@ -8,7 +8,7 @@ namespace co::para {
 
 constexpr uint16_t store_index = 0x1010;
 constexpr uint16_t restore_index = 0x1011;
-constexpr unsigned version_bit = 8;  // of CO_PARA.Value
+constexpr unsigned version_bit = 8;  // lowest bit of the version in CO_PARA.Value
 constexpr uint16_t verify_index = 0x1020;
 
 constexpr bool is_saved_on_command(const CO_PARA& group) { return (group.Value & CO_PARA___E) != 0; }

@@ -16,6 +16,7 @@ namespace {
 constexpr uint32_t save_signature = 0x65766173;  // "save" and "load" in the order of the bus
 constexpr uint32_t load_signature = 0x64616F6C;
 
+// Returns whether the entry is sub-index 0: the number of groups, an UNSIGNED8.
 bool is_number(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
 // Returns whether the entry stands for all groups: sub-index 1, if there are others.
@@ -50,7 +51,8 @@ uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
   return type->Size(obj, node, width);
 }
 
-// Returns the operations that the network can execute on the groups of an entry. [301:7.5.2.13 figure 60]
+// Returns the operations that the network can execute on the groups of an entry. A group is stored autonomously only in
+// an atomic memory: power may fail at any of these stores. [301:7.5.2.13 figure 60]
 template <uint32_t bits>
 uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
   uint32_t all = 0;
@@ -71,7 +73,7 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_ERR_NONE;
 }
 
-// Executes "save" or "load" for each group. Returns the first error.
+// Writes a signature to 1010h or 1011h: executes "save" or "load" for each group. Returns the first error.
 template <uint32_t signature, CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t value = 0;
@@ -91,7 +93,8 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return first;
 }
 
-// Records whether the configuration is verified: 1020h is 0 if it is not.
+// Records that date or time in 1020h is not 0: the configuration is verified until an object of a group is written.
+// value: that of either sub-index; 0 changes nothing, because the other may still be set
 void note_verified(CO_NODE& node, uint32_t value) { node.Verified = value != 0 ? 1 : node.Verified; }
 
 CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {

@@ -55,6 +55,8 @@ Located locate(CO_NODE& node, const CO_PARA& group) {
   return located;
 }
 
+// Sets the first size bytes of a group to the default values of the table, if it has any. Calls COParaDefault() only if
+// the memory holds the request to use the defaults, after a "load".
 CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
     __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
@@ -64,7 +66,8 @@ CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
 }
 
-// Returns whether the group is stored when it has changed. Defaults that a "load" has asked for stay until the reset.
+// Returns whether a change of the group is stored autonomously. After a "load" changes are not stored until the reset,
+// because they would replace the request to use the defaults.
 bool is_followed(CO_NODE& node, const CO_PARA& group) {
   return is_saved_autonomously(group) && store::is_atomic(node) &&
          store::look(node, locate(node, group).record) != Found::defaults;
@@ -111,8 +114,8 @@ void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
   }
 }
 
-// Returns whether a group keeps its values: it has a change that the budget has delayed, which is newer than the stored
-// values.
+// Returns whether a reset must not load the group: the budget is used up, so the group may have a change that is newer
+// than the stored values and not stored yet.
 bool must_stay(CO_NODE& node, const CO_PARA& group) { return budget::is_empty(node) && is_followed(node, group); }
 
 bool has_autonomous_group(CO_NODE& node) {

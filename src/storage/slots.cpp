@@ -156,11 +156,13 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
   return is_default ? Found::defaults : Found::data;
 }
 
+// Returns whether the slot holds a valid record.
 bool is_whole(const Slot& slot) { return slot.found == Found::data || slot.found == Found::defaults; }
 
 // Returns whether the slot was written by version 0.1.0.
 bool is_old(const Slot& slot) { return is_whole(slot) && slot.header.magic == old_magic; }
 
+// Returns whether the slot holds a valid record that is newer than that of the other slot. Generations may wrap around.
 bool is_newer(const Slot& slot, const Slot& other) {
   return is_whole(slot) && (!is_whole(other) || slot.header.generation - other.header.generation <= INT32_MAX);
 }
@@ -182,8 +184,9 @@ struct Slots {
   Slot other;
 };
 
-// Returns whether the other slot is damaged and was written last. After a power failure during a store, that slot has
-// an erased header or the header of the record before, which do not count as damage.
+// Returns whether the other slot is damaged and was written after the newest valid one, so that its data are lost. A
+// slot whose store was interrupted by a power failure does not count: its header is erased (Found::blank), or still
+// that of its previous record, whose generation is one lower than that of the newest valid slot.
 bool is_newest_damaged(const Slots& slots) {
   return slots.other.found == Found::lost && slots.newest.header.generation - slots.other.header.generation != 1;
 }
@@ -310,7 +313,8 @@ bool is_same(const uint8_t* a, const uint8_t* b, uint32_t num) {
 
 uint32_t space(const CO_NODE& node, uint32_t size) { return 2 * slot_size(node, size); }
 
-// Requires that the erase size is a multiple of the program size. The first limits keep all sums below within 32 bits.
+// Also requires that the erase size is a multiple of the program size. The first condition limits all sizes to half the
+// capacity, so that no later sum exceeds 32 bits.
 bool fits(const CO_NODE& node, const Record& record) {
   const CO_NVM_SHAPE shape = port::nvm_shape(node);
   const uint32_t half = shape.Capacity / 2;
