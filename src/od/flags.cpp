@@ -16,7 +16,8 @@ namespace {
 constexpr OD_flagsPDO_t received = 1;
 constexpr OD_flagsPDO_t sent = ~received;
 
-// Returns the entry of a sub-index, if the node uses its table now; else null.
+// Returns the entry of a sub-index; null if there is none, or if the node uses another table now: PDOs map entries of
+// the table in use only.
 CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
   if (entry == nullptr || !is_of_table(*entry)) {
     return nullptr;
@@ -64,6 +65,8 @@ Note note_in(CO_NODE& node, CO_TPDO& pdo, uint16_t number) {
 }
 #endif
 
+// Returns the flags of an object. Bit 0: an RPDO was received with it; bit n + 1: TPDO n was transmitted with it.
+// number: position of its entry in the dictionary
 OD_flagsPDO_t flags_of([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
   OD_flagsPDO_t flags = 0;
 #if CO_RPDO_N > 0
@@ -122,7 +125,8 @@ void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [
 #endif
 }
 
-// Copies a flag to the bit of its sub-index in OD_extension_t.flagsPDO, for applications that read the flag there.
+// Copies the flag "transmitted" of a sub-index to its bit in OD_extension_t.flagsPDO, for applications that read the
+// flag there.
 void mirror([[maybe_unused]] const OD_entry_t& entry, [[maybe_unused]] uint8_t sub, [[maybe_unused]] bool is_sent) {
 #if OD_FLAGS_PDO_SIZE > 0
   if (entry.extension != nullptr) {

@@ -14,7 +14,7 @@ namespace co::od {
 namespace {
 
 constexpr uint8_t last_group = 127;
-constexpr uint32_t save_signature = 0x65766173;
+constexpr uint32_t save_signature = 0x65766173;  // "save" and "load" in the order of the bus
 constexpr uint32_t load_signature = 0x64616F6C;
 
 // Returns the parameter group at a sub-index of 1010h, or null.

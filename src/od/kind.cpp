@@ -79,6 +79,7 @@ OD_attr_t rights_of(const CO_OBJ& obj) {
   return static_cast<OD_attr_t>(rights);
 }
 
+// Returns the length of an upload in bytes; 0 if it is not known yet.
 uint32_t size_of(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type) {
   const uint32_t size = type.Size == nullptr ? 0 : type.Size(&obj, &node, 0);
   return size == CO_OBJ_SIZE_UNKNOWN ? 0 : size;

@@ -43,11 +43,12 @@ struct Shape {
   return type == nullptr ? obj.Type : type->Original;
 }
 
-// Returns an original type as extended type (CO_OBJ_TYPE_EX), or null. can_seek() and seek() call its Reset function
-// directly: COObjTypeExReset() would look up the entry's type, which is the OD_TYPE.
+// Returns an original type as extended type (CO_OBJ_TYPE_EX); null if it is none.
 [[nodiscard]] inline const CO_OBJ_TYPE_EX* transfer_type(const CO_OBJ_TYPE* type) {
   return type != nullptr && type->Reset == COObjTypeExReset ? reinterpret_cast<const CO_OBJ_TYPE_EX*>(type) : nullptr;
 }
+// Return whether an original type can set a position, and set it. They call the Reset function of an extended type
+// directly: COObjTypeExReset() would look up the entry's type, which is the OD_TYPE.
 [[nodiscard]] bool can_seek(const CO_OBJ_TYPE& type);
 [[nodiscard]] CO_ERR seek(CO_OBJ& obj, CO_NODE& node, const CO_OBJ_TYPE& type, uint32_t position);
 

@@ -55,8 +55,8 @@ OD_entry_t* find(const OD_t& od, uint16_t index) {
   return from < od.size && od.list[from].index == index ? &od.list[from] : nullptr;
 }
 
-// Moves the entries that have an extension, and whose object is still in the table, from the previous list to the front
-// of the new list, which may be the same one. Returns their number.
+// Moves the entries that have an extension, and whose object is still in the table, from the previous list
+// (OD_t.Filled) to the front of the new list, which may be the same memory. Returns their number.
 uint16_t keep_extended(const OD_t& od, OD_entry_t* list) {
   uint16_t kept = 0;
   for (const OD_entry_t* entry = od.Filled; entry != nullptr && entry->odObject != nullptr; ++entry) {

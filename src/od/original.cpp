@@ -71,8 +71,8 @@ bool is_foreign_and_taken(const OD_stream_t& stream) {
   return node.Served != stream.Entry && access::is_taken(node, *stream.Entry, nullptr);
 }
 
-// Sets the position of a stream of the application. At position 0 the stream is opened: the function is called with 0
-// bytes.
+// Sets the position of a stream of the application. At position 0 opens the stream, as an SDO transfer does: calls the
+// Read or Write function with length 0.
 ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC function) {
   if (is_foreign_and_taken(stream)) {
     return ODR_DATA_DEV_STATE;
@@ -121,6 +121,8 @@ CO_ERR read_stream(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Pie
   return err != CO_ERR_NONE ? err : call(type.Read, stream, to, piece.bytes);
 }
 
+// Reads a value of more than 8 bytes, in one call. The call with length 0 marks the start of the access, as in an SDO
+// transfer.
 ODR_t read_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece& piece, uint8_t* to) {
   if (piece.position != 0 || !is_last(piece)) {
     return ODR_UNSUPP_ACCESS;
@@ -129,7 +131,8 @@ ODR_t read_long(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Piece&
   return result_of(*stream.Owner, *stream.Entry, err != CO_ERR_NONE ? err : call(type.Read, stream, to, piece.bytes));
 }
 
-// Reads the next piece of a stream of the application.
+// Reads the next piece of a stream of the application. Its size may become known only when its end has been read: Size
+// is called before and after the read.
 ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD_size_t count, OD_size_t& passed) {
   const ODR_t opened = open(stream, type, type.Read);
   if (opened != ODR_OK) {
@@ -167,7 +170,8 @@ ODR_t read_piece(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind, 
   }
 }
 
-// Returns the bytes that can be read.
+// Returns the end of a read access in bytes: dataLength of a text (unless the caller changes it, its capacity), else
+// the length of the object.
 OD_size_t end_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind) {
   return kind == Kind::text ? stream.dataLength : size_of(stream, type);
 }

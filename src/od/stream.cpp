@@ -12,15 +12,14 @@
 namespace co::od {
 namespace {
 
-// One piece of an access. state is a copy of place, because functions of the application may begin another access
-// there.
+// One piece of an access through an extension.
 struct Access {
   CO_OBJ& obj;
   CO_NODE& node;
   const OD_extension_t& extension;
-  OD_TRANSFER& place;
-  OD_TRANSFER state;
-  OD_stream_t stream;
+  OD_TRANSFER& place;  // element of OD_t.Transfer to which the access belongs
+  OD_TRANSFER state;   // copy of it during the piece: functions of the application may begin another access in place
+  OD_stream_t stream;  // argument of the extension's function
 };
 
 // Begins a piece.
@@ -74,6 +73,8 @@ uint32_t length_of(CO_OBJ& obj, CO_NODE& node) {
   return varies ? CO_OBJ_SIZE_UNKNOWN : shape.length;
 }
 
+// Returns the length of an upload through an extension: the bytes that were read once all were, before that like
+// length_of().
 uint32_t size_to_read(CO_OBJ& obj, CO_NODE& node) {
   const OD_TRANSFER* const transfer = find_access(*node.Ext->Od, node, obj);
   return transfer != nullptr && is_ended(*transfer) ? transfer->Passed : length_of(obj, node);
@@ -86,8 +87,8 @@ uint32_t bytes_to_read(const Access& access) {
                                                                : access.state.Total;
 }
 
-// Returns the length of a download, which is known once the last piece arrives. behind: bytes with this piece. The
-// application writes a value in one piece, whose length only has to be possible for the object.
+// Returns the length of a download, which is known once the last piece arrives. behind: bytes up to the end of this
+// piece. The application writes a value in one piece, whose length only has to be possible for the object.
 uint32_t bytes_to_write(const Access& access, uint32_t behind) {
   if (is_of_application(*access.node.Ext->Od, access.place)) {
     return size_of_original(access.obj, access.node, behind);
@@ -142,6 +143,7 @@ ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed)
   return result;
 }
 
+// Returns whether the character at position at of n bytes is 0. Its second byte may be the one read ahead.
 bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t at) {
   if (data[at] != 0 || bytes_of_character(access) == 1) {
     return data[at] == 0;
@@ -243,6 +245,7 @@ ODR_t call_write(Access& access, const uint8_t* from, uint32_t size, unsigned ze
   return is_valid(access) ? call_once(access, copy, zeros) : ODR_DATA_DEV_STATE;
 }
 
+// Checks the result of a write function: it has to be ODR_OK for the last piece and ODR_PARTIAL for any other.
 ODR_t check_write(ODR_t result, bool is_last) {
   if (result == ODR_PARTIAL) {
     return is_last ? ODR_DATA_SHORT : ODR_PARTIAL;
@@ -260,8 +263,8 @@ ODR_t check_total(const Access& access, uint32_t total) {
   return total > possible ? ODR_DATA_LONG : ODR_DATA_SHORT;
 }
 
-// Writes a piece. A change is reported while place has the flag inside: a TPDO that reads the object then does not use
-// the SDO transfer.
+// Writes a piece, whose total length is checked, and reports the change. This is done while place has the flag inside,
+// so that a TPDO that reads the object does not continue the SDO transfer.
 ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t total) {
   const uint32_t behind = access.state.Passed + size;
   const bool is_last = behind == total;

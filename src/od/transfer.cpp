@@ -11,6 +11,7 @@
 namespace co::od {
 namespace {
 
+// Index of the access of the application in OD_t.Transfer; the elements before it are SDO transfers.
 constexpr unsigned application = OD_TRANSFER_N - 1;
 
 // Returns the position of the first SDO transfer of an object; application if there is none. A transfer whose end was

@@ -22,7 +22,8 @@ namespace co::od {
 // the transfer that is being served.
 [[nodiscard]] CO_ERR answer(CO_OBJ& obj, CO_NODE& node, ODR_t result, CO_OBJ_TRANSFER transfer);
 
-// Returns the original type, which serves an entry that is not extended; null: the access is refused.
+// Returns the type that is used while an entry is not extended, its original type; null: accesses are refused
+// (OD_DISABLED).
 [[nodiscard]] inline const CO_OBJ_TYPE* type_without(const OD_TYPE& type) {
   return type.Without == OD_DISABLED ? nullptr : type.Original;
 }
