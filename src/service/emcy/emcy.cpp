@@ -39,6 +39,7 @@ constexpr uint16_t code_of(Fault fault) { return codes[static_cast<uint8_t>(faul
 static_assert(code_of(Fault::overrun) == 0x8110 && code_of(Fault::life_guard) == 0x8130);
 static_assert(code_of(Fault::recovered) == 0x8140 && code_of(Fault::pdo_timeout) == 0x8250);
 
+// Returns how often a fault was raised without being resolved.
 uint16_t& number_of(CO_NODE& node, Fault fault) { return node.Emcy.Fault[static_cast<uint8_t>(fault)]; }
 
 constexpr CO_EMCY_USR nothing_added = {};
@@ -74,6 +75,8 @@ bool change(CO_EMCY& emcy, unsigned err, bool come) {
 
 // Error register ------------------------------------------------------------------------------------------------------
 
+// Returns the bits of the error register for CO_EMCY_TBL.Reg: that bit and "generic error". Bit 6 is reserved.
+// [301:7.5.2.2]
 constexpr uint32_t bits_of(uint8_t reg) {
   constexpr uint32_t reserved = 1U << 6;
   return generic | (reg < CO_EMCY_REG_NUM ? (1U << reg) & ~reserved : 0U);
@@ -185,7 +188,8 @@ void post(CO_NODE& node, CO_EMCY_MSG msg) {
 
 void report_gone(CO_NODE& node, uint8_t detail) { post(node, wire::emcy_message(CO_EMCY_CODE_NO_ERR, detail)); }
 
-// The first two of the five bytes are those of 1003h. [E11]
+// Adds a fault to the history and sends its message. The first two bytes of the manufacturer-specific error field are 0
+// in both, detail is the third. [E11]
 void report_fault(CO_NODE& node, Fault fault, uint8_t detail) {
   const uint16_t code = code_of(fault);
   add_to_history(node, code);
@@ -197,10 +201,10 @@ void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
   post(node, wire::emcy_message(code, usr.Emcy));
 }
 
-// Faults that may occur with every frame ------------------------------------------------------------------------------
+// Faults without an event that ends them -----------------------------------------------------------------------------
 
-// Faults that may occur with every frame. They are resolved when their timer has elapsed: they have not occurred for a
-// second.
+// Faults that may occur with every frame. They are resolved by their timer, which each occurrence restarts, when they
+// have not occurred for a second.
 constexpr Fault held[CO_EMCY_HOLD_N] = {Fault::overrun, Fault::collision};
 static_assert(static_cast<uint8_t>(held[0]) == 0 && static_cast<uint8_t>(held[1]) == 1);
 
@@ -215,13 +219,15 @@ void let_go(void* node_pointer) {
 
 // The controller ------------------------------------------------------------------------------------------------------
 
-// Begins bus-off. Nothing can be sent; 8140h is sent after the recovery. [301:7.2.7.1]
+// Begins bus-off. Nothing can be sent: only sets the error register, and 8140h is sent after the recovery.
+// [301:7.2.7.1]
 void begin_bus_off(CO_NODE& node) {
   number_of(node, Fault::recovered) = 1;
   update_register(node);
 }
 
-// Resolves error passive and bus-off; an error passive state before a bus-off ends with it.
+// Ends the error state of the controller. After bus-off sends 8140h, then "no error"; an error passive state before the
+// bus-off ends without a message. Otherwise resolves error passive.
 void recover(CO_NODE& node) {
   Fault over = Fault::passive;
   if (number_of(node, Fault::recovered) != 0) {
@@ -260,6 +266,7 @@ void on_mode(CO_NODE& node) {
   }
 }
 
+// Counts the faults up to passive once, however often they occur: they describe a state, and one event ends them.
 void raise(CO_NODE& node, Fault fault, uint8_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr uint16_t index = 0x1003;
 
-// Converts a sub-index that the network uses to the sub-index of the entry in the ring. sub: in use
+// Converts a sub-index that the network uses (1: the newest error) to the sub-index of the entry in the ring. sub:
+// 1…history.Num
 uint8_t place_of(const CO_EMCY_HIST& history, uint8_t sub) {
   const unsigned newest = history.Off >= sub ? history.Off : history.Off + history.Max;
   return static_cast<uint8_t>(newest + 1U - sub);
@@ -26,7 +27,7 @@ uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t) {
   return uintptr_t{obj->Data} == 0 ? 0 : 4;
 }
 
-// Counts the entries from sub-index 1 on, without a gap.
+// Init function: counts the entries from sub-index 1 on, without a gap, in Found.
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
   const uint8_t sub = CO_GET_SUB(obj->Key);
   if (sub == 0) {
