@@ -9,7 +9,8 @@ namespace co::lss {
 // Initialises node-ID and bit rate: the stored values, otherwise those that the application has given.
 void begin(CO_NODE& node);
 
-// load() loads the node-ID for the next reset; take_node_id() makes it the node's.
+// Load node-ID and bit rate as pending values (load()), and make the pending node-ID the node's, at a reset
+// (take_node_id()).
 void load(CO_NODE& node);
 void take_node_id(CO_NODE& node);
 

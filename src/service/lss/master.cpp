@@ -41,6 +41,7 @@ bool is_switching(const CO_LSSM& master) {
   return state_of(master) == State::silent || state_of(master) == State::switched;
 }
 
+// Returns the time of the present state in ms. Number[0] is the switch delay of "activate bit timing".
 uint32_t time_of(const CO_LSSM& master) {
   if (is_looking(master)) {
     return master.Listen != 0 ? master.Listen : CO_LSSM_LISTEN_MS;
@@ -61,7 +62,7 @@ void wait(CO_LSSM& master, State state) {
   tmr::start(timers, master.Tmr, ticks != 0 ? ticks : UINT32_MAX, 0, on_time, &master);
 }
 
-// Must be the last action: the callback may start the next service.
+// Ends the service and calls its callback. Must be the last action: the callback may start the next service.
 void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   CO_NODE& node = *master.Node;
   node.Held = is_switching(master) ? 0 : node.Held;
@@ -205,6 +206,7 @@ bool is_known(const CO_LSSM& master) { return master.Part < master.Known; }
   return send(master, frame, then);
 }
 
+// Begins to scan a part of the address; a part that the application knows is only confirmed.
 void scan_part(CO_LSSM& master) {
   const bool known = is_known(master);
   master.Address[master.Part] = known ? master.Number[master.Part] : 0;
@@ -212,6 +214,7 @@ void scan_part(CO_LSSM& master) {
   end_unless(scan(master, known ? State::confirmed : State::scanned), master);
 }
 
+// Sets the bit that was scanned to 1 if no slave has responded that it is 0, and scans the next lower bit.
 void scan_next_bit(CO_LSSM& master) {
   const bool is_last = master.Bit == 0;
   master.Address[master.Part] |= master.Heard != 0 ? 0 : uint32_t{1} << master.Bit;
@@ -275,6 +278,7 @@ void on_mode(CO_NODE& node) {
   }
 }
 
+// Counts responses in CO_LSSM.Heard also after the end of the service: further responses mean several slaves.
 bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   CO_LSSM& master = node.Lssm;
   if (frame.DLC != wire::lss_dlc) {

@@ -211,7 +211,8 @@ void switch_rate(void* node_pointer) {
   wait(node, end_switch);
 }
 
-// Enters the NMT state for the switch. Returns false if the application has stopped the node.
+// Enters the NMT state in which the bit rate is switched, if the node is in Operational, Pre-operational or Stopped.
+// Returns false if the application has stopped the node.
 bool prepare_switch(CO_NODE& node, CO_MODE mode) {
   if (node.Nmt.Mode > CO_INIT && mode > CO_INIT && mode < CO_MODE_NUM) {
     event::change_mode(node, mode);
@@ -219,8 +220,8 @@ bool prepare_switch(CO_NODE& node, CO_MODE mode) {
   return event::is_allowed(node, CO_LSS_ALLOWED);
 }
 
-// Activates the bit rate. The node leaves Operational first, because it must not process PDOs of a bus that it is about
-// to leave.
+// Activates the bit rate: disables transmission, switches after the delay, and enables transmission after another
+// delay. The node leaves Operational first, because it must not process PDOs of a bus that it is about to leave.
 void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint16_t delay = wire::get_u16(request.Data + 1);
   CO_ACCESS_LSS access = {};
@@ -273,8 +274,8 @@ void inquire(CO_NODE& node, const CO_IF_FRM& request) {
 
 void inquire_node_id(CO_NODE& node, const CO_IF_FRM& request) { answer(node, request, node.NodeId); }
 
-// Returns whether a part of the address matches: vendor-ID and product code are equal; revision and serial number are
-// within their limits.
+// Returns whether the request with this number, 0…5 for 46h…4Bh, matches the address: vendor-ID and product code have
+// to be equal; revision and serial number within the lowest (even number) and highest limit.
 bool is_identified(CO_NODE& node, unsigned step, uint32_t value) {
   constexpr uint8_t parts[] = {0, 1, 2, 2, 3, 3};
   constexpr uint8_t first_limit = 2;
@@ -351,6 +352,7 @@ constexpr Row<Event, Service> rows[] = {
 
 constexpr Machine<State, rows> machine(ignore);
 
+// Returns whether 1018h has all four parts of the LSS address. Without them the node is no LSS slave.
 bool has_address(CO_NODE& node) {
   uint32_t number = 0;
   uint8_t part = 0;

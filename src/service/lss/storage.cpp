@@ -29,7 +29,7 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
-  // A reset that is requested during the memory access is executed afterwards.
+  // Resets that other threads have requested during the memory access are deferred: event::settle() runs them.
   const store::Found found =
       store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
   event::settle(*node);
