@@ -34,6 +34,7 @@ uint32_t ticks(const CO_NODE& node, uint32_t time) { return tmr::ticks(node.Tmr,
 
 void end_window(void* node_pointer) { event::end_sync_window(*static_cast<CO_NODE*>(node_pointer)); }
 
+// Allows synchronous PDOs again before the next SYNC: the window has changed, or SYNC is not allowed any more.
 void open_window(CO_NODE& node) {
   tmr::stop(node.Tmr, node.Sync.WindowTmr);
   node.WindowOver = 0;
@@ -88,6 +89,7 @@ void check_length(CO_NODE& node, bool right) {
   }
 }
 
+// Reads 1005h and applies it. Bit 31 of 1005h has no meaning. [301:7.5.2.5]
 void configure(CO_NODE& node) {
   CO_SYNC& sync = node.Sync;
   const uint32_t cob_id = read(node, id_index) & ~wire::cob_invalid;
@@ -122,6 +124,7 @@ CO_ERR write_id(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return err;
 }
 
+// Writes 1006h (communication cycle period) or 1007h (synchronous window length), in µs.
 CO_ERR write_cycle(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t value = 0;
   if (size != sizeof value) {
@@ -154,6 +157,7 @@ CO_ERR read_byte(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   return CO_TUNSIGNED8->Read(obj, node, buffer, size);
 }
 
+// Writes 1019h. Its value can change only while the cycle period is 0. [301:7.5.2.22]
 CO_ERR write_counter(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   if (size != sizeof(uint8_t)) {
     return CO_ERR_BAD_ARG;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock: a past time and the ticks at that time. The time since then is counted in whole seconds, which are a whole
-// number of ticks.
+// The clock: a past time (CO_TIME.Past) and the timer's ticks at that time (Tick). Both advance by whole seconds, which
+// are a whole number of ticks, so that no rounding error adds up.
 #include "base/timer.hpp"
 #include "service/time/time.hpp"
 #include "wire/time.hpp"

@@ -14,6 +14,7 @@ using namespace co;
 
 // COB-ID TIME. [301:7.5.2.15]
 
+// Returns whether a COB-ID may be written. A consumer or producer cannot change its CAN-ID.
 bool may_replace(const CO_OBJ&, uint32_t before, uint32_t value) {
   constexpr uint32_t exists = CO_TIME_COBID_CONSUME | CO_TIME_COBID_PRODUCE;
   if ((before & exists) != 0) {

@@ -48,6 +48,7 @@ void run_producer(CO_NODE& node) {
 
 }  // namespace
 
+// Bit 31 of 1012h selects the consumer (CO_TIME_COBID_CONSUME); it does not mean that the COB-ID is not valid.
 void init(CO_NODE& node) {
   uint32_t cob_id = 0;
   if (dict::read_u32(node.Dict, CO_DEV(0x1012, 0), cob_id) != CO_ERR_NONE ||
