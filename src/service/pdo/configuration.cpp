@@ -66,6 +66,8 @@ void init_one(CO_NODE& node, unsigned index) {
   configure(node, index);
 }
 
+// Resolves the mapping of a PDO again. Configures the PDO if it can no longer exist, and if it is or was a multiplex
+// PDO, which uses lists of entries, too.
 void remap_one(CO_NODE& node, unsigned index) {
   CO_PDO_MAP& map = pdo_at(node, index).Map;
   const bool was_multiplexed = mpdo::is_one(map);
@@ -101,7 +103,8 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
   return false;
 }
 
-// Not inlined, because it needs much of the CPU's stack, like the functions that end a PDO.
+// Reads the communication parameter and the mapping, and starts the PDO if they allow it. Not inlined, because it needs
+// much of the CPU's stack, like the functions that end a PDO.
 [[gnu::noinline]] void begin(CO_NODE& node, CO_PDO& pdo, unsigned index) {
   const bool receives = direction_of(index) == Direction::receive;
   const uint32_t cob_id = read_number(node, CO_DEV(index, 1), sizeof cob_id, wire::cob_invalid);

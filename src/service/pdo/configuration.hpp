@@ -40,8 +40,9 @@ constexpr uint32_t key_of_tpdo(unsigned number) {
   return number < most ? CO_DEV(first_tpdo + number, 0) : 0;
 }
 
-// Reads parameters and mapping from the dictionary. A PDO that they do not allow does not exist; the node's error and
-// its key name the parameter or the mapping entry.
+// Stops the PDO with the communication parameter at index, reads parameters and mapping from the dictionary, and starts
+// the PDO with them. A PDO that they do not allow does not exist; the node's error and its key name the parameter or
+// the mapping entry.
 void configure(CO_NODE& node, unsigned index);
 
 // Resolves the mapping of the PDO, which must have at least one entry.
@@ -54,7 +55,7 @@ void end_tpdo(CO_NODE& node, CO_PDO& pdo);
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event);
 void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote);
 
-// Apply a change of the event timer.
+// Apply a change of sub-index 5 while the PDO exists: the deadline of an RPDO, the event timer of a TPDO.
 void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks);
 void change_event_time(CO_NODE& node, unsigned number, uint32_t ticks);
 

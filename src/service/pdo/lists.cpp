@@ -48,6 +48,7 @@ CO_ERR check_block(CO_NODE& node, Direction direction, uint32_t key, uint8_t num
   return err;
 }
 
+// Returns the number of an entry that is in the dictionary, as check_block() has found.
 uint16_t entry_of(CO_NODE& node, uint32_t key) {
   return static_cast<uint16_t>(dict::find(node.Dict, key) - node.Dict.Root);
 }
@@ -101,8 +102,7 @@ CO_ERR add(CO_NODE& node, uint64_t entry) {
   return CO_ERR_NONE;
 }
 
-// Entries
-// --------------------------------------------------------------------------------------------------------------
+// Object types --------------------------------------------------------------------------------------------------------
 
 template <const CO_OBJ_TYPE& number>
 uint32_t size_entry(CO_OBJ* obj, CO_NODE* node, uint32_t width) {

@@ -66,6 +66,7 @@ CO_ERR resolve(CO_NODE& node, unsigned index, unsigned num, CO_PDO_MAP& map) {
   if (err != CO_ERR_NONE) {
     return err;
   }
+  // The PDO exists and has a length of 8 bytes, but maps no object.
   __builtin_memset(map.Entry, UINT8_MAX, sizeof map.Entry);
   map.Span = 0;
   map.Length = wire::mpdo_dlc * pdo::one_byte;
@@ -114,7 +115,7 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame) 
     return;
   }
   __builtin_memcpy(value, frame.Data + wire::mpdo_data, sizeof value);
-  map.Entry[0] = pdo::number_of(node, obj);
+  map.Entry[0] = pdo::number_of(node, obj);  // the object of the last frame, for CORPdoObjWasReceived()
   if (!obj::is_stream(obj)) {
     wire::swap_host(value, bytes);
   }

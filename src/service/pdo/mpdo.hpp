@@ -14,6 +14,7 @@ inline constexpr uint8_t dam = 0xFF;  // destination address mode
 
 #if USE_MPDO
 
+// Return whether the PDO is a multiplex PDO in source or destination address mode, or in any of them (is_one()).
 [[nodiscard]] inline bool is_sam(const CO_PDO_MAP& map) { return map.Mode == sam; }
 [[nodiscard]] inline bool is_dam(const CO_PDO_MAP& map) { return map.Mode == dam; }
 [[nodiscard]] inline bool is_one(const CO_PDO_MAP& map) { return map.Mode != 0; }
@@ -26,6 +27,8 @@ inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
 // returned.
 [[nodiscard]] CO_ERR resolve_scan(CO_NODE& node);
 [[nodiscard]] CO_ERR resolve_dispatch(CO_NODE& node);
+// Returns why an object cannot be sent or received in a multiplex PDO. obj: null if the dictionary has none with the
+// key
 [[nodiscard]] CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t key);
 
 // Consumer -----------------------------------------------------------------------------------------------------------
@@ -36,11 +39,14 @@ inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
 
 // Returns the object that the frame writes; null: there is none.
 [[nodiscard]] CO_OBJ* find(CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame);
+// Writes the data of the frame to that object, and marks the object and the PDO as received.
 void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame);
 
 // Producer in source address mode ------------------------------------------------------------------------------------
+// entry: number of an entry of the dictionary; place: index of an object in the scanner list (CO_MPDO.Scan).
 
-// Sets or clears the TPDO that sends the objects of the scanner list. place: index of an object in the list.
+// Makes the TPDO the producer, which sends the objects of the scanner list, if its mode is source address mode; else
+// clears the producer if it was this TPDO.
 void set_producer(CO_NODE& node, unsigned number, const CO_PDO_MAP& map);
 [[nodiscard]] CO_TPDO* producer(CO_NODE& node);
 
@@ -53,9 +59,11 @@ void forget_marks(CO_NODE& node);
 
 // Finds the next pending object in the order of the list, beginning behind the one sent last.
 [[nodiscard]] bool next(CO_NODE& node, uint16_t& place);
+// Fills a frame, whose identifier is set, with an object.
 [[nodiscard]] CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame);
 
-// Clears the mark of an object that was sent, or could not be read.
+// Clears the mark of an object that was sent, or could not be read, and advances the round-robin index behind it.
+// entry: the object at place before callbacks were called
 void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
 

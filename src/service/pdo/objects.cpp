@@ -30,6 +30,7 @@ bool exists(CO_NODE& node, const CO_OBJ& obj) {
   return err == CO_ERR_NONE && (cob_id & wire::cob_invalid) == 0;
 }
 
+// Returns whether the configuration of the stack has a PDO with this number (CO_RPDO_N, CO_TPDO_N).
 bool is_configured(const CO_OBJ& obj) {
   constexpr unsigned configured[] = {CO_RPDO_N, CO_TPDO_N};
   return dict::is_number(number_of(obj), configured[is_tpdo(obj) ? 1 : 0]);
@@ -68,7 +69,8 @@ T value_in(const void* buffer) {
 
 // Sub 1 --------------------------------------------------------------------------------------------------------------
 
-// Returns whether a COB-ID may be written. Bit 30 is ignored in RPDOs.
+// Returns whether a COB-ID may be written. Bit 30 is ignored in RPDOs. Without USE_PDO_RTR a TPDO that exists must have
+// it set: remote requests are not answered.
 bool may_replace(const CO_OBJ& obj, uint32_t before, uint32_t value) {
   const bool asked = USE_PDO_RTR == 0 && is_tpdo(obj) && ((value & changeable_flags) == 0);
   const bool same = ((before ^ value) & ~CO_TPDO_COBID_REMOTE) == 0;
@@ -134,6 +136,7 @@ CO_ERR write_type(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Sub 3 and 6 --------------------------------------------------------------------------------------------------------
 
+// Writes the inhibit time or the SYNC start value, which cannot be changed while the PDO exists.
 template <class T, const CO_OBJ_TYPE& number, T highest>
 CO_ERR write_fixed(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   T before = 0;
@@ -175,8 +178,8 @@ CO_ERR write_event(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Mapping ------------------------------------------------------------------------------------------------------------
 
-// Writes the number of mapped objects. Writing the present number of sub 0 does not require flag P, because the mapping
-// may be the designer's.
+// Writes the number of mapped objects. If the mapping cannot be resolved, the write is refused and the number becomes
+// 0. Writing the present number does not require flag P of the objects, because the mapping may be the designer's.
 CO_ERR write_number(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint8_t before = 0;
   if (!read_before(*obj, *node, COTInt8, size, before)) {

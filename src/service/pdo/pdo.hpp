@@ -19,7 +19,8 @@ void on_mode_tpdos(CO_NODE& node);
 // Processes a remote request for TPDO number.
 [[nodiscard]] bool on_remote(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);
 
-// Samples and sends the synchronous TPDOs, then writes the synchronous RPDOs. counter: 0 if the SYNC has none.
+// Process a SYNC: sample() samples and sends the synchronous TPDOs, then apply() writes the data of the synchronous
+// RPDOs to their objects. counter: 0 if the SYNC has none.
 void sample(CO_NODE& node, uint8_t counter);
 void apply(CO_NODE& node);
 
@@ -27,7 +28,8 @@ void apply(CO_NODE& node);
 // Implements COTPdoSendTo() (co_pdo.h) for a number that exists.
 [[nodiscard]] CO_ERR send_to(CO_NODE& node, uint16_t number, uint8_t node_id, uint32_t key, uint32_t value);
 
-// Continues with the pending objects of the scanner list when the controller can accept frames.
+// Continues with the pending objects of the scanner list when the controller can accept frames. Always returns false:
+// it sends as many as possible, so that another call would send nothing.
 [[nodiscard]] bool on_free(CO_NODE& node, uint16_t number);
 #endif
 
@@ -40,6 +42,7 @@ void flush(CO_NODE& node);
 // Triggers the TPDOs that map the object; deferred while OdLock is held. Returns the error of a TPDO that is not sent;
 // CO_ERR_TPDO_OBJ_TRIGGER: no TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
+// Triggers the TPDOs that change_object() has deferred, once OdLock is released. No effect while it is held.
 void send_touched(CO_NODE& node);
 inline void settle_touched(CO_NODE& node) {
   if (node.Touched != 0) {

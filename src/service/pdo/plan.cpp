@@ -103,6 +103,8 @@ void join(const CO_OBJ* root, CO_PDO_MAP& map, unsigned num) {
   }
 }
 
+// Adds an object to a mapping, and increases Span so that it includes the object's distance from the first one. obj:
+// null for bits that are skipped
 void add(const CO_NODE& node, CO_PDO_MAP& map, unsigned place, const CO_OBJ* obj) {
   map.Entry[place] = obj == nullptr ? no_entry : number_of(node, *obj);
   const auto behind = static_cast<uint16_t>(map.Entry[place] - map.Entry[0]);
@@ -205,6 +207,7 @@ CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction
   return err;
 }
 
+// Copies an object whose bits do not begin or end at a byte of the frame.
 CO_ERR pass_bits(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
   uint8_t value[8] = {};
   if (direction == Direction::receive) {

@@ -75,6 +75,8 @@ class Lock {
 
 constexpr bool maps_bits = USE_PDO_BITS != 0;
 constexpr uint8_t one_byte = maps_bits ? 8 : 1;  // unit of CO_PDO_MAP.Length and Step
+// A Step is the length of one copy. Adjacent numbers may be joined to one copy of 4 or 8 bytes; the steps of the others
+// are then 0.
 constexpr uint8_t by_type = 0x80;                // bit of Step[0]: objects are copied by their types
 constexpr uint8_t shifted = maps_bits ? 1 : 16;  // bit of Step: the number is not aligned in the frame
 

@@ -67,6 +67,7 @@ void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
 
 void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, late); }
 
+// Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
 void watch(CO_RPDO& pdo) {
   if (pdo.Deadline != 0) {
     tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
@@ -127,6 +128,7 @@ bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_
   return false;
 }
 
+// Writes the stored data of an RPDO at the SYNC, unless the PDO was configured again meanwhile.
 void write_kept(CO_NODE& node, CO_RPDO& pdo) {
   if (!has(pdo.Map, fresh)) {
     return;
@@ -207,6 +209,7 @@ void end_rpdo(CO_NODE& node, CO_PDO& pdo) {
   report(pdo, reported, 0);
 }
 
+// Keeps the flag queued, because the PDO stays in the list until the SYNC. The deadline starts with the first frame.
 void begin_rpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, uint32_t event) {
   pdo.Deadline = event;
   pdo.Map.Flags &= queued;

@@ -25,7 +25,7 @@ enum Flag : uint8_t {
   inhibited = 0x02,  // event-driven: the inhibit time is running
   sampled = 0x02,    // synchronous: Data holds the sample of the last SYNC
   starts = 0x04,     // the PDO has a SYNC start value
-  waiting = 0x08,    // the SYNC start value, in Count, was not reached yet
+  waiting = 0x08,    // Count holds the SYNC start value, which was not reached yet; else Count is the number of SYNCs
   remote = 0x10,     // remote requests are allowed
   touched = 0x20,    // an object was changed while OdLock was held
 };
@@ -53,6 +53,7 @@ bool give(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
 // Returns why a PDO was not sent: the application has ended Operational, or changed the PDO, meanwhile.
 CO_ERR end_of(const CO_TPDO& pdo) { return is_operational(*pdo.Node) ? CO_ERR_TPDO_COM_OBJ : CO_ERR_NMT_MODE; }
 
+// Calls the callback of the application, queues the frame and marks the PDO as sent.
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   COPdoTransmit(&frame);
   if (!has(pdo.Map, served)) {
@@ -66,6 +67,7 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
 }
 
 #if USE_MPDO
+// Sends an object of the scanner list. It stays pending if the transmit queue is full.
 CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
   CO_NODE& node = *pdo.Node;
   const uint16_t entry = node.Mpdo.Scan[place];
@@ -114,9 +116,14 @@ CO_ERR send_scanned(CO_TPDO& pdo) {
 }
 #endif
 
-// Purpose of serve(). A sample is kept for remote requests until the next SYNC.
-enum class Use : uint8_t { sample, send, send_sampled };
+// Action of serve().
+enum class Use : uint8_t {
+  sample,       // reads the objects and stores them as the answer to remote requests, until the next SYNC
+  send,         // reads the objects and sends them
+  send_sampled  // sends the stored sample
+};
 
+// Reads the mapped objects, stores the sample and sends the frame, as use requires.
 CO_ERR serve(CO_TPDO& pdo, Use use) {
 #if USE_MPDO
   if (mpdo::is_sam(pdo.Map)) {
@@ -176,9 +183,11 @@ CO_ERR send_event(CO_TPDO& pdo, bool by_timer) {
   return err;
 }
 
-// Returns whether the event time has elapsed when the inhibit time has.
+// Returns whether the event time is over at the end of the inhibit time; both start with a transmission.
 bool is_over(const CO_TPDO_TIMES& time) { return time.Event != 0 && time.Event <= time.Inhibit; }
 
+// Ends the inhibit time: sends the PDO if an event was deferred or the event time has elapsed, else runs the rest of
+// the event time.
 void end_inhibit(CO_TPDO& pdo) {
   const CO_TPDO_TIMES& time = pdo.Own.Time;
   clear(pdo.Map, inhibited);
@@ -212,6 +221,8 @@ CO_ERR take_event(CO_TPDO& pdo) {
   return CO_ERR_NONE;
 }
 
+// Triggers a PDO by an event of the application: an event-driven PDO is sent, an acyclic one is sent at the next SYNC.
+// Others are not triggered by events, and destination address mode is sent by COTPdoSendTo() only.
 CO_ERR trigger(CO_TPDO& pdo) {
   if (!is_operational(*pdo.Node)) {
     return CO_ERR_NMT_MODE;
@@ -283,6 +294,7 @@ bool takes(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
 
+// Defers an event until OdLock is released.
 CO_ERR touch(CO_TPDO& pdo) {
   set(pdo.Map, touched);
   pdo.Node->Touched = 1;
@@ -305,6 +317,7 @@ uint16_t& find_link(CO_NODE& node, uint16_t to) {
   return *link;
 }
 
+// Adds a PDO to the list of synchronous TPDOs, or removes it.
 void list(CO_NODE& node, unsigned number, bool listed) {
   const auto own = static_cast<uint16_t>(number + 1);
   uint16_t& link = find_link(node, own);
