@@ -22,8 +22,8 @@ void count_acknowledged(CO_CSDO& client, uint32_t segments) {
   client.Num += n;
 }
 
-// Returns whether an acknowledge repeats that of the previous block: the server has waited too long for segments of
-// this one.
+// Returns whether an acknowledge that arrives before all segments of the block were sent may repeat that of the
+// previous block: the server has waited too long for segments of this one.
 bool is_of_block_before(const CO_CSDO& client) {
   const bool is_whole = client.Seq == client.BlkSize || has(client, last_sent);
   return client.Num != 0 && !is_whole;

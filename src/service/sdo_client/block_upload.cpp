@@ -56,8 +56,9 @@ void end_last_block(CO_CSDO& client, CO_IF_FRM& request) {
   set_state(client, State::block_upload_end);
 }
 
-// Returns whether a frame that ends a block is the repeated end of the previous block. If instead all other segments of
-// the block were lost, the client does not respond and sends the acknowledge again after a part of the time-out.
+// Returns whether a frame that ends a block, and is the first one heard since the acknowledge, is taken for the
+// repeated end of the previous block. It may also be the end of this block, whose other segments were lost: therefore
+// the client does not respond, and sends the acknowledge again after two quarters of the time-out.
 bool is_repeated(const CO_CSDO& client, uint8_t number) {
   return number > 1 && client.AckSeq != 0 && !has(client, heard);
 }

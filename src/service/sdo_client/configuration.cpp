@@ -18,11 +18,12 @@ struct Configuration {
   CO_CSDO_STATE state;  // idle: the client is configured
 };
 
+// Returns whether the COB-IDs are 600h and 580h: the node-ID of the server (sub-index 3) is added to them.
 bool are_bases(uint32_t tx, uint32_t rx) {
   return tx == wire::CobId::sdo_rx + uint8_t{0} && rx == wire::CobId::sdo_tx + uint8_t{0};
 }
 
-// Reads 1280h + number. An access to the own dictionary has no identifiers.
+// Reads 1280h + number. A client whose server is this node accesses the own dictionary and has no identifiers.
 Configuration read_configuration(CO_NODE& node, uint16_t number) {
   constexpr uint8_t last_node_id = 127;
   Configuration found = {wire::no_frame, wire::no_frame, 0, CO_CSDO_STATE_INVALID};
@@ -65,7 +66,8 @@ void take_configuration(CO_CSDO& client, const Configuration& found) {
   routes::change(node, found.rx_id, routes::Service::sdo_client, number_of(client));
 }
 
-// Returns whether something has changed. The callback of an ended transfer may already have configured the client.
+// Configures a client if its parameter has changed; a transfer in progress is aborted. Returns whether routes have
+// changed. The callback of the aborted transfer may already have configured the client, or started another transfer.
 bool configure_client(CO_CSDO& client) {
   if (is_configured(client, read_configuration(*client.Node, number_of(client)))) {
     return false;

@@ -7,10 +7,12 @@
 namespace co::sdo_client {
 namespace {
 
+// Returns whether the object is a number: it is converted between the byte order of the bus, which the buffer has, and
+// that of the CPU, and is accessed in one call. Longer values and streams are opened first.
 bool is_value(const CO_OBJ& obj, uint32_t size) { return !obj::is_stream(obj) && size <= sizeof(uint64_t); }
 
-// Determines the final size of a stream of unknown size when the buffer is full. A stream that has further bytes does
-// not fit.
+// Determines the final size of a stream of unknown size when the buffer is full: if the size is still unknown, reads
+// one byte more. A stream that has further bytes does not fit.
 CO_ERR find_end(CO_OBJ& obj, CO_NODE& node, uint32_t& size) {
   size = obj::size(obj, node, 0);
   if (!obj::is_unknown(size)) {

@@ -13,16 +13,19 @@
 namespace co::sdo_client {
 namespace {
 
-// In a block upload the timer runs for a quarter of the time-out at a time.
+// In a block upload the timer runs for a quarter of the time-out at a time. The acknowledge is sent again after two
+// quarters without segments.
 constexpr uint32_t quarters = 4;
 constexpr uint8_t reminder_quarter = 2;
 
 void on_time(void* client_pointer);
 
+// Returns whether the client receives the segments of a block upload.
 bool listens(const CO_CSDO& client) {
   return state_of(client) == State::block_upload || state_of(client) == State::block_upload_end;
 }
 
+// Starts the time-out for the next response. Time-out 0: the client waits without limit.
 void await(CO_CSDO& client) {
   if (client.Ticks == 0) {
     return;
@@ -32,7 +35,9 @@ void await(CO_CSDO& client) {
   tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
 }
 
-// Must be the last action: the callback may start the next transfer.
+// Ends the transfer and calls its callback. Must be the last action of its caller: the callback may start the next
+// transfer. While type functions of an access to the own dictionary may be running, only stores the abort code: the
+// callback is called after them.
 void finish(CO_CSDO& client, uint32_t code) {
   if (state_of(client) == State::own_served) {
     set_state(client, State::own_ended);
@@ -95,6 +100,7 @@ bool is_block_refused(const Step& step) {
   return (in(state_of(step.client)) & asked) != 0 && (code == CO_SDO_ERR_CMD || code == CO_SDO_ERR_GENERAL);
 }
 
+// Processes an abort of the server. If it refuses a block transfer, starts again without blocks.
 uint32_t aborted(Step& step) {
   if (is_block_refused(step)) {
     put_initiate(step.client, false, step.request);
@@ -271,7 +277,7 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request) {
     set_state(client, block ? State::block_upload_initiated : State::upload_initiated);
     wire::put_head(request, block ? wire::accept_block : wire::initiate_upload_request, client.Key);
     request.Data[4] = block ? wire::max_blksize : 0;
-    request.Data[5] = block ? CO_CSDO_BLOCK - 1 : 0;
+    request.Data[5] = block ? CO_CSDO_BLOCK - 1 : 0;  // pst: shorter objects may be sent without blocks
     return;
   }
   set_state(client, block ? State::block_download_initiated : State::download_initiated);
