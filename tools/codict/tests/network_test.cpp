@@ -153,21 +153,21 @@ const std::string heartbeat_100 = variable(0x1017, 6, "100");
 
 }  // namespace
 
-TEST_CASE("network: a node-ID that two nodes have, or that is missing, is an error") {
+TEST_CASE("network: a node-ID that two nodes have, or a missing one, is an error") {
   CHECK(found({commissioned(2, ""), commissioned(2, "")}).find("net-node-id: a and b have the node-ID 2") !=
         std::string::npos);
   CHECK(found({variable(0x2000, 6, "0")}) == "net-node-id: a has no node-ID\n");
   CHECK(found({heartbeat_100}, Severity::note).find("no node monitors a: its") != std::string::npos);
 }
 
-TEST_CASE("network: bit rates have to be the same, and supported") {
+TEST_CASE("network: bit rates must be equal and supported") {
   CHECK(found({commissioned(2, ""), "[DeviceComissioning]\nNodeID=3\nBaudrate=500\n"}) ==
         "net-bit-rate: b (node 3) is configured for 500 kbit/s, the network has 250 kbit/s\n");
   CHECK(found({commissioned(2, "", "[DeviceInfo]\nBaudRate_125=1\nBaudRate_250=0\n")}) ==
         "net-bit-rate: a (node 2) does not support 250 kbit/s\n");
 }
 
-TEST_CASE("network: a COB-ID that two nodes transmit is an error, whatever service it has") {
+TEST_CASE("network: a COB-ID that two nodes transmit is an error for every service") {
   CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1)), commissioned(3, pdo(0x1801, "0x181", "255", 1))},
               Severity::error) ==
         "net-cob-id: COB-ID 181h of b (node 3), TPDO 2, is also that of a (node 2), TPDO 1\n");
@@ -184,7 +184,7 @@ TEST_CASE("network: a COB-ID that two nodes transmit is an error, whatever servi
             .empty());
 }
 
-TEST_CASE("network: SDO and EMCY whose description has the base alone are those of the node") {
+TEST_CASE("network: SDO and EMCY COB-IDs of a description without the node-ID have that of the node") {
   const std::string sdo = record(0x1200, {{1, "0x600"}, {2, "0x580"}}) + variable(0x1014, 7, "0x80");
   CHECK(found({commissioned(2, sdo), commissioned(3, sdo)}).empty());
 }
@@ -197,7 +197,7 @@ TEST_CASE("network: a TPDO without consumer and an RPDO without producer are war
             .empty());
 }
 
-TEST_CASE("network: a TPDO that is too short is an error, one that is longer a warning") {
+TEST_CASE("network: a TPDO that is too short is an error; one that is longer a warning") {
   CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1)), commissioned(3, pdo(0x1400, "0x181", "255", 2))}) ==
         "net-pdo-short: RPDO 1 of b (node 3) maps 4 bytes, TPDO 1 of a (node 2) has 2 (181h): it is dropped, with EMCY "
         "8210h\n");
@@ -206,7 +206,7 @@ TEST_CASE("network: a TPDO that is too short is an error, one that is longer a w
         "used\n");
 }
 
-TEST_CASE("network: the deadline of an RPDO is longer than the period of its TPDO") {
+TEST_CASE("network: the deadline of an RPDO must exceed the period of its TPDO") {
   const std::string tpdo = commissioned(2, pdo(0x1800, "0x181", "255", 1, "100", "50"));
   CHECK(found({tpdo, commissioned(3, pdo(0x1400, "0x181", "255", 1, "0", "50"))}) ==
         "net-pdo-deadline: RPDO 1 of b (node 3) has a deadline of 50 ms; TPDO 1 of a (node 2) comes every 50 ms "
@@ -214,7 +214,7 @@ TEST_CASE("network: the deadline of an RPDO is longer than the period of its TPD
   CHECK(found({tpdo, commissioned(3, pdo(0x1400, "0x181", "255", 1, "0", "51"))}).empty());
 }
 
-TEST_CASE("network: a heartbeat consumer needs a producer that is faster") {
+TEST_CASE("network: a heartbeat consumer needs a faster producer") {
   CHECK(
       found({commissioned(2, heartbeat_100), commissioned(3, record(0x1016, {{1, "0x20064"}}))}) ==
       "net-heartbeat-time: b (node 3) expects the heartbeat of a (node 2) within 100 ms, and it comes every 100 ms\n");
@@ -227,7 +227,7 @@ TEST_CASE("network: a heartbeat consumer needs a producer that is faster") {
         "net-unmonitored: no node monitors a (node 2): its failure is not detected\n");
 }
 
-TEST_CASE("network: life guarding needs a master that guards in time, and no heartbeat beside it") {
+TEST_CASE("network: life guarding needs a master that guards in time and no heartbeat") {
   const std::string life = variable(0x100C, 6, "100") + variable(0x100D, 5, "2");
   const auto master = [](const std::string& assignment) {
     return commissioned(1, record(0x1F81, {{2, assignment}}), "CANopenManager=1\n");
@@ -262,14 +262,14 @@ TEST_CASE("network: synchronous PDOs need one SYNC producer with a period") {
       "length\n");
 }
 
-TEST_CASE("network: events without a bound are a warning") {
+TEST_CASE("network: events without a minimum distance are a warning") {
   CHECK(found({commissioned(2, pdo(0x1800, "0x181", "255", 1, "0", "50")),
                commissioned(3, pdo(0x1400, "0x181", "255", 1))}) ==
         "net-event-unbounded: TPDO 1 of a (node 2) (181h) has no inhibit time: the worst case counts its event timer "
         "only\n");
 }
 
-TEST_CASE("network: the bus load counts frames by their shortest and their usual period") {
+TEST_CASE("network: the bus load uses the shortest and the usual period of frames") {
   const Network network =
       network_of({commissioned(2, pdo(0x1800, "0x181", "255", 2, "100", "50") + heartbeat_100),
                   commissioned(3, pdo(0x1400, "0x181", "255", 2) + record(0x1016, {{1, "0x20190"}}))});
@@ -308,7 +308,7 @@ TEST_CASE("network: a load above the limit is a warning") {
             .find("net-load: worst-case bus load 90.0 %, the limit is 70.0 %\n") != std::string::npos);
 }
 
-TEST_CASE("network: the example is without warnings; the master mirrors the PDOs of the nodes") {
+TEST_CASE("network: the example has no warnings; the master mirrors the PDOs of the nodes") {
   const Configured plan = example();
   CHECK(plan.text() == "");
   NetworkFindings findings(plan.network);
@@ -335,7 +335,7 @@ TEST_CASE("network: the example is without warnings; the master mirrors the PDOs
   CHECK(plan.network.nodes[0].number(0x1016, 1) == 0x7F0258);
 }
 
-TEST_CASE("network: a concise DCF disables a PDO while it changes, and has values as SDO transfers them") {
+TEST_CASE("network: a concise DCF disables a PDO while it changes, with values in SDO byte order") {
   const Configured plan = example();
   NetworkFindings findings(plan.network);
   const std::vector<Download> downloads = downloads_of(plan.network, 0, findings);
@@ -353,7 +353,7 @@ TEST_CASE("network: a concise DCF disables a PDO while it changes, and has value
   CHECK(concise_dcf({}) == std::string(4, '\0'));
 }
 
-TEST_CASE("network: files of the example are read again as the same network") {
+TEST_CASE("network: the generated files of the example are read as the same network") {
   const Configured plan = example();
   NetworkFindings findings(plan.network);
   const std::vector<File> files = configuration_files(plan.network, findings);
@@ -377,7 +377,7 @@ TEST_CASE("network: files of the example are read again as the same network") {
   CHECK(links.links.size() == 6);
 }
 
-TEST_CASE("network: what a description lacks cannot be configured") {
+TEST_CASE("network: objects missing in a description cannot be configured") {
   const std::string yaml = "master: {node_id: 1}\na:\n  dcf: x\n  node_id: 2\n";
   CHECK(planned(yaml + "  heartbeat_producer: 5\n", "").text() ==
         "net-object: a: 1017h:0 (heartbeat_producer) is not in the description\n");
@@ -399,7 +399,7 @@ TEST_CASE("network: what a description lacks cannot be configured") {
             .number(0x1A00, 0) == 2);
 }
 
-TEST_CASE("network: a PDO is disabled, and gets a COB-ID of 29 bits") {
+TEST_CASE("network: a PDO can be disabled and can have a 29-bit COB-ID") {
   const std::string yaml = "master: {node_id: 1, pdo: none}\na:\n  dcf: x\n  node_id: 2\n";
   const std::string tpdo = pdo(0x1800, "0x181", "255", 1);
   CHECK(planned(yaml + "  tpdo: {1: {enabled: false}}\n", tpdo).network.nodes[0].number(0x1800, 1) == 0x80000181);
@@ -408,7 +408,7 @@ TEST_CASE("network: a PDO is disabled, and gets a COB-ID of 29 bits") {
         "net-missing: a: tpdo 1 has no COB-ID\n");
 }
 
-TEST_CASE("network: which PDOs the master mirrors is the plan's choice") {
+TEST_CASE("network: the plan selects the PDOs that the master mirrors") {
   const std::string tpdos = pdo(0x1800, "$NODEID+0x180", "255", 1) +
                             record(0x1801, {{1, "$NODEID+0x280"}, {2, "255"}}) +
                             record(0x1A01, {{0, "1"}, {1, "0x20000010"}});
@@ -421,7 +421,7 @@ TEST_CASE("network: which PDOs the master mirrors is the plan's choice") {
   CHECK(links("none") == 0);
 }
 
-TEST_CASE("network: the report escapes names and has pictures, links and findings") {
+TEST_CASE("network: the report escapes names and contains pictures, links and findings") {
   const Network network = network_of({commissioned(2, pdo(0x1800, "0x181", "255", 1), "NetworkName=<Axis & more>\n"),
                                       commissioned(3, pdo(0x1400, "0x181", "255", 2))});
   NetworkFindings findings(network);
@@ -437,7 +437,7 @@ TEST_CASE("network: the report escapes names and has pictures, links and finding
   CHECK(page == html_report(network, links, traffic, findings));
 }
 
-TEST_CASE("network: many PDOs with one COB-ID end in bounded time and memory") {
+TEST_CASE("network: many PDOs with one COB-ID need limited time and memory") {
   std::string eds = commissioned(2, variable(0x2000, 6, "0"));
   for (unsigned n = 0; n < 60; ++n) {
     eds += record(0x1400 + n, {{1, "0x181"}, {2, "255"}}) + record(0x1800 + n, {{1, "0x181"}, {2, "255"}});

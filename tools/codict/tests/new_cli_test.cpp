@@ -24,8 +24,7 @@ bool exists(const Directory& directory, const std::string& path) {
 
 }  // namespace
 
-TEST_CASE(
-    "codict new --profile: a project whose description passes all checks, notes included, and is in normal form") {
+TEST_CASE("codict new --profile: the description passes all checks without notes and is in normal form") {
   for (const std::string profile : {"301", "401", "402"}) {
     CAPTURE(profile);
     const Directory directory;
@@ -50,7 +49,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("codict new --from: the description is copied, names are those of the file") {
+TEST_CASE("codict new --from: the description is copied; names are those of the file") {
   const Directory directory;
   const std::string source = test::copy_to(directory, "drive.eds");
   const Ran made = run_in(directory, "new 'My pump' --from drive.eds --language c++");
@@ -61,7 +60,7 @@ TEST_CASE("codict new --from: the description is copied, names are those of the 
   CHECK(run_in(directory, "gen 'My pump/drive.eds' -o 'My pump/generated' --language c++ --check").status == 0);
 }
 
-TEST_CASE("codict new: names with blanks and signs, and a directory with a slash at its end") {
+TEST_CASE("codict new: names with blanks and special characters and a directory with a final slash are accepted") {
   const Directory directory;
   const std::string source = test::copy_to(directory, "drive.eds");
   std::filesystem::rename(source, directory / "a $drive.eds");
@@ -71,7 +70,7 @@ TEST_CASE("codict new: names with blanks and signs, and a directory with a slash
   CHECK(has(lists, "DESCRIPTION \"a \\$drive.eds\" NAME a_drive "));
 }
 
-TEST_CASE("codict new: existing files are named and nothing is written") {
+TEST_CASE("codict new: existing files are reported and nothing is written") {
   const Directory directory;
   test::write_bytes(directory / "README.md", "mine");
   const Ran refused = run_in(directory, "new . --profile 301");
@@ -86,7 +85,7 @@ TEST_CASE("codict new: existing files are named and nothing is written") {
   CHECK_FALSE(exists(directory, "nowhere"));
 }
 
-TEST_CASE("codict new: wrong use and descriptions with errors write nothing") {
+TEST_CASE("codict new: wrong usage and descriptions with errors write nothing") {
   const Directory directory;
   test::copy_to(directory, "number_word.eds");
   CHECK(has(run_in(directory, "new pump").err, "--from FILE or --profile 301, 401 or 402"));
@@ -98,7 +97,7 @@ TEST_CASE("codict new: wrong use and descriptions with errors write nothing") {
   CHECK_FALSE(exists(directory, "pump"));
 }
 
-TEST_CASE("codict new --force: the build of the project accepts a description with errors, too") {
+TEST_CASE("codict new --force: the project builds with a description with errors") {
   const Directory directory;
   test::copy_to(directory, "limits.eds");
   const Ran made = run_in(directory, "new pump --from limits.eds --force");
@@ -113,7 +112,7 @@ TEST_CASE("codict new --force: the build of the project accepts a description wi
   CHECK_FALSE(has(test::bytes_of(directory / "correct/CMakeLists.txt"), "--force"));
 }
 
-TEST_CASE("codict new: a description of another format is accepted, and what the application defines has a file") {
+TEST_CASE("codict new: a description of another format is accepted; application-defined symbols get a file") {
   const Directory directory;
   CHECK(run_in(directory, "new first --profile 401").status == 0);
   CHECK(run_in(directory, "convert first/first.eds -o io.xdd").status == 0);

@@ -32,7 +32,7 @@ TEST_CASE("an integer is decimal, hexadecimal, or octal with a leading zero") {
   CHECK(parse_integer("0xFFFFFFFFFFFFFFFF").value == Integer(largest));
 }
 
-TEST_CASE("what is wrong with an integer is known, and where") {
+TEST_CASE("the fault of an invalid integer and its position are returned") {
   CHECK(fault_of("") == NumberFault::empty);
   CHECK(fault_of("speed") == NumberFault::no_number);
   CHECK(fault_of("-") == NumberFault::no_number);
@@ -56,7 +56,7 @@ TEST_CASE("what is wrong with an integer is known, and where") {
   CHECK(parse_integer("0x12y").fault_at == 4);
 }
 
-TEST_CASE("numbers are compared as such, not as bits") {
+TEST_CASE("numbers are compared by value, not by bits") {
   CHECK(Integer(1, true) < Integer(0));
   CHECK(Integer(2, true) < Integer(1, true));
   CHECK_FALSE(Integer(largest) < Integer(1, true));
@@ -64,7 +64,7 @@ TEST_CASE("numbers are compared as such, not as bits") {
   CHECK(Integer(1, true).bits() == largest);
 }
 
-TEST_CASE("whether a number fits depends on the width and the sign") {
+TEST_CASE("the range of a number depends on width and sign") {
   CHECK(fits_unsigned(255, 8));
   CHECK_FALSE(fits_unsigned(256, 8));
   CHECK_FALSE(fits_unsigned(Integer(1, true), 8));
@@ -79,7 +79,7 @@ TEST_CASE("whether a number fits depends on the width and the sign") {
   CHECK(sign_extended(std::uint64_t{1} << 63, 64) == Integer(std::uint64_t{1} << 63, true));
 }
 
-TEST_CASE("a formula is the node-ID and what is added to it") {
+TEST_CASE("a formula contains the node-ID and an addend") {
   CHECK(parse_formula("$NODEID").has_node_id);
   CHECK(parse_formula("$NODEID+1+0x10").number.value == Integer(17));
   CHECK(parse_formula("$NODEID+1").is_standard);
@@ -98,7 +98,7 @@ TEST_CASE("a formula is the node-ID and what is added to it") {
   CHECK(parse_formula("$NODEID+0xFFFFFFFFFFFFFFFF+1").number.fault == NumberFault::too_large);
 }
 
-TEST_CASE("a real is decimal, or a bit pattern") {
+TEST_CASE("a real is decimal or a bit pattern") {
   CHECK(parse_real("1.5", 32).value == doctest::Approx(1.5));
   CHECK(parse_real("-1e-3", 64).value == doctest::Approx(-0.001));
   CHECK(parse_real("+2.5", 64).form == RealForm::decimal);
@@ -115,7 +115,7 @@ TEST_CASE("a real is decimal, or a bit pattern") {
   CHECK(parse_real("1,2,3", 32).form == RealForm::no_number);
 }
 
-TEST_CASE("hexadecimal digits have nothing else among them") {
+TEST_CASE("hexadecimal digits with other characters between them are refused") {
   std::uint64_t value = 0;
   CHECK(parse_hex("1a00", value));
   CHECK(value == 0x1A00);

@@ -108,12 +108,11 @@ std::string with(const std::string& eds, const std::string& section, const std::
 
 }  // namespace
 
-TEST_CASE(
-    "[OD 01] communication objects are read and written as their access type says, with the length of their type") {
+TEST_CASE("[OD 01] communication objects are read and written with their access type and length") {
   check_all(&OdConformance::access, communication);
 }
 
-TEST_CASE("[OD 01] a communication object that is missing, or has another type or access, is found") {
+TEST_CASE("[OD 01] a communication object that is missing or has another type or access is detected") {
   const auto found = [](const std::string& eds) {
     return check(demo_clock, eds, &OdConformance::access, communication);
   };
@@ -128,11 +127,11 @@ TEST_CASE("[OD 01] a communication object that is missing, or has another type o
         Contradictions{"1018h:02 write: abort 06010002, not ok"});
 }
 
-TEST_CASE("[OD 02] communication objects have the default values of the EDS, with the node-ID in them") {
+TEST_CASE("[OD 02] communication objects have the default values of the EDS with the node-ID added") {
   check_all(&OdConformance::defaults, communication);
 }
 
-TEST_CASE("[OD 02] another default value, constant or sub-index 0 of a communication object is found") {
+TEST_CASE("[OD 02] another default value, constant or sub-index 0 of a communication object is detected") {
   const auto found = [](const std::string& section, const std::string& line, const std::string& other) {
     const std::string eds = changed(text_of(demo_clock), section, line, other);
     return check(demo_clock, eds, &OdConformance::defaults, communication);
@@ -145,29 +144,29 @@ TEST_CASE("[OD 02] another default value, constant or sub-index 0 of a communica
   CHECK(found("1008", "DefaultValue=Lexican demo clock", "DefaultValue=Le").size() == 1);
 }
 
-TEST_CASE("[OD 03] a write to a communication object that is read-only or constant is refused with 0601 0002h") {
+TEST_CASE("[OD 03] a write to a read-only or constant communication object is refused with 0601 0002h") {
   check_all(&OdConformance::read_only, communication);
 }
 
-TEST_CASE("[OD 03] a communication object that can be written, and is described as read-only, is found") {
+TEST_CASE("[OD 03] a writable communication object that is described as read-only is detected") {
   const std::string eds = changed(text_of(demo_clock), "1006", "AccessType=rw", "AccessType=ro");
   CHECK(check(demo_clock, eds, &OdConformance::read_only, communication) ==
         Contradictions{"1006h:00 write: ok, not abort 06010002"});
 }
 
-TEST_CASE("[OD 04] communication objects that are write-only: there are none; one that is described so is found") {
+TEST_CASE("[OD 04] no communication object is write-only; one described as write-only is detected") {
   check_all(&OdConformance::write_only, communication);
   const std::string eds = changed(text_of(demo_clock), "1006", "AccessType=rw", "AccessType=wo");
   CHECK(check(demo_clock, eds, &OdConformance::write_only, communication) ==
         Contradictions{"1006h:00 read: 00 00 00 00, not abort 06010001"});
 }
 
-TEST_CASE("[OD 05] sub-index FFh is not there, or tells type and object code; sub-index 0 is the highest sub-index") {
+TEST_CASE("[OD 05] sub-index FFh is missing or contains type and object code; sub-index 0 is the highest sub-index") {
   check_all(&OdConformance::structure, communication);
   check_all(&OdConformance::structure, beyond);
 }
 
-TEST_CASE("[OD 05] a structure that is not that of the EDS is found") {
+TEST_CASE("[OD 05] a structure that differs from the EDS is detected") {
   constexpr CO_OBJ od[] = {
       {CO_KEY(0x1000, 0, CO_OBJ_D___R_), CO_TUNSIGNED32, (CO_DATA)(0)},
       {CO_KEY(0x1001, 0, CO_OBJ_D___R_), CO_TUNSIGNED8, (CO_DATA)(0)},
@@ -193,12 +192,11 @@ TEST_CASE("[OD 05] a structure that is not that of the EDS is found") {
   CHECK(found("6", "8", "3") == Contradictions{"2200h:00 highest sub-index: 02, not 03"});
 }
 
-TEST_CASE(
-    "[OD 06] communication objects take values within their limits, and refuse others with 0609 0031h and 0032h") {
+TEST_CASE("[OD 06] communication objects accept values within their limits, others are 0609 0031h and 0032h") {
   check_all(&OdConformance::limits, communication);
 }
 
-TEST_CASE("[OD 06] a limit of a communication object that is not that of the EDS is found") {
+TEST_CASE("[OD 06] a limit of a communication object that differs from the EDS is detected") {
   const auto found = [](const std::string& line) {
     const std::string eds = changed(text_of(every_c), "1017", "HighLimit=10000", line);
     return check(every_c, eds, &OdConformance::limits, communication);
@@ -209,11 +207,11 @@ TEST_CASE("[OD 06] a limit of a communication object that is not that of the EDS
                                     });
 }
 
-TEST_CASE("[OD 07] all other objects are read and written as their access type says, with the length of their type") {
+TEST_CASE("[OD 07] all other objects are read and written with their access type and length") {
   check_all(&OdConformance::access, beyond);
 }
 
-TEST_CASE("[OD 07] another object that is missing, or has another type or access, is found") {
+TEST_CASE("[OD 07] another object that is missing or has another type or access is detected") {
   const auto found = [](const std::string& eds) { return check(demo_clock, eds, &OdConformance::access, beyond); };
   const std::string eds = text_of(demo_clock);
   CHECK(found(with(eds, "6000", "0x0005")) ==
@@ -228,7 +226,7 @@ TEST_CASE("[OD 08] all other objects have the default values of the EDS") {
   check_all(&OdConformance::defaults, beyond);
 }
 
-TEST_CASE("[OD 08] another default value of another object is found") {
+TEST_CASE("[OD 08] another default value of another object is detected") {
   const auto found = [](const Described& described, const char* section, const char* line, const char* other) {
     const std::string eds = changed(text_of(described), section, line, other);
     return check(described, eds, &OdConformance::defaults, beyond);
@@ -241,13 +239,13 @@ TEST_CASE("[OD 08] another default value of another object is found") {
         Contradictions{"2009h:00 default: 74 65 78 74, not 74 65 73 74"});
 }
 
-TEST_CASE("[OD 09] all other objects refuse what their access right and their limits do not allow") {
+TEST_CASE("[OD 09] all other objects refuse accesses beyond their access right and limits") {
   check_all(&OdConformance::read_only, beyond);
   check_all(&OdConformance::write_only, beyond);
   check_all(&OdConformance::limits, beyond);
 }
 
-TEST_CASE("[OD 09] another access right or limit of another object is found") {
+TEST_CASE("[OD 09] another access right or limit of another object is detected") {
   const auto found = [](const Described& described, Check one, const char* section, const char* line,
                         const char* other) {
     return check(described, changed(text_of(described), section, line, other), one, beyond);
@@ -264,13 +262,13 @@ TEST_CASE("[OD 09] another access right or limit of another object is found") {
         Contradictions{"2101h:00 30 FD: ok, not abort 06090032"});
 }
 
-TEST_CASE("[SDO 05, 06] what the EDS does not describe is not there: 0602 0000h, 0609 0011h") {
+TEST_CASE("[SDO 05, 06] objects missing in the EDS are refused with 0602 0000h and 0609 0011h") {
   check_all(&OdConformance::absence, communication);
   check_all(&OdConformance::absence, {0, 0x0FFF});
   CHECK(check(demo_clock, text_of(demo_clock), &OdConformance::absence, beyond) == Contradictions{});
 }
 
-TEST_CASE("[SDO 05, 06] an object or a sub-object that the EDS does not describe is found") {
+TEST_CASE("[SDO 05, 06] an object or a sub-object that the EDS does not describe is detected") {
   const auto found = [](const std::string& section, test::Area area) {
     return check(demo_clock, without(text_of(demo_clock), section), &OdConformance::absence, area);
   };
@@ -279,13 +277,13 @@ TEST_CASE("[SDO 05, 06] an object or a sub-object that the EDS does not describe
   CHECK(found("1018sub4", communication) == Contradictions{"1018h:04 not described: 01 00 00 00, not abort 06090011"});
 }
 
-TEST_CASE("[PDO 27-32] PDOs take the objects that can be mapped, in the direction of their access, and no others") {
+TEST_CASE("[PDO 27-32] PDOs accept only mappable objects in the direction of their access") {
   check_all(&OdConformance::mapping, beyond);
   check_all(&OdConformance::flags, communication);
   check_all(&OdConformance::flags, beyond);
 }
 
-TEST_CASE("[PDO 27-32] an object that is described as mappable and is not, or the other way round, is found") {
+TEST_CASE("[PDO 27-32] an object whose mappability differs from the EDS is detected") {
   const std::string eds = changed(text_of(demo_clock), "2101", "PDOMapping=0", "PDOMapping=1");
   CHECK(check(demo_clock, eds, &OdConformance::flags, beyond) == Contradictions{"2101h:00 mappable: no, not yes"});
   const std::string every = changed(text_of(every_c), "2003", "PDOMapping=1", "PDOMapping=0");
@@ -295,7 +293,7 @@ TEST_CASE("[PDO 27-32] an object that is described as mappable and is not, or th
                        "2003h:00 mapped to a TPDO: ok, not abort 06040041"});
 }
 
-TEST_CASE("[EDS] DeviceInfo is the identity of 1018h; another one is found") {
+TEST_CASE("[EDS] DeviceInfo is the identity of 1018h; another one is detected") {
   check_all(&OdConformance::identity, communication);
   const std::string eds = changed(text_of(demo_clock), "DeviceInfo", "ProductNumber=0x0000C10C", "ProductNumber=1");
   CHECK(check(demo_clock, eds, &OdConformance::identity, communication) ==

@@ -194,7 +194,7 @@ void check_all_ways_twice(const Description& description) {
 
 }  // namespace
 
-TEST_CASE("convert: what is different in another format has been announced, for each fixture and each format") {
+TEST_CASE("convert: losses in another format are reported for each fixture and each format") {
   for (const std::string& path : test::files_in(test::fixture(""), test::all_endings())) {
     if (!test::has(path, "control_character")) {  // XML cannot contain control characters
       CAPTURE(path);
@@ -203,7 +203,7 @@ TEST_CASE("convert: what is different in another format has been announced, for 
   }
 }
 
-TEST_CASE("convert: what is different in another format has been announced, for each description of the corpus" *
+TEST_CASE("convert: losses in another format are reported for each description of the corpus" *
           test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::all_endings())) {
     CAPTURE(path);
@@ -211,7 +211,7 @@ TEST_CASE("convert: what is different in another format has been announced, for 
   }
 }
 
-TEST_CASE("convert: values of a DCF survive all formats on the way to a DCF") {
+TEST_CASE("convert: values of a DCF are kept through all formats") {
   for (const std::string name : {"automatic_rate.dcf", "blank_commissioning.dcf", "empty_commissioning.dcf"}) {
     CAPTURE(name);
     const std::string dcf = written(description_of(test::bytes_of(test::fixture(name)), name), ways[1]);
@@ -229,7 +229,7 @@ TEST_CASE("convert: values of a DCF survive all formats on the way to a DCF") {
   CHECK(commissioning_of(written(description_of("[FileInfo]\n", "a.eds"), ways[1])) == "");
 }
 
-TEST_CASE("convert: an XDD keeps an empty default bit rate, and one that is no number") {
+TEST_CASE("convert: an XDD keeps an empty and an invalid default bit rate") {
   for (const std::string rate : {"", "fast", "125 Kbps", "auto-baudRate"}) {
     const std::string xdd =
         "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\"><ISO15745Profile>"
@@ -239,7 +239,7 @@ TEST_CASE("convert: an XDD keeps an empty default bit rate, and one that is no n
   }
 }
 
-TEST_CASE("convert: vendor and product number of an .nxdd are kept") {
+TEST_CASE("convert: vendor-ID and product code of an .nxdd are kept") {
   const std::string path = test::fixture("xdd/identity.nxdd");
   const Description project = description_of(test::bytes_of(path), path);
   CHECK(project.devices.front().format == Format::nxdd);
@@ -251,7 +251,7 @@ TEST_CASE("convert: vendor and product number of an .nxdd are kept") {
   }
 }
 
-TEST_CASE("convert: limits of compact storage are kept; ranges and steps that an EDS cannot have are losses") {
+TEST_CASE("convert: limits of compact storage are kept; ranges and steps that an EDS cannot express are reported") {
   const Description compact = description_of(test::bytes_of(test::fixture("compact_limits.eds")), "a.eds");
   for (const Way& way : ways) {
     CAPTURE(std::string(way.name));

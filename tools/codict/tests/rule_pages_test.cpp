@@ -248,7 +248,7 @@ std::string listed(const Findings& findings) {
 
 }  // namespace
 
-TEST_CASE("rule pages: each rule has one, with a remedy, and with two examples or a reason") {
+TEST_CASE("rule pages: each rule has a page with a remedy and with two examples or a reason") {
   std::string wrong;
   for (const Rule* rule : catalogue::all_rules()) {
     const Page page = page_of(*rule);
@@ -266,7 +266,7 @@ TEST_CASE("rule pages: each page belongs to a rule") {
   }
 }
 
-TEST_CASE("rule pages: the wrong example breaks the rule, and nothing else but notes") {
+TEST_CASE("rule pages: the wrong example breaks only its rule, except for notes") {
   std::string wrong;
   for (const Rule* rule : catalogue::all_rules()) {
     const Page page = page_of(*rule);
@@ -298,7 +298,7 @@ TEST_CASE("rule pages: messages about the wrong example are short, state a fault
   CHECK(wrong == "");
 }
 
-TEST_CASE("rule pages: in the right example, only notes are left, and not of this rule") {
+TEST_CASE("rule pages: the right example has only notes, and none of its rule") {
   std::string wrong;
   for (const Rule* rule : catalogue::all_rules()) {
     const Page page = page_of(*rule);

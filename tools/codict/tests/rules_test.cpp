@@ -30,7 +30,7 @@ TEST_CASE("rules: docs/rules.md is what the catalogue generates") {
   CHECK_MESSAGE(is_current, "run: codict explain --all >tools/codict/docs/rules.md");
 }
 
-TEST_CASE("rules: the reference has a section and a line of a table for each rule") {
+TEST_CASE("rules: the reference has a section and a table row for each rule") {
   const std::string all = catalogue::reference();
   for (const Rule* rule : catalogue::all_rules()) {
     const std::string id(rule->id);
@@ -39,7 +39,7 @@ TEST_CASE("rules: the reference has a section and a line of a table for each rul
   }
 }
 
-TEST_CASE("rules: each summary states a fault: short, and without a full stop") {
+TEST_CASE("rules: each summary states a fault without a full stop") {
   for (const Rule* rule : catalogue::all_rules()) {
     CHECK_MESSAGE((rule->about.size() <= 90 && rule->about.back() != '.'), rule->id);
   }

@@ -59,13 +59,13 @@ Finding finding_of(const std::string& text, Span span) {
 
 }  // namespace
 
-TEST_CASE("subject: a finding in a section of an EDS names the object") {
+TEST_CASE("subject: a finding in a section of an EDS has the object") {
   CHECK(in_eds("[2000]\n" + octal, "od-value-octal").find("2000h 'Ratio': ") == 0);
   CHECK(in_eds("[2000]\nParameterName=All\nObjectType=9\n[2000sub1]\n" + octal, "od-value-octal")
             .find("2000h:01 'Ratio': ") == 0);
 }
 
-TEST_CASE("subject: a value of compact storage names its sub-object") {
+TEST_CASE("subject: a value of compact storage has its sub-object") {
   CHECK(in_eds("[2000]\nParameterName=Gain\nObjectType=8\nDataType=5\nAccessType=rw\nCompactSubObj=3\n"
                "[2000Value]\nNrOfEntries=1\n2=012\n",
                "od-value-octal")
@@ -77,7 +77,7 @@ TEST_CASE("subject: a finding in another section has none") {
         std::string::npos);
 }
 
-TEST_CASE("subject: objects, sub-objects and parameters of an XDD are named") {
+TEST_CASE("subject: findings of an XDD have object, sub-object or parameter") {
   CHECK(in_xdd("<CANopenObject index=\"2000\" name=\"Ratio\" objectType=\"7\" dataType=\"05\" accessType=\"rw\" "
                "defaultValue=\"012\"/>",
                "", "od-value-octal")
@@ -96,7 +96,7 @@ TEST_CASE("subject: objects, sub-objects and parameters of an XDD are named") {
             .find("parameter 'P': ") == 0);
 }
 
-TEST_CASE("subject: objects of JSON are named") {
+TEST_CASE("subject: findings of JSON have the object") {
   const std::string text =
       R"({"schema": "codict-device-1", "devices": [{"format": "eds", "objects": [{"index": 8192, "name": "Ratio",
           "object_code": "var", "data_type": 5, "access": "rw", "default_value": {"text": "012"}}]}]})";
@@ -108,7 +108,7 @@ TEST_CASE("subject: objects of JSON are named") {
   CHECK(message_of(findings.all().front()).find("2000h 'Ratio': ") == 0);
 }
 
-TEST_CASE("subject: long names are cut between characters, missing ones are left out") {
+TEST_CASE("subject: long names are truncated between characters; missing ones are omitted") {
   CHECK(in_quotes(std::string(40, 'n')) == "'" + std::string(40, 'n') + "'");
   CHECK(in_quotes(std::string(41, 'n')) == "'" + std::string(40, 'n') + "...'");
   CHECK(in_quotes(std::string(39, 'n') + "\xC3\xA4n") == "'" + std::string(39, 'n') + "...'");
@@ -143,7 +143,7 @@ TEST_CASE("messages about the fixtures are short, state a fault and have a remed
   CHECK(wrong == "");
 }
 
-TEST_CASE("fold: findings that differ in numbers and quoted names are one kind, others are not") {
+TEST_CASE("fold: findings that differ only in numbers and quoted names are folded") {
   const std::vector<Finding> alike = {finding_of("'a' is 5, not 2000h", {1, 2}),
                                       finding_of("'b' is 66, not 2001h", {3, 4}),
                                       finding_of("'b' was 66, not 2001h", {5, 6})};

@@ -47,7 +47,7 @@ std::string read(const std::string& path) {
 
 }  // namespace
 
-TEST_CASE("a source knows the line and column of each byte") {
+TEST_CASE("a source returns line and column of each byte") {
   const Source source("x", "ab\r\n\ncd");
   CHECK(source.lines() == 3);
   CHECK(source.slice(source.line(1)) == "ab");
@@ -61,7 +61,7 @@ TEST_CASE("a source knows the line and column of each byte") {
   CHECK(Source("x", "").lines() == 1);
 }
 
-TEST_CASE("edits touch nothing but their spans, in whatever order they are made") {
+TEST_CASE("edits change only their spans, in any order") {
   Edits edits;
   edits.replace({4, 5}, "E");
   edits.insert(0, "<");
@@ -88,7 +88,7 @@ TEST_CASE("equal findings are folded") {
   CHECK(findings.count(Severity::error) == 1);
 }
 
-TEST_CASE("findings have a limit, beyond which they are counted by their rules") {
+TEST_CASE("findings beyond the limit are counted by rule") {
   Findings findings;
   for (std::size_t n = 0; n < Findings::most + 3; ++n) {
     findings.add(first_rule, {}, "again");
@@ -99,7 +99,7 @@ TEST_CASE("findings have a limit, beyond which they are counted by their rules")
   CHECK(findings.count(first_rule.severity) == Findings::most + 3);
 }
 
-TEST_CASE("notes and warnings beyond the limit displace no error") {
+TEST_CASE("notes and warnings beyond the limit replace no error") {
   Findings findings;
   for (std::size_t n = 0; n < Findings::most + 3; ++n) {
     findings.add(first_rule, {}, "again");
@@ -123,7 +123,7 @@ TEST_CASE("an encoding is guessed from the bytes") {
   CHECK(guess_encoding("\xFE\xFF") == Encoding::utf16);
 }
 
-TEST_CASE("text comes out of an encoding, and goes back") {
+TEST_CASE("text is decoded and encoded without loss") {
   CHECK(to_utf8("Gr\x94\xE1\x65", Encoding::cp850) == u8"Größe");
   CHECK(to_utf8("\x80 5", Encoding::cp1252) == u8"€ 5");
   CHECK(to_utf8("a\xFFz", Encoding::utf8) == u8"a�z");
@@ -136,7 +136,7 @@ TEST_CASE("text comes out of an encoding, and goes back") {
   CHECK_FALSE(from_utf8("\xFF", Encoding::utf8, bytes));
 }
 
-TEST_CASE("a file is written at once, and left alone where nothing changes") {
+TEST_CASE("a file is replaced as a whole, and not written without a change") {
   const Directory directory;
   const std::string path = directory / "device.eds";
   std::string why;
@@ -155,7 +155,7 @@ TEST_CASE("a file is written at once, and left alone where nothing changes") {
   CHECK(directory.files() == 1);
 }
 
-TEST_CASE("what a symbolic link names is written, and the link stays") {
+TEST_CASE("the target of a symbolic link is written, and the link stays") {
   const Directory directory;
   std::string why;
   write_file(directory / "target", "one", why);
@@ -165,7 +165,7 @@ TEST_CASE("what a symbolic link names is written, and the link stays") {
   CHECK(read(directory / "target") == "two");
 }
 
-TEST_CASE("a text is shortened to a number of characters, the last of which is then an ellipsis") {
+TEST_CASE("a text is shortened to a number of characters with an ellipsis at its end") {
   CHECK(shortened_to("speed", 5) == "speed");
   CHECK(shortened_to("speeds", 5) == "spee…");
   CHECK(shortened_to("größer", 6) == "größer");
@@ -176,7 +176,7 @@ TEST_CASE("a text is shortened to a number of characters, the last of which is t
   CHECK(shortened_to("\x80\x80\x80", 2) == "\x80\x80\x80");  // bytes that begin no character
 }
 
-TEST_CASE("what cannot be read or written is said in one line") {
+TEST_CASE("a file that cannot be read or written is reported in one line") {
   const Directory directory;
   std::string why;
   CHECK_FALSE(read_file(directory / "missing", why));

@@ -150,7 +150,7 @@ bool is_of_cia311(const Device& device) {
 
 }  // namespace
 
-TEST_CASE("corpus: all XML descriptions are read, and nothing of an object or parameter is lost" *
+TEST_CASE("corpus: all XML descriptions are read without losing an object or parameter" *
           test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
@@ -162,7 +162,7 @@ TEST_CASE("corpus: all XML descriptions are read, and nothing of an object or pa
   }
 }
 
-TEST_CASE("corpus: a description of CiA 311 that is written in either edition and read is the same" *
+TEST_CASE("corpus: a description written in either edition of CiA 311 and read again is the same" *
           test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
@@ -178,7 +178,8 @@ TEST_CASE("corpus: a description of CiA 311 that is written in either edition an
   }
 }
 
-TEST_CASE("corpus: texts of XML that are written as they were read mean the same" * test::skipped_without_corpus()) {
+TEST_CASE("corpus: XML texts that are written as they were read have the same meaning" *
+          test::skipped_without_corpus()) {
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings())) {
     CAPTURE(path);
     const std::string bytes = bytes_of(path);
@@ -194,7 +195,8 @@ TEST_CASE("corpus: texts of XML that are written as they were read mean the same
   }
 }
 
-TEST_CASE("corpus: XML of others and what is no XML is refused with one message" * test::skipped_without_corpus()) {
+TEST_CASE("corpus: other XML and files that are not XML are refused with one message" *
+          test::skipped_without_corpus()) {
   std::size_t number = 0;
   for (const std::string& path : test::files_in(test::corpus(), test::xml_endings(), true)) {
     CAPTURE(path);

@@ -10,14 +10,14 @@ using test::fixture_xml;
 using test::meaning;
 using test::XmlReading;
 
-TEST_CASE("XDD: a valid description has no finding, except a parameter without object") {
+TEST_CASE("XDD: a valid description has no finding except for a parameter without object") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.found() == "107 xdd-parameter-unused\n");
   CHECK(reading.device.format == Format::xdc10);
   CHECK(reading.device.parameters.size() == 1);
 }
 
-TEST_CASE("XDD: file, profile and identity") {
+TEST_CASE("XDD: file, profile and identity are read") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   CHECK(device.file.file_name.text == "device10.xdd");
@@ -37,7 +37,7 @@ TEST_CASE("XDD: file, profile and identity") {
   CHECK(device.identity.specification_revision.text == "2");
 }
 
-TEST_CASE("XDD: keys of an EDS in the product's description are what they are in an EDS") {
+TEST_CASE("XDD: EDS keys in the description of a product are read like those of an EDS") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.device.file.description.text == "A valve");
   CHECK(reading.device.file.eds_version.text == "4.0");
@@ -45,7 +45,7 @@ TEST_CASE("XDD: keys of an EDS in the product's description are what they are in
   CHECK(reading.device.identity.revision_number.value == 0x10002);
 }
 
-TEST_CASE("XDD: bit rates, features, commissioning, dummies and dynamic channels") {
+TEST_CASE("XDD: bit rates, features, commissioning, dummies and dynamic channels are read") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   CHECK(device.features.default_bit_rate.value == 250);
@@ -71,7 +71,7 @@ TEST_CASE("XDD: bit rates, features, commissioning, dummies and dynamic channels
   CHECK(device.dynamic_channels[0].offset.value == 0x40);
 }
 
-TEST_CASE("XDD: an object of attributes alone") {
+TEST_CASE("XDD: an object without a parameter is read from its attributes") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.at(0x1001).data_type.value == 5);
   CHECK(reading.at(0x1001).access.value == Access::ro);
@@ -84,7 +84,7 @@ TEST_CASE("XDD: an object of attributes alone") {
   CHECK(reading.at(0x2003).denotation.text == "clock");
 }
 
-TEST_CASE("XDD: an object is what its parameter says") {
+TEST_CASE("XDD: an object has the values of its parameter") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   CHECK(mode.access.value == Access::rww);
@@ -103,7 +103,7 @@ TEST_CASE("XDD: an object is what its parameter says") {
   CHECK(reading.at(0x1000).words.descriptions.at(0).text.text == "What it is,\nin two lines.");
 }
 
-TEST_CASE("XDD: the one range of a parameter is the limits of the object") {
+TEST_CASE("XDD: the only range of a parameter gives the limits of the object") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& opening = reading.at(0x2002, 2);
   CHECK(meaning(opening.low_limit) == "0");
@@ -112,14 +112,14 @@ TEST_CASE("XDD: the one range of a parameter is the limits of the object") {
   CHECK(opening.access.value == Access::rwr);
 }
 
-TEST_CASE("XDD: a template says what its parameter leaves open; without access, CiA 311 means read") {
+TEST_CASE("XDD: a template gives missing values of its parameter; without access CiA 311 means read") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(reading.at(0x2002, 1).data_type.value == 6);
   CHECK(reading.at(0x2002, 1).access.value == Access::constant);
   CHECK(fixture_xml("unqualified11.xdd").at(0x1001).access.value == Access::ro);
 }
 
-TEST_CASE("XDD: types, templates and groups") {
+TEST_CASE("XDD: types, templates and groups are read") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Device& device = reading.device;
   REQUIRE(device.types.size() == 4);
@@ -133,7 +133,7 @@ TEST_CASE("XDD: types, templates and groups") {
   CHECK(device.groups.at(0).groups.at(0).parameters.at(0).text == "P_OPENING");
 }
 
-TEST_CASE("XDD: properties of CANopenNode, of its new generation") {
+TEST_CASE("XDD: properties of CANopenNode are read, new generation") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   CHECK(mode.node.disabled.is_given);
@@ -146,7 +146,7 @@ TEST_CASE("XDD: properties of CANopenNode, of its new generation") {
   CHECK(mode.properties[0].name == "Own");
 }
 
-TEST_CASE("XDD: properties of CANopenNode, of its old generation") {
+TEST_CASE("XDD: properties of CANopenNode are read, old generation") {
   const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   const Entry& own = reading.at(0x2002);
   CHECK(own.access.value == Access::none);
@@ -158,14 +158,14 @@ TEST_CASE("XDD: properties of CANopenNode, of its old generation") {
   CHECK(meaning(own.default_value) == "none");
 }
 
-TEST_CASE("XDD: a BITSTRING is an OCTET_STRING with a default, and a DOMAIN without one") {
+TEST_CASE("XDD: a BITSTRING with a default is an OCTET_STRING, without one a DOMAIN") {
   const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   CHECK(reading.at(0x2000).data_type.value == type_code::octet_string);
   CHECK(meaning(reading.at(0x2000).default_value) == "octets 01 02 FF");
   CHECK(reading.at(0x2001).data_type.value == type_code::domain);
 }
 
-TEST_CASE("XDD: what is known and not used is kept without a remark") {
+TEST_CASE("XDD: known and unused elements are kept without a finding") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   bool has_led = false;
   for (const Kept& kept : reading.device.others) {

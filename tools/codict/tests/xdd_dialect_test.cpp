@@ -9,7 +9,7 @@ using namespace lexican::codict;
 using test::meaning;
 using test::XmlReading;
 
-TEST_CASE("XDD 1.1: elements in no namespace, prefixes, and names with other capitals") {
+TEST_CASE("XDD 1.1: elements without namespace, prefixes and names in other capitals are read") {
   const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   const Device& device = reading.device;
   CHECK(device.format == Format::xdc11);
@@ -43,7 +43,7 @@ TEST_CASE("maxon: parameters with an index become objects") {
   CHECK(reading.device.others.back().children.front().text.text == "P_Again");
 }
 
-TEST_CASE("DeviceProfile: elements where CiA 311 has attributes") {
+TEST_CASE("DeviceProfile: elements in place of attributes of CiA 311 are read") {
   const XmlReading reading = test::fixture_xml("elements.xdd");
   CHECK(reading.device.identity.product_name.text == "Box");
   CHECK(reading.at(0x2000).name.text == "First");
@@ -53,7 +53,7 @@ TEST_CASE("DeviceProfile: elements where CiA 311 has attributes") {
   CHECK(reading.has("xdd-dialect"));
 }
 
-TEST_CASE("_project.xml of CANopenNode: memory types, and elements of an ARRAY that say nothing") {
+TEST_CASE("_project.xml of CANopenNode: memory types and empty elements of an ARRAY are read") {
   const XmlReading reading(test::bytes_of_fixture("project.xml"), "_project.xml");
   CHECK(reading.device.format == Format::project_xml);
   CHECK(reading.device.file.created_by.text == "JP");
@@ -69,7 +69,7 @@ TEST_CASE("_project.xml of CANopenNode: memory types, and elements of an ARRAY t
   CHECK(reading.device.find(0x1003)->others.at(0).text.text == "CO_ODF_1003");
 }
 
-TEST_CASE(".nxdd: several devices in one file") {
+TEST_CASE(".nxdd: several devices in one file are read") {
   const XmlReading reading(test::bytes_of_fixture("several.nxdd"), "several.nxdd");
   REQUIRE(reading.description.devices.size() == 2);
   CHECK(reading.description.devices[0].identity.product_name.text == "One");
@@ -78,14 +78,14 @@ TEST_CASE(".nxdd: several devices in one file") {
   CHECK(reading.device.format == Format::nxdd);
 }
 
-TEST_CASE("XDD: of another namespace, or of none, with a remark; the profiles in any order") {
+TEST_CASE("XDD: another namespace or none is reported; profiles may have any order") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.has("xdd-namespace"));
   CHECK(reading.at(0x2000).words.labels.at(0).text.text == "Value");
   CHECK(XmlReading("<ISO15745ProfileContainer/>").found() == "1 xdd-namespace\n");
 }
 
-TEST_CASE("XDD: the ending tells a profile database and a configured device") {
+TEST_CASE("XDD: the suffix selects a profile database or a configured device") {
   const std::string bytes = test::xdd_with("");
   CHECK(XmlReading(bytes, "a.xpd").device.format == Format::xpd);
   CHECK(XmlReading(bytes, "a.XDC").device.format == Format::xdc10);

@@ -22,12 +22,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("XDD edit: nothing changed gives the same bytes") {
+TEST_CASE("XDD edit: without a change the bytes are the same") {
   const std::string bytes = test::bytes_of_fixture("device10.xdd");
   CHECK(with(XmlReading(bytes), Edits()) == bytes);
 }
 
-TEST_CASE("XDD edit: a value is replaced where it stands, with its quotes and blanks around it") {
+TEST_CASE("XDD edit: a value is replaced at its place with its quotes and blanks") {
   const std::string bytes = test::xdd_with(
       "<CANopenObject  index = '2000' name='a'\n objectType=\"7\" dataType=\"05\" accessType=\"rw\" defaultValue = ' 1 "
       "' />");
@@ -37,7 +37,7 @@ TEST_CASE("XDD edit: a value is replaced where it stands, with its quotes and bl
   CHECK(with(reading, edits) == replaced(bytes, "' 1 '", "' 0x20 '"));
 }
 
-TEST_CASE("XDD edit: quotes and line ends of an attribute, and a text that is there already in other words") {
+TEST_CASE("XDD edit: quotes and line ends of an attribute are kept, and a text of equal meaning is not changed") {
   const std::string bytes = test::xdd_with("<CANopenObject index='2000' name='a' denotation='&#98;'/>");
   const XmlReading reading(bytes);
   Edits edits;
@@ -47,7 +47,7 @@ TEST_CASE("XDD edit: quotes and line ends of an attribute, and a text that is th
   CHECK(XmlReading(with(reading, edits)).at(0x2000).name.text == "it's\n\"it\"");
 }
 
-TEST_CASE("XDD edit: the value of a parameter, and the text of a label") {
+TEST_CASE("XDD edit: the value of a parameter and the text of a label are changed") {
   const std::string bytes = test::bytes_of_fixture("device10.xdd");
   const XmlReading reading(bytes);
   const Entry& mode = reading.at(0x2000);
@@ -60,7 +60,7 @@ TEST_CASE("XDD edit: the value of a parameter, and the text of a label") {
   CHECK(XmlReading(expected).at(0x2000).words.labels[1].text.text == "Art & <Weise>");
 }
 
-TEST_CASE("XDD edit: every text of an object has a place that gives it back") {
+TEST_CASE("XDD edit: every text of an object can be written back at its place") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
   for (const Text* text : std::initializer_list<const Text*>{
@@ -73,7 +73,7 @@ TEST_CASE("XDD edit: every text of an object has a place that gives it back") {
   CHECK(reading.raw(mode.span).substr(0, 29) == "<CANopenObject index=\"2000\" n");
 }
 
-TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element the first in it") {
+TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element the first child") {
   const std::string bytes =
       "<x:ISO15745ProfileContainer xmlns:x=\"http://www.canopen.org/xml/1.1\"><x:ISO15745Profile><ProfileBody>"
       "<x:ApplicationProcess><x:parameterList>\n"
@@ -92,7 +92,7 @@ TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element t
   CHECK(XmlReading(expected).at(0x2000).default_value.text == "7");
 }
 
-TEST_CASE("XDD edit: what the encoding or XML cannot write is refused") {
+TEST_CASE("XDD edit: a text that the encoding or XML cannot represent is refused") {
   const std::string bytes =
       "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n" + test::xdd_with(
                                                                 "<CANopenObject index=\"2000\" name=\"Gr\xF6\xDF"

@@ -22,7 +22,7 @@ std::string object(const std::string& attributes) { return "<CANopenObject " + a
 
 }  // namespace
 
-TEST_CASE("XDD quirk: the parameter wins over the object, and what the object says else is kept") {
+TEST_CASE("XDD quirk: the parameter overrides the object; other values of the object are kept") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   const Entry& value = reading.at(0x2000);
   CHECK(value.access.value == Access::ro);
@@ -37,14 +37,14 @@ TEST_CASE("XDD quirk: the parameter wins over the object, and what the object sa
         "12 xdd-bit-rate\n12 xdd-bit-rate\n22 xdd-order\n24 xdd-order\n26 xdd-unknown\n");
 }
 
-TEST_CASE("XDD quirk: dataType says more than BITSTRING does") {
+TEST_CASE("XDD quirk: dataType overrides BITSTRING") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.at(0x2001).data_type.value == 0x0C);
   CHECK(reading.at(0x2001).name.text == "Time");  // label of the parameter
   CHECK_FALSE(reading.at(0x2001).name.is_given);
 }
 
-TEST_CASE("XDD quirk: an unknown element is kept with all that is in it") {
+TEST_CASE("XDD quirk: an unknown element is kept with its content") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   const Kept& own = reading.at(0x2001).others.at(0);
   CHECK(own.name == "own");
@@ -52,7 +52,7 @@ TEST_CASE("XDD quirk: an unknown element is kept with all that is in it") {
   CHECK(own.children.at(0).children.at(0).name == "@a");
 }
 
-TEST_CASE("XDD quirk: bit rates without unit, in bit/s, and none at all") {
+TEST_CASE("XDD quirk: bit rates without unit, in bit/s and missing ones are read") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   REQUIRE(reading.device.features.bit_rates.size() == 3);
   CHECK(reading.device.features.bit_rates[0].kbit == 125);
@@ -60,7 +60,7 @@ TEST_CASE("XDD quirk: bit rates without unit, in bit/s, and none at all") {
   CHECK_FALSE(reading.device.features.bit_rates[2].supported.value);
 }
 
-TEST_CASE("XDD quirk: an index that is none, and one that is there twice") {
+TEST_CASE("XDD quirk: an invalid and a duplicate index are reported") {
   const XmlReading reading =
       objects(object("index=\"20G0\"" + variable) + "\n" + object("index=\"2000\"" + variable) + "\n" +
               object("index=\"2000\" name=\"b\" objectType=\"7\"") + "\n" + object("name=\"none\""));
@@ -70,7 +70,7 @@ TEST_CASE("XDD quirk: an index that is none, and one that is there twice") {
   CHECK(reading.device.others.back().children.size() == 3);
 }
 
-TEST_CASE("XDD quirk: sub-objects in any order, one twice, one without a number") {
+TEST_CASE("XDD quirk: sub-objects out of order, duplicate and without a number are read") {
   const XmlReading reading = objects(
       "<CANopenObject index=\"2000\" name=\"r\" objectType=\"9\" subNumber=\"2\">\n"
       "<CANopenSubObject subIndex=\"01\"" +
@@ -90,7 +90,7 @@ TEST_CASE("XDD quirk: sub-objects in any order, one twice, one without a number"
   CHECK(reading.found() == "4 xdd-hex-digits\n5 xdd-duplicate-object\n6 xdd-index\n");
 }
 
-TEST_CASE("XDD quirk: objectType missing, unknown, or against the sub-objects") {
+TEST_CASE("XDD quirk: a missing, unknown or contradicting objectType is reported") {
   const std::string sub = "<CANopenSubObject subIndex=\"00\"" + variable + "/></CANopenObject>\n";
   const XmlReading reading =
       objects("<CANopenObject index=\"2000\" name=\"r\">" + sub +
@@ -101,7 +101,7 @@ TEST_CASE("XDD quirk: objectType missing, unknown, or against the sub-objects") 
   CHECK(reading.found() == "2 xdd-object-type-missing\n3 xdd-object-type\n4 xdd-object-type\n");
 }
 
-TEST_CASE("XDD quirk: access and PDO mapping in other words") {
+TEST_CASE("XDD quirk: other words for access and PDO mapping are read") {
   const XmlReading reading = objects(
       object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"RO\" PDOmapping=\"Optional\"") +
       "\n" +
@@ -117,7 +117,7 @@ TEST_CASE("XDD quirk: access and PDO mapping in other words") {
         "5 xdd-access-missing\n");
 }
 
-TEST_CASE("XDD quirk: no data type, one that is none, one with 0x") {
+TEST_CASE("XDD quirk: a missing and an invalid data type are reported; one with 0x is read") {
   const XmlReading reading =
       objects(object("index=\"2000\" name=\"a\" objectType=\"7\" accessType=\"ro\"") + "\n" +
               object("index=\"2001\" name=\"a\" objectType=\"7\" dataType=\"word\" accessType=\"ro\"") + "\n" +
@@ -128,7 +128,7 @@ TEST_CASE("XDD quirk: no data type, one that is none, one with 0x") {
   CHECK(reading.found() == "2 xdd-type-missing\n4 xdd-type-missing\n4 xdd-type-unknown\n");
 }
 
-TEST_CASE("XDD quirk: references to nothing, and ids that are there twice") {
+TEST_CASE("XDD quirk: dangling references and duplicate ids are reported") {
   const XmlReading reading(
       xdd_with(object("index=\"2000\" uniqueIDRef=\"Q\"" + variable),
                "<parameter uniqueID=\"P\" templateIDRef=\"T\"><dataTypeIDRef uniqueIDRef=\"N\"/></parameter>\n"
@@ -139,7 +139,7 @@ TEST_CASE("XDD quirk: references to nothing, and ids that are there twice") {
   CHECK(reading.device.parameters.size() == 2);
 }
 
-TEST_CASE("XDD quirk: an attribute twice, an unknown one, text where there is none") {
+TEST_CASE("XDD quirk: duplicate and unknown attributes and unexpected text are reported") {
   const XmlReading reading =
       objects("<CANopenObject index=\"2000\" own=\"x\"" + variable + " name=\"b\">stray</CANopenObject>");
   CHECK(reading.at(0x2000).name.text == "a");
@@ -148,7 +148,7 @@ TEST_CASE("XDD quirk: an attribute twice, an unknown one, text where there is no
   CHECK(reading.at(0x2000).others[2].text.text == "stray");
 }
 
-TEST_CASE("XDD quirk: properties that have no such value") {
+TEST_CASE("XDD quirk: properties with an invalid value are reported") {
   const XmlReading reading(xdd_with(object("index=\"2000\" name=\"a\" objectType=\"7\" uniqueIDRef=\"P\""),
                                     "<parameter uniqueID=\"P\" access=\"read\"><UINT/>\n"
                                     "<property name=\"CO_accessSRDO\" value=\"some\"/>\n"
@@ -159,7 +159,7 @@ TEST_CASE("XDD quirk: properties that have no such value") {
   CHECK(reading.at(0x2000).node.storage_group.value == "12");
 }
 
-TEST_CASE("XDD: a property that begins as those of CANopenNode is one of them") {
+TEST_CASE("XDD: a property with the prefix of CANopenNode is one of its properties") {
   const auto found = [](const std::string& name) {
     return test::XmlReading(
         test::xdd_with("<CANopenObject index=\"2000\" name=\"x\" objectType=\"7\" dataType=\"05\" "
@@ -174,7 +174,7 @@ TEST_CASE("XDD: a property that begins as those of CANopenNode is one of them") 
   CHECK_FALSE(found("Own").has("xdd-property"));
 }
 
-TEST_CASE("XDD quirk: a dummy that is none") {
+TEST_CASE("XDD quirk: an invalid dummy is reported") {
   const XmlReading reading(xdd_with("", "", "<dummyUsage>\n<dummy entry=\"Dummy0005\"/><dummy/></dummyUsage>"));
   CHECK(reading.device.dummies.empty());
   CHECK(reading.findings.all().size() == 2);
@@ -187,7 +187,7 @@ TEST_CASE("XDD quirk: counts of objects are checked") {
   CHECK(XmlReading(bytes).found() == "1 xdd-list-count\n");
 }
 
-TEST_CASE("XDD quirk: values mean what they mean in an EDS; true and false are words of IEC") {
+TEST_CASE("XDD quirk: values are parsed like those of an EDS; true and false are words of IEC") {
   const XmlReading reading = objects(
       object("index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"01\" accessType=\"ro\" defaultValue=\"true\"") +
       "\n" +
@@ -200,7 +200,7 @@ TEST_CASE("XDD quirk: values mean what they mean in an EDS; true and false are w
   CHECK(reading.found() == "3 od-value-bit-pattern\n4 od-value-decimal-comma\n");
 }
 
-TEST_CASE("XDD quirk: references to characters, CDATA, and other line ends") {
+TEST_CASE("XDD quirk: character references, CDATA and other line ends are read") {
   const XmlReading reading = objects(
       "<CANopenObject index=\"2000\" objectType=\"7\" name=\"a&#x41;&amp;&#228;&unknown;&#xD800;\r\nb\"><label "
       "lang='en'>"
@@ -211,7 +211,7 @@ TEST_CASE("XDD quirk: references to characters, CDATA, and other line ends") {
   CHECK(entry.words.descriptions.at(0).text.text == "x\ny <");
 }
 
-TEST_CASE("XDD quirk: letters that are no UTF-8, with and without a declaration") {
+TEST_CASE("XDD quirk: characters that are not UTF-8 are read with and without a declaration") {
   const std::string name = object("index=\"2000\" name=\"\xE4\" objectType=\"7\"");
   const XmlReading undeclared(xdd_with(name));
   CHECK(undeclared.at(0x2000).name.text == "\xC3\xA4");

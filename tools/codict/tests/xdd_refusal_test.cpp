@@ -25,7 +25,7 @@ std::string repeated(const std::string& text, std::size_t times) {
 
 }  // namespace
 
-TEST_CASE("no XDD: what is no XML, or not text") {
+TEST_CASE("no XDD: files that are not XML or not text are refused") {
   CHECK(says(xml_refusal(""), "empty"));
   CHECK(says(xml_refusal("\xEF\xBB\xBF \n"), "empty"));
   CHECK(says(xml_refusal("[FileInfo]\n"), "no XML"));
@@ -34,11 +34,11 @@ TEST_CASE("no XDD: what is no XML, or not text") {
   CHECK(says(xml_refusal("<!-- nothing else -->"), "no XML element"));
 }
 
-TEST_CASE("no XDD: constraints of an FPGA design, which have the ending of an XDC") {
+TEST_CASE("no XDD: constraints of an FPGA design with the suffix of an XDC are refused") {
   CHECK(says(xml_refusal("# clock\nset_property PACKAGE_PIN F19 [get_ports reset]\n"), "FPGA"));
 }
 
-TEST_CASE("no XDD: POWERLINK, by its namespace, its technology or the type of its body") {
+TEST_CASE("no XDD: POWERLINK is refused by its namespace, its technology or the type of its body") {
   CHECK(says(xml_refusal("<ISO15745ProfileContainer xmlns=\"http://www.ethernet-powerlink.org\"/>"), "POWERLINK"));
   CHECK(says(xml_refusal("<ISO15745ProfileContainer><ProfileTechnology>Powerlink</ProfileTechnology>"
                          "</ISO15745ProfileContainer>"),
@@ -47,12 +47,12 @@ TEST_CASE("no XDD: POWERLINK, by its namespace, its technology or the type of it
       xml_refusal("<ISO15745ProfileContainer><productName>POWERLINK</productName></ISO15745ProfileContainer>").empty());
 }
 
-TEST_CASE("no XDD: other XML") {
+TEST_CASE("no XDD: other XML is refused") {
   CHECK(says(xml_refusal("<EtherCATInfo/>"), "EtherCAT"));
   CHECK(says(xml_refusal("<note/>"), "<note>"));
 }
 
-TEST_CASE("no XDD: a million elements, one in the other, are refused and not followed") {
+TEST_CASE("no XDD: a million nested elements are refused") {
   const std::string deep = repeated("<a>", 1000000);
   CHECK(says(xml_refusal(deep), "levels"));
   CHECK(says(xml_refusal(deep + repeated("</a>", 1000000)), "levels"));
@@ -70,7 +70,7 @@ TEST_CASE("XDD: entities of a document type are not expanded, and no file is rea
   CHECK(reading.has("xdd-doctype"));
 }
 
-TEST_CASE("XDD: what is not well-formed is read up to there, with the place") {
+TEST_CASE("XDD: malformed XML is read up to the fault, which is reported with its place") {
   const std::string whole =
       xdd_with("<CANopenObject index=\"2000\" name=\"a\" objectType=\"7\" dataType=\"05\" accessType=\"ro\"/>");
   const XmlReading reading(whole.substr(0, whole.find("</CANopenObjectList>")) + "\n<oops");
@@ -78,7 +78,7 @@ TEST_CASE("XDD: what is not well-formed is read up to there, with the place") {
   CHECK(reading.has("xdd-syntax"));
 }
 
-TEST_CASE("XDD: a large parameter that many objects refer to is not read for all of them") {
+TEST_CASE("XDD: a large parameter with many references is read once") {
   std::string objects;
   for (unsigned n = 0x2000; n < 0x2200; ++n) {
     constexpr const char* digits = "0123456789ABCDEF";

@@ -34,7 +34,7 @@ bool in_order(const std::string& text, std::initializer_list<const char*> parts)
 
 }  // namespace
 
-TEST_CASE("XDD write: what is read of a description of CiA 311 is the same again, in both editions") {
+TEST_CASE("XDD write: a description of CiA 311 that is written and read again is the same, in both editions") {
   for (const std::string name : {"device10.xdd", "unqualified11.xdd"}) {
     CAPTURE(name);
     const XmlReading reading(test::bytes_of_fixture(name));
@@ -49,7 +49,7 @@ TEST_CASE("XDD write: what is read of a description of CiA 311 is the same again
   }
 }
 
-TEST_CASE("XDD write: of private dialects, the objects are the same again") {
+TEST_CASE("XDD write: the objects of other dialects are the same after writing and reading") {
   for (const std::string name : {"indexed.xdd", "elements.xdd", "project.xml", "foreign_namespace.xml"}) {
     CAPTURE(name);
     const XmlReading reading(test::bytes_of_fixture(name));
@@ -69,7 +69,7 @@ TEST_CASE("XDD write: of private dialects, the objects are the same again") {
   }
 }
 
-TEST_CASE("XDD write: an EDS gets parameters, labels and dates as CiA 311 has them") {
+TEST_CASE("XDD write: parameters, labels and dates of an EDS are written in the form of CiA 311") {
   for (const std::string name : {"access.eds", "limits.eds", "real.eds", "octets.eds", "node_id.eds", "sub_zero.eds"}) {
     CAPTURE(name);
     const test::Reading eds(name);
@@ -93,7 +93,7 @@ TEST_CASE("XDD write: an EDS gets parameters, labels and dates as CiA 311 has th
   }
 }
 
-TEST_CASE("XDD write: 1.0 has all elements in the namespace, 1.1 only those that are declared globally") {
+TEST_CASE("XDD write: 1.0 has all elements in the namespace, 1.1 only global ones") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string v10 = xdd::write(reading.device, xdd::Edition::v10);
   CHECK(says(v10, "<ISO15745ProfileContainer xmlns=\"http://www.canopen.org/xml/1.0\""));
@@ -112,7 +112,7 @@ TEST_CASE("XDD write: 1.0 has all elements in the namespace, 1.1 only those that
   }
 }
 
-TEST_CASE("XDD write: the order of the schema, exact digits, the type in both ways, nodeID") {
+TEST_CASE("XDD write: order of the schema, exact digits, both notations of the type and nodeID are written") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string written = xdd::write(reading.device, xdd::Edition::v11);
   CHECK(in_order(written, {"<label lang=\"en\">Mode", "<co:dataTypeIDRef", "<co:conditionalSupport", "<co:denotation>",
@@ -128,14 +128,14 @@ TEST_CASE("XDD write: the order of the schema, exact digits, the type in both wa
   CHECK(says(written, "<deviceCommissioning nodeID=\"5\""));
 }
 
-TEST_CASE("XDD write: a limit alone, and an empty default, stay what they are") {
+TEST_CASE("XDD write: a single limit and an empty default are kept") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   CHECK(says(xdd::write(reading.device, xdd::Edition::v10), "lowLimit=\"0x81\""));
   const XmlReading empty(test::bytes_of_fixture("unqualified11.xdd"));
   CHECK(says(xdd::write(empty.device, xdd::Edition::v11), "<co:defaultValue value=\"\"/>"));
 }
 
-TEST_CASE("XDD write: signs of markup and line ends come back, and what XML cannot have is replaced [XML 1.0: 2.2]") {
+TEST_CASE("XDD write: markup characters and line ends are kept; those that XML forbids are replaced [XML 1.0: 2.2]") {
   XmlReading reading = test::fixture_xml("device10.xdd");
   const std::string text = "a<b>&\"c'\td\ne\rf";
   Object& object = *reading.device.find(0x1000);
@@ -150,7 +150,7 @@ TEST_CASE("XDD write: signs of markup and line ends come back, and what XML cann
         "b\xEF\xBF\xBD");
 }
 
-TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type [306: 4.6.3, 4.6.4]") {
+TEST_CASE("XDD write: the implied sub-index 0 of CiA 306 is written with its type [306: 4.6.3, 4.6.4]") {
   const test::Reading compact("compact.dcf");
   const std::string written = xdd::write(compact.device, xdd::Edition::v11);
   CHECK(says(written, "<CANopenSubObject subIndex=\"00\" name=\"NrOfObjects\" objectType=\"7\" dataType=\"05\""));
@@ -164,7 +164,7 @@ TEST_CASE("XDD write: what CiA 306 implies of sub-index 0 is said, with its type
   });
 }
 
-TEST_CASE("XDD write: names of elements and attributes that are no names of XML are made ones") {
+TEST_CASE("XDD write: names that XML does not allow are changed to valid ones") {
   XmlReading reading = test::fixture_xml("device10.xdd");
   Kept element{"a <b/>", {"x", {}, true}, {}, {}};
   element.children.push_back({"@1=\"", {"y", {}, true}, {}, {}});
@@ -174,7 +174,7 @@ TEST_CASE("XDD write: names of elements and attributes that are no names of XML 
   CHECK_FALSE(XmlReading(written).has("xdd-syntax"));
 }
 
-TEST_CASE("XDD write: numbers and flags that are none stay as they are written") {
+TEST_CASE("XDD write: invalid numbers and flags are written unchanged") {
   test::Reading reading("drive.eds");
   const auto set = [](Text& text, const char* to) {
     text.text = to;
