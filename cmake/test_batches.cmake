@@ -1,18 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
 # lexican_test_batches(<target> <test file>...): adds test files to a program, several of them in one translation unit,
 # which halves the time that the compiler takes. Each file is in a namespace of its own, since test files define helpers
-# of the same names. The headers of all files come first, outside of these namespaces.
+# of the same names. The headers of all files come first, outside of these namespaces; a file that includes headers
+# inside of an #if is compiled alone.
 include_guard(GLOBAL)
 set(LEXICAN_TEST_BATCH 8 CACHE STRING "Test files in one translation unit")
 
 function(lexican_test_batches target)
   # An edited file may include another header.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
+  set(rest "")
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} lines REGEX "^#(if|include)")
+    if(lines MATCHES "#if.*#include")
+      target_sources(${target} PRIVATE ${file})
+    else()
+      list(APPEND rest ${file})
+    endif()
+  endforeach()
   set(first 0)
-  list(LENGTH ARGN count)
+  list(LENGTH rest count)
   while(first LESS count)
-    list(SUBLIST ARGN ${first} ${LEXICAN_TEST_BATCH} files)
-    list(GET ARGN ${first} name)
+    list(SUBLIST rest ${first} ${LEXICAN_TEST_BATCH} files)
+    list(GET rest ${first} name)
     cmake_path(GET name STEM name)
     set(batch ${CMAKE_CURRENT_BINARY_DIR}/${target}_batches/${name}.cpp)
     lexican_write_test_batch(${batch} ${files})
