@@ -66,6 +66,7 @@ class Writer {
     }
   }
 
+  // Writes the keys of a table whose members have a text.
   template <typename T, std::size_t size>
   void slots(T target, const std::array<Slot<T>, size>& slots) {
     for (const Slot<T>& slot : slots) {
@@ -76,6 +77,7 @@ class Writer {
     }
   }
 
+  // Writes kept keys. Kept parts of other formats cannot be keys of an EDS.
   void kept(const std::vector<Kept>& others) {
     for (const Kept& other : others) {
       if (is_of_eds(device_) && other.children.empty()) {
@@ -96,6 +98,7 @@ class Writer {
     others_.erase(place);
   }
 
+  // Writes a list: the number of entries (`count_key`), and a key for each entry (`word` and its number, from 1).
   template <typename Entries, typename TextOf>
   void numbered(std::string_view count_key, std::string_view word, const Entries& entries, TextOf text_of_entry) {
     line(count_key, std::to_string(entries.size()));

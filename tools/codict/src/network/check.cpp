@@ -62,11 +62,12 @@ void check_all(const Network& network, const Links& links, NetworkFindings& find
 
 namespace {
 
+// Service that uses a COB-ID, and its node (index in Network::nodes).
 struct Owner {
   std::size_t node = 0;
   std::string service;
 };
-using Owners = std::map<std::uint64_t, Owner>;
+using Owners = std::map<std::uint64_t, Owner>;  // by identifier; bit 32 is set for 29 bits
 
 void check_cob_id(const Network& network, std::size_t at, const CobId& cob_id, Owners& owners,
                   NetworkFindings& findings) {

@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, 4> word_names = {"label", "description", 
 constexpr std::array<std::string_view, 8> order = {"conditionalSupport", "denotation",    "actualValue", "defaultValue",
                                                    "substituteValue",    "allowedValues", "unit",        "property"};
 
+// Returns the place of a child element in the schema: 0 for words, 1 for a type, from 2 for `order`.
 std::size_t rank_of(std::string_view name) {
   constexpr std::size_t of_words = 0;
   constexpr std::size_t of_type = 1;
@@ -69,6 +70,7 @@ void read_denotation(Entry& entry, pugi::xml_node element, const Reader& reader)
   entry.denotation = first_of(entry.denotations);
 }
 
+// Sets the name of a storage group: "RAM" for an empty text and for 0, which CANopenNode writes for it.
 void interpret_storage_group(Field<std::string>& group) {
   const bool is_number = !group.text.empty() && std::all_of(group.text.begin(), group.text.end(), is_digit);
   const bool is_zero = is_number && group.text.find_first_not_of('0') == std::string::npos;
