@@ -57,16 +57,16 @@ Bus open_interface(const Options& options, const Interruption& interruption) {
   if (!fault.empty()) {
     return {nullptr, fault};
   }
-  return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", as told by --can" : ", which is up"),
+  return {std::move(host), "SocketCAN interface " + interface + (chosen ? ", selected by --can" : ", which is up"),
           chosen ? " --can " + interface : ""};
 }
 
 Bus open_bus(const Options& options, const Interruption& interruption) {
   if (options.virtual_bus) {
-    return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + ", as told by --virtual"};
+    return {std::make_unique<VirtualBusHost>(interruption), virtual_bus() + ", selected by --virtual"};
   }
   if (options.pseudo_terminal) {
-    return open_pseudo_terminal(", as told by --pty", interruption);
+    return open_pseudo_terminal(", selected by --pty", interruption);
   }
   Bus bus = open_interface(options, interruption);
   if (bus.host != nullptr || !options.interface.empty()) {
