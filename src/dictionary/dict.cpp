@@ -95,7 +95,7 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
 
 // Searches 2^steps entries (binary search, unrolled): no branch depends on the result of a comparison, and all offsets
 // are constants. Returns the last entry whose key is not above bound, or the first entry.
-[[gnu::always_inline]] inline CO_OBJ* halve(CO_OBJ* from, uint8_t steps, uint32_t bound) {
+[[gnu::always_inline]] inline CO_OBJ* search_unrolled(CO_OBJ* from, uint8_t steps, uint32_t bound) {
   switch (steps) {
     case 15: from = step<1U << 14>(from, bound); [[fallthrough]];
     case 14: from = step<1U << 13>(from, bound); [[fallthrough]];
@@ -120,7 +120,7 @@ inline CO_OBJ* step(CO_OBJ* from, uint32_t bound) {
 
 // Returns the last entry whose key is not above bound, or the first entry of the table. The table must not be empty.
 [[gnu::always_inline]] inline CO_OBJ* last_not_behind(const CO_DICT& dict, uint32_t bound) {
-  return halve(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
+  return search_unrolled(dict.Split->Key <= bound ? dict.Split : dict.Root, dict.Steps, bound);
 }
 
 // Prepares the binary search. It searches one of two parts of the table that overlap: the first 2^Steps entries, from

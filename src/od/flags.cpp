@@ -18,7 +18,7 @@ constexpr OD_flagsPDO_t sent = ~received;
 
 // Returns the entry of a sub-index; null if there is none, or if the node uses another table now: PDOs map entries of
 // the table in use only.
-CO_OBJ* mapped(const OD_entry_t* entry, uint8_t sub) {
+CO_OBJ* find_entry_in_use(const OD_entry_t* entry, uint8_t sub) {
   if (entry == nullptr || !is_of_table(*entry)) {
     return nullptr;
   }
@@ -82,7 +82,7 @@ OD_flagsPDO_t flags_of([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t
   return flags;
 }
 
-void forget_received([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+void clear_received([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 #if CO_RPDO_N > 0
   for (CO_RPDO& pdo : node.RPdo) {
     note_in(pdo.Map, number).clear();
@@ -90,7 +90,7 @@ void forget_received([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t n
 #endif
 }
 
-void forget_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+void clear_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
 #if CO_TPDO_N > 0
   for (CO_TPDO& pdo : node.TPdo) {
     note_in(node, pdo, number).clear();
@@ -143,20 +143,20 @@ using namespace co;
 extern "C" {
 
 void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
-  CO_OBJ* const obj = od::mapped(entry, subIndex);
+  CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return;
   }
   CO_NODE& node = *od::owner_of(*entry).Node;
   od::mirror(*entry, subIndex, false);
-  od::forget_sent(node, pdo::number_of(node, *obj));
+  od::clear_sent(node, pdo::number_of(node, *obj));
   const uint32_t key = obj->Key;
   error::report(node, pdo::change_object(node, *obj), key);
   event::settle(node);
 }
 
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
-  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return false;
   }
@@ -169,7 +169,7 @@ bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
 }
 
 OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) {
-  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return 0;
   }
@@ -179,14 +179,14 @@ OD_flagsPDO_t OD_getFlagsPDO(const OD_entry_t* entry, uint8_t subIndex) {
 
 // Does not use entry after the first request, which may call functions of the application: they may change the index.
 void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t flags) {
-  const CO_OBJ* const obj = od::mapped(entry, subIndex);
+  const CO_OBJ* const obj = od::find_entry_in_use(entry, subIndex);
   if (obj == nullptr) {
     return;
   }
   CO_NODE& node = *od::owner_of(*entry).Node;
   const uint16_t number = pdo::number_of(node, *obj);
   if ((flags & od::received) != 0) {
-    od::forget_received(node, number);
+    od::clear_received(node, number);
   }
   OD_flagsPDO_t left = (flags & od::sent) >> 1;
   for (unsigned tpdo = 0; left != 0; ++tpdo, left >>= 1) {

@@ -10,7 +10,7 @@
 namespace co::od {
 namespace {
 
-[[nodiscard]] bool has_turns([[maybe_unused]] const CO_NODE& node) {
+[[nodiscard]] bool has_node_lock([[maybe_unused]] const CO_NODE& node) {
 #if USE_REAL_TIME
   return node.Ext->Enter != nullptr;
 #else
@@ -35,7 +35,7 @@ void unlock_objects(CO_NODE& node) {
   event::settle(node);
 }
 
-void end_turn(CO_NODE& node) {
+void release_node_lock(CO_NODE& node) {
   event::settle(node);
   port::leave(node, node.Ext);
 }
@@ -49,12 +49,12 @@ extern "C" {
 
 void OD_lock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
-  od::has_turns(*node) ? port::enter(*node) : od::lock_objects(*node);
+  od::has_node_lock(*node) ? port::enter(*node) : od::lock_objects(*node);
 }
 
 void OD_unlock(CO_NODE_T* node) {
   ASSERT_PTR_FATAL(node);
-  od::has_turns(*node) ? od::end_turn(*node) : od::unlock_objects(*node);
+  od::has_node_lock(*node) ? od::release_node_lock(*node) : od::unlock_objects(*node);
 }
 
 }  // extern "C"

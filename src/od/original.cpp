@@ -35,7 +35,7 @@ bool is_inside(const OD_stream_t& stream, OD_size_t end) {
 
 // Advances an access behind a piece that was read or written. Returns ODR_OK after the last piece: the next access
 // starts at the beginning.
-ODR_t go_on(OD_stream_t& stream, const Piece& piece, OD_size_t& passed) {
+ODR_t advance_access(OD_stream_t& stream, const Piece& piece, OD_size_t& passed) {
   passed = piece.bytes;
   stream.dataOffset = is_last(piece) ? 0 : piece.position + piece.bytes;
   return is_last(piece) ? ODR_OK : ODR_PARTIAL;
@@ -158,7 +158,7 @@ ODR_t read_foreign(OD_stream_t& stream, const CO_OBJ_TYPE& type, uint8_t* to, OD
   } else if (size - position < bytes) {
     bytes = size - position;
   }
-  return go_on(stream, {position, bytes, size}, passed);
+  return advance_access(stream, {position, bytes, size}, passed);
 }
 
 ODR_t read_piece(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind, const Piece& piece, uint8_t* to) {
@@ -195,7 +195,7 @@ ODR_t read_object(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& 
   const OD_size_t left = end - stream.dataOffset;
   const Piece piece = {stream.dataOffset, count < left ? count : left, end};
   const ODR_t result = read_piece(stream, type, shape.kind, piece, to);
-  return result != ODR_OK ? result : go_on(stream, piece, passed);
+  return result != ODR_OK ? result : advance_access(stream, piece, passed);
 }
 
 ODR_t read_memory(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& passed) {
@@ -208,7 +208,7 @@ ODR_t read_memory(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& 
   const OD_size_t left = stream.dataLength - stream.dataOffset;
   const Piece piece = {stream.dataOffset, count < left ? count : left, stream.dataLength};
   wire::copy(to, bytes_at(stream.dataOrig, piece.position), piece.bytes);
-  return go_on(stream, piece, passed);
+  return advance_access(stream, piece, passed);
 }
 
 // Writing -------------------------------------------------------------------------------------------------------------
@@ -322,12 +322,12 @@ ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
   }
   const Piece piece = {stream.dataOffset, count, end};
   if (count == 0 && !is_last(piece)) {
-    return go_on(stream, piece, passed);
+    return advance_access(stream, piece, passed);
   }
   OD_WRITING_T* const writing = extension_of(stream);
   const ODR_t result = writing == nullptr ? write_piece(stream, shape, piece, from)
                                           : write_for_extension(*writing, stream, shape, piece, from);
-  return result != ODR_OK ? result : go_on(stream, piece, passed);
+  return result != ODR_OK ? result : advance_access(stream, piece, passed);
 }
 
 ODR_t write_memory(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
@@ -342,7 +342,7 @@ ODR_t write_memory(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD
   }
   const Piece piece = {stream.dataOffset, count, stream.dataLength};
   wire::copy(bytes_at(stream.dataOrig, piece.position), from, piece.bytes);
-  return go_on(stream, piece, passed);
+  return advance_access(stream, piece, passed);
 }
 
 }  // namespace

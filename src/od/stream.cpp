@@ -23,7 +23,7 @@ struct Access {
 };
 
 // Begins a piece.
-Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place) {
+Access begin_piece(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place) {
   Access access = {obj, node, extension, place, place, stream_of(obj, node)};
   access.stream.object = extension.object;
   access.stream.dataOffset = place.Offset;
@@ -33,7 +33,7 @@ Access enter(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRA
 }
 
 // Ends a piece: writes its state back, unless the access was ended meanwhile.
-void leave(Access& access) {
+void end_piece(Access& access) {
   access.state.Offset = access.stream.dataOffset;
   access.state.Length = access.stream.dataLength;
   if (has(access.place, lost)) {
@@ -152,7 +152,7 @@ bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t a
 }
 
 // Returns how many of n bytes belong to the text, which ends at its first zero but has at least one character.
-OD_size_t cut(Access& access, const uint8_t* data, OD_size_t n) {
+OD_size_t length_of_text(Access& access, const uint8_t* data, OD_size_t n) {
   const unsigned character = bytes_of_character(access);
   OD_size_t at = access.state.Passed % character;
   while (at < n && !is_zero(access, data, n, at)) {
@@ -192,18 +192,18 @@ ODR_t read(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
   if (size == 0 || is_ended(place)) {
     return ODR_OK;
   }
-  Access access = enter(obj, node, extension, place);
+  Access access = begin_piece(obj, node, extension, place);
   OD_size_t passed = 0;
   const ODR_t result = read_piece(access, to, size, passed);
   if (result == ODR_OK) {
     set(access.state, exhausted);
   }
   if (is_good(result)) {
-    passed = is_text(access.stream) ? cut(access, to, passed) : passed;
+    passed = is_text(access.stream) ? length_of_text(access, to, passed) : passed;
     __builtin_memset(to + passed, 0, size - passed);  // clears bytes that the function may have written there
     access.state.Passed += passed;
   }
-  leave(access);
+  end_piece(access);
   return check_read(access, result);
 }
 
@@ -213,7 +213,7 @@ constexpr uint32_t short_text = 8;
 
 // Sets dataLength to the end of the download, which the function needs for the last piece. A text gets a zero behind it
 // if its capacity allows that. Returns the bytes of this zero.
-unsigned announce(Access& access, uint32_t total) {
+unsigned set_end(Access& access, uint32_t total) {
   const OD_size_t capacity = is_text(access.stream) ? shape_of(access.obj, access.node).length : 0;
   const unsigned character = bytes_of_character(access);
   const unsigned zeros = total + character <= capacity ? character : 0;
@@ -276,7 +276,7 @@ ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t to
     return result;
   }
   const Writing writing(access.node, access.obj);
-  result = check_write(call_write(access, from, size, is_last ? announce(access, total) : 0), is_last);
+  result = check_write(call_write(access, from, size, is_last ? set_end(access, total) : 0), is_last);
   if (is_good(result)) {
     access.state.Passed = behind;
   }
@@ -298,22 +298,22 @@ ODR_t write(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRAN
   if (has(place, exhausted)) {
     return ODR_DATA_LONG;
   }
-  Access access = enter(obj, node, extension, place);
+  Access access = begin_piece(obj, node, extension, place);
   const ODR_t result = pass_write(access, from, size, bytes_to_write(access, place.Passed + size));
-  leave(access);
+  end_piece(access);
   return result;
 }
 
 // Ends a download whose last piece was empty, so that the function does not have its end yet: calls it with 0 bytes.
-CO_ERR finish(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
+CO_ERR finish_download(CO_OBJ& obj, CO_NODE& node, OD_TRANSFER& place) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr || extension->write == nullptr || has(place, exhausted)) {
     return CO_ERR_NONE;
   }
   constexpr uint8_t nothing = 0;
-  Access access = enter(obj, node, *extension, place);
+  Access access = begin_piece(obj, node, *extension, place);
   const ODR_t result = pass_write(access, &nothing, 0, access.state.Passed);
-  leave(access);
+  end_piece(access);
   return answer(obj, node, result, CO_OBJ_DOWNLOAD);
 }
 
@@ -343,7 +343,8 @@ ODR_t skip(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANS
 
 // Moves a read access to a position. A function can only restart at the beginning, so the bytes up to the position are
 // read again and discarded. Returns ODR_PARTIAL if another call is needed.
-ODR_t go_to(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place, uint32_t position) {
+ODR_t move_to_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension, OD_TRANSFER& place,
+                       uint32_t position) {
   if (!has(place, returns) || position < place.Passed) {
     restart(place, stream_of(obj, node).dataLength);
     set(place, returns);
@@ -374,7 +375,7 @@ CO_ERR set_position(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   if (position == place->Passed && position != 0 && !has(*place, returns)) {
     return CO_ERR_NONE;
   }
-  const ODR_t result = go_to(obj, node, extension, *place, position);
+  const ODR_t result = move_to_position(obj, node, extension, *place, position);
   return result == ODR_PARTIAL ? CO_ERR_TYPE_AGAIN : answer(obj, node, result, CO_OBJ_UPLOAD);
 }
 
@@ -435,7 +436,7 @@ CO_ERR end_original(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer, uint32
 // Upload and download -----------------------------------------------------------------------------------------------
 
 // Reads a piece, through the extension of the object or its original type.
-CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
+CO_ERR upload_piece(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr) {
     return pass_original(obj, node, buffer, size, CO_OBJ_UPLOAD);
@@ -447,7 +448,7 @@ CO_ERR pass_up(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
 }
 
 // Writes a piece, through the extension of the object or its original type.
-CO_ERR pass_down(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
+CO_ERR download_piece(CO_OBJ& obj, CO_NODE& node, void* buffer, uint32_t size) {
   const OD_extension_t* const extension = extension_of(node, obj);
   if (extension == nullptr) {
     return pass_original(obj, node, buffer, size, CO_OBJ_DOWNLOAD);
@@ -483,11 +484,11 @@ uint32_t ODStreamSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {
 }
 
 CO_ERR ODStreamRead(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  return unless_lost(*obj, *node, CO_OBJ_UPLOAD, [=] { return pass_up(*obj, *node, buffer, size); });
+  return unless_lost(*obj, *node, CO_OBJ_UPLOAD, [=] { return upload_piece(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamWrite(CO_OBJ_T* obj, CO_NODE_T* node, void* buffer, uint32_t size) {
-  return unless_lost(*obj, *node, CO_OBJ_DOWNLOAD, [=] { return pass_down(*obj, *node, buffer, size); });
+  return unless_lost(*obj, *node, CO_OBJ_DOWNLOAD, [=] { return download_piece(*obj, *node, buffer, size); });
 }
 
 CO_ERR ODStreamReset(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t position) {
@@ -523,7 +524,7 @@ CO_ERR ODStreamEnd(CO_OBJ_T* obj, CO_NODE_T* node, CO_OBJ_TRANSFER transfer, uin
   CO_ERR err = CO_ERR_NONE;
   if (abort == no_abort) {
     err = unless_lost(*obj, *node, transfer,
-                      [=] { return transfer == CO_OBJ_DOWNLOAD ? finish(*obj, *node, *place) : CO_ERR_NONE; });
+                      [=] { return transfer == CO_OBJ_DOWNLOAD ? finish_download(*obj, *node, *place) : CO_ERR_NONE; });
   }
   set(*place, inside);
   const CO_ERR end = end_original(*obj, *node, transfer, err == CO_ERR_NONE ? abort : access::abort_for(*node, err));

@@ -17,7 +17,7 @@ constexpr uint32_t save_signature = 0x65766173;  // "save" and "load" in the ord
 constexpr uint32_t load_signature = 0x64616F6C;
 
 // Returns whether the entry is sub-index 0: the number of groups, an UNSIGNED8.
-bool is_number(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
+bool is_number_of_groups(const CO_OBJ& obj) { return CO_GET_SUB(obj.Key) == 0; }
 
 // Returns whether the entry stands for all groups: sub-index 1, if there are others.
 bool is_all(CO_NODE& node, const CO_OBJ& obj) {
@@ -43,11 +43,11 @@ void for_groups(CO_NODE& node, const CO_OBJ& obj, Function function) {
 
 template <const rules::Rule& number, const rules::Rule& entry>
 CO_ERR init_entry(CO_OBJ* obj, CO_NODE* node) {
-  return dict::check_type(*obj, *node, is_number(*obj) ? number : entry);
+  return dict::check_type(*obj, *node, is_number_of_groups(*obj) ? number : entry);
 }
 
 uint32_t size(CO_OBJ* obj, CO_NODE* node, uint32_t width) {
-  const CO_OBJ_TYPE* const type = is_number(*obj) ? CO_TUNSIGNED8 : CO_TUNSIGNED32;
+  const CO_OBJ_TYPE* const type = is_number_of_groups(*obj) ? CO_TUNSIGNED8 : CO_TUNSIGNED32;
   return type->Size(obj, node, width);
 }
 
@@ -62,7 +62,7 @@ uint32_t abilities(CO_NODE& node, const CO_OBJ& obj) {
 
 template <uint32_t bits>
 CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
-  if (is_number(*obj)) {
+  if (is_number_of_groups(*obj)) {
     return CO_TUNSIGNED8->Read(obj, node, buffer, size);
   }
   const uint32_t value = abilities<bits>(*node, *obj);
@@ -77,8 +77,8 @@ CO_ERR read(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 template <uint32_t signature, CO_ERR (*command)(CO_NODE& node, const CO_PARA& group)>
 CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   uint32_t value = 0;
-  if (is_number(*obj) || size != sizeof value) {
-    return is_number(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
+  if (is_number_of_groups(*obj) || size != sizeof value) {
+    return is_number_of_groups(*obj) ? CO_ERR_OBJ_ACC : CO_ERR_OBJ_SIZE;
   }
   __builtin_memcpy(&value, buffer, sizeof value);
   if (uintptr_t{obj->Data} == 0 || value != signature || abilities<CO_PARA___E>(*node, *obj) == 0) {
@@ -95,13 +95,13 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 // Records that date or time in 1020h is not 0: the configuration is verified until an object of a group is written.
 // value: that of either sub-index; 0 changes nothing, because the other may still be set
-void note_verified(CO_NODE& node, uint32_t value) { node.Verified = value != 0 ? 1 : node.Verified; }
+void note_verification(CO_NODE& node, uint32_t value) { node.Verified = value != 0 ? 1 : node.Verified; }
 
 CO_ERR init_verify(CO_OBJ* obj, CO_NODE* node) {
   uint32_t value = 0;
   const CO_ERR err = dict::check_type(*obj, *node, rules::verify_configuration);
   if (err == CO_ERR_NONE && CO_TUNSIGNED32->Read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
-    note_verified(*node, value);
+    note_verification(*node, value);
   }
   return err;
 }
@@ -116,7 +116,7 @@ CO_ERR write_verify(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = CO_TUNSIGNED32->Write(obj, node, buffer, size);
   uint32_t value = 0;
   if (err == CO_ERR_NONE && CO_TUNSIGNED32->Read(obj, node, &value, sizeof value) == CO_ERR_NONE) {
-    note_verified(*node, value);
+    note_verification(*node, value);
   }
   return err;
 }

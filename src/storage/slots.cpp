@@ -115,7 +115,7 @@ bool read(const CO_NODE& node, uint32_t start, void* to, uint32_t size) {
 }
 
 // Adds size bytes of the memory to the CRC, in pieces. Returns false if they cannot be read.
-bool add(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
+bool add_to_crc(const CO_NODE& node, uint32_t start, uint32_t size, wire::Crc32& crc) {
   Buffer buffer(node);
   while (size != 0) {
     const uint32_t piece = size < buffer.size() ? size : buffer.size();
@@ -150,7 +150,7 @@ Found read_slot(const CO_NODE& node, const Record& record, uint32_t start, Heade
     return Found::lost;
   }
   wire::Crc32 crc = crc_of(header, record);
-  if (!add(node, start + header_size(node), is_default ? 0 : record.size, crc) || crc.value() != header.crc) {
+  if (!add_to_crc(node, start + header_size(node), is_default ? 0 : record.size, crc) || crc.value() != header.crc) {
     return Found::lost;
   }
   return is_default ? Found::defaults : Found::data;
@@ -200,12 +200,12 @@ bool copy(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* 
     return false;
   }
   crc.add(to, size);
-  return add(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
+  return add_to_crc(node, start + size, record.size - size, crc) && crc.value() == slot.header.crc;
 }
 
 // Copies the first size bytes of a slot's data, if it holds data, to the memory of the application. Returns false if
 // the slot holds neither valid data nor the request for default values.
-bool use(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
+bool load_slot(const CO_NODE& node, const Record& record, const Slot& slot, uint8_t* to, uint32_t size) {
   return slot.found == Found::defaults || (slot.found == Found::data && copy(node, record, slot, to, size));
 }
 
@@ -279,7 +279,7 @@ bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uin
 
 // Writes the slot that does not hold the newest valid record. data: null for the defaults. The generation is one higher
 // than in the remaining slot, even if that one is invalid: is_newest_damaged() compares both.
-CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
+CO_ERR write_record(const CO_NODE& node, const Record& record, const Slots& slots, const uint8_t* data) {
   const bool has_record = is_whole(slots.newest);
   const Slot& target = has_record ? slots.other : slots.newest;
   const uint32_t generation = (has_record ? slots.newest : slots.other).header.generation + 1;
@@ -293,10 +293,10 @@ CO_ERR put(const CO_NODE& node, const Record& record, const Slots& slots, const 
 // Rewrites a record of version 0.1.0 in both slots: its CRC does not cover the identity, so that it could be mistaken
 // for the record of another group. Power may fail meanwhile: one slot with the values always exists, and the next load
 // continues.
-void renew(const CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
+void rewrite_old_record(const CO_NODE& node, const Record& record, Slots& slots, const uint8_t* data) {
   constexpr unsigned both = 2;
   for (unsigned n = 0; n < both && (is_old(slots.newest) || is_old(slots.other)); ++n) {
-    (void)put(node, record, slots, data);
+    (void)write_record(node, record, slots, data);
     slots = Slots(node, record);
   }
 }
@@ -334,14 +334,14 @@ Found look(const CO_NODE& node, const Record& record) {
 
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
   Slots slots(node, record);
-  if (use(node, record, slots.newest, to, size)) {
+  if (load_slot(node, record, slots.newest, to, size)) {
     const Loaded loaded = {slots.newest.found, is_newest_damaged(slots)};
     if (size == record.size) {
-      renew(node, record, slots, loaded.found == Found::data ? to : nullptr);
+      rewrite_old_record(node, record, slots, loaded.found == Found::data ? to : nullptr);
     }
     return loaded;
   }
-  if (use(node, record, slots.other, to, size)) {
+  if (load_slot(node, record, slots.other, to, size)) {
     return {slots.other.found, true};
   }
   return {slots.newest.found == Found::blank && slots.other.found == Found::blank ? Found::blank : Found::lost, false};
@@ -352,7 +352,7 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;
   }
-  return budget::take(node) ? put(node, record, slots, data) : CO_ERR_OBJ_STATE;
+  return budget::take(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 }  // namespace co::slots
