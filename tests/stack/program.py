@@ -167,7 +167,7 @@ class Program:
         return set().union(*(function.taken for function in self.functions.values()))
 
     def name_functions(self):
-        """co::lss::(anonymous namespace)::wait(CO_NODE_T&) is lss::wait, with the parameters (CO_NODE_T&)."""
+        """co::lss::(anonymous namespace)::has_address(CO_NODE_T&) is lss::has_address, parameters (CO_NODE_T&)."""
         symbols = [function.symbol for function in self.functions.values()]
         # A clone of a function (.isra.0 …) has its name.
         plain = [symbol.partition(".")[0] for symbol in symbols]

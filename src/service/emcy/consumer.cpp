@@ -16,7 +16,7 @@ namespace {
 constexpr uint32_t key(uint8_t node_id) { return CO_DEV(0x1028, node_id); }
 
 // Adds or changes the route of a producer to the COB-ID in 1028h; removes it if that is not valid.
-void listen(CO_NODE& node, uint8_t node_id) {
+void update_route(CO_NODE& node, uint8_t node_id) {
   const uint32_t cob_id = dict::read_cob_id(node.Dict, key(node_id), wire::cob_invalid);
   const uint32_t identifier = cob_id == wire::cob_invalid ? wire::no_frame : wire::frame_id(cob_id);
   routes::change(node, identifier, routes::Service::emcy_consumer, node_id);
@@ -28,7 +28,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
   const CO_ERR err = cob_id::write(*obj, *node, buffer, size, may_replace);
   const uint8_t node_id = CO_GET_SUB(obj->Key);
   if (err == CO_ERR_NONE && node->Nmt.Mode != CO_INVALID && dict::is_number(node_id - 1U, CO_EMCY_CONS_N)) {
-    listen(*node, node_id);
+    update_route(*node, node_id);
     routes::publish(*node);
   }
   return err;
@@ -38,7 +38,7 @@ CO_ERR write(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 
 void init_consumer(CO_NODE& node) {
   for (uint8_t node_id = 1; node_id <= CO_EMCY_CONS_N; ++node_id) {
-    listen(node, node_id);
+    update_route(node, node_id);
   }
 }
 

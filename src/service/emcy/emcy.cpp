@@ -136,7 +136,7 @@ unsigned inhibit_time(CO_NODE& node) {
   return dict::read_u16(node.Dict, key_inhibit, time) == CO_ERR_NONE ? time : 0;
 }
 
-void go_on(void* node_pointer);
+void resume_sending(void* node_pointer);
 
 // Sends queued messages until the inhibit time starts; if the transmit queue is full, tries again later.
 void send_waiting(CO_NODE& node, uint32_t identifier) {
@@ -151,13 +151,13 @@ void send_waiting(CO_NODE& node, uint32_t identifier) {
       pause = inhibit_time(node);
     }
     if (pause != 0) {
-      start(node, emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), go_on);
+      start(node, emcy.Tmr, tmr::ticks(node.Tmr, pause, CO_TMR_UNIT_100US), resume_sending);
       return;
     }
   }
 }
 
-void go_on(void* node_pointer) {
+void resume_sending(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   const uint32_t id = identifier(node);
   if (id == wire::no_frame) {
@@ -208,7 +208,7 @@ void report_error(CO_NODE& node, uint16_t code, const CO_EMCY_USR& usr) {
 constexpr Fault held[CO_EMCY_HOLD_N] = {Fault::overrun, Fault::collision};
 static_assert(static_cast<uint8_t>(held[0]) == 0 && static_cast<uint8_t>(held[1]) == 1);
 
-void let_go(void* node_pointer) {
+void resolve_held(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   for (const Fault fault : held) {
     if (!tmr::is_running(node.Emcy.Hold[static_cast<uint8_t>(fault)])) {
@@ -271,7 +271,7 @@ void raise(CO_NODE& node, Fault fault, uint8_t detail) {
   const auto kind = static_cast<uint8_t>(fault);
   uint16_t& number = number_of(node, fault);
   if (kind < CO_EMCY_HOLD_N) {
-    start(node, node.Emcy.Hold[kind], node.Tmr.Freq, let_go);
+    start(node, node.Emcy.Hold[kind], node.Tmr.Freq, resolve_held);
   }
   if (kind <= static_cast<uint8_t>(Fault::passive) && number != 0) {
     return;

@@ -54,8 +54,8 @@ uint32_t time_of(const CO_LSSM& master) {
 
 void on_time(void* master_pointer);
 
-// Starts the time of a state. Times beyond the timer's range are limited to the longest time.
-void wait(CO_LSSM& master, State state) {
+// Enters a state and starts its time. Times beyond the timer's range are limited to the longest time.
+void enter_state(CO_LSSM& master, State state) {
   CO_TMR& timers = master.Node->Tmr;
   set_state(master, state);
   const uint32_t ticks = tmr::ticks(timers, time_of(master), CO_TMR_UNIT_1MS);
@@ -76,7 +76,7 @@ void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   const bool sent = transmit::send_for_application(*master.Node, frame);
   if (sent) {
     master.Heard = 0;
-    wait(master, then);
+    enter_state(master, then);
   }
   return sent;
 }
@@ -153,7 +153,7 @@ CO_ERR start(CO_LSSM* master, CO_LSSM_CALLBACK callback, unsigned command, bool 
 
 // Answers ------------------------------------------------------------------------------------------------------------
 
-CO_LSSM_RESULT read(CO_LSSM& master, const CO_IF_FRM& answer) {
+CO_LSSM_RESULT read_response(CO_LSSM& master, const CO_IF_FRM& answer) {
   const uint8_t* const data = answer.Data + 1;
   switch (static_cast<Lss>(answer.Data[0])) {
     case Lss::selected: return CO_LSSM_OK;
@@ -188,11 +188,11 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
   return err;
 }
 
-void switch_own(CO_LSSM& master) {
+void switch_own_bit_rate(CO_LSSM& master) {
   if (master.Baudrate != 0) {
     lss::take_bit_rate(*master.Node, master.Baudrate);
   }
-  wait(master, State::switched);
+  enter_state(master, State::switched);
 }
 
 // Fastscan -----------------------------------------------------------------------------------------------------------
@@ -251,7 +251,7 @@ void on_time(void* master_pointer) {
     case State::sending: end_unless(send_number(master), master); break;
     case State::leaving:
     case State::switched: finish(master, CO_LSSM_OK); break;
-    case State::silent: switch_own(master); break;
+    case State::silent: switch_own_bit_rate(master); break;
     case State::answer: finish(master, CO_LSSM_TIMEOUT); break;
     case State::found: finish(master, heard ? CO_LSSM_OK : CO_LSSM_NOT_FOUND); break;
     case State::begun: heard ? scan_part(master) : finish(master, CO_LSSM_NOT_FOUND); break;
@@ -290,7 +290,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   }
   master.Heard = static_cast<uint8_t>(master.Heard == UINT8_MAX ? UINT8_MAX : master.Heard + 1);
   if (state_of(master) == State::answer) {
-    finish(master, read(master, frame));
+    finish(master, read_response(master, frame));
   }
   return true;
 }

@@ -197,7 +197,7 @@ void end_switch(void* node_pointer) {
 }
 
 // Calls a function after the switch delay.
-void wait(CO_NODE& node, CO_TMR_FUNC then) {
+void call_after_delay(CO_NODE& node, CO_TMR_FUNC then) {
   if (node.Lss.Delay == 0) {
     then(&node);
   } else {
@@ -208,7 +208,7 @@ void wait(CO_NODE& node, CO_TMR_FUNC then) {
 void switch_rate(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   take_bit_rate(node, node.Baudrate);
-  wait(node, end_switch);
+  call_after_delay(node, end_switch);
 }
 
 // Enters the NMT state in which the bit rate is switched, if the node is in Operational, Pre-operational or Stopped.
@@ -236,7 +236,7 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
   node.Held = 1;
-  wait(node, switch_rate);
+  call_after_delay(node, switch_rate);
 }
 
 uint32_t code_of(CO_ERR err) {

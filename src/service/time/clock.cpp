@@ -20,7 +20,7 @@ CO_TIME_OF_DAY later(const CO_TIME_OF_DAY& time, uint32_t days, uint32_t ms) {
 }
 
 // Advances the clock by the whole seconds that have elapsed. Returns the remaining ticks.
-uint32_t carry_on(CO_NODE& node) {
+uint32_t advance_clock(CO_NODE& node) {
   constexpr uint32_t seconds_per_day = wire::ms_per_day / 1000;
   CO_TIME& time = node.Time;
   const uint32_t passed = tmr::now(node.Tmr) - time.Tick;
@@ -31,7 +31,7 @@ uint32_t carry_on(CO_NODE& node) {
   return passed - ticks;
 }
 
-void carry_on(void* node_pointer) { carry_on(*static_cast<CO_NODE*>(node_pointer)); }
+void advance_clock(void* node_pointer) { advance_clock(*static_cast<CO_NODE*>(node_pointer)); }
 
 // Converts ticks of less than a second to ms, digit by digit, because 1000 times the ticks may exceed 32 bits.
 uint32_t ms_of(uint32_t ticks, uint32_t freq) {
@@ -52,7 +52,7 @@ CO_TIME_OF_DAY read_clock(CO_NODE& node) {
   if (!is_set(node)) {
     return {0, 0};
   }
-  const uint32_t ticks = carry_on(node);
+  const uint32_t ticks = advance_clock(node);
   return later(node.Time.Past, 0, ms_of(ticks, node.Tmr.Freq));
 }
 
@@ -67,7 +67,7 @@ CO_ERR set_clock(CO_NODE& node, const CO_TIME_OF_DAY& time) {
   if (second == 0) {
     return CO_ERR_TMR_CREATE;
   }
-  tmr::start(node.Tmr, node.Time.Tmr, 0, second, carry_on, &node);
+  tmr::start(node.Tmr, node.Time.Tmr, 0, second, advance_clock, &node);
   node.Time.Past = time;
   node.Time.Tick = tmr::now(node.Tmr);
   return CO_ERR_NONE;
