@@ -14,7 +14,7 @@
 namespace co::mpdo {
 namespace {
 
-constexpr uint16_t nobody = 0;  // no producer: numbers start at 1
+constexpr uint16_t no_producer = 0;  // CO_MPDO.Producer holds numbers of TPDOs from 1
 
 bool get(const uint8_t* bits, uint16_t place) { return (bits[place / 8U] & (1U << (place % 8U))) != 0; }
 void put(uint8_t* bits, uint16_t place) {
@@ -35,7 +35,7 @@ CO_ERR resolve_list(CO_NODE& node, unsigned index) {
     return resolve_dispatch(node);
   }
   const unsigned own = (index & 0x01FFU) + 1;
-  const bool taken = node.Mpdo.Producer != nobody && node.Mpdo.Producer != own;
+  const bool taken = node.Mpdo.Producer != no_producer && node.Mpdo.Producer != own;
   return taken ? CO_ERR_OBJ_INCOMPATIBLE : resolve_scan(node);
 }
 
@@ -133,13 +133,13 @@ void set_producer(CO_NODE& node, unsigned number, const CO_PDO_MAP& map) {
   if (is_sam(map)) {
     node.Mpdo.Producer = own;
   } else if (node.Mpdo.Producer == own) {
-    node.Mpdo.Producer = nobody;
+    node.Mpdo.Producer = no_producer;
   }
 }
 
 CO_TPDO* producer([[maybe_unused]] CO_NODE& node) {
 #if CO_TPDO_N > 0
-  return node.Mpdo.Producer == nobody ? nullptr : &node.TPdo[node.Mpdo.Producer - 1];
+  return node.Mpdo.Producer == no_producer ? nullptr : &node.TPdo[node.Mpdo.Producer - 1];
 #else
   return nullptr;
 #endif

@@ -194,7 +194,7 @@ void copy_bits(uint8_t* to, unsigned to_bit, const uint8_t* from, unsigned from_
 
 // Calls the Read or Write function of an object. value: the object's bytes in the order of the bus, converted to and
 // from that of the CPU.
-CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
+CO_ERR call_type(CO_NODE& node, const Part& part, uint8_t* value, Direction direction) {
   const uint32_t bytes = bytes_of(part);
   const uint32_t number = obj::is_stream(part.obj) ? 0 : bytes;
   if (direction == Direction::receive) {
@@ -208,20 +208,20 @@ CO_ERR pass(CO_NODE& node, const Part& part, uint8_t* value, Direction direction
 }
 
 // Copies an object whose bits do not begin or end at a byte of the frame.
-CO_ERR pass_bits(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
+CO_ERR copy_bits_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
   uint8_t value[8] = {};
   if (direction == Direction::receive) {
     copy_bits(value, 0, frame.Data, part.position, part.length);
-    return pass(node, part, value, direction);
+    return call_type(node, part, value, direction);
   }
-  const CO_ERR err = pass(node, part, value, direction);
+  const CO_ERR err = call_type(node, part, value, direction);
   copy_bits(frame.Data, part.position, value, 0, part.length);
   return err;
 }
 
 CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction direction) {
   if (!is_whole(part)) {
-    return pass_bits(node, frame, part, direction);
+    return copy_bits_by_type(node, frame, part, direction);
   }
   const auto callback = direction == Direction::receive ? CORpdoWriteData : COTpdoReadData;
   const unsigned bytes = bytes_of(part);
@@ -229,7 +229,7 @@ CO_ERR copy_by_type(CO_NODE& node, CO_IF_FRM& frame, const Part& part, Direction
     callback(&frame, static_cast<uint8_t>(first_byte(part)), static_cast<uint8_t>(bytes), &part.obj);
     return CO_ERR_NONE;
   }
-  return pass(node, part, frame.Data + first_byte(part), direction);
+  return call_type(node, part, frame.Data + first_byte(part), direction);
 }
 
 // Copies an object and reports an error. Reads the key first, because the type function may change the table.

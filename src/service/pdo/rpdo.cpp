@@ -68,7 +68,7 @@ void report(CO_RPDO& pdo, unsigned flags, unsigned is) {
 void on_deadline(void* pdo_pointer) { report(*static_cast<CO_RPDO*>(pdo_pointer), late, late); }
 
 // Restarts the deadline and resolves the fault of a missed one: a frame was received, or the deadline has changed.
-void watch(CO_RPDO& pdo) {
+void restart_deadline(CO_RPDO& pdo) {
   if (pdo.Deadline != 0) {
     tmr::start(pdo.Node->Tmr, pdo.Tmr, pdo.Deadline, 0, on_deadline, &pdo);
   }
@@ -90,7 +90,7 @@ bool check_length(CO_RPDO& pdo, unsigned length) {
 }
 
 // Stores the data until the SYNC; the last frame before the SYNC is used.
-void keep(CO_RPDO& pdo, const CO_IF_FRM& frame) {
+void store_until_sync(CO_RPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   copy_data(pdo.Own.Data, frame.Data);
   const bool is_queued = has(pdo.Map, queued);
@@ -129,7 +129,7 @@ bool find_and_write([[maybe_unused]] CO_RPDO& pdo, [[maybe_unused]] const CO_IF_
 }
 
 // Writes the stored data of an RPDO at the SYNC, unless the PDO was configured again meanwhile.
-void write_kept(CO_NODE& node, CO_RPDO& pdo) {
+void write_stored(CO_NODE& node, CO_RPDO& pdo) {
   if (!has(pdo.Map, fresh)) {
     return;
   }
@@ -139,7 +139,7 @@ void write_kept(CO_NODE& node, CO_RPDO& pdo) {
   write_and_mark(node, pdo.Map, frame);
 }
 
-void forget_kept(CO_NODE& node) {
+void forget_stored(CO_NODE& node) {
   for (uint16_t link = node.RPdoFirst; link != none; link = at(node, link).Next) {
     clear(at(node, link).Map, queued);
   }
@@ -148,7 +148,7 @@ void forget_kept(CO_NODE& node) {
 
 // Calls the callbacks of the RPDOs that were written at the SYNC. The list cannot change meanwhile, because frames and
 // resets are deferred.
-void tell(CO_NODE& node, uint16_t first) {
+void call_sync_callbacks(CO_NODE& node, uint16_t first) {
   for (uint16_t link = first; link != none;) {
     CO_RPDO& pdo = at(node, link);
     const bool is_fresh = has(pdo.Map, fresh);
@@ -168,7 +168,7 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
 
 // Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short or of the
 // wrong kind.
-[[gnu::noinline]] bool take(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
+[[gnu::noinline]] bool process_frame(CO_NODE& node, CO_RPDO& pdo, const CO_IF_FRM& frame) {
   if (is_switching(node) || (is_synchronous(pdo) && node.WindowOver != 0)) {
     return true;
   }
@@ -180,14 +180,14 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
     return true;
   }
   if (pdo.Deadline != 0) {
-    watch(pdo);
+    restart_deadline(pdo);
   }
   CO_IF_FRM copy = frame;
   if (!has(pdo.Map, served) || COPdoReceive(&copy) != 0 || !has(pdo.Map, served)) {
     return true;
   }
   if (is_synchronous(pdo)) {
-    keep(pdo, copy);
+    store_until_sync(pdo, copy);
     return true;
   }
   if (!mpdo::is_one(pdo.Map)) {
@@ -224,7 +224,7 @@ void change_deadline(CO_NODE& node, unsigned number, uint32_t ticks) {
     tmr::stop(node.Tmr, pdo.Tmr);
   }
   if (ticks == 0 || is_expected) {
-    watch(pdo);
+    restart_deadline(pdo);
   }
 }
 
@@ -233,14 +233,16 @@ void on_mode_rpdos(CO_NODE& node) {
     return;
   }
   if (USE_SYNC != 0) {
-    forget_kept(node);
+    forget_stored(node);
   }
   for (CO_RPDO& pdo : node.RPdo) {
     end_rpdo(node, pdo);
   }
 }
 
-bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) { return take(node, node.RPdo[number], frame); }
+bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
+  return process_frame(node, node.RPdo[number], frame);
+}
 
 // Writes all synchronous RPDOs of one SYNC with OdLock held.
 void apply(CO_NODE& node) {
@@ -249,7 +251,7 @@ void apply(CO_NODE& node) {
     return;
   }
   if (is_switching(node)) {
-    forget_kept(node);
+    forget_stored(node);
     return;
   }
   node.RPdoFirst = none;
@@ -257,12 +259,12 @@ void apply(CO_NODE& node) {
     const Lock lock(node);
     for (uint16_t link = first; link != none;) {
       CO_RPDO& pdo = at(node, link);
-      write_kept(node, pdo);
+      write_stored(node, pdo);
       link = pdo.Next;
     }
   }
   settle_touched(node);
-  tell(node, first);
+  call_sync_callbacks(node, first);
 }
 
 bool was_received(CO_NODE& node, uint16_t number) { return has_passed(node.RPdo[number].Map); }

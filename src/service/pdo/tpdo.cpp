@@ -41,11 +41,11 @@ uint16_t number_of(const CO_TPDO& pdo) { return static_cast<uint16_t>(&pdo - pdo
 bool is_operational(const CO_NODE& node) { return event::is_allowed(node, CO_PDO_ALLOWED); }
 
 // Returns whether remote requests are answered with the sample of the last SYNC.
-bool is_kept(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
+bool keeps_sample(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, remote) && is_synchronous(pdo.Type); }
 
 // Queues a frame. A queued frame of a multiplex PDO is not replaced by a newer one, because it may contain another
 // object.
-bool give(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
+bool queue_frame(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
   return mpdo::is_one(pdo.Map) ? transmit::send_for_application(node, frame) : transmit::send_process_data(node, frame);
 }
@@ -59,7 +59,7 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   if (!has(pdo.Map, served)) {
     return end_of(pdo);
   }
-  if (!give(pdo, frame)) {
+  if (!queue_frame(pdo, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
   pass(pdo.Map);
@@ -141,7 +141,7 @@ CO_ERR serve(CO_TPDO& pdo, Use use) {
       error::report(*pdo.Node, err);
     }
     return err;
-  } else if (is_kept(pdo)) {
+  } else if (keeps_sample(pdo)) {
     copy_data(pdo.Own.Data, frame.Data);
     set(pdo.Map, sampled);
   }
@@ -213,7 +213,7 @@ void on_time(void* pdo_pointer) {
 }
 
 // Sends the PDO, or defers the event while the inhibit time is running. [301:7.2.2.6]
-CO_ERR take_event(CO_TPDO& pdo) {
+CO_ERR send_or_defer(CO_TPDO& pdo) {
   if (!has(pdo.Map, inhibited)) {
     return send_event(pdo, false);
   }
@@ -231,7 +231,7 @@ CO_ERR trigger(CO_TPDO& pdo) {
     return CO_ERR_TPDO_COM_OBJ;
   }
   if (is_event_driven(pdo.Type) && !mpdo::is_dam(pdo.Map)) {
-    return take_event(pdo);
+    return send_or_defer(pdo);
   }
   if (!is_acyclic(pdo.Type)) {
     return CO_ERR_TPDO_EVENT;
@@ -248,8 +248,9 @@ bool has_counter([[maybe_unused]] const CO_NODE& node) {
 #endif
 }
 
-// Returns whether the PDO is sent with this SYNC. The SYNC with the start value counts as the first one. [301:7.5.2.37]
-bool counts(CO_TPDO& pdo, uint8_t counter) {
+// Counts a SYNC. Returns whether the PDO is sent with it. The SYNC with the start value counts as the first one.
+// [301:7.5.2.37]
+bool count_sync(CO_TPDO& pdo, uint8_t counter) {
   const bool is_waiting = has(pdo.Map, waiting);
   if (has(pdo.Map, starts) && has_counter(*pdo.Node) && (counter == 0 || (is_waiting && counter != pdo.Count))) {
     return false;
@@ -272,13 +273,13 @@ bool counts(CO_TPDO& pdo, uint8_t counter) {
 
 // Processes a SYNC. A callback may have changed the transmission type meanwhile. Changes of mapped objects by their
 // Read functions trigger no further transmission of this PDO.
-void take_sync(CO_TPDO& pdo, uint8_t counter) {
+void process_sync(CO_TPDO& pdo, uint8_t counter) {
   if (!is_synchronous(pdo.Type)) {
     return;
   }
-  const bool is_due = counts(pdo, counter);
+  const bool is_due = count_sync(pdo, counter);
   clear(pdo.Map, sampled);
-  if (!is_due && !is_kept(pdo)) {
+  if (!is_due && !keeps_sample(pdo)) {
     return;
   }
   set(pdo.Map, served);
@@ -290,18 +291,18 @@ void take_sync(CO_TPDO& pdo, uint8_t counter) {
 }
 
 // Returns whether the PDO maps this entry. In a scanner list the object is also marked as pending.
-bool takes(CO_TPDO& pdo, uint16_t entry) {
+bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
   return mpdo::is_sam(pdo.Map) ? mpdo::mark(*pdo.Node, entry) : maps(pdo.Map, entry);
 }
 
 // Defers an event until OdLock is released.
-CO_ERR touch(CO_TPDO& pdo) {
+CO_ERR defer_until_unlock(CO_TPDO& pdo) {
   set(pdo.Map, touched);
   pdo.Node->Touched = 1;
   return CO_ERR_NONE;
 }
 
-void take_touched(CO_TPDO& pdo) {
+void trigger_touched(CO_TPDO& pdo) {
   if (has(pdo.Map, touched)) {
     clear(pdo.Map, touched);
     (void)trigger(pdo);
@@ -318,7 +319,7 @@ uint16_t& find_link(CO_NODE& node, uint16_t to) {
 }
 
 // Adds a PDO to the list of synchronous TPDOs, or removes it.
-void list(CO_NODE& node, unsigned number, bool listed) {
+void update_sync_list(CO_NODE& node, unsigned number, bool listed) {
   const auto own = static_cast<uint16_t>(number + 1);
   uint16_t& link = find_link(node, own);
   if (listed && link != own) {
@@ -376,7 +377,7 @@ void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remot
     pdo.Own.Time.Event = 0;
   }
   if (USE_SYNC != 0) {
-    list(node, number, exists(pdo.Map) && is_synchronous(pdo.Type));
+    update_sync_list(node, number, exists(pdo.Map) && is_synchronous(pdo.Type));
   }
   if (USE_PDO_RTR != 0) {
     routes::change(node, asked ? identifier : wire::no_frame, routes::Service::tpdo, static_cast<uint16_t>(number));
@@ -416,7 +417,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
     return false;
   }
   if (is_event_driven(pdo.Type)) {
-    (void)take_event(pdo);
+    (void)send_or_defer(pdo);
   } else if (pdo.Type == type_rtr || has(pdo.Map, sampled)) {
     set(pdo.Map, served);
     (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
@@ -429,7 +430,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
 void sample(CO_NODE& node, uint8_t counter) {
   node.WindowOver = 0;
   for (uint16_t link = node.TPdoFirst; link != none && is_operational(node); link = at(node, link).Next) {
-    take_sync(at(node, link), counter);
+    process_sync(at(node, link), counter);
   }
   settle_touched(node);
 }
@@ -449,8 +450,8 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
   const uint16_t entry = number_of(node, obj);
   CO_ERR all = CO_ERR_TPDO_OBJ_TRIGGER;
   for (CO_TPDO& pdo : node.TPdo) {
-    if (takes(pdo, entry)) {
-      const CO_ERR err = node.OdLocked == 0 ? trigger(pdo) : touch(pdo);
+    if (maps_or_marks(pdo, entry)) {
+      const CO_ERR err = node.OdLocked == 0 ? trigger(pdo) : defer_until_unlock(pdo);
       all = err != CO_ERR_NONE || all == CO_ERR_TPDO_OBJ_TRIGGER ? err : all;
     }
   }
@@ -465,7 +466,7 @@ void send_touched(CO_NODE& node) {
   for (unsigned round = 0; round < rounds && node.Touched != 0 && node.OdLocked == 0; ++round) {
     node.Touched = 0;
     for (CO_TPDO& pdo : node.TPdo) {
-      take_touched(pdo);
+      trigger_touched(pdo);
     }
   }
 }
