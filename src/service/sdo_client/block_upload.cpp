@@ -24,7 +24,7 @@ void count_bytes(CO_CSDO& client, uint32_t n) {
 }
 
 // Stores a segment. The number of data bytes in the last segment is known only from the end message.
-uint32_t take(CO_CSDO& client, const CO_IF_FRM& segment) {
+uint32_t store_segment(CO_CSDO& client, const CO_IF_FRM& segment) {
   const uint32_t position = client.Num + client.Seq * wire::segment_bytes;
   const uint32_t room = client.Size - position;
   const bool last = wire::is_last_in_block(segment.Data[0]);
@@ -106,7 +106,7 @@ uint32_t block_segment_uploaded(Step& step) {
   if (repeated) {
     return no_abort;
   }
-  const uint32_t abort = in_order ? take(client, step.response) : no_abort;
+  const uint32_t abort = in_order ? store_segment(client, step.response) : no_abort;
   if (abort != no_abort || !ends) {
     return abort;
   }

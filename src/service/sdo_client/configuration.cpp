@@ -53,7 +53,7 @@ bool is_configured(const CO_CSDO& client, const Configuration& as) {
 
 uint16_t number_of(const CO_CSDO& client) { return static_cast<uint16_t>(&client - client.Node->CSdo); }
 
-void take_configuration(CO_CSDO& client, const Configuration& found) {
+void apply_configuration(CO_CSDO& client, const Configuration& found) {
   CO_NODE& node = *client.Node;
   if (client.TxId != found.tx_id) {  // an abort in the transmit queue keeps the previous identifier
     transmit::withdraw(node, client.WasTxId);
@@ -78,7 +78,7 @@ bool configure_client(CO_CSDO& client) {
   if (client.State == CO_CSDO_STATE_BUSY) {
     return false;
   }
-  take_configuration(client, read_configuration(*client.Node, number_of(client)));
+  apply_configuration(client, read_configuration(*client.Node, number_of(client)));
   return true;
 }
 

@@ -21,16 +21,16 @@ constexpr uint8_t reminder_quarter = 2;
 void on_time(void* client_pointer);
 
 // Returns whether the client receives the segments of a block upload.
-bool listens(const CO_CSDO& client) {
+bool receives_block(const CO_CSDO& client) {
   return state_of(client) == State::block_upload || state_of(client) == State::block_upload_end;
 }
 
 // Starts the time-out for the next response. Time-out 0: the client waits without limit.
-void await(CO_CSDO& client) {
+void start_timeout(CO_CSDO& client) {
   if (client.Ticks == 0) {
     return;
   }
-  const uint32_t ticks = listens(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
+  const uint32_t ticks = receives_block(client) ? (client.Ticks - 1) / quarters + 1 : client.Ticks;
   clear(client, active);
   tmr::start(client.Node->Tmr, client.Tmr, ticks, 0, on_time, &client);
 }
@@ -55,7 +55,7 @@ void finish(CO_CSDO& client, uint32_t code) {
 
 // Handles a quarter without segments. A server that stops within a block may have lost the acknowledge, or the client
 // may have lost the last segment of the block.
-void listen_on(CO_CSDO& client) {
+void handle_silence(CO_CSDO& client) {
   client.Silence = has(client, active) ? 0 : static_cast<uint8_t>(client.Silence + 1);
   if (client.Silence == quarters) {
     abort_transfer(client, CO_SDO_ERR_TIMEOUT);
@@ -65,12 +65,12 @@ void listen_on(CO_CSDO& client) {
   if (client.Silence == reminder_quarter && put_reminder(client, request)) {
     transmit::send(*client.Node, request);
   }
-  await(client);
+  start_timeout(client);
 }
 
 // Accesses the own dictionary. Requests of type functions are deferred until the access is complete; a change of the
 // NMT state may have ended the transfer meanwhile.
-void take_turn(CO_CSDO& client) {
+void run_own_access(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const event::Serving serving(node);
   set_state(client, State::own_served);
@@ -83,9 +83,9 @@ void take_turn(CO_CSDO& client) {
 void on_time(void* client_pointer) {
   CO_CSDO& client = *static_cast<CO_CSDO*>(client_pointer);
   if (state_of(client) == State::own) {
-    take_turn(client);
-  } else if (listens(client)) {
-    listen_on(client);
+    run_own_access(client);
+  } else if (receives_block(client)) {
+    handle_silence(client);
   } else {
     abort_transfer(client, CO_SDO_ERR_TIMEOUT);
   }
@@ -165,7 +165,7 @@ CO_ERR send_initiate(CO_CSDO& client) {
     set_state(client, State::idle);
     return CO_ERR_IF_CAN_SEND;
   }
-  await(client);
+  start_timeout(client);
   return CO_ERR_NONE;
 }
 
@@ -231,7 +231,7 @@ bool send_segments(CO_CSDO& client) {
 }
 
 // Not inlined: relative to a pointer to the client, all members are reached by short loads.
-[[gnu::noinline]] void take(CO_CSDO& client, const CO_IF_FRM& response) {
+[[gnu::noinline]] void process_response(CO_CSDO& client, const CO_IF_FRM& response) {
   CO_IF_FRM request = wire::empty_frame(client.TxId);
   Step step = {client, response, request, false, false, no_abort};
   const uint32_t abort = machine(state_of(client), response_in(client, response))(step);
@@ -246,10 +246,10 @@ bool send_segments(CO_CSDO& client) {
     finish(client, step.result);
   } else if (state_of(client) == State::block_download) {
     send_segments(client);
-    await(client);
+    start_timeout(client);
   } else if (!step.silent) {
     client.Silence = 0;
-    await(client);
+    start_timeout(client);
   }
 }
 
@@ -306,7 +306,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   const bool well_formed = frame.DLC == wire::sdo_dlc;
   CO_CSDO& client = node.CSdo[number];
   if (well_formed && client.State == CO_CSDO_STATE_BUSY && !is_for_another(client, frame)) {
-    take(client, frame);
+    process_response(client, frame);
   }
   return well_formed;
 }
@@ -328,7 +328,7 @@ bool on_free(CO_NODE& node, uint16_t number) {
   CO_CSDO& client = node.CSdo[number];
   const bool sent = USE_SDO_BLOCK != 0 && send_segments(client);
   if (sent) {
-    await(client);
+    start_timeout(client);
   }
   return sent;
 }
