@@ -14,7 +14,7 @@ lane() {
 with_compiler() {  # PACKAGE STANDARD
   local package=$1 c=${1/g++/gcc} cxx=${1/clang/clang++}
   if ! install_packages "$package=$cxx"; then
-    skip "$package, C++$2: it cannot be had"
+    skip "$package, C++$2: not available"
     return
   fi
   build_tree "compiler-$package-$2" -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_STANDARD="$2" \

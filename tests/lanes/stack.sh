@@ -38,7 +38,7 @@ link_everything() {  # TREE PROGRAM
 # Checks that a call without a line in calls.txt and recursive functions are detected.
 self_test() {  # TREE RESULT
   grep -v '^base/timer.cpp' "$root/tests/stack/calls.txt" >"$2-planted"
-  check "found: a call without a line" is_refused "$@" "nobody has said what timer.Func() may lead to"
+  check "found: a call without a line" is_refused "$@" "no line lists what timer.Func() may call"
   grep -v '^limit' "$root/tests/stack/calls.txt" >"$2-planted"
   check "found: a function that calls itself" is_refused "$@" "leads to a function that calls itself"
 }

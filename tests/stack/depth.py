@@ -175,7 +175,7 @@ def verdicts(depths):
         if not function.is_fixed:
             yield False, f"{function.name} has an array of variable length, or alloca()"
     for call in depths.unknown:
-        yield False, f"{call.file}, {call.function.name}: nobody has said what {call.expression}() may lead to"
+        yield False, f"{call.file}, {call.function.name}: no line lists what {call.expression}() may call"
     for title in depths.uncovered():
         yield False, f"{depths.name(title)} is in a table, or its address is taken, but no call is said to lead to it"
     for rule in depths.targets.rules:
