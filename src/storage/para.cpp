@@ -66,8 +66,8 @@ CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
   return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
 }
 
-// Returns whether a change of the group is stored autonomously. While the memory holds the request of a "load" to use the
-// defaults, changes are not stored, because they would replace the request.
+// Returns whether a change of the group is stored autonomously. While the memory holds the request of a "load" to use
+// the defaults, changes are not stored, because they would replace the request.
 bool is_followed(CO_NODE& node, const CO_PARA& group) {
   return is_saved_autonomously(group) && store::is_atomic(node) &&
          store::look(node, locate(node, group).record) != Found::defaults;
