@@ -87,6 +87,20 @@ void report_recovered(CO_NODE& node, const CO_PARA& group) {
   }
 }
 
+// A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
+CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
+  const CO_ERR err = save(node, group);
+  return err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err;
+}
+
+// Sets the first size bytes of a group to the default values. A reset ends the request of a "load" for an autonomous
+// group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset does.
+CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
+  const CO_ERR err = use_defaults(group, size, found);
+  const bool ends_request = found == Found::defaults && size == group.Size && is_saved_autonomously(group);
+  return err == CO_ERR_NONE && ends_request ? save_now_or_later(node, group) : err;
+}
+
 // Loads the first size bytes of a group.
 CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
@@ -95,7 +109,7 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
     return CO_ERR_PARA_OVERLAP;
   }
   const store::Loaded loaded = load_record(node, group, located.record, size);
-  const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : use_defaults(group, size, loaded.found);
+  const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : load_defaults(node, group, size, loaded.found);
   if (loaded.is_older) {
     report_recovered(node, group);
   }
@@ -106,11 +120,9 @@ CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;
 }
 
-// A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
 void save_change(CO_NODE& node, const CO_PARA& group, uint32_t key) {
   if (is_followed(node, group)) {
-    const CO_ERR err = save(node, group);
-    error::report(node, err == CO_ERR_OBJ_STATE ? CO_ERR_NONE : err, key);
+    error::report(node, save_now_or_later(node, group), key);
   }
 }
 

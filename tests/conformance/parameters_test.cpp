@@ -446,6 +446,25 @@ TEST_CASE("parameters: an NMT reset loses no change of an autonomous group") {
   node.ask("601#4000230300000000", "581#4300230344000000");
 }
 
+TEST_CASE("parameters: \"load\" of an autonomous group takes effect at the reset; changes after it are stored [S1]") {
+  Device device;
+  device.autonomous.Value = CO_PARA__AE;
+  {
+    Fixture node(device.setup());
+    node.ask("601#2300230344000000", "581#6000230300000000");
+    node.after(std::chrono::milliseconds(CO_PARA_PERIOD));
+    node.ask("601#231110046C6F6164", "581#6011100400000000");
+    node.ask("601#2300230345000000", "581#6000230300000000");
+    node.after(std::chrono::milliseconds(2 * CO_PARA_PERIOD));
+    node.ask("000#8101", "701#00");
+    node.ask("601#4000230300000000", "581#430023031E000000");
+    node.ask("601#2300230346000000", "581#6000230300000000");
+    node.after(std::chrono::milliseconds(CO_PARA_PERIOD));
+  }
+  Fixture node(device.setup());
+  node.ask("601#4000230300000000", "581#4300230346000000");
+}
+
 TEST_CASE("parameters: COB-IDs are loaded before a service uses them") {
   Device device;
   std::uint32_t cob_id = 0x80;
