@@ -27,7 +27,7 @@ Description description_of(const std::string& bytes) {
     return {};
   }
   Findings findings;
-  const xdd::Document document(source, findings);
+  xdd::Document document(source, findings);
   if (!xdd::refusal(document).empty()) {
     return {};
   }

@@ -13,6 +13,7 @@
 
 #include "eds/document.hpp"
 #include "eds/read.hpp"
+#include "large_xdd.hpp"
 #include "text/file.hpp"
 #include "xdd/document.hpp"
 #include "xdd/read.hpp"
@@ -38,36 +39,9 @@ std::string large_eds(unsigned objects) {
   return text;
 }
 
-std::string large_xdd(unsigned objects) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<ISO15745ProfileContainer "
-      "xmlns=\"http://www.canopen.org/xml/1.1\">\n"
-      "<ISO15745Profile><ProfileHeader/><ProfileBody><ApplicationProcess><parameterList>\n";
-  for (unsigned n = 0; n < objects; ++n) {
-    text += fmt::format(
-        "  <parameter uniqueID=\"UID_PARAM_{:04X}\" access=\"readWrite\">\n"
-        "    <label lang=\"en\">Parameter number {}</label>\n"
-        "    <description lang=\"en\">What it is for, in some words, as descriptions have them.</description>\n"
-        "    <UINT/>\n    <defaultValue value=\"0x{:04X}\"/>\n"
-        "    <allowedValues><range><minValue value=\"0\"/><maxValue value=\"0xFFF\"/></range></allowedValues>\n"
-        "    <property name=\"CO_storageGroup\" value=\"RAM\"/>\n  </parameter>\n",
-        0x2000 + n, n, n & 0xFFFU);
-  }
-  text +=
-      "</parameterList></ApplicationProcess></ProfileBody></ISO15745Profile>\n"
-      "<ISO15745Profile><ProfileHeader/><ProfileBody><ApplicationLayers><CANopenObjectList>\n";
-  for (unsigned n = 0; n < objects; ++n) {
-    text += fmt::format(
-        "  <CANopenObject index=\"{:04X}\" name=\"Parameter number {}\" objectType=\"7\" PDOmapping=\"optional\" "
-        "uniqueIDRef=\"UID_PARAM_{:04X}\"/>\n",
-        0x2000 + n, n, 0x2000 + n);
-  }
-  return text + "</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>\n";
-}
-
 void read_xml(Source source) {
   Findings findings;
-  const xdd::Document document(std::move(source), findings);
+  xdd::Document document(std::move(source), findings);
   const Description description = xdd::read(document, findings);
   if (description.devices.empty()) {
     std::abort();
@@ -99,7 +73,7 @@ void measure(const Source& source) {
 
 int main(int count, char** arguments) {
   measure(Source("large.eds", large_eds(3500)));
-  measure(Source("large.xdd", large_xdd(7600)));
+  measure(Source("large.xdd", test::large_xdd(test::Large::objects, 4147000)));
   for (int n = 1; n < count; ++n) {
     std::string why;
     if (const std::optional<Source> source = read_file(arguments[n], why)) {

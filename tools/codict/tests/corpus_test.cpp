@@ -52,11 +52,11 @@ class Places {
   void add(const Entry& entry) {
     for (const Text* text : std::initializer_list<const Text*>{
              &entry.name, &entry.object_code, &entry.data_type, &entry.access, &entry.pdo_mapping, &entry.default_value,
-             &entry.actual_value, &entry.low_limit, &entry.high_limit, &entry.flags, &entry.denotation,
-             &entry.upload_file, &entry.download_file, &entry.parameter_reference, &entry.multiplier}) {
+             &*entry.actual_value, &*entry.low_limit, &*entry.high_limit, &*entry.flags, &*entry.denotation,
+             &*entry.upload_file, &*entry.download_file, &*entry.parameter_reference, &*entry.multiplier}) {
       add(*text);
     }
-    for (const std::vector<Label>* labels : {&entry.unit.words.labels, &entry.words.descriptions}) {
+    for (const std::vector<Label>* labels : {&entry.unit->words.labels, &entry.words->descriptions}) {
       for (const Label& label : *labels) {
         add(label.text);
       }

@@ -158,7 +158,7 @@ TEST_CASE("doc: chapters are the areas of the object dictionary") {
 
 TEST_CASE("doc: groups of the description are chapters, and an object is in one chapter only") {
   Device device = device_of(drive);
-  device.find(0x2000)->parameter_id.text = "UID_speed";
+  device.find(0x2000)->parameter_id.edit().text = "UID_speed";
   lexican::codict::Group inner;
   inner.id.text = "inner";
   inner.parameters.push_back({"UID_speed", {}, true});

@@ -92,10 +92,10 @@ TEST_CASE("DCF: a duplicate section in the spelling DeviceCommissioning is read 
 TEST_CASE("DCF: ParameterValue, Denotation and the files of a DOMAIN are read [306: 5.2]") {
   const Reading dcf("compact.dcf");
   CHECK(meaning(dcf.at(0x1000).actual_value) == "401");
-  CHECK(dcf.at(0x1000).denotation.text == "Kind");
-  CHECK(dcf.at(0x2001).upload_file.text == "up.bin");
-  CHECK(dcf.at(0x2001).download_file.text == "down.bin");
-  CHECK(dcf.at(0x2001).parameter_reference.text == "3");
+  CHECK(dcf.at(0x1000).denotation->text == "Kind");
+  CHECK(dcf.at(0x2001).upload_file->text == "up.bin");
+  CHECK(dcf.at(0x2001).download_file->text == "down.bin");
+  CHECK(dcf.at(0x2001).parameter_reference->text == "3");
   CHECK(dcf.at(0x2001).data_type.value == type_code::domain);
   CHECK(dcf.at(0x2001).access.value == Access::rw);
 }
@@ -121,7 +121,7 @@ TEST_CASE("DCF: names, values, denotations and links of compact storage are read
   CHECK(meaning(dcf.at(0x2000, 1).actual_value) == "16");
   CHECK(meaning(dcf.at(0x2000, 12).actual_value) == "malformed");
   CHECK(meaning(dcf.at(0x2000, 3).actual_value) == "none");
-  CHECK(dcf.at(0x2000, 12).denotation.text == "Last");
+  CHECK(dcf.at(0x2000, 12).denotation->text == "Last");
   CHECK(dcf.device.find(0x2000)->links.at(0).value == 0x2001);
   CHECK(dcf.device.find(0x2000)->others.at(0).children.at(0).text.text == "Not there");
   CHECK(dcf.device.find(0x2002)->subs.size() == 255);

@@ -62,15 +62,15 @@ TEST_CASE("EDS: blanks around a key and its value, and within a key, are ignored
 TEST_CASE("EDS: Factor, Unit and Description of python-canopen are read") {
   const Reading eds("python_canopen.eds");
   CHECK(eds.device.dialect == "python-canopen");
-  CHECK(eds.at(0x2000).multiplier.text == "0.1");
-  CHECK(eds.at(0x2000).unit.words.labels.at(0).text.text == "mV");
-  CHECK(eds.at(0x2000).words.descriptions.at(0).text.text == "Between the phases");
+  CHECK(eds.at(0x2000).multiplier->text == "0.1");
+  CHECK(eds.at(0x2000).unit->words.labels.at(0).text.text == "mV");
+  CHECK(eds.at(0x2000).words->descriptions.at(0).text.text == "Between the phases");
   CHECK(eds.found() == "29:1 eds-dialect\n30:1 eds-dialect\n31:1 eds-dialect\n");
 }
 
 TEST_CASE("EDS: a storage group in a comment is read") {
   const Reading eds("storage_location.eds");
-  CHECK(eds.at(0x2000).node.storage_group.value == "PERSIST_COMM");
+  CHECK(eds.at(0x2000).node->storage_group.value == "PERSIST_COMM");
   CHECK(eds.found() == "27:2 eds-hidden-key\n");
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("sub-index 0 is there, and its default is the highest sub-index") {
 TEST_CASE("EDS: lists of compact storage add missing values and never replace those of sections") {
   const Reading reading("lists_without_compact.dcf");
   CHECK(reading.at(0x2000, 2).name.text == "Second");
-  CHECK(reading.at(0x2000, 2).denotation.text == "gear");
+  CHECK(reading.at(0x2000, 2).denotation->text == "gear");
   CHECK(meaning(reading.at(0x2000, 1).actual_value) == "7");
   CHECK(meaning(reading.at(0x2000, 2).actual_value) == "9");
   CHECK(reading.device.find(0x2000)->others.size() == 2);  // [2000Name], and the unused keys of [2000Value]

@@ -40,7 +40,7 @@ std::optional<Device> device_of(Source source) {
     const eds::Document document(std::move(source), ignored);
     description = eds::refusal(document).empty() ? eds::read(document, ignored) : Description();
   } else {
-    const xdd::Document document(std::move(source), ignored);
+    xdd::Document document(std::move(source), ignored);
     description = xdd::refusal(document).empty() ? xdd::read(document, ignored) : Description();
   }
   return description.devices.empty() ? std::nullopt : std::optional(std::move(description.devices.front()));

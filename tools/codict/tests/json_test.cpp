@@ -69,7 +69,7 @@ const Value& value_of(const JsonReading& reading) { return reading.device().obje
 template <typename Document, typename Refuse, typename Read>
 std::optional<Description> description_of(const std::string& path, Refuse refusal, Read read) {
   Findings findings;
-  const Document document(Source(path, test::bytes_of(path)), findings);
+  Document document(Source(path, test::bytes_of(path)), findings);
   return refusal(document).empty() ? std::optional(read(document, findings)) : std::nullopt;
 }
 

@@ -330,7 +330,7 @@ TEST_CASE("network: the example has no warnings; the master mirrors the PDOs of 
   CHECK(master.number(0x1400, 1) == 0x182);
   CHECK(master.number(0x1600, 2) == 0x20000220);
   CHECK(master.number(0x1402, 5) == 350);
-  CHECK(master.device.find(0x1F22, 3)->upload_file.text == "config/drive_y.bin");
+  CHECK(master.device.find(0x1F22, 3)->upload_file->text == "config/drive_y.bin");
   CHECK(master.device.find(0x2000, 2)->name.text == "drive_x: Position actual value");
   CHECK(plan.network.nodes[0].number(0x1016, 1) == 0x7F0258);
 }

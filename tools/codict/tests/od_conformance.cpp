@@ -124,7 +124,7 @@ std::string OdConformance::content_of(std::uint16_t index, std::uint8_t sub_inde
 Contradictions OdConformance::access() {
   return for_each([this](std::uint16_t index, std::uint8_t sub_index, const Entry& entry, Contradictions& found) {
     const unsigned size = size_of(data_type_of(described_, entry.data_type.value));
-    if (is_readable(entry.access.value) && (entry.flags.value & refuses_upload) == 0) {
+    if (is_readable(entry.access.value) && (entry.flags->value & refuses_upload) == 0) {
       const std::string read = node_.read(index, sub_index);
       const bool is_empty_history = is_error_field(index, sub_index) && read == no_error_there;
       if (!is_answer(read) && !is_empty_history) {
@@ -133,7 +133,7 @@ Contradictions OdConformance::access() {
         note(found, index, sub_index, "length", read, fmt::format("{} bytes", size));
       }
     }
-    if (is_writable(entry.access.value) && (entry.flags.value & refuses_download) == 0) {
+    if (is_writable(entry.access.value) && (entry.flags->value & refuses_download) == 0) {
       const std::string answer = node_.write(index, sub_index, content_of(index, sub_index, entry));
       if (!takes(index, sub_index, answer)) {
         note(found, index, sub_index, "write", answer, "ok");
@@ -161,7 +161,7 @@ std::string OdConformance::default_of(const Entry& entry) const {
 Contradictions OdConformance::defaults() {
   return for_each([this](std::uint16_t index, std::uint8_t sub_index, const Entry& entry, Contradictions& found) {
     const std::string expected = default_of(entry);
-    if (!expected.empty() && is_readable(entry.access.value) && (entry.flags.value & refuses_upload) == 0) {
+    if (!expected.empty() && is_readable(entry.access.value) && (entry.flags->value & refuses_upload) == 0) {
       const std::string read = node_.read(index, sub_index);
       if (read != expected) {
         note(found, index, sub_index, "default", read, expected);
@@ -230,18 +230,18 @@ Contradictions OdConformance::limits() {
         note(found, index, sub_index, octets(bits, size_of(type)).c_str(), answer, expected);
       }
     };
-    const std::uint64_t low = entry.low_limit.integer_for(GeneratedNode::id).bits() & all;
-    const std::uint64_t high = entry.high_limit.integer_for(GeneratedNode::id).bits() & all;
-    if (entry.low_limit.is_integer()) {
+    const std::uint64_t low = entry.low_limit->integer_for(GeneratedNode::id).bits() & all;
+    const std::uint64_t high = entry.high_limit->integer_for(GeneratedNode::id).bits() & all;
+    if (entry.low_limit->is_integer()) {
       write(low, "ok");
     }
-    if (entry.low_limit.is_integer() && low != lowest) {
+    if (entry.low_limit->is_integer() && low != lowest) {
       write(low - 1, too_low);
     }
-    if (entry.high_limit.is_integer()) {
+    if (entry.high_limit->is_integer()) {
       write(high, "ok");
     }
-    if (entry.high_limit.is_integer() && high != highest) {
+    if (entry.high_limit->is_integer() && high != highest) {
       write(high + 1, too_high);
     }
   });

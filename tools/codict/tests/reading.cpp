@@ -76,7 +76,7 @@ std::string meaning(const Value& value) {
     case Value::Kind::text: return fmt::format("\"{}\"", value.text);
     case Value::Kind::octets: {
       std::string text = "octets";
-      for (const char octet : value.octets) {
+      for (const char octet : *value.octets) {
         text += fmt::format(" {:02X}", static_cast<unsigned char>(octet));
       }
       return text;

@@ -45,7 +45,8 @@ Description description_of(const std::string& text, const std::string& name) {
   const Source source(name, text);
   const std::size_t first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first != std::string::npos && text[first] == '<') {
-    return xdd::read(xdd::Document(source, findings), findings);
+    xdd::Document document(source, findings);
+    return xdd::read(document, findings);
   }
   if (json::is_json(source)) {
     return json::read(json::Document(source), findings);
@@ -256,9 +257,9 @@ TEST_CASE("convert: limits of compact storage are kept; ranges and steps that an
   for (const Way& way : ways) {
     CAPTURE(std::string(way.name));
     const Description after = description_of(written(compact, way), way.name);
-    CHECK(after.devices.front().find(0x2000)->low_limit.text == "1");
-    CHECK(after.devices.front().find(0x2000)->high_limit.text == "9");
-    CHECK(after.devices.front().find(0x2001)->low_limit.text == "1");
+    CHECK(after.devices.front().find(0x2000)->low_limit->text == "1");
+    CHECK(after.devices.front().find(0x2000)->high_limit->text == "9");
+    CHECK(after.devices.front().find(0x2001)->low_limit->text == "1");
   }
   const Description ranges = description_of(test::bytes_of(test::fixture("xdd/ranges.xdd")), "ranges.xdd");
   CHECK(losses_of(ranges, Target::eds) == "ranges: 2000h 1..5, 2000h 10..20\nsteps: 2000h, 2001h\n");

@@ -182,7 +182,7 @@ std::string in_xml_device(const std::string& example) {
 template <typename Document, typename Read, typename Suppressions>
 Findings judge(const Rule& rule, Source source, Read read, Suppressions suppressions) {
   Findings findings;
-  const Document document(std::move(source), findings);
+  Document document(std::move(source), findings);
   const Description description = read(document, findings);
   const bool is_generator = catalogue::is_of_generator(rule);
   if (is_generator) {

@@ -21,7 +21,7 @@ namespace {
 template <typename Document, typename Read>
 std::string message(const std::string& name, const std::string& text, const std::string& rule, Read read) {
   Findings findings;
-  const Document document(Source(name, text), findings);
+  Document document(Source(name, text), findings);
   const Description description = read(document, findings);
   check::check_all(description.devices.front(), findings);
   name_subjects(description.devices.front(), findings);
@@ -134,7 +134,7 @@ TEST_CASE("messages about the fixtures are short, state a fault and have a remed
   }
   for (const auto& file : std::filesystem::directory_iterator(test::fixture("xdd"))) {
     Findings findings;
-    const xdd::Document document(Source(file.path().filename(), test::bytes_of(file.path())), findings);
+    xdd::Document document(Source(file.path().filename(), test::bytes_of(file.path())), findings);
     const Description description = xdd::read(document, findings);
     for (const Finding& finding : findings.all()) {
       wrong += test::is_well_said(finding) ? "" : message_of(finding) + " [" + finding.hint + "]\n";

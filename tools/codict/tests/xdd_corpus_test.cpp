@@ -67,28 +67,28 @@ class Places {
     }
   }
   void add(const NodeProperties& node) {
-    for (const Text* text : std::initializer_list<const Text*>{&node.disabled, &node.count_label, &node.storage_group,
-                                                               &node.srdo, &node.string_length_min, &node.byte_length,
-                                                               &node.extension_io, &node.flags_pdo}) {
+    for (const Text* text : std::initializer_list<const Text*>{
+             &*node.disabled, &*node.count_label, &node.storage_group, &*node.srdo, &*node.string_length_min,
+             &*node.byte_length, &*node.extension_io, &*node.flags_pdo}) {
       add(*text);
     }
   }
   void add(const Entry& entry) {
     for (const Text* text : std::initializer_list<const Text*>{
-             &entry.name,         &entry.object_code,   &entry.data_type,      &entry.access,
-             &entry.pdo_mapping,  &entry.default_value, &entry.actual_value,   &entry.substitute_value,
-             &entry.low_limit,    &entry.high_limit,    &entry.flags,          &entry.denotation,
-             &entry.parameter_id, &entry.type.iec,      &entry.type.reference, &entry.unit.multiplier,
-             &entry.unit.uri,     &entry.access_list,   &entry.support,        &entry.persistent,
-             &entry.template_id}) {
+             &entry.name,          &entry.object_code,   &entry.data_type,       &entry.access,
+             &entry.pdo_mapping,   &entry.default_value, &*entry.actual_value,   &*entry.substitute_value,
+             &*entry.low_limit,    &*entry.high_limit,   &*entry.flags,          &*entry.denotation,
+             &*entry.parameter_id, &entry.type->iec,     &entry.type->reference, &entry.unit->multiplier,
+             &entry.unit->uri,     &*entry.access_list,  &*entry.support,        &*entry.persistent,
+             &*entry.template_id}) {
       add(*text);
     }
     add(entry.words);
     add(entry.denotations);
-    add(entry.unit.words);
+    add(entry.unit->words);
     add(entry.allowed);
     add(entry.node);
-    for (const Property& property : entry.properties) {
+    for (const Property& property : *entry.properties) {
       add(property.value);
     }
     add(entry.others);

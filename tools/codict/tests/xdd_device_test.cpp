@@ -76,12 +76,12 @@ TEST_CASE("XDD: an object without a parameter is read from its attributes") {
   CHECK(reading.at(0x1001).data_type.value == 5);
   CHECK(reading.at(0x1001).access.value == Access::ro);
   CHECK(reading.at(0x1001).pdo_mapping.value == PdoMapping::tpdo);
-  CHECK(reading.at(0x1005).flags.value == 3);
+  CHECK(reading.at(0x1005).flags->value == 3);
   CHECK(meaning(reading.at(0x1800, 1).default_value) == "$NODEID+384");
   CHECK(meaning(reading.at(0x1800, 1).low_limit) == "129");
   CHECK(reading.device.find(0x1800)->sub_number.value == 2);
   CHECK(reading.at(0x2003).data_type.value == 0x0C);
-  CHECK(reading.at(0x2003).denotation.text == "clock");
+  CHECK(reading.at(0x2003).denotation->text == "clock");
 }
 
 TEST_CASE("XDD: an object has the values of its parameter") {
@@ -89,18 +89,18 @@ TEST_CASE("XDD: an object has the values of its parameter") {
   const Entry& mode = reading.at(0x2000);
   CHECK(mode.access.value == Access::rww);
   CHECK(mode.data_type.value == 5);
-  CHECK(mode.type.reference.text == "T_MODE");
-  CHECK(mode.persistent.value);
+  CHECK(mode.type->reference.text == "T_MODE");
+  CHECK(mode.persistent->value);
   CHECK(meaning(mode.actual_value) == "1");
   CHECK(meaning(mode.substitute_value) == "1");
-  CHECK(mode.denotation.text == "mode");
-  CHECK(mode.denotations.labels.at(0).language == "en");
-  CHECK(text_in(mode.words.labels, "de") == "Betriebsart");
-  CHECK(mode.unit.words.labels.at(0).text.text == "step");
-  CHECK(mode.allowed.values.at(1).words.labels.at(0).text.text == "on");
-  CHECK(meaning(mode.allowed.ranges.at(0).step) == "1");
-  CHECK(mode.conditional_support.at(0).text == "P_1000");
-  CHECK(reading.at(0x1000).words.descriptions.at(0).text.text == "What it is,\nin two lines.");
+  CHECK(mode.denotation->text == "mode");
+  CHECK(mode.denotations->labels.at(0).language == "en");
+  CHECK(text_in(mode.words->labels, "de") == "Betriebsart");
+  CHECK(mode.unit->words.labels.at(0).text.text == "step");
+  CHECK(mode.allowed->values.at(1).words.labels.at(0).text.text == "on");
+  CHECK(meaning(mode.allowed->ranges.at(0).step) == "1");
+  CHECK(mode.conditional_support->at(0).text == "P_1000");
+  CHECK(reading.at(0x1000).words->descriptions.at(0).text.text == "What it is,\nin two lines.");
 }
 
 TEST_CASE("XDD: the only range of a parameter gives the limits of the object") {
@@ -128,7 +128,7 @@ TEST_CASE("XDD: types, templates and groups are read") {
   CHECK(device.types[1].members.at(0).type.code == 7);
   CHECK(device.types[2].values.at(1).words.labels.at(1).text.text == "an");
   CHECK(device.types[3].type.code == 6);
-  CHECK(device.templates.at(0).parameter_id.text == "TPL_RO");
+  CHECK(device.templates.at(0).parameter_id->text == "TPL_RO");
   CHECK(device.allowed_templates.at(0).allowed.values.size() == 2);
   CHECK(device.groups.at(0).groups.at(0).parameters.at(0).text == "P_OPENING");
 }
@@ -136,24 +136,24 @@ TEST_CASE("XDD: types, templates and groups are read") {
 TEST_CASE("XDD: properties of CANopenNode are read, new generation") {
   const XmlReading reading = test::fixture_xml("device10.xdd");
   const Entry& mode = reading.at(0x2000);
-  CHECK(mode.node.disabled.is_given);
-  CHECK_FALSE(mode.node.disabled.value);
-  CHECK(mode.node.count_label.text == "MODE");
-  CHECK(mode.node.storage_group.value == "PERSIST_COMM");
-  CHECK(mode.node.srdo.value == SrdoAccess::trx);
-  CHECK(reading.at(0x2001).node.string_length_min.value == 16);
-  REQUIRE(mode.properties.size() == 1);
-  CHECK(mode.properties[0].name == "Own");
+  CHECK(mode.node->disabled->is_given);
+  CHECK_FALSE(mode.node->disabled->value);
+  CHECK(mode.node->count_label->text == "MODE");
+  CHECK(mode.node->storage_group.value == "PERSIST_COMM");
+  CHECK(mode.node->srdo->value == SrdoAccess::trx);
+  CHECK(reading.at(0x2001).node->string_length_min->value == 16);
+  REQUIRE(mode.properties->size() == 1);
+  CHECK(mode.properties->at(0).name == "Own");
 }
 
 TEST_CASE("XDD: properties of CANopenNode are read, old generation") {
   const XmlReading reading = test::fixture_xml("unqualified11.xdd");
   const Entry& own = reading.at(0x2002);
   CHECK(own.access.value == Access::none);
-  CHECK(own.node.storage_group.value == "RAM");
-  CHECK(own.node.extension_io.value);
-  CHECK(own.node.flags_pdo.value);
-  CHECK(own.node.byte_length.value == 12);
+  CHECK(own.node->storage_group.value == "RAM");
+  CHECK(own.node->extension_io->value);
+  CHECK(own.node->flags_pdo->value);
+  CHECK(own.node->byte_length->value == 12);
   CHECK(own.default_value.is_given);
   CHECK(meaning(own.default_value) == "none");
 }

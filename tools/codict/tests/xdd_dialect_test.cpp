@@ -35,10 +35,10 @@ TEST_CASE("maxon: parameters with an index become objects") {
   CHECK(motor.subs.size() == 3);
   CHECK(reading.at(0x3001, 1).data_type.value == 5);
   CHECK(meaning(reading.at(0x3001, 1).default_value) == "3");
-  CHECK(reading.at(0x3001, 1).allowed.values.at(1).words.labels.at(0).text.text == "On");
+  CHECK(reading.at(0x3001, 1).allowed->values.at(1).words.labels.at(0).text.text == "On");
   CHECK(reading.at(0x3001, 2).access.value == Access::rw);
   CHECK(meaning(reading.at(0x3001, 2).high_limit) == "5000");
-  CHECK(reading.at(0x3001, 2).unit.multiplier.text == "1");
+  CHECK(reading.at(0x3001, 2).unit->multiplier.text == "1");
   CHECK(reading.found() == "3 xdd-dialect\n26 xdd-duplicate-object\n");
   CHECK(reading.device.others.back().children.front().text.text == "P_Again");
 }
@@ -60,12 +60,12 @@ TEST_CASE("_project.xml of CANopenNode: memory types and empty elements of an AR
   CHECK(reading.device.identity.vendor_name.text == "V");
   CHECK(reading.device.features.bit_rates.at(0).kbit == 10);
   CHECK(reading.device.dummies.at(0).type == 2);
-  CHECK(reading.at(0x1000).node.storage_group.value == "ROM");
-  CHECK(reading.at(0x1000).words.descriptions.at(0).text.text == "What it is.");
+  CHECK(reading.at(0x1000).node->storage_group.value == "ROM");
+  CHECK(reading.at(0x1000).words->descriptions.at(0).text.text == "What it is.");
   CHECK(reading.at(0x1003, 2).data_type.value == 7);
   CHECK(reading.at(0x1003, 2).access.value == Access::ro);
-  CHECK(reading.at(0x6000).node.disabled.value);
-  CHECK(reading.at(0x6000).node.flags_pdo.value);
+  CHECK(reading.at(0x6000).node->disabled->value);
+  CHECK(reading.at(0x6000).node->flags_pdo->value);
   CHECK(reading.device.find(0x1003)->others.at(0).text.text == "CO_ODF_1003");
 }
 
@@ -81,7 +81,7 @@ TEST_CASE(".nxdd: several devices in one file are read") {
 TEST_CASE("XDD: another namespace or none is reported; profiles may have any order") {
   const XmlReading reading = test::fixture_xml("foreign_namespace.xml");
   CHECK(reading.has("xdd-namespace"));
-  CHECK(reading.at(0x2000).words.labels.at(0).text.text == "Value");
+  CHECK(reading.at(0x2000).words->labels.at(0).text.text == "Value");
   CHECK(XmlReading("<ISO15745ProfileContainer/>").found() == "1 xdd-namespace\n");
 }
 

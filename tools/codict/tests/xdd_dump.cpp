@@ -38,7 +38,7 @@ class Dump {
 
   void labels(const std::string& name, const std::vector<Label>& labels) {
     for (const Label& label : labels) {
-      line(name, label.language + "|" + label.text.text + "|" + label.dictionary + "|" + label.uri);
+      line(name, label.language + "|" + label.text.text + "|" + *label.dictionary + "|" + *label.uri);
     }
   }
   void words(const Words& words) {
@@ -85,16 +85,16 @@ class Dump {
     text("template of allowed", allowed.template_id);
   }
   void node(const NodeProperties& node) {
-    number("disabled", node.disabled);
+    number("disabled", *node.disabled);
     text("count label", node.count_label);
     if (node.storage_group.is_given) {
       line("storage group", node.storage_group.value);
     }
-    number("srdo", node.srdo);
-    number("string length", node.string_length_min);
-    number("byte length", node.byte_length);
-    number("extension", node.extension_io);
-    number("flags pdo", node.flags_pdo);
+    number("srdo", *node.srdo);
+    number("string length", *node.string_length_min);
+    number("byte length", *node.byte_length);
+    number("extension", *node.extension_io);
+    number("flags pdo", *node.flags_pdo);
   }
   void entry(const Entry& entry) {
     text("name", entry.name);
@@ -107,34 +107,34 @@ class Dump {
     value("substitute", entry.substitute_value);
     value("low", entry.low_limit);
     value("high", entry.high_limit);
-    number("flags", entry.flags);
+    number("flags", *entry.flags);
     text("denotation", entry.denotation);
     text("id", entry.parameter_id);
     words(entry.words);
     in("denotations", [&] { words(entry.denotations); });
-    if (entry.parameter_id.is_given) {
+    if (entry.parameter_id->is_given) {
       type(entry.type);
     }
     in("unit", [&] {
-      words(entry.unit.words);
-      text("multiplier", entry.unit.multiplier);
-      text("uri", entry.unit.uri);
+      words(entry.unit->words);
+      text("multiplier", entry.unit->multiplier);
+      text("uri", entry.unit->uri);
     });
-    const auto& ranges = entry.allowed.ranges;
-    const bool is_in_limits = ranges.size() == 1 && ranges[0].minimum.text == entry.low_limit.text &&
-                              ranges[0].maximum.text == entry.high_limit.text && !ranges[0].step.is_given;
+    const auto& ranges = entry.allowed->ranges;
+    const bool is_in_limits = ranges.size() == 1 && ranges[0].minimum.text == entry.low_limit->text &&
+                              ranges[0].maximum.text == entry.high_limit->text && !ranges[0].step->is_given;
     allowed(entry.allowed, is_in_limits);
     text("access list", entry.access_list);
     text("support", entry.support);
-    for (const Text& support : entry.conditional_support) {
+    for (const Text& support : *entry.conditional_support) {
       text("conditional support", support);
     }
-    number("persistent", entry.persistent);
+    number("persistent", *entry.persistent);
     text("offset", entry.offset);
     text("multiplier", entry.multiplier);
     text("template", entry.template_id);
     node(entry.node);
-    for (const Property& property : entry.properties) {
+    for (const Property& property : *entry.properties) {
       line("property " + property.name, property.value.text);
     }
     kept(entry.others);

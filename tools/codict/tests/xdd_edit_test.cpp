@@ -41,7 +41,7 @@ TEST_CASE("XDD edit: quotes and line ends of an attribute are kept, and a text o
   const std::string bytes = test::xdd_with("<CANopenObject index='2000' name='a' denotation='&#98;'/>");
   const XmlReading reading(bytes);
   Edits edits;
-  REQUIRE(reading.document.set_text(reading.at(0x2000).denotation.span, "b", edits));
+  REQUIRE(reading.document.set_text(reading.at(0x2000).denotation->span, "b", edits));
   CHECK(edits.is_empty());
   REQUIRE(reading.document.set_text(reading.at(0x2000).name.span, "it's\n\"it\"", edits));
   CHECK(XmlReading(with(reading, edits)).at(0x2000).name.text == "it's\n\"it\"");
@@ -52,12 +52,12 @@ TEST_CASE("XDD edit: the value of a parameter and the text of a label are change
   const XmlReading reading(bytes);
   const Entry& mode = reading.at(0x2000);
   Edits edits;
-  REQUIRE(reading.document.set_text(mode.actual_value.span, "0", edits));
-  REQUIRE(reading.document.set_text(mode.words.labels[1].text.span, "Art & <Weise>", edits));
+  REQUIRE(reading.document.set_text(mode.actual_value->span, "0", edits));
+  REQUIRE(reading.document.set_text(mode.words->labels[1].text.span, "Art & <Weise>", edits));
   const std::string expected = replaced(replaced(bytes, "<actualValue value=\"1\"", "<actualValue value=\"0\""),
                                         ">Betriebsart<", ">Art &amp; &lt;Weise&gt;<");
   CHECK(with(reading, edits) == expected);
-  CHECK(XmlReading(expected).at(0x2000).words.labels[1].text.text == "Art & <Weise>");
+  CHECK(XmlReading(expected).at(0x2000).words->labels[1].text.text == "Art & <Weise>");
 }
 
 TEST_CASE("XDD edit: every text of an object can be written back at its place") {
@@ -65,8 +65,9 @@ TEST_CASE("XDD edit: every text of an object can be written back at its place") 
   const Entry& mode = reading.at(0x2000);
   for (const Text* text : std::initializer_list<const Text*>{
            &mode.name, &mode.object_code, &mode.data_type, &mode.access, &mode.pdo_mapping, &mode.default_value,
-           &mode.actual_value, &mode.substitute_value, &mode.low_limit, &mode.denotation, &mode.parameter_id,
-           &mode.support, &mode.access_list, &mode.node.storage_group, &mode.unit.uri, &mode.allowed.values[1].value}) {
+           &*mode.actual_value, &*mode.substitute_value, &*mode.low_limit, &*mode.denotation, &*mode.parameter_id,
+           &*mode.support, &*mode.access_list, &mode.node->storage_group, &mode.unit->uri,
+           &mode.allowed->values[1].value}) {
     CHECK(reading.raw(text->span) == text->text);
     CHECK_FALSE(text->is_empty());
   }
@@ -85,7 +86,7 @@ TEST_CASE("XDD edit: a new attribute is the last one of its tag, a new element t
   const Entry& entry = reading.at(0x2000);
   Edits edits;
   REQUIRE(reading.document.add_attribute(entry.span.begin, "PDOmapping", "TPDO", edits));
-  REQUIRE(reading.document.add_element(entry.parameter_id.span.begin, "defaultValue", "value", "7", edits));
+  REQUIRE(reading.document.add_element(entry.parameter_id->span.begin, "defaultValue", "value", "7", edits));
   const std::string expected = replaced(replaced(bytes, "\"P\" />", "\"P\" PDOmapping=\"TPDO\" />"), "\n    <UINT/>",
                                         "\n    <x:defaultValue value=\"7\"/>\n    <UINT/>");
   CHECK(with(reading, edits) == expected);

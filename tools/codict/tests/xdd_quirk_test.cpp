@@ -27,7 +27,7 @@ TEST_CASE("XDD quirk: the parameter overrides the object; other values of the ob
   const Entry& value = reading.at(0x2000);
   CHECK(value.access.value == Access::ro);
   CHECK(value.data_type.value == 7);
-  CHECK(value.allowed.ranges.size() == 1);
+  CHECK(value.allowed->ranges.size() == 1);
   CHECK(value.others.size() == 2);
   CHECK(value.others.at(0).name == "@highLimit");  // different notation of the same value: no finding
   CHECK(value.others.at(1).text.text == "rw");
@@ -156,7 +156,7 @@ TEST_CASE("XDD quirk: properties with an invalid value are reported") {
                                     "<property name=\"CO_disabled\" value=\"maybe\"/>\n"
                                     "<property name=\"CO_storageGroup\" value=\"12\"/></parameter>"));
   CHECK(reading.found() == "3 xdd-property\n4 xdd-property\n5 xdd-boolean\n");
-  CHECK(reading.at(0x2000).node.storage_group.value == "12");
+  CHECK(reading.at(0x2000).node->storage_group.value == "12");
 }
 
 TEST_CASE("XDD: a property with the prefix of CANopenNode is one of its properties") {
@@ -207,8 +207,8 @@ TEST_CASE("XDD quirk: character references, CDATA and other line ends are read")
       "<![CDATA[1 < 2]]></label><description>x\r\ny &lt;</description></CANopenObject>");
   const Entry& entry = reading.at(0x2000);
   CHECK(entry.name.text == "aA&\xC3\xA4&unknown;&#xD800; b");
-  CHECK(entry.words.labels.at(0).text.text == "1 < 2");
-  CHECK(entry.words.descriptions.at(0).text.text == "x\ny <");
+  CHECK(entry.words->labels.at(0).text.text == "1 < 2");
+  CHECK(entry.words->descriptions.at(0).text.text == "x\ny <");
 }
 
 TEST_CASE("XDD quirk: characters that are not UTF-8 are read with and without a declaration") {

@@ -78,14 +78,14 @@ TEST_CASE("XDD write: parameters, labels and dates of an EDS are written in the 
       const Entry& other = again.at(index, sub_index);
       CAPTURE(index);
       CHECK(other.name.text == entry.name.text);
-      CHECK(text_in(other.words.labels, "en") == entry.name.text);
+      CHECK(text_in(other.words->labels, "en") == entry.name.text);
       CHECK(other.data_type.value == entry.data_type.value);
       if (entry.access.value != Access::unknown) {
         CHECK(other.access.value == entry.access.value);
       }
       CHECK(other.pdo_mapping.value == entry.pdo_mapping.value);
-      CHECK(other.low_limit.text == entry.low_limit.text);
-      CHECK(other.high_limit.text == entry.high_limit.text);
+      CHECK(other.low_limit->text == entry.low_limit->text);
+      CHECK(other.high_limit->text == entry.high_limit->text);
       if (entry.default_value.is_given) {
         CHECK(meaning(other.default_value) == meaning(entry.default_value));
       }
@@ -140,11 +140,11 @@ TEST_CASE("XDD write: markup characters and line ends are kept; those that XML f
   const std::string text = "a<b>&\"c'\td\ne\rf";
   Object& object = *reading.device.find(0x1000);
   object.name.text = text;
-  object.words.labels.at(0).text.text = text;
+  object.words.edit().labels.at(0).text.text = text;
   object.default_value.text = std::string("a\0b\x01", 4);
   const XmlReading again(xdd::write(reading.device, xdd::Edition::v11));
   CHECK(again.at(0x1000).name.text == text);
-  CHECK(again.at(0x1000).words.labels.at(0).text.text == text);
+  CHECK(again.at(0x1000).words->labels.at(0).text.text == text);
   CHECK(again.at(0x1000).default_value.text ==
         "a\xEF\xBF\xBD"
         "b\xEF\xBF\xBD");
@@ -190,7 +190,7 @@ TEST_CASE("XDD write: invalid numbers and flags are written unchanged") {
   reading.device.dummies.resize(1);
   reading.device.dummies[0].supported.value = false;
   set(reading.device.dummies[0].supported, "perhaps");
-  set(reading.device.objects[0].flags, "some");
+  set(reading.device.objects[0].flags.edit(), "some");
   const std::string written = xdd::write(reading.device, xdd::Edition::v11);
   CHECK(says(written, "nrOfRxPDO=\"many\""));
   CHECK(says(written, "layerSettingServiceSlave=\"maybe\""));

@@ -68,12 +68,12 @@ void check_limits(const Entry& entry, Findings& findings) {
   const bool has_low = is_number(entry.low_limit);
   const bool has_high = is_number(entry.high_limit);
   if (has_low && has_high && is_less(entry.high_limit, entry.low_limit)) {
-    findings.add(rules::limit_order, entry.low_limit.span,
+    findings.add(rules::limit_order, entry.low_limit->span,
                  fmt::format("LowLimit {} is above HighLimit {}", text_of(entry.low_limit), text_of(entry.high_limit)),
                  "exchange or correct the limits");
     return;
   }
-  for (const Value* value : {&entry.default_value, &entry.actual_value}) {
+  for (const Value* value : {&entry.default_value, &*entry.actual_value}) {
     if (!is_number(*value)) {
       continue;
     }

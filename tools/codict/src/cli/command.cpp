@@ -39,25 +39,27 @@ bool is_xml(std::string_view bytes) {
 }
 
 template <typename Document>
-std::unique_ptr<const Document> document_of(Source source, Findings& findings) {
+std::unique_ptr<Document> document_of(Source source, Findings& findings) {
   if constexpr (std::is_constructible_v<Document, Source>) {  // reports its fault by refusal(), not as a finding
-    return std::make_unique<const Document>(std::move(source));
+    return std::make_unique<Document>(std::move(source));
   } else {
-    return std::make_unique<const Document>(std::move(source), findings);
+    return std::make_unique<Document>(std::move(source), findings);
   }
 }
 
 // Reads a description in one format: refusal() checks the bytes, then the parsed document. Returns the reason if that
 // fails, else an empty string.
 template <typename Document, typename Refuse, typename Read>
-std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<const Document>& document, Input& input) {
+std::string read_as(Source source, Refuse refusal, Read read, std::unique_ptr<const Document>& result, Input& input) {
   std::string why = refusal(source);
-  if (why.empty()) {
-    document = document_of<Document>(std::move(source), input.findings);
-    why = refusal(*document);
+  if (!why.empty()) {
+    return why;
   }
+  std::unique_ptr<Document> document = document_of<Document>(std::move(source), input.findings);
+  why = refusal(*document);
   if (why.empty()) {
     input.description = read(*document, input.findings);
+    result = std::move(document);
   }
   return why;
 }

@@ -75,15 +75,16 @@ xdd::Edition edition_of(const Device& device, const Product& product) {
   return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
 }
 
-std::string written(const Input& input, const Device& device, const Product& product, const ConvertOptions& options) {
+// Returns the output. Moves the device out of the input, because a large one has no room in memory twice.
+std::string written(Input input, const Product& product, const ConvertOptions& options) {
   if (product.target == Target::json) {
-    Description description = input.description;
-    description.devices.front() = device;
-    return json::write(description);
+    return json::write(input.description);
   }
   const bool is_same_format = is_same(input, product);
+  Device& device = input.description.devices.front();
   const std::string name = options.output == "-" ? "" : std::filesystem::path(options.output).filename().string();
-  return convert::write(device, product.target, is_same_format ? edition_of(device, product) : product.edition, name);
+  const xdd::Edition edition = is_same_format ? edition_of(device, product) : product.edition;
+  return convert::write(std::move(device), product.target, edition, name);
 }
 
 convert::NodeSettings settings_of(const ConvertOptions& options) {
@@ -180,7 +181,7 @@ int run_convert(const ConvertOptions& options) {
     return unusable;
   }
   const convert::NodeSettings settings = settings_of(options);
-  const std::optional<Input> input = has_place(settings, product->target) ? open(options.file) : std::nullopt;
+  std::optional<Input> input = has_place(settings, product->target) ? open(options.file) : std::nullopt;
   if (!input) {
     return unusable;
   }
@@ -198,9 +199,8 @@ int run_convert(const ConvertOptions& options) {
       return found;
     }
   }
-  Device device = input->device();
-  convert::commission(settings, device);
-  return write_output(options.output, written(*input, device, *product, options));
+  convert::commission(settings, input->description.devices.front());
+  return write_output(options.output, written(std::move(*input), *product, options));
 }
 
 void add_node_options(Arguments& command, ConvertOptions& options) {

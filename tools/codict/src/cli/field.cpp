@@ -15,7 +15,7 @@ namespace {
 
 // Returns the data type as written. In XML it may be given by the parameter only.
 const Text& type_of(const Entry& entry) {
-  return entry.data_type.is_given || !entry.type.iec.is_given ? entry.data_type : entry.type.iec;
+  return entry.data_type.is_given || !entry.type->iec.is_given ? entry.data_type : entry.type->iec;
 }
 
 struct Word {

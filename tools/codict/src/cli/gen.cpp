@@ -91,10 +91,16 @@ std::string output_text(const GenOptions& options, const gen::Output& output) {
   return (options.is_report ? costs_text(output.costs) : "") + groups_text(output) + externals_text(output);
 }
 
-Json report_json(const std::vector<gen::File>& files, const gen::Output& output) {
+// A file that is written.
+struct Target {
+  std::string path;
+  const std::string* bytes;
+};
+
+Json report_json(const std::vector<Target>& targets, const gen::Output& output) {
   Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", costs_json(output.costs)}};
-  for (const gen::File& file : files) {
-    json["files"].push_back(file.name);
+  for (const Target& target : targets) {
+    json["files"].push_back(target.path);
   }
   json["groups"] = Json::array();
   for (const gen::StoredGroup& group : output.groups) {
@@ -113,39 +119,48 @@ Json report_json(const std::vector<gen::File>& files, const gen::Output& output)
 
 // Returns the description of the generated device, with the file name of the path in it.
 template <typename Write>
-gen::File description(const gen::Output& output, const std::string& path, Write write) {
-  Device device = output.device;
+gen::File description(Device& device, const std::string& path, Write write) {
   device.file.file_name.text = std::filesystem::path(path).filename();
   device.file.file_name.is_given = true;
   return {path, write(device)};
 }
 
-// Returns all files with their paths: the sources, and the descriptions that match them.
-std::vector<gen::File> files_of(const GenOptions& options, const gen::Output& output) {
-  std::vector<gen::File> files = output.files;
-  for (gen::File& file : files) {
-    file.name.insert(0, options.directory + "/");
-  }
-  if (!options.verify_source.empty()) {
-    files.push_back({options.verify_source, output.verify});
-  }
+// Returns the descriptions that match the dictionary.
+std::vector<gen::File> descriptions_of(const GenOptions& options, gen::Output& output) {
+  std::vector<gen::File> files;
   if (!options.eds.empty()) {
-    files.push_back(
-        description(output, options.eds, [](const Device& device) { return eds::write(device, eds::WriteOptions()); }));
+    files.push_back(description(output.device, options.eds,
+                                [](const Device& device) { return eds::write(device, eds::WriteOptions()); }));
   }
   if (!options.xdd.empty()) {
-    files.push_back(
-        description(output, options.xdd, [](const Device& device) { return xdd::write(device, xdd::Edition::v11); }));
+    files.push_back(description(output.device, options.xdd,
+                                [](const Device& device) { return xdd::write(device, xdd::Edition::v11); }));
   }
   return files;
 }
 
+// Returns all files with their paths: the sources, and the descriptions that match them.
+std::vector<Target> targets_of(const GenOptions& options, const gen::Output& output,
+                               const std::vector<gen::File>& descriptions) {
+  std::vector<Target> targets;
+  for (const gen::File& file : output.files) {
+    targets.push_back({options.directory + "/" + file.name, &file.bytes});
+  }
+  if (!options.verify_source.empty()) {
+    targets.push_back({options.verify_source, &output.verify});
+  }
+  for (const gen::File& file : descriptions) {
+    targets.push_back({file.name, &file.bytes});
+  }
+  return targets;
+}
+
 // Returns false after a message if a file would overwrite the description, or if two files have the same path.
-bool have_places(const GenOptions& options, const std::vector<gen::File>& files) {
-  for (std::size_t n = 0; n < files.size(); ++n) {
-    const std::string& path = files[n].name;
-    const bool is_twice = std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(n),
-                                      [&path](const gen::File& other) { return is_same_file(path, other.name); });
+bool have_places(const GenOptions& options, const std::vector<Target>& targets) {
+  for (std::size_t n = 0; n < targets.size(); ++n) {
+    const std::string& path = targets[n].path;
+    const bool is_twice = std::any_of(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(n),
+                                      [&path](const Target& other) { return is_same_file(path, other.path); });
     if (is_same_file(path, options.file) || is_twice) {
       complain(path + (is_twice ? ": two files of this name would be written" : ": it is the description itself"));
       return false;
@@ -178,8 +193,7 @@ Status write_stubs(const GenOptions& options, const gen::Output& output) {
 }
 
 // Shows the generator's findings and the errors of the description. Returns true if the description has no errors.
-bool show(Input& input, const Findings& findings, bool shows_notes) {
-  check_all(input);
+bool show(const Input& input, const Findings& findings, bool shows_notes) {
   show_findings(input, input.findings, Severity::error);
   show_findings(input, findings, shows_notes ? Severity::note : Severity::warning);
   return input.findings.count(Severity::error) == 0;
@@ -188,6 +202,7 @@ bool show(Input& input, const Findings& findings, bool shows_notes) {
 bool complete(GenOptions& options, const Input& input) {
   options.gen.source = std::filesystem::path(input.source().name()).filename();
   options.gen.node_id = node_id_of(input.device(), 0);
+  options.gen.copies_device = !options.eds.empty() || !options.xdd.empty();
   if (options.gen.name.empty()) {
     options.gen.name = gen::default_name(options.file);
   } else if (gen::identifier(options.gen.name) != options.gen.name) {
@@ -197,18 +212,19 @@ bool complete(GenOptions& options, const Input& input) {
   return parse_stores(options.stores, options.gen) && check_verify(options.verify);
 }
 
-int write_all(const GenOptions& options, const gen::Output& output) {
-  const std::vector<gen::File> files = files_of(options, output);
-  if (!have_places(options, files) || (!options.is_check && !make_directory(options.directory))) {
+int write_all(const GenOptions& options, gen::Output& output) {
+  const std::vector<gen::File> descriptions = descriptions_of(options, output);
+  const std::vector<Target> targets = targets_of(options, output, descriptions);
+  if (!have_places(options, targets) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
   }
   int status = clean;
-  for (const gen::File& file : files) {
-    status =
-        std::max<int>(status, options.is_check ? compare(file.name, file.bytes) : write_output(file.name, file.bytes));
+  for (const Target& target : targets) {
+    status = std::max<int>(
+        status, options.is_check ? compare(target.path, *target.bytes) : write_output(target.path, *target.bytes));
   }
   if (options.is_json) {
-    print_json(report_json(files, output));
+    print_json(report_json(targets, output));
   } else if (options.is_report || !options.is_check) {
     print(output_text(options, output));
   }
@@ -220,8 +236,9 @@ int run_gen(GenOptions options) {
   if (!input || !complete(options, *input)) {
     return unusable;
   }
+  check_all(*input);
   Findings findings;
-  const gen::Output output = gen::generate(input->device(), options.gen, findings);
+  gen::Output output = gen::generate(input->device(), options.gen, findings);
   suppress(*input, catalogue::Origin::generator, findings);
   const bool is_right = show(*input, findings, options.shows_notes);
   if (output.files.empty()) {

@@ -32,8 +32,8 @@ std::string line(const Reference& reference, const Entry& entry) {
 
 void add_values(Json& json, const Entry& entry) {
   for (const auto& [name, value] :
-       {std::make_pair("default", &entry.default_value), std::make_pair("value", &entry.actual_value),
-        std::make_pair("low_limit", &entry.low_limit), std::make_pair("high_limit", &entry.high_limit)}) {
+       {std::make_pair("default", &entry.default_value), std::make_pair("value", &*entry.actual_value),
+        std::make_pair("low_limit", &*entry.low_limit), std::make_pair("high_limit", &*entry.high_limit)}) {
     if (value->is_given) {
       json[name] = value->text;
     }

@@ -25,6 +25,7 @@ int run_size(SizeOptions options) {
     return unusable;
   }
   options.gen.name = gen::default_name(options.file);
+  options.gen.copies_device = false;
   if (!parse_stores(options.stores, options.gen)) {
     return unusable;
   }

@@ -37,9 +37,9 @@ class Counter {
  public:
   explicit Counter(const Device& device) {
     for (const Object& object : device.objects) {
-      entries_.emplace_back(fmt::format("{:04X}h", object.index), &object);
+      entries_.push_back({&object, &object, nullptr});
       for (const Sub& sub : object.subs) {
-        entries_.emplace_back(fmt::format("{:04X}h:{:X}", object.index, sub.sub_index), &sub);
+        entries_.push_back({&sub, &object, &sub});
       }
     }
   }
@@ -52,8 +52,9 @@ class Counter {
   // Adds the losses of all objects and sub-objects.
   void each(std::string_view what, const std::function<Details(const Entry&)>& details_of) {
     Details places;
-    for (const auto& [place, entry] : entries_) {
-      for (const std::string& detail : details_of(*entry)) {
+    for (const Described& described : entries_) {
+      for (const std::string& detail : details_of(*described.entry)) {
+        const std::string place = place_of(described);
         places.push_back(detail.empty() ? place : fmt::format("{} {}", place, detail));
       }
     }
@@ -62,7 +63,19 @@ class Counter {
   std::vector<Loss> take() { return std::move(losses_); }
 
  private:
-  std::vector<std::pair<std::string, const Entry*>> entries_;
+  struct Described {
+    const Entry* entry;
+    const Object* object;
+    const Sub* sub;  // null for the object itself
+  };
+
+  static std::string place_of(const Described& described) {
+    const std::uint16_t index = described.object->index;
+    return described.sub == nullptr ? fmt::format("{:04X}h", index)
+                                    : fmt::format("{:04X}h:{:X}", index, described.sub->sub_index);
+  }
+
+  std::vector<Described> entries_;
   std::vector<Loss> losses_;
 };
 
@@ -70,23 +83,23 @@ std::string language_of(const Label& label) { return label.language; }
 std::string id_of(const TypeDefinition& type) { return type.name.is_empty() ? type.id.text : type.name.text; }
 
 void count_configuration(const Device& device, Counter& counter) {
-  counter.each("configured values", [](const Entry& entry) { return one_if(entry.actual_value.is_given); });
-  counter.each("denotations", [](const Entry& entry) { return one_if(entry.denotation.is_given); });
+  counter.each("configured values", [](const Entry& entry) { return one_if(entry.actual_value->is_given); });
+  counter.each("denotations", [](const Entry& entry) { return one_if(entry.denotation->is_given); });
   counter.add("commissioning", one_if(device.commissioning.is_given));
 }
 
 Details properties_of(const Entry& entry) {
-  const NodeProperties& node = entry.node;
-  const std::array<std::pair<const Text&, const char*>, 7> known = {{{node.disabled, "CO_disabled"},
-                                                                     {node.count_label, "CO_countLabel"},
-                                                                     {node.srdo, "CO_accessSRDO"},
-                                                                     {node.string_length_min, "CO_stringLengthMin"},
-                                                                     {node.byte_length, "CO_byteLength"},
-                                                                     {node.extension_io, "CO_extensionIO"},
-                                                                     {node.flags_pdo, "CO_flagsPDO"}}};
-  Details names = each_of(entry.properties, [](const Property& property) { return property.name; });
+  const NodeProperties& node = *entry.node;
+  const std::array<std::pair<const Text&, const char*>, 7> known = {{{*node.disabled, "CO_disabled"},
+                                                                     {*node.count_label, "CO_countLabel"},
+                                                                     {*node.srdo, "CO_accessSRDO"},
+                                                                     {*node.string_length_min, "CO_stringLengthMin"},
+                                                                     {*node.byte_length, "CO_byteLength"},
+                                                                     {*node.extension_io, "CO_extensionIO"},
+                                                                     {*node.flags_pdo, "CO_flagsPDO"}}};
+  Details names = each_of(*entry.properties, [](const Property& property) { return property.name; });
   for (const auto& [text, name] : known) {
-    if (text.is_given && (&text != &node.count_label || !text.is_empty())) {
+    if (text.is_given && (&text != &*node.count_label || !text.is_empty())) {
       names.emplace_back(name);
     }
   }
@@ -97,15 +110,15 @@ Details properties_of(const Entry& entry) {
 void count_words_for_eds(const Device& device, Counter& counter) {
   counter.each("labels", [](const Entry& entry) {
     Details languages;
-    for (const Label& label : entry.words.labels) {
+    for (const Label& label : entry.words->labels) {
       append(languages, Details(label.text.text != entry.name.text ? 1 : 0, label.language));
     }
     return languages;
   });
   const bool has_python_keys = device.dialect == "python-canopen";
   if (!has_python_keys) {
-    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.words.descriptions, language_of); });
-    counter.each("units", [](const Entry& entry) { return one_if(entry.unit.is_given); });
+    counter.each("descriptions", [](const Entry& entry) { return each_of(entry.words->descriptions, language_of); });
+    counter.each("units", [](const Entry& entry) { return one_if(entry.unit->is_given); });
     counter.each("multipliers", [](const Entry& entry) { return one_of(entry.multiplier); });
   }
 }
@@ -185,7 +198,7 @@ Details numbers_that_become_implied(const Device& device) {
 // Returns texts of several lines, which the EDS writer joins with blanks.
 Details texts_of_several_lines(const Entry& entry) {
   Details texts;
-  for (const Text* text : std::initializer_list<const Text*>{&entry.name, &entry.default_value, &entry.actual_value}) {
+  for (const Text* text : std::initializer_list<const Text*>{&entry.name, &entry.default_value, &*entry.actual_value}) {
     append(texts, Details(text->text.find_first_of("\r\n") != std::string::npos ? 1 : 0));
   }
   return texts;
@@ -223,26 +236,27 @@ void count_for_eds(const Device& device, Counter& counter) {
   count_headers_for_eds(device, counter);
   counter.each("offsets", [](const Entry& entry) { return one_of(entry.offset); });
   counter.each("allowed values", [](const Entry& entry) {
-    return each_of(entry.allowed.values, [](const AllowedValue& allowed) { return allowed.value.text; });
+    return each_of(entry.allowed->values, [](const AllowedValue& allowed) { return allowed.value.text; });
   });
   counter.each("ranges", [](const Entry& entry) {
-    const std::vector<Range>& ranges = entry.allowed.ranges;
+    const std::vector<Range>& ranges = entry.allowed->ranges;
     return each_of(ranges.size() > 1 ? ranges : std::vector<Range>(),
                    [](const Range& range) { return range.minimum.text + ".." + range.maximum.text; });
   });
   counter.each("steps", [](const Entry& entry) {
-    const std::vector<Range>& ranges = entry.allowed.ranges;
-    return one_if(std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return !range.step.is_empty(); }));
+    const std::vector<Range>& ranges = entry.allowed->ranges;
+    return one_if(
+        std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return !range.step->is_empty(); }));
   });
-  counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value.is_given); });
+  counter.each("substitute values", [](const Entry& entry) { return one_if(entry.substitute_value->is_given); });
   counter.each("properties", properties_of);
   counter.add("groups", each_of(device.groups, [](const Group& group) { return group.id.text; }));
   counter.add("data types", each_of(device.types, id_of));
-  Details templates = each_of(device.templates, [](const Entry& entry) { return entry.parameter_id.text; });
+  Details templates = each_of(device.templates, [](const Entry& entry) { return entry.parameter_id->text; });
   append(templates, each_of(device.allowed_templates, [](const AllowedTemplate& allowed) { return allowed.id.text; }));
   counter.add("templates", std::move(templates));
   counter.add("parameters without an object",
-              each_of(device.parameters, [](const Entry& entry) { return entry.parameter_id.text; }));
+              each_of(device.parameters, [](const Entry& entry) { return entry.parameter_id->text; }));
   Details codes = each_of(device.identity.order_codes, [](const Text& code) { return code.text; });
   codes.erase(codes.begin(), codes.begin() + (codes.empty() ? 0 : 1));
   counter.add("order codes", std::move(codes));
@@ -327,8 +341,8 @@ Device without_configuration(Device device) {
   device.commissioning = Commissioning();
   device.connected_modules.clear();
   const auto forget = [](Entry& entry) {
-    entry.actual_value = Value();
-    entry.denotation = Text();
+    entry.actual_value.reset();
+    entry.denotation.reset();
   };
   for (Object& object : device.objects) {
     forget(object);

@@ -23,7 +23,7 @@ bool are_equal(const Value& a, const Value& b) {
     case Value::Kind::none: return true;
     case Value::Kind::integer: return a.integer == b.integer && a.adds_node_id == b.adds_node_id;
     case Value::Kind::real: return a.real == b.real;
-    case Value::Kind::octets: return a.octets == b.octets;
+    case Value::Kind::octets: return *a.octets == *b.octets;
     case Value::Kind::text:
     case Value::Kind::malformed: break;
   }
@@ -109,7 +109,7 @@ void compare_limits(const Entry& before, const Entry& after, const Recorder& rec
 Text shown(const Range& range) {
   Text text;
   text.text = range.minimum.text + ".." + range.maximum.text;
-  text.text += range.step.is_empty() ? "" : " step " + range.step.text;
+  text.text += range.step->is_empty() ? "" : " step " + range.step->text;
   text.span = range.minimum.span;
   return text;
 }
@@ -121,8 +121,8 @@ bool are_equal(const Range& a, const Range& b) {
 // Compares the steps of single ranges; their bounds equal the limits, which are compared elsewhere.
 void compare_step(const std::vector<Range>& before, const std::vector<Range>& after, const Recorder& recorder) {
   static const Value nothing;
-  const Value& old_step = before.size() == 1 ? before.front().step : nothing;
-  const Value& new_step = after.size() == 1 ? after.front().step : nothing;
+  const Value& old_step = before.size() == 1 ? *before.front().step : nothing;
+  const Value& new_step = after.size() == 1 ? *after.front().step : nothing;
   if (!are_equal(old_step, new_step)) {
     recorder.add(new_step.is_empty() ? Kind::compatible : Kind::breaking, "step", old_step, new_step);
   }
@@ -203,7 +203,7 @@ void compare_labels(std::string_view what, const std::vector<Label>& before, con
 // Returns the labels that differ from the name; an EDS has no others.
 std::vector<Label> own_labels(const Entry& entry) {
   std::vector<Label> labels;
-  std::copy_if(entry.words.labels.begin(), entry.words.labels.end(), std::back_inserter(labels),
+  std::copy_if(entry.words->labels.begin(), entry.words->labels.end(), std::back_inserter(labels),
                [&entry](const Label& label) { return label.text.text != entry.name.text; });
   return labels;
 }
@@ -211,26 +211,26 @@ std::vector<Label> own_labels(const Entry& entry) {
 void compare_words(const Entry& before, const Entry& after, const Recorder& recorder) {
   recorder.text(Kind::text, "name", before.name, after.name);
   compare_labels("label", own_labels(before), own_labels(after), recorder);
-  compare_labels("description", before.words.descriptions, after.words.descriptions, recorder);
+  compare_labels("description", before.words->descriptions, after.words->descriptions, recorder);
   recorder.text(Kind::text, "denotation", before.denotation, after.denotation);
 }
 
 void compare_properties(const NodeProperties& before, const NodeProperties& after, const Recorder& recorder) {
   recorder.field(Kind::compatible, "storage group", before.storage_group, after.storage_group);
-  recorder.field(Kind::compatible, "disabled", before.disabled, after.disabled);
-  recorder.text(Kind::compatible, "count label", before.count_label, after.count_label);
-  recorder.field(Kind::compatible, "SRDO access", before.srdo, after.srdo);
-  recorder.ability("shortest capacity", before.string_length_min, after.string_length_min);
-  recorder.ability("capacity", before.byte_length, after.byte_length);
-  recorder.field(Kind::compatible, "extension", before.extension_io, after.extension_io);
-  recorder.field(Kind::compatible, "TPDO on change", before.flags_pdo, after.flags_pdo);
+  recorder.field(Kind::compatible, "disabled", *before.disabled, *after.disabled);
+  recorder.text(Kind::compatible, "count label", *before.count_label, *after.count_label);
+  recorder.field(Kind::compatible, "SRDO access", *before.srdo, *after.srdo);
+  recorder.ability("shortest capacity", *before.string_length_min, *after.string_length_min);
+  recorder.ability("capacity", *before.byte_length, *after.byte_length);
+  recorder.field(Kind::compatible, "extension", *before.extension_io, *after.extension_io);
+  recorder.field(Kind::compatible, "TPDO on change", *before.flags_pdo, *after.flags_pdo);
 }
 
 // Returns a property without meaning for codict; in an EDS, this is an unknown key.
 const Text* find_other(const Entry& entry, const std::string& name) {
   const auto has_name = [&name](const auto& other) { return other.name == name; };
-  const auto property = std::find_if(entry.properties.begin(), entry.properties.end(), has_name);
-  if (property != entry.properties.end()) {
+  const auto property = std::find_if(entry.properties->begin(), entry.properties->end(), has_name);
+  if (property != entry.properties->end()) {
     return &property->value;
   }
   const auto kept = std::find_if(entry.others.begin(), entry.others.end(), has_name);
@@ -239,11 +239,11 @@ const Text* find_other(const Entry& entry, const std::string& name) {
 
 void compare_others(const Entry& before, const Entry& after, const Recorder& recorder) {
   static const Text nothing;
-  for (const Property& property : before.properties) {
+  for (const Property& property : *before.properties) {
     const Text* const same = find_other(after, property.name);
     recorder.text(Kind::text, "property " + property.name, property.value, same != nullptr ? *same : nothing);
   }
-  for (const Property& property : after.properties) {
+  for (const Property& property : *after.properties) {
     if (find_other(before, property.name) == nullptr) {
       recorder.text(Kind::text, "property " + property.name, nothing, property.value);
     }
@@ -258,13 +258,13 @@ void compare_entries(const Entry& before, const Entry& after, const Recorder& re
   compare_rights(before, after, recorder);
   compare_defaults(before, after, recorder);
   compare_limits(before, after, recorder);
-  compare_ranges(before.allowed.ranges, after.allowed.ranges, recorder);
+  compare_ranges(before.allowed->ranges, after.allowed->ranges, recorder);
   compare_allowed(allowed_values_of(recorder.before, before), allowed_values_of(recorder.after, after), recorder);
-  recorder.text(Kind::breaking, "unit", before.unit.uri, after.unit.uri);
-  recorder.text(Kind::breaking, "unit's multiplier", before.unit.multiplier, after.unit.multiplier);
+  recorder.text(Kind::breaking, "unit", before.unit->uri, after.unit->uri);
+  recorder.text(Kind::breaking, "unit's multiplier", before.unit->multiplier, after.unit->multiplier);
   recorder.text(Kind::breaking, "multiplier", before.multiplier, after.multiplier);
   recorder.text(Kind::breaking, "offset", before.offset, after.offset);
-  recorder.field(Kind::compatible, "flags", before.flags, after.flags);
+  recorder.field(Kind::compatible, "flags", *before.flags, *after.flags);
   recorder.text(Kind::configuration, "upload file", before.upload_file, after.upload_file);
   recorder.text(Kind::configuration, "download file", before.download_file, after.download_file);
   compare_properties(before.node, after.node, recorder);

@@ -244,7 +244,7 @@ class Chapters {
   }
 
   static bool has_one_of(const Object& object, const std::set<std::string_view>& wanted) {
-    const auto is_wanted = [&wanted](const Entry& entry) { return wanted.count(entry.parameter_id.text) != 0; };
+    const auto is_wanted = [&wanted](const Entry& entry) { return wanted.count(entry.parameter_id->text) != 0; };
     return is_wanted(object) || std::any_of(object.subs.begin(), object.subs.end(), is_wanted);
   }
 

@@ -35,8 +35,8 @@ std::string mapping_name(const Entry& entry) {
 }
 
 std::string range_of(const Entry& entry) {
-  const std::string& low = entry.low_limit.text;
-  const std::string& high = entry.high_limit.text;
+  const std::string& low = entry.low_limit->text;
+  const std::string& high = entry.high_limit->text;
   if (low.empty() && high.empty()) {
     return "";
   }
@@ -47,9 +47,9 @@ std::string range_of(const Entry& entry) {
 }
 
 std::string unit_of(const Entry& entry, const Options& options) {
-  const std::string_view label = text_in(entry.unit.words.labels, options.language);
-  const std::string unit = label.empty() ? entry.unit.uri.text : std::string(label);
-  const std::string& multiplier = entry.unit.multiplier.text;
+  const std::string_view label = text_in(entry.unit->words.labels, options.language);
+  const std::string unit = label.empty() ? entry.unit->uri.text : std::string(label);
+  const std::string& multiplier = entry.unit->multiplier.text;
   return multiplier.empty() || multiplier == "1" ? unit : multiplier + " " + unit;
 }
 
@@ -67,26 +67,26 @@ constexpr std::uint32_t needs_reset = 4;
 
 std::vector<std::string> words_of(const Entry& entry, const Options& options) {
   std::vector<std::string> words;
-  const std::string_view description = text_in(entry.words.descriptions, options.language);
+  const std::string_view description = text_in(entry.words->descriptions, options.language);
   if (!description.empty()) {
     words.emplace_back(description);
   }
-  if ((entry.flags.value & refuses_write) != 0) {
+  if ((entry.flags->value & refuses_write) != 0) {
     words.emplace_back("Not written when a device is configured.");
   }
-  if ((entry.flags.value & refuses_read) != 0) {
+  if ((entry.flags->value & refuses_read) != 0) {
     words.emplace_back("Not read when a device is scanned.");
   }
-  if ((entry.flags.value & needs_reset) != 0) {
+  if ((entry.flags->value & needs_reset) != 0) {
     words.emplace_back("Takes effect after a reset.");
   }
-  if (entry.node.byte_length.value != 0) {
-    words.push_back(fmt::format("Has room for {} bytes.", entry.node.byte_length.value));
+  if (entry.node->byte_length->value != 0) {
+    words.push_back(fmt::format("Has room for {} bytes.", entry.node->byte_length->value));
   }
-  if (entry.node.string_length_min.value != 0) {
-    words.push_back(fmt::format("Has room for {} characters.", entry.node.string_length_min.value));
+  if (entry.node->string_length_min->value != 0) {
+    words.push_back(fmt::format("Has room for {} characters.", entry.node->string_length_min->value));
   }
-  if (entry.node.disabled.value) {
+  if (entry.node->disabled->value) {
     words.emplace_back("Disabled: not in the device.");
   }
   return words;
@@ -98,10 +98,10 @@ void describe(const Device& device, const Entry& entry, const Options& options, 
   item.access = access_name(entry.access.value);
   item.mapping = mapping_name(entry);
   item.default_value = entry.default_value.text;
-  item.value = entry.actual_value.text;
+  item.value = entry.actual_value->text;
   item.range = range_of(entry);
   item.unit = unit_of(entry, options);
-  item.group = entry.node.storage_group.text;
+  item.group = entry.node->storage_group.text;
   item.allowed = allowed_values(device, entry, options);
   item.words = words_of(entry, options);
 }
@@ -118,7 +118,7 @@ std::string anchor_of(std::uint16_t index, std::uint8_t sub_index) {
 }
 
 std::string name_in(const Entry& entry, const Options& options) {
-  const std::string_view label = text_in(entry.words.labels, options.language);
+  const std::string_view label = text_in(entry.words->labels, options.language);
   return label.empty() ? entry.name.text : std::string(label);
 }
 
@@ -128,7 +128,7 @@ ObjectItem item_of(const Device& device, const Object& object, const Options& op
   if (result.has_subs) {
     result.object.name = name_in(object, options);
     result.object.type = std::string(name_of(object.object_code.value));
-    result.object.group = object.node.storage_group.text;
+    result.object.group = object.node->storage_group.text;
     result.object.words = words_of(object, options);
   } else {
     describe(device, object, options, result.object);

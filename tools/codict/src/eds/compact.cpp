@@ -47,7 +47,9 @@ Sub implied_sub(const Object& object, std::uint8_t sub_index) {
 
 // Returns the member that an entry in a list of names, values or denotations sets.
 Text& member_of(Sub& sub, SectionKind kind) {
-  return kind == SectionKind::names ? sub.name : kind == SectionKind::values ? sub.actual_value : sub.denotation;
+  return kind == SectionKind::names    ? sub.name
+         : kind == SectionKind::values ? static_cast<Text&>(sub.actual_value.edit())
+                                       : sub.denotation.edit();
 }
 
 Sub* find_sub(Object& object, std::uint32_t number) {

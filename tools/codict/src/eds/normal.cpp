@@ -92,7 +92,7 @@ std::string value_text(const Value& value) {
     case Value::Kind::integer: return is_number_of_eds(value.text) ? value.text : value.written_integer();
     case Value::Kind::real:
       return value.text.find(',') == std::string::npos ? value.text : fmt::format("{}", value.real);
-    case Value::Kind::octets: return hexadecimal_octets(value.octets);
+    case Value::Kind::octets: return hexadecimal_octets(*value.octets);
     case Value::Kind::none:
     case Value::Kind::text:
     case Value::Kind::malformed: break;
@@ -116,9 +116,14 @@ Entry normal(const Device& device, const Entry& entry) {
     const bool is_no = entry.pdo_mapping.text == name_of(PdoMapping::no);
     result.pdo_mapping.text = is_no ? "0" : flag_text(entry.pdo_mapping);
   }
-  normalise_number(result.flags);
-  for (Value* value : {&result.default_value, &result.actual_value, &result.low_limit, &result.high_limit}) {
-    normalise(*value);
+  if (Field<std::uint32_t>* const flags = result.flags.if_any()) {
+    normalise_number(*flags);
+  }
+  normalise(result.default_value);
+  for (Rare<Value>* rare : {&result.actual_value, &result.low_limit, &result.high_limit}) {
+    if (Value* const value = rare->if_any()) {
+      normalise(*value);
+    }
   }
   return result;
 }

@@ -27,19 +27,21 @@ bool read_python_key(Entry& entry, const Key& key, const Reader& reader) {
       rules::dialect, key.name,
       fmt::format("key {} is defined by python-canopen only", in_quotes(reader.document.text(key.name))),
       "convert the description to XDD for other tools");
-  entry.unit.is_given = !entry.unit.words.labels.empty();
+  if (Unit* const unit = entry.unit.if_any()) {
+    unit->is_given = !unit->words.labels.empty();
+  }
   reader.device.dialect = python_dialect;
   return true;
 }
 
 void read_storage_group(Entry& entry, const Section& section, const Reader& reader) {
   if (const std::optional<Key> key = storage_location(reader.document, section)) {
-    static_cast<Text&>(entry.node.storage_group) = text_of(reader.document, *key);
-    entry.node.storage_group.value = entry.node.storage_group.text;
-    reader.findings.add(
-        rules::hidden_key, {key->name.begin, key->value.end},
-        fmt::format("storage group {} in a comment of libEDSsharp", in_quotes(entry.node.storage_group.text)),
-        "keep the comment, or convert the description to XDD");
+    Field<std::string>& group = entry.node.edit().storage_group;
+    static_cast<Text&>(group) = text_of(reader.document, *key);
+    group.value = group.text;
+    reader.findings.add(rules::hidden_key, {key->name.begin, key->value.end},
+                        fmt::format("storage group {} in a comment of libEDSsharp", in_quotes(group.text)),
+                        "keep the comment, or convert the description to XDD");
   }
 }
 
@@ -312,7 +314,8 @@ std::vector<Object> read_objects(std::vector<NamedSection> parts, std::vector<Ke
 
 void interpret_values(Entry& entry, const Reader& reader) {
   const DataType& type = type_of(entry, reader);
-  for (Value* value : {&entry.default_value, &entry.actual_value, &entry.low_limit, &entry.high_limit}) {
+  interpret(entry.default_value, type, reader.findings);
+  for (Rare<Value>* value : {&entry.actual_value, &entry.low_limit, &entry.high_limit}) {
     interpret(*value, type, reader.findings);
   }
 }

@@ -76,14 +76,14 @@ inline constexpr std::array<Slot<Entry>, 14> entry_slots = {{
     {"AccessType", [](Entry& e) -> Text& { return e.access; }},
     {"DefaultValue", [](Entry& e) -> Text& { return e.default_value; }},
     {"PDOMapping", [](Entry& e) -> Text& { return e.pdo_mapping; }},
-    {"LowLimit", [](Entry& e) -> Text& { return e.low_limit; }},
-    {"HighLimit", [](Entry& e) -> Text& { return e.high_limit; }},
-    {"ObjFlags", [](Entry& e) -> Text& { return e.flags; }},
-    {"ParameterValue", [](Entry& e) -> Text& { return e.actual_value; }},
-    {"Denotation", [](Entry& e) -> Text& { return e.denotation; }},
-    {"UploadFile", [](Entry& e) -> Text& { return e.upload_file; }, 244},
-    {"DownloadFile", [](Entry& e) -> Text& { return e.download_file; }, 242},
-    {"ParamRefd", [](Entry& e) -> Text& { return e.parameter_reference; }},
+    {"LowLimit", [](Entry& e) -> Text& { return e.low_limit.edit(); }},
+    {"HighLimit", [](Entry& e) -> Text& { return e.high_limit.edit(); }},
+    {"ObjFlags", [](Entry& e) -> Text& { return e.flags.edit(); }},
+    {"ParameterValue", [](Entry& e) -> Text& { return e.actual_value.edit(); }},
+    {"Denotation", [](Entry& e) -> Text& { return e.denotation.edit(); }},
+    {"UploadFile", [](Entry& e) -> Text& { return e.upload_file.edit(); }, 244},
+    {"DownloadFile", [](Entry& e) -> Text& { return e.download_file.edit(); }, 242},
+    {"ParamRefd", [](Entry& e) -> Text& { return e.parameter_reference.edit(); }},
 }};
 
 inline constexpr std::array<Slot<Object>, 2> object_slots = {{
@@ -110,9 +110,9 @@ inline Text& first_of(std::vector<Label>& labels) {
 
 /// Keys that python-canopen adds to CiA 306.
 inline constexpr std::array<Slot<Entry>, 3> python_slots = {{
-    {"Unit", [](Entry& e) -> Text& { return first_of(e.unit.words.labels); }},
-    {"Factor", [](Entry& e) -> Text& { return e.multiplier; }},
-    {"Description", [](Entry& e) -> Text& { return first_of(e.words.descriptions); }},
+    {"Unit", [](Entry& e) -> Text& { return first_of(e.unit.edit().words.labels); }},
+    {"Factor", [](Entry& e) -> Text& { return e.multiplier.edit(); }},
+    {"Description", [](Entry& e) -> Text& { return first_of(e.words.edit().descriptions); }},
 }};
 inline constexpr std::string_view python_dialect = "python-canopen";
 

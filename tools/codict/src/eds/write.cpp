@@ -209,9 +209,10 @@ void Writer::channels() {
 void Writer::entry(const Entry& entry) {
   Entry normal = eds::normal(device_, entry);
   if (!options_.as_dcf) {
-    for (Text* text : std::initializer_list<Text*>{&normal.actual_value, &normal.denotation, &normal.upload_file,
-                                                   &normal.download_file, &normal.parameter_reference}) {
-      *text = Text();
+    normal.actual_value.reset();
+    for (Rare<Text>* text :
+         {&normal.denotation, &normal.upload_file, &normal.download_file, &normal.parameter_reference}) {
+      text->reset();
     }
   }
   slots(normal, entry_slots);
@@ -219,7 +220,7 @@ void Writer::entry(const Entry& entry) {
     slots(entry, python_slots);
   }
   kept(entry.others);
-  const Field<std::string>& group = entry.node.storage_group;  // its text may be the number of a group
+  const Field<std::string>& group = entry.node->storage_group;  // its text may be the number of a group
   if (!group.is_empty() || !group.value.empty()) {
     line(";StorageLocation", group.value.empty() ? group.text : group.value);  // the form that other tools read
   }
@@ -247,11 +248,11 @@ void Writer::compact_lists(const Object& object, const std::string& name) {
     if (sub.name.is_given) {
       names.emplace_back(sub.sub_index, sub.name.text);
     }
-    if (sub.actual_value.is_given) {
+    if (sub.actual_value->is_given) {
       values.emplace_back(sub.sub_index, value_text(sub.actual_value));
     }
-    if (sub.denotation.is_given) {
-      denotations.emplace_back(sub.sub_index, sub.denotation.text);
+    if (sub.denotation->is_given) {
+      denotations.emplace_back(sub.sub_index, sub.denotation->text);
     }
   }
   sub_list(name + "Name", names);

@@ -66,9 +66,10 @@ void set_entry(Entry& entry, const Item& item) {
     entry.pdo_mapping.is_given = true;
   }
   if (item.storage == Storage::string) {
-    entry.node.string_length_min.value = item.capacity / item.form->alignment;
-    entry.node.string_length_min.text = std::to_string(item.capacity / item.form->alignment);
-    entry.node.string_length_min.is_given = true;
+    Field<std::uint32_t>& length = entry.node.edit().string_length_min.edit();
+    length.value = item.capacity / item.form->alignment;
+    length.text = std::to_string(length.value);
+    length.is_given = true;
   }
 }
 
@@ -90,7 +91,7 @@ void set_subs(Object& object, const Plan& plan) {
   object.subs.erase(std::remove_if(object.subs.begin(), object.subs.end(), has_no_entry), object.subs.end());
   // Compact storage (CompactSubObj) cannot express default values of single sub-objects.
   const bool has_values = std::any_of(object.subs.begin(), object.subs.end(),
-                                      [](const Sub& sub) { return sub.is_implied && sub.actual_value.is_given; });
+                                      [](const Sub& sub) { return sub.is_implied && sub.actual_value->is_given; });
   object.compact = has_values ? Field<std::uint8_t>() : object.compact;
   for (Sub& sub : object.subs) {
     set_entry(sub, *plan.find(object.index, sub.sub_index));
@@ -98,7 +99,7 @@ void set_subs(Object& object, const Plan& plan) {
   }
 }
 
-bool is_type(const Object& object) { return object.index < 0x00A0 && !object.node.disabled.value; }
+bool is_type(const Object& object) { return object.index < 0x00A0 && !object.node->disabled->value; }
 
 bool has_entry(const Object& object, const Plan& plan) {
   const auto place = std::lower_bound(plan.items.begin(), plan.items.end(), object.index,

@@ -26,7 +26,9 @@ Output generate(const Device& device, const Options& options, Findings& findings
   output.externals = externals_of(plan, options);
   output.verify = write_verify(plan, options);
   output.stubs = output.externals.empty() ? "" : write_stubs(plan, options);
-  output.device = described(device, plan);
+  if (options.copies_device) {
+    output.device = described(device, plan);
+  }
   return output;
 }
 

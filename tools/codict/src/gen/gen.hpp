@@ -25,7 +25,8 @@ struct Output {
   std::vector<External> externals;  ///< symbols that the application has to define
   std::string verify;               ///< source of the program that starts a node with the dictionary
   std::string stubs;                ///< source that defines the externals; empty if there are no externals
-  Device device;                    ///< the device as generated, for an EDS or XDD that matches the dictionary
+  Device
+      device;  ///< the device as generated, for an EDS or XDD that matches the dictionary; see Options::copies_device
 };
 
 /// Returns a C identifier from the name of a file: "clock_2" from "Clock (2).eds"; "device" if no character can be

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::uint32_t cob_id_off = 0x80000000;
 
+constexpr std::uint16_t first_variable = 0x00A0;  // below are definitions of types
 constexpr std::uint16_t error_register = 0x1001;
 
 constexpr bool is_between(std::uint16_t index, std::uint16_t first, std::uint16_t last) {
@@ -45,21 +46,31 @@ class Items {
   Items(const Device& device, const Options& options, Plan& plan, Findings& findings)
       : device_(device), options_(options), plan_(plan), findings_(findings) {
     for_each_variable(device, [this](std::uint16_t, std::uint8_t, const Entry& entry) {
-      is_of_node_ = is_of_node_ || entry.node.storage_group.is_given || entry.node.count_label.is_given;
+      is_of_node_ = is_of_node_ || entry.node->storage_group.is_given || entry.node->count_label->is_given;
     });
   }
 
+  // Entries that are too many are counted, but not stored: they would need much memory.
+  void count(const Object& object) {
+    const bool has_subs = !object.subs.empty() || has_sub_objects(object.object_code.value);
+    const auto enabled = std::count_if(object.subs.begin(), object.subs.end(),
+                                       [](const Sub& sub) { return !sub.node->disabled->value; });
+    const std::size_t implied = object.subs.empty() || object.find(0) != nullptr ? 0 : 1;
+    const bool has_entry = !object.node->disabled->value && object.index >= first_variable;
+    number_ += !has_entry ? 0 : has_subs ? static_cast<std::size_t>(enabled) + implied : 1;
+  }
+
   void add(const Object& object) {
-    if (object.node.disabled.value) {
+    if (object.node->disabled->value) {
       findings_.add(rules::left_out, object.span, "disabled object has no entry", "remove CO_disabled");
       return;
     }
-    if (object.index < 0x00A0) {
+    if (object.index < first_variable) {
       findings_.add(rules::left_out, object.span, "type definition has no entry", "ignore the note");
       return;
     }
-    if (!object.node.count_label.text.empty()) {
-      ++plan_.labels[upper(identifier(object.node.count_label.text))];
+    if (!object.node->count_label->text.empty()) {
+      ++plan_.labels[upper(identifier(object.node->count_label->text))];
     }
     if (object.subs.empty() && !has_sub_objects(object.object_code.value)) {
       add(object, 0, object, false);
@@ -84,7 +95,7 @@ class Items {
       add(object, 0, number, true);
     }
     for (const Sub& sub : object.subs) {
-      if (!sub.node.disabled.value) {
+      if (!sub.node->disabled->value) {
         add(object, sub.sub_index, sub, true);
       }
     }
@@ -108,7 +119,10 @@ class Items {
     if (is_node_id_right(item)) {
       set_limits(item, entry);
       set_group(item, object, entry);
-      plan_.items.push_back(std::move(item));
+      ++plan_.entries;
+      if (number_ <= most_items) {
+        plan_.items.push_back(std::move(item));
+      }
     }
   }
 
@@ -248,7 +262,7 @@ class Items {
                  (item.pdo != PdoMapping::no ? flag_pdo : 0U) | (item.value.adds_node_id ? flag_node_id : 0U);
     const bool goes_out = item.pdo != PdoMapping::no && item.pdo != PdoMapping::rpdo && is_readable(item.access) &&
                           item.access != Access::rww && item.access != Access::constant;
-    const bool triggers = entry.node.flags_pdo.value || object.node.flags_pdo.value || options_.trigger_tpdos;
+    const bool triggers = entry.node->flags_pdo->value || object.node->flags_pdo->value || options_.trigger_tpdos;
     item.flags |= goes_out && triggers ? flag_trigger : 0U;
   }
 
@@ -272,7 +286,7 @@ class Items {
       item.storage = of_service[static_cast<std::size_t>(item.place->service)];
     } else if (item.place != nullptr || item.index == error_register) {
       set_variable(item, has_subs);  // the stack reads and writes the value
-    } else if (item.has_own_type || entry.node.extension_io.value) {
+    } else if (item.has_own_type || entry.node->extension_io->value) {
       set_own_type(item);
     } else if (is_external(item, entry)) {
       set_external(item);
@@ -308,7 +322,7 @@ class Items {
   // without value are external in all descriptions.
   bool is_external(const Item& item, const Entry& entry) const {
     const bool is_empty = item.value.kind == Value::Kind::none;
-    const bool has_length = entry.node.byte_length.value != 0 || entry.node.string_length_min.value != 0;
+    const bool has_length = entry.node->byte_length->value != 0 || entry.node->string_length_min->value != 0;
     const bool is_xml = device_.format != Format::eds && device_.format != Format::dcf;
     const bool is_domain = item.form->code == type_code::domain;
     return is_empty && !has_length && (is_domain || (is_xml && is_of_node_));
@@ -332,9 +346,9 @@ class Items {
     const std::uint32_t unit = kind == TypeKind::unicode_string ? 2 : 1;
     const std::size_t characters = kind == TypeKind::visible_string   ? item.value.text.size()
                                    : kind == TypeKind::unicode_string ? utf16(item.value.text).size()
-                                                                      : item.value.octets.size();
+                                                                      : item.value.octets->size();
     const std::uint32_t length = static_cast<std::uint32_t>(characters) * unit;
-    const std::uint32_t asked = std::max(entry.node.byte_length.value, entry.node.string_length_min.value * unit);
+    const std::uint32_t asked = std::max(entry.node->byte_length->value, entry.node->string_length_min->value * unit);
     item.storage = kind == TypeKind::domain ? Storage::domain : Storage::string;
     const bool may_grow = length == 0 || (item.storage == Storage::string && is_writable(item.access));
     const std::uint32_t room = asked == 0 && may_grow ? std::max(options_.string_capacity, unit) : asked;
@@ -359,9 +373,9 @@ class Items {
       return;
     }
     if (is_less(item, entry.high_limit, entry.low_limit)) {
-      findings_.add(rules::limits, entry.low_limit.span,
-                    fmt::format("LowLimit {} is above HighLimit {}; both are ignored", in_quotes(entry.low_limit.text),
-                                in_quotes(entry.high_limit.text)),
+      findings_.add(rules::limits, entry.low_limit->span,
+                    fmt::format("LowLimit {} is above HighLimit {}; both are ignored", in_quotes(entry.low_limit->text),
+                                in_quotes(entry.high_limit->text)),
                     "exchange or correct the limits");
       return;
     }
@@ -463,7 +477,7 @@ class Items {
     const bool is_memory = item.storage == Storage::variable || item.storage == Storage::string ||
                            item.storage == Storage::domain || item.storage == Storage::consumer;
     const Field<std::string>& named =
-        entry.node.storage_group.is_given ? entry.node.storage_group : object.node.storage_group;
+        entry.node->storage_group.is_given ? entry.node->storage_group : object.node->storage_group;
     if (!is_memory || !is_storage_group(named.value) || item.access == Access::constant) {
       return;
     }
@@ -491,6 +505,7 @@ class Items {
   Plan& plan_;
   Findings& findings_;
   bool is_of_node_ = false;
+  std::size_t number_ = 0;  // of the variables of the device that have an entry, unless they have errors
 };
 
 }  // namespace
@@ -498,10 +513,15 @@ class Items {
 void plan_items(const Device& device, const Options& options, Plan& plan, Findings& findings) {
   Items items(device, options, plan, findings);
   for (const Object& object : device.objects) {
+    items.count(object);
+  }
+  for (const Object& object : device.objects) {
     items.add(object);
   }
-  std::stable_sort(plan.items.begin(), plan.items.end(),
-                   [](const Item& a, const Item& b) { return a.key() < b.key(); });
+  const auto is_before = [](const Item& a, const Item& b) { return a.key() < b.key(); };
+  if (!std::is_sorted(plan.items.begin(), plan.items.end(), is_before)) {  // a sort needs memory for a second table
+    std::stable_sort(plan.items.begin(), plan.items.end(), is_before);
+  }
 }
 
 }  // namespace lexican::codict::gen

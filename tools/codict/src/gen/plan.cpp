@@ -90,10 +90,9 @@ Plan make_plan(const Device& device, const Options& options, Findings& findings)
   plan.groups.front().name = "RAM";
   plan.groups.front().id = "ram";
   plan_items(device, options, plan, findings);
-  constexpr std::size_t most_items = 0xFFFE;  // one less than the largest table, for the end mark
   const bool has_reason = findings.count(Severity::error) != 0;
-  if ((plan.items.empty() && !has_reason) || plan.items.size() > most_items) {
-    findings.add(rules::count, {}, fmt::format("dictionary has {} entries, not 1 to {}", plan.items.size(), most_items),
+  if ((plan.entries == 0 && !has_reason) || plan.entries > most_items) {
+    findings.add(rules::count, {}, fmt::format("dictionary has {} entries, not 1 to {}", plan.entries, most_items),
                  "describe other objects");
   }
   plan_names(options, plan, findings);

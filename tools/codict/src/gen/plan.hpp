@@ -25,6 +25,7 @@ struct Options {
   std::uint32_t string_capacity = 32;         ///< bytes of a writable string whose length is not described
   bool unique_names = false;                  ///< equal names of two entries are an error
   bool trigger_tpdos = false;                 ///< set flag A for all objects that a TPDO may map
+  bool copies_device = true;                  ///< set Output::device, which needs the memory of the device once more
   std::map<std::string, std::uint8_t> store;  ///< sub-indexes of 1010h by storage group; 0: the group is not stored
 };
 
@@ -125,7 +126,8 @@ struct PdoSum {
 };
 
 struct Plan {
-  std::vector<Item> items;  ///< entries in ascending order of their keys
+  std::vector<Item> items;  ///< entries in ascending order of their keys; none if they are too many
+  std::size_t entries = 0;  ///< number of entries; more than `most_items` are an error
   std::vector<Group> groups;
   std::vector<PdoSum> pdos;
   std::map<std::string, unsigned> labels;  ///< number of objects for each CO_countLabel
@@ -135,6 +137,9 @@ struct Plan {
 
   const Item* find(std::uint16_t index, std::uint8_t sub_index) const;
 };
+
+/// Limit of the entries: one less than the largest table, for the end mark.
+constexpr std::size_t most_items = 0xFFFE;
 
 /// Plans a dictionary. Errors are added to the findings; the objects that they concern are missing in the plan.
 Plan make_plan(const Device& device, const Options& options, Findings& findings);

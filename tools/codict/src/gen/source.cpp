@@ -329,7 +329,7 @@ class SourceText {
         list += fmt::format("{}0x{:04X}", list.empty() ? "" : ", ", static_cast<unsigned>(character));
       }
     } else {
-      for (const char octet : item.value.octets) {
+      for (const char octet : *item.value.octets) {
         list += fmt::format("{}0x{:02X}", list.empty() ? "" : ", ", static_cast<unsigned char>(octet));
       }
     }
@@ -340,7 +340,7 @@ class SourceText {
     switch (data_type(item.form->code).kind) {
       case TypeKind::visible_string: return item.value.text.size();
       case TypeKind::unicode_string: return 2 * utf16(item.value.text).size();
-      default: return item.value.octets.size();
+      default: return item.value.octets->size();
     }
   }
 

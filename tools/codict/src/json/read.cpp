@@ -115,6 +115,13 @@ class Reader {
       context_.format = member;
     }
   }
+  template <typename T>
+  void operator()(std::string_view name, Rare<T>& member) {
+    names_.push_back(name);
+    if (const Node* const node = node_.find(name); node != nullptr) {
+      read(*node, member.edit());
+    }
+  }
 
   void end_of(Entry& entry) {
     entry.span = node_.span;
@@ -384,7 +391,7 @@ class Reader {
 
   void read_meaning_of_kind(const Node& meaning, bool has_kind, Value& value) {
     if (has_kind && value.kind == Value::Kind::octets) {
-      if (is_a(meaning, Kind::string) && !read_octets(meaning.text, value.octets)) {
+      if (is_a(meaning, Kind::string) && !read_octets(meaning.text, value.octets.edit())) {
         context_.findings.add(codict::rules::value_octets, meaning.span,
                               fmt::format("{} is not an octet string", in_quotes(meaning.text)),
                               "write pairs of hexadecimal digits");
@@ -428,7 +435,7 @@ class Reader {
       return said.adds_node_id != value.adds_node_id || !are_alike(value.integer, said.integer);
     }
     if (said.kind == Value::Kind::octets && value.kind == Value::Kind::octets) {
-      return said.octets != value.octets;
+      return *said.octets != *value.octets;
     }
     if (value.kind == Value::Kind::real) {
       return said.kind == Value::Kind::real && said.real != value.real;
@@ -457,7 +464,7 @@ class Reader {
     switch (value.kind) {
       case Value::Kind::integer: value.text = value.written_integer(); break;
       case Value::Kind::real: value.text = fmt::format("{}", value.real); break;
-      case Value::Kind::octets: value.text = hexadecimal_octets(value.octets); break;
+      case Value::Kind::octets: value.text = hexadecimal_octets(*value.octets); break;
       default: break;
     }
   }

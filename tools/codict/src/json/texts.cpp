@@ -36,6 +36,10 @@ class Walk {
     }
   }
   template <typename T>
+  void operator()(std::string_view name, const Rare<T>& member) {
+    (*this)(name, *member);
+  }
+  template <typename T>
   void end_of(const T& /*part*/) {}
 
  private:

@@ -104,7 +104,7 @@ Node node_of(const Value& value) {
       add(node, "node_id", node_of(true));
     }
   } else if (value.kind == Value::Kind::octets) {
-    add(node, "value", node_of(hexadecimal_octets(value.octets)));
+    add(node, "value", node_of(hexadecimal_octets(*value.octets)));
   } else if (value.kind == Value::Kind::real && std::isfinite(value.real)) {  // JSON has no infinity and NaN
     add(node, "value", node_of(value.real));
   }
@@ -163,6 +163,10 @@ class Writer {
       }
     }
     add(node_, name, std::move(array));
+  }
+  template <typename T>
+  void operator()(std::string_view name, const Rare<T>& member) {
+    (*this)(name, *member);
   }
   template <typename T>
   void end_of(const T& /*part*/) {}

@@ -94,8 +94,8 @@ ListKind list_of(std::uint16_t index) {
 }
 
 const std::vector<AllowedValue>& allowed_values_of(const Device& device, const Entry& entry) {
-  const std::vector<AllowedValue>* values = &entry.allowed.values;
-  std::string_view id = entry.type.reference.text;
+  const std::vector<AllowedValue>* values = &entry.allowed->values;
+  std::string_view id = entry.type->reference.text;
   for (std::size_t steps = 0; values->empty() && steps < device.types.size(); ++steps) {  // types may form a cycle
     const auto type = std::find_if(device.types.begin(), device.types.end(),
                                    [id](const TypeDefinition& candidate) { return candidate.id.text == id; });
@@ -119,7 +119,7 @@ const DataType& data_type_of(const Device& device, std::uint16_t code) {
 }
 
 const Value& value_in_force(const Entry& entry) {
-  return entry.actual_value.kind != Value::Kind::none ? entry.actual_value : entry.default_value;
+  return entry.actual_value->kind != Value::Kind::none ? *entry.actual_value : entry.default_value;
 }
 
 std::string Value::written_integer() const {

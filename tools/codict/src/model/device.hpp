@@ -3,7 +3,8 @@
 /// The model of a device description, as plain data for all formats. It has members for data that only one format can
 /// express, too. Data that no standard defines is stored with its name (struct Kept), so that reading loses nothing.
 ///
-/// Objects are sorted by index, their sub-objects by sub-index, without duplicates.
+/// Objects are sorted by index, their sub-objects by sub-index, without duplicates. A large device has hundreds of
+/// thousands of entries: members that most of them do not use are Rare.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "model/access.hpp"
+#include "model/rare.hpp"
 #include "model/types.hpp"
 #include "model/value.hpp"
 
@@ -32,8 +34,8 @@ struct Kept {
 struct Label {
   std::string language;  ///< "en", "de-AT"; empty if not given
   Text text;
-  std::string dictionary;  ///< dictID of a labelRef or descriptionRef, whose textID is in `text`
-  std::string uri;
+  Rare<std::string> dictionary;  ///< dictID of a labelRef or descriptionRef, whose textID is in `text`
+  Rare<std::string> uri;
 };
 
 /// Names and descriptions of a part, in any number of languages.
@@ -57,15 +59,15 @@ struct Unit {
 struct AllowedValue {
   Value value;
   Words words;
-  Text offset;
-  Text multiplier;
+  Rare<Text> offset;
+  Rare<Text> multiplier;
 };
 
 /// A range of allowed values.
 struct Range {
   Value minimum;
   Value maximum;
-  Value step;
+  Rare<Value> step;
 };
 
 /// Values and ranges to which an entry is restricted, in addition to its limits.
@@ -124,14 +126,14 @@ enum class SrdoAccess : unsigned char { no, tx, rx, trx };
 
 /// Properties that both generations of CANopenNode add to descriptions, and `;StorageLocation=` of an EDS.
 struct NodeProperties {
-  Field<bool> disabled;                    ///< CO_disabled: kept in the description, not generated
-  Text count_label;                        ///< CO_countLabel
-  Field<std::string> storage_group;        ///< CO_storageGroup; value "RAM": not stored (text "RAM" or "0")
-  Field<SrdoAccess> srdo;                  ///< CO_accessSRDO
-  Field<std::uint32_t> string_length_min;  ///< CO_stringLengthMin, in characters
-  Field<std::uint32_t> byte_length;        ///< CO_byteLength, of the older generation
-  Field<bool> extension_io;                ///< CO_extensionIO, of the older generation
-  Field<bool> flags_pdo;                   ///< CO_flagsPDO, of the older generation
+  Rare<Field<bool>> disabled;                    ///< CO_disabled: kept in the description, not generated
+  Rare<Text> count_label;                        ///< CO_countLabel
+  Field<std::string> storage_group;              ///< CO_storageGroup; value "RAM": not stored (text "RAM" or "0")
+  Rare<Field<SrdoAccess>> srdo;                  ///< CO_accessSRDO
+  Rare<Field<std::uint32_t>> string_length_min;  ///< CO_stringLengthMin, in characters
+  Rare<Field<std::uint32_t>> byte_length;        ///< CO_byteLength, of the older generation
+  Rare<Field<bool>> extension_io;                ///< CO_extensionIO, of the older generation
+  Rare<Field<bool>> flags_pdo;                   ///< CO_flagsPDO, of the older generation
 };
 
 /// A named text that an application adds to an object. [311: property]
@@ -148,38 +150,38 @@ struct Entry {
   Field<Access> access;
   Field<PdoMapping> pdo_mapping;
   Value default_value;
-  Value actual_value;      ///< configured value: ParameterValue of a DCF, actualValue of an XDC
-  Value substitute_value;  ///< [311]
-  Value low_limit;
-  Value high_limit;
-  Field<std::uint32_t> flags;  ///< ObjFlags: bit 0 no download, bit 1 no upload on scan, bit 2 effect after reset
-  Text denotation;
-  Text upload_file;          ///< of a DOMAIN [306]
-  Text download_file;        ///< of a DOMAIN [306]
-  Text parameter_reference;  ///< ParamRefd of an EDS
+  Rare<Value> actual_value;      ///< configured value: ParameterValue of a DCF, actualValue of an XDC
+  Rare<Value> substitute_value;  ///< [311]
+  Rare<Value> low_limit;
+  Rare<Value> high_limit;
+  Rare<Field<std::uint32_t>> flags;  ///< ObjFlags: bit 0 no download, bit 1 no upload on scan, bit 2 effect after reset
+  Rare<Text> denotation;
+  Rare<Text> upload_file;          ///< of a DOMAIN [306]
+  Rare<Text> download_file;        ///< of a DOMAIN [306]
+  Rare<Text> parameter_reference;  ///< ParamRefd of an EDS
 
-  Text parameter_id;  ///< uniqueID of the parameter that describes the object [311]
-  Words words;
-  Words denotations;  ///< `denotation` is the first of them [311]
-  TypeUse type;       ///< type that the parameter gives, in addition to data_type
-  Unit unit;
-  Allowed allowed;
-  Text access_list;
-  Text support;  ///< mandatory, optional, conditional
-  std::vector<Text> conditional_support;
-  Field<bool> persistent;
-  Text offset;
-  Text multiplier;
-  Text template_id;
+  Rare<Text> parameter_id;  ///< uniqueID of the parameter that describes the object [311]
+  Rare<Words> words;
+  Rare<Words> denotations;  ///< `denotation` is the first of them [311]
+  Rare<TypeUse> type;       ///< type that the parameter gives, in addition to data_type
+  Rare<Unit> unit;
+  Rare<Allowed> allowed;
+  Rare<Text> access_list;
+  Rare<Text> support;  ///< mandatory, optional, conditional
+  Rare<std::vector<Text>> conditional_support;
+  Rare<Field<bool>> persistent;
+  Rare<Text> offset;
+  Rare<Text> multiplier;
+  Rare<Text> template_id;
 
-  NodeProperties node;
-  std::vector<Property> properties;  ///< all other properties
-  std::vector<Kept> others;          ///< keys, attributes and elements that no standard defines
-  Span span;                         ///< beginning: the section's name, or the element's start tag
-  Span extent;                       ///< the whole text: the section, or the element
-  Span parameter_extent;             ///< the whole text of the parameter that describes it [311]
+  Rare<NodeProperties> node;
+  Rare<std::vector<Property>> properties;  ///< all other properties
+  std::vector<Kept> others;                ///< keys, attributes and elements that no standard defines
+  Span span;                               ///< beginning: the section's name, or the element's start tag
+  Span extent;                             ///< the whole text: the section, or the element
+  Span parameter_extent;                   ///< the whole text of the parameter that describes it [311]
 
-  bool has_value() const { return default_value.is_given || actual_value.is_given; }
+  bool has_value() const { return default_value.is_given || actual_value->is_given; }
 };
 
 /// Returns the value with which a device starts: the configured value, else the default value.

@@ -193,9 +193,9 @@ bool read_octets(std::string_view text, std::string& octets) {
 
 void interpret_octets(Value& value, Findings& findings) {
   value.kind = Value::Kind::octets;
-  if (!read_octets(value.text, value.octets)) {
+  if (!read_octets(value.text, value.octets.edit())) {
     value.kind = Value::Kind::malformed;
-    value.octets.clear();
+    value.octets.reset();
     findings.add(rules::value_octets, value.span, fmt::format("{} is not an octet string", in_quotes(value.text)),
                  "write pairs of hexadecimal digits: 01 2A");
   }

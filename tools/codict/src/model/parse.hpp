@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/rare.hpp"
 #include "model/types.hpp"
 #include "model/value.hpp"
 #include "text/finding.hpp"
@@ -14,11 +15,22 @@ namespace lexican::codict {
 
 /// Sets kind and value from the text, which a reader has set. Reports each fault of the text as a finding.
 void interpret(Value& value, const DataType& type, Findings& findings);
+inline void interpret(Rare<Value>& value, const DataType& type, Findings& findings) {
+  if (Value* const given = value.if_any()) {
+    interpret(*given, type, findings);
+  }
+}
 
 /// Sets the value of a field from its text, which a reader has set. Reports a text that is not a number, or a number
 /// above `largest`, and leaves field.value unchanged then.
 template <typename T>
 void interpret_number(Field<T>& field, std::uint64_t largest, Findings& findings);
+template <typename T>
+void interpret_number(Rare<Field<T>>& field, std::uint64_t largest, Findings& findings) {
+  if (Field<T>* const given = field.if_any()) {
+    interpret_number(*given, largest, findings);
+  }
+}
 
 /// Sets a flag from its text: 0 or 1 in any notation of a number, or true and false (reported).
 void interpret_flag(Field<bool>& field, Findings& findings);

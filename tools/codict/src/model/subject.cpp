@@ -113,6 +113,9 @@ std::string type_text(std::uint16_t code) {
 }
 
 void name_subjects(const Device& device, Findings& findings) {
+  if (findings.all().empty()) {
+    return;
+  }
   const Extents extents(device);
   findings.for_each([&extents](Finding& finding) {
     const bool has_place = !(finding.span == Span{});

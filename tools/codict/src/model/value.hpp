@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "model/rare.hpp"
 #include "text/number.hpp"
 #include "text/source.hpp"
 
@@ -41,7 +42,7 @@ struct Value : Text {
   bool adds_node_id = false;  ///< the value is $NODEID + integer
   Integer integer;
   double real = 0;
-  std::string octets;
+  Rare<std::string> octets;
 
   bool is_integer() const { return kind == Kind::integer; }
   /// Returns the integer as CiA 306 writes it: "$NODEID+0x180", "-5".

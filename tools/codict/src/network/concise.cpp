@@ -53,8 +53,8 @@ class Writer {
 
  private:
   bool is_configured(const Entry* entry) const {
-    return entry != nullptr && entry->actual_value.kind != Value::Kind::none && is_writable(entry->access.value) &&
-           (entry->flags.value & refuses_download) == 0;
+    return entry != nullptr && entry->actual_value->kind != Value::Kind::none && is_writable(entry->access.value) &&
+           (entry->flags->value & refuses_download) == 0;
   }
   bool is_configured(const Object& object) const {
     return std::any_of(object.subs.begin(), object.subs.end(),
@@ -82,7 +82,7 @@ void Writer::add(std::uint16_t index, std::uint8_t sub_index, const Entry& entry
   }
   findings_.add(rules::concise, at_, &entry,
                 fmt::format("{}: {:04X}h:{} = {} is not in the concise DCF: unknown coding of its data type",
-                            node_.title(), index, sub_index, shortened(entry.actual_value.text)),
+                            node_.title(), index, sub_index, shortened(entry.actual_value->text)),
                 "write the value by the application");
 }
 

@@ -82,7 +82,7 @@ bool Configurator::set(std::uint16_t index, std::uint8_t sub_index, std::uint64_
                   fmt::format("write a value of at most {} bits", bits));
     return false;
   }
-  set_number(entry->actual_value, value, span);
+  set_number(entry->actual_value.edit(), value, span);
   return true;
 }
 

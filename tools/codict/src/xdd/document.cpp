@@ -7,8 +7,13 @@
 #include <system_error>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "text/number.hpp"
 #include "xdd/rules.hpp"
+#include "xdd/suppressions.hpp"
 
 namespace lexican::codict::xdd {
 
@@ -183,6 +188,7 @@ Document::Document(Source source, Findings& findings)
                  "correct the XML at this place");
   }
   find_root(findings);
+  suppressions_ = find_suppressions(*this);
 }
 
 void Document::find_root(Findings& findings) {
@@ -198,6 +204,15 @@ void Document::find_root(Findings& findings) {
   if (is_too_deep_) {
     root_ = {};
   }
+}
+
+void Document::release() {
+  root_ = {};
+  tree_.reset();
+  buffer_ = {};
+#ifdef __GLIBC__
+  ::malloc_trim(0);  // returns the memory of the elements, which is in pieces, to the system
+#endif
 }
 
 std::uint32_t Document::tag_end(std::uint32_t at) const {

@@ -3,19 +3,22 @@
 /// The text of an XML description without loss: elements, attributes and texts are spans of the source, and edits are
 /// splices. An unedited document is written byte for byte as it was read.
 ///
-/// Reads nothing outside the source, and expands no entities of a DTD.
+/// Reads nothing outside the source, and expands no entities of a DTD. The elements need several times the memory of
+/// the source: they exist until the description has been read.
 #pragma once
 
 #include <cstddef>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "model/value.hpp"
 #include "text/edit.hpp"
 #include "text/encoding.hpp"
 #include "text/finding.hpp"
 #include "text/source.hpp"
+#include "text/suppression.hpp"
 
 namespace lexican::codict::xdd {
 
@@ -36,8 +39,12 @@ class Document {
 
   const Source& source() const { return source_; }
   Encoding encoding() const { return encoding_; }
-  pugi::xml_node root() const { return root_; }      ///< null if there is none
+  pugi::xml_node root() const { return root_; }      ///< null if there is none, or after release()
   bool is_too_deep() const { return is_too_deep_; }  ///< root() is null then
+
+  const std::vector<Suppression>& suppressions() const { return suppressions_; }
+  /// Frees the elements. The source, the suppressions and all functions with a span remain usable.
+  void release();
 
   std::string_view raw(Span span) const { return source_.slice(span); }
   Span tag(pugi::xml_node element) const;          ///< span of the start tag with its brackets
@@ -69,6 +76,7 @@ class Document {
   std::string buffer_;  // copy of the source, into which the parser writes terminators
   pugi::xml_document tree_;
   pugi::xml_node root_;
+  std::vector<Suppression> suppressions_;
   Encoding encoding_ = Encoding::utf8;
   bool is_too_deep_ = false;
 };

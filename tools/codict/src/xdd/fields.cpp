@@ -212,4 +212,10 @@ void interpret_boolean(Field<bool>& field, Findings& findings) {
   }
 }
 
+void interpret_boolean(Rare<Field<bool>>& field, Findings& findings) {
+  if (Field<bool>* const given = field.if_any()) {
+    interpret_boolean(*given, findings);
+  }
+}
+
 }  // namespace lexican::codict::xdd

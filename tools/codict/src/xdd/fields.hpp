@@ -23,6 +23,12 @@ namespace lexican::codict::xdd {
 
 using Ids = std::unordered_map<std::string_view, pugi::xml_node>;
 
+/// Use of a parameter by objects.
+struct Use {
+  std::size_t references = 0;  ///< number of the objects that refer to the parameter and have not been read yet
+  bool is_read = false;
+};
+
 /// State of the read of one device, shared by all parts of the reader.
 struct Shared {
   Dialect dialect = Dialect::container;
@@ -30,7 +36,7 @@ struct Shared {
   Ids parameters;
   Ids templates;
   Ids enum_entries;                                           ///< of maxon: entries of enumerations
-  std::unordered_map<std::string_view, bool> used;            ///< parameters that an object refers to
+  std::unordered_map<std::string_view, Use> uses;             ///< of the parameters by objects, by id
   std::unordered_map<std::string_view, std::uint16_t> codes;  ///< codes of the types that have been looked up
   std::vector<pugi::xml_node> indexed;                        ///< parameters of maxon that have an index
   std::vector<bool> objects = std::vector<bool>(0x10000);     ///< by index: true for those that exist
@@ -158,5 +164,6 @@ bool may_copy(pugi::xml_node element, const Reader& reader);
 bool read_hex(const Text& text, std::size_t digits, std::uint64_t largest, std::uint64_t& value, Findings& findings);
 /// Interprets true, false, 1 or 0 of XML Schema.
 void interpret_boolean(Field<bool>& field, Findings& findings);
+void interpret_boolean(Rare<Field<bool>>& field, Findings& findings);
 
 }  // namespace lexican::codict::xdd

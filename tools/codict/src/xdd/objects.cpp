@@ -27,20 +27,20 @@ constexpr std::array<Slot<Part>, 18> part_slots = {{
     {"name", [](Part& p) -> Text& { return p.name; }},
     {"objectType", [](Part& p) -> Text& { return p.object_code; }},
     {"dataType", [](Part& p) -> Text& { return p.data_type; }},
-    {"lowLimit", [](Part& p) -> Text& { return p.low_limit; }},
-    {"highLimit", [](Part& p) -> Text& { return p.high_limit; }},
+    {"lowLimit", [](Part& p) -> Text& { return p.low_limit.edit(); }},
+    {"highLimit", [](Part& p) -> Text& { return p.high_limit.edit(); }},
     {"accessType", [](Part& p) -> Text& { return p.access; }},
     {"defaultValue", [](Part& p) -> Text& { return p.default_value; }},
-    {"actualValue", [](Part& p) -> Text& { return p.actual_value; }},
-    {"denotation", [](Part& p) -> Text& { return p.denotation; }},
+    {"actualValue", [](Part& p) -> Text& { return p.actual_value.edit(); }},
+    {"denotation", [](Part& p) -> Text& { return p.denotation.edit(); }},
     {"PDOmapping", [](Part& p) -> Text& { return p.pdo_mapping; }},
-    {"objFlags", [](Part& p) -> Text& { return p.flags; }},
-    {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id; }},
+    {"objFlags", [](Part& p) -> Text& { return p.flags.edit(); }},
+    {"uniqueIDRef", [](Part& p) -> Text& { return p.parameter_id.edit(); }},
     {"subNumber", [](Part& p) -> Text& { return p.sub_number; }},
     // Names in _project.xml of CANopenNode.
-    {"memoryType", [](Part& p) -> Text& { return p.node.storage_group; }},
-    {"disabled", [](Part& p) -> Text& { return p.node.disabled; }},
-    {"TPDOdetectCOS", [](Part& p) -> Text& { return p.node.flags_pdo; }},
+    {"memoryType", [](Part& p) -> Text& { return p.node.edit().storage_group; }},
+    {"disabled", [](Part& p) -> Text& { return p.node.edit().disabled.edit(); }},
+    {"TPDOdetectCOS", [](Part& p) -> Text& { return p.node.edit().flags_pdo.edit(); }},
 }};
 
 bool is_object(std::string_view name) { return name == "CANopenObject" || name == "Object"; }
@@ -68,11 +68,13 @@ Part read_part(pugi::xml_node element, const Reader& reader) {
   part.span = reader.document.tag(element);
   part.extent = reader.document.whole(element);
   read_element(part, element, part_slots, part.others, reader, [&](pugi::xml_node child) {
-    return take_subs(child, part.subs) || read_word(part.words, child, part.others, reader);
+    return take_subs(child, part.subs) || (is_word(child) && read_word(part.words.edit(), child, part.others, reader));
   });
-  part.node.storage_group.value = part.node.storage_group.text;
-  interpret_boolean(part.node.disabled, reader.findings);
-  interpret_boolean(part.node.flags_pdo, reader.findings);
+  if (NodeProperties* const node = part.node.if_any()) {
+    node->storage_group.value = node->storage_group.text;
+    interpret_boolean(node->disabled, reader.findings);
+    interpret_boolean(node->flags_pdo, reader.findings);
+  }
   return part;
 }
 
@@ -123,7 +125,7 @@ bool is_same_type(std::uint16_t of_object, std::uint16_t of_parameter) {
 }
 
 void choose_type(Entry& entry, const Reader& reader) {
-  const std::uint16_t of_parameter = entry.type.code;
+  const std::uint16_t of_parameter = entry.type->code;
   const std::uint16_t of_object = entry.data_type.value;
   if (of_parameter == 0) {
     return;
@@ -136,7 +138,7 @@ void choose_type(Entry& entry, const Reader& reader) {
                         fmt::format("data type {:04X}h, but the parameter has {:04X}h", of_object, of_parameter),
                         "use one type in both");
   }
-  const bool has_octets = !entry.default_value.is_empty() || !entry.actual_value.is_empty();
+  const bool has_octets = !entry.default_value.is_empty() || !entry.actual_value->is_empty();
   const bool is_domain = entry.object_code.value == ObjectCode::domain || !has_octets;
   entry.data_type.value = of_parameter == type_code::octet_string && is_domain ? type_code::domain : of_parameter;
 }
@@ -146,7 +148,8 @@ bool is_same_value(Value a, Value b, const DataType& type) {
   interpret(a, type, ignored);
   interpret(b, type, ignored);
   return a.kind == b.kind && a.kind != Value::Kind::malformed && a.integer == b.integer && a.real == b.real &&
-         a.adds_node_id == b.adds_node_id && a.octets == b.octets && (a.kind != Value::Kind::text || a.text == b.text);
+         a.adds_node_id == b.adds_node_id && *a.octets == *b.octets &&
+         (a.kind != Value::Kind::text || a.text == b.text);
 }
 
 // Chooses between the values of a parameter (`chosen`) and of its object (`own`), which is used if the parameter has
@@ -174,9 +177,9 @@ void choose(T& chosen, const T& own, std::string_view attribute, bool is_same, E
 
 // Uses the range of allowed values as limits, if there is exactly one.
 void take_limits_of_range(Entry& entry) {
-  if (entry.allowed.ranges.size() == 1) {
-    entry.low_limit = entry.allowed.ranges.front().minimum;
-    entry.high_limit = entry.allowed.ranges.front().maximum;
+  if (entry.allowed->ranges.size() == 1) {
+    entry.low_limit = entry.allowed->ranges.front().minimum;
+    entry.high_limit = entry.allowed->ranges.front().maximum;
   }
 }
 
@@ -199,35 +202,53 @@ void merge(Entry& entry, Entry& own, const Reader& reader) {
   entry.pdo_mapping = std::move(own.pdo_mapping);
   entry.flags = std::move(own.flags);
   append(entry.others, own.others);
-  const DataType& type = data_type(entry.type.code != 0 ? entry.type.code : entry.data_type.value);
+  const DataType& type = data_type(entry.type->code != 0 ? entry.type->code : entry.data_type.value);
   const auto choose_value = [&](Value& chosen, const Value& value, std::string_view attribute) {
     const bool is_asked = chosen.is_given && value.is_given && chosen.text != value.text;
     choose(chosen, value, attribute, is_asked && is_same_value(chosen, value, type), entry, reader);
   };
   choose_value(entry.default_value, own.default_value, "defaultValue");
-  choose_value(entry.actual_value, own.actual_value, "actualValue");
-  choose_value(entry.low_limit, own.low_limit, "lowLimit");
-  choose_value(entry.high_limit, own.high_limit, "highLimit");
+  const auto choose_rare = [&](Rare<Value>& chosen, const Value& value, std::string_view attribute) {
+    if (value.is_given) {
+      choose_value(chosen.edit(), value, attribute);
+    }
+  };
+  choose_rare(entry.actual_value, own.actual_value, "actualValue");
+  choose_rare(entry.low_limit, own.low_limit, "lowLimit");
+  choose_rare(entry.high_limit, own.high_limit, "highLimit");
   choose(entry.access, own.access, "accessType", is_same_access(own.access.value, entry.access.value), entry, reader);
-  choose(entry.denotation, own.denotation, "denotation", false, entry, reader);
+  if (own.denotation->is_given) {
+    choose(entry.denotation.edit(), *own.denotation, "denotation", false, entry, reader);
+  }
   choose_type(entry, reader);
 }
 
 // Returns the parameter that an object refers to; null if there is none, or if it exceeds the limit of copies.
 pugi::xml_node parameter_of(const Entry& own, const Reader& reader) {
-  if (own.parameter_id.is_empty()) {
+  if (own.parameter_id->is_empty()) {
     return {};
   }
-  const std::string_view id = trimmed(reader.document.raw(own.parameter_id.span));
+  const std::string_view id = trimmed(reader.document.raw(own.parameter_id->span));
   const pugi::xml_node element = find(reader.shared.parameters, id);
   if (!element) {
-    reader.findings.add(rules::reference, own.parameter_id.span,
-                        fmt::format("parameter {} does not exist", in_quotes(own.parameter_id.text)),
+    reader.findings.add(rules::reference, own.parameter_id->span,
+                        fmt::format("parameter {} does not exist", in_quotes(own.parameter_id->text)),
                         "correct uniqueIDRef, or add the parameter");
     return {};
   }
-  const bool is_readable = reader.shared.used.try_emplace(id, true).second || may_copy(element, reader);
+  Use& use = reader.shared.uses[id];
+  use.references -= use.references != 0 ? 1 : 0;
+  const bool is_readable = !std::exchange(use.is_read, true) || may_copy(element, reader);
   return is_readable ? element : pugi::xml_node();
+}
+
+// Frees a parameter that no other object refers to. Those with an index are objects themselves, which are read later.
+void free_parameter(pugi::xml_node parameter, const Entry& entry, const Reader& reader) {
+  const std::string_view id = trimmed(reader.document.raw(entry.parameter_id->span));
+  if (reader.shared.uses[id].references == 0 && !parameter.child("index")) {
+    reader.shared.parameters.erase(id);
+    parameter.parent().remove_child(parameter);
+  }
 }
 
 void complete(Entry& entry, Entry& own, const Reader& reader) {
@@ -237,6 +258,7 @@ void complete(Entry& entry, Entry& own, const Reader& reader) {
     return;
   }
   read_parameter(parameter, entry, reader);
+  free_parameter(parameter, own, reader);
   take_limits_of_range(entry);
   merge(entry, own, reader);
 }
@@ -244,7 +266,7 @@ void complete(Entry& entry, Entry& own, const Reader& reader) {
 // Uses a label, preferably in English, as the name of an entry without one.
 void complete_name(Entry& entry) {
   if (!entry.name.is_given) {
-    entry.name.text = text_in(entry.words.labels, "en");
+    entry.name.text = text_in(entry.words->labels, "en");
   }
 }
 
@@ -252,7 +274,7 @@ void complete_access(Entry& entry, bool is_variable, const Reader& reader) {
   if (!is_variable || entry.access.is_given || entry.access.value != Access::unknown) {
     return;
   }
-  if (!entry.parameter_id.is_empty()) {
+  if (!entry.parameter_id->is_empty()) {
     entry.access.value = Access::ro;  // default of the schema
   } else if (entry.object_code.value == ObjectCode::domain) {
     entry.access.value = Access::rw;
@@ -265,7 +287,7 @@ void complete_type(Entry& entry, bool is_variable, const Reader& reader) {
   if (entry.object_code.value == ObjectCode::domain && entry.data_type.value == 0) {
     entry.data_type.value = type_code::domain;
   }
-  if (is_variable && entry.data_type.value == 0 && !entry.type.reference.is_given) {
+  if (is_variable && entry.data_type.value == 0 && !entry.type->reference.is_given) {
     reader.findings.add(rules::type_missing, entry.span, "data type is missing", "add dataType");
   }
 }
@@ -276,8 +298,8 @@ void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reade
   interpret_access(part.access, false, reader);
   interpret_data_type(part, reader);
   std::uint64_t flags = 0;
-  if (!part.flags.is_empty() && read_hex(part.flags, digits(4, reader), 0xFFFFFFFF, flags, reader.findings)) {
-    part.flags.value = static_cast<std::uint32_t>(flags);
+  if (!part.flags->is_empty() && read_hex(part.flags, digits(4, reader), 0xFFFFFFFF, flags, reader.findings)) {
+    part.flags.edit().value = static_cast<std::uint32_t>(flags);
   }
   interpret_pdo_mapping(part.pdo_mapping, reader);
   complete(entry, part, reader);
@@ -287,7 +309,7 @@ void interpret_part(Part& part, bool has_subs, Entry& entry, const Reader& reade
 // Completes missing attributes of an ARRAY's element with those of the ARRAY, unless a parameter describes the element.
 void inherit_from_array(Sub& sub, const Object& object) {
   const bool is_element = object.object_code.value == ObjectCode::array && sub.sub_index != 0;
-  if (!is_element || !sub.parameter_id.is_empty()) {
+  if (!is_element || !sub.parameter_id->is_empty()) {
     return;
   }
   if (!sub.data_type.is_given) {
@@ -382,11 +404,13 @@ bool read_object(pugi::xml_node element, std::vector<bool>& seen, const Reader& 
 
 void interpret_values(Entry& entry, const Reader& reader) {
   const DataType& type = data_type_of(reader.device, entry.data_type.value);
-  for (Value* value : {&entry.default_value, &entry.actual_value, &entry.substitute_value}) {
-    interpret_value(*value, type, reader);
+  interpret_value(entry.default_value, type, reader);
+  interpret_value(entry.actual_value, type, reader);
+  interpret_value(entry.substitute_value, type, reader);
+  if (Allowed* const allowed = entry.allowed.if_any()) {
+    interpret_allowed(*allowed, type, reader);
   }
-  interpret_allowed(entry.allowed, type, reader);
-  if (entry.allowed.ranges.size() == 1) {  // the limits are copies of the range, whose faults are already reported
+  if (entry.allowed->ranges.size() == 1) {  // the limits are copies of the range, whose faults are already reported
     Findings said_already;
     interpret(entry.low_limit, type, said_already);
     interpret(entry.high_limit, type, said_already);
@@ -551,14 +575,20 @@ void interpret_value(Value& value, const DataType& type, const Reader& reader) {
   interpret(value, type, reader.findings);
 }
 
+void interpret_value(Rare<Value>& value, const DataType& type, const Reader& reader) {
+  if (Value* const given = value.if_any()) {
+    interpret_value(*given, type, reader);
+  }
+}
+
 void interpret_allowed(Allowed& allowed, const DataType& type, const Reader& reader) {
   for (AllowedValue& value : allowed.values) {
     interpret_value(value.value, type, reader);
   }
   for (Range& range : allowed.ranges) {
-    for (Value* value : {&range.minimum, &range.maximum, &range.step}) {
-      interpret_value(*value, type, reader);
-    }
+    interpret_value(range.minimum, type, reader);
+    interpret_value(range.maximum, type, reader);
+    interpret_value(range.step, type, reader);
   }
 }
 
@@ -621,6 +651,25 @@ void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader) {
   }
 }
 
+void count_references(pugi::xml_node element, const Reader& reader) {
+  constexpr std::string_view reference = "uniqueIDRef";
+  const std::string_view name = local_name(element);
+  if (name == "ApplicationProcess" || reader.shared.parameters.empty()) {
+    return;
+  }
+  for (const pugi::xml_attribute attribute : element.attributes()) {
+    if (equal_ignoring_case(local_name(attribute), reference)) {
+      ++reader.shared.uses[trimmed(attribute.value())].references;
+    }
+  }
+  for (const pugi::xml_node child : element.children()) {
+    if (equal_ignoring_case(local_name(child), reference)) {
+      ++reader.shared.uses[trimmed(reader.document.raw(reader.document.text(child).span))].references;
+    }
+    count_references(child, reader);  // recursion is limited by Document::most_levels
+  }
+}
+
 void read_object_list(pugi::xml_node element, const Reader& reader) {
   std::vector<Kept> rest;
   std::vector<bool>& seen = reader.shared.objects;
@@ -628,8 +677,13 @@ void read_object_list(pugi::xml_node element, const Reader& reader) {
   const auto objects = std::count_if(children.begin(), children.end(),
                                      [](pugi::xml_node child) { return is_object(local_name(child)); });
   reader.device.objects.reserve(std::min(static_cast<std::size_t>(objects), seen.size()));
+  pugi::xml_node done;  // the object that has been read: it is freed when the reader has left it
   read_element(reader.device, element, count_slots, rest, reader, [&](pugi::xml_node child) {
     const bool is_one = is_object(local_name(child));
+    if (is_one) {
+      element.remove_child(done);
+      done = child;
+    }
     if (is_one && !read_object(child, seen, reader)) {
       rest.push_back(kept(reader.document, child));
     }

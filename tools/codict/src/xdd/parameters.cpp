@@ -16,33 +16,34 @@ namespace lexican::codict::xdd {
 namespace {
 
 constexpr std::array<Slot<Entry>, 8> parameter_slots = {{
-    {"uniqueID", [](Entry& e) -> Text& { return e.parameter_id; }},
+    {"uniqueID", [](Entry& e) -> Text& { return e.parameter_id.edit(); }},
     {"access", [](Entry& e) -> Text& { return e.access; }},
-    {"accessList", [](Entry& e) -> Text& { return e.access_list; }},
-    {"support", [](Entry& e) -> Text& { return e.support; }},
-    {"persistent", [](Entry& e) -> Text& { return e.persistent; }},
-    {"offset", [](Entry& e) -> Text& { return e.offset; }},
-    {"multiplier", [](Entry& e) -> Text& { return e.multiplier; }},
-    {"templateIDRef", [](Entry& e) -> Text& { return e.template_id; }},
+    {"accessList", [](Entry& e) -> Text& { return e.access_list.edit(); }},
+    {"support", [](Entry& e) -> Text& { return e.support.edit(); }},
+    {"persistent", [](Entry& e) -> Text& { return e.persistent.edit(); }},
+    {"offset", [](Entry& e) -> Text& { return e.offset.edit(); }},
+    {"multiplier", [](Entry& e) -> Text& { return e.multiplier.edit(); }},
+    {"templateIDRef", [](Entry& e) -> Text& { return e.template_id.edit(); }},
 }};
 
 // Order of the children in the schema: words, a type, then these. Elements that the schema lacks rank last.
 constexpr std::array<std::string_view, 4> word_names = {"label", "description", "labelRef", "descriptionRef"};
-constexpr std::array<std::string_view, 8> order = {"conditionalSupport", "denotation",    "actualValue", "defaultValue",
-                                                   "substituteValue",    "allowedValues", "unit",        "property"};
+constexpr std::array<std::string_view, 8> child_order = {
+    "conditionalSupport", "denotation",    "actualValue", "defaultValue",
+    "substituteValue",    "allowedValues", "unit",        "property"};
 
-// Returns the place of a child element in the schema: 0 for words, 1 for a type, from 2 for `order`.
+// Returns the place of a child element in the schema: 0 for words, 1 for a type, from 2 for `child_order`.
 std::size_t rank_of(std::string_view name) {
   constexpr std::size_t of_words = 0;
   constexpr std::size_t of_type = 1;
   if (std::find(word_names.begin(), word_names.end(), name) != word_names.end()) {
     return of_words;
   }
-  const auto* const place = std::find(order.begin(), order.end(), name);
-  const bool is_type =
-      place == order.end() && (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr);
-  const auto rank = static_cast<std::size_t>(place - order.begin());
-  return is_type ? of_type : of_type + 1 + std::min(rank, order.size() - 1);
+  const auto* const place = std::find(child_order.begin(), child_order.end(), name);
+  const bool is_type = place == child_order.end() &&
+                       (name == "dataTypeIDRef" || name == "variableRef" || data_type_named(name) != nullptr);
+  const auto rank = static_cast<std::size_t>(place - child_order.begin());
+  return is_type ? of_type : of_type + 1 + std::min(rank, child_order.size() - 1);
 }
 
 void check_order(pugi::xml_node element, const Reader& reader) {
@@ -65,7 +66,7 @@ void check_order(pugi::xml_node element, const Reader& reader) {
 void read_denotation(Entry& entry, pugi::xml_node element, const Reader& reader) {
   std::vector<Kept> rest;
   read_children(element, rest, reader,
-                [&](pugi::xml_node child) { return read_word(entry.denotations, child, rest, reader); });
+                [&](pugi::xml_node child) { return read_word(entry.denotations.edit(), child, rest, reader); });
   keep_rest(element, std::move(rest), entry.others, reader);
   entry.denotation = first_of(entry.denotations);
 }
@@ -92,9 +93,6 @@ void interpret_srdo(Field<SrdoAccess>& srdo, Findings& findings) {
 
 void interpret_length(Field<std::uint32_t>& length, Findings& findings) {
   const ParsedInteger number = parse_integer(length.text);
-  if (length.text.empty()) {
-    return;
-  }
   if (!number.is_number() || number.value.is_negative || number.value.magnitude > 0xFFFFFFFF) {
     findings.add(rules::property, length.span, fmt::format("{} is not a length", in_quotes(length.text)),
                  "write a number");
@@ -104,14 +102,14 @@ void interpret_length(Field<std::uint32_t>& length, Findings& findings) {
 }
 
 constexpr std::array<Slot<NodeProperties>, 8> property_slots = {{
-    {"CO_disabled", [](NodeProperties& n) -> Text& { return n.disabled; }},
-    {"CO_countLabel", [](NodeProperties& n) -> Text& { return n.count_label; }},
+    {"CO_disabled", [](NodeProperties& n) -> Text& { return n.disabled.edit(); }},
+    {"CO_countLabel", [](NodeProperties& n) -> Text& { return n.count_label.edit(); }},
     {"CO_storageGroup", [](NodeProperties& n) -> Text& { return n.storage_group; }},
-    {"CO_accessSRDO", [](NodeProperties& n) -> Text& { return n.srdo; }},
-    {"CO_stringLengthMin", [](NodeProperties& n) -> Text& { return n.string_length_min; }},
-    {"CO_byteLength", [](NodeProperties& n) -> Text& { return n.byte_length; }},
-    {"CO_extensionIO", [](NodeProperties& n) -> Text& { return n.extension_io; }},
-    {"CO_flagsPDO", [](NodeProperties& n) -> Text& { return n.flags_pdo; }},
+    {"CO_accessSRDO", [](NodeProperties& n) -> Text& { return n.srdo.edit(); }},
+    {"CO_stringLengthMin", [](NodeProperties& n) -> Text& { return n.string_length_min.edit(); }},
+    {"CO_byteLength", [](NodeProperties& n) -> Text& { return n.byte_length.edit(); }},
+    {"CO_extensionIO", [](NodeProperties& n) -> Text& { return n.extension_io.edit(); }},
+    {"CO_flagsPDO", [](NodeProperties& n) -> Text& { return n.flags_pdo.edit(); }},
 }};
 
 // Reports an unknown name with the prefix of CANopenNode, because a misspelled property has no effect.
@@ -140,21 +138,21 @@ void read_property(Entry& entry, pugi::xml_node element, const Reader& reader) {
   std::vector<Kept> rest;
   read_element(raw, element, slots, rest, reader, [](pugi::xml_node) { return false; });
   keep_rest(element, std::move(rest), entry.others, reader);
-  if (!read_into(entry.node, raw.name.text, raw.value, raw.name.span, property_slots, reader)) {
+  if (!read_into(entry.node.edit(), raw.name.text, raw.value, raw.name.span, property_slots, reader)) {
     check_property_name(raw.name, reader.findings);
-    entry.properties.push_back({raw.name.text, raw.value});
+    entry.properties.edit().push_back({raw.name.text, raw.value});
   }
 }
 
 void read_conditional_support(Entry& entry, pugi::xml_node element, const Reader& reader) {
-  entry.conditional_support.push_back(text_of(element, "paramIDRef", entry.others, reader));
+  entry.conditional_support.edit().push_back(text_of(element, "paramIDRef", entry.others, reader));
 }
 
 bool read_parameter_value(Entry& entry, pugi::xml_node child, const Reader& reader) {
   const std::string_view name = local_name(child);
-  return (name == "actualValue" && read_value(entry.actual_value, child, entry.others, reader)) ||
+  return (name == "actualValue" && read_value(entry.actual_value.edit(), child, entry.others, reader)) ||
          (name == "defaultValue" && read_value(entry.default_value, child, entry.others, reader)) ||
-         (name == "substituteValue" && read_value(entry.substitute_value, child, entry.others, reader));
+         (name == "substituteValue" && read_value(entry.substitute_value.edit(), child, entry.others, reader));
 }
 
 bool read_parameter_part(Entry& entry, pugi::xml_node child, const Reader& reader) {
@@ -164,17 +162,17 @@ bool read_parameter_part(Entry& entry, pugi::xml_node child, const Reader& reade
   }
   if (name == "conditionalSupport" && !child.first_child()) {
     read_conditional_support(entry, child, reader);
-  } else if (name == "denotation" && !entry.denotation.is_given) {
+  } else if (name == "denotation" && !entry.denotation->is_given) {
     read_denotation(entry, child, reader);
-  } else if (name == "allowedValues" && entry.allowed.values.empty() && entry.allowed.ranges.empty()) {
-    read_allowed(entry.allowed, child, entry.others, reader);
-  } else if (name == "unit" && !entry.unit.is_given) {
-    read_unit(entry.unit, child, entry.others, reader);
+  } else if (name == "allowedValues" && entry.allowed->values.empty() && entry.allowed->ranges.empty()) {
+    read_allowed(entry.allowed.edit(), child, entry.others, reader);
+  } else if (name == "unit" && !entry.unit->is_given) {
+    read_unit(entry.unit.edit(), child, entry.others, reader);
   } else if (name == "property") {
     read_property(entry, child, reader);
   } else {
-    return read_word(entry.words, child, entry.others, reader) || read_parameter_value(entry, child, reader) ||
-           read_type(entry.type, child, entry.others, reader);
+    return (is_word(child) && read_word(entry.words.edit(), child, entry.others, reader)) ||
+           read_parameter_value(entry, child, reader) || read_type(entry.type.edit(), child, entry.others, reader);
   }
   return true;
 }
@@ -184,22 +182,25 @@ void interpret_node(NodeProperties& node, Findings& findings) {
   if (!node.storage_group.is_given) {
     node.storage_group.value.clear();
   }
-  for (Field<bool>* flag : {&node.disabled, &node.extension_io, &node.flags_pdo}) {
+  for (Rare<Field<bool>>* flag : {&node.disabled, &node.extension_io, &node.flags_pdo}) {
     interpret_boolean(*flag, findings);
   }
-  if (!node.srdo.is_empty()) {
-    interpret_srdo(node.srdo, findings);
+  if (!node.srdo->is_empty()) {
+    interpret_srdo(node.srdo.edit(), findings);
   }
-  interpret_length(node.string_length_min, findings);
-  interpret_length(node.byte_length, findings);
+  for (Rare<Field<std::uint32_t>>* length : {&node.string_length_min, &node.byte_length}) {
+    if (!(*length)->is_empty()) {
+      interpret_length(length->edit(), findings);
+    }
+  }
 }
 
 // Completes type and access of a parameter from its template.
 void inherit(Entry& entry, const Reader& reader) {
-  const pugi::xml_node element = find(reader.shared.templates, entry.template_id.text);
+  const pugi::xml_node element = find(reader.shared.templates, entry.template_id->text);
   if (!element) {
-    reader.findings.add(rules::reference, entry.template_id.span,
-                        fmt::format("template {} does not exist", in_quotes(entry.template_id.text)),
+    reader.findings.add(rules::reference, entry.template_id->span,
+                        fmt::format("template {} does not exist", in_quotes(entry.template_id->text)),
                         "correct the reference, or add the template");
     return;
   }
@@ -207,11 +208,11 @@ void inherit(Entry& entry, const Reader& reader) {
     return;
   }
   for (const pugi::xml_node child : element.children()) {
-    if (entry.type.code == 0 && !entry.type.reference.is_given && child.type() == pugi::node_element) {
+    if (entry.type->code == 0 && !entry.type->reference.is_given && child.type() == pugi::node_element) {
       TypeUse type;
       std::vector<Kept> ignored;
       read_type(type, child, ignored, reader);
-      entry.type.code = type.code;
+      entry.type.edit().code = type.code;
     }
   }
   if (!entry.access.is_given) {
@@ -352,11 +353,13 @@ void read_parameter(pugi::xml_node element, Entry& entry, const Reader& reader) 
                [&](pugi::xml_node child) { return read_parameter_part(entry, child, reader); });
   interpret_access(entry.access, true, reader);
   interpret_boolean(entry.persistent, reader.findings);
-  interpret_node(entry.node, reader.findings);
+  if (NodeProperties* const node = entry.node.if_any()) {
+    interpret_node(*node, reader.findings);
+  }
   if (reader.shared.dialect == Dialect::container) {
     check_order(element, reader);
   }
-  if (entry.template_id.is_given) {
+  if (entry.template_id->is_given) {
     inherit(entry, reader);
   }
 }
@@ -385,8 +388,7 @@ void read_process(pugi::xml_node element, const Reader& reader) {
 void read_unused_parameters(pugi::xml_node list, const Reader& reader) {
   for (const pugi::xml_node element : list.children()) {
     const std::string_view id = raw_attribute(element, "uniqueID");
-    const bool is_used =
-        !id.empty() && reader.shared.used.count(id) != 0 && find(reader.shared.parameters, id) == element;
+    const bool is_used = !id.empty() && reader.shared.uses[id].is_read && find(reader.shared.parameters, id) == element;
     if (is_used || local_name(element) != "parameter" || element.child("index")) {
       continue;
     }

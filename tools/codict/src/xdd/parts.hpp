@@ -10,6 +10,8 @@
 namespace lexican::codict::xdd {
 
 // words.cpp
+/// Returns whether an element is a label or description, or a reference to one.
+bool is_word(pugi::xml_node element);
 bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader);
 /// Returns the text of the first label, else of the first description.
 Text first_of(const Words& words);
@@ -30,12 +32,15 @@ void read_process(pugi::xml_node element, const Reader& reader);
 void read_unused_parameters(pugi::xml_node list, const Reader& reader);
 
 // objects.cpp
+/// Counts the objects that refer to each parameter, so that the last of them frees it.
+void count_references(pugi::xml_node element, const Reader& reader);
 void read_object_list(pugi::xml_node element, const Reader& reader);
 /// Interprets the values and checks the counts, after all objects have been read.
 void finish_objects(const Reader& reader);
 void interpret_access(Field<Access>& access, bool is_parameter, const Reader& reader);
 void interpret_pdo_mapping(Field<PdoMapping>& mapping, const Reader& reader);
 void interpret_value(Value& value, const DataType& type, const Reader& reader);
+void interpret_value(Rare<Value>& value, const DataType& type, const Reader& reader);
 void interpret_allowed(Allowed& allowed, const DataType& type, const Reader& reader);
 /// Interprets a parameter or template that does not belong to an object.
 void finish_parameter(Entry& entry, const Reader& reader);

@@ -176,6 +176,9 @@ void read_container(pugi::xml_node container, const Reader& reader) {
     read_process(process, reader);
   }
   for (const pugi::xml_node profile : profiles) {
+    count_references(profile, reader);
+  }
+  for (const pugi::xml_node profile : profiles) {
     read_profile(profile, reader);
   }
   for (const pugi::xml_node process : processes) {
@@ -245,7 +248,7 @@ void read_project(pugi::xml_node element, const Document& document, Description&
 
 }  // namespace
 
-Description read(const Document& document, Findings& findings) {
+Description read(Document& document, Findings& findings) {
   Description description;
   const Dialect dialect = dialect_of(document.root());
   if (dialect == Dialect::project) {
@@ -254,6 +257,7 @@ Description read(const Document& document, Findings& findings) {
   if (description.devices.empty()) {
     read_device(document.root(), dialect, document, description, findings);
   }
+  document.release();
   findings.sort();
   return description;
 }

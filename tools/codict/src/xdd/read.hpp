@@ -10,6 +10,7 @@
 namespace lexican::codict::xdd {
 
 /// Reads a document, and adds a finding for each fault. refusal() checks beforehand whether it is such a description.
-Description read(const Document& document, Findings& findings);
+/// Frees the elements of the document while it reads them, because elements and model together would need much memory.
+Description read(Document& document, Findings& findings);
 
 }  // namespace lexican::codict::xdd

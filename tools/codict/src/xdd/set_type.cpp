@@ -49,7 +49,7 @@ bool rename_element(const Document& document, Span tag, std::string_view name, E
 
 // Sets the type of a parameter, which is an element's name or, in the dialect of maxon, an element's text.
 bool set_parameter_type(const Document& document, const Entry& entry, const DataType& type, Edits& edits) {
-  const Span place = entry.type.iec.span;
+  const Span place = entry.type->iec.span;
   return document.raw(place).substr(0, 1) == "<" ? rename_element(document, place, element_of(type), edits)
                                                  : document.set_text(place, type.name, edits);
 }
@@ -66,7 +66,7 @@ bool set_object_type(const Document& document, const Entry& entry, const DataTyp
 }  // namespace
 
 bool has_parameter_type(const Entry& entry) {
-  return entry.type.iec.is_given || entry.type.reference.is_given || entry.type.code != 0;
+  return entry.type->iec.is_given || entry.type->reference.is_given || entry.type->code != 0;
 }
 
 bool set_type(const Document& document, const Entry& entry, std::string_view type, Edits& edits, std::string& why) {
@@ -75,10 +75,10 @@ bool set_type(const Document& document, const Entry& entry, std::string_view typ
     why = "this is no data type of CiA 301: " + std::string(type);
     return false;
   }
-  if (!entry.type.iec.is_given) {
+  if (!entry.type->iec.is_given) {
     why = "the type is that of " +
-          (entry.type.reference.is_given ? "the data type " + entry.type.reference.text
-                                         : "the template " + entry.template_id.text) +
+          (entry.type->reference.is_given ? "the data type " + entry.type->reference.text
+                                          : "the template " + entry.template_id->text) +
           ", which others may use, too: it is not changed";
     return false;
   }

@@ -76,7 +76,7 @@ std::size_t number_of_comments(const Document& document) {
   return number;
 }
 
-std::vector<Suppression> suppressions(const Document& document) {
+std::vector<Suppression> find_suppressions(const Document& document) {
   const std::string_view bytes = document.source().bytes();
   std::vector<Suppression> all;
   for (Span comment = next_comment(bytes, 0); comment.begin < bytes.size();

@@ -15,9 +15,19 @@ constexpr std::array<Slot<Unit>, 2> unit_slots = {{
 
 constexpr std::array<Slot<AllowedValue>, 3> value_slots = {{
     {"value", [](AllowedValue& v) -> Text& { return v.value; }},
-    {"offset", [](AllowedValue& v) -> Text& { return v.offset; }},
-    {"multiplier", [](AllowedValue& v) -> Text& { return v.multiplier; }},
+    {"offset", [](AllowedValue& v) -> Text& { return v.offset.edit(); }},
+    {"multiplier", [](AllowedValue& v) -> Text& { return v.multiplier.edit(); }},
 }};
+
+bool is_label(pugi::xml_node element) {
+  const std::string_view name = local_name(element);
+  return name == "label" || name == "labelRef";
+}
+
+bool is_description(pugi::xml_node element) {
+  const std::string_view name = local_name(element);
+  return name == "description" || name == "descriptionRef";
+}
 
 struct LabelTexts {
   Text language;
@@ -49,7 +59,15 @@ Label read_label(pugi::xml_node element, std::vector<Kept>& others, const Reader
     }
   }
   keep_rest(element, std::move(rest), others, reader);
-  Label label{texts.language.text, texts.text, texts.dictionary.text, texts.uri.text};
+  Label label;
+  label.language = texts.language.text;
+  label.text = texts.text;
+  if (!texts.dictionary.is_empty()) {
+    label.dictionary = texts.dictionary.text;
+  }
+  if (!texts.uri.is_empty()) {
+    label.uri = texts.uri.text;
+  }
   if (!label.text.is_given) {
     label.text = reader.document.text(element);
     label.text.is_given = true;
@@ -85,7 +103,7 @@ Range read_range(pugi::xml_node element, std::vector<Kept>& others, const Reader
     const std::string_view name = local_name(child);
     return (name == "minValue" && read_value(range.minimum, child, rest, reader)) ||
            (name == "maxValue" && read_value(range.maximum, child, rest, reader)) ||
-           (name == "step" && read_value(range.step, child, rest, reader));
+           (name == "step" && read_value(range.step.edit(), child, rest, reader));
   });
   keep_rest(element, std::move(rest), others, reader);
   return range;
@@ -121,17 +139,17 @@ bool read_allowed_part(Allowed& allowed, pugi::xml_node child, std::vector<Kept>
 
 }  // namespace
 
+bool is_word(pugi::xml_node element) { return is_label(element) || is_description(element); }
+
 bool read_word(Words& words, pugi::xml_node child, std::vector<Kept>& others, const Reader& reader) {
-  const std::string_view name = local_name(child);
-  if (name == "label" || name == "labelRef") {
+  if (is_label(child)) {
     words.labels.push_back(read_label(child, others, reader));
-    return true;
-  }
-  if (name == "description" || name == "descriptionRef") {
+  } else if (is_description(child)) {
     words.descriptions.push_back(read_label(child, others, reader));
-    return true;
+  } else {
+    return false;
   }
-  return false;
+  return true;
 }
 
 Text first_of(const Words& words) {

@@ -36,24 +36,24 @@ bool is_variable(const Object& object) { return object.subs.empty() && !has_sub_
 bool is_in(const Text& text) { return text.is_given && !text.is_empty(); }
 
 bool has_node_properties(const NodeProperties& node) {
-  return node.disabled.is_given || node.count_label.is_given || node.storage_group.is_given || node.srdo.is_given ||
-         node.string_length_min.is_given || node.byte_length.is_given || node.extension_io.is_given ||
-         node.flags_pdo.is_given;
+  return node.disabled->is_given || node.count_label->is_given || node.storage_group.is_given || node.srdo->is_given ||
+         node.string_length_min->is_given || node.byte_length->is_given || node.extension_io->is_given ||
+         node.flags_pdo->is_given;
 }
 
 // Returns whether an entry has parts that the attributes of an object cannot express.
 bool needs_parameter(const Entry& entry) {
   const auto is_of_parameter = [](const Kept& kept) { return !is_of_object(kept); };
-  return entry.parameter_id.is_given || !entry.words.labels.empty() || !entry.words.descriptions.empty() ||
-         entry.unit.is_given || !entry.allowed.values.empty() || !entry.allowed.ranges.empty() ||
-         has_node_properties(entry.node) || !entry.properties.empty() || entry.substitute_value.is_given ||
+  return entry.parameter_id->is_given || !entry.words->labels.empty() || !entry.words->descriptions.empty() ||
+         entry.unit->is_given || !entry.allowed->values.empty() || !entry.allowed->ranges.empty() ||
+         has_node_properties(entry.node) || !entry.properties->empty() || entry.substitute_value->is_given ||
          std::any_of(entry.others.begin(), entry.others.end(), is_of_parameter);
 }
 
 bool has_limits_of_range(const Entry& entry) {
-  const auto& ranges = entry.allowed.ranges;
-  return ranges.size() == 1 && ranges[0].minimum.text == entry.low_limit.text &&
-         ranges[0].maximum.text == entry.high_limit.text;
+  const auto& ranges = entry.allowed->ranges;
+  return ranges.size() == 1 && ranges[0].minimum.text == entry.low_limit->text &&
+         ranges[0].maximum.text == entry.high_limit->text;
 }
 
 // Returns whether a value is written. An EDS may omit the value of sub-index 0; an XDD from this writer always has it.
@@ -80,14 +80,14 @@ std::string hex(std::uint64_t value, std::size_t digits) {
 
 void print_words(Printer& out, const Words& words) {
   const auto print = [&out](const Label& label, std::string_view name) {
-    const bool is_reference = !label.dictionary.empty();
+    const bool is_reference = !label.dictionary->empty();
     out.open(is_reference ? std::string(name) + "Ref" : std::string(name));
     out.attribute("lang", std::string_view(label.language));
-    if (!label.uri.empty()) {
-      out.attribute("URI", std::string_view(label.uri));
+    if (!label.uri->empty()) {
+      out.attribute("URI", std::string_view(*label.uri));
     }
     if (is_reference) {
-      out.attribute("dictID", std::string_view(label.dictionary));
+      out.attribute("dictID", std::string_view(*label.dictionary));
       out.attribute("textID", std::string_view(label.text.text));
     } else {
       out.text(label.text.text);
@@ -124,7 +124,7 @@ bool EntryWriter::has_parameters() const {
 }
 
 std::string EntryWriter::id_of(const Entry& entry, const std::string& made) const {
-  return entry.parameter_id.is_given ? entry.parameter_id.text : made;
+  return entry.parameter_id->is_given ? entry.parameter_id->text : made;
 }
 
 void EntryWriter::type_use(const TypeUse& use, std::uint16_t code) {
@@ -146,7 +146,7 @@ void EntryWriter::type_use(const TypeUse& use, std::uint16_t code) {
 }
 
 void EntryWriter::type(const Entry& entry, bool is_variable) {
-  if (entry.type.iec.is_given || entry.type.reference.is_given || (is_variable && !entry.template_id.is_given)) {
+  if (entry.type->iec.is_given || entry.type->reference.is_given || (is_variable && !entry.template_id->is_given)) {
     type_use(entry.type, entry.data_type.value);
   }
 }
@@ -248,7 +248,7 @@ void EntryWriter::properties(const Entry& entry) {
   known("CO_accessSRDO", node.srdo);
   known("CO_byteLength", node.byte_length);
   known("CO_stringLengthMin", node.string_length_min);
-  for (const Property& other : entry.properties) {
+  for (const Property& other : *entry.properties) {
     property(other.name, other.value.text);
   }
   for (const Kept& key : entry.others) {
@@ -260,7 +260,7 @@ void EntryWriter::properties(const Entry& entry) {
 
 // Writes the name of an entry of an EDS, which has no labels, as a label.
 void EntryWriter::label_of_name(const Entry& entry) {
-  if (entry.words.labels.empty() && is_eds_) {
+  if (entry.words->labels.empty() && is_eds_) {
     out_.open("label");
     out_.attribute("lang", std::string_view("en"));
     out_.text(entry.name.text);
@@ -269,8 +269,8 @@ void EntryWriter::label_of_name(const Entry& entry) {
 }
 
 void EntryWriter::denotation(const Entry& entry, Rest& rest) {
-  const bool has_words = !entry.denotations.labels.empty() || !entry.denotations.descriptions.empty();
-  if (!has_words && !(is_eds_ && entry.denotation.is_given)) {
+  const bool has_words = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
+  if (!has_words && !(is_eds_ && entry.denotation->is_given)) {
     return;
   }
   const Rest left = rest_of(rest.take_left("denotation", {}));
@@ -299,7 +299,7 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   out_.attribute("accessList", entry.access_list);
   out_.attribute("support", entry.support);
   if (is_in(entry.persistent)) {
-    out_.attribute("persistent", std::string_view(entry.persistent.value ? "true" : "false"));
+    out_.attribute("persistent", std::string_view(entry.persistent->value ? "true" : "false"));
   }
   out_.attribute("offset", entry.offset);
   out_.attribute("multiplier", entry.multiplier);
@@ -308,7 +308,7 @@ void EntryWriter::parameter(const Entry& entry, const std::string& id, bool is_v
   label_of_name(entry);
   print_words(out_, entry.words);
   type(entry, is_variable);
-  for (const Text& support : entry.conditional_support) {
+  for (const Text& support : *entry.conditional_support) {
     out_.open("conditionalSupport");
     out_.attribute("paramIDRef", std::string_view(support.text));
     out_.close();
@@ -342,7 +342,7 @@ void EntryWriter::parameters(const Kept* left) {
     }
   }
   for (const Entry& entry : device_.parameters) {
-    parameter(entry, entry.parameter_id.text, false, "parameter");
+    parameter(entry, entry.parameter_id->text, false, "parameter");
   }
   out_.elements_of(rest_of(left));
   out_.close();
@@ -355,7 +355,7 @@ void EntryWriter::templates(const Kept* left) {
   Rest rest = rest_of(left);
   out_.open("templateList");
   for (const Entry& entry : device_.templates) {
-    parameter(entry, entry.parameter_id.text, false, "parameterTemplate");
+    parameter(entry, entry.parameter_id->text, false, "parameterTemplate");
   }
   for (const AllowedTemplate& one : device_.allowed_templates) {
     Rest of_one = rest_of(rest.take("allowedValuesTemplate"));
@@ -475,7 +475,7 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     }
     out_.attribute("actualValue", entry.actual_value);
   }
-  const bool has_words = !entry.denotations.labels.empty() || !entry.denotations.descriptions.empty();
+  const bool has_words = !entry.denotations->labels.empty() || !entry.denotations->descriptions.empty();
   if (!has_words && !(is_eds_ && is_parameter)) {
     out_.attribute("denotation", entry.denotation);
   }
@@ -483,7 +483,7 @@ void EntryWriter::entry_attributes(const Entry& entry, const std::string& id, bo
     out_.attribute("PDOmapping", name_of(entry.pdo_mapping.value));
   }
   if (is_in(entry.flags)) {
-    out_.attribute("objFlags", is_understood(entry.flags) ? hex(entry.flags.value, 4) : entry.flags.text);
+    out_.attribute("objFlags", is_understood(*entry.flags) ? hex(entry.flags->value, 4) : entry.flags->text);
   }
   if (is_parameter) {
     out_.attribute("uniqueIDRef", std::string_view(id));
