@@ -75,12 +75,15 @@ xdd::Edition edition_of(const Device& device, const Product& product) {
   return is_older && product.same.front() != product.same.back() ? xdd::Edition::v10 : product.edition;
 }
 
-// Returns the output. Moves the device out of the input, because a large one has no room in memory twice.
+// Returns the output. Frees the source and moves the device before, because a large description needs much memory.
 std::string written(Input input, const Product& product, const ConvertOptions& options) {
+  const bool is_same_format = is_same(input, product);
+  input.eds.reset();
+  input.xdd.reset();
+  input.json.reset();
   if (product.target == Target::json) {
     return json::write(input.description);
   }
-  const bool is_same_format = is_same(input, product);
   Device& device = input.description.devices.front();
   const std::string name = options.output == "-" ? "" : std::filesystem::path(options.output).filename().string();
   const xdd::Edition edition = is_same_format ? edition_of(device, product) : product.edition;

@@ -19,7 +19,9 @@
 #include "cli/verify.hpp"
 #include "eds/write.hpp"
 #include "gen/names.hpp"
+#include "gen/write.hpp"
 #include "text/file.hpp"
+#include "text/memory.hpp"
 #include "xdd/write.hpp"
 
 namespace lexican::codict::cli {
@@ -41,6 +43,13 @@ struct GenOptions {
   bool is_json = false;
   bool shows_notes = false;
   bool is_forced = false;
+};
+
+struct Result {
+  gen::Plan plan;
+  std::vector<gen::StoredGroup> groups;
+  std::vector<gen::External> externals;
+  Device device;  // as generated; empty without --eds and --xdd
 };
 
 // Prints what --check finds: a missing file, or one that differs from the generated text.
@@ -67,9 +76,9 @@ std::string sub_text(const char* object, std::uint8_t sub_index, const std::stri
                         : fmt::format("{} sub {:X} ({})", object, sub_index, name);
 }
 
-std::string groups_text(const gen::Output& output) {
+std::string groups_text(const Result& result) {
   std::string text;
-  for (const gen::StoredGroup& group : output.groups) {
+  for (const gen::StoredGroup& group : result.groups) {
     text += fmt::format("storage group {}: {} {}, {} bytes; stored by {}, restored by {}\n", group.name, group.entries,
                         group.entries == 1 ? "entry" : "entries", group.bytes,
                         sub_text("1010h", group.store_sub, group.store_name),
@@ -78,32 +87,33 @@ std::string groups_text(const gen::Output& output) {
   return text;
 }
 
-std::string externals_text(const gen::Output& output) {
+std::string externals_text(const Result& result) {
   std::string text =
-      output.externals.empty() ? "" : "to be defined by the application (--stubs FILE writes first versions):\n";
-  for (const gen::External& external : output.externals) {
+      result.externals.empty() ? "" : "to be defined by the application (--stubs FILE writes first versions):\n";
+  for (const gen::External& external : result.externals) {
     text += fmt::format("{}  // {}\n", external.declaration, external.about);
   }
   return text;
 }
 
-std::string output_text(const GenOptions& options, const gen::Output& output) {
-  return (options.is_report ? costs_text(output.costs) : "") + groups_text(output) + externals_text(output);
+std::string output_text(const GenOptions& options, const Result& result) {
+  return (options.is_report ? costs_text(gen::costs_of(result.plan)) : "") + groups_text(result) +
+         externals_text(result);
 }
 
-// A file that is written.
+// A file that is written. Its text is generated then, because that of a large dictionary needs much memory.
 struct Target {
   std::string path;
-  const std::string* bytes;
+  std::function<std::string()> text;
 };
 
-Json report_json(const std::vector<Target>& targets, const gen::Output& output) {
-  Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", costs_json(output.costs)}};
+Json report_json(const std::vector<Target>& targets, const Result& result) {
+  Json json{{"schema", "codict-gen-1"}, {"files", Json::array()}, {"parts", costs_json(gen::costs_of(result.plan))}};
   for (const Target& target : targets) {
     json["files"].push_back(target.path);
   }
   json["groups"] = Json::array();
-  for (const gen::StoredGroup& group : output.groups) {
+  for (const gen::StoredGroup& group : result.groups) {
     json["groups"].push_back({{"name", group.name},
                               {"store_sub", group.store_sub},
                               {"restore_sub", group.restore_sub},
@@ -111,46 +121,37 @@ Json report_json(const std::vector<Target>& targets, const gen::Output& output) 
                               {"bytes", group.bytes}});
   }
   json["external"] = Json::array();
-  for (const gen::External& external : output.externals) {
+  for (const gen::External& external : result.externals) {
     json["external"].push_back(external.declaration);
   }
   return json;
 }
 
-// Returns the description of the generated device, with the file name of the path in it.
-template <typename Write>
-gen::File description(Device& device, const std::string& path, Write write) {
+// Sets the file name in the description of the generated device.
+const Device& with_file_name(Device& device, const std::string& path) {
   device.file.file_name.text = std::filesystem::path(path).filename();
   device.file.file_name.is_given = true;
-  return {path, write(device)};
+  return device;
 }
 
-// Returns the descriptions that match the dictionary.
-std::vector<gen::File> descriptions_of(const GenOptions& options, gen::Output& output) {
-  std::vector<gen::File> files;
+// Returns all files: the sources, and the descriptions that match them. They refer to the parameters.
+std::vector<Target> targets_of(const GenOptions& options, Result& result) {
+  const std::string directory = options.directory + "/";
+  std::vector<Target> targets;
+  targets.push_back(
+      {directory + gen::header_name(options.gen), [&] { return gen::write_header(result.plan, options.gen); }});
+  targets.push_back(
+      {directory + gen::source_name(options.gen), [&] { return gen::write_source(result.plan, options.gen); }});
+  if (!options.verify_source.empty()) {
+    targets.push_back({options.verify_source, [&] { return gen::write_verify(result.plan, options.gen); }});
+  }
   if (!options.eds.empty()) {
-    files.push_back(description(output.device, options.eds,
-                                [](const Device& device) { return eds::write(device, eds::WriteOptions()); }));
+    targets.push_back(
+        {options.eds, [&] { return eds::write(with_file_name(result.device, options.eds), eds::WriteOptions()); }});
   }
   if (!options.xdd.empty()) {
-    files.push_back(description(output.device, options.xdd,
-                                [](const Device& device) { return xdd::write(device, xdd::Edition::v11); }));
-  }
-  return files;
-}
-
-// Returns all files with their paths: the sources, and the descriptions that match them.
-std::vector<Target> targets_of(const GenOptions& options, const gen::Output& output,
-                               const std::vector<gen::File>& descriptions) {
-  std::vector<Target> targets;
-  for (const gen::File& file : output.files) {
-    targets.push_back({options.directory + "/" + file.name, &file.bytes});
-  }
-  if (!options.verify_source.empty()) {
-    targets.push_back({options.verify_source, &output.verify});
-  }
-  for (const gen::File& file : descriptions) {
-    targets.push_back({file.name, &file.bytes});
+    targets.push_back(
+        {options.xdd, [&] { return xdd::write(with_file_name(result.device, options.xdd), xdd::Edition::v11); }});
   }
   return targets;
 }
@@ -170,12 +171,12 @@ bool have_places(const GenOptions& options, const std::vector<Target>& targets) 
 }
 
 // Writes the stubs unless the file exists, which then belongs to the application; prints the symbols that it lacks.
-Status write_stubs(const GenOptions& options, const gen::Output& output) {
-  if (options.stubs.empty() || options.is_check || output.externals.empty()) {
+Status write_stubs(const GenOptions& options, const Result& result) {
+  if (options.stubs.empty() || options.is_check || result.externals.empty()) {
     return clean;
   }
   if (options.stubs == "-" || !std::filesystem::exists(options.stubs)) {
-    return write_output(options.stubs, output.stubs);
+    return write_output(options.stubs, gen::write_stubs(result.plan, options.gen));
   }
   std::string why;
   const std::optional<Source> present = read_file(options.stubs, why);
@@ -183,7 +184,7 @@ Status write_stubs(const GenOptions& options, const gen::Output& output) {
     complain(why);
     return unusable;
   }
-  for (const gen::External& external : output.externals) {
+  for (const gen::External& external : result.externals) {
     if (present->bytes().find(external.name) == std::string::npos) {
       complain(fmt::format("{}: the file exists and is not changed; {} is missing in it ({})", options.stubs,
                            external.name, external.about));
@@ -202,7 +203,6 @@ bool show(const Input& input, const Findings& findings, bool shows_notes) {
 bool complete(GenOptions& options, const Input& input) {
   options.gen.source = std::filesystem::path(input.source().name()).filename();
   options.gen.node_id = node_id_of(input.device(), 0);
-  options.gen.copies_device = !options.eds.empty() || !options.xdd.empty();
   if (options.gen.name.empty()) {
     options.gen.name = gen::default_name(options.file);
   } else if (gen::identifier(options.gen.name) != options.gen.name) {
@@ -212,23 +212,33 @@ bool complete(GenOptions& options, const Input& input) {
   return parse_stores(options.stores, options.gen) && check_verify(options.verify);
 }
 
-int write_all(const GenOptions& options, gen::Output& output) {
-  const std::vector<gen::File> descriptions = descriptions_of(options, output);
-  const std::vector<Target> targets = targets_of(options, output, descriptions);
+// Completes the result of a plan without errors, and frees the description, because the texts need much memory, too.
+void complete_result(const GenOptions& options, Input input, Result& result) {
+  if (!options.eds.empty() || !options.xdd.empty()) {
+    result.device = gen::described(std::move(input.description.devices.front()), result.plan);
+  }
+  input = {};
+  return_free_memory();
+  result.groups = gen::stored_groups(result.plan);
+  result.externals = gen::externals_of(result.plan, options.gen);
+}
+
+int write_all(const GenOptions& options, Result& result) {
+  const std::vector<Target> targets = targets_of(options, result);
   if (!have_places(options, targets) || (!options.is_check && !make_directory(options.directory))) {
     return unusable;
   }
   int status = clean;
   for (const Target& target : targets) {
-    status = std::max<int>(
-        status, options.is_check ? compare(target.path, *target.bytes) : write_output(target.path, *target.bytes));
+    const std::string text = target.text();
+    status = std::max<int>(status, options.is_check ? compare(target.path, text) : write_output(target.path, text));
   }
   if (options.is_json) {
-    print_json(report_json(targets, output));
+    print_json(report_json(targets, result));
   } else if (options.is_report || !options.is_check) {
-    print(output_text(options, output));
+    print(output_text(options, result));
   }
-  return std::max<int>(status, write_stubs(options, output));
+  return std::max<int>(status, write_stubs(options, result));
 }
 
 int run_gen(GenOptions options) {
@@ -238,19 +248,22 @@ int run_gen(GenOptions options) {
   }
   check_all(*input);
   Findings findings;
-  gen::Output output = gen::generate(input->device(), options.gen, findings);
+  Result result;
+  result.plan = gen::make_plan(input->device(), options.gen, findings);
+  const bool is_planned = findings.count(Severity::error) == 0;
   suppress(*input, catalogue::Origin::generator, findings);
   const bool is_right = show(*input, findings, options.shows_notes);
-  if (output.files.empty()) {
+  if (!is_planned) {
     return found;
   }
   if (!is_right && !options.is_forced) {
     complain("nothing is written: --force makes a dictionary nevertheless");
     return found;
   }
-  const int status = write_all(options, output);
+  complete_result(options, std::move(*input), result);
+  const int status = write_all(options, result);
   return options.verify.is_wanted && status != unusable
-             ? std::max<int>(status, verify(output, options.gen, options.verify))
+             ? std::max<int>(status, verify(gen::generate(result.plan, options.gen), options.gen, options.verify))
              : status;
 }
 

@@ -25,21 +25,21 @@ int run_size(SizeOptions options) {
     return unusable;
   }
   options.gen.name = gen::default_name(options.file);
-  options.gen.copies_device = false;
   if (!parse_stores(options.stores, options.gen)) {
     return unusable;
   }
   Findings findings;
-  const gen::Output output = gen::generate(input->device(), options.gen, findings);
-  if (output.files.empty()) {
+  const gen::Plan plan = gen::make_plan(input->device(), options.gen, findings);
+  if (findings.count(Severity::error) != 0) {
     suppress(*input, catalogue::Origin::generator, findings);
     show_findings(*input, findings, Severity::warning);
     return found;
   }
+  const std::vector<gen::Cost> costs = gen::costs_of(plan);
   if (options.is_json) {
-    print_json(Json{{"schema", "codict-size-1"}, {"parts", costs_json(output.costs)}});
+    print_json(Json{{"schema", "codict-size-1"}, {"parts", costs_json(costs)}});
   } else {
-    print(costs_text(output.costs));
+    print(costs_text(costs));
   }
   return clean;
 }

@@ -122,8 +122,8 @@ void set_count(Field<std::uint16_t>& field, std::uint16_t count) {
 
 }  // namespace
 
-Device described(const Device& device, const Plan& plan) {
-  Device result = device;
+Device described(Device device, const Plan& plan) {
+  Device result = std::move(device);
   result.commissioning = {};
   const auto has_no_entry = [&](const Object& object) { return !has_entry(object, plan) && !is_type(object); };
   result.objects.erase(std::remove_if(result.objects.begin(), result.objects.end(), has_no_entry),

@@ -11,24 +11,32 @@ std::string default_name(std::string_view path) {
   return name.empty() ? "device" : name;
 }
 
+std::string header_name(const Options& options) { return options.name + "_od.h"; }
+
+std::string source_name(const Options& options) {
+  return options.name + (options.language == Language::cpp ? "_od.cpp" : "_od.c");
+}
+
 Output generate(const Device& device, const Options& options, Findings& findings) {
-  Output output;
   const std::size_t errors = findings.count(Severity::error);
   const Plan plan = make_plan(device, options, findings);
   if (findings.count(Severity::error) != errors) {
-    return output;
+    return {};
   }
-  const char* const ending = options.language == Language::cpp ? ".cpp" : ".c";
-  output.files.push_back({options.name + "_od.h", write_header(plan, options)});
-  output.files.push_back({options.name + "_od" + ending, write_source(plan, options)});
+  Output output = generate(plan, options);
+  output.device = described(device, plan);
+  return output;
+}
+
+Output generate(const Plan& plan, const Options& options) {
+  Output output;
+  output.files.push_back({header_name(options), write_header(plan, options)});
+  output.files.push_back({source_name(options), write_source(plan, options)});
   output.costs = costs_of(plan);
   output.groups = stored_groups(plan);
   output.externals = externals_of(plan, options);
   output.verify = write_verify(plan, options);
   output.stubs = output.externals.empty() ? "" : write_stubs(plan, options);
-  if (options.copies_device) {
-    output.device = described(device, plan);
-  }
   return output;
 }
 

@@ -25,15 +25,21 @@ struct Output {
   std::vector<External> externals;  ///< symbols that the application has to define
   std::string verify;               ///< source of the program that starts a node with the dictionary
   std::string stubs;                ///< source that defines the externals; empty if there are no externals
-  Device
-      device;  ///< the device as generated, for an EDS or XDD that matches the dictionary; see Options::copies_device
+  Device device;                    ///< the device as generated, for an EDS or XDD that matches the dictionary
 };
+
+/// Returns the names of the header and of the source.
+std::string header_name(const Options& options);
+std::string source_name(const Options& options);
 
 /// Returns a C identifier from the name of a file: "clock_2" from "Clock (2).eds"; "device" if no character can be
 /// used.
 std::string default_name(std::string_view path);
 
-/// Generates the files of a dictionary. They are empty if the findings contain errors.
+/// Generates the files of a dictionary. There are none if the generator finds an error.
 Output generate(const Device& device, const Options& options, Findings& findings);
+/// Generates the files of a plan without errors; Output::device is not set. They need several times the memory of the
+/// plan: the functions of write.hpp generate one at a time.
+Output generate(const Plan& plan, const Options& options);
 
 }  // namespace lexican::codict::gen

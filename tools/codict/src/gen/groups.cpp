@@ -31,7 +31,7 @@ Member memory_of(const Item& item) {
   member.count = array_length(item);
   member.alignment = is_wide ? 2 : 1;
   member.size = member.count * member.alignment;
-  member.name = item.member + "_memory";
+  member.name = item.member() + "_memory";
   return member;
 }
 
@@ -39,7 +39,7 @@ Member descriptor_of(const Item& item) {
   Member member;
   member.role = Role::descriptor;
   member.alignment = address_size;
-  member.name = item.member;
+  member.name = item.member();
   member.has_alias = true;
   switch (item.storage) {
     case Storage::text: member.type = "CO_OBJ_STR", member.size = 8; break;
@@ -52,8 +52,8 @@ Member descriptor_of(const Item& item) {
 
 Member variable_of(const Item& item) {
   Member member;
-  member.type = item.storage == Storage::consumer ? "uint32_t" : std::string(item.form->variable);
-  member.name = item.member;
+  member.type = item.storage == Storage::consumer ? "uint32_t" : item.form->variable;
+  member.name = item.member();
   member.size = item.form->size;
   member.alignment = item.form->alignment;
   member.has_alias = true;
@@ -66,7 +66,7 @@ std::vector<Member> stored_members(const Item& item) {
     return {variable_of(item)};
   }
   Member memory = memory_of(item);
-  memory.name = item.member;
+  memory.name = item.member();
   memory.has_alias = true;
   if (item.storage == Storage::domain) {
     return {memory};
@@ -74,7 +74,7 @@ std::vector<Member> stored_members(const Item& item) {
   Member length;
   length.role = Role::length;
   length.type = "uint32_t";
-  length.name = item.member + "_length";
+  length.name = item.member() + "_length";
   length.size = length.alignment = 4;
   return {length, memory};
 }

@@ -224,9 +224,9 @@ void write_handles(const Plan& plan, const Options& options, Lines& out) {
     if (type.empty()) {
       continue;
     }
-    out.add("inline constexpr Handle<{}, 0x{:04X}, 0x{:02X}> {}{{}};", type, item.index, item.sub_index, item.member);
+    out.add("inline constexpr Handle<{}, 0x{:04X}, 0x{:02X}> {}{{}};", type, item.index, item.sub_index, item.member());
     if (!item.alias.empty()) {
-      out.add("inline constexpr auto& {} = {};", item.alias, item.member);
+      out.add("inline constexpr auto& {} = {};", item.alias, item.member());
     }
   }
   out.add("\n}}  // namespace {}_objects\n#endif", options.name);
@@ -262,7 +262,7 @@ std::string write_requirements(const Plan& plan) {
 
 std::string write_header(const Plan& plan, const Options& options) {
   const std::string prefix = upper(options.name);
-  Lines out;
+  Lines out(plan.items.size() * usual_length);
   out.raw(generated_comment(options));
   out.add("/// \\file {}_od.h\n/// An object dictionary.", options.name);
   out.add("#ifndef {0}_OD_H_\n#define {0}_OD_H_\n\n#include \"co_core.h\"\n", prefix);

@@ -60,6 +60,8 @@ class Items {
     number_ += !has_entry ? 0 : has_subs ? static_cast<std::size_t>(enabled) + implied : 1;
   }
 
+  void reserve() { plan_.items.reserve(number_ <= most_items ? number_ : 0); }
+
   void add(const Object& object) {
     if (object.node->disabled->value) {
       findings_.add(rules::left_out, object.span, "disabled object has no entry", "remove CO_disabled");
@@ -106,7 +108,7 @@ class Items {
     item.index = object.index;
     item.sub_index = sub_index;
     item.name = has_subs ? name_of(object, entry) : entry.name.text;
-    item.own_name = entry.name.text;
+    item.own_name_begin = item.name.size() - entry.name.text.size();
     item.span = entry.span;
     item.access = entry.access.value;
     item.pdo = entry.pdo_mapping.value;
@@ -381,33 +383,36 @@ class Items {
     }
     const bool has_low = has_number(entry.low_limit) && !is_lowest(item, entry.low_limit);
     const bool has_high = has_number(entry.high_limit) && !is_highest(item, entry.high_limit);
-    item.limits.low = has_low ? literal(entry.low_limit, *item.form) : "";
-    item.limits.high = has_high ? literal(entry.high_limit, *item.form) : "";
-    set_bits(item, entry);
     Value value = item.value;
     value.kind = kind == TypeKind::real ? Value::Kind::real : Value::Kind::integer;
-    item.limits.holds_default = !is_less(item, value, entry.low_limit) && !is_less(item, entry.high_limit, value);
-    if (!item.limits.holds_default && !item.value.adds_node_id) {
+    const bool holds_default = !is_less(item, value, entry.low_limit) && !is_less(item, entry.high_limit, value);
+    if (has_low || has_high) {
+      Limits& limits = item.limits.edit();
+      limits.low = has_low ? literal(entry.low_limit, *item.form) : "";
+      limits.high = has_high ? literal(entry.high_limit, *item.form) : "";
+      limits.holds_default = holds_default && !item.value.adds_node_id;
+      set_bits(limits, item, entry);
+    }
+    if (!holds_default && !item.value.adds_node_id) {
       findings_.add(rules::limits_default, item.value.is_given ? item.value.span : item.span,
                     fmt::format("default value {} is outside the limits {} to {}",
                                 item.value.text.empty() ? "0" : shortened(item.value.text),
                                 text_or(entry.low_limit, "lowest"), text_or(entry.high_limit, "highest")),
                     "change the value, or widen the limits");
     }
-    item.limits.holds_default = item.limits.holds_default && !item.value.adds_node_id;
   }
 
   // Sets the limits as bit patterns of the variable. Missing limits of a real are the NaN patterns at both ends of the
   // order.
-  static void set_bits(Item& item, const Entry& entry) {
+  static void set_bits(Limits& limits, const Item& item, const Entry& entry) {
     const unsigned unused = item.form->size > 4 ? 0 : 32;
     const TypeKind kind = data_type(item.form->code).kind;
     const std::uint64_t all = UINT64_MAX >> unused;
     const std::uint64_t sign = all ^ all >> 1U;
     const std::uint64_t lowest = kind == TypeKind::real ? all : (kind == TypeKind::signed_integer ? sign : 0);
     const std::uint64_t highest = kind == TypeKind::unsigned_integer ? all : all ^ sign;
-    item.limits.low_bits = item.limits.low.empty() ? lowest : bits_of(entry.low_limit, item) & all;
-    item.limits.high_bits = item.limits.high.empty() ? highest : bits_of(entry.high_limit, item) & all;
+    limits.low_bits = limits.low.empty() ? lowest : bits_of(entry.low_limit, item) & all;
+    limits.high_bits = limits.high.empty() ? highest : bits_of(entry.high_limit, item) & all;
   }
 
   static std::uint64_t bits_of(const Value& value, const Item& item) {
@@ -515,6 +520,7 @@ void plan_items(const Device& device, const Options& options, Plan& plan, Findin
   for (const Object& object : device.objects) {
     items.count(object);
   }
+  items.reserve();
   for (const Object& object : device.objects) {
     items.add(object);
   }

@@ -176,7 +176,7 @@ void switch_off(Plan& plan, Findings& findings) {
                  fmt::format("{} is switched off (bit 31 of {}): {}", title_of(item.index), place_name(item), fault),
                  "correct the mapping, or set bit 31 of the COB-ID");
     value.integer.magnitude |= off;
-    item.limits.holds_default = false;
+    item.limits.edit().holds_default = false;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "gen/names.hpp"
 #include "gen/parts.hpp"
@@ -27,7 +28,29 @@ bool could_be_made(const Plan& plan, const std::string& alias) {
          std::any_of(plan.groups.begin(), plan.groups.end(), is_of_group);
 }
 
+// Returns the first other item with the same alias for each item; null if there is none.
+std::vector<const Item*> others_of_aliases(const Plan& plan) {
+  std::unordered_map<std::string_view, std::pair<const Item*, const Item*>> uses;  // first and second item
+  for (const Item& item : plan.items) {
+    auto& [first, second] = uses[item.alias];
+    if (first == nullptr) {
+      first = &item;
+    } else if (second == nullptr) {
+      second = &item;
+    }
+  }
+  std::vector<const Item*> others;
+  others.reserve(plan.items.size());
+  for (const Item& item : plan.items) {
+    const auto& [first, second] = uses[item.alias];
+    others.push_back(first == &item ? second : first);
+  }
+  return others;
+}
+
 }  // namespace
+
+std::string Item::member() const { return "od_" + suffix_of(*this); }
 
 const Item* Plan::find(std::uint16_t index, std::uint8_t sub_index) const {
   const std::uint32_t key = std::uint32_t{index} << 16 | std::uint32_t{sub_index} << 8;
@@ -39,29 +62,26 @@ const Item* Plan::find(std::uint16_t index, std::uint8_t sub_index) const {
 std::string place_name(const Item& item) { return fmt::format("{:04X}h sub {:X}", item.index, item.sub_index); }
 
 void plan_names(const Options& options, Plan& plan, Findings& findings) {
-  std::unordered_map<std::string, std::vector<const Item*>> uses;
   for (Item& item : plan.items) {
-    item.member = "od_" + suffix_of(item);
     item.alias = identifier(item.name);
-    uses[item.alias].push_back(&item);
   }
-  std::unordered_map<std::string, const Item*> owners;
+  const std::vector<const Item*> others = others_of_aliases(plan);
+  std::unordered_map<std::string_view, const Item*> owners;
   for (Item& item : plan.items) {
-    const std::vector<const Item*>& with_name = uses[item.alias];
+    const Item* const other = others[static_cast<std::size_t>(&item - plan.items.data())];
     if (item.alias.empty()) {
       continue;
     }
-    if (with_name.size() > 1 && options.unique_names) {
-      const Item& other = *with_name[with_name[0] == &item ? 1 : 0];
+    if (other != nullptr && options.unique_names) {
       findings.add(rules::name, item.span,
-                   fmt::format("name {} is also that of {}", in_quotes(item.alias), place_name(other)),
+                   fmt::format("name {} is also that of {}", in_quotes(item.alias), place_name(*other)),
                    "rename one of them, or omit --unique-names");
-    } else if (with_name.size() > 1) {
+    } else if (other != nullptr) {
       findings.add(rules::name_shared, item.span,
                    fmt::format("name {} is shared; the index is appended", in_quotes(item.alias)),
                    "give the entries different names");
     }
-    if (with_name.size() > 1 || could_be_made(plan, item.alias)) {
+    if (other != nullptr || could_be_made(plan, item.alias)) {
       item.alias += "_" + identifier("x" + suffix_of(item)).substr(1);
     }
     const auto [owner, is_new] = owners.emplace(item.alias, &item);
@@ -78,7 +98,7 @@ void plan_limited_types(Plan& plan) {
   for (Item& item : plan.items) {
     if (item.is_limited()) {
       const std::string what =
-          fmt::format("{} {:02X} {} {}", item.type, item.form->code, item.limits.low, item.limits.high);
+          fmt::format("{} {:02X} {} {}", item.type, item.form->code, item.limits->low, item.limits->high);
       item.limited = numbers.emplace(what, numbers.size() + 1).first->second;
     }
   }

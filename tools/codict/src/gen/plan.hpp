@@ -7,10 +7,12 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gen/forms.hpp"
 #include "model/device.hpp"
+#include "model/rare.hpp"
 #include "text/finding.hpp"
 
 namespace lexican::codict::gen {
@@ -25,7 +27,6 @@ struct Options {
   std::uint32_t string_capacity = 32;         ///< bytes of a writable string whose length is not described
   bool unique_names = false;                  ///< equal names of two entries are an error
   bool trigger_tpdos = false;                 ///< set flag A for all objects that a TPDO may map
-  bool copies_device = true;                  ///< set Output::device, which needs the memory of the device once more
   std::map<std::string, std::uint8_t> store;  ///< sub-indexes of 1010h by storage group; 0: the group is not stored
 };
 
@@ -51,31 +52,32 @@ struct Limits {
   bool holds_default = true;  ///< the default value is within the limits
 };
 
-/// Entry of the table.
+/// Entry of the table. A large dictionary has 65534 of them.
 struct Item {
   std::uint16_t index = 0;
   std::uint8_t sub_index = 0;
-  std::string name;      ///< name in the description, for comments
-  std::string own_name;  ///< name without that of the object that contains the sub-object
+  std::string name;                ///< name in the description, for comments
+  std::size_t own_name_begin = 0;  ///< length of the part of the name that names the object with the sub-object
   Span span;
   Access access = Access::ro;
   PdoMapping pdo = PdoMapping::no;
   const Form* form = nullptr;
   const Place* place = nullptr;
-  std::string type;           ///< "CO_TUNSIGNED16"
+  std::string_view type;      ///< "CO_TUNSIGNED16", a constant
   bool has_own_type = false;  ///< the application defines the type
   std::uint32_t flags = 0;    ///< flags of CO_KEY()
   Storage storage = Storage::variable;
   Value value;
   std::uint32_t capacity = 0;  ///< size of a string or domain in bytes
   std::size_t group = 0;       ///< index in Plan::groups
-  std::string member;          ///< "od_2100_1"
   std::string alias;           ///< "hour"; empty: no alias
-  Limits limits;
+  Rare<Limits> limits;
   std::size_t limited = 0;  ///< number of the limited type, from 1; 0: no limits
 
   std::uint32_t key() const { return std::uint32_t{index} << 16 | std::uint32_t{sub_index} << 8; }
-  bool is_limited() const { return !limits.low.empty() || !limits.high.empty(); }
+  bool is_limited() const { return !limits->low.empty() || !limits->high.empty(); }
+  std::string own_name() const { return name.substr(own_name_begin); }  ///< name without that of the object
+  std::string member() const;                                           ///< "od_2100_1"
 };
 
 /// Purpose of a group's member for its entry.
@@ -89,7 +91,7 @@ enum class Role : unsigned char {
 struct Member {
   std::size_t item = 0;  ///< index in Plan::items
   Role role = Role::value;
-  std::string type;                 ///< C type
+  std::string_view type;            ///< C type, a constant
   std::string name;                 ///< "od_2201_0_length"
   std::uint32_t count = 0;          ///< number of array elements; 0: no array
   std::uint32_t size = 0;           ///< size in bytes, on a CPU with 32-bit addresses
@@ -145,7 +147,7 @@ constexpr std::size_t most_items = 0xFFFE;
 Plan make_plan(const Device& device, const Options& options, Findings& findings);
 
 /// Returns the device that a plan implements: without objects that have no entry, with all default values.
-Device described(const Device& device, const Plan& plan);
+Device described(Device device, const Plan& plan);
 
 /// Returns the NMT reset that sets an entry which is not stored to its power-on value.
 Reset reset_of(const Item& item);

@@ -190,7 +190,8 @@ static const CO_OBJ_TYPE stored_consumer_type = {stored_consumer_size, stored_co
 
 class SourceText {
  public:
-  SourceText(const Plan& plan, const Options& options) : plan_(plan), options_(options) {}
+  SourceText(const Plan& plan, const Options& options)
+      : plan_(plan), options_(options), out_(plan.items.size() * usual_length) {}
 
   std::string write() {
     write_top();
@@ -213,7 +214,7 @@ class SourceText {
   const Group& group_of(const Item& item) const { return plan_.groups[item.group]; }
   std::string struct_name(const Item& item) const { return struct_of(group_of(item), options_); }
   // Returns a name for an entry's further variable: "od_2201_0" with another prefix.
-  static std::string named(const char* what, const Item& item) { return what + item.member.substr(2); }
+  static std::string named(const char* what, const Item& item) { return what + item.member().substr(2); }
 
   // Returns the entries for which the predicate is true.
   template <typename Predicate>
@@ -268,12 +269,12 @@ class SourceText {
     const unsigned bits = item.form->size > 4 ? 64 : 32;
     const TypeKind kind = data_type(item.form->code).kind;
     const unsigned order = kind == TypeKind::real ? 2 : (kind == TypeKind::signed_integer ? 1 : 0);
-    out_.add("\n// {}: {} to {}", place_name(item), item.limits.low.empty() ? "any" : item.limits.low,
-             item.limits.high.empty() ? "any" : item.limits.high);
+    out_.add("\n// {}: {} to {}", place_name(item), item.limits->low.empty() ? "any" : item.limits->low,
+             item.limits->high.empty() ? "any" : item.limits->high);
     out_.add(
         "static const limited{0}_t limits_{1} = {{{{limited{0}_size, limited{0}_init, limited{0}_read, "
         "limited{0}_write, NULL}}, {2}, {3}, {4}, {5}}};",
-        bits, item.limited, item.type, bound(item.limits.low_bits, bits), bound(item.limits.high_bits, bits), order);
+        bits, item.limited, item.type, bound(item.limits->low_bits, bits), bound(item.limits->high_bits, bits), order);
   }
 
   static std::string bound(std::uint64_t number, unsigned bits) {
@@ -367,7 +368,7 @@ class SourceText {
         const std::string memory =
             has_constant_memory(item)
                 ? named("constant", item)
-                : fmt::format("{}.{}_memory", struct_of(plan_.groups.front(), options_), item.member);
+                : fmt::format("{}.{}_memory", struct_of(plan_.groups.front(), options_), item.member());
         return descriptor_text(item, memory);
       }
       case Role::length: return fmt::format("{}", length_of(item));
@@ -416,7 +417,7 @@ class SourceText {
   void write_group_descriptors() {
     out_.blank();
     for (const Item* const item : those([](const Item& one) { return one.group != 0; })) {
-      const std::string place = fmt::format("{}.{}", struct_name(*item), item->member);
+      const std::string place = fmt::format("{}.{}", struct_name(*item), item->member());
       if (item->storage == Storage::string) {
         out_.add("static stored_string_t {} = {{{}, &{}_length, {}}};", named("string", *item),
                  descriptor_text(*item, place), place, item->type);
@@ -544,7 +545,7 @@ class SourceText {
     const bool is_stored = item.group != 0;
     return is_stored && item.storage == Storage::string     ? "&stored_string_type"
            : is_stored && item.storage == Storage::consumer ? "&stored_consumer_type"
-                                                            : item.type;
+                                                            : std::string(item.type);
   }
 
   std::string data_text(const Item& item) const {
@@ -572,7 +573,7 @@ class SourceText {
         break;
       default: break;
     }
-    return fmt::format("&{}.{}", struct_name(item), item.member);
+    return fmt::format("&{}.{}", struct_name(item), item.member());
   }
 
   void write_table() {
@@ -605,7 +606,8 @@ class SourceText {
       prove_layout(plan_.groups[n]);
     }
     out_.raw("// Default values are within their limits.\n");
-    for (const Item* const item : those([](const Item& one) { return one.limited != 0 && one.limits.holds_default; })) {
+    for (const Item* const item :
+         those([](const Item& one) { return one.limited != 0 && one.limits->holds_default; })) {
       prove_limits(*item);
     }
     out_.raw("// The mapping of each PDO has at most 64 bits and CO_PDO_MAP_N objects.\n");
@@ -635,7 +637,7 @@ class SourceText {
     }
     const std::string value = literal(item.value, *item.form);
     const bool is_least = kind == TypeKind::unsigned_integer && item.value.integer == 0;
-    for (const auto& [limit, sign] : {std::pair(&item.limits.low, ">="), std::pair(&item.limits.high, "<=")}) {
+    for (const auto& [limit, sign] : {std::pair(&item.limits->low, ">="), std::pair(&item.limits->high, "<=")}) {
       if (!limit->empty() && !is_least) {
         out_.add("{}({} {} {}, \"{}\");", proof(), value, sign, *limit, place_name(item));
       }

@@ -122,7 +122,7 @@ std::vector<StoreSub> places_of(const Plan& plan, std::uint16_t index) {
   std::vector<StoreSub> places;
   for (const Item& item : plan.items) {
     if (item.index == index && item.storage == Storage::group) {
-      places.push_back({item.sub_index, item.own_name, words_of(item.own_name)});
+      places.push_back({item.sub_index, item.own_name(), words_of(item.own_name())});
     }
   }
   return places;
@@ -416,7 +416,7 @@ void plan_stores(Plan& plan, const Options& options, Findings& findings) {
 std::vector<StoredGroup> stored_groups(const Plan& plan) {
   const auto name_of = [&](std::uint16_t index, std::uint8_t sub_index) {
     const Item* const item = sub_index == 0 ? nullptr : plan.find(index, sub_index);
-    return item == nullptr ? std::string() : item->own_name;
+    return item == nullptr ? std::string() : item->own_name();
   };
   std::vector<StoredGroup> groups;
   for (std::size_t n = 1; n < plan.groups.size(); ++n) {

@@ -12,6 +12,10 @@ namespace lexican::codict::gen {
 
 class Lines {
  public:
+  Lines() = default;
+  /// Reserves memory, so that a large text need not be copied as it grows.
+  explicit Lines(std::size_t expected) { text_.reserve(expected); }
+
   template <typename... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);

@@ -11,6 +11,9 @@
 
 namespace lexican::codict::gen {
 
+/// Usual length of header or source for an entry of the table.
+constexpr std::size_t usual_length = 600;
+
 std::string write_header(const Plan& plan, const Options& options);
 std::string write_source(const Plan& plan, const Options& options);
 

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <filesystem>
@@ -71,9 +72,18 @@ bool has_bytes(const std::string& path, std::string_view bytes) {
   if (!std::filesystem::is_regular_file(path, error) || std::filesystem::file_size(path, error) != bytes.size()) {
     return false;
   }
-  std::string why;
-  const std::optional<Source> present = read_file(path, why);
-  return present && present->bytes() == bytes;
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  std::array<char, 65536> block{};
+  ssize_t got = file.number() < 0 ? -1 : 1;
+  while (got > 0 || (got < 0 && errno == EINTR)) {
+    got = ::read(file.number(), block.data(), block.size());
+    const auto length = static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+    if (bytes.compare(0, length, block.data(), length) != 0) {
+      return false;
+    }
+    bytes.remove_prefix(length);
+  }
+  return got == 0 && bytes.empty();
 }
 
 // Writes cached data of a file or directory to its medium. EINVAL and ENOTSUP mean that the file system does not

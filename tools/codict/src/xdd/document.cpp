@@ -7,10 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
+#include "text/memory.hpp"
 #include "text/number.hpp"
 #include "xdd/rules.hpp"
 #include "xdd/suppressions.hpp"
@@ -210,9 +207,7 @@ void Document::release() {
   root_ = {};
   tree_.reset();
   buffer_ = {};
-#ifdef __GLIBC__
-  ::malloc_trim(0);  // returns the memory of the elements, which is in pieces, to the system
-#endif
+  return_free_memory();
 }
 
 std::uint32_t Document::tag_end(std::uint32_t at) const {
