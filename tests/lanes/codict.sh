@@ -11,16 +11,28 @@ lane() {
     core_cases
   else
     all_cases
+    memory_cases
   fi
 }
 
 # Builds and tests only the library of the tool, without sanitizers and fuzz targets, for the contributor's run: the
 # program takes longer to build.
 core_cases() {
-  local source=tools/codict targets=(lexican_codict_core_tests)
-  build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TESTS=ON \
-    -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
+  plain_tree lexican_codict_core_tests || return
   run_doctest codict "$build/codict-core/tests/lexican_codict_core_tests"
+}
+
+# Code with sanitizers needs several times the memory.
+memory_cases() {
+  plain_tree lexican_codict_program_tests || return
+  run_doctest "codict memory" "$build/codict-core/tests/lexican_codict_program_tests" -tc='memory: *'
+}
+
+# Builds the tool alone, without sanitizers.
+plain_tree() {  # TARGET
+  local source=tools/codict targets=("$1")
+  build_tree codict-core -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g0 -O0" -DLEXICAN_TESTS=ON \
+    -DLEXICAN_WARNINGS_AS_ERRORS=ON
 }
 
 # The tests themselves are compiled without the sanitizer for undefined behaviour: it doubles their time to compile.

@@ -64,10 +64,6 @@ void check_peak(const std::string& directory, const std::string& command, std::s
 
 // Checks the peak memory of the commands for a description. The second gen compares its files with those of the first.
 void check_memory(Large kind, std::size_t bytes, const Limits& limits) {
-  if (is_instrumented) {
-    MESSAGE("skipped: code with sanitizers needs several times the memory");
-    return;
-  }
   const Directory directory;
   const std::string path = directory / "large.xdd";
   test::write_bytes(path, test::large_xdd(kind, bytes));
@@ -81,6 +77,9 @@ void check_memory(Large kind, std::size_t bytes, const Limits& limits) {
 
 }  // namespace
 
+// Code with sanitizers needs several times the memory.
+TEST_SUITE_BEGIN("memory without sanitizers" * doctest::skip(is_instrumented));
+
 TEST_CASE("memory: a large XDD of parameters with words needs at most 8 times its size") {
   SUBCASE("objects") { check_memory(Large::objects, 16 * megabyte, {}); }
   SUBCASE("sub-objects") { check_memory(Large::described_sub_objects, 16 * megabyte, {}); }
@@ -90,3 +89,5 @@ TEST_CASE("memory: a large XDD of parameters with words needs at most 8 times it
 TEST_CASE("memory: a large XDD of attributes needs at most 10 times its size, 13 times for gen") {
   check_memory(Large::sub_objects, 8 * megabyte, {10, 10, 13});
 }
+
+TEST_SUITE_END();
