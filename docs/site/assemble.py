@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+FENCE = re.compile(r"^(```\w+) whole$", re.MULTILINE)
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 
@@ -41,8 +42,22 @@ def headers_of(root, tags):
     return headers
 
 
+def indent_items(text):
+    """The text with 4 spaces in front of everything that belongs to an item of a list: mkdocs requires them."""
+    lines = []
+    offset = 0  # of the contents of the item; 0: no item
+    for line in text.split("\n"):
+        if item := re.match(r"(\d+\.|-) +", line):
+            offset = len(item[0])
+        elif line and not line.startswith(" "):
+            offset = 0
+        is_inside = 0 < offset < 4 and not item and line.startswith(" " * offset)
+        lines.append(" " * (4 - offset) + line if is_inside else line)
+    return "\n".join(lines)
+
+
 def adapt(text, source, pages, headers, root):
-    """The text of a page with links that hold within the site."""
+    """The text of a page with links that hold within the site, and with Markdown that mkdocs understands."""
 
     def link(match):
         picture, words, target, anchor = match[1], match[2], match[3], match[4] or ""
@@ -59,7 +74,7 @@ def adapt(text, source, pages, headers, root):
             sys.exit(f"{source}: the link to {target} leads nowhere")
         return f"{words} (`{place}`)" if str(place) not in words else f"`{place}`"
 
-    return LINK.sub(link, text)
+    return LINK.sub(link, indent_items(FENCE.sub(r"\1", text)))
 
 
 def draw(root, to):
@@ -82,6 +97,7 @@ def main():
     draw(root, to / "pictures")
     for file in sorted((root / "docs/pictures").glob("*.svg")):
         shutil.copy(file, to / "pictures")
+    shutil.copy(root / "docs/site/space.css", to)
 
 
 if __name__ == "__main__":
