@@ -43,14 +43,21 @@ def headers_of(root, tags):
 
 
 def indent_items(text):
-    """The text with 4 spaces in front of everything that belongs to an item of a list: mkdocs requires them."""
+    """The text with lists as mkdocs requires them: 4 spaces in front of everything that belongs to an item, and an empty
+    line in front of the item behind one with several paragraphs."""
     lines = []
     offset = 0  # of the contents of the item; 0: no item
+    has_paragraphs = False
     for line in text.split("\n"):
-        if item := re.match(r"(\d+\.|-) +", line):
+        item = re.match(r"(\d+\.|-) +", line)
+        if item:
+            if offset and has_paragraphs:
+                lines.append("")
             offset = len(item[0])
+            has_paragraphs = False
         elif line and not line.startswith(" "):
             offset = 0
+        has_paragraphs = has_paragraphs or not line
         is_inside = 0 < offset < 4 and not item and line.startswith(" " * offset)
         lines.append(" " * (4 - offset) + line if is_inside else line)
     return "\n".join(lines)
