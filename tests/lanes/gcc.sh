@@ -12,6 +12,7 @@ lane() {
     build_preset release release -DLEXICAN_TEST_OPTIONS=-O1 -DLEXICAN_THIN_SWEEPS=OFF || return
   fi
   run_doctest gcc "$build/release/tests/lexican_tests"
+  run_doctest "gcc models" "$build/release/tests/models/lexican_model_tests"
   run_ctest system "$build/release/tests/system"
   run_ctest cookbook "$build/release/tests/cookbook"
 }
