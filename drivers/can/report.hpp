@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file report.hpp
+/// Reports states of a CAN controller and lost frames to the node, as error frames that Read returns, in the coding of
+/// SocketCAN. CONodeProcess() calls CONodeCanEvent() for each event in such a frame.
+#ifndef CO_DRIVERS_REPORT_HPP_
+#define CO_DRIVERS_REPORT_HPP_
+
+#include <cstdint>
+
+#include "co_can_report.h"
+
+namespace co::report {
+/// \cond internal
+
+enum class State : std::uint8_t { active, passive, bus_off };
+
+/// State of a controller at one moment.
+struct Observation {
+  State state;
+  CO_CAN_ERROR_COUNTERS errors;
+  std::uint32_t lost;  ///< frames lost since Enable
+};
+
+inline constexpr std::uint32_t class_controller = 0x004;
+inline constexpr std::uint32_t class_bus_off = 0x040;
+inline constexpr std::uint32_t class_restarted = 0x100;
+inline constexpr std::uint32_t class_counters = 0x200;
+
+// Bits of Data[1] in the class class_controller.
+inline constexpr std::uint8_t detail_overflow = 0x01;
+inline constexpr std::uint8_t detail_passive = 0x30;
+inline constexpr std::uint8_t detail_active = 0x40;
+
+// The interrupt and the loop share some members; each has one writer, so atomic loads and stores suffice.
+template <typename Number>
+Number load(const Number& number) {
+  return __atomic_load_n(&number, __ATOMIC_ACQUIRE);
+}
+template <typename Number>
+void store(Number& number, Number value) {
+  __atomic_store_n(&number, value, __ATOMIC_RELEASE);
+}
+
+/// Forgets everything that was reported. Called while the interrupt is disabled.
+inline void restart(CO_CAN_REPORT& report) {
+  report.Overflows = 0;
+  report.ReportedLost = 0;
+  report.SeenBusOffs = report.BusOffs;
+}
+
+/// Counts an overflow of the receive FIFO. Called in the interrupt.
+inline void count_overflow(CO_CAN_REPORT& report) { store(report.Overflows, report.Overflows + 1); }
+
+/// Counts a bus-off event. Called in the interrupt.
+inline void count_bus_off(CO_CAN_REPORT& report) {
+  store(report.BusOffs, static_cast<std::uint8_t>(report.BusOffs + 1));
+}
+
+/// Returns the state to report: \a now, or bus-off if the controller went to bus-off and back since the last call.
+inline State observed(CO_CAN_REPORT& report, State now) {
+  const std::uint8_t bus_offs = load(report.BusOffs);
+  const bool was_bus_off = bus_offs != report.SeenBusOffs;
+  report.SeenBusOffs = bus_offs;
+  const bool is_reported = report.Reported == static_cast<std::uint8_t>(State::bus_off);
+  return was_bus_off && !is_reported ? State::bus_off : now;
+}
+
+/// Fills an error frame with the changes since the last report. Returns false if there are none.
+inline bool take(CO_CAN_REPORT& report, const Observation& now, CO_IF_FRM& frame) {
+  const State before = static_cast<State>(report.Reported);
+  if (now.state == before && now.lost == report.ReportedLost) {
+    return false;
+  }
+  frame = {CO_IF_FRM_ERROR | class_counters, {}, sizeof frame.Data};
+  frame.Data[6] = now.errors.Transmit;
+  frame.Data[7] = now.errors.Receive;
+  if (now.state != before && now.state == State::bus_off) {
+    frame.Identifier |= class_bus_off;
+  }
+  if (now.state != before && before == State::bus_off) {
+    frame.Identifier |= class_restarted;
+  }
+  if (now.state == State::passive && before != State::passive) {
+    frame.Identifier |= class_controller;
+    frame.Data[1] = detail_passive;
+  }
+  if (now.state == State::active && before == State::passive) {
+    frame.Identifier |= class_controller;
+    frame.Data[1] = detail_active;
+  }
+  if (now.lost != report.ReportedLost) {
+    frame.Identifier |= class_controller;
+    frame.Data[1] = static_cast<std::uint8_t>(frame.Data[1] | detail_overflow);
+  }
+  report.Reported = static_cast<std::uint8_t>(now.state);
+  report.ReportedLost = now.lost;
+  return true;
+}
+
+/// \endcond
+}  // namespace co::report
+
+#endif
