@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench.hpp"
+
+#include "bit_timing.hpp"
+#include "bxcan.hpp"
+#include "bxcan_rates.hpp"
+#include "co_can_bxcan.h"
+#include "co_can_fdcan.h"
+#include "fdcan_rates.hpp"
+#include "m_can.hpp"
+#include "support/notation.hpp"
+
+namespace test {
+namespace {
+
+constexpr std::uintptr_t bxcan_address[] = {0x40006400, 0x40006800};
+constexpr std::uintptr_t fdcan_address[] = {0x40006400, 0x40006800};
+constexpr std::uintptr_t fdcan_ram = 0x4000A400;
+constexpr std::uintptr_t mcan_address[] = {0x4000A000, 0x4000A400};
+constexpr std::uintptr_t mcan_ram = 0x4000AC00;
+
+// Models of several kinds can be on one bus: their addresses must not overlap.
+constexpr std::uintptr_t distance_of_kinds = 0x100000;
+
+template <class Register>
+Register* pointer(std::uintptr_t address) {
+  return reinterpret_cast<Register*>(address);
+}
+
+constexpr unsigned most_interrupts = 10;
+
+class BxcanController : public Controller {
+ public:
+  BxcanController(CanWire& wire, const ControllerOptions& options, BxCan* master)
+      : model(wire, bxcan_address[options.number], model_options(options, master)), frames_(options.frames) {
+    driver = &BxcanCanDriver;
+    can_.Registers = pointer<CO_BXCAN_REGISTERS>(bxcan_address[options.number]);
+    can_.Master = options.number == 0 ? nullptr : pointer<CO_BXCAN_REGISTERS>(bxcan_address[0]);
+    can_.FirstBank = static_cast<std::uint8_t>(options.bxcan.first);
+    can_.BankNum = static_cast<std::uint8_t>(options.bxcan.number);
+    can_.Rates = rates_;
+    can_.RateNum = 1;
+    can_.Frames = frames_.data();
+    can_.FrameNum = options.frames;
+    can_.Recovery = options.recovery;
+    can_.Loopback = options.loopback;
+    rates_[0] = co::bxcan_rate(Bench::baud, co::find_bit_timing(options.clock, Bench::baud, co::bxcan_limits));
+    model.release_accesses = options.bxcan.release_accesses;
+    model.late_abort_clears_flags = options.bxcan.late_abort_clears_flags;
+  }
+
+  void* context() override { return &can_; }
+  bool has_interrupt() const override {
+    return model.transmit_interrupt() || model.receive_interrupt(0) || model.status_interrupt();
+  }
+  void call_interrupt() override { COCanBxcanInterrupt(&can_); }
+  bool has_frames() const override { return COCanBxcanHasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanBxcanLost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanBxcanErrors(&can_); }
+  CanNode& node() override { return model.node(); }
+  RegisterModel& registers() override { return model; }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
+  unsigned fifo_places() const override { return 3; }
+
+  BxCan model;
+
+ private:
+  static BxCan::Options model_options(const ControllerOptions& options, BxCan* master) {
+    BxCan::Options result;
+    result.filter_banks = options.bxcan.banks;
+    result.master = master;
+    result.clock = options.clock;
+    return result;
+  }
+
+  CO_CAN_BXCAN_RATE rates_[1]{};
+  std::vector<CO_IF_FRM> frames_;
+  CO_CAN_BXCAN can_{};
+};
+
+class MCanController : public Controller {
+ public:
+  MCanController(CanWire& wire, MessageRam& ram, Kind kind, const ControllerOptions& options)
+      : model(wire, address(kind, options.number), ram, model_options(kind, options)),
+        kind_(kind),
+        frames_(options.frames),
+        fifo_(options.fifo) {
+    driver = kind == Kind::fdcan ? &FdcanCanDriver : &McanCanDriver;
+    const unsigned offset = model_options(kind, options).ram_offset;
+    can_.Registers = pointer<void>(model.address());
+    can_.Ram = pointer<volatile std::uint32_t>(ram.address() + (kind == Kind::fdcan ? 4 * offset : 0));
+    can_.RamOffset = static_cast<std::uint16_t>(kind == Kind::mcan ? 100 + options.number * 700 : 0);
+    can_.FifoNum = options.fifo;
+    can_.Rates = rates_;
+    can_.RateNum = 1;
+    can_.Frames = frames_.data();
+    can_.FrameNum = options.frames;
+    can_.Recovery = options.recovery;
+    can_.WaitForIdle = options.wait_for_idle;
+    can_.Loopback = options.loopback;
+    rates_[0] = co::fdcan_rate(Bench::baud, co::find_bit_timing(options.clock, Bench::baud, co::fdcan_limits));
+  }
+
+  void* context() override { return &can_; }
+  bool has_interrupt() const override { return model.interrupt(0); }
+  void call_interrupt() override { kind_ == Kind::fdcan ? COCanFdcanInterrupt(&can_) : COCanMcanInterrupt(&can_); }
+  bool has_frames() const override { return COCanFdcanHasFrames(&can_); }
+  std::uint32_t lost() const override { return COCanFdcanLost(&can_); }
+  CO_CAN_ERROR_COUNTERS errors() const override { return COCanFdcanErrors(&can_); }
+  CanNode& node() override { return model.node(); }
+  RegisterModel& registers() override { return model; }
+  std::uint32_t bit_rate() const override { return model.bit_rate(); }
+  unsigned sample_point() const override { return model.sample_point(); }
+  void set_timing(std::uint32_t baud, std::uint32_t timing) override { rates_[0] = {baud, timing}; }
+  unsigned fifo_places() const override { return kind_ == Kind::fdcan ? 3 : fifo_; }
+
+  MCan model;
+
+ private:
+  static std::uintptr_t address(Kind kind, unsigned number) {
+    return distance_of_kinds * static_cast<unsigned>(kind) +
+           (kind == Kind::fdcan ? fdcan_address[number] : mcan_address[number]);
+  }
+  static MCan::Options model_options(Kind kind, const ControllerOptions& options) {
+    MCan::Options result;
+    result.layout = kind == Kind::fdcan ? MCanLayout::fixed : MCanLayout::configurable;
+    result.ram_offset = kind == Kind::fdcan ? options.number * MCan::fixed_words : 0;
+    result.clock = options.clock;
+    return result;
+  }
+
+  CO_CAN_FDCAN_RATE rates_[1]{};
+  Kind kind_;
+  std::vector<CO_IF_FRM> frames_;
+  std::uint8_t fifo_;
+  CO_CAN_FDCAN can_{};
+};
+
+bool is_error(const std::string& text) { return text.size() > 8 && text[8] == '#' && text[0] == '2'; }
+
+}  // namespace
+
+std::string name_of(Kind kind) {
+  switch (kind) {
+    case Kind::bxcan: return "bxCAN";
+    case Kind::fdcan: return "FDCAN";
+    case Kind::mcan: return "M_CAN";
+  }
+  return "";
+}
+
+CO_IF_FRM to_driver(const CanFrame& frame) {
+  CO_IF_FRM result{};
+  result.Identifier = frame.id | (frame.is_extended ? CO_IF_FRM_EXT : 0) | (frame.is_remote ? CO_IF_FRM_RTR : 0);
+  result.DLC = frame.dlc;
+  for (unsigned i = 0; i < frame.bytes(); ++i) {
+    result.Data[i] = frame.data[i];
+  }
+  return result;
+}
+
+CanFrame to_wire(const CO_IF_FRM& frame) {
+  CanFrame result;
+  result.id = frame.Identifier & CO_IF_FRM_ID;
+  result.is_extended = (frame.Identifier & CO_IF_FRM_EXT) != 0;
+  result.is_remote = (frame.Identifier & CO_IF_FRM_RTR) != 0;
+  result.dlc = frame.DLC;
+  for (unsigned i = 0; i < 8; ++i) {
+    result.data[i] = frame.Data[i];
+  }
+  return result;
+}
+
+std::vector<std::string> error_frames(const std::vector<std::string>& all) {
+  std::vector<std::string> result;
+  for (const std::string& one : all) {
+    if (is_error(one)) {
+      result.push_back(one);
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> data_frames(const std::vector<std::string>& all) {
+  std::vector<std::string> result;
+  for (const std::string& one : all) {
+    if (!is_error(one)) {
+      result.push_back(one);
+    }
+  }
+  return result;
+}
+
+void Controller::filter(const std::vector<std::uint32_t>& ids) {
+  driver->Filter(context(), ids.data(), static_cast<std::uint16_t>(ids.size()));
+}
+
+std::int16_t Controller::send(const char* text) { return send(frame(text)); }
+
+std::string Controller::read() {
+  CO_IF_FRM frm{};
+  const std::int16_t result = driver->Read(context(), &frm);
+  return result == sizeof frm ? notation(frm) : std::to_string(result);
+}
+
+std::vector<std::string> Controller::read_all() {
+  std::vector<std::string> all;
+  for (std::string text = read(); text != "0"; text = read()) {
+    all.push_back(text);
+    REQUIRE(all.size() < 1000);
+  }
+  return all;
+}
+
+Bench::Bench() {
+  unmatched_accesses().clear();
+  wire.bit_rate = baud;
+  wire.accesses_per_bit = 20;
+}
+
+Bench::~Bench() {
+  CHECK(unmatched_accesses().empty());
+  for (const auto& one : controllers_) {
+    if (checks_faults) {
+      CHECK_MESSAGE(one->registers().faults().empty(), one->registers().fault_text());
+    }
+  }
+  for (const auto& one : memory_) {
+    CHECK_MESSAGE(one->faults().empty(), one->fault_text());
+  }
+  controllers_.clear();
+}
+
+Controller& Bench::add(Kind kind, const ControllerOptions& options) {
+  if (kind == Kind::bxcan) {
+    BxCan* const master = options.number == 0 ? nullptr : &static_cast<BxcanController&>(*controllers_[0]).model;
+    controllers_.push_back(std::make_unique<BxcanController>(wire, options, master));
+  } else {
+    const unsigned words = kind == Kind::fdcan ? 2 * MCan::fixed_words : MCan::configurable_words;
+    const std::uintptr_t at =
+        distance_of_kinds * static_cast<unsigned>(kind) + (kind == Kind::fdcan ? fdcan_ram : mcan_ram);
+    RegisterModel* ram = nullptr;
+    for (const auto& one : memory_) {
+      ram = one->address() == at ? one.get() : ram;
+    }
+    if (ram == nullptr) {
+      memory_.push_back(std::make_unique<MessageRam>(at, words));
+      ram = memory_.back().get();
+    }
+    controllers_.push_back(std::make_unique<MCanController>(wire, static_cast<MessageRam&>(*ram), kind, options));
+  }
+  Controller& added = *controllers_.back();
+  if (options.starts) {
+    added.init();
+    added.enable(baud);
+    run(20);
+  }
+  return added;
+}
+
+void Bench::process(Controller& controller) {
+  if (!are_interrupts_enabled || is_in_interrupt_) {
+    return;
+  }
+  is_in_interrupt_ = true;
+  for (unsigned n = 0; controller.has_interrupt(); ++n) {
+    if (n == most_interrupts) {
+      FAIL("an interrupt stays active");
+    }
+    controller.call_interrupt();
+  }
+  is_in_interrupt_ = false;
+}
+
+void Bench::process_interrupts() {
+  for (const auto& one : controllers_) {
+    process(*one);
+  }
+}
+
+void Bench::interrupt_everywhere() {
+  const auto hook = [this] { process_interrupts(); };
+  for (const auto& one : controllers_) {
+    one->registers().on_access = hook;
+  }
+  for (const auto& one : memory_) {
+    one->on_access = hook;
+  }
+}
+
+void Bench::run(std::uint64_t bits) {
+  for (; bits != 0; --bits) {
+    wire.advance(1);
+    process_interrupts();
+  }
+}
+
+bool Bench::run_until(const std::function<bool()>& condition, std::uint64_t bits) {
+  for (; !condition(); --bits) {
+    if (bits == 0) {
+      return false;
+    }
+    run(1);
+  }
+  return true;
+}
+
+void Bench::receive(const CanFrame& frame) {
+  peer.send(frame);
+  REQUIRE(run_until([&] { return peer.queued() == 0; }));
+  run(4);
+}
+
+std::vector<std::string> Bench::sent_by(Controller& controller) const {
+  std::vector<std::string> texts;
+  for (const CanRecord& one : wire.records()) {
+    if (one.kind == CanRecord::Kind::sent && one.node == &controller.node()) {
+      texts.push_back(notation(to_driver(one.frame)));
+    }
+  }
+  return texts;
+}
+
+}  // namespace test
