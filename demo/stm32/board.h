@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// \file board.h
+/// Functions and constants of a board, which its folder defines.
+#ifndef BOARD_H_
+#define BOARD_H_
+
+#include "co_if_can.h"
+
+/// Number of entries of the vector table behind the 16 of the CPU.
+#define BOARD_INTERRUPTS 32
+
+/// Returns the register at an address.
+#define BOARD_REGISTER(address) (*(volatile uint32_t*)(address))
+
+extern const uint32_t BoardHz;  ///< clock of the CPU
+extern const CO_IF_CAN_DRV_EX* const BoardCan;
+extern void* const BoardCanContext;
+
+/// Sets up clocks, pins and the interrupts of the CAN controller. Called first in main().
+void BoardStart(void);
+
+/// Switches the LED of the board.
+void BoardLed(bool on);
+
+/// Calls the interrupt function of the CAN driver.
+void BoardCanInterrupt(void);
+
+/// Returns true if received frames wait until they are read.
+bool BoardCanHasFrames(void);
+
+/// \name Interrupts, defined by main.c
+/// \{
+void CanHandler(void);
+void SysTickHandler(void);
+/// \}
+
+/// Enables an interrupt of the CPU.
+static inline void BoardEnableInterrupt(unsigned number) {
+  BOARD_REGISTER(0xE000E100u + 4u * (number / 32u)) = 1u << number % 32u;
+}
+
+/// Waits until bits of a register are set. A clock that does not start ends here: the watchdog of a product resets the
+/// board.
+static inline void BoardAwait(uint32_t address, uint32_t bits) {
+  while ((BOARD_REGISTER(address) & bits) != bits) {
+  }
+}
+
+/// Changes bits of a register.
+static inline void BoardChange(uint32_t address, uint32_t clear, uint32_t set) {
+  BOARD_REGISTER(address) = (BOARD_REGISTER(address) & ~clear) | set;
+}
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vector table and start-up code of a Cortex-M. The linker script (sections.ld) defines the symbols.
+#include "board.h"
+
+extern uint32_t StackTop[], DataBegin[], DataEnd[], DataSource[], BssBegin[], BssEnd[];
+
+int main(void);
+void Start(void);
+
+void Start(void) {
+  const uint32_t* source = DataSource;
+  for (uint32_t* word = DataBegin; word != DataEnd; ++word) {
+    *word = *source++;
+  }
+  for (uint32_t* word = BssBegin; word != BssEnd; ++word) {
+    *word = 0;
+  }
+  (void)main();
+}
+
+static void Fault(void) {
+  for (;;) {
+  }
+}
+
+typedef void (*VECTOR)(void);
+
+// Numbers of the interrupts in all three controllers: 19 CAN TX, 20 CAN RX0, 21 FDCAN1 line 0, 22 CAN SCE.
+__attribute__((section(".vectors"), used)) static const VECTOR Vectors[16 + BOARD_INTERRUPTS] = {
+    (VECTOR)(uintptr_t)StackTop,
+    Start,
+    Fault,  // NMI
+    Fault,
+    Fault,
+    Fault,
+    Fault,
+    [11] = Fault,
+    [14] = Fault,
+    [15] = SysTickHandler,
+    [16 + 19] = CanHandler,
+    [16 + 20] = CanHandler,
+    [16 + 21] = CanHandler,
+    [16 + 22] = CanHandler,
+};
