@@ -29,58 +29,81 @@ bool no_frames(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
 #if CO_TPDO_N > 0
 // RPDOs and TPDOs are initialised together, by the RPDOs if there are any.
 constexpr auto init_tpdos = CO_RPDO_N > 0 ? nullptr : pdo::init;
+#if USE_MPDO
+constexpr uint16_t mpdo_streams = 1;
+constexpr auto continue_mpdos = pdo::on_free;
+#else
+constexpr uint16_t mpdo_streams = 0;
+constexpr auto continue_mpdos = nullptr;
 #endif
+#endif
+
+using Id = routes::Service;
 
 // Services that receive frames come first, in the order of routes::Service.
 constexpr Service table[] = {
-    {CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
-    {CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_frames, sdo_server::on_mode,
+    {Id::nmt, CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
+    {Id::sdo_server, CO_SDO_ALLOWED, CO_SSDO_N, sdo_server::init, sdo_server::on_frame, no_frames, sdo_server::on_mode,
      sdo_server::on_free, sdo_server::configure},
 #if USE_CSDO
-    {CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, no_frames, sdo_client::on_mode,
+    {Id::sdo_client, CO_SDO_ALLOWED, CO_CSDO_N, sdo_client::init, sdo_client::on_frame, no_frames, sdo_client::on_mode,
      sdo_client::on_free, sdo_client::configure},
 #endif
-    {CO_NMT_ALLOWED, 0, guarding::init, guarding::on_frame, guarding::on_remote, guarding::on_mode, nullptr, nullptr},
+    {Id::error_control, CO_NMT_ALLOWED, 0, guarding::init, guarding::on_frame, guarding::on_remote, guarding::on_mode,
+     nullptr, nullptr},
 #if CO_HBCONS_N > 0
-    {CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, no_frames, heartbeat::on_mode_consumer, nullptr, nullptr},
+    {Id::heartbeat_consumer, CO_NMT_ALLOWED, 0, nullptr, heartbeat::on_frame, no_frames, heartbeat::on_mode_consumer,
+     nullptr, nullptr},
 #endif
 #if USE_SYNC
-    {CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, no_frames, sync::on_mode, nullptr, nullptr},
+    {Id::sync, CO_SYNC_ALLOWED, 0, sync::init, sync::on_frame, no_frames, sync::on_mode, nullptr, nullptr},
 #endif
 #if USE_TIME
-    {CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_frames, time::on_mode, nullptr, nullptr},
+    {Id::time, CO_TIME_ALLOWED, 0, time::init, time::on_frame, no_frames, time::on_mode, nullptr, nullptr},
 #endif
 #if CO_RPDO_N > 0
-    {CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
+    {Id::rpdo, CO_PDO_ALLOWED, 0, pdo::init, pdo::on_frame, no_frames, pdo::on_mode_rpdos, nullptr, nullptr},
 #endif
-#if CO_TPDO_N > 0 && USE_MPDO
-    {CO_PDO_ALLOWED, 1, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, pdo::on_free, nullptr},
-#elif CO_TPDO_N > 0
-    {CO_PDO_ALLOWED, 0, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, nullptr, nullptr},
+#if CO_TPDO_N > 0
+    {Id::tpdo, CO_PDO_ALLOWED, mpdo_streams, init_tpdos, no_frames, pdo::on_remote, pdo::on_mode_tpdos, continue_mpdos,
+     nullptr},
 #endif
 #if CO_EMCY_CONS_N > 0
-    {CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},
+    {Id::emcy_consumer, CO_EMCY_ALLOWED, 0, emcy::init_consumer, emcy::on_frame, no_frames, nullptr, nullptr, nullptr},
 #endif
 #if USE_LSS
-    {CO_LSS_ALLOWED, 0, lss::init, lss::on_frame, no_frames, lss::on_mode, nullptr, nullptr},
+    {Id::lss, CO_LSS_ALLOWED, 0, lss::init, lss::on_frame, no_frames, lss::on_mode, nullptr, nullptr},
 #endif
 #if USE_LSS_MASTER
-    {CO_LSS_ALLOWED, 0, lss_master::init, lss_master::on_frame, no_frames, lss_master::on_mode, nullptr, nullptr},
+    {Id::lss_master, CO_LSS_ALLOWED, 0, lss_master::init, lss_master::on_frame, no_frames, lss_master::on_mode, nullptr,
+     nullptr},
 #endif
 
-    {CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+    {Id::count, CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
 #if USE_PARA
-    {CO_NMT_ALLOWED, 0, para::init, nullptr, nullptr, para::on_mode, nullptr, nullptr},
+    {Id::count, CO_NMT_ALLOWED, 0, para::init, nullptr, nullptr, para::on_mode, nullptr, nullptr},
 #endif
 #if USE_EMCY
-    {CO_EMCY_ALLOWED, 0, emcy::init, nullptr, nullptr, emcy::on_mode, nullptr, nullptr},
+    {Id::count, CO_EMCY_ALLOWED, 0, emcy::init, nullptr, nullptr, emcy::on_mode, nullptr, nullptr},
 #endif
 #if USE_LED
-    {CO_NMT_ALLOWED, 0, led::init, nullptr, nullptr, led::on_mode, nullptr, nullptr},
+    {Id::count, CO_NMT_ALLOWED, 0, led::init, nullptr, nullptr, led::on_mode, nullptr, nullptr},
 #endif
 };
 
-static_assert(sizeof table / sizeof *table > static_cast<size_t>(routes::Service::count));
+// Returns whether the rows are in the order of routes::Service, each service that receives frames has one, and the rows
+// behind them receive none: routes contain the number of a row.
+constexpr bool is_ordered() {
+  unsigned expected = 0;
+  for (const Service& service : table) {
+    if (static_cast<unsigned>(service.id) != expected || (service.on_frame != nullptr) != (service.id != Id::count)) {
+      return false;
+    }
+    expected += service.id != Id::count ? 1U : 0U;
+  }
+  return expected == static_cast<unsigned>(Id::count);
+}
+static_assert(is_ordered());
 
 // Calls a function of all services that have it.
 void run(CO_NODE& node, void (*Service::*column)(CO_NODE& node)) {

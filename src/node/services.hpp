@@ -2,14 +2,16 @@
 // Table of the services of the node, and the functions that use it.
 #pragma once
 
+#include "base/routes.hpp"
 #include "co_core.h"
 
 namespace co {
 
 // Service: its permission and its functions; null: it has none.
 struct Service {
-  uint8_t allowed;   // CO_…_ALLOWED bit that the NMT state must permit for its frames
-  uint16_t streams;  // senders that on_free continues, numbered from 0
+  routes::Service id;  // owner of its routes; count: it receives no frames
+  uint8_t allowed;     // CO_…_ALLOWED bit that the NMT state must permit for its frames
+  uint16_t streams;    // senders that on_free continues, numbered from 0
   void (*init)(CO_NODE& node);
   bool (*on_frame)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);   // false: malformed
   bool (*on_remote)(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number);  // remote frame; false: malformed
