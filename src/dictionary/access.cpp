@@ -23,8 +23,7 @@ bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
 
 }  // namespace
 
-uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
-  CO_OBJ* const obj = dict::find(node.Dict, key);
+uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
   if (obj == nullptr) {
     return dict::has_index(node.Dict, key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
   }
@@ -34,7 +33,6 @@ uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
   if (!is_permitted) {
     return refusal(*obj, transfer);
   }
-  node.Served = obj;
   return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
 }
 

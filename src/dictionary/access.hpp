@@ -8,11 +8,11 @@
 
 namespace co::access {
 
-// Finds the object of a transfer, checks that its access rights and its type allow the transfer, and stores it in
-// node.Served. Returns an abort code; node.Served is unchanged if the object is not found or the access is refused.
-[[nodiscard]] uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer);
+// Checks that the access rights and the type of an object allow the transfer. obj: entry of the key, null if the
+// dictionary has none. Returns an abort code.
+[[nodiscard]] uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
 
-// Returns the length in bytes of an object that open() has found; its type has a Size function, as open() has checked.
+// Returns the length in bytes of an object; its type has a Size function, as check() has found.
 // width: bytes of a download, 0 for an upload.
 [[nodiscard]] inline uint32_t size(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
   return obj.Type->Size(&obj, &node, width);

@@ -29,9 +29,9 @@ bool is_missing(const CO_OBJ& obj) {
 
 }  // namespace
 
-uint32_t open(CO_NODE& node, uint32_t key, CO_OBJ_TRANSFER transfer) {
-  const uint32_t abort = access::open(node, key, transfer);
-  return abort == no_abort && is_missing(*node.Served) ? CO_SDO_ERR_TOS : abort;
+uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
+  const uint32_t abort = access::check(node, key, obj, transfer);
+  return abort == no_abort && is_missing(*obj) ? CO_SDO_ERR_TOS : abort;
 }
 
 #if USE_OD

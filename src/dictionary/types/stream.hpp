@@ -32,8 +32,8 @@ CO_ERR reset(CO_OBJ* obj, CO_NODE_T* node, uint32_t position);
 // Returns the type of an entry or, if the entry can be extended (co_od.h), its original type; null: it has none.
 [[nodiscard]] const CO_OBJ_TYPE* original_type(const CO_OBJ& obj);
 
-// Opens an object like access::open(); also refuses a stream of this library whose Data is null.
-[[nodiscard]] uint32_t open(CO_NODE_T& node, uint32_t key, CO_OBJ_TRANSFER transfer);
+// Checks an object like access::check(); also refuses a stream of this library whose Data is null.
+[[nodiscard]] uint32_t check(const CO_NODE_T& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer);
 
 // Scope of an access that changes the position of a stream; its end restores the position, so that the application can
 // continue its access with COObjRdBufCont() or COObjWrBufCont().

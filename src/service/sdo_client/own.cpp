@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access of an SDO client to the dictionary of the same node, with the rights of the network, without frames.
 #include "dictionary/access.hpp"
+#include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
 #include "service/sdo_client/transfer.hpp"
 
@@ -110,13 +111,14 @@ uint32_t access_own(CO_CSDO& client) {
   CO_NODE& node = *client.Node;
   const CO_OBJ_TRANSFER direction = has(client, is_upload) ? CO_OBJ_UPLOAD : CO_OBJ_DOWNLOAD;
   const access::Nested nested(node, nullptr);
-  uint32_t abort = stream::open(node, client.Key, direction);
-  if (abort == no_abort) {
-    CO_OBJ& obj = *node.Served;
-    const bool taken = obj::is_stream(obj) && access::is_taken(node, obj, nullptr);
-    abort = taken ? CO_SDO_ERR_TOS_STATE : transfer(client, obj, direction);
+  CO_OBJ* const obj = dict::find(node.Dict, client.Key);
+  const uint32_t abort = stream::check(node, client.Key, obj, direction);
+  if (abort != no_abort) {
+    return abort;
   }
-  return abort;
+  node.Served = obj;
+  const bool taken = obj::is_stream(*obj) && access::is_taken(node, *obj, nullptr);
+  return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
 }
 
 }  // namespace co::sdo_client

@@ -60,11 +60,11 @@ uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
 }
 
 uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
-  const uint32_t abort = open(channel, request, CO_OBJ_DOWNLOAD);
-  if (abort != no_abort) {
-    return abort;
+  const Opened opened = open(channel, request, CO_OBJ_DOWNLOAD);
+  if (opened.abort != no_abort) {
+    return opened.abort;
   }
-  CO_OBJ& obj = *channel.Node->Served;
+  CO_OBJ& obj = *opened.obj;
   wire::put_reply(answer, by_block ? wire::accept_block : wire::initiate_download_response, request);
   return !by_block && wire::is_expedited(request.Data[0]) ? expedited_download(channel, obj, request)
                                                           : longer_download(channel, obj, request, answer, by_block);

@@ -29,7 +29,7 @@ void describe_download(CO_ACCESS_SDO& access, const CO_IF_FRM& request) {
 
 }  // namespace
 
-uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request) {
+Opened ask(CO_SDO& channel, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_ACCESS_SDO access = {};
   access.Index = static_cast<uint16_t>(CO_GET_IDX(channel.Key));
@@ -41,12 +41,13 @@ uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request) {
   }
   const uint32_t abort = gate::ask<uint32_t, const CO_ACCESS_SDO>(node, &CO_CALLBACKS::AccessSdo, access);
   if (abort != no_abort) {
-    return abort;
+    return {nullptr, abort};
   }
   if (!event::is_allowed(node, CO_SDO_ALLOWED)) {
-    return CO_SDO_ERR_TOS_STATE;
+    return {nullptr, CO_SDO_ERR_TOS_STATE};
   }
-  return stream::open(node, channel.Key, access.Direction);
+  CO_OBJ* const obj = dict::find(node.Dict, channel.Key);
+  return {obj, stream::check(node, channel.Key, obj, access.Direction)};
 }
 
 }  // namespace co::sdo_server

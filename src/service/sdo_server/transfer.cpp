@@ -68,7 +68,7 @@ uint32_t learn_size(CO_SDO& channel, uint32_t position) {
   return no_abort;
 }
 
-// Calls Read or Write; access::open() has checked that the type has the function.
+// Calls Read or Write; access::check() has checked that the type has the function.
 inline CO_ERR run(const CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   CO_NODE& node = *channel.Node;
   if (!has(channel, download)) {

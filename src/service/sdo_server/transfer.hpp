@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dictionary/access.hpp"
+#include "dictionary/dict.hpp"
 #include "dictionary/types/stream.hpp"
 #include "service/sdo_server/sdo_server.hpp"
 #include "wire/sdo.hpp"
@@ -73,20 +74,32 @@ uint32_t close(CO_SDO& channel, uint32_t code);
 // Starts a new transfer of the object in the request; a previous transfer of the client is closed.
 void restart(CO_SDO& channel, const CO_IF_FRM& request);
 
+// Result of open(). obj is valid if abort is no_abort.
+struct Opened {
+  CO_OBJ* obj;
+  uint32_t abort;
+};
+
 // Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
-// Finds the object again afterwards, because the hook may have changed the dictionary. Returns an abort code.
-[[nodiscard]] uint32_t ask(CO_SDO& channel, const CO_IF_FRM& request);
+// Finds the object again afterwards, because the hook may have changed the dictionary.
+[[nodiscard]] Opened ask(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
-// becomes node.Served. Returns an abort code.
-[[nodiscard]] inline uint32_t open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
+// becomes node.Served.
+[[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
-  const uint32_t abort = stream::open(*channel.Node, channel.Key, transfer);
+  CO_NODE& node = *channel.Node;
+  CO_OBJ* const obj = dict::find(node.Dict, channel.Key);
+  Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
+  node.Served = opened.abort == no_abort ? obj : nullptr;
   if constexpr (USE_ACCESS_HOOK != 0) {
-    return abort == no_abort ? ask(channel, request) : abort;
+    if (opened.abort == no_abort) {
+      opened = ask(channel, request);
+      node.Served = opened.abort == no_abort ? opened.obj : nullptr;
+    }
   }
-  return abort;
+  return opened;
 }
 
 // Continues the transfer beyond this frame, supervised by the time-out.

@@ -25,11 +25,12 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
 
 uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
   CO_NODE& node = *channel.Node;
-  uint32_t abort = open(channel, request, CO_OBJ_UPLOAD);
+  const Opened opened = open(channel, request, CO_OBJ_UPLOAD);
+  uint32_t abort = opened.abort;
   if (abort != no_abort) {
     return abort;
   }
-  CO_OBJ& obj = *node.Served;
+  CO_OBJ& obj = *opened.obj;
   const uint32_t size = access::size(obj, node, 0);
   channel.Size = size;
   if (obj::is_no_size(obj, size)) {
