@@ -802,6 +802,26 @@ TEST_CASE("1020h: a write to an object of a group clears values that were presen
   node.ask("601#4020100200000000", "581#4320100200000000");
 }
 
+CO_ERR stop_node(CO_OBJ*, CO_NODE* node, void*, std::uint32_t) {
+  CONmtSetMode(&node->Nmt, CO_STOP);
+  return CO_ERR_NONE;
+}
+std::uint32_t size_of_long(CO_OBJ*, CO_NODE*, std::uint32_t) { return 4; }
+
+TEST_CASE("1020h: a type of the application at sub-index 2 that stops the node leaves no answer [S7] [Q9]") {
+  const CO_OBJ_TYPE stopping = {size_of_long, nullptr, nullptr, stop_node, nullptr};
+  Device device;
+  device.date = 5;
+  Fixture node(device.setup().with({CO_KEY(0x1020, 2, CO_OBJ_____RW), &stopping, 0}));
+  node.rx("601#2300230201000000");
+  node.silent();
+  CHECK(node.mode() == CO_STOP);
+  CHECK(device.date == 0);
+  CHECK(device.ram[1].number == 1);
+  node.rx("000#8001");
+  node.ask("601#4000230200000000", "581#4300230201000000");
+}
+
 }  // namespace
 
 #endif

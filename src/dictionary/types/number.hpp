@@ -4,6 +4,9 @@
 
 #include "base/events.hpp"
 #include "co_core.h"
+#include "co_integer16.h"
+#include "co_integer32.h"
+#include "co_integer8.h"
 #include "dictionary/types/place.hpp"
 #include "hal/port.hpp"
 #include "wire/bytes.hpp"
@@ -70,11 +73,35 @@ inline void store(void* to, T value, unsigned bytes) {
   }
 }
 
+// Read and write a number of 1, 2 or 4 bytes in a variable that is aligned, in one access.
+inline uint32_t load_aligned(const void* from, unsigned bytes) {
+  return bytes == 4 ? as<uint32_t>(from) : bytes == 2 ? as<uint16_t>(from) : as<uint8_t>(from);
+}
+inline void store_aligned(void* to, uint32_t value, unsigned bytes) {
+  if (bytes == 4) {
+    as<uint32_t>(to) = value;
+  } else if (bytes == 2) {
+    as<uint16_t>(to) = static_cast<uint16_t>(value);
+  } else {
+    as<uint8_t>(to) = static_cast<uint8_t>(value);
+  }
+}
+
 // Returns the address of an entry's value of storage bytes; with flag D the value is in the least significant bytes of
 // Data.
 inline void* place_of(CO_OBJ& obj, unsigned storage) {
   const size_t above = wire::host_is_little_endian || storage >= sizeof obj.Data ? 0 : sizeof obj.Data - storage;
   return CO_IS_DIRECT(obj.Key) != 0 ? reinterpret_cast<uint8_t*>(&obj.Data) + above : data_of<void>(obj);
+}
+
+// Returns the bytes of a number (1, 2 or 4) that load_aligned() reads as its type does; 0 for any other object. Its
+// type also writes as store_aligned() does, unless the object has flag A or CO_NODE_EXT.Writable refuses.
+inline unsigned plain_bytes(const CO_OBJ& obj) {
+  constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
+  const CO_OBJ_TYPE* const type = obj.Type;
+  const unsigned bytes = type == &COTInt32 ? 4U : type == &COTInt16 ? 2U : type == &COTInt8 ? 1U : 0U;
+  const uintptr_t address = obj.Data;
+  return (obj.Key & typed) == 0 && address != 0 && (address & (bytes - 1U)) == 0 ? bytes : 0;
 }
 
 // Returns the node-ID if the value is relative to it (flag N), else 0.

@@ -5,6 +5,7 @@
 #include "base/events.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
+#include "dictionary/types/number.hpp"
 #include "dictionary/types/place.hpp"
 #include "dictionary/types/whole.hpp"
 #include "hal/port.hpp"
@@ -57,8 +58,6 @@ bool has_length(CO_NODE& node, CO_OBJ& obj, unsigned bits) {
   return whole && bits - 1U < all_bits && obj::size(obj, node, obj::is_stream(obj) ? 0 : bytes) == bytes;
 }
 
-bool is_number(const CO_OBJ_TYPE* type) { return type == &COTInt8 || type == &COTInt16 || type == &COTInt32; }
-
 // Returns whether CODictInit() has renumbered the entries: the numbers in mappings are invalid until remap() has run.
 bool is_numbered_anew(const CO_NODE& node) { return (node.Pending & event::remap) != 0; }
 
@@ -67,10 +66,7 @@ uintptr_t address_of(const CO_OBJ& obj) { return obj.Data; }
 // Returns whether the value is exactly the bytes of its variable, accessible in one access. RPDO objects with flag A
 // are written by their type, which detects changes.
 bool is_plain(const CO_NODE& node, const CO_OBJ& obj, Direction direction, unsigned bytes) {
-  constexpr uint32_t typed = CO_OBJ_D_____ | CO_OBJ__N____;
-  const bool aligned = (address_of(obj) & (bytes - 1U)) == 0;
-  const bool in_variable = aligned && (obj.Key & typed) == 0 && is_number(obj.Type);
-  if (!copies || !in_variable || is_numbered_anew(node)) {
+  if (!copies || integer::plain_bytes(obj) != bytes || is_numbered_anew(node)) {
     return false;
   }
   return direction == Direction::transmit ||

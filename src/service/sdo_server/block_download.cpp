@@ -128,7 +128,7 @@ bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   return !is_repeated;
 }
 
-uint32_t end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+uint32_t end_block(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   if (has(channel, too_long)) {
     return CO_SDO_ERR_LEN_HIGH;
   }
@@ -144,7 +144,7 @@ bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame) {
          wire::is_equal(frame.Data + 1, stored, wire::segment_bytes) && !is_right_end(channel, frame);
 }
 
-uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }

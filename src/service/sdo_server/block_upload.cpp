@@ -117,13 +117,13 @@ void begin_block_upload(CO_SDO& channel, const CO_IF_FRM& request) {
   channel.BlkSize = request.Data[4];
 }
 
-uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
   set_state(channel, State::block_upload);
   return send_segments(channel);
 }
 
-uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   const uint8_t ackseq = request.Data[1];
   const uint8_t blksize = request.Data[2];
   if (ackseq > channel.Seq) {
@@ -147,7 +147,7 @@ uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&
   return send_segments(channel);
 }
 
-uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
   return close(channel, no_abort);
 }

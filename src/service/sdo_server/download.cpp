@@ -59,8 +59,8 @@ uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
   return has(channel, whole) ? no_abort : begin_data(channel, obj, channel.Value, 0);
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
-  const Opened opened = open(channel, request, CO_OBJ_DOWNLOAD);
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, bool by_block) {
+  const Opened opened = open(channel, request, CO_OBJ_DOWNLOAD, found);
   if (opened.abort != no_abort) {
     return opened.abort;
   }
@@ -72,17 +72,17 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
 
 }  // namespace
 
-uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
-  return initiate(channel, request, answer, false);
+uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+  return initiate(channel, request, answer, found, false);
 }
 
 #if USE_SDO_BLOCK
-uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   if (!has_buffer(channel)) {
     restart(channel, request);
     return CO_SDO_ERR_CMD;
   }
-  return initiate(channel, request, answer, true);
+  return initiate(channel, request, answer, found, true);
 }
 #endif
 
@@ -102,7 +102,7 @@ uint32_t finish_download(CO_SDO& channel) {
   return abort == no_abort ? close(channel, no_abort) : abort;
 }
 
-uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   const uint8_t command = request.Data[0];
   uint32_t abort = check_segment(channel, request);
   if (abort != no_abort) {

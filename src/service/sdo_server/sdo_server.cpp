@@ -7,13 +7,14 @@
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
+#include "service/sdo_server/number.hpp"
 #include "service/sdo_server/transfer.hpp"
 #include "wire/cob_id.hpp"
 
 namespace co::sdo_server {
 namespace {
 
-uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t end_by_client(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   close(channel, wire::abort_code_in(request));
   silence(answer);
   return no_abort;
@@ -23,7 +24,7 @@ using wire::Request;
 
 // Aborts with the key of the open transfer; if there is none, or if the request initiates one, with the key in the
 // request.
-uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&) {
+uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&, CO_OBJ*) {
   const Request command = wire::request_of(request.Data[0]);
   const bool begins = command == Request::initiate_block_download || command == Request::initiate_block_upload;
   if (begins || state_of(channel) == State::idle) {
@@ -79,13 +80,13 @@ void give_up(CO_SDO& channel, uint32_t abort) {
 }
 
 // Runs a service. The channel is busy while type functions run, because they may change the NMT state.
-inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) {
+inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, CO_OBJ* found) {
   CO_NODE& node = *channel.Node;
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
   const uint8_t idle = channel.Idle;
   channel.Idle = busy;
   access::serve(node, channel.Obj);
-  const uint32_t abort = service(channel, request, answer);
+  const uint32_t abort = service(channel, request, answer, found);
   channel.Idle = idle;
   node.Served = nullptr;
   if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
@@ -100,6 +101,10 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) 
   if (frame.DLC != wire::sdo_dlc) {
     return false;
   }
+  CO_OBJ* const found = find_number(channel, frame);
+  if (found != nullptr && serve_number(channel, frame, *found)) {
+    return true;
+  }
   const bool in_block = is_segment(channel, frame);
   if (in_block && !take_segment(channel, frame)) {
     return true;
@@ -108,12 +113,12 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request) 
     channel.Idle = 0;
   }
   const Request request = in_block ? Request::block_segment : wire::request_of(frame.Data[0]);
-  perform(channel, machine(state_of(channel), request), frame);
+  perform(channel, machine(state_of(channel), request), frame, found);
   return true;
 }
 
 #if USE_SDO_BLOCK
-uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer) {
+uint32_t send_next(CO_SDO& channel, const CO_IF_FRM&, CO_IF_FRM& answer, CO_OBJ*) {
   silence(answer);
   return send_segments(channel);
 }
@@ -175,7 +180,7 @@ bool on_free([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
   CO_SDO& channel = node.Sdo[number];
   if (state_of(channel) == State::block_upload) {
     const uint8_t before = channel.Seq;
-    perform(channel, send_next, wire::empty_frame(wire::no_frame));
+    perform(channel, send_next, wire::empty_frame(wire::no_frame), nullptr);
     const bool sent = channel.Seq != before;
     channel.Idle = sent ? 0 : channel.Idle;
     return sent;

@@ -54,18 +54,21 @@ inline bool is_told(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(chann
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
 
 // Services of the state machine. They process a request, fill the response, and return an abort code. [301:7.2.4.3]
-using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
-[[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer);
+// found: object of the request, if it was found before, otherwise null
+using Service = uint32_t (*)(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] uint32_t initiate_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found);
+[[nodiscard]] uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t initiate_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
+                                               CO_OBJ* found);
+[[nodiscard]] uint32_t end_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer,
+                                             CO_OBJ* found);
+[[nodiscard]] uint32_t start_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t acknowledge_block(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
+[[nodiscard]] uint32_t end_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*);
 
 // Ends the transfer with an abort code, or no_abort if it is complete. Calls the type's End function; its error for a
 // complete download is returned as abort code.
@@ -85,12 +88,12 @@ struct Opened {
 [[nodiscard]] Opened ask(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
-// becomes node.Served.
-[[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer) {
+// becomes node.Served. found: the object of the request, or null if it has to be found
+[[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer, CO_OBJ* found) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
   CO_NODE& node = *channel.Node;
-  CO_OBJ* const obj = dict::find(node.Dict, channel.Key);
+  CO_OBJ* const obj = found != nullptr ? found : dict::find(node.Dict, channel.Key);
   Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
   node.Served = opened.abort == no_abort ? obj : nullptr;
   if constexpr (USE_ACCESS_HOOK != 0) {

@@ -23,9 +23,9 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   return no_abort;
 }
 
-uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, bool by_block) {
+uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found, bool by_block) {
   CO_NODE& node = *channel.Node;
-  const Opened opened = open(channel, request, CO_OBJ_UPLOAD);
+  const Opened opened = open(channel, request, CO_OBJ_UPLOAD, found);
   uint32_t abort = opened.abort;
   if (abort != no_abort) {
     return abort;
@@ -56,21 +56,21 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
 
 }  // namespace
 
-uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
-  return initiate(channel, request, answer, false);
+uint32_t initiate_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
+  return initiate(channel, request, answer, found, false);
 }
 
 #if USE_SDO_BLOCK
-uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t initiate_block_upload(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ* found) {
   if (!has_buffer(channel)) {
     restart(channel, request);
     return CO_SDO_ERR_CMD;
   }
-  return initiate(channel, request, answer, true);
+  return initiate(channel, request, answer, found, true);
 }
 #endif
 
-uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer) {
+uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, CO_OBJ*) {
   uint32_t abort = check_segment(channel, request);
   if (abort != no_abort) {
     return abort;
