@@ -5,6 +5,7 @@
 
 #include "support/block_frames.hpp"
 #include "support/logged_extension.hpp"
+#include "support/stride.hpp"
 
 #if USE_OD
 
@@ -219,7 +220,7 @@ TEST_CASE("OD nonsense: any command in any state of a transfer of an extended ob
     Node node;
     node.frames_per_call(3);
     node.extend(watched.extension);
-    for (unsigned command = 0; command < 256; ++command) {
+    for (unsigned command = 0; command < 256; command += stride(7)) {
       for (const std::uint8_t index : Bytes{0x00, 0x01, 0x02, 0x03, 0xFF}) {
         node.rx("601#8000000000000008");
         node.frames();
@@ -242,7 +243,7 @@ TEST_CASE("OD nonsense: any command in any state of a transfer of an extended ob
     node.ask("601#6000000000000000", "581#0061616161616161");
     node.rx("601#8000000000000008");
   }
-  CHECK(calls > 1000);
+  CHECK(calls > 1000 / stride(7));
 }
 
 }  // namespace
