@@ -182,6 +182,10 @@ TEST_CASE("network: a COB-ID that two nodes transmit is an error for every servi
                commissioned(4, pdo(0x1800, "0x80000181", "255", 1))},
               Severity::error)
             .empty());
+  CHECK(found({commissioned(1, variable(0x1005, 7, "0x60000181") + variable(0x1006, 7, "10000")),
+               commissioned(3, pdo(0x1800, "0x181", "255", 1))},
+              Severity::error)
+            .empty());
 }
 
 TEST_CASE("network: SDO and EMCY COB-IDs of a description without the node-ID have that of the node") {
@@ -212,6 +216,13 @@ TEST_CASE("network: the deadline of an RPDO must exceed the period of its TPDO")
         "net-pdo-deadline: RPDO 1 of b (node 3) has a deadline of 50 ms; TPDO 1 of a (node 2) comes every 50 ms "
         "(181h)\n");
   CHECK(found({tpdo, commissioned(3, pdo(0x1400, "0x181", "255", 1, "0", "51"))}).empty());
+  // The event timer has no effect on TPDOs of the types 0 to 253.
+  for (const char* type : {"0", "252", "253"}) {
+    CAPTURE(type);
+    CHECK(found({commissioned(1, sync_master), commissioned(2, pdo(0x1800, "0x181", type, 1, "100", "50")),
+                 commissioned(3, pdo(0x1400, "0x181", "255", 1, "0", "50"))})
+              .find("net-pdo-deadline") == std::string::npos);
+  }
 }
 
 TEST_CASE("network: a heartbeat consumer needs a faster producer") {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint64_t last_synchronous = 240;
 constexpr std::uint64_t remote_synchronous = 252;
+constexpr std::uint64_t first_event_driven = 254;
 constexpr std::uint64_t event_driven = 255;
 
 std::uint64_t transmission_of(const Network& network, const ActivePdo& pdo) {
@@ -69,11 +70,12 @@ struct Owner {
 };
 using Owners = std::map<std::uint64_t, Owner>;  // by identifier; bit 32 is set for 29 bits
 
+std::uint64_t key_of(const CobId& cob_id) { return cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0); }
+
 void check_cob_id(const Network& network, std::size_t at, const CobId& cob_id, Owners& owners,
                   NetworkFindings& findings) {
   const Node& node = network.nodes[at];
-  const std::uint64_t key = cob_id.identifier() | (cob_id.is_extended() ? 1ULL << 32 : 0);
-  const auto [place, is_new] = owners.emplace(key, Owner{at, cob_id.service});
+  const auto [place, is_new] = owners.emplace(key_of(cob_id), Owner{at, cob_id.service});
   if (!is_new && place->second.node != at) {
     findings.add(rules::cob_id, at, node.device.find(cob_id.index, cob_id.sub_index),
                  fmt::format("COB-ID {} of {}, {}, is also that of {}, {}",
@@ -90,7 +92,9 @@ void check_cob_ids(const Network& network, NetworkFindings& findings) {
   const int producer = sync_producer(network);
   if (producer >= 0) {
     const auto at = static_cast<std::size_t>(producer);
-    owners[network.nodes[at].number_or(0x1005, 0, 0x80) & 0x7FF] = {at, "SYNC"};
+    CobId sync;
+    sync.value = static_cast<std::uint32_t>(network.nodes[at].number_or(0x1005, 0, 0x80));
+    owners[key_of(sync)] = {at, "SYNC"};
   }
   for (std::size_t n = 0; n < network.nodes.size(); ++n) {
     if (network.nodes[n].node_id == 0) {
@@ -123,11 +127,12 @@ void check_unconnected(const Network& network, const Links& links, std::size_t a
                            is_transmit ? 't' : 'r', pdo.pdo.number));
 }
 
-// Returns the longest period of a PDO in ms, 0 if it is unknown.
+// Returns the longest period of a TPDO in ms, 0 if it is unknown: types 0, 252 and 253 have none, and the event timer
+// applies to types 254 and 255 only. [301:7.5.2.37]
 std::uint64_t longest_period_ms(const Network& network, const ActivePdo& pdo) {
   const std::uint64_t type = transmission_of(network, pdo);
   if (type == 0 || type > last_synchronous) {
-    return parameter_of(network, pdo, 5);
+    return type >= first_event_driven ? parameter_of(network, pdo, 5) : 0;
   }
   const int producer = sync_producer(network);
   return producer < 0 ? 0 : type * network.nodes[static_cast<std::size_t>(producer)].number_or(0x1006, 0, 0) / 1000;
