@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="all doctest cases and the C programs, clang with address and undefined behaviour sanitizers"
-minutes=7
+minutes=6
 packages=("${build_packages[@]}" python3 "${clang_packages[@]}")
 
 # Reduces the sweeps: lane gcc runs them completely, lane sweeps with sanitizers.

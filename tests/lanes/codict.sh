@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the tool for device descriptions${full:+ with its program, with sanitizers; LEXICAN_CORPUS may be a directory of device descriptions that are read}"
-minutes=${full:+9}
+minutes=${full:+5}
 : "${minutes:=2}"
 . "$root/tests/fuzz/build.sh"
 packages=("${build_packages[@]}" "${tool_packages[@]}")

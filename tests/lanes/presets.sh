@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 about="the configurations of config/presets (all other lanes use full)"
-minutes=6
+minutes=4
 packages=("${build_packages[@]}")
 
 # Builds the smallest configuration for size, so that each preset of CMakePresets.json is used. The sweeps are reduced:
