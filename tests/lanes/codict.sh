@@ -50,7 +50,7 @@ all_cases() {
     check "fuzz target $target" "$build/codict/tests/fuzz/${target}_fuzz" "$root/tests/fuzz/corpus/$target"
   done
   check "installation with the manual page and completion" install_codict
-  run_tap "$root/tools/codict/tests/page_test.sh" "$build/codict/tools/codict/codict" "$root/tools/codict/tests/fixtures"
+  run_tap "$root/tools/codict/tests/page_test.py" "$build/codict/tools/codict/codict" "$root/tools/codict/tests/fixtures"
 }
 
 install_codict() {
