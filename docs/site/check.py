@@ -58,7 +58,8 @@ def main():
     for file in files:
         faults = faults_of(file, root)
         good = good and not faults
-        print("not ok" if faults else "ok", file.relative_to(root), *faults, sep="\n  " if faults else " ")
+        place = file.relative_to(root)
+        print(f"not ok {place}: {'; '.join(faults)}" if faults else f"ok {place}")
     sys.exit(0 if good else 1)
 
 

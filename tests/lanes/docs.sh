@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the documentation site: builds without warnings, comments for every symbol of the headers, valid links, no content from other hosts"
-minutes=1
-packages=(mkdocs mkdocs-material=/usr/share/mkdocs/themes/material/mkdocs_theme.yml graphviz=dot doxygen python3)
+about="the documentation site: builds without warnings, comments for every symbol of the headers, valid links, no content from other hosts, pages drawn by Chromium"
+minutes=2
+packages=(mkdocs mkdocs-material=/usr/share/mkdocs/themes/material/mkdocs_theme.yml graphviz=dot doxygen python3 chromium)
+# Pages of the API reference that are drawn: one of each kind.
+reference_pages=(index co__csdo_8h co__cfg_8h structCO__NODE__T classco_1_1VirtualBus files)
 
 lane() {
   local site=$build/site
@@ -18,7 +20,40 @@ lane() {
     $'/// A\nenum A { a };'; do
     check "found: no comment in: ${symbol//$'\n'/ }" undocumented '/// \file planted.hpp' '/// A header.' '' "$symbol"
   done
+  draw_planted_pages
+  rm -rf "$results/site"
+  local pages=("${reference_pages[@]/%/.html}")
+  run_tap "$root/docs/site/screenshots.py" "$site/html" "$results/site" "${pages[@]/#/reference/}"
 }
+
+# Draws a good page and faulty ones: the faults must be found.
+draw_planted_pages() {
+  drawn=$results/planted-pages.log
+  rm -rf "$results/planted-pages"
+  mkdir -p "$results/planted-pages"
+  plant_page good '<main><p>A page</p><pre style="overflow: auto">'"$(printf 'x%.0s' {1..400})"'</pre></main>'
+  plant_page wide '<main><p style="width: 500px">wide</p></main>'
+  plant_page cut '<main style="overflow: hidden"><p style="width: 500px">wide</p></main>'
+  plant_page missing '<main><p>A page</p><img src="missing.png"></main>'
+  plant_page small '<main><p>A page</p><img src="picture.svg" style="width: 0"></main>'
+  plant_page script '<main><p>A page</p><script>nonsense();</script></main>'
+  plant_page blank '<main></main>'
+  echo '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>' >"$results/planted-pages/picture.svg"
+  "$root/docs/site/screenshots.py" "$results/planted-pages" "$results/planted-site" nowhere.html >"$drawn" 2>&1
+  check "a good page is accepted" grep -x 'ok good.html at 400 pixels' "$drawn"
+  check "a page that fits into a wide window is accepted" grep -x 'ok wide.html at 1280 pixels' "$drawn"
+  check "found: a page that scrolls sideways" found_in wide 'scrolls sideways: its width is 5.. pixels'
+  check "found: contents that are cut off" found_in cut 'p is cut off'
+  check "found: a missing picture" found_in missing 'missing.png is not loaded'
+  check "found: a picture without size" found_in small 'picture.svg has no size'
+  check "found: an error of a script" found_in script 'nonsense is not defined'
+  check "found: an empty page" found_in blank 'is empty'
+  check "found: a page that does not exist" found_in nowhere 404
+}
+
+plant_page() { printf '<!DOCTYPE html><title>%s</title>%s\n' "$1" "$2" >"$results/planted-pages/$1.html"; }  # NAME HTML
+
+found_in() { grep "^not ok $1.html at 400 pixels: .*$2" "$drawn"; }  # PAGE FAULT
 
 # Makes the API reference of a header.
 reference() {  # LINE...
