@@ -151,7 +151,7 @@ std::string OdConformance::default_of(const Entry& entry) const {
       return type.bits == 32 ? octets_of<float, std::uint32_t>(value.real)
                              : octets_of<double, std::uint64_t>(value.real);
     case Value::Kind::text: return type.kind == TypeKind::unicode_string ? wide(value.text) : octets(value.text);
-    case Value::Kind::octets: return octets(value.octets);
+    case Value::Kind::octets: return octets(*value.octets);
     case Value::Kind::none:
     case Value::Kind::malformed: break;
   }
