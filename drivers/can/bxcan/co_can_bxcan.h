@@ -31,7 +31,7 @@
 ///
 /// Sending. Three mailboxes send the lowest identifier first; see transmit.hpp. A frame waits for at most one frame of
 /// lower priority of this node, the one on the wire; frames of one identifier keep their order, and no frame overtakes
-/// the boot-up message.
+/// the boot-up message. docs/drivers/bxcan.md has the two exceptions.
 ///
 /// Bus-off. CO_CAN_BXCAN.Recovery selects the rule: by the application (COIfCanReset(), which every NMT reset calls, or
 /// Enable), or automatic. Send returns -1 until the controller is on the bus again. The node reports CO_CAN_BUS_OFF,

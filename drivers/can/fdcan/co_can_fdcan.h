@@ -35,7 +35,7 @@
 ///
 /// Sending. Three buffers send the lowest identifier first; see transmit.hpp. A frame waits for at most one frame of
 /// lower priority of this node, the one on the wire; frames of one identifier keep their order, and no frame overtakes
-/// the boot-up message.
+/// the boot-up message. docs/drivers/fdcan.md has the two exceptions.
 ///
 /// CAN FD. The driver sends classic frames only. CAN FD frames of other nodes are received and discarded, so that they
 /// are not destroyed by error frames: without bit rate switching always, with it if CO_CAN_FDCAN.DataTiming is set.
