@@ -204,17 +204,17 @@ typedef struct CO_NODE_T {
   /// Block transfers are paused: they wait for the controller, or for the next call of CONodeProcess() or
   /// COTmrProcess().
   uint8_t Paused;
-  uint8_t Burst;       ///< segments of block transfers sent in this call
-  uint8_t Turn;        ///< round-robin index: the block transfer that sends its next segment first
-  uint8_t OdLocked;    ///< CO_NODE_EXT.OdLock is held
-  uint8_t Touched;     ///< an object was changed while OdLock was held: its TPDOs are sent when the lock is released
-  uint8_t Held;        ///< transmission is disabled while the bit rate is switched
-  uint8_t WindowOver;  ///< the synchronous window has elapsed
+  uint8_t Burst;          ///< segments of block transfers sent in this call
+  uint8_t NextSender;     ///< round-robin index: the block transfer that sends its next segment first
+  uint8_t OdLocked;       ///< CO_NODE_EXT.OdLock is held
+  uint8_t ObjectChanged;  ///< an object was changed while OdLock was held: its TPDOs are sent when the lock is released
+  uint8_t IsTransmitOff;  ///< transmission is disabled while the bit rate is switched
+  uint8_t WindowOver;     ///< the synchronous window has elapsed
 #if USE_PARA
   uint8_t Verified;  ///< 1020h is not 0
 #endif
 #if USE_REAL_TIME
-  uint8_t InTurn;  ///< the node lock is held (CO_NODE_EXT.Enter)
+  uint8_t IsNodeLocked;  ///< the node lock is held (CO_NODE_EXT.Enter)
 #endif
   CO_NMT Nmt;              ///< NMT slave, handle for co_nmt.h
   uint16_t RPdoFirst;      ///< head of the list of RPDOs that wait for the SYNC, linked by CO_RPDO.Next
@@ -223,7 +223,7 @@ typedef struct CO_NODE_T {
   const CO_NODE_EXT* Ext;  ///< settings of CONodeInitEx(), or defaults; not null
   CO_TX_QUEUE TxQueue;     ///< transmit queue
   CO_IF If;                ///< drivers, handle for co_if.h
-  CO_OBJ* Served;          ///< object of the SDO request that is being processed; null: none
+  CO_OBJ* RequestObj;      ///< object of the SDO request that is being processed; null: none
   uint32_t UserAbort;      ///< abort code for that request, set by COObjTypeUserSDOAbort()
   enum CO_ERR_T Error;     ///< last error, for CONodeGetErr()
   CO_NODE_COUNTERS Count;  ///< counters, for CONodeGetCounters()
@@ -266,7 +266,7 @@ typedef struct CO_NODE_T {
   CO_TMR_MEM ParaTmr;  ///< checks the groups that are stored autonomously
 #if CO_PARA_BUDGET > 0
   uint8_t StoresUsed;    ///< stores used of CO_PARA_BUDGET
-  uint8_t StorePayer;    ///< source of the write in progress: whether the budget counts it
+  uint8_t StoreCause;    ///< source of the write in progress: whether the budget counts it
   CO_TMR_MEM BudgetTmr;  ///< refills CO_PARA_BUDGET
 #endif
 #endif

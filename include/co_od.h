@@ -229,7 +229,7 @@ typedef struct OD_TRANSFER_T {
   OD_size_t Passed;              // bytes transferred
   OD_size_t Total;               // bytes announced, or CO_OBJ_SIZE_UNKNOWN
   uint8_t State;
-  uint8_t Held;  // one byte kept between two calls, for example half of a character
+  uint8_t KeptByte;  // one byte kept between two calls, for example half of a character
 } OD_TRANSFER;
 /// \endcond
 

@@ -92,9 +92,9 @@ typedef struct CO_PDO_MAP_T {
 #if USE_MPDO
   uint8_t Mode;  ///< FEh, FFh: multiplex PDO with source or destination addressing; 0: not multiplexed
 #endif
-  uint8_t Length;                    ///< length in bytes, with USE_PDO_BITS in bits; 0: the PDO does not exist
-  uint8_t Span;                      ///< all entries are less than 2^Span entries behind Entry[0], modulo 2^16
-  uint8_t Passed[CO_PDO_MAP_N / 8];  ///< a bit for each object: sent or received since the application has read it
+  uint8_t Length;                         ///< length in bytes, with USE_PDO_BITS in bits; 0: the PDO does not exist
+  uint8_t Span;                           ///< all entries are less than 2^Span entries behind Entry[0], modulo 2^16
+  uint8_t Transferred[CO_PDO_MAP_N / 8];  ///< a bit for each object: sent or received since the application has read it
   /// Length of each copy, in units of Length; 0: copied with the previous object. An additional bit marks a copy that
   /// is not aligned in the frame. Bit 7 of the first element: each object is accessed by its type.
   uint8_t Step[CO_PDO_MAP_N];
@@ -143,8 +143,9 @@ typedef struct CO_MPDO_T {                  ///< the resolved lists
   uint16_t ScanNum;
   uint16_t Scan[CO_MPDO_SCAN_N];              ///< entries of the object scanner list: numbers in the dictionary
   uint8_t Waiting[(CO_MPDO_SCAN_N + 7) / 8];  ///< a bit for each object of Scan: transmission is pending
-  uint8_t Passed[(CO_MPDO_SCAN_N + 7) / 8];   ///< a bit for each object of Scan: sent since the application has read it
-  uint16_t Turn;                              ///< round-robin index: the next object of Scan to be sent
+  uint8_t
+      Transferred[(CO_MPDO_SCAN_N + 7) / 8];  ///< a bit for each object of Scan: sent since the application has read it
+  uint16_t NextObject;                        ///< round-robin index: the next object of Scan to be sent
   uint16_t Producer;                          ///< number of the TPDO, from 1; 0: none
 } CO_MPDO;
 /// \endcond

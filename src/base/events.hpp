@@ -119,12 +119,12 @@ inline void write_object([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const 
 }
 
 // Runs deferred work, unless a frame is being processed or the NMT state is being changed. Every API function that may
-// cause deferred work ends with settle(), and so does each timer action. Where there is a real-time thread, the work of
-// the mainline (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
-void settle_pending(CO_NODE& node);
-[[gnu::always_inline]] inline void settle(CO_NODE& node) {
+// cause deferred work ends with run_deferred(), and so does each timer action. Where there is a real-time thread, the
+// work of the mainline (of_mainline) is left to CONodeProcess(), whichever thread has requested it.
+void run_all_deferred(CO_NODE& node);
+[[gnu::always_inline]] inline void run_deferred(CO_NODE& node) {
   if (node.Pending != 0) {
-    settle_pending(node);
+    run_all_deferred(node);
   }
 }
 

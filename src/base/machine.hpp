@@ -18,44 +18,44 @@ constexpr uint32_t in(State... states) {
 
 // Transition: an event, the states in which it is valid, and the function that serves it.
 template <class Event, class Service>
-struct Row {
+struct Transition {
   uint32_t states;
   Event on;
   Service run;
 };
 
-void two_rows_have_the_same_event();  // not constexpr: two transitions with the same event do not compile
+void two_transitions_have_the_same_event();  // not constexpr: two transitions with the same event do not compile
 
 // State machine with its transitions in an array indexed by event, so that a step costs one lookup.
-template <class State, const auto& rows>
+template <class State, const auto& transitions>
 class Machine {
-  using Event = std::remove_const_t<decltype(rows[0].on)>;
-  using Service = std::remove_const_t<decltype(rows[0].run)>;
+  using Event = std::remove_const_t<decltype(transitions[0].on)>;
+  using Service = std::remove_const_t<decltype(transitions[0].run)>;
 
  public:
   // otherwise: service of a protocol error
-  constexpr explicit Machine(Service otherwise) : of_{}, otherwise_(otherwise) {
-    for (const auto& row : rows) {
-      Entry& entry = of_[static_cast<size_t>(row.on)];
+  constexpr explicit Machine(Service otherwise) : entries_{}, otherwise_(otherwise) {
+    for (const auto& transition : transitions) {
+      Entry& entry = entries_[static_cast<size_t>(transition.on)];
       if (entry.states != 0) {
-        two_rows_have_the_same_event();
+        two_transitions_have_the_same_event();
       }
-      entry = {row.states, row.run};
+      entry = {transition.states, transition.run};
     }
   }
 
   // Returns the service of an event in a state.
   constexpr Service operator()(State in, Event on) const {
     const auto event = static_cast<size_t>(on);
-    const bool is_known = event < events && (of_[event].states >> static_cast<unsigned>(in) & 1U) != 0;
-    return is_known ? of_[event].run : otherwise_;
+    const bool is_known = event < events && (entries_[event].states >> static_cast<unsigned>(in) & 1U) != 0;
+    return is_known ? entries_[event].run : otherwise_;
   }
 
  private:
   static constexpr size_t count_events() {
     size_t all = 0;
-    for (const auto& row : rows) {
-      all = static_cast<size_t>(row.on) < all ? all : static_cast<size_t>(row.on) + 1;
+    for (const auto& transition : transitions) {
+      all = static_cast<size_t>(transition.on) < all ? all : static_cast<size_t>(transition.on) + 1;
     }
     return all;
   }
@@ -65,7 +65,7 @@ class Machine {
     uint32_t states;
     Service run;
   };
-  Entry of_[events];
+  Entry entries_[events];
   Service otherwise_;
 };
 

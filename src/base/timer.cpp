@@ -153,18 +153,18 @@ void release(CO_TMR& t, CO_TMR_MEM& timer) {
 // Divides bit by bit: returns the quotient in the low word and the remainder in the high word. The quotient must fit
 // into 32 bits. The library's 64-bit division would add 270 bytes.
 uint64_t divide(uint64_t dividend, uint32_t divisor) {
-  auto rest = static_cast<uint32_t>(dividend >> 32);
+  auto remainder = static_cast<uint32_t>(dividend >> 32);
   auto low = static_cast<uint32_t>(dividend);
   for (unsigned bit = 32; bit != 0; --bit) {
-    const bool carry = rest > INT32_MAX;
-    rest = (rest << 1) | (low >> 31);
+    const bool carry = remainder > INT32_MAX;
+    remainder = (remainder << 1) | (low >> 31);
     low <<= 1;
-    if (carry || rest >= divisor) {
-      rest -= divisor;
+    if (carry || remainder >= divisor) {
+      remainder -= divisor;
       ++low;
     }
   }
-  return (uint64_t{rest} << 32) | low;
+  return (uint64_t{remainder} << 32) | low;
 }
 
 uint32_t modulo(uint32_t ticks, uint32_t cycle) {
@@ -186,7 +186,7 @@ void arm(CO_TMR& t, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO_TMR_FU
 
 // Removes the elapsed timer at a link from the list; arms it again if it is cyclic, or releases it if it belongs to the
 // pool. The caller then runs its action.
-const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
+const CO_TMR_MEM& remove_elapsed(CO_TMR& t, CO_TMR_MEM*& link) {
   CO_TMR_MEM& timer = *link;
   link = timer.Next;
   if (t.Armed == &timer.Next) {
@@ -203,10 +203,10 @@ const CO_TMR_MEM& take(CO_TMR& t, CO_TMR_MEM*& link) {
   return timer;
 }
 
-// Calls take() for the timer that has elapsed first.
-const CO_TMR_MEM& take_due(CO_TMR& t) {
+// Calls remove_elapsed() for the timer that has elapsed first.
+const CO_TMR_MEM& remove_first(CO_TMR& t) {
   const Lock lock(t);
-  return take(t, t.First);
+  return remove_elapsed(t, t.First);
 }
 
 // Runs the actions of all elapsed timers. Timers that elapse while actions run are left to the next call.
@@ -214,9 +214,9 @@ const CO_TMR_MEM& take_due(CO_TMR& t) {
   const uint32_t first = t.First->At;
   const uint32_t span = owner_of(first_armed(t)).At - first;
   do {
-    const CO_TMR_MEM& timer = take_due(t);
+    const CO_TMR_MEM& timer = remove_first(t);
     timer.Func(timer.Para);
-    event::settle(*t.Node);
+    event::run_deferred(*t.Node);
   } while (has_due(t) && t.First->At - first <= span);
 }
 
@@ -269,10 +269,10 @@ bool run_one(CO_TMR& t, Share share, const Span& span) {
     if (link == t.Armed || (*link)->At - span.first > span.ticks) {
       return false;
     }
-    timer = &take(t, *link);
+    timer = &remove_elapsed(t, *link);
   }
   timer->Func(timer->Para);
-  event::settle(*t.Node);
+  event::run_deferred(*t.Node);
   return true;
 }
 
@@ -288,12 +288,12 @@ void run_in_turns(CO_TMR& t, void (*before)(CO_NODE_T& node)) {
   Span span = {};
   bool more = false;
   {
-    const port::Turn turn(*t.Node);
+    const port::NodeLock turn(*t.Node);
     before(*t.Node);
     more = find_span(t, share, span);
   }
   while (more) {
-    const port::Turn turn(*t.Node);
+    const port::NodeLock turn(*t.Node);
     more = run_one(t, share, span);
   }
 }
@@ -351,7 +351,7 @@ void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO
   arm(timers, timer, start, cycle, func, para);
 }
 
-void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks) {
+void restart(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks) {
   const Lock lock(timers);
   remove(timers, timer);
   rearm(timers, timer, ticks);

@@ -19,7 +19,7 @@ void start(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t start, uint32_t cycle, CO
 
 // Restarts a one-shot timer, from its own action: it elapses the given ticks after its last expiry or, if that time is
 // over, at the next multiple of them.
-void again(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
+void restart(CO_TMR& timers, CO_TMR_MEM& timer, uint32_t ticks);
 
 // Stops a timer that is part of its owner; no effect on a stopped timer.
 void stop(CO_TMR& timers, CO_TMR_MEM& timer);
@@ -32,11 +32,11 @@ void run(CO_TMR& timers, void (*before)(CO_NODE_T& node));
 // Marks a timer of SYNC or of a PDO: where there is a real-time thread, run_real_time() runs its action. To be called
 // once for a timer that is part of its owner.
 #if USE_REAL_TIME
-inline void give_to_real_time(CO_TMR_MEM& timer) { timer.Id = 1; }
+inline void assign_to_real_time(CO_TMR_MEM& timer) { timer.Id = 1; }
 // Runs the actions of all elapsed timers that are marked.
 void run_real_time(CO_TMR& timers);
 #else
-inline void give_to_real_time(CO_TMR_MEM&) {}
+inline void assign_to_real_time(CO_TMR_MEM&) {}
 #endif
 
 [[nodiscard]] inline bool is_running(const CO_TMR_MEM& timer) { return timer.Running != 0; }

@@ -20,7 +20,7 @@ uint32_t rank(const CO_IF_FRM& frame) {
 // then the boot-up message. In CO_INVALID nothing is sent: while CONodeStop() stops one service, a callback may run the
 // timer of another one.
 bool may_send_next(const CO_NODE& node) {
-  return node.Held == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
+  return node.IsTransmitOff == 0 && node.Nmt.Mode > (node.TxQueue.Fixed != 0 ? CO_INVALID : CO_INIT);
 }
 
 void insert(CO_TX_QUEUE& queue, unsigned place, const CO_IF_FRM& frame) {
@@ -117,7 +117,7 @@ bool send_for_application(CO_NODE& node, const CO_IF_FRM& frame) {
 void send_ahead(CO_NODE& node, const CO_IF_FRM& frame) {
   CO_TX_QUEUE& queue = node.TxQueue;
   flush(node);
-  if (queue.Fixed == 0 && node.Held == 0 && offer_to_driver(node, frame)) {
+  if (queue.Fixed == 0 && node.IsTransmitOff == 0 && offer_to_driver(node, frame)) {
     return;
   }
   if (queue.Num == queue.Len) {
@@ -190,7 +190,7 @@ void clear(CO_NODE& node) {
   node.TxQueue.Fixed = 0;
 }
 
-void fix(CO_NODE& node) {
+void fix_order(CO_NODE& node) {
   if (node.Nmt.Mode != CO_INIT) {  // queued frames of Initialisation follow the boot-up message
     node.TxQueue.Fixed = node.TxQueue.Num;
   }

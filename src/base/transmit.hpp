@@ -41,7 +41,7 @@ void send_latest(CO_NODE& node, const CO_IF_FRM& frame);
 [[nodiscard]] bool is_full(CO_NODE& node);
 
 // Fixes the queued frames: they are sent before all frames that are queued later, the boot-up message included.
-void fix(CO_NODE& node);
+void fix_order(CO_NODE& node);
 
 // Drops all queued frames, and counts them as dropped.
 void clear(CO_NODE& node);

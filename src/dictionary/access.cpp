@@ -36,7 +36,7 @@ uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRAN
   return type.Size != nullptr ? no_abort : CO_SDO_ERR_TOS;
 }
 
-void lose_moved(CO_NODE& node) {
+void close_moved(CO_NODE& node) {
   for (CO_SDO& channel : node.Sdo) {
     if (channel.Obj != nullptr && !is_in_place(node.Dict, channel)) {
       channel.Obj = nullptr;
@@ -44,7 +44,7 @@ void lose_moved(CO_NODE& node) {
   }
 }
 
-bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
+bool is_open(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by) {
   for (const CO_SDO& channel : node.Sdo) {
     if (&channel != by && channel.Obj == &obj) {
       return true;
@@ -78,10 +78,10 @@ uint32_t abort_for(const CO_NODE& node, CO_ERR err) {
   return node.UserAbort != no_abort ? node.UserAbort : abort_code(err);
 }
 
-uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
+uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
   const uint32_t abort = abort_for(node, err);
   if (abort == CO_SDO_ERR_HW_ACCESS) {
-    const uint32_t key = node.Served != nullptr ? node.Served->Key : 0;
+    const uint32_t key = node.RequestObj != nullptr ? node.RequestObj->Key : 0;
     error::report(node, transfer == CO_OBJ_UPLOAD ? CO_ERR_SDO_READ : CO_ERR_SDO_WRITE, key);
   }
   return abort;
@@ -90,7 +90,7 @@ uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err) {
 }  // namespace co::access
 
 extern "C" void COObjTypeUserSDOAbort(CO_OBJ* obj, CO_NODE_T* node, uint32_t abort) {
-  if (obj != nullptr && node != nullptr && node->Served == obj) {
+  if (obj != nullptr && node != nullptr && node->RequestObj == obj) {
     node->UserAbort = abort;
   }
 }

@@ -19,18 +19,20 @@ namespace co::access {
 }
 
 // Sets the object for which COObjTypeUserSDOAbort() is accepted (null: none), and clears the abort code that was set.
-inline void serve(CO_NODE& node, CO_OBJ* obj) {
-  node.Served = obj;
+inline void set_request_object(CO_NODE& node, CO_OBJ* obj) {
+  node.RequestObj = obj;
   node.UserAbort = no_abort;
 }
 
-// Scope in which node.Served is another object, or none; its end restores the object and its abort code. For an access
-// that begins in a type function of the object that is being accessed.
+// Scope in which node.RequestObj is another object, or none; its end restores the object and its abort code. For an
+// access that begins in a type function of the object that is being accessed.
 class Nested {
  public:
-  Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), served_(node.Served), abort_(node.UserAbort) { serve(node, obj); }
+  Nested(CO_NODE& node, CO_OBJ* obj) : node_(node), request_object_(node.RequestObj), abort_(node.UserAbort) {
+    set_request_object(node, obj);
+  }
   ~Nested() {
-    node_.Served = served_;
+    node_.RequestObj = request_object_;
     node_.UserAbort = abort_;
   }
   Nested(const Nested&) = delete;
@@ -38,16 +40,16 @@ class Nested {
 
  private:
   CO_NODE& node_;
-  CO_OBJ* served_;
+  CO_OBJ* request_object_;
   uint32_t abort_;
 };
 
 // Clears the object of each SDO server channel whose entry is no longer at the same place in the dictionary, because
 // CODictInit() was called with another table. The server then aborts the transfer (0800 0022h).
-void lose_moved(CO_NODE& node);
+void close_moved(CO_NODE& node);
 
 // Returns whether an SDO server channel other than by has the object open. by: null if every channel counts.
-[[nodiscard]] bool is_taken(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
+[[nodiscard]] bool is_open(const CO_NODE& node, const CO_OBJ& obj, const CO_SDO* by);
 
 #if USE_OD
 // Returns the size in bytes of the download to the object that an SDO server channel has open; it is known once the
@@ -71,6 +73,6 @@ void lose_moved(CO_NODE& node);
 [[nodiscard]] uint32_t abort_for(const CO_NODE& node, CO_ERR err);
 // Returns the abort code for an error of a Read, Write or End function, like abort_for(). Reports a hardware error
 // (0606 0000h) as the node's error, too; any other error only refuses the request of the client.
-[[nodiscard]] uint32_t failed(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
+[[nodiscard]] uint32_t report_failure(CO_NODE& node, CO_OBJ_TRANSFER transfer, CO_ERR err);
 
 }  // namespace co::access

@@ -185,7 +185,7 @@ bool has_index(const CO_DICT& dict, uint32_t key) {
 }
 
 #if USE_DICT_CHECK
-CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
+CO_ERR set_fault(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
   if (node.Dict.Fault == CO_DICT_OK || (rules::stops_node(fault) && !stops_node(node.Dict))) {
     node.Dict.Fault = fault;
     node.Dict.FaultKey = obj.Key;
@@ -195,7 +195,7 @@ CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
 
 CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
   const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
-  return fault == CO_DICT_OK ? CO_ERR_NONE : refuse(obj, node, fault);
+  return fault == CO_DICT_OK ? CO_ERR_NONE : set_fault(obj, node, fault);
 }
 #endif
 
@@ -259,9 +259,9 @@ int16_t CODictInit(CO_DICT* cod, CO_NODE_T* node, CO_OBJ* root, uint16_t max) {
   if (cod->Num != 0) {
     dict::prepare_search(*cod);
   }
-  access::lose_moved(*node);
+  access::close_moved(*node);
   event::defer(*node, event::remap);
-  event::settle(*node);
+  event::run_deferred(*node);
   if (err != CO_ERR_NONE) {
     return -1;
   }

@@ -21,14 +21,14 @@ void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 // Returns whether an entry has the index of key, with any sub-index.
 [[nodiscard]] bool has_index(const CO_DICT& dict, uint32_t key);
 
-// Functions for the Init functions of types. refuse() returns CO_ERR_TYPE_INIT; check_type() returns it if the entry
-// breaks its type's rule, and refuse() is for faults that no rule describes. Both record the fault for
+// Functions for the Init functions of types. set_fault() returns CO_ERR_TYPE_INIT; check_type() returns it if the entry
+// breaks its type's rule, and set_fault() is for faults that no rule describes. Both record the fault for
 // CODictGetFault(): the first one, except that a fault that stops the node replaces one that does not.
 #if USE_DICT_CHECK
-CO_ERR refuse(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
+CO_ERR set_fault(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
 #else
-inline CO_ERR refuse(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_TYPE_INIT; }
+inline CO_ERR set_fault(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_TYPE_INIT; }
 [[nodiscard]] inline CO_ERR check_type(const CO_OBJ&, CO_NODE_T&, const rules::Rule&) { return CO_ERR_NONE; }
 #endif
 

@@ -7,7 +7,7 @@ namespace co::obj {
 
 CO_ERR write_for_application(CO_OBJ& obj, CO_NODE_T& node, void* buffer, uint32_t size) {
   const CO_ERR err = write(obj, node, buffer, size);
-  event::settle(node);
+  event::run_deferred(node);
   return err;
 }
 

@@ -31,27 +31,27 @@ inline void unlock(CO_NODE& node) { node.Ext->Unlock != nullptr ? node.Ext->Unlo
 #endif
 }
 
-// Node lock (CO_NODE_EXT.Enter and Leave). Turn holds it for a scope. Scopes must not nest.
+// Node lock (CO_NODE_EXT.Enter and Leave). NodeLock holds it for a scope. Scopes must not nest.
 #if USE_REAL_TIME
 inline void enter(CO_NODE& node) {
   if (node.Ext != nullptr && node.Ext->Enter != nullptr) {
     node.Ext->Enter(node.Ext->User);
-    node.InTurn = 1;
+    node.IsNodeLocked = 1;
   }
 }
 inline void leave(CO_NODE& node, const CO_NODE_EXT* ext) {
   if (ext != nullptr && ext->Leave != nullptr) {
-    node.InTurn = 0;
+    node.IsNodeLocked = 0;
     ext->Leave(ext->User);
   }
 }
 
-class Turn {
+class NodeLock {
  public:
-  explicit Turn(CO_NODE& node) : node_(node), ext_(node.Ext) { enter(node); }
-  ~Turn() { leave(node_, ext_); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
+  explicit NodeLock(CO_NODE& node) : node_(node), ext_(node.Ext) { enter(node); }
+  ~NodeLock() { leave(node_, ext_); }
+  NodeLock(const NodeLock&) = delete;
+  NodeLock& operator=(const NodeLock&) = delete;
 
  private:
   CO_NODE& node_;
@@ -61,9 +61,9 @@ class Turn {
 inline void enter(CO_NODE&) {}
 inline void leave(CO_NODE&, const CO_NODE_EXT*) {}
 
-class Turn {
+class NodeLock {
  public:
-  explicit Turn(const CO_NODE&) {}
+  explicit NodeLock(const CO_NODE&) {}
 };
 #endif
 

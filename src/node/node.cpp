@@ -67,7 +67,7 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
     return;
   }
   const bool waits_for_start = node.Nmt.Mode == CO_INIT && !services::is_started(node);
-  commanded ? transmit::clear(node) : transmit::fix(node);
+  commanded ? transmit::clear(node) : transmit::fix_order(node);
   event::change_mode(node, CO_INIT);
   if (node.Nmt.Mode != CO_INIT) {
     return;
@@ -81,7 +81,7 @@ void reset(CO_NODE& node, CO_NMT_RESET type, bool commanded) {
 }
 
 // Runs a deferred reset. pending: bits of event::Pending
-void settle_reset(CO_NODE& node, uint8_t pending) {
+void run_reset(CO_NODE& node, uint8_t pending) {
   const bool commanded = (pending & event::commanded) != 0;
   const CO_NMT_RESET type = (pending & event::reset_node) != 0 ? CO_RESET_NODE : CO_RESET_COM;
   if (node.Nmt.Mode == CO_INVALID) {
@@ -115,12 +115,12 @@ void reconfigure(CO_NODE& node, bool entries_have_moved) {
 }
 
 // Runs the deferred work whose bits are set in what.
-void settle(CO_NODE& node, uint8_t what) {
+void run_pending(CO_NODE& node, uint8_t what) {
   while ((node.Pending & what) != 0 && (node.State & (event::serving | event::changing)) == 0) {
     const auto pending = static_cast<uint8_t>(node.Pending & what);
     node.Pending = static_cast<uint8_t>(node.Pending & ~what);
     if ((pending & event::resets) != 0) {
-      settle_reset(node, pending);
+      run_reset(node, pending);
     } else if (node.Nmt.Mode != CO_INVALID) {
       reconfigure(node, (pending & event::remap) != 0);
     }
@@ -181,18 +181,18 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 #if CO_RPDO_N > 0
   for (CO_RPDO& pdo : node.RPdo) {
     pdo.Node = &node;
-    tmr::give_to_real_time(pdo.Tmr);
+    tmr::assign_to_real_time(pdo.Tmr);
   }
 #endif
 #if CO_TPDO_N > 0
   for (CO_TPDO& pdo : node.TPdo) {
     pdo.Node = &node;
-    tmr::give_to_real_time(pdo.Tmr);
+    tmr::assign_to_real_time(pdo.Tmr);
   }
 #endif
 #if USE_SYNC
-  tmr::give_to_real_time(node.Sync.Tmr);
-  tmr::give_to_real_time(node.Sync.WindowTmr);
+  tmr::assign_to_real_time(node.Sync.Tmr);
+  tmr::assign_to_real_time(node.Sync.WindowTmr);
 #endif
 }
 
@@ -204,16 +204,16 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 
 // Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
 #if USE_REAL_TIME
-void settle_all(CO_NODE& node) {
+void run_deferred_of_mainline(CO_NODE& node) {
   const uint8_t pending = node.Pending;
   node.Pending &= static_cast<uint8_t>(~event::overrun);
   if ((pending & event::overrun) != 0 && node.Nmt.Mode != CO_INVALID) {
     report(node, CO_CAN_OVERRUN);
   }
-  settle(node, static_cast<uint8_t>(~event::overrun));
+  run_pending(node, static_cast<uint8_t>(~event::overrun));
 }
 #else
-void settle_all(CO_NODE& node) { event::settle(node); }
+void run_deferred_of_mainline(CO_NODE& node) { event::run_deferred(node); }
 #endif
 
 bool waits_to_send(const CO_NODE& node) { return transmit::is_waiting(node) || node.Paused != 0; }
@@ -236,7 +236,7 @@ void resume_sending_between_frames(CO_NODE& node) {
   node.Burst = 0;
   if (waits_to_send(node)) {
     resume_sending(node);
-    event::settle(node);
+    event::run_deferred(node);
   }
 }
 
@@ -358,8 +358,8 @@ bool is_awaited([[maybe_unused]] const CO_NODE& node) {
 
 namespace co {
 
-void event::settle_pending(CO_NODE& node) {
-  node::settle(node, static_cast<uint8_t>(port::has_mainline(node) ? ~of_mainline : UINT8_MAX));
+void event::run_all_deferred(CO_NODE& node) {
+  node::run_pending(node, static_cast<uint8_t>(port::has_mainline(node) ? ~of_mainline : UINT8_MAX));
 }
 
 }  // namespace co
@@ -389,7 +389,7 @@ void CONodeInitEx(CO_NODE* node, const CO_NODE_SPEC* spec, const CO_NODE_EXT* ex
     initialised = node::initialise(*node, CO_RESET_NODE);
     event::forget_resets(*node);
   }
-  event::settle(*node);
+  event::run_deferred(*node);
   if (dict::stops_node(node->Dict)) {
     event::change_mode(*node, CO_INVALID);
     error::report(*node, CO_ERR_DICT_INIT, dict::fault_key_of(node->Dict));
@@ -407,7 +407,7 @@ void CONodeStart(CO_NODE* node) {
   if (node->Nmt.Mode == CO_INIT && node->Nmt.Next == CO_INIT && !event::is_serving(*node)) {
     node::start(*node);
   }
-  event::settle(*node);
+  event::run_deferred(*node);
 }
 
 void CONodeStop(CO_NODE* node) {
@@ -416,14 +416,14 @@ void CONodeStop(CO_NODE* node) {
     return;
   }
   event::change_mode(*node, CO_INVALID);
-  event::settle(*node);
+  event::run_deferred(*node);
 }
 
 void CONodeProcess(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::Turn turn(*node);
+  const port::NodeLock turn(*node);
   if constexpr (USE_REAL_TIME != 0) {
-    node::settle_all(*node);
+    node::run_deferred_of_mainline(*node);
   }
   if (node->State != event::running) {
     node::drop_received(*node);
@@ -432,7 +432,7 @@ void CONodeProcess(CO_NODE* node) {
   node->Burst = 0;
   if (node::waits_to_send(*node)) {
     node::resume_sending(*node);
-    node::settle_all(*node);
+    node::run_deferred_of_mainline(*node);
     if (node->Nmt.Mode == CO_INVALID) {
       return;
     }
@@ -444,7 +444,7 @@ void CONodeProcess(CO_NODE* node) {
   node->State = event::running | event::serving;
   node::dispatch(*node, frame);
   node->State &= static_cast<uint8_t>(~event::serving);
-  node::settle_all(*node);
+  node::run_deferred_of_mainline(*node);
 }
 
 void COTmrProcess(CO_TMR* tmr) {
@@ -457,7 +457,7 @@ void COTmrProcess(CO_TMR* tmr) {
 // Keeps the node serving throughout, so that deferred work is left to the mainline.
 void CONodeRealTime(CO_NODE* node) {
   ASSERT_PTR_FATAL(node);
-  const port::Turn turn(*node);
+  const port::NodeLock turn(*node);
   if (!port::has_mainline(*node)) {
     return;
   }
@@ -479,7 +479,7 @@ void CONodeRealTime(CO_NODE* node) {
 
 uint32_t CONodeNextDeadline(CO_NODE* node) {
   ASSERT_PTR_FATAL_ERR(node, UINT32_MAX);
-  const port::Turn turn(*node);
+  const port::NodeLock turn(*node);
   if (node::is_awaited(*node)) {
     return 0;
   }
@@ -498,7 +498,7 @@ void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event) {
   ASSERT_PTR_FATAL(node);
   if (event < CO_CAN_EVENT_NUM) {
     node::report(*node, event);
-    event::settle(*node);
+    event::run_deferred(*node);
   }
 }
 

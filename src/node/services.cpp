@@ -40,6 +40,11 @@ constexpr auto continue_mpdos = nullptr;
 
 using Id = routes::Service;
 
+// Returns the row of a service that receives no frames.
+constexpr Service without_frames(uint8_t allowed, void (*init)(CO_NODE& node), void (*on_mode)(CO_NODE& node)) {
+  return {Id::count, allowed, 0, init, nullptr, nullptr, on_mode, nullptr, nullptr};
+}
+
 // Services that receive frames come first, in the order of routes::Service.
 constexpr Service table[] = {
     {Id::nmt, CO_NMT_ALLOWED, 0, nmt::init, nmt::on_frame, no_frames, nmt::on_mode, nullptr, nullptr},
@@ -79,15 +84,15 @@ constexpr Service table[] = {
      nullptr},
 #endif
 
-    {Id::count, CO_NMT_ALLOWED, 0, nullptr, nullptr, nullptr, heartbeat::on_mode, nullptr, nullptr},
+    without_frames(CO_NMT_ALLOWED, nullptr, heartbeat::on_mode),
 #if USE_PARA
-    {Id::count, CO_NMT_ALLOWED, 0, para::init, nullptr, nullptr, para::on_mode, nullptr, nullptr},
+    without_frames(CO_NMT_ALLOWED, para::init, para::on_mode),
 #endif
 #if USE_EMCY
-    {Id::count, CO_EMCY_ALLOWED, 0, emcy::init, nullptr, nullptr, emcy::on_mode, nullptr, nullptr},
+    without_frames(CO_EMCY_ALLOWED, emcy::init, emcy::on_mode),
 #endif
 #if USE_LED
-    {Id::count, CO_NMT_ALLOWED, 0, led::init, nullptr, nullptr, led::on_mode, nullptr, nullptr},
+    without_frames(CO_NMT_ALLOWED, led::init, led::on_mode),
 #endif
 };
 
@@ -123,10 +128,10 @@ constexpr uint16_t count_streams() {
   return all;
 }
 constexpr uint16_t streams = count_streams();
-static_assert(streams <= UINT8_MAX, "CO_NODE.Turn");
+static_assert(streams <= UINT8_MAX, "CO_NODE.NextSender");
 
 // Calls on_free of the service that owns the sender with this number. Returns whether it has sent frames.
-bool go_on(CO_NODE& node, uint16_t stream) {
+bool continue_sender(CO_NODE& node, uint16_t stream) {
   for (const Service& service : table) {
     if (stream < service.streams) {
       return service.on_free(node, stream);
@@ -170,15 +175,15 @@ void configure(CO_NODE& node) { run(node, &Service::configure); }
 
 void remap(CO_NODE& node) { pdo::remap(node); }
 
-// Continues the senders in round-robin order (index: CO_NODE.Turn), each with as many frames as the controller accepts.
-// The sender that is refused first continues first the next time.
+// Continues the senders in round-robin order (index: CO_NODE.NextSender), each with as many frames as the controller
+// accepts. The sender that is refused first continues first the next time.
 void on_free(CO_NODE& node) {
   unsigned idle = 0;
   node.Paused = 0;
   while (idle < streams && node.Paused == 0) {
-    const bool sent = go_on(node, node.Turn);
+    const bool sent = continue_sender(node, node.NextSender);
     if (sent || node.Paused == 0) {
-      node.Turn = static_cast<uint8_t>(node.Turn + 1U < streams ? node.Turn + 1U : 0);
+      node.NextSender = static_cast<uint8_t>(node.NextSender + 1U < streams ? node.NextSender + 1U : 0);
     }
     idle = sent ? 0 : idle + 1;
   }

@@ -45,7 +45,7 @@ struct Note {
 }
 
 [[maybe_unused]] Note note_in(CO_PDO_MAP& map, uint16_t number) {
-  return note_of(map.Passed, pdo::find(map, number), CO_PDO_MAP_N);
+  return note_of(map.Transferred, pdo::find(map, number), CO_PDO_MAP_N);
 }
 
 #if CO_TPDO_N > 0
@@ -57,7 +57,7 @@ Note note_in(CO_NODE& node, CO_TPDO& pdo, uint16_t number) {
     while (place < lists.ScanNum && lists.Scan[place] != number) {
       ++place;
     }
-    return note_of(lists.Passed, place, lists.ScanNum);
+    return note_of(lists.Transferred, place, lists.ScanNum);
   }
 #endif
   (void)node;
@@ -152,7 +152,7 @@ void OD_requestTPDO(OD_entry_t* entry, uint8_t subIndex) {
   od::clear_sent(node, pdo::number_of(node, *obj));
   const uint32_t key = obj->Key;
   error::report(node, pdo::change_object(node, *obj), key);
-  event::settle(node);
+  event::run_deferred(node);
 }
 
 bool_t OD_TPDOtransmitted(OD_entry_t* entry, uint8_t subIndex) {
@@ -194,7 +194,7 @@ void OD_clearFlagsPDO(const OD_entry_t* entry, uint8_t subIndex, OD_flagsPDO_t f
       od::request(node, number, tpdo);
     }
   }
-  event::settle(node);
+  event::run_deferred(node);
 }
 
 }  // extern "C"

@@ -54,7 +54,7 @@ ODR_t command(const OD_t* od, uint8_t sub, uint16_t index, uint32_t signature) {
     return ODR_OD_MISSING;
   }
   const ODR_t result = result_of(node, *obj, obj::write(*obj, node, &signature, sizeof signature));
-  event::settle(node);
+  event::run_deferred(node);
   return result;
 }
 

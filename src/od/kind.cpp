@@ -98,11 +98,11 @@ Kind kind_of_stream(const CO_OBJ_TYPE* type) {
   return type == &COTDomain ? Kind::domain : Kind::foreign;
 }
 
-void add(Shape& shape, OD_attributes_t attribute) {
+void add(Properties& shape, OD_attributes_t attribute) {
   shape.attribute = static_cast<OD_attr_t>(shape.attribute | attribute);
 }
 
-void describe_string(const CO_OBJ& obj, Shape& shape) {
+void describe_string(const CO_OBJ& obj, Properties& shape) {
   const auto* const string = data_of<const CO_OBJ_STR_RW>(obj);
   if (string != nullptr) {
     shape.memory = string->Start;
@@ -137,9 +137,9 @@ unsigned bytes_of_character(const CO_OBJ_TYPE* original) {
   return original != nullptr && original == &COTUnicodeString ? 2 : 1;
 }
 
-Shape shape_of(CO_OBJ& obj, CO_NODE& node) {
+Properties properties_of(CO_OBJ& obj, CO_NODE& node) {
   const CO_OBJ_TYPE* const type = original_type(obj);
-  Shape shape = {kind_of(obj, node, type), type, nullptr, 0, rights_of(obj)};
+  Properties shape = {kind_of(obj, node, type), type, nullptr, 0, rights_of(obj)};
   switch (shape.kind) {
     case Kind::none: shape.length = static_cast<OD_size_t>(uintptr_t{obj.Data}); break;
     case Kind::text: add(shape, ODA_STR); [[fallthrough]];
@@ -170,7 +170,7 @@ Shape shape_of(CO_OBJ& obj, CO_NODE& node) {
 }
 
 OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node) {
-  const Shape shape = shape_of(obj, node);
+  const Properties shape = properties_of(obj, node);
   OD_stream_t stream = {};
   stream.dataOrig = shape.memory;
   stream.dataLength = shape.length;

@@ -20,7 +20,7 @@ enum class Kind : uint8_t {
 };
 
 // Properties of an entry.
-struct Shape {
+struct Properties {
   Kind kind;
   const CO_OBJ_TYPE* type;  // original type; null: none
   void* memory;             // null: none, or only the type has its address
@@ -55,7 +55,7 @@ struct Shape {
 // Returns the bytes of a character of a string, by its original type; 1 for all other types.
 [[nodiscard]] unsigned bytes_of_character(const CO_OBJ_TYPE* original);
 
-[[nodiscard]] Shape shape_of(CO_OBJ& obj, CO_NODE& node);
+[[nodiscard]] Properties properties_of(CO_OBJ& obj, CO_NODE& node);
 
 // Returns a stream for an access to the entry, at its beginning.
 [[nodiscard]] OD_stream_t stream_of(CO_OBJ& obj, CO_NODE& node);

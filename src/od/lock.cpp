@@ -31,12 +31,12 @@ void unlock_objects(CO_NODE& node) {
   if (node.Ext->OdUnlock != nullptr) {
     node.Ext->OdUnlock(node.Ext->User);
   }
-  pdo::settle_touched(node);
-  event::settle(node);
+  pdo::send_changed(node);
+  event::run_deferred(node);
 }
 
 void release_node_lock(CO_NODE& node) {
-  event::settle(node);
+  event::run_deferred(node);
   port::leave(node, node.Ext);
 }
 

@@ -68,7 +68,7 @@ uint32_t size_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type) {
 // transfer that is being served does not count: it may be the caller.
 bool is_foreign_and_taken(const OD_stream_t& stream) {
   const CO_NODE& node = *stream.Owner;
-  return node.Served != stream.Entry && access::is_taken(node, *stream.Entry, nullptr);
+  return node.RequestObj != stream.Entry && access::is_open(node, *stream.Entry, nullptr);
 }
 
 // Sets the position of a stream of the application. At position 0 opens the stream, as an SDO transfer does: calls the
@@ -89,7 +89,7 @@ ODR_t open(const OD_stream_t& stream, const CO_OBJ_TYPE& type, CO_OBJ_READ_FUNC 
 }
 
 // Returns whether the original type cannot access the object: there is no original type, or no memory.
-bool is_missing(const Shape& shape) {
+bool is_missing(const Properties& shape) {
   const bool is_memory = shape.kind >= Kind::text && shape.kind <= Kind::domain;
   return shape.kind == Kind::none || (is_memory && shape.memory == nullptr);
 }
@@ -177,7 +177,7 @@ OD_size_t end_of(const OD_stream_t& stream, const CO_OBJ_TYPE& type, Kind kind) 
 }
 
 ODR_t read_object(OD_stream_t& stream, uint8_t* to, OD_size_t count, OD_size_t& passed) {
-  const Shape shape = shape_of(*stream.Entry, *stream.Owner);
+  const Properties shape = properties_of(*stream.Entry, *stream.Owner);
   if (is_missing(shape)) {
     return ODR_SUB_NOT_EXIST;
   }
@@ -263,7 +263,7 @@ ODR_t write_foreign(const OD_stream_t& stream, const CO_OBJ_TYPE& type, const Pi
                           : result_of(*stream.Owner, *stream.Entry, write_copy(type, stream, from, piece.bytes));
 }
 
-ODR_t write_piece(const OD_stream_t& stream, const Shape& shape, const Piece& piece, const uint8_t* from) {
+ODR_t write_piece(const OD_stream_t& stream, const Properties& shape, const Piece& piece, const uint8_t* from) {
   const CO_OBJ_TYPE& type = *shape.type;
   switch (shape.kind) {
     case Kind::number: return result_of(*stream.Owner, *stream.Entry, write_number(stream, type, piece, from));
@@ -274,14 +274,14 @@ ODR_t write_piece(const OD_stream_t& stream, const Shape& shape, const Piece& pi
   }
 }
 
-bool is_in_memory(const Shape& shape) {
+bool is_in_memory(const Properties& shape) {
   return shape.kind == Kind::text || shape.kind == Kind::octets || shape.kind == Kind::domain;
 }
 
 // Returns the bytes that the value will have: dataLength if the caller has reduced it and the object can be shorter
 // than its capacity, else the length of the object. For a stream of the application returns dataLength, or UINT32_MAX
 // if the length is not known, except for a write of 0 bytes at the beginning, which empties the stream.
-OD_size_t end_of_write(const OD_stream_t& stream, const Shape& shape, OD_size_t count) {
+OD_size_t end_of_write(const OD_stream_t& stream, const Properties& shape, OD_size_t count) {
   const bool is_unknown = stream.dataLength == 0 && (count != 0 || stream.dataOffset != 0);
   if (shape.kind == Kind::foreign) {
     return is_unknown ? UINT32_MAX : stream.dataLength;
@@ -298,7 +298,7 @@ OD_WRITING_T* extension_of(const OD_stream_t& stream) {
 
 // Writes on behalf of the write function of an extension. TPDOs that are triggered by a change are deferred while
 // mapped objects are locked.
-ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Shape& shape, const Piece& piece,
+ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, const Properties& shape, const Piece& piece,
                           const uint8_t* from) {
   const pdo::Lock lock(*stream.Owner);
   writing.by_original = !is_in_memory(shape);
@@ -306,7 +306,7 @@ ODR_t write_for_extension(OD_WRITING_T& writing, const OD_stream_t& stream, cons
 }
 
 ODR_t write_object(OD_stream_t& stream, const uint8_t* from, OD_size_t count, OD_size_t& passed) {
-  const Shape shape = shape_of(*stream.Entry, *stream.Owner);
+  const Properties shape = properties_of(*stream.Entry, *stream.Owner);
   if (is_missing(shape)) {
     return ODR_SUB_NOT_EXIST;
   }
@@ -374,7 +374,7 @@ ODR_t OD_writeOriginal(OD_stream_t* stream, const void* buf, OD_size_t count, OD
   CO_NODE& node = *stream->Owner;
   const ODR_t result = write_object(*stream, from, count, *countWritten);
   if (node.Ext->Od == nullptr || node.Ext->Od->Writing == nullptr) {
-    co::event::settle(node);
+    co::event::run_deferred(node);
   }
   return result;
 }

@@ -68,7 +68,7 @@ uint32_t size_of_original(CO_OBJ& obj, CO_NODE& node, uint32_t width) {
 
 // Returns the length in bytes of an upload, or CO_OBJ_SIZE_UNKNOWN: strings can be shorter than their capacity.
 uint32_t length_of(CO_OBJ& obj, CO_NODE& node) {
-  const Shape shape = shape_of(obj, node);
+  const Properties shape = properties_of(obj, node);
   const bool varies = (shape.attribute & ODA_STR) != 0 || shape.kind == Kind::octets || shape.length == 0;
   return varies ? CO_OBJ_SIZE_UNKNOWN : shape.length;
 }
@@ -118,13 +118,13 @@ ODR_t call_read(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) 
   return result;
 }
 
-// Reads a piece. If it ends within a character of two bytes, the second byte is read ahead and kept in Held: a text
+// Reads a piece. If it ends within a character of two bytes, the second byte is read ahead and kept in KeptByte: a text
 // ends where both bytes are 0.
 ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed) {
   OD_TRANSFER& state = access.state;
   OD_size_t held = 0;
   if (has(state, holds)) {
-    to[held++] = state.Held;
+    to[held++] = state.KeptByte;
     clear(state, holds);
   }
   ODR_t result = has(state, exhausted) ? ODR_OK : ODR_PARTIAL;
@@ -135,7 +135,7 @@ ODR_t read_piece(Access& access, uint8_t* to, OD_size_t size, OD_size_t& passed)
   passed += held;
   if (result == ODR_PARTIAL && (state.Passed + passed) % bytes_of_character(access) != 0) {
     OD_size_t ahead = 0;
-    result = call_read(access, &state.Held, 1, ahead);
+    result = call_read(access, &state.KeptByte, 1, ahead);
     if (ahead != 0) {
       set(state, holds);
     }
@@ -148,7 +148,7 @@ bool is_zero(const Access& access, const uint8_t* data, OD_size_t n, OD_size_t a
   if (data[at] != 0 || bytes_of_character(access) == 1) {
     return data[at] == 0;
   }
-  return at + 1 < n ? data[at + 1] == 0 : has(access.state, holds) && access.state.Held == 0;
+  return at + 1 < n ? data[at + 1] == 0 : has(access.state, holds) && access.state.KeptByte == 0;
 }
 
 // Returns how many of n bytes belong to the text, which ends at its first zero but has at least one character.
@@ -214,7 +214,7 @@ constexpr uint32_t short_text = 8;
 // Sets dataLength to the end of the download, which the function needs for the last piece. A text gets a zero behind it
 // if its capacity allows that. Returns the bytes of this zero.
 unsigned set_end(Access& access, uint32_t total) {
-  const OD_size_t capacity = is_text(access.stream) ? shape_of(access.obj, access.node).length : 0;
+  const OD_size_t capacity = is_text(access.stream) ? properties_of(access.obj, access.node).length : 0;
   const unsigned character = bytes_of_character(access);
   const unsigned zeros = total + character <= capacity ? character : 0;
   access.stream.dataLength = total + zeros;
@@ -283,7 +283,7 @@ ODR_t pass_write(Access& access, const uint8_t* from, uint32_t size, uint32_t to
   if (result == ODR_OK) {
     set(access.state, exhausted);
   }
-  tell_change(access.node, access.obj, result == ODR_OK, writing.by_original());
+  report_change(access.node, access.obj, result == ODR_OK, writing.by_original());
   return result;
 }
 

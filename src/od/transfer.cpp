@@ -38,14 +38,14 @@ void end_transfer(CO_NODE& node, CO_SDO& channel) {
   CO_OBJ& obj = *channel.Obj;
   const bool is_download = sdo_server::has(channel, sdo_server::download);
   channel.Obj = nullptr;
-  if (sdo_server::is_told(channel)) {
+  if (sdo_server::is_begun(channel)) {
     (void)obj::end(obj, node, is_download ? CO_OBJ_DOWNLOAD : CO_OBJ_UPLOAD, CO_SDO_ERR_TOS_STATE);
   }
 }
 
 // Returns whether an OD_TRANSFER can be used for another SDO transfer.
 bool is_free(const CO_NODE& node, const OD_TRANSFER& place) {
-  return place.Entry == nullptr || (!has(place, inside) && !access::is_taken(node, *place.Entry, nullptr));
+  return place.Entry == nullptr || (!has(place, inside) && !access::is_open(node, *place.Entry, nullptr));
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ void restart(OD_TRANSFER& transfer, OD_size_t length) {
 }
 
 bool is_served(const OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
-  if (node.Served != &obj) {
+  if (node.RequestObj != &obj) {
     return false;
   }
   const unsigned n = first_of(od, obj);
@@ -74,7 +74,7 @@ OD_TRANSFER* first_transfer(OD_t& od, const CO_OBJ& obj) {
 
 OD_TRANSFER* find_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj) {
   OD_TRANSFER* const place = first_transfer(od, obj);
-  const bool lost = place != nullptr && has(*place, by_server) && !access::is_taken(node, obj, nullptr);
+  const bool lost = place != nullptr && has(*place, by_server) && !access::is_open(node, obj, nullptr);
   return lost ? nullptr : place;
 }
 
@@ -99,7 +99,7 @@ OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, ui
 }
 
 void bind(OD_TRANSFER& transfer, const CO_NODE& node) {
-  if (access::is_taken(node, *transfer.Entry, nullptr)) {
+  if (access::is_open(node, *transfer.Entry, nullptr)) {
     set(transfer, by_server);
   }
 }
@@ -108,7 +108,7 @@ void end_transfer(OD_TRANSFER& transfer) { transfer = {}; }
 
 void end_accesses(OD_t& od, uint16_t index) {
   CO_NODE& node = *od.Node;
-  CO_OBJ* const served = is_extensible_of(od, index, node.Served) ? node.Served : nullptr;
+  CO_OBJ* const served = is_extensible_of(od, index, node.RequestObj) ? node.RequestObj : nullptr;
   OD_TRANSFER* const running = served == nullptr ? nullptr : first_transfer(od, *served);
   if (running != nullptr) {
     set(*running, lost);

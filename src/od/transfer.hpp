@@ -13,7 +13,7 @@ enum Flag : uint8_t {
   exhausted = 0x01,  // the function has read or written all bytes
   inside = 0x02,     // a function of the application is running: its accesses are not part of the transfer
   by_server = 0x04,  // belongs to an SDO server channel: it ends once no channel has the object open
-  holds = 0x08,      // Held contains the next byte
+  holds = 0x08,      // KeptByte contains the next byte
   lost = 0x10,       // the object has got another extension: further accesses are refused
   returns = 0x20,    // bytes are read again from the beginning, up to a position
 };

@@ -54,7 +54,7 @@ CO_ERR write_number(CO_OBJ& obj, CO_NODE& node, const OD_extension_t& extension,
   const Writing writing(node, obj);
   ODR_t result = extension.write(&stream, buffer, size, &passed);
   result = whole(result, passed, size, ODR_DATA_SHORT);
-  tell_change(node, obj, result == ODR_OK, writing.by_original());
+  report_change(node, obj, result == ODR_OK, writing.by_original());
   return answer(obj, node, result, CO_OBJ_DOWNLOAD);
 }
 
@@ -76,11 +76,11 @@ CO_ERR refuse(CO_OBJ& obj, CO_NODE& node, CO_OBJ_TRANSFER transfer) {
   return answer(obj, node, transfer == CO_OBJ_UPLOAD ? ODR_WRITEONLY : ODR_READONLY, transfer);
 }
 
-void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original) {
+void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original) {
   if (complete && !by_original && CO_IS_ASYNC(obj.Key) != 0) {
     event::change_object(node, obj);
   }
-  pdo::settle_touched(node);
+  pdo::send_changed(node);
 }
 
 }  // namespace co::od
@@ -95,7 +95,7 @@ CO_ERR ODTypeInit(CO_OBJ_T* obj, CO_NODE_T* node) {
   if (type == nullptr || type->Init == nullptr) {
     return CO_ERR_NONE;
   }
-  return is_extensible(*type) ? dict::refuse(*obj, *node, CO_DICT_NO_TYPE) : type->Init(obj, node);
+  return is_extensible(*type) ? dict::set_fault(*obj, *node, CO_DICT_NO_TYPE) : type->Init(obj, node);
 }
 
 uint32_t ODValueSize(CO_OBJ_T* obj, CO_NODE_T* node, uint32_t width) {

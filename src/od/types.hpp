@@ -51,7 +51,7 @@ class Writing {
 
 // Reports a change after a call of an extension's write function, and sends the TPDOs that were deferred meanwhile.
 // complete: the object has its new value.
-void tell_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
+void report_change(CO_NODE& node, const CO_OBJ& obj, bool complete, bool by_original);
 
 }  // namespace co::od
 

@@ -26,8 +26,8 @@ void start(CO_NODE& node) {
 
 }  // namespace
 
-bool take(CO_NODE& node) {
-  if (node.StorePayer != bus) {
+bool take_store(CO_NODE& node) {
+  if (node.StoreCause != bus) {
     return true;
   }
   if (is_empty(node)) {
@@ -37,7 +37,7 @@ bool take(CO_NODE& node) {
     start(node);
   }
   ++node.StoresUsed;
-  node.StorePayer = bus_paid;
+  node.StoreCause = bus_counted;
   return true;
 }
 

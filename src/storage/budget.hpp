@@ -9,19 +9,19 @@ namespace co::budget {
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
-// Values of CO_NODE.StorePayer: cause of the writes in progress.
-enum Payer : uint8_t {
+// Values of CO_NODE.StoreCause: cause of the writes in progress.
+enum Cause : uint8_t {
   application,  // the application: its writes are not limited
   bus,          // the bus, nothing was written yet: the first write takes one store from the budget
-  bus_paid,     // the bus, the first write has taken a store from the budget: the others are free
+  bus_counted,  // the bus, the first write has taken a store from the budget: the others are free
 };
 
 // Scope of one command of the bus, or of one round of autonomous stores. Its first write takes one store from the
 // budget, however many records it writes: no record is written more often than the budget allows.
 class Command {
  public:
-  explicit Command(CO_NODE& node) : node_(node) { node.StorePayer = bus; }
-  ~Command() { node_.StorePayer = application; }
+  explicit Command(CO_NODE& node) : node_(node) { node.StoreCause = bus; }
+  ~Command() { node_.StoreCause = application; }
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
@@ -33,7 +33,7 @@ class Command {
 
 // Takes a store from the budget if the bus causes the write and its command has not taken one yet. Returns whether the
 // record may be written: false if the budget is used up.
-[[nodiscard]] bool take(CO_NODE& node);
+[[nodiscard]] bool take_store(CO_NODE& node);
 
 // Stops the timer that refills the budget: the budget is full, or the node is stopped.
 void stop(CO_NODE& node);
@@ -46,7 +46,7 @@ class Command {
 };
 
 [[nodiscard]] inline bool is_empty(const CO_NODE&) { return false; }
-[[nodiscard]] inline bool take(const CO_NODE&) { return true; }
+[[nodiscard]] inline bool take_store(const CO_NODE&) { return true; }
 inline void stop(const CO_NODE&) {}
 
 #endif

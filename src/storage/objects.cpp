@@ -132,7 +132,7 @@ CO_ERR run(CO_NODE& node, const CO_PARA& group) {
     const event::Serving serving(node);
     err = command(node, group);
   }
-  event::settle(node);
+  event::run_deferred(node);
   return err;
 }
 
@@ -169,7 +169,7 @@ CO_ERR CONodeParaLoad(CO_NODE* node, CO_NMT_RESET type) {
     const event::Serving serving(*node);
     err = para::load(*node, type);
   }
-  event::settle(*node);
+  event::run_deferred(*node);
   return err;
 }
 

@@ -70,7 +70,7 @@ CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
 // the defaults, changes are not stored, because they would replace the request.
 bool is_followed(CO_NODE& node, const CO_PARA& group) {
   return is_saved_autonomously(group) && store::is_atomic(node) &&
-         store::look(node, locate(node, group).record) != Found::defaults;
+         store::find(node, locate(node, group).record) != Found::defaults;
 }
 
 // A group that is not stored may have any Offset, so its record is not read. With a classic driver it is, as in
@@ -212,7 +212,7 @@ CO_ERR load(CO_NODE& node, CO_NMT_RESET type, uint32_t CO_PARA::*member) {
     last = err;
     error::report(node, err, groups.entry().Key);
     if (err == CO_ERR_PARA_OVERLAP) {
-      (void)dict::refuse(groups.entry(), node, CO_DICT_PARA_OVERLAP);
+      (void)dict::set_fault(groups.entry(), node, CO_DICT_PARA_OVERLAP);
     }
   }
   return last;

@@ -74,7 +74,7 @@ wire::Crc32 crc_of(const Header& header, const Record& record) {
 class Outside {
  public:
   explicit Outside(const CO_NODE& node)
-      : node_(const_cast<CO_NODE&>(node)), serving_(node_), ext_(node.InTurn != 0 ? node.Ext : nullptr) {
+      : node_(const_cast<CO_NODE&>(node)), serving_(node_), ext_(node.IsNodeLocked != 0 ? node.Ext : nullptr) {
     port::leave(node_, ext_);
   }
   ~Outside() {
@@ -326,7 +326,7 @@ bool fits(const CO_NODE& node, const Record& record) {
   return slot <= half && record.start <= shape.Capacity - 2 * slot && record.start % unit(node) == 0;
 }
 
-Found look(const CO_NODE& node, const Record& record) {
+Found find(const CO_NODE& node, const Record& record) {
   const Slots slots(node, record);
   const bool blank = slots.newest.found == Found::blank && slots.other.found == Found::blank;
   return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
@@ -352,7 +352,7 @@ CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;
   }
-  return budget::take(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
+  return budget::take_store(node) ? write_record(node, record, slots, data) : CO_ERR_OBJ_STATE;
 }
 
 }  // namespace co::slots

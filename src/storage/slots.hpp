@@ -15,7 +15,7 @@ namespace co::slots {
 // it has no erase size.
 [[nodiscard]] bool fits(const CO_NODE& node, const store::Record& record);
 
-[[nodiscard]] store::Found look(const CO_NODE& node, const store::Record& record);
+[[nodiscard]] store::Found find(const CO_NODE& node, const store::Record& record);
 [[nodiscard]] store::Loaded load(CO_NODE& node, const store::Record& record, uint8_t* to, uint32_t size);
 
 // Stores data, unless they are stored already, and reads them back: CO_ERR_NONE means that they were found in the

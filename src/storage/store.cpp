@@ -52,7 +52,7 @@ CO_ERR erase_bytes(CO_NODE& node, const Record& record) {
   if (look_at_bytes(node, record) == Found::blank) {
     return CO_ERR_NONE;
   }
-  if (!budget::take(node)) {
+  if (!budget::take_store(node)) {
     return CO_ERR_OBJ_STATE;
   }
   uint8_t buffer[CO_STORE_BUFFER];
@@ -74,7 +74,7 @@ CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data) {
   if (are_stored(node, record, data)) {
     return CO_ERR_NONE;
   }
-  if (!budget::take(node)) {
+  if (!budget::take_store(node)) {
     return CO_ERR_OBJ_STATE;
   }
   const bool done = port::nvm_write(node, record.start, const_cast<uint8_t*>(data), record.size) == record.size;
@@ -82,7 +82,7 @@ CO_ERR save_bytes(CO_NODE& node, const Record& record, const uint8_t* data) {
 }
 
 Loaded load_bytes(const CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
-  const Found found = look(node, record);
+  const Found found = find(node, record);
   const bool is_data = found == Found::data;
   const bool failed = is_data && port::nvm_read(node, record.start, to, size) != size;
   return {failed ? Found::lost : found, false};
@@ -99,14 +99,14 @@ uint32_t space(const CO_NODE& node, uint32_t size) {
   return port::nvm_has_shape(node) ? slots::space(node, size) : size;
 }
 
-Found look(const CO_NODE& node, const Record& record) {
+Found find(const CO_NODE& node, const Record& record) {
   if (!port::nvm_exists(node)) {
     return Found::blank;
   }
   if (!port::nvm_has_shape(node)) {
     return look_at_bytes(node, record);
   }
-  return slots::fits(node, record) ? slots::look(node, record) : Found::no_place;
+  return slots::fits(node, record) ? slots::find(node, record) : Found::no_place;
 }
 
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {

@@ -36,7 +36,7 @@ struct Loaded {
 [[nodiscard]] uint32_t space(const CO_NODE& node, uint32_t size);
 
 // Returns what the memory holds for a record, without copying data.
-[[nodiscard]] Found look(const CO_NODE& node, const Record& record);
+[[nodiscard]] Found find(const CO_NODE& node, const Record& record);
 
 // Copies the first size bytes of the stored data, if there are any, to the memory of the application. The CRC of an
 // atomic record is checked before; invalid data are copied only if the memory returns other bytes when it is read

@@ -13,17 +13,17 @@ class Crc32 {
   constexpr void add(const uint8_t* bytes, size_t num) {
     constexpr uint32_t reflected = 0xEDB88320;
     for (size_t n = 0; n < num; ++n) {
-      rest_ ^= bytes[n];
+      remainder_ ^= bytes[n];
       for (unsigned bit = 0; bit < 8; ++bit) {
-        rest_ = (rest_ >> 1) ^ ((rest_ & 1U) != 0 ? reflected : 0);
+        remainder_ = (remainder_ >> 1) ^ ((remainder_ & 1U) != 0 ? reflected : 0);
       }
     }
   }
 
-  [[nodiscard]] constexpr uint32_t value() const { return ~rest_; }
+  [[nodiscard]] constexpr uint32_t value() const { return ~remainder_; }
 
  private:
-  uint32_t rest_ = UINT32_MAX;
+  uint32_t remainder_ = UINT32_MAX;
 };
 
 constexpr uint32_t crc32_of_check() {

@@ -26,7 +26,7 @@ inline CO_ERR read_word(CO_OBJ& obj, const CO_NODE& node, void* buffer, unsigned
 // Writes a number of 1, 2 or 4 bytes; with flag N the node-ID is subtracted.
 inline CO_ERR write_word(CO_OBJ& obj, CO_NODE& node, const void* buffer, unsigned bytes) {
   const uint32_t value = load<uint32_t>(buffer, bytes) - node_id_of(obj, node);
-  return keep<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
+  return set_value<uint32_t>(obj, node, value & (UINT32_MAX >> (32U - 8U * bytes)), bytes);
 }
 
 template <uint8_t bytes>

@@ -113,7 +113,7 @@ inline uint32_t node_id_of(const CO_OBJ& obj, const CO_NODE& node) {
 // written, and any other is reported as a change. With flag D all bytes of Data are written. storage: bytes of the
 // variable, which may be more than those of the number
 template <class T>
-inline CO_ERR keep(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
+inline CO_ERR set_value(CO_OBJ& obj, CO_NODE& node, T value, unsigned storage) {
   void* const place = place_of(obj, storage);
   if (place == nullptr) {
     return CO_ERR_BAD_ARG;

@@ -65,7 +65,7 @@ CO_ERR pass_at_beginning(CO_OBJ& obj, CO_NODE& node, CO_OBJ_READ_FUNC function, 
 
 }  // namespace
 
-CO_ERR pass_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
+CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes) {
   return is_stream(obj) ? pass_stream(obj, node, function, data, bytes) : function(&obj, &node, data, bytes);
 }
 

@@ -9,6 +9,6 @@ namespace co::obj {
 // Calls a Read or Write function of the object's type; a stream is accessed from its beginning. An access of the
 // application with COObjRdBufCont() or COObjWrBufCont(), to this stream or to another extended stream, keeps its
 // position.
-[[nodiscard]] CO_ERR pass_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
+[[nodiscard]] CO_ERR access_whole(CO_OBJ& obj, CO_NODE_T& node, CO_OBJ_READ_FUNC function, void* data, uint32_t bytes);
 
 }  // namespace co::obj

@@ -65,7 +65,7 @@ void enter_state(CO_LSSM& master, State state) {
 // Ends the service and calls its callback. Must be the last action: the callback may start the next service.
 void finish(CO_LSSM& master, CO_LSSM_RESULT result) {
   CO_NODE& node = *master.Node;
-  node.Held = is_switching(master) ? 0 : node.Held;
+  node.IsTransmitOff = is_switching(master) ? 0 : node.IsTransmitOff;
   tmr::stop(node.Tmr, master.Tmr);
   set_state(master, State::idle);
   master.Call(&master, result);
@@ -184,7 +184,7 @@ CO_ERR activate(CO_LSSM& master, CO_LSSM_CALLBACK callback, uint32_t delay) {
     set_state(master, State::idle);
     err = CO_ERR_IF_CAN_SEND;
   }
-  node.Held = err == CO_ERR_NONE ? 1 : node.Held;
+  node.IsTransmitOff = err == CO_ERR_NONE ? 1 : node.IsTransmitOff;
   return err;
 }
 

@@ -125,7 +125,7 @@ struct Change {
 
 // Calls the access hook. Returns 0, or the error code of the response, with the manufacturer's code in the next byte.
 // Refuses also if the application has stopped the node.
-uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
+uint32_t ask_application([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& access) {
 #if USE_ACCESS_HOOK
   const uint8_t error = gate::ask(node, &CO_CALLBACKS::AccessLss, access);
   const bool is_stopped = !event::is_allowed(node, CO_LSS_ALLOWED);
@@ -135,22 +135,23 @@ uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] CO_ACCESS_LSS& acc
 #endif
 }
 
-uint32_t ask([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& request,
-             [[maybe_unused]] Change change) {
+uint32_t ask_application([[maybe_unused]] CO_NODE& node, [[maybe_unused]] const CO_IF_FRM& request,
+                         [[maybe_unused]] Change change) {
 #if USE_ACCESS_HOOK
   CO_ACCESS_LSS access = {};
   access.Service = request.Data[0];
   access.State = change.state;
   access.NodeId = change.node_id;
   access.Baudrate = change.rate;
-  return ask(node, access);
+  return ask_application(node, access);
 #else
   return 0;
 #endif
 }
 
 bool may_enter(CO_NODE& node, const CO_IF_FRM& request, State state) {
-  return ask(node, request, {static_cast<uint8_t>(state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF), 0, 0}) == 0;
+  return ask_application(node, request,
+                         {static_cast<uint8_t>(state == State::waiting ? CO_LSS_WAIT : CO_LSS_CONF), 0, 0}) == 0;
 }
 
 // [305] Switch state global, selective -------------------------------------------------------------------------------
@@ -178,21 +179,21 @@ void switch_selective(CO_NODE& node, const CO_IF_FRM& request) {
 
 void configure_node_id(CO_NODE& node, const CO_IF_FRM& request) {
   const uint8_t id = request.Data[1];
-  const uint32_t error = wire::may_be_configured(id) ? ask(node, request, {0, id, 0}) : not_supported;
+  const uint32_t error = wire::may_be_configured(id) ? ask_application(node, request, {0, id, 0}) : not_supported;
   node.Lss.CfgNodeId = error == 0 ? id : node.Lss.CfgNodeId;
   answer(node, request, error);
 }
 
 void configure_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   const uint32_t rate = request.Data[1] == 0 ? wire::bit_rate(request.Data[2]) : 0;
-  const uint32_t error = rate != 0 ? ask(node, request, {0, 0, rate}) : not_supported;
+  const uint32_t error = rate != 0 ? ask_application(node, request, {0, 0, rate}) : not_supported;
   node.Lss.CfgBaudrate = error == 0 ? rate : node.Lss.CfgBaudrate;
   answer(node, request, error);
 }
 
 void end_switch(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
-  node.Held = 0;
+  node.IsTransmitOff = 0;
   transmit::flush(node);
 }
 
@@ -229,13 +230,13 @@ void activate_bit_timing(CO_NODE& node, const CO_IF_FRM& request) {
   access.Baudrate = node.Lss.CfgBaudrate;
   access.Delay = delay;
   access.Mode = event::mode_for_switch(node);
-  if (ask(node, access) != 0 || !prepare_switch(node, access.Mode)) {
+  if (ask_application(node, access) != 0 || !prepare_switch(node, access.Mode)) {
     return;
   }
   const uint32_t ticks = tmr::ticks(node.Tmr, delay, CO_TMR_UNIT_1MS);
   node.Lss.Delay = delay != 0 && ticks == 0 ? UINT32_MAX : ticks;
   node.Baudrate = node.Lss.CfgBaudrate;  // kept by CO_NODE.Baudrate, because a reset may load other values meanwhile
-  node.Held = 1;
+  node.IsTransmitOff = 1;
   call_after_delay(node, switch_rate);
 }
 
@@ -259,7 +260,7 @@ uint32_t store_pending(CO_NODE& node) {
 }
 
 void store(CO_NODE& node, const CO_IF_FRM& request) {
-  uint32_t error = ask(node, request, {0, node.Lss.CfgNodeId, node.Lss.CfgBaudrate});
+  uint32_t error = ask_application(node, request, {0, node.Lss.CfgNodeId, node.Lss.CfgBaudrate});
   if (error == 0) {
     error = store_pending(node);
   }
@@ -336,7 +337,7 @@ void ignore(CO_NODE&, const CO_IF_FRM&) {}
 constexpr uint32_t both = in(State::waiting, State::configuration);
 constexpr uint32_t configuration = in(State::configuration);
 
-constexpr Row<Event, Service> rows[] = {
+constexpr Transition<Event, Service> rows[] = {
     {both, Event::switch_global, switch_global},
     {in(State::waiting), Event::switch_selective, switch_selective},
     {configuration, Event::configure_node_id, configure_node_id},
@@ -413,7 +414,7 @@ void init(CO_NODE& node) {
 void on_mode(CO_NODE& node) {
   if (node.Nmt.Mode == CO_INVALID) {
     tmr::stop(node.Tmr, node.Lss.Tmr);
-    node.Held = 0;
+    node.IsTransmitOff = 0;
   }
 }
 
@@ -421,7 +422,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::lss_dlc) {
     return false;
   }
-  if (node.Held == 0 && is_served(node)) {
+  if (node.IsTransmitOff == 0 && is_served(node)) {
     const State state = node.Lss.Mode == CO_LSS_CONF ? State::configuration : State::waiting;
     machine(state, event_of(frame.Data[0]))(node, frame);
   }

@@ -29,10 +29,10 @@ CO_ERR COLssNvmLoad(CO_NODE* node, uint32_t offset, uint32_t* baud, uint8_t* nod
   ASSERT_PTR_ERR(baud, CO_ERR_BAD_ARG);
   ASSERT_PTR_ERR(nodeId, CO_ERR_BAD_ARG);
   Stored stored = {};
-  // Resets that other threads have requested during the memory access are deferred: event::settle() runs them.
+  // Resets that other threads have requested during the memory access are deferred: event::run_deferred() runs them.
   const store::Found found =
       store::load(*node, record_at(offset), reinterpret_cast<uint8_t*>(&stored), sizeof stored).found;
-  event::settle(*node);
+  event::run_deferred(*node);
   if (found == store::Found::data) {
     *baud = stored.baud;
     *nodeId = static_cast<uint8_t>(stored.node_id);
@@ -50,7 +50,7 @@ CO_ERR COLssNvmStore(CO_NODE* node, uint32_t offset, uint32_t baud, uint8_t node
   }
   const Stored stored = {baud, nodeId};
   const CO_ERR err = store::save(*node, record_at(offset), reinterpret_cast<const uint8_t*>(&stored));
-  event::settle(*node);
+  event::run_deferred(*node);
   return err;
 }
 

@@ -99,7 +99,7 @@ void CONmtReset(CO_NMT* nmt, CO_NMT_RESET type) {
   } else if (type == CO_RESET_COM) {
     event::defer(*nmt->Node, event::reset_communication);
   }
-  event::settle(*nmt->Node);
+  event::run_deferred(*nmt->Node);
 }
 
 void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
@@ -115,12 +115,12 @@ void CONmtSetMode(CO_NMT* nmt, CO_MODE mode) {
   }
   if (nmt->Mode == CO_INIT) {
     nmt::boot(node);
-    event::settle(node);
+    event::run_deferred(node);
   }
   if (nmt->Mode != CO_INVALID) {  // false if CONmtModeChange() has stopped the node
     event::change_mode(node, mode);
   }
-  event::settle(node);
+  event::run_deferred(node);
 }
 
 CO_MODE CONmtGetMode(CO_NMT* nmt) {

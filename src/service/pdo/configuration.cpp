@@ -70,8 +70,8 @@ void init_one(CO_NODE& node, unsigned index) {
 // PDO, which uses lists of entries, too.
 void remap_one(CO_NODE& node, unsigned index) {
   CO_PDO_MAP& map = pdo_at(node, index).Map;
-  const bool was_multiplexed = mpdo::is_one(map);
-  if (exists(map) && (resolve(node, index, map).err != CO_ERR_NONE || was_multiplexed || mpdo::is_one(map))) {
+  const bool was_multiplexed = mpdo::is_mpdo(map);
+  if (exists(map) && (resolve(node, index, map).err != CO_ERR_NONE || was_multiplexed || mpdo::is_mpdo(map))) {
     configure(node, index);
   }
 }
@@ -113,7 +113,7 @@ bool may_exist(CO_NODE& node, CO_PDO& pdo, unsigned index, uint32_t cob_id) {
   pdo.Type = static_cast<uint8_t>(read_number(node, CO_DEV(index, 2), sizeof pdo.Type, default_type));
   pdo.Map.Length = 0;
   mpdo::set_mode(pdo.Map, 0);
-  __builtin_memset(pdo.Map.Passed, 0, sizeof pdo.Map.Passed);
+  __builtin_memset(pdo.Map.Transferred, 0, sizeof pdo.Map.Transferred);
   if ((cob_id & wire::cob_invalid) == 0 && may_exist(node, pdo, index, cob_id)) {
     identifier = wire::frame_id(cob_id);
   }

@@ -140,9 +140,9 @@ CO_ERR write_entry(CO_OBJ* obj, CO_NODE* node, void* buffer, uint32_t size) {
 CO_ERR resolve_scan(CO_NODE& node) {
   CO_MPDO& mpdo = node.Mpdo;
   mpdo.ScanNum = 0;
-  mpdo.Turn = 0;
+  mpdo.NextObject = 0;
   forget_marks(node);
-  __builtin_memset(mpdo.Passed, 0, sizeof mpdo.Passed);
+  __builtin_memset(mpdo.Transferred, 0, sizeof mpdo.Transferred);
   return resolve_entries<uint32_t>(node, 0x1FA0, 0x1FCF, add);
 }
 

@@ -90,7 +90,7 @@ CO_ERR check_object(CO_NODE& node, Direction direction, CO_OBJ* obj, uint32_t ke
 bool is_kind(const CO_PDO_MAP& map, const CO_IF_FRM& frame) {
   const uint8_t address = wire::mpdo_address(wire::get_low(frame));
   const bool to_consumer = (address & wire::mpdo_to_consumer) != 0;
-  return !is_one(map) || (is_dam(map) ? to_consumer : !to_consumer && address != 0);
+  return !is_mpdo(map) || (is_dam(map) ? to_consumer : !to_consumer && address != 0);
 }
 
 bool is_addressed(const CO_NODE& node, const CO_PDO_MAP& map, const CO_IF_FRM& frame) {
@@ -120,9 +120,9 @@ void write(CO_NODE& node, CO_PDO_MAP& map, CO_OBJ& obj, const CO_IF_FRM& frame) 
     wire::swap_host(value, bytes);
   }
   const uint32_t key = obj.Key;
-  error::report(node, obj::pass_whole(obj, node, obj.Type->Write, value, bytes), key);
+  error::report(node, obj::access_whole(obj, node, obj.Type->Write, value, bytes), key);
   if (pdo::has(map, pdo::served)) {
-    pdo::pass(map);
+    pdo::mark_transferred(map);
   }
 }
 
@@ -176,7 +176,7 @@ bool is_waiting(const CO_NODE& node) {
 
 bool next(CO_NODE& node, uint16_t& place) {
   const CO_MPDO& mpdo = node.Mpdo;
-  place = mpdo.Turn;
+  place = mpdo.NextObject;
   for (uint16_t n = 0; n < mpdo.ScanNum; ++n, ++place) {
     place = place < mpdo.ScanNum ? place : 0;
     if (get(mpdo.Waiting, place)) {
@@ -196,7 +196,7 @@ CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame) {
   if (bytes > sizeof value) {
     return CO_ERR_OBJ_SIZE;
   }
-  const CO_ERR err = obj::pass_whole(*obj, node, obj->Type->Read, value, bytes);
+  const CO_ERR err = obj::access_whole(*obj, node, obj->Type->Read, value, bytes);
   if (!obj::is_stream(*obj)) {
     wire::swap_host(value, bytes);
   }
@@ -205,15 +205,15 @@ CO_ERR read(CO_NODE& node, uint16_t place, CO_IF_FRM& frame) {
 }
 
 // The list is checked again, because a callback may have changed it.
-void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent) {
+void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent) {
   CO_MPDO& mpdo = node.Mpdo;
   if (place >= mpdo.ScanNum || mpdo.Scan[place] != entry) {
     return;
   }
   clear(mpdo.Waiting, place);
-  mpdo.Turn = static_cast<uint16_t>(place + 1);
+  mpdo.NextObject = static_cast<uint16_t>(place + 1);
   if (sent) {
-    put(mpdo.Passed, place);
+    put(mpdo.Transferred, place);
   }
 }
 
@@ -222,8 +222,8 @@ bool was_sent(CO_NODE& node, uint16_t entry) {
   bool was = false;
   for (uint16_t place = 0; place < mpdo.ScanNum; ++place) {
     if (mpdo.Scan[place] == entry) {
-      was |= get(mpdo.Passed, place);
-      clear(mpdo.Passed, place);
+      was |= get(mpdo.Transferred, place);
+      clear(mpdo.Transferred, place);
     }
   }
   return was;

@@ -14,10 +14,10 @@ inline constexpr uint8_t dam = 0xFF;  // destination address mode
 
 #if USE_MPDO
 
-// Return whether the PDO is a multiplex PDO in source or destination address mode, or in any of them (is_one()).
+// Return whether the PDO is a multiplex PDO in source or destination address mode, or in any of them (is_mpdo()).
 [[nodiscard]] inline bool is_sam(const CO_PDO_MAP& map) { return map.Mode == sam; }
 [[nodiscard]] inline bool is_dam(const CO_PDO_MAP& map) { return map.Mode == dam; }
-[[nodiscard]] inline bool is_one(const CO_PDO_MAP& map) { return map.Mode != 0; }
+[[nodiscard]] inline bool is_mpdo(const CO_PDO_MAP& map) { return map.Mode != 0; }
 inline void set_mode(CO_PDO_MAP& map, uint8_t mode) { map.Mode = mode; }
 
 // Like pdo::resolve(), for a number of mapped objects above CO_PDO_MAP_N.
@@ -64,14 +64,14 @@ void forget_marks(CO_NODE& node);
 
 // Clears the mark of an object that was sent, or could not be read, and advances the round-robin index behind it.
 // entry: the object at place before callbacks were called
-void settle(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
+void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
 
 #else
 
 [[nodiscard]] inline bool is_sam(const CO_PDO_MAP&) { return false; }
 [[nodiscard]] inline bool is_dam(const CO_PDO_MAP&) { return false; }
-[[nodiscard]] inline bool is_one(const CO_PDO_MAP&) { return false; }
+[[nodiscard]] inline bool is_mpdo(const CO_PDO_MAP&) { return false; }
 inline void set_mode(CO_PDO_MAP&, uint8_t) {}
 [[nodiscard]] inline CO_ERR resolve(CO_NODE&, unsigned, unsigned, CO_PDO_MAP&) { return CO_ERR_OBJ_MAP_LEN; }
 [[nodiscard]] inline bool is_kind(const CO_PDO_MAP&, const CO_IF_FRM&) { return true; }

@@ -24,7 +24,7 @@ void sample(CO_NODE& node, uint8_t) { node.WindowOver = 0; }
 void end_window(CO_NODE& node) { node.WindowOver = 1; }
 void flush(CO_NODE&) {}
 CO_ERR change_object(CO_NODE&, const CO_OBJ&) { return CO_ERR_TPDO_OBJ_TRIGGER; }
-void send_touched(CO_NODE&) {}
+void send_all_changed(CO_NODE&) {}
 CO_ERR request(CO_NODE&, uint16_t) { return CO_ERR_TPDO_NUM_TRIGGER; }
 #if USE_MPDO
 CO_ERR send_to(CO_NODE&, uint16_t, uint8_t, uint32_t, uint32_t) { return CO_ERR_TPDO_NUM_TRIGGER; }

@@ -43,10 +43,10 @@ void flush(CO_NODE& node);
 // CO_ERR_TPDO_OBJ_TRIGGER: no TPDO maps the object.
 CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj);
 // Triggers the TPDOs that change_object() has deferred, once OdLock is released. No effect while it is held.
-void send_touched(CO_NODE& node);
-inline void settle_touched(CO_NODE& node) {
-  if (node.Touched != 0) {
-    send_touched(node);
+void send_all_changed(CO_NODE& node);
+inline void send_changed(CO_NODE& node) {
+  if (node.ObjectChanged != 0) {
+    send_all_changed(node);
   }
 }
 

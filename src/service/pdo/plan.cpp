@@ -196,7 +196,7 @@ CO_ERR call_type(CO_NODE& node, const Part& part, uint8_t* value, Direction dire
   if (direction == Direction::receive) {
     wire::swap_host(value, number);
   }
-  const CO_ERR err = obj::pass_whole(part.obj, node, function_of(part.obj, direction), value, bytes);
+  const CO_ERR err = obj::access_whole(part.obj, node, function_of(part.obj, direction), value, bytes);
   if (direction == Direction::transmit) {
     wire::swap_host(value, number);
   }
@@ -345,19 +345,19 @@ unsigned find(const CO_PDO_MAP& map, uint16_t entry) {
   return place;
 }
 
-bool has_passed(CO_PDO_MAP& map) {
-  const bool was = has(map, passed);
-  clear(map, passed);
+bool take_transferred(CO_PDO_MAP& map) {
+  const bool was = has(map, transferred);
+  clear(map, transferred);
   return was;
 }
 
-bool has_passed(CO_PDO_MAP& map, uint16_t entry) {
+bool take_transferred(CO_PDO_MAP& map, uint16_t entry) {
   const unsigned place = find(map, entry);
   if (place == CO_PDO_MAP_N) {
     return false;
   }
   const auto bit = static_cast<uint8_t>(1U << (place % 8U));
-  uint8_t& bits = map.Passed[place / 8U];
+  uint8_t& bits = map.Transferred[place / 8U];
   const bool was = (bits & bit) != 0;
   bits = static_cast<uint8_t>(bits & ~bit);
   return was;

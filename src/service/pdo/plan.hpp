@@ -15,7 +15,7 @@ enum class Direction : uint8_t { receive, transmit };
 enum class MappedBy : uint8_t { designer = 0, network = CO_OBJ____P__ };
 
 // Bits of CO_PDO_MAP.Flags; tpdo.cpp and rpdo.cpp define the others.
-constexpr uint8_t passed = 0x40;  // sent or received since the application has read it
+constexpr uint8_t transferred = 0x40;  // sent or received since the application has read it
 // The PDO is being sent or received; cleared when the PDO is changed or Operational ends.
 constexpr uint8_t served = 0x80;
 
@@ -109,12 +109,12 @@ inline void copy_data(uint8_t* to, const uint8_t* from) {
   return behind >> map.Span == 0 && find(map, entry) != CO_PDO_MAP_N;
 }
 
-// Marks the PDO and all its objects as sent or received. has_passed() returns and clears the mark.
-inline void pass(CO_PDO_MAP& map) {
-  __builtin_memset(map.Passed, 0xFF, sizeof map.Passed);
-  set(map, passed);
+// Marks the PDO and all its objects as sent or received. take_transferred() returns and clears the mark.
+inline void mark_transferred(CO_PDO_MAP& map) {
+  __builtin_memset(map.Transferred, 0xFF, sizeof map.Transferred);
+  set(map, transferred);
 }
-[[nodiscard]] bool has_passed(CO_PDO_MAP& map);
-[[nodiscard]] bool has_passed(CO_PDO_MAP& map, uint16_t entry);
+[[nodiscard]] bool take_transferred(CO_PDO_MAP& map);
+[[nodiscard]] bool take_transferred(CO_PDO_MAP& map, uint16_t entry);
 
 }  // namespace co::pdo

@@ -106,7 +106,7 @@ void store_until_sync(CO_RPDO& pdo, const CO_IF_FRM& frame) {
 
 void write_and_mark(CO_NODE& node, CO_PDO_MAP& map, CO_IF_FRM& frame) {
   if (copy_objects(node, map, frame, Direction::receive) == CO_ERR_NONE) {
-    pass(map);
+    mark_transferred(map);
   }
 }
 
@@ -163,7 +163,7 @@ void call_sync_callbacks(CO_NODE& node, uint16_t first) {
 
 // Returns whether the bit rate is being switched: RPDOs are ignored then.
 bool is_switching([[maybe_unused]] const CO_NODE& node) {
-  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.Held != 0;
+  return (USE_LSS != 0 || USE_LSS_MASTER != 0) && node.IsTransmitOff != 0;
 }
 
 // Processes a frame. Callbacks may end Operational or change the PDO. Returns false if the frame is too short or of the
@@ -190,12 +190,12 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
     store_until_sync(pdo, copy);
     return true;
   }
-  if (!mpdo::is_one(pdo.Map)) {
+  if (!mpdo::is_mpdo(pdo.Map)) {
     write_and_mark(node, pdo.Map, copy);
   } else if (!find_and_write(pdo, copy)) {
     return true;
   }
-  settle_touched(node);
+  send_changed(node);
   COPdoUpdate(&pdo);
   return true;
 }
@@ -263,17 +263,17 @@ void apply(CO_NODE& node) {
       link = pdo.Next;
     }
   }
-  settle_touched(node);
+  send_changed(node);
   call_sync_callbacks(node, first);
 }
 
-bool was_received(CO_NODE& node, uint16_t number) { return has_passed(node.RPdo[number].Map); }
+bool was_received(CO_NODE& node, uint16_t number) { return take_transferred(node.RPdo[number].Map); }
 
 bool was_received(CO_NODE& node, const CO_OBJ& obj) {
   const uint16_t entry = number_of(node, obj);
   bool was = false;
   for (CO_RPDO& pdo : node.RPdo) {
-    was |= has_passed(pdo.Map, entry);
+    was |= take_transferred(pdo.Map, entry);
   }
   return was;
 }

@@ -47,7 +47,8 @@ bool keeps_sample(const CO_TPDO& pdo) { return USE_PDO_RTR != 0 && has(pdo.Map, 
 // object.
 bool queue_frame(const CO_TPDO& pdo, const CO_IF_FRM& frame) {
   CO_NODE& node = *pdo.Node;
-  return mpdo::is_one(pdo.Map) ? transmit::send_for_application(node, frame) : transmit::send_process_data(node, frame);
+  return mpdo::is_mpdo(pdo.Map) ? transmit::send_for_application(node, frame)
+                                : transmit::send_process_data(node, frame);
 }
 
 // Returns why a PDO was not sent: the application has ended Operational, or changed the PDO, meanwhile.
@@ -62,7 +63,7 @@ CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
   if (!queue_frame(pdo, frame)) {
     return CO_ERR_IF_CAN_SEND;
   }
-  pass(pdo.Map);
+  mark_transferred(pdo.Map);
   return CO_ERR_NONE;
 }
 
@@ -87,7 +88,7 @@ CO_ERR send_object(CO_TPDO& pdo, uint16_t place) {
     error::report(node, err, key);
   }
   if (err != CO_ERR_IF_CAN_SEND) {
-    mpdo::settle(node, place, entry, err == CO_ERR_NONE);
+    mpdo::finish_object(node, place, entry, err == CO_ERR_NONE);
   }
   return err;
 }
@@ -162,7 +163,7 @@ void restart(CO_TPDO& pdo, bool by_timer) {
   } else if (time.Event == 0) {
     return;
   } else if (by_timer) {
-    tmr::again(pdo.Node->Tmr, pdo.Tmr, time.Event);
+    tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event);
   } else {
     start(pdo, time.Event);
   }
@@ -197,7 +198,7 @@ void end_inhibit(CO_TPDO& pdo) {
     }
     (void)send_event(pdo, true);
   } else if (time.Event != 0) {
-    tmr::again(pdo.Node->Tmr, pdo.Tmr, time.Event - time.Inhibit);
+    tmr::restart(pdo.Node->Tmr, pdo.Tmr, time.Event - time.Inhibit);
   }
 }
 
@@ -209,7 +210,7 @@ void on_time(void* pdo_pointer) {
     mpdo::mark_all(pdo);
     (void)send_event(pdo, true);
   }
-  settle_touched(*pdo.Node);
+  send_changed(*pdo.Node);
 }
 
 // Sends the PDO, or defers the event while the inhibit time is running. [301:7.2.2.6]
@@ -298,7 +299,7 @@ bool maps_or_marks(CO_TPDO& pdo, uint16_t entry) {
 // Defers an event until OdLock is released.
 CO_ERR defer_until_unlock(CO_TPDO& pdo) {
   set(pdo.Map, touched);
-  pdo.Node->Touched = 1;
+  pdo.Node->ObjectChanged = 1;
   return CO_ERR_NONE;
 }
 
@@ -332,7 +333,7 @@ void update_sync_list(CO_NODE& node, unsigned number, bool listed) {
 
 // Starts a PDO: when Operational is entered, or when the PDO is configured in Operational.
 void begin(CO_TPDO& pdo) {
-  constexpr auto lasting = static_cast<uint8_t>(remote | passed);
+  constexpr auto lasting = static_cast<uint8_t>(remote | transferred);
   if (!exists(pdo.Map)) {
     return;
   }
@@ -369,7 +370,7 @@ void end_tpdo(CO_NODE& node, CO_PDO& pdo) {
 
 void begin_tpdo(CO_PDO& pdo, unsigned number, uint32_t identifier, bool is_remote) {
   CO_NODE& node = *pdo.Node;
-  const bool asked = USE_PDO_RTR != 0 && is_remote && exists(pdo.Map) && !mpdo::is_one(pdo.Map);
+  const bool asked = USE_PDO_RTR != 0 && is_remote && exists(pdo.Map) && !mpdo::is_mpdo(pdo.Map);
   pdo.Identifier = identifier;
   pdo.Map.Flags = asked ? remote : 0;
   mpdo::set_producer(node, number, pdo.Map);
@@ -407,7 +408,7 @@ void on_mode_tpdos(CO_NODE& node) {
   for (CO_TPDO& pdo : node.TPdo) {
     operational ? begin(pdo) : end_tpdo(node, pdo);
   }
-  settle_touched(node);
+  send_changed(node);
 }
 
 // Answers a remote request. [301:7.2.2.5.3]
@@ -423,7 +424,7 @@ bool on_remote(CO_NODE& node, const CO_IF_FRM&, uint16_t number) {
     (void)serve(pdo, pdo.Type == type_rtr ? Use::send : Use::send_sampled);
     clear(pdo.Map, served | touched);
   }
-  settle_touched(node);
+  send_changed(node);
   return true;
 }
 
@@ -432,7 +433,7 @@ void sample(CO_NODE& node, uint8_t counter) {
   for (uint16_t link = node.TPdoFirst; link != none && is_operational(node); link = at(node, link).Next) {
     process_sync(at(node, link), counter);
   }
-  settle_touched(node);
+  send_changed(node);
 }
 
 void end_window(CO_NODE& node) {
@@ -455,16 +456,16 @@ CO_ERR change_object(CO_NODE& node, const CO_OBJ& obj) {
       all = err != CO_ERR_NONE || all == CO_ERR_TPDO_OBJ_TRIGGER ? err : all;
     }
   }
-  settle_touched(node);
+  send_changed(node);
   return all;
 }
 
 // Sends the TPDOs of touched objects. Changes by their Read functions are sent in a second round; changes in that round
 // wait for the next event.
-void send_touched(CO_NODE& node) {
+void send_all_changed(CO_NODE& node) {
   constexpr unsigned rounds = 2;
-  for (unsigned round = 0; round < rounds && node.Touched != 0 && node.OdLocked == 0; ++round) {
-    node.Touched = 0;
+  for (unsigned round = 0; round < rounds && node.ObjectChanged != 0 && node.OdLocked == 0; ++round) {
+    node.ObjectChanged = 0;
     for (CO_TPDO& pdo : node.TPdo) {
       trigger_touched(pdo);
     }
@@ -473,17 +474,17 @@ void send_touched(CO_NODE& node) {
 
 CO_ERR request(CO_NODE& node, uint16_t number) {
   const CO_ERR err = trigger(node.TPdo[number]);
-  settle_touched(node);
+  send_changed(node);
   return err;
 }
 
-bool was_sent(CO_NODE& node, uint16_t number) { return has_passed(node.TPdo[number].Map); }
+bool was_sent(CO_NODE& node, uint16_t number) { return take_transferred(node.TPdo[number].Map); }
 
 bool was_sent(CO_NODE& node, const CO_OBJ& obj) {
   const uint16_t entry = number_of(node, obj);
   bool was = false;
   for (CO_TPDO& pdo : node.TPdo) {
-    was |= has_passed(pdo.Map, entry);
+    was |= take_transferred(pdo.Map, entry);
   }
   return mpdo::was_sent(node, entry) || was;
 }
@@ -514,7 +515,7 @@ bool on_free(CO_NODE& node, uint16_t) {
   CO_TPDO* const pdo = mpdo::producer(node);
   if (pdo != nullptr && is_operational(node) && !has(pdo->Map, inhibited) && mpdo::is_waiting(node)) {
     (void)send_event(*pdo, false);
-    settle_touched(node);
+    send_changed(node);
   }
   return false;
 }

@@ -79,7 +79,7 @@ uint32_t block_upload_accepted(Step& step) {
   if (wire::has_crc(command)) {
     set(client, crc);
   }
-  const uint32_t abort = wire::is_block_sized(command) ? take_size(step) : no_abort;
+  const uint32_t abort = wire::is_block_sized(command) ? store_size(step) : no_abort;
   client.AckSeq = 0;
   begin_block(client);
   step.request.Data[0] = wire::start_block;
@@ -145,7 +145,7 @@ uint32_t block_upload_ended(Step& step) {
   return no_abort;
 }
 
-bool put_reminder(CO_CSDO& client, CO_IF_FRM& request) {
+bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request) {
   if (has(client, heard)) {
     end_block(client, request);
     return true;

@@ -35,7 +35,7 @@ uint32_t read_all(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
     err = find_end(obj, node, size);
   }
   if (err != CO_ERR_NONE) {
-    return access::failed(node, CO_OBJ_UPLOAD, err);
+    return access::report_failure(node, CO_OBJ_UPLOAD, err);
   }
   if (size > client.Size) {
     return CO_SDO_ERR_MEM;
@@ -67,7 +67,7 @@ uint32_t write_all(CO_CSDO& client, CO_OBJ& obj) {
     err = obj::write(obj, node, from, client.Size);
   }
   client.Num = client.Size;
-  return err == CO_ERR_NONE ? no_abort : access::failed(node, CO_OBJ_DOWNLOAD, err);
+  return err == CO_ERR_NONE ? no_abort : access::report_failure(node, CO_OBJ_DOWNLOAD, err);
 }
 
 uint32_t check_upload(CO_CSDO& client, CO_OBJ& obj, uint32_t size) {
@@ -101,7 +101,7 @@ uint32_t transfer(CO_CSDO& client, CO_OBJ& obj, CO_OBJ_TRANSFER direction) {
   abort = direction == CO_OBJ_UPLOAD ? read_all(client, obj, size) : write_all(client, obj);
   err = obj::end(obj, node, direction, abort);
   const bool refused = abort == no_abort && err != CO_ERR_NONE && direction == CO_OBJ_DOWNLOAD;
-  return refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : abort;
+  return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : abort;
 }
 
 }  // namespace
@@ -116,8 +116,8 @@ uint32_t access_own(CO_CSDO& client) {
   if (abort != no_abort) {
     return abort;
   }
-  node.Served = obj;
-  const bool taken = obj::is_stream(*obj) && access::is_taken(node, *obj, nullptr);
+  node.RequestObj = obj;
+  const bool taken = obj::is_stream(*obj) && access::is_open(node, *obj, nullptr);
   return taken ? CO_SDO_ERR_TOS_STATE : transfer(client, *obj, direction);
 }
 

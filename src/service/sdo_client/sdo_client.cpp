@@ -62,7 +62,7 @@ void handle_silence(CO_CSDO& client) {
     return;
   }
   CO_IF_FRM request = wire::empty_frame(client.TxId);
-  if (client.Silence == reminder_quarter && put_reminder(client, request)) {
+  if (client.Silence == reminder_quarter && put_repeated_acknowledge(client, request)) {
     transmit::send(*client.Node, request);
   }
   start_timeout(client);
@@ -121,7 +121,7 @@ constexpr uint32_t in_transfer =
     initiated | in(State::download, State::upload, State::block_download, State::block_download_end,
                    State::block_upload, State::block_upload_end);
 
-constexpr Row<Response, Service> rows[] = {
+constexpr Transition<Response, Service> rows[] = {
     {in(State::download_initiated), Response::initiate_download, download_accepted},
     {in(State::download), Response::download_segment, segment_downloaded},
 

@@ -77,7 +77,7 @@ void abort_transfer(CO_CSDO& client, uint32_t code);
 void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
 // Stores the size that the server announces. Returns an abort code.
-[[nodiscard]] uint32_t take_size(Step& step);
+[[nodiscard]] uint32_t store_size(Step& step);
 // Compares a total length with the announced size. Returns an abort code.
 [[nodiscard]] uint32_t check_total(const CO_CSDO& client, uint32_t total);
 
@@ -89,7 +89,7 @@ void put_initiate(CO_CSDO& client, bool by_block, CO_IF_FRM& request);
 
 // Block upload: fills a repeated acknowledge for a server that no longer sends. Returns false if there is nothing to
 // acknowledge.
-[[nodiscard]] bool put_reminder(CO_CSDO& client, CO_IF_FRM& request);
+[[nodiscard]] bool put_repeated_acknowledge(CO_CSDO& client, CO_IF_FRM& request);
 
 // Reads or writes the own dictionary. Returns an abort code.
 [[nodiscard]] uint32_t access_own(CO_CSDO& client);

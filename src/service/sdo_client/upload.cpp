@@ -28,7 +28,7 @@ uint32_t take_expedited(Step& step) {
 
 }  // namespace
 
-uint32_t take_size(Step& step) {
+uint32_t store_size(Step& step) {
   CO_CSDO& client = step.client;
   set(client, sized);
   client.Total = wire::get_high(step.response);
@@ -48,7 +48,7 @@ uint32_t upload_accepted(Step& step) {
   if (wire::is_expedited(command)) {
     return take_expedited(step);
   }
-  const uint32_t abort = wire::is_size_indicated(command) ? take_size(step) : no_abort;
+  const uint32_t abort = wire::is_size_indicated(command) ? store_size(step) : no_abort;
   step.request.Data[0] = wire::upload_segment_request(client.Toggle);
   set_state(client, State::upload);
   return abort;

@@ -17,7 +17,7 @@ void begin_block(CO_SDO& channel) {
   channel.Heard = 0;
 }
 
-void sum(CO_SDO& channel, uint32_t n) {
+void add_to_crc(CO_SDO& channel, uint32_t n) {
   if (has(channel, crc)) {
     channel.Crc = wire::crc16(channel.Crc, buffer_of(channel), n);
   }
@@ -25,7 +25,7 @@ void sum(CO_SDO& channel, uint32_t n) {
 
 // Stores a segment. Errors are reported at the end of the block, because the client's further segments could otherwise
 // be taken for commands.
-void keep(CO_SDO& channel, const CO_IF_FRM& segment) {
+void store_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   const uint32_t least = wire::is_last_in_block(segment.Data[0]) ? 0 : wire::segment_bytes;
   if (channel.Fill + least > channel.Size - channel.Num) {
     set(channel, too_long);
@@ -36,12 +36,12 @@ void keep(CO_SDO& channel, const CO_IF_FRM& segment) {
   ++channel.Seq;
 }
 
-uint32_t hand_over(CO_SDO& channel, uint32_t n) {
+uint32_t write_buffer(CO_SDO& channel, uint32_t n) {
   const bool opens = channel.Num == 0 && !has(channel, whole);
   uint32_t abort = opens ? begin_data(channel, *channel.Obj, channel.Value, 0) : no_abort;
   channel.Fill = 0;
   if (abort == no_abort) {
-    abort = pass(channel, channel.Num, buffer_of(channel), n);
+    abort = transfer_piece(channel, channel.Num, buffer_of(channel), n);
     channel.Num = channel.Read;
   }
   return abort;
@@ -52,8 +52,8 @@ uint32_t empty_buffer(CO_SDO& channel) {
   if (channel.Obj == nullptr) {
     return CO_SDO_ERR_TOS_STATE;
   }
-  sum(channel, channel.Fill);
-  return hand_over(channel, channel.Fill);
+  add_to_crc(channel, channel.Fill);
+  return write_buffer(channel, channel.Fill);
 }
 
 void put_acknowledge(const CO_SDO& channel, CO_IF_FRM& answer) {
@@ -105,7 +105,7 @@ void restart_time_out(CO_SDO& channel, unsigned number) {
 
 // If the first segment of a block to arrive is its end, it is either the repeated end of the previous block, or all
 // other segments were lost. The server does not respond; it sends the acknowledge again after a part of the time-out.
-bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
+bool store_in_block(CO_SDO& channel, const CO_IF_FRM& segment) {
   const unsigned number = wire::seqno(segment.Data[0]);
   if (number - 1 >= channel.BlkSize || state_of(channel) != State::block_download) {
     return false;
@@ -116,7 +116,7 @@ bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment) {
   restart_time_out(channel, number);
   channel.Heard = static_cast<uint8_t>(number > channel.Heard ? number : channel.Heard);
   if (in_order) {
-    keep(channel, segment);
+    store_segment(channel, segment);
   }
   if (!is_last && number != channel.BlkSize) {
     return false;
@@ -153,17 +153,17 @@ uint32_t end_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM
   if (abort != no_abort) {
     return abort;
   }
-  sum(channel, n);
+  add_to_crc(channel, n);
   if (has(channel, crc) && channel.Crc != wire::get_u16(request.Data + 1)) {
     return CO_SDO_ERR_CRC;
   }
-  tell_total(channel, n);
-  abort = hand_over(channel, n);
+  set_total(channel, n);
+  abort = write_buffer(channel, n);
   answer.Data[0] = wire::confirm_block;
   return abort == no_abort ? finish_download(channel) : abort;
 }
 
-void remind(CO_SDO& channel) {
+void repeat_acknowledge(CO_SDO& channel) {
   const State state = state_of(channel);
   if (state != State::block_download && state != State::block_download_end) {
     return;

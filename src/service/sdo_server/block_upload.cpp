@@ -13,7 +13,7 @@ namespace {
 constexpr uint32_t smaller(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 // Updates the CRC, which covers each byte once, even if it is sent again.
-void sum(CO_SDO& channel, uint32_t position) {
+void add_to_crc(CO_SDO& channel, uint32_t position) {
   if (channel.Read <= channel.Summed) {
     return;
   }
@@ -36,15 +36,15 @@ uint32_t load(CO_SDO& channel, uint32_t position) {
   }
   const uint32_t n = smaller(CO_SDO_BUF_BYTE, channel.Size - position);
   __builtin_memset(buffer_of(channel), 0, n);  // clears bytes that the type may not fill
-  const uint32_t abort = pass(channel, position, buffer_of(channel), n);
-  if (abort == again) {
+  const uint32_t abort = transfer_piece(channel, position, buffer_of(channel), n);
+  if (abort == not_reached) {
     channel.Fill = 0;
     pause(*channel.Node);
     return abort;
   }
   channel.Fill = static_cast<uint16_t>(channel.Read - position);
   if (abort == no_abort) {
-    sum(channel, position);
+    add_to_crc(channel, position);
   }
   return abort;
 }
@@ -57,7 +57,7 @@ bool provide(CO_SDO& channel, uint32_t position, uint32_t& abort) {
   }
   abort = load(channel, position);
   const bool is_there = abort == no_abort;
-  abort = abort == again ? no_abort : abort;
+  abort = abort == not_reached ? no_abort : abort;
   return is_there && event::is_allowed(*channel.Node, CO_SDO_ALLOWED);
 }
 

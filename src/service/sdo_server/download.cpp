@@ -23,7 +23,7 @@ uint32_t expedited_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& reque
   }
   wire::put_aligned(channel.Value, wire::get_high(request));
   abort = begin_data(channel, obj, channel.Value, length);
-  return abort == no_abort && is_told(channel) ? close(channel, no_abort) : abort;
+  return abort == no_abort && is_begun(channel) ? close(channel, no_abort) : abort;
 }
 
 // Sets Size to the announced size, or to the maximum of the object.
@@ -51,7 +51,7 @@ uint32_t longer_download(CO_SDO& channel, CO_OBJ& obj, const CO_IF_FRM& request,
   if (is_value(channel, obj)) {
     set(channel, whole);
   }
-  go_on(channel, obj, by_block ? State::block_download : State::download);
+  continue_transfer(channel, obj, by_block ? State::block_download : State::download);
   if (has_block && by_block) {
     begin_block_download(channel, request, answer);
     return no_abort;
@@ -114,10 +114,10 @@ uint32_t download_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
     return CO_SDO_ERR_LEN_HIGH;
   }
   if (wire::is_last_segment(command)) {
-    tell_total(channel, n);
+    set_total(channel, n);
   }
   CO_IF_FRM segment = request;  // a copy, because a type function may change its buffer
-  abort = pass(channel, channel.Num, segment.Data + 1, n);
+  abort = transfer_piece(channel, channel.Num, segment.Data + 1, n);
   channel.Num = channel.Read;
   answer.Data[0] = wire::download_segment_response(channel.Flags & toggled);
   channel.Flags ^= toggled;

@@ -29,7 +29,7 @@ void describe_download(CO_ACCESS_SDO& access, const CO_IF_FRM& request) {
 
 }  // namespace
 
-Opened ask(CO_SDO& channel, const CO_IF_FRM& request) {
+Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request) {
   CO_NODE& node = *channel.Node;
   CO_ACCESS_SDO access = {};
   access.Index = static_cast<uint16_t>(CO_GET_IDX(channel.Key));

@@ -38,7 +38,7 @@ uint32_t refuse_command(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM&, C
 constexpr uint32_t outside_block = in(State::idle, State::download, State::upload, State::block_download_end,
                                       State::block_upload_ready, State::block_upload, State::block_upload_end);
 
-constexpr Row<Request, Service> rows[] = {
+constexpr Transition<Request, Service> rows[] = {
     {outside_block | in(State::block_download), Request::abort, end_by_client},
 
     {outside_block, Request::initiate_download, initiate_download},
@@ -85,10 +85,10 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
   CO_IF_FRM answer = wire::empty_frame(channel.TxId);
   const uint8_t idle = channel.Idle;
   channel.Idle = busy;
-  access::serve(node, channel.Obj);
+  access::set_request_object(node, channel.Obj);
   const uint32_t abort = service(channel, request, answer, found);
   channel.Idle = idle;
-  node.Served = nullptr;
+  node.RequestObj = nullptr;
   if (abort != no_abort || !event::is_allowed(node, CO_SDO_ALLOWED)) {
     give_up(channel, abort);
   } else if (answer.DLC != 0) {
@@ -106,7 +106,7 @@ inline void perform(CO_SDO& channel, Service service, const CO_IF_FRM& request, 
     return true;
   }
   const bool in_block = is_segment(channel, frame);
-  if (in_block && !take_segment(channel, frame)) {
+  if (in_block && !store_in_block(channel, frame)) {
     return true;
   }
   if (!in_block) {
@@ -200,7 +200,7 @@ void on_mode(CO_NODE& node) {
     transmit::withdraw(node, channel.TxId);
     transmit::withdraw(node, channel.WasTxId);
   }
-  rest(node);
+  stop_idle_timer(node);
 }
 
 }  // namespace co::sdo_server

@@ -28,7 +28,7 @@ void count_slice(CO_SDO& channel) {
   if (channel.Idle == slices) {
     abort_transfer(channel, CO_SDO_ERR_TIMEOUT);
   } else if (has_block && channel.Idle % reminder_slices == 0) {
-    remind(channel);
+    repeat_acknowledge(channel);
   }
 }
 
@@ -37,7 +37,7 @@ void on_slice(void* node_pointer) {
   for (CO_SDO& channel : node.Sdo) {
     count_slice(channel);
   }
-  rest(node);
+  stop_idle_timer(node);
 }
 
 // Sets the position of a piece. Positions of library streams are set before each piece, because the application may
@@ -88,14 +88,14 @@ uint32_t tell_end(const CO_SDO& channel, CO_OBJ& obj, uint32_t code) {
   const access::Nested nested(node, &obj);
   const CO_ERR err = obj::end(obj, node, direction(channel), code);
   const bool refused = err != CO_ERR_NONE && code == no_abort && has(channel, download);
-  return refused ? access::failed(node, CO_OBJ_DOWNLOAD, err) : no_abort;
+  return refused ? access::report_failure(node, CO_OBJ_DOWNLOAD, err) : no_abort;
 }
 
 }  // namespace
 
 uint32_t close(CO_SDO& channel, uint32_t code) {
   CO_OBJ* const obj = channel.Obj;
-  const bool has_end = is_told(channel) && obj != nullptr;
+  const bool has_end = is_begun(channel) && obj != nullptr;
   set_state(channel, State::idle);
   channel.Obj = nullptr;
   return has_end ? tell_end(channel, *obj, code) : no_abort;
@@ -108,7 +108,7 @@ void abort_transfer(CO_SDO& channel, uint32_t code) {
 }
 
 // One timer supervises all channels: a transfer ends after eight slices without a frame.
-void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
+void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state) {
   CO_NODE& node = *channel.Node;
   channel.Obj = &obj;
   channel.Num = 0;
@@ -123,7 +123,7 @@ void go_on(CO_SDO& channel, CO_OBJ& obj, State state) {
   }
 }
 
-void rest(CO_NODE& node) {
+void stop_idle_timer(CO_NODE& node) {
   if (!has_time_out) {
     return;
   }
@@ -144,7 +144,7 @@ void restart(CO_SDO& channel, const CO_IF_FRM& request) {
 
 uint32_t begin_stream(CO_SDO& channel, CO_OBJ& obj, uint32_t size) {
   CO_NODE& node = *channel.Node;
-  if (access::is_taken(node, obj, &channel)) {
+  if (access::is_open(node, obj, &channel)) {
     return CO_SDO_ERR_TOS_STATE;
   }
   if (obj::extended(obj) == nullptr) {
@@ -172,10 +172,10 @@ uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n) {
   if (swaps && !has(channel, download)) {
     wire::swap_host(data, n);
   }
-  return err == CO_ERR_NONE ? no_abort : access::failed(*channel.Node, direction(channel), err);
+  return err == CO_ERR_NONE ? no_abort : access::report_failure(*channel.Node, direction(channel), err);
 }
 
-uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
+uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   CO_ERR err = CO_ERR_NONE;
   if (has(channel, whole)) {
     uint8_t* const value = channel.Value + position;
@@ -186,7 +186,7 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
     }
     err = seek_piece(channel, *channel.Obj, position);
     if (has_block && err == CO_ERR_TYPE_AGAIN) {
-      return again;
+      return not_reached;
     }
     if (channel.Obj == nullptr) {  // the Reset function has moved the entry
       return CO_SDO_ERR_TOS_STATE;
@@ -197,7 +197,7 @@ uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n) {
   }
   channel.Read = position + n;
   if (err != CO_ERR_NONE) {
-    return access::failed(*channel.Node, direction(channel), err);
+    return access::report_failure(*channel.Node, direction(channel), err);
   }
   const bool may_end = obj::is_unknown(channel.Size) && !has(channel, download);
   return may_end ? learn_size(channel, position) : no_abort;

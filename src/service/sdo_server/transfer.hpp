@@ -30,7 +30,7 @@ enum Flag : uint8_t {
   download = 0x08,   // direction
   toggled = 0x10,    // segmented transfer: toggle bit expected next, as in the frame
   crc = 0x20,        // both sides support the CRC
-  begun = 0x40,      // Begin was called: see is_told()
+  begun = 0x40,      // Begin was called: see is_begun()
   last_sent = 0x80,  // block upload: the last segment of the transfer was sent
 };
 
@@ -48,7 +48,7 @@ inline void clear(CO_SDO& channel, Flag flag) { channel.Flags = static_cast<uint
 static_assert(toggled == wire::toggle_bit);
 
 // Returns whether the type's Begin function was called, so that its End function has to be called.
-inline bool is_told(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
+inline bool is_begun(const CO_SDO& channel) { return USE_OBJ_EX != 0 && has(channel, begun); }
 
 // Suppresses the response. Setting the DLC again enables it.
 inline void silence(CO_IF_FRM& answer) { answer.DLC = 0; }
@@ -85,31 +85,31 @@ struct Opened {
 
 // Calls the access hook: whether the client may begin this transfer of an object that exists and has the access right.
 // Finds the object again afterwards, because the hook may have changed the dictionary.
-[[nodiscard]] Opened ask(CO_SDO& channel, const CO_IF_FRM& request);
+[[nodiscard]] Opened ask_application(CO_SDO& channel, const CO_IF_FRM& request);
 
 // Calls restart() and performs the checks at the begin of every transfer: object, access right, access hook. The object
-// becomes node.Served. found: the object of the request, or null if it has to be found
+// becomes node.RequestObj. found: the object of the request, or null if it has to be found
 [[nodiscard]] inline Opened open(CO_SDO& channel, const CO_IF_FRM& request, CO_OBJ_TRANSFER transfer, CO_OBJ* found) {
   restart(channel, request);
   channel.Flags = transfer == CO_OBJ_DOWNLOAD ? download : 0;
   CO_NODE& node = *channel.Node;
   CO_OBJ* const obj = found != nullptr ? found : dict::find(node.Dict, channel.Key);
   Opened opened = {obj, stream::check(node, channel.Key, obj, transfer)};
-  node.Served = opened.abort == no_abort ? obj : nullptr;
+  node.RequestObj = opened.abort == no_abort ? obj : nullptr;
   if constexpr (USE_ACCESS_HOOK != 0) {
     if (opened.abort == no_abort) {
-      opened = ask(channel, request);
-      node.Served = opened.abort == no_abort ? opened.obj : nullptr;
+      opened = ask_application(channel, request);
+      node.RequestObj = opened.abort == no_abort ? opened.obj : nullptr;
     }
   }
   return opened;
 }
 
 // Continues the transfer beyond this frame, supervised by the time-out.
-void go_on(CO_SDO& channel, CO_OBJ& obj, State state);
+void continue_transfer(CO_SDO& channel, CO_OBJ& obj, State state);
 
 // Stops the time-out timer if no transfer is open.
-void rest(CO_NODE& node);
+void stop_idle_timer(CO_NODE& node);
 
 // Performs the checks at the begin of every segment. channel.Obj is null if the entry was moved.
 [[nodiscard]] inline uint32_t check_segment(const CO_SDO& channel, const CO_IF_FRM& request) {
@@ -138,20 +138,20 @@ void abort_transfer(CO_SDO& channel, uint32_t code);
 
 // Sets Size to the total length before the last piece of n bytes is written, for extensions that need it (co_od.h). An
 // announced size is not changed; it is compared afterwards.
-inline void tell_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_t n) {
+inline void set_total([[maybe_unused]] CO_SDO& channel, [[maybe_unused]] uint32_t n) {
   if (USE_OD != 0 && !has(channel, sized)) {
     channel.Size = channel.Num + n;
   }
 }
 
-// Result of pass() instead of an abort code: the type needs another call to reach the position.
-constexpr uint32_t again = 1;
+// Result of transfer_piece() instead of an abort code: the type needs another call to reach the position.
+constexpr uint32_t not_reached = 1;
 
 // Read or write in the direction of the transfer, and return an abort code. begin_data: the first bytes, or none to
-// open a stream. pass: a piece, up to position Read; it may be less than n bytes at the end of an object of unknown
-// size. pass returns again while the type has not reached the position.
+// open a stream. transfer_piece: a piece, up to position Read; it may be less than n bytes at the end of an object of
+// unknown size. transfer_piece returns not_reached while the type has not reached the position.
 [[nodiscard]] uint32_t begin_data(CO_SDO& channel, CO_OBJ& obj, uint8_t* data, uint32_t n);
-[[nodiscard]] uint32_t pass(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
+[[nodiscard]] uint32_t transfer_piece(CO_SDO& channel, uint32_t position, uint8_t* data, uint32_t n);
 
 // Block transfer --------------------------------------------------------------------------------------------------
 
@@ -179,12 +179,12 @@ void begin_block_download(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& 
 
 // Stores a segment of a block download, and restarts the time-out if the segment belongs to the transfer. Returns true
 // if it ends the block: end_block() then responds.
-[[nodiscard]] bool take_segment(CO_SDO& channel, const CO_IF_FRM& segment);
+[[nodiscard]] bool store_in_block(CO_SDO& channel, const CO_IF_FRM& segment);
 
 // Block download: returns whether the frame repeats the last segment of the transfer.
 [[nodiscard]] bool is_last_segment_again(const CO_SDO& channel, const CO_IF_FRM& frame);
 
 // Block download: repeats the acknowledge to a client that no longer sends.
-void remind(CO_SDO& channel);
+void repeat_acknowledge(CO_SDO& channel);
 
 }  // namespace co::sdo_server

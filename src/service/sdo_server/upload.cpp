@@ -9,7 +9,7 @@ uint32_t longer_upload(CO_SDO& channel, CO_OBJ& obj, bool by_block, const CO_IF_
   if (value) {
     set(channel, whole);
   }
-  go_on(channel, obj, by_block ? State::block_upload_ready : State::upload);
+  continue_transfer(channel, obj, by_block ? State::block_upload_ready : State::upload);
   const uint32_t abort = begin_data(channel, obj, channel.Value, value ? channel.Size : 0);
   if (abort != no_abort) {
     return abort;
@@ -51,7 +51,7 @@ uint32_t initiate(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& answer, 
   }
   wire::put_reply(answer, wire::expedited_upload_response(size), request);
   abort = begin_data(channel, obj, answer.Data + 4, size);
-  return abort == no_abort && is_told(channel) ? close(channel, no_abort) : abort;
+  return abort == no_abort && is_begun(channel) ? close(channel, no_abort) : abort;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ uint32_t upload_segment(CO_SDO& channel, const CO_IF_FRM& request, CO_IF_FRM& an
   }
   const uint32_t position = channel.Num;
   const uint32_t left = channel.Size - position;
-  abort = pass(channel, position, answer.Data + 1, left < wire::segment_bytes ? left : wire::segment_bytes);
+  abort = transfer_piece(channel, position, answer.Data + 1, left < wire::segment_bytes ? left : wire::segment_bytes);
   if (abort != no_abort) {
     return abort;
   }

@@ -40,7 +40,7 @@ void open_window(CO_NODE& node) {
   node.WindowOver = 0;
 }
 
-void take(CO_NODE& node, uint8_t counter) {
+void process(CO_NODE& node, uint8_t counter) {
   if (node.Sync.Window != 0 && event::is_allowed(node, CO_SYNC_ALLOWED)) {
     tmr::start(node.Tmr, node.Sync.WindowTmr, node.Sync.Window, 0, end_window, &node);
   }
@@ -58,7 +58,7 @@ void produce(void* node_pointer) {
   frame.Data[0] = sync.Counter;
   const event::Serving serving(node);
   transmit::send_latest(node, frame);
-  take(node, sync.Counter);
+  process(node, sync.Counter);
 }
 
 // Returns whether a period is below the limit; 0 means that no SYNC is produced.
@@ -211,7 +211,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   }
   const bool right = frame.DLC == (node.Sync.Overflow != 0 ? 1 : 0);
   check_length(node, right);
-  take(node, right ? frame.Data[0] : static_cast<uint8_t>(0));
+  process(node, right ? frame.Data[0] : static_cast<uint8_t>(0));
   return right;
 }
 
