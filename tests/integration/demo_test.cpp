@@ -19,6 +19,7 @@
 #include "linux_node/clock.hpp"
 #include "support/callbacks.hpp"
 #include "support/notation.hpp"
+#include "support/stride.hpp"
 #include "tour/master.hpp"
 #include "tour/tour.hpp"
 #include "tour/view.hpp"
@@ -39,7 +40,8 @@ constexpr std::uint8_t node_id = 5;
 constexpr unsigned storage_steps = USE_PARA != 0 ? 2 : 0;
 constexpr unsigned tour_steps = 19 + storage_steps;
 
-constexpr std::uint32_t every_frame = 3;  // stride of the lost frames; losing each in turn would take too long
+// Stride of the lost frames: losing each in turn would take too long.
+constexpr std::uint32_t every_frame = 3 * test::stride(4);
 
 std::string number_of_steps() { return std::to_string(tour_steps); }
 

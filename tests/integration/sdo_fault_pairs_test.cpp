@@ -7,6 +7,7 @@
 #include <random>
 
 #include "support/sdo_pair_faults.hpp"
+#include "support/stride.hpp"
 
 #if USE_CSDO
 
@@ -89,7 +90,7 @@ TEST_CASE("SDO faults: every pair of faults in short transfers gives the right d
 
 TEST_CASE("SDO faults: every pair of frames of 32 segments lost, doubled or swapped [T11]") {
   for (const Direction direction : both_directions) {
-    Pairs(32 * 7, true, all_faults() ? all_kinds : first_kinds).run(direction);
+    Pairs(32 * 7, true, all_faults() ? all_kinds : first_kinds).run(direction, test::stride(3));
   }
 }
 

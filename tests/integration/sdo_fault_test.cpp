@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/sdo_pair_faults.hpp"
+#include "support/stride.hpp"
 
 #if USE_CSDO
 
@@ -115,7 +116,7 @@ void run_hastily(SdoPair& pair, Direction direction, const FrameFault& fault, st
 void run_courses(Direction direction, bool block) {
   for (const std::uint32_t bytes : {1u, 7u, 8u, 28u, 29u, 888u, 889u, 890u, 891u, 897u, 1800u, 2000u}) {
     CAPTURE(bytes);
-    Course(bytes, block).run(direction, 1, bytes > 100 && !block && !all_faults());
+    Course(bytes, block).run(direction, test::stride(3), bytes > 100 && !block && !all_faults());
   }
 }
 

@@ -88,9 +88,10 @@ count_suite() {  # WHAT STATUS LOG
 # $little_endian_cases: their stored records of version 0.1.0 have the byte order of a little-endian CPU.
 little_endian_cases=4
 compare_number() {  # WHAT CASES
-  local expected=${cases_of_first:=$2}
-  case $1 in powerpc | s390x) expected=$((cases_of_first - little_endian_cases)) ;; esac
-  [ "$2" -eq "$expected" ] || fail "$1 has run $2 cases instead of $expected"
+  local omitted=0
+  case $1 in powerpc | s390x) omitted=$little_endian_cases ;; esac
+  : "${cases_of_first:=$(($2 + omitted))}"
+  [ "$2" -eq $((cases_of_first - omitted)) ] || fail "$1 has run $2 cases instead of $((cases_of_first - omitted))"
 }
 
 smoke_on() {  # CPU BOARD

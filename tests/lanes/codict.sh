@@ -35,11 +35,13 @@ plain_tree() {  # TARGET
     -DLEXICAN_WARNINGS_AS_ERRORS=ON
 }
 
-# The tests themselves are compiled without the sanitizer for undefined behaviour: it doubles their time to compile.
+# Only those checks for undefined behaviour that the address sanitizer does not make: the others, of each pointer and
+# reference, take a quarter of the time to compile. The tests themselves are compiled without any.
+undefined=shift,signed-integer-overflow,integer-divide-by-zero,float-cast-overflow,bounds,bool,enum,return,unreachable
 all_cases() {
   local target targets=(lexican_codict_core_tests lexican_codict_tests lexican_codict_program_tests lexican_codict_node_tests lexican_codict_bench codict codict_words
     "${tool_fuzz_targets[@]/%/_fuzz}")
-  build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,undefined \
+  build_tree codict -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-g1 -O0" -DLEXICAN_SANITIZE=address,$undefined \
     -DLEXICAN_TEST_OPTIONS="-O0;-fno-sanitize=undefined" -DLEXICAN_TOOLS=ON -DLEXICAN_FUZZ=ON \
     -DLEXICAN_WARNINGS_AS_ERRORS=ON || return
   run_doctest "codict core" "$build/codict/tools/codict/tests/lexican_codict_core_tests"

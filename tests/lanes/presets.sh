@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-about="the configurations of config/presets (all other lanes use full)"
-minutes=4
+about="the smallest configuration (config/presets/minimal.h), and the C programs in the configuration slave"
+minutes=2
 packages=("${build_packages[@]}")
 
 # Builds the smallest configuration for size, so that each preset of CMakePresets.json is used. The sweeps are reduced:
-# lane gcc runs them completely.
+# lane gcc runs them completely. Lane target runs the doctest cases in the configuration slave, on a Cortex-M0.
 lane() {
-  test_preset size minimal
-  test_preset release slave
-}
-
-test_preset() {  # CMAKE-PRESET CONFIGURATION
   local targets=(lexican_tests tests/compat/all)
-  build_preset "$1" "preset-$2" -DLEXICAN_PRESET="$2" -DLEXICAN_THIN_SWEEPS=ON || return
-  run_doctest "preset-$2" "$build/preset-$2/tests/lexican_tests"
-  run_ctest "preset-$2-compat" "$build/preset-$2/tests/compat"
+  build_preset size preset-minimal -DLEXICAN_PRESET=minimal -DLEXICAN_THIN_SWEEPS=ON || return
+  run_doctest preset-minimal "$build/preset-minimal/tests/lexican_tests"
+  run_ctest preset-minimal-compat "$build/preset-minimal/tests/compat"
+  targets=(tests/compat/all)
+  build_preset release preset-slave -DLEXICAN_PRESET=slave || return
+  run_ctest preset-slave-compat "$build/preset-slave/tests/compat"
 }
