@@ -3,6 +3,8 @@
 // unused element.
 #include "co_ring.h"
 
+#include "co_assert.h"
+
 namespace {
 
 uint16_t load(const uint16_t& position) { return __atomic_load_n(&position, __ATOMIC_ACQUIRE); }
@@ -18,6 +20,7 @@ uint16_t next(const CO_RING& ring, uint16_t position) {
 }
 
 CO_IF_FRM& frame_at(const CO_RING& ring, uint16_t position) {
+  CO_ASSERT(position < 2 * ring.Size);
   return ring.Mem[position < ring.Size ? position : position - ring.Size];
 }
 

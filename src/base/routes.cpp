@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/routes.hpp"
 
+#include "co_assert.h"
 #include "hal/port.hpp"
 #include "wire/cob_id.hpp"
 
@@ -25,6 +26,24 @@ bool is_behind(const CO_ROUTES& routes, unsigned place, uint32_t identifier, uin
   return routes.Id[place] > identifier || (routes.Id[place] == identifier && routes.Owner[place] > owner);
 }
 
+// Returns whether the routes are in their order, end with the mark, and Start has the first route of each function
+// code. For assertions.
+[[maybe_unused]] bool is_sorted(const CO_ROUTES& routes) {
+  unsigned place = 0;
+  for (unsigned n = 0; n < end; ++n) {
+    if (routes.Start[n] != place) {
+      return false;
+    }
+    while (routes.Id[place] != no_identifier && class_of(routes.Id[place]) == n) {
+      if (place != 0 && !is_behind(routes, place, routes.Id[place - 1], routes.Owner[place - 1])) {
+        return false;
+      }
+      ++place;
+    }
+  }
+  return routes.Start[end] == place && routes.Id[place] == no_identifier;
+}
+
 void move(CO_ROUTES& routes, unsigned to, unsigned from) {
   routes.Id[to] = routes.Id[from];
   routes.Owner[to] = routes.Owner[from];
@@ -39,6 +58,8 @@ void clear(CO_NODE& node) {
 
 void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
   CO_ROUTES& routes = node.Routes;
+  CO_ASSERT(service < Service::count && number_of(number) == number);
+  CO_ASSERT(routes.Start[end] < CO_ROUTE_N);
   const uint16_t whose = owner(service, number);
   unsigned place = routes.Start[end];
   routes.Id[place + 1] = no_identifier;
@@ -48,6 +69,7 @@ void add(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {
   routes.Id[place] = identifier;
   routes.Owner[place] = whose;
   shift_starts(routes, identifier, +1);
+  CO_ASSERT(is_sorted(routes));
 }
 
 void remove(CO_NODE& node, Service service, uint16_t number) {
@@ -65,6 +87,7 @@ void remove(CO_NODE& node, Service service, uint16_t number) {
     move(routes, place, place + 1);
   }
   routes.Id[place] = no_identifier;
+  CO_ASSERT(is_sorted(routes));
 }
 
 void change(CO_NODE& node, uint32_t identifier, Service service, uint16_t number) {

@@ -2,6 +2,7 @@
 #include "dictionary/access.hpp"
 
 #include "base/error.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 
 namespace co::access {
@@ -24,6 +25,7 @@ bool is_in_place(const CO_DICT& dict, const CO_SDO& channel) {
 }  // namespace
 
 uint32_t check(const CO_NODE& node, uint32_t key, const CO_OBJ* obj, CO_OBJ_TRANSFER transfer) {
+  CO_ASSERT(CO_GET_DEV(key) == key);
   if (obj == nullptr) {
     return dict::has_index(node.Dict, key) ? CO_SDO_ERR_SUB : CO_SDO_ERR_OBJ;
   }

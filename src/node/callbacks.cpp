@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Default callbacks: weak symbols, which definitions of the application replace.
+// Default callbacks: weak symbols, which definitions of the application replace. Those of services that can be switched
+// off are in their files.
 #include "co_core.h"
 
 extern "C" {
@@ -25,18 +26,6 @@ WEAK void CONmtLifeGuardEvent(CO_NMT*, bool) {}
 
 WEAK void COIfCanReceive(CO_IF_FRM*) {}
 
-#if USE_LSS
-WEAK CO_ERR COLssLoad(uint32_t*, uint8_t*) { return CO_ERR_NONE; }
-
-WEAK CO_ERR COLssStore(uint32_t, uint8_t) { return CO_ERR_LSS_NO_STORE; }
-#endif
-
-#if USE_PARA
-WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
-
-WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
-#endif
-
 WEAK void COPdoTransmit(CO_IF_FRM*) {}
 
 WEAK int16_t COPdoReceive(CO_IF_FRM*) { return 0; }
@@ -46,14 +35,6 @@ WEAK void COPdoSyncUpdate(CO_RPDO*) {}
 WEAK void COPdoUpdate(CO_RPDO*) {}
 
 WEAK void CONodeCanChange(CO_NODE*, CO_CAN_EVENT) {}
-
-#if USE_TIME
-WEAK void COTimeUpdate(CO_NODE*, const CO_TIME_OF_DAY*) {}
-#endif
-
-#if USE_LED
-WEAK void COLedChange(CO_NODE*, uint8_t) {}
-#endif
 
 WEAK void COEmcyReceived(CO_NODE*, uint8_t, uint16_t, uint8_t, const uint8_t[5]) {}
 

@@ -5,6 +5,7 @@
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/transmit.hpp"
+#include "co_assert.h"
 #include "hal/port.hpp"
 #include "service/emcy/emcy.hpp"
 #include "service/guarding/guarding.hpp"
@@ -179,6 +180,7 @@ void remap(CO_NODE& node) { pdo::remap(node); }
 // accepts. The sender that is refused first continues first the next time.
 void on_free(CO_NODE& node) {
   unsigned idle = 0;
+  CO_ASSERT(streams == 0 || node.NextSender < streams);
   node.Paused = 0;
   while (idle < streams && node.Paused == 0) {
     const bool sent = continue_sender(node, node.NextSender);
@@ -210,6 +212,7 @@ namespace {
   do {
     const uint16_t owner = node.Routes.Owner[place];
     const bool alone = !routes::is_at(node, place + 1, id);
+    CO_ASSERT(routes::service_of(owner) < static_cast<unsigned>(Id::count));
     const Service& service = table[routes::service_of(owner)];
     if (event::is_allowed(node, service.allowed)) {
       const auto serve = (frame.Identifier & CO_IF_FRM_RTR) != 0 ? service.on_remote : service.on_frame;
@@ -228,10 +231,12 @@ namespace {
 
 // Calls the only owner of the identifier without a loop: nearly all identifiers have one owner.
 bool dispatch(CO_NODE& node, const CO_IF_FRM& frame, unsigned place) {
+  CO_ASSERT(place < node.Routes.Start[CO_ROUTE_CLASS_N]);
   if (USE_FAST_PATHS == 0 || routes::is_at(node, place + 1, node.Routes.Id[place])) {
     return dispatch_shared(node, frame, place);
   }
   const uint16_t owner = node.Routes.Owner[place];
+  CO_ASSERT(routes::service_of(owner) < static_cast<unsigned>(Id::count));
   const Service& service = table[routes::service_of(owner)];
   if (!event::is_allowed(node, service.allowed)) {
     return false;
@@ -326,6 +331,7 @@ namespace {
 
 // Enters an NMT state: sets the permissions, then calls on_mode of every service.
 void enter(CO_NODE& node, CO_MODE mode) {
+  CO_ASSERT(mode < CO_MODE_NUM);
   node.Nmt.Mode = mode;
   node.State = static_cast<uint8_t>(mode == CO_INVALID ? node.State & ~event::running : node.State | event::running);
   node.Nmt.Allowed = nmt::allowed_in(mode);

@@ -3,6 +3,7 @@
 
 #if USE_OD
 
+#include "co_assert.h"
 #include "dictionary/access.hpp"
 #include "dictionary/obj.hpp"
 #include "od/kind.hpp"
@@ -35,6 +36,7 @@ bool is_extensible_of(const OD_t& od, uint16_t index, const CO_OBJ* obj) {
 // Ends the transfer of an SDO server channel: calls the End function of the type now. The server aborts the transfer at
 // the next frame of the client.
 void end_transfer(CO_NODE& node, CO_SDO& channel) {
+  CO_ASSERT(channel.Obj != nullptr && channel.Obj->Type != nullptr);
   CO_OBJ& obj = *channel.Obj;
   const bool is_download = sdo_server::has(channel, sdo_server::download);
   channel.Obj = nullptr;
@@ -99,12 +101,16 @@ OD_TRANSFER* begin_transfer(OD_t& od, const CO_NODE& node, const CO_OBJ& obj, ui
 }
 
 void bind(OD_TRANSFER& transfer, const CO_NODE& node) {
+  CO_ASSERT(transfer.Entry != nullptr);
   if (access::is_open(node, *transfer.Entry, nullptr)) {
     set(transfer, by_server);
   }
 }
 
-void end_transfer(OD_TRANSFER& transfer) { transfer = {}; }
+void end_transfer(OD_TRANSFER& transfer) {
+  CO_ASSERT(transfer.Entry != nullptr);
+  transfer = {};
+}
 
 void end_accesses(OD_t& od, uint16_t index) {
   CO_NODE& node = *od.Node;

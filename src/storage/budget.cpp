@@ -2,6 +2,7 @@
 #include "storage/budget.hpp"
 
 #include "base/timer.hpp"
+#include "co_assert.h"
 
 #if USE_PARA && CO_PARA_BUDGET > 0
 
@@ -27,6 +28,7 @@ void start(CO_NODE& node) {
 }  // namespace
 
 bool take_store(CO_NODE& node) {
+  CO_ASSERT(node.StoresUsed <= CO_PARA_BUDGET);
   if (node.StoreCause != bus) {
     return true;
   }

@@ -2,6 +2,7 @@
 // Parameter groups of 1010h and 1011h.
 #pragma once
 
+#include "co_assert.h"
 #include "co_core.h"
 
 namespace co::para {
@@ -23,7 +24,10 @@ class Groups {
   [[nodiscard]] const CO_PARA* next();
 
   // Returns the entry whose group next() has returned.
-  [[nodiscard]] const CO_OBJ& entry() const { return *entry_; }
+  [[nodiscard]] const CO_OBJ& entry() const {
+    CO_ASSERT(entry_ != nullptr);
+    return *entry_;
+  }
 
  private:
   CO_NODE& node_;

@@ -143,6 +143,11 @@ using namespace co;
 
 extern "C" {
 
+// Default callbacks.
+WEAK int16_t COParaDefault(CO_PARA*) { return 0; }
+
+WEAK void COParaLost(CO_NODE*, const CO_PARA*) {}
+
 const CO_OBJ_TYPE COTParaStore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,
                                   para::read<CO_PARA__AE>, para::write<para::save_signature, para::save>, nullptr};
 const CO_OBJ_TYPE COTParaRestore = {para::size, para::init_entry<rules::parameter_group_number, rules::parameter_group>,

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/timer.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/obj.hpp"
 #include "dictionary/types/place.hpp"
@@ -58,6 +59,7 @@ Located locate(CO_NODE& node, const CO_PARA& group) {
 // Sets the first size bytes of a group to the default values of the table, if it has any. Calls COParaDefault() only if
 // the memory holds the request to use the defaults, after a "load".
 CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
+  CO_ASSERT(size <= group.Size);
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
     __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
   }

@@ -2,6 +2,7 @@
 #include "storage/slots.hpp"
 
 #include "base/events.hpp"
+#include "co_assert.h"
 #include "hal/port.hpp"
 #include "storage/budget.hpp"
 #include "wire/crc32.hpp"
@@ -100,7 +101,9 @@ class Outside {
 // Work memory whose size is a multiple of the program size.
 class Buffer {
  public:
-  explicit Buffer(const CO_NODE& node) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % program_size(node)) {}
+  explicit Buffer(const CO_NODE& node) : size_(CO_STORE_BUFFER - CO_STORE_BUFFER % program_size(node)) {
+    CO_ASSERT(size_ != 0 && size_ <= sizeof bytes_);
+  }
   [[nodiscard]] uint32_t size() const { return size_; }
   [[nodiscard]] uint8_t* bytes() { return bytes_; }
 
@@ -265,6 +268,8 @@ bool erase(const CO_NODE& node, uint32_t start, uint32_t size) {
 
 // Writes a slot, its header last: the slot is invalid until the header is written.
 bool write_slot(const CO_NODE& node, const Record& record, Slot& slot, const uint8_t* data) {
+  CO_ASSERT(slot.start % unit(node) == 0);
+  CO_ASSERT(slot.start - record.start <= slot_size(node, record.size));
   wire::Crc32 crc = crc_of(slot.header, record);
   wire::Crc32 unused;
   if (!erase(node, slot.start, slot_size(node, record.size))) {
@@ -327,12 +332,14 @@ bool fits(const CO_NODE& node, const Record& record) {
 }
 
 Found find(const CO_NODE& node, const Record& record) {
+  CO_ASSERT(fits(node, record));
   const Slots slots(node, record);
   const bool blank = slots.newest.found == Found::blank && slots.other.found == Found::blank;
   return blank || is_whole(slots.newest) ? slots.newest.found : Found::lost;
 }
 
 Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
+  CO_ASSERT(fits(node, record) && size <= record.size);
   Slots slots(node, record);
   if (load_slot(node, record, slots.newest, to, size)) {
     const Loaded loaded = {slots.newest.found, is_newest_damaged(slots)};
@@ -348,6 +355,7 @@ Loaded load(CO_NODE& node, const Record& record, uint8_t* to, uint32_t size) {
 }
 
 CO_ERR save(CO_NODE& node, const Record& record, const uint8_t* data) {
+  CO_ASSERT(fits(node, record));
   const Slots slots(node, record);
   if (is_stored(node, record, slots.newest, data)) {
     return CO_ERR_NONE;

@@ -44,8 +44,8 @@ check_link() {
   done
 }
 
-# Prints the names of the settings in a header.
-settings_in() { sed -nE 's/^#ifndef ((CO|USE)_[A-Z0-9_]+)$/\1/p' "$1" | grep -vE '_H_$|^CO_CFG_PRESET$'; }
+# Prints the names of the settings in a header. Programs and libraries may differ in USE_ASSERT.
+settings_in() { sed -nE 's/^#ifndef ((CO|USE)_[A-Z0-9_]+)$/\1/p' "$1" | grep -vE '_H_$|^CO_CFG_PRESET$|^USE_ASSERT$'; }
 
 # number_with DEFINITION...: prints the configuration's number; nothing if the configuration is invalid
 number_with() {

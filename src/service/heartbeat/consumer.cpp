@@ -6,6 +6,7 @@
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
+#include "co_assert.h"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/place.hpp"
 #include "service/heartbeat/heartbeat.hpp"
@@ -61,6 +62,7 @@ void plan(CO_NODE& node) {
 // Counts a period without heartbeat and calls the application. The first one is a fault and causes the reaction of
 // 1029h.
 void miss(CO_NODE& node, CO_HBCONS& cons) {
+  CO_ASSERT(is_active(cons.Time, cons.NodeId));
   const uint8_t node_id = cons.NodeId;
   cons.Event = static_cast<uint8_t>(cons.Event + (cons.Event < UINT8_MAX ? 1 : 0));
   if (cons.Tmr != missing) {
@@ -221,7 +223,9 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::error_control_dlc) {
     return false;
   }
+  CO_ASSERT(number >= 1 && number <= CO_HBCONS_N);
   CO_HB_WATCH& watch = node.HbCons[number - 1];
+  CO_ASSERT(watch.Cons != nullptr && watch.Period != 0);
   const int16_t state = wire::state_of(frame);
   watch.Seen = tmr::now(node.Tmr);
   // CONmtHbConsChange() is called for changes of the state, and for each boot-up message.

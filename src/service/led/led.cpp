@@ -2,6 +2,7 @@
 #include "service/led/led.hpp"
 
 #include "base/timer.hpp"
+#include "co_assert.h"
 
 #if USE_LED
 
@@ -28,6 +29,7 @@ constexpr bool is_steady(const Pattern& pattern) { return pattern.period == 1; }
 
 // Returns whether the LED is lit. late: phases by which the pattern is delayed
 bool is_lit(const Pattern& pattern, uint32_t ms, uint8_t late) {
+  CO_ASSERT(late < pattern.period || is_steady(pattern));
   const uint32_t phase = (ms / pattern.phase + pattern.period - late) % pattern.period;
   return phase % 2 == 0 && phase < 2U * pattern.flashes;
 }
@@ -179,6 +181,9 @@ void resolve(CO_NODE& node, event::Fault fault) {
 using namespace co;
 
 extern "C" {
+
+// Default callbacks.
+WEAK void COLedChange(CO_NODE*, uint8_t) {}
 
 uint8_t COLedPattern(const CO_LED_STATE* state, uint32_t ms) {
   ASSERT_PTR_ERR(state, 0);

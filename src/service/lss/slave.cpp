@@ -431,4 +431,13 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
 
 }  // namespace co::lss
 
+// Default callbacks.
+extern "C" {
+
+WEAK CO_ERR COLssLoad(uint32_t*, uint8_t*) { return CO_ERR_NONE; }
+
+WEAK CO_ERR COLssStore(uint32_t, uint8_t) { return CO_ERR_LSS_NO_STORE; }
+
+}  // extern "C"
+
 #endif

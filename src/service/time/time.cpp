@@ -90,6 +90,9 @@ using namespace co;
 
 extern "C" {
 
+// Default callbacks.
+WEAK void COTimeUpdate(CO_NODE*, const CO_TIME_OF_DAY*) {}
+
 CO_ERR COTimeSend(CO_NODE* node) {
   ASSERT_PTR_ERR(node, CO_ERR_BAD_ARG);
   return time::send(*node);
