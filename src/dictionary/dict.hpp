@@ -9,6 +9,8 @@ namespace co::dict {
 
 // Returns the entry with the index and sub-index of key (flags are ignored); null: there is none.
 [[nodiscard]] CO_OBJ* find(CO_DICT& dict, uint32_t key);
+// Prepares find() after the table has changed; it must not be empty. Exists with USE_FAST_PATHS only.
+void prepare_search(CO_DICT& dict);
 
 // Returns the number of entries before the end mark of a table, at most max.
 [[nodiscard]] uint16_t count_entries(const CO_OBJ* root, uint16_t max);
@@ -23,31 +25,21 @@ void set_power_on_values(CO_NODE_T& node, CO_NMT_RESET type);
 
 // Functions for the Init functions of types. set_fault() returns CO_ERR_TYPE_INIT; check_type() returns it if the entry
 // breaks its type's rule, and set_fault() is for faults that no rule describes. Both record the fault for
-// CODictGetFault(): the first one, except that a fault that stops the node replaces one that does not.
+// CODictGetFault(): the first one, except that a fault that stops the node replaces one that does not. fault_of() and
+// fault_key_of() return it with the key of its entry. check() checks the keys of all entries.
 #if USE_DICT_CHECK
 CO_ERR set_fault(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault);
 [[nodiscard]] CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule);
+[[nodiscard]] inline CO_DICT_FAULT fault_of(const CO_DICT& dict) { return static_cast<CO_DICT_FAULT>(dict.Fault); }
+[[nodiscard]] inline uint32_t fault_key_of(const CO_DICT& dict) { return dict.FaultKey; }
+[[nodiscard]] CO_ERR check(CO_DICT& dict);
 #else
 inline CO_ERR set_fault(const CO_OBJ&, CO_NODE_T&, CO_DICT_FAULT) { return CO_ERR_TYPE_INIT; }
 [[nodiscard]] inline CO_ERR check_type(const CO_OBJ&, CO_NODE_T&, const rules::Rule&) { return CO_ERR_NONE; }
+[[nodiscard]] inline CO_DICT_FAULT fault_of(const CO_DICT&) { return CO_DICT_OK; }
+[[nodiscard]] inline uint32_t fault_key_of(const CO_DICT&) { return 0; }
+[[nodiscard]] inline CO_ERR check(CO_DICT&) { return CO_ERR_NONE; }
 #endif
-
-// Returns the fault that CODictInit() or the functions above have recorded.
-[[nodiscard]] inline CO_DICT_FAULT fault_of([[maybe_unused]] const CO_DICT& dict) {
-#if USE_DICT_CHECK
-  return static_cast<CO_DICT_FAULT>(dict.Fault);
-#else
-  return CO_DICT_OK;
-#endif
-}
-// Returns the key of the entry that has this fault.
-[[nodiscard]] inline uint32_t fault_key_of([[maybe_unused]] const CO_DICT& dict) {
-#if USE_DICT_CHECK
-  return dict.FaultKey;
-#else
-  return 0;
-#endif
-}
 
 // Outcome of the Init functions of all entries.
 struct Initialised {

@@ -4,6 +4,7 @@
 #include "base/events.hpp"
 #include "od/list.hpp"
 #include "service/pdo/configuration.hpp"
+#include "service/pdo/list.hpp"
 #include "service/pdo/mpdo.hpp"
 #include "service/pdo/pdo.hpp"
 
@@ -12,7 +13,7 @@
 namespace co::od {
 namespace {
 
-[[maybe_unused]] constexpr unsigned most_tpdos = 8 * sizeof(OD_flagsPDO_t) - 1;
+constexpr unsigned most_tpdos = 8 * sizeof(OD_flagsPDO_t) - 1;
 constexpr OD_flagsPDO_t received = 1;
 constexpr OD_flagsPDO_t sent = ~received;
 
@@ -40,89 +41,72 @@ struct Note {
   void clear() const { put(false); }
 };
 
-[[maybe_unused]] Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
+Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
   return {place < num ? &bytes[place / 8U] : nullptr, static_cast<uint8_t>(1U << (place % 8U))};
 }
 
-[[maybe_unused]] Note note_in(CO_PDO_MAP& map, uint16_t number) {
+Note note_in(CO_PDO_MAP& map, uint16_t number) {
   return note_of(map.Transferred, pdo::find(map, number), CO_PDO_MAP_N);
 }
 
-#if CO_TPDO_N > 0
+// An MPDO in source address mode records the objects of the scanner list.
 Note note_in(CO_NODE& node, CO_TPDO& pdo, uint16_t number) {
-#if USE_MPDO
-  if (mpdo::is_sam(pdo.Map)) {
-    CO_MPDO& lists = node.Mpdo;
-    unsigned place = 0;
-    while (place < lists.ScanNum && lists.Scan[place] != number) {
-      ++place;
-    }
-    return note_of(lists.Transferred, place, lists.ScanNum);
+  if (!mpdo::is_sam(pdo.Map)) {
+    return note_in(pdo.Map, number);
   }
-#endif
-  (void)node;
-  return note_in(pdo.Map, number);
+  const mpdo::Transferred list = mpdo::transferred(node, number);
+  return note_of(list.bytes, list.place, list.num);
 }
-#endif
 
 // Returns the flags of an object. Bit 0: an RPDO was received with it; bit n + 1: TPDO n was transmitted with it.
 // number: position of its entry in the dictionary
-OD_flagsPDO_t flags_of([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
+OD_flagsPDO_t flags_of(CO_NODE& node, uint16_t number) {
   OD_flagsPDO_t flags = 0;
-#if CO_RPDO_N > 0
-  for (CO_RPDO& pdo : node.RPdo) {
+  for (CO_RPDO& pdo : pdo::rpdos(node)) {
     flags |= note_in(pdo.Map, number).is_set() ? received : 0U;
   }
-#endif
-#if CO_TPDO_N > 0
-  for (unsigned n = 0; n < CO_TPDO_N && n < most_tpdos; ++n) {
-    flags |= note_in(node, node.TPdo[n], number).is_set() ? OD_flagsPDO_t{2} << n : 0U;
+  unsigned n = 0;
+  for (CO_TPDO& pdo : pdo::tpdos(node)) {
+    flags |= n < most_tpdos && note_in(node, pdo, number).is_set() ? OD_flagsPDO_t{2} << n : 0U;
+    ++n;
   }
-#endif
   return flags;
 }
 
-void clear_received([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
-#if CO_RPDO_N > 0
-  for (CO_RPDO& pdo : node.RPdo) {
+void clear_received(CO_NODE& node, uint16_t number) {
+  for (CO_RPDO& pdo : pdo::rpdos(node)) {
     note_in(pdo.Map, number).clear();
   }
-#endif
 }
 
-void clear_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
-#if CO_TPDO_N > 0
-  for (CO_TPDO& pdo : node.TPdo) {
+void clear_sent(CO_NODE& node, uint16_t number) {
+  for (CO_TPDO& pdo : pdo::tpdos(node)) {
     note_in(node, pdo, number).clear();
   }
-#endif
 }
 
 // Returns whether any TPDO has been transmitted with the object; also checks TPDOs that have no flag.
-bool was_sent([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number) {
-#if CO_TPDO_N > 0
-  for (CO_TPDO& pdo : node.TPdo) {
+bool was_sent(CO_NODE& node, uint16_t number) {
+  for (CO_TPDO& pdo : pdo::tpdos(node)) {
     if (note_in(node, pdo, number).is_set()) {
       return true;
     }
   }
-#endif
   return false;
 }
 
 // Clears the flag of a TPDO that contains the object, and requests its transmission.
-void request([[maybe_unused]] CO_NODE& node, [[maybe_unused]] uint16_t number, [[maybe_unused]] unsigned tpdo) {
-#if CO_TPDO_N > 0
-  const Note note = tpdo < CO_TPDO_N ? note_in(node, node.TPdo[tpdo], number) : Note{nullptr, 0};
+void request(CO_NODE& node, uint16_t number, unsigned tpdo) {
+  const pdo::Pdos tpdos = pdo::tpdos(node);
+  const Note note = tpdo < tpdos.num ? note_in(node, tpdos.first[tpdo], number) : Note{nullptr, 0};
   if (note.byte == nullptr) {
     return;
   }
   note.clear();
-  if (mpdo::is_sam(node.TPdo[tpdo].Map)) {
+  if (mpdo::is_sam(tpdos.first[tpdo].Map)) {
     mpdo::mark(node, number);
   }
   error::report(node, pdo::request(node, static_cast<uint16_t>(tpdo)), pdo::key_of_tpdo(tpdo));
-#endif
 }
 
 // Copies the flag "transmitted" of a sub-index to its bit in OD_extension_t.flagsPDO, for applications that read the

@@ -2,14 +2,14 @@
 #include "service/guarding/guarding.hpp"
 
 #include "base/events.hpp"
-#include "base/routes.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
 #include "dictionary/dict.hpp"
 #include "wire/nmt.hpp"
 
-namespace co::guarding {
 #if USE_GUARDING
+
+namespace co::guarding {
 namespace {
 
 // Returns the life time in ticks; 0: no life guarding. [301:7.5.2.11, 7.5.2.12]
@@ -83,24 +83,11 @@ void on_mode(CO_NODE& node) {
   }
 }
 
-#else
-
-bool on_remote(CO_NODE&, const CO_IF_FRM&, uint16_t) { return false; }
-void on_mode(CO_NODE&) {}
-
-#endif
-
-void init(CO_NODE& node) {
-  routes::add(node, wire::CobId::error_control + node.NodeId, routes::Service::error_control, 0);
-#if USE_GUARDING
+void reset(CO_NODE& node) {
   node.GuardToggle = 0;
   node.GuardLost = 0;
-#endif
-}
-
-bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
-  event::raise(node, event::Fault::collision, node.NodeId);
-  return false;
 }
 
 }  // namespace co::guarding
+
+#endif

@@ -229,6 +229,15 @@ bool was_sent(CO_NODE& node, uint16_t entry) {
   return was;
 }
 
+Transferred transferred(CO_NODE& node, uint16_t entry) {
+  CO_MPDO& mpdo = node.Mpdo;
+  unsigned place = 0;
+  while (place < mpdo.ScanNum && mpdo.Scan[place] != entry) {
+    ++place;
+  }
+  return {mpdo.Transferred, place, mpdo.ScanNum};
+}
+
 }  // namespace co::mpdo
 
 #endif

@@ -8,6 +8,13 @@ namespace co::mpdo {
 
 using pdo::Direction;
 
+// The bits of CO_MPDO.Transferred, with the place of an object in them. place = num: the list does not contain it.
+struct Transferred {
+  uint8_t* bytes;
+  unsigned place;
+  unsigned num;
+};
+
 // Values of sub 0 of the mapping for multiplex PDOs. [301:7.5.2.36, 38]
 inline constexpr uint8_t sam = 0xFE;  // source address mode
 inline constexpr uint8_t dam = 0xFF;  // destination address mode
@@ -66,6 +73,7 @@ void forget_marks(CO_NODE& node);
 // entry: the object at place before callbacks were called
 void finish_object(CO_NODE& node, uint16_t place, uint16_t entry, bool sent);
 [[nodiscard]] bool was_sent(CO_NODE& node, uint16_t entry);
+[[nodiscard]] Transferred transferred(CO_NODE& node, uint16_t entry);
 
 #else
 
@@ -82,6 +90,7 @@ inline void mark_all(CO_TPDO&) {}
 inline void forget_marks(CO_NODE&) {}
 [[nodiscard]] inline bool is_waiting(const CO_NODE&) { return false; }
 [[nodiscard]] inline bool was_sent(CO_NODE&, uint16_t) { return false; }
+[[nodiscard]] inline Transferred transferred(CO_NODE&, uint16_t) { return {nullptr, 0, 0}; }
 
 #endif
 

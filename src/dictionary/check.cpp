@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Check of the dictionary at run time.
+#include "co_core.h"
+#include "dictionary/dict.hpp"
+
+#if USE_DICT_CHECK
+
+namespace co::dict {
+
+CO_ERR check(CO_DICT& dict) {
+  uint32_t key_before = 0;
+  for (uint16_t n = 0; n < dict.Num; ++n) {
+    const CO_OBJ& entry = dict.Root[n];
+    dict.Fault = rules::check_entry(key_before, entry.Key, entry.Type != nullptr, false);
+    if (dict.Fault != CO_DICT_OK) {
+      dict.FaultKey = entry.Key;
+      return CO_ERR_DICT_INIT;
+    }
+    key_before = entry.Key;
+  }
+  return CO_ERR_NONE;
+}
+
+CO_ERR set_fault(const CO_OBJ& obj, CO_NODE_T& node, CO_DICT_FAULT fault) {
+  if (node.Dict.Fault == CO_DICT_OK || (rules::stops_node(fault) && !stops_node(node.Dict))) {
+    node.Dict.Fault = fault;
+    node.Dict.FaultKey = obj.Key;
+  }
+  return CO_ERR_TYPE_INIT;
+}
+
+CO_ERR check_type(const CO_OBJ& obj, CO_NODE_T& node, const rules::Rule& rule) {
+  const CO_DICT_FAULT fault = rules::check_type(rule, obj.Key, uintptr_t{obj.Data} != 0);
+  return fault == CO_DICT_OK ? CO_ERR_NONE : set_fault(obj, node, fault);
+}
+
+}  // namespace co::dict
+
+#endif

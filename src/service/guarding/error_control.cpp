@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node's own error control identifier.
+#include "base/events.hpp"
+#include "base/routes.hpp"
+#include "service/guarding/guarding.hpp"
+#include "wire/cob_id.hpp"
+
+namespace co::guarding {
+
+void init(CO_NODE& node) {
+  routes::add(node, wire::CobId::error_control + node.NodeId, routes::Service::error_control, 0);
+  reset(node);
+}
+
+bool on_frame(CO_NODE& node, const CO_IF_FRM&, uint16_t) {
+  event::raise(node, event::Fault::collision, node.NodeId);
+  return false;
+}
+
+}  // namespace co::guarding
