@@ -41,10 +41,12 @@ struct Note {
   void clear() const { put(false); }
 };
 
+// Returns the bit of an object with a place in a list of num objects; without byte if place is not in the list.
 Note note_of(uint8_t* bytes, unsigned place, unsigned num) {
   return {place < num ? &bytes[place / 8U] : nullptr, static_cast<uint8_t>(1U << (place % 8U))};
 }
 
+// Returns the bit of an object in the mapping of a PDO. number: as in flags_of()
 Note note_in(CO_PDO_MAP& map, uint16_t number) {
   return note_of(map.Transferred, pdo::find(map, number), CO_PDO_MAP_N);
 }

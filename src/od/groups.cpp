@@ -13,7 +13,7 @@
 namespace co::od {
 namespace {
 
-constexpr uint8_t last_group = 127;
+constexpr uint8_t last_group = 127;              // highest sub-index of 1010h [301:7.5.2.13]
 constexpr uint32_t save_signature = 0x65766173;  // "save" and "load" in the order of the bus
 constexpr uint32_t load_signature = 0x64616F6C;
 
@@ -38,6 +38,7 @@ bool is_named(const CO_PARA& group, const char* name) {
   return *own == *name;
 }
 
+// Returns whether an address is in the memory of a group.
 bool holds(const CO_PARA& group, const void* memory) {
   const auto start = reinterpret_cast<uintptr_t>(static_cast<uint8_t*>(group.Start));
   return reinterpret_cast<uintptr_t>(memory) - start < group.Size;

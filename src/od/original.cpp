@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // OD_readOriginal() and OD_writeOriginal(): access to objects through their original types, in pieces of any length.
+// Kind::foreign is a stream whose type the application defines: only the functions of its type access its data.
 #include "base/events.hpp"
 #include "dictionary/access.hpp"
 #include "dictionary/types/place.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Functions of COTDomain: memory of fixed size, read and written in pieces from CO_OBJ_DOM.Offset on.
 #include "co_domain.h"
 
 #include "dictionary/types/stream.hpp"
@@ -9,11 +10,13 @@ namespace {
 
 using co::stream::clip;
 
+// Returns the domain of an entry; null: the entry has no domain, or the domain no memory.
 CO_OBJ_DOM* usable(const CO_OBJ& obj) {
   auto* const domain = co::data_of<CO_OBJ_DOM>(obj);
   return domain == nullptr || domain->Start == nullptr ? nullptr : domain;
 }
 
+// A download may be shorter than the domain: returns its length (width) then.
 uint32_t size(CO_OBJ* obj, CO_NODE*, uint32_t width) {
   const CO_OBJ_DOM* const domain = usable(*obj);
   if (domain == nullptr) {

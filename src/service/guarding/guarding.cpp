@@ -24,6 +24,7 @@ uint32_t life_time(CO_NODE& node) {
 // Returns whether a heartbeat is produced, which replaces guarding. [301:7.2.8.2.2.1]
 bool is_replaced_by_heartbeat(const CO_NODE& node) { return tmr::is_running(node.HbProdTmr); }
 
+// Called when the life time has elapsed without a remote request: reports the loss of the NMT master.
 void lose_master(void* node_pointer) {
   CO_NODE& node = *static_cast<CO_NODE*>(node_pointer);
   if (is_replaced_by_heartbeat(node)) {
@@ -35,6 +36,7 @@ void lose_master(void* node_pointer) {
   CONmtLifeGuardEvent(&node.Nmt, true);
 }
 
+// Called for each remote request: reports that a lost NMT master is present again.
 void find_master(CO_NODE& node) {
   if (node.GuardLost == 0) {
     return;
@@ -44,6 +46,7 @@ void find_master(CO_NODE& node) {
   CONmtLifeGuardEvent(&node.Nmt, false);
 }
 
+// Starts the life time again; 0 ticks: stops life guarding.
 void restart_life(CO_NODE& node, uint32_t ticks) {
   if (ticks == 0) {
     tmr::stop(node.Tmr, node.GuardTmr);
