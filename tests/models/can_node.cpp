@@ -53,7 +53,7 @@ void CanNode::set_counters(unsigned tec, unsigned rec) {
 
 bool CanNode::drive() {
   driven_ = output();
-  return mode_.is_silent ? recessive : driven_;
+  return mode_.is_silent || mode_.is_listen_only ? recessive : driven_;
 }
 
 bool CanNode::output() {
@@ -105,7 +105,7 @@ void CanNode::sample(bool bus) {
 
 // Takes the next frame of the client. The caller puts the first bit on the bus.
 bool CanNode::begin_transmission() {
-  if (mode_.is_silent && !mode_.is_loopback) {
+  if (mode_.is_listen_only || (mode_.is_silent && !mode_.is_loopback)) {
     return false;
   }
   const std::optional<CanFrame> frame = client_.next_frame();
@@ -255,8 +255,8 @@ void CanNode::accept_frame() {
   constexpr unsigned error_passive_limit = 127;
   constexpr unsigned below_limit = 120;  // 119…127 are allowed; bxCAN resets to this value [RM0090, CAN_ESR]
   if (rec_ > error_passive_limit) {
-    rec_ = below_limit;
-  } else if (rec_ != 0) {
+    rec_ = mode_.is_listen_only ? rec_ : below_limit;
+  } else if (rec_ != 0 && !mode_.is_listen_only) {
     --rec_;
   }
   client_.on_received(decoder_.frame());
@@ -406,6 +406,9 @@ void CanNode::wait_for_idle(bool level) {
 
 void CanNode::count_error(unsigned points) {
   constexpr unsigned largest_rec = 255;
+  if (mode_.is_listen_only) {
+    return;
+  }
   if (is_transmitter_) {
     tec_ += points;
   } else {

@@ -57,6 +57,7 @@ class CanClient {
 struct CanMode {
   bool is_loopback = false;         ///< receives its own frames, disregards the bus, ignores acknowledgement errors
   bool is_silent = false;           ///< sends recessive bits only
+  bool is_listen_only = false;      ///< also error passive with stopped counters; does not see its own bits (FlexCAN)
   bool pauses = false;              ///< waits two further bits after each frame that it sent (transmit pause of M_CAN)
   bool exception_is_error = false;  ///< a protocol exception is signalled as a form error
   FdMode fd = FdMode::classic;
@@ -100,7 +101,7 @@ class CanNode {
   bool is_transmitter() const { return is_busy() && is_transmitter_; }
   bool is_on_bus() const { return state_ >= State::idle; }
   bool is_bus_off() const { return is_bus_off_; }
-  bool is_error_passive() const { return tec_ > 127 || rec_ > 127; }
+  bool is_error_passive() const { return mode_.is_listen_only || tec_ > 127 || rec_ > 127; }
   unsigned tec() const { return tec_; }
   unsigned rec() const { return rec_; }
   /// Sets the counters of fault confinement, to shorten a test. Calls on_counters().
