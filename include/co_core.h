@@ -367,8 +367,7 @@ void CONodeRealTime(CO_NODE* node) CO_NEEDS(USE_REAL_TIME);
 uint32_t CONodeNextDeadline(CO_NODE* node);
 
 /// Reports a change of the CAN controller's state: counts it and calls CONodeCanChange(). To be called by a CAN driver
-/// or the loop. For SocketCAN error frames that the driver reads, CONodeProcess() calls it itself. Context: the loop;
-/// with several threads the mainline.
+/// or the loop. Context: the loop; with several threads the mainline.
 void CONodeCanEvent(CO_NODE* node, CO_CAN_EVENT event);
 
 /// Returns a copy of the counters; all are 0 if \a node is null.

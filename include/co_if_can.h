@@ -12,11 +12,15 @@ extern "C" {
 
 /// \name Identifier of a frame: CAN-ID in bits 0…28 and these flags. Drivers that do not support a flag leave it 0.
 /// \{
-#define CO_IF_FRM_EXT 0x80000000u    ///< 29-bit identifier
-#define CO_IF_FRM_RTR 0x40000000u    ///< remote frame
-#define CO_IF_FRM_ERROR 0x20000000u  ///< error frame: a state of the controller, coded as SocketCAN does
-#define CO_IF_FRM_ID 0x1FFFFFFFu     ///< the CAN-ID
+#define CO_IF_FRM_EXT 0x80000000u  ///< 29-bit identifier
+#define CO_IF_FRM_RTR 0x40000000u  ///< remote frame
+/// Error frame: no frame of the bus, but a state of the controller in the coding of the driver; see
+/// CO_IF_CAN_DRV_EX.Report.
+#define CO_IF_FRM_ERROR 0x20000000u
+#define CO_IF_FRM_ID 0x1FFFFFFFu  ///< the CAN-ID
 /// \}
+
+struct CO_NODE_T;
 
 /// A CAN frame.
 typedef struct CO_IF_FRM_T {
@@ -79,7 +83,16 @@ typedef struct CO_IF_CAN_DRV_EX_T {
   /// data and in remote frames, ascending; an identifier occurs once for each service that uses it. The array is valid
   /// during the call only. Called before Enable and after every change. A driver may pass further frames.
   void (*Filter)(void* ctx, const uint32_t* ids, uint16_t num);
+  /// Reports the events of an error frame (CO_IF_FRM_ERROR) that Read has returned: calls CONodeCanEvent() for each.
+  /// Called by CONodeProcess(). CONodeCanReport() does so for the coding of SocketCAN. May be null: error frames are
+  /// discarded, and counted in CO_NODE_COUNTERS.Unclaimed.
+  void (*Report)(void* ctx, struct CO_NODE_T* node, const CO_IF_FRM* frm);
 } CO_IF_CAN_DRV_EX;
+
+/// Reports the events of an error frame in the coding of SocketCAN (linux/can/error.h), for CO_IF_CAN_DRV_EX.Report.
+/// Frames without CO_IF_FRM_ERROR have no effect. \a ctx is not used. Context: the loop; with several threads the
+/// mainline.
+void CONodeCanReport(void* ctx, struct CO_NODE_T* node, const CO_IF_FRM* frm);
 
 #ifdef __cplusplus
 }

@@ -49,6 +49,11 @@ const CO_IF_CAN_DRV_EX Node::Tap::driver = {
         to(tap).driver->Filter(to(tap).context, ids, num);
       }
     },
+    [](void* tap, CO_NODE* node, const CO_IF_FRM* frame) {
+      if (to(tap).driver->Report != nullptr) {
+        to(tap).driver->Report(to(tap).context, node, frame);
+      }
+    },
 };
 
 const Can& Node::Tap::to(void* tap) { return static_cast<Tap*>(tap)->can; }

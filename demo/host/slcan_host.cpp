@@ -94,6 +94,7 @@ const CO_IF_CAN_DRV_EX SlcanHost::driver = {
     [](void* host) { SlcanDriver.Reset(&at(host).can_); },
     [](void* host) { SlcanDriver.Close(&at(host).can_); },
     nullptr,
+    CONodeCanReport,
 };
 
 SlcanHost::~SlcanHost() {

@@ -54,7 +54,7 @@ void close(void* ctx) {
 
 extern "C" {
 
-const CO_IF_CAN_DRV_EX BusDriver = {init, enable, read, send, reset, close, nullptr};
+const CO_IF_CAN_DRV_EX BusDriver = {init, enable, read, send, reset, close, nullptr, CONodeCanReport};
 
 void* BusAttach() {
   const std::lock_guard<std::mutex> guard(wire().mutex);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file report.hpp
 /// Reports states of a CAN controller and lost frames to the node, as error frames that Read returns, in the coding of
-/// SocketCAN. CONodeProcess() calls CONodeCanEvent() for each event in such a frame.
+/// SocketCAN. The tables of the drivers contain CONodeCanReport(), which calls CONodeCanEvent() for each of their
+/// events.
 #ifndef CO_DRIVERS_REPORT_HPP_
 #define CO_DRIVERS_REPORT_HPP_
 

@@ -11,7 +11,7 @@ int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
 int16_t not_sent(void*, const CO_IF_FRM*) { return 0; }
 uint32_t no_time(void*) { return 0; }
 
-constexpr CO_IF_CAN_DRV_EX no_can = {nothing, no_rate, no_frame, not_sent, nothing, nothing, nullptr};
+constexpr CO_IF_CAN_DRV_EX no_can = {nothing, no_rate, no_frame, not_sent, nothing, nothing, nullptr, nullptr};
 constexpr CO_IF_TIMER_DRV_EX no_timer = {no_rate, no_time, nullptr};
 
 constexpr CO_NODE_EXT with_drivers(const CO_IF_CAN_DRV_EX* can, const CO_IF_TIMER_DRV_EX* timer) {

@@ -108,6 +108,16 @@ void can_filter(const CO_NODE& node, const uint32_t* ids, uint16_t num);
   return ext.Can != nullptr ? ext.Can->Read(ext.CanCtx, &frame) : node.If.Drv->Can->Read(&frame);
 }
 
+// Lets the driver report the events of an error frame that it has returned. Returns false if it has no such function.
+[[nodiscard]] inline bool can_report(CO_NODE& node, const CO_IF_FRM& frame) {
+  const CO_IF_CAN_DRV_EX* const driver = node.Ext->Can;
+  if (driver == nullptr || driver->Report == nullptr) {
+    return false;
+  }
+  driver->Report(node.Ext->CanCtx, &node, &frame);
+  return true;
+}
+
 // Returns the driver's result: sizeof(CO_IF_FRM) (accepted), 0 (not now), < 0 (fault).
 [[nodiscard]] int16_t can_send(const CO_NODE& node, const CO_IF_FRM& frame);
 

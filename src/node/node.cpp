@@ -11,7 +11,6 @@
 #include "hal/port.hpp"
 #include "node/services.hpp"
 #include "service/nmt/nmt.hpp"
-#include "wire/can_error.hpp"
 #include "wire/cob_id.hpp"
 #include "wire/frame.hpp"
 #include "wire/nmt.hpp"
@@ -240,15 +239,6 @@ void resume_sending_between_frames(CO_NODE& node) {
   }
 }
 
-// Reports all events of an error frame.
-void report_error(CO_NODE& node, const CO_IF_FRM& frame) {
-  for (uint8_t event = 0; event < CO_CAN_EVENT_NUM; ++event) {
-    if (wire::reports(frame, static_cast<CO_CAN_EVENT>(event))) {
-      report(node, static_cast<CO_CAN_EVENT>(event));
-    }
-  }
-}
-
 // Returns false, and counts the frame as malformed, if its DLC is above 15.
 [[nodiscard]] bool check_length(CO_NODE& node, CO_IF_FRM& frame) {
   const bool is_valid = wire::normalise_length(frame);
@@ -264,7 +254,9 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
       return;
     }
     if ((frame.Identifier & CO_IF_FRM_ERROR) != 0) {
-      report_error(node, frame);
+      if (!port::can_report(node, frame)) {
+        count(node.Count.Unclaimed);
+      }
       return;
     }
     frame.Identifier = wire::normalised(frame.Identifier);

@@ -78,6 +78,7 @@ struct Refused {
                           [](void*, const CO_IF_FRM*) { return std::int16_t{0}; },
                           [](void*) {},
                           [](void*) {},
+                          nullptr,
                           nullptr};
   CO_IF_TIMER_DRV_EX timer = {[](void*, std::uint32_t) {}, [](void*) { return std::uint32_t{0}; }, nullptr};
   CO_NODE_SPEC spec = {1, 125000, table, 3, nullptr, nullptr, 0, 1000, nullptr, nullptr};

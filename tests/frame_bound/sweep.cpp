@@ -56,7 +56,7 @@ void nothing(void*) {}
 void no_number(void*, std::uint32_t) {}
 std::uint32_t now(void*) { return ++time_now; }
 
-constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, read, send, nothing, nothing, nullptr};
+constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, read, send, nothing, nothing, nullptr, CONodeCanReport};
 constexpr CO_IF_TIMER_DRV_EX timer = {no_number, now, nullptr};
 
 // The dictionary ----------------------------------------------------------------------------------------------------

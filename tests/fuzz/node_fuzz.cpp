@@ -670,7 +670,8 @@ class Bench {
                                                         [](void*, const std::uint32_t* ids, std::uint16_t number) {
                                                           require(std::is_sorted(ids, ids + number),
                                                                   "the filter is sorted");
-                                                        }};
+                                                        },
+                                                        CONodeCanReport};
 
   static void timer_init(std::uint32_t) {}
   static void timer_start() {}

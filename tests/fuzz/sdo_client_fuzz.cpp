@@ -546,7 +546,7 @@ class Bench {
   }
   static std::int16_t can_send(void*, const CO_IF_FRM* frame) { return bench->take(*frame); }
   static std::uint32_t time(void*) { return bench->now_; }
-  static constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, can_read, can_send, nothing, nothing, nullptr};
+  static constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, can_read, can_send, nothing, nothing, nullptr, nullptr};
   static constexpr CO_IF_TIMER_DRV_EX timer = {no_number, time, nullptr};
 
   fuzz::Input input_;

@@ -148,7 +148,7 @@ class Device {
     device.sent_.push_back(*frame);
     return sizeof *frame;
   }
-  static constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, read, send, nothing, nothing, nullptr};
+  static constexpr CO_IF_CAN_DRV_EX can = {nothing, no_number, read, send, nothing, nothing, nullptr, nullptr};
   static constexpr CO_IF_TIMER_DRV_EX timer = {no_number, time, nullptr};
 
   std::uint8_t error_register_ = 0;

@@ -37,7 +37,7 @@ std::int16_t no_frame(void*, CO_IF_FRM*) { return 0; }
 std::int16_t no_place(void*, const CO_IF_FRM*) { return 0; }
 std::uint32_t no_time(void*) { return 0; }
 const CO_IF_CAN_DRV_EX no_bus = {
-    [](void*) {}, [](void*, std::uint32_t) {}, no_frame, no_place, [](void*) {}, [](void*) {}, nullptr};
+    [](void*) {}, [](void*, std::uint32_t) {}, no_frame, no_place, [](void*) {}, [](void*) {}, nullptr, nullptr};
 const CO_IF_TIMER_DRV_EX no_timer = {[](void*, std::uint32_t) {}, no_time, nullptr};
 
 // Variables of the device; its memory is exchangeable.

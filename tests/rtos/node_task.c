@@ -29,7 +29,7 @@ static void Reset(void* ctx) {
 
 static void Close(void* ctx) { TaskOf(ctx)->Can->Stop(TaskOf(ctx)->CanCtx); }
 
-static const CO_IF_CAN_DRV_EX CanDriver = {Init, Enable, Read, Send, Reset, Close, NULL};
+static const CO_IF_CAN_DRV_EX CanDriver = {Init, Enable, Read, Send, Reset, Close, NULL, NULL};
 
 // The timer driver: its clock is the tick of the RTOS. It has no alarm, because the task computes its waiting time.
 static void InitClock(void* ctx, uint32_t freq) {

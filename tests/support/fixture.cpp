@@ -168,8 +168,8 @@ struct Fixture::Drivers {
     }
   }
 
-  static constexpr CO_IF_CAN_DRV_EX can_table{can_init,  can_enable, can_read,  can_send,
-                                              can_reset, can_close,  can_filter};
+  static constexpr CO_IF_CAN_DRV_EX can_table{can_init,  can_enable, can_read,   can_send,
+                                              can_reset, can_close,  can_filter, CONodeCanReport};
   static constexpr CO_IF_TIMER_DRV_EX timer_with_alarm{timer_init, timer_now, timer_alarm};
   static constexpr CO_IF_TIMER_DRV_EX timer_without_alarm{timer_init, timer_now, nullptr};
 };

@@ -91,7 +91,7 @@ struct Node::Drivers {
   }
   static std::uint32_t now(void* ctx) { return of(ctx).now_; }
 
-  static constexpr CO_IF_CAN_DRV_EX can{nothing, enable, read, send, nothing, nothing, nullptr};
+  static constexpr CO_IF_CAN_DRV_EX can{nothing, enable, read, send, nothing, nothing, nullptr, nullptr};
   static constexpr CO_IF_TIMER_DRV_EX timer{enable, now, nullptr};
 };
 

@@ -17,6 +17,7 @@ const CO_IF_CAN_DRV_EX no_can = {[](void*) {},
                                  [](void*, const CO_IF_FRM*) { return std::int16_t{0}; },
                                  [](void*) {},
                                  [](void*) {},
+                                 nullptr,
                                  nullptr};
 const CO_IF_TIMER_DRV_EX no_timer = {[](void*, std::uint32_t) {}, [](void*) { return std::uint32_t{0}; }, nullptr};
 

@@ -16,6 +16,8 @@ struct Recorder {
   unsigned closes = 0;
   std::uint32_t baud = 0;
   std::int16_t read_result = 0;
+  CO_IF_FRM received = {};  // frame that Read returns, if read_result is positive
+  unsigned reports = 0;
   std::uint8_t memory[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 };
 
@@ -24,12 +26,28 @@ Recorder& recorder(void* ctx) { return *static_cast<Recorder*>(ctx); }
 const CO_IF_CAN_DRV_EX can_driver = {
     [](void* ctx) { ++recorder(ctx).inits; },
     [](void* ctx, std::uint32_t baud) { recorder(ctx).baud = baud; },
-    [](void* ctx, CO_IF_FRM*) { return recorder(ctx).read_result; },
+    [](void* ctx, CO_IF_FRM* frm) {
+      if (recorder(ctx).read_result > 0) *frm = recorder(ctx).received;
+      return recorder(ctx).read_result;
+    },
     [](void*, const CO_IF_FRM*) { return static_cast<std::int16_t>(sizeof(CO_IF_FRM)); },
     [](void* ctx) { ++recorder(ctx).resets; },
     [](void* ctx) { ++recorder(ctx).closes; },
     nullptr,
+    nullptr,
 };
+
+// Reports each error frame as one overrun, whatever it contains.
+CO_IF_CAN_DRV_EX with_own_coding() {
+  CO_IF_CAN_DRV_EX driver = can_driver;
+  driver.Report = [](void* ctx, CO_NODE* node, const CO_IF_FRM* frm) {
+    CHECK(frm->Identifier == recorder(ctx).received.Identifier);
+    ++recorder(ctx).reports;
+    CONodeCanEvent(node, CO_CAN_OVERRUN);
+  };
+  return driver;
+}
+const CO_IF_CAN_DRV_EX own_coding = with_own_coding();
 
 const CO_IF_TIMER_DRV_EX timer_driver = {[](void*, std::uint32_t) {}, [](void*) { return std::uint32_t{0}; }, nullptr};
 
@@ -55,9 +73,9 @@ const CO_IF_NVM_DRV_EX nvm_driver = {
 };
 
 struct Device {
-  explicit Device(bool with_nvm = true) {
+  explicit Device(bool with_nvm = true, const CO_IF_CAN_DRV_EX& can_functions = can_driver) {
     ext.Size = sizeof ext;
-    ext.Can = &can_driver;
+    ext.Can = &can_functions;
     ext.CanCtx = &can;
     ext.Timer = &timer_driver;
     if (with_nvm) {
@@ -116,6 +134,53 @@ TEST_CASE("interface: reading distinguishes frames, no frame and errors") {
   CHECK(CONodeGetErr(&device.node) == CO_ERR_IF_CAN_READ);
   device.can.read_result = sizeof frm;
   CHECK(COIfCanRead(&device.node.If, &frm) == sizeof frm);
+}
+
+TEST_CASE("interface: error frames of a driver without Report are discarded and counted as unclaimed") {
+  Device device;
+  unsigned events = 0;
+  unsigned passed_on = 0;
+  callbacks().can_change = [&](CO_NODE*, CO_CAN_EVENT) { ++events; };
+  callbacks().can_receive = [&](CO_IF_FRM*) { ++passed_on; };
+  CONodeStart(&device.node);
+  device.can.read_result = sizeof(CO_IF_FRM);
+  for (const char* text : {"20000004#0011000000000000", "20000140#0000000000000000", "20000601#4000100000000000"}) {
+    device.can.received = frame(text);
+    CONodeProcess(&device.node);
+  }
+  CHECK(events == 0);
+  CHECK(passed_on == 0);
+  const CO_NODE_COUNTERS counters = CONodeGetCounters(&device.node);
+  CHECK(counters.Received == 3);
+  CHECK(counters.Unclaimed == 3);
+  for (const std::uint32_t number : counters.CanEvents) CHECK(number == 0);
+  callbacks() = {};
+}
+
+TEST_CASE("interface: Report of the driver decodes its error frames, with the driver's context") {
+  Device device(true, own_coding);
+  CONodeStart(&device.node);
+  device.can.read_result = sizeof(CO_IF_FRM);
+  for (const char* text : {"20000040#0000000000000000", "20000000#"}) {
+    device.can.received = frame(text);
+    CONodeProcess(&device.node);
+  }
+  device.can.received = frame("601#4000100000000000");  // no error frame
+  CONodeProcess(&device.node);
+  CHECK(device.can.reports == 2);
+  const CO_NODE_COUNTERS counters = CONodeGetCounters(&device.node);
+  CHECK(counters.CanEvents[CO_CAN_OVERRUN] == 2);
+  CHECK(counters.CanEvents[CO_CAN_BUS_OFF] == 0);
+  CHECK(counters.Unclaimed == 0);
+}
+
+TEST_CASE("interface: CONodeCanReport reports nothing for frames of the bus") {
+  Device device;
+  for (const char* text : {"040#0011000000000000", "00000104#0071000000000000", "144#R"}) {
+    const CO_IF_FRM frm = frame(text);
+    CONodeCanReport(nullptr, &device.node, &frm);
+  }
+  for (const std::uint32_t number : CONodeGetCounters(&device.node).CanEvents) CHECK(number == 0);
 }
 
 TEST_CASE("interface: reading and writing memory returns the count of the driver, 0 without a driver") {
@@ -192,8 +257,9 @@ TEST_CASE("node and NMT: null pointers return an error and change nothing") {
   CONodeStop(nullptr);
   CONodeProcess(nullptr);
   CONodeCanEvent(nullptr, CO_CAN_BUS_OFF);
+  CONodeCanReport(nullptr, nullptr, nullptr);
   CHECK(CONodeNextDeadline(nullptr) == UINT32_MAX);
-  CHECK(callbacks().fatal_errors == 5);
+  CHECK(callbacks().fatal_errors == 6);
   for (CO_NMT* broken : {static_cast<CO_NMT*>(nullptr), &unconnected}) {
     CONmtReset(broken, CO_RESET_NODE);
     CONmtSetMode(broken, CO_OPERATIONAL);
@@ -201,7 +267,7 @@ TEST_CASE("node and NMT: null pointers return an error and change nothing") {
     CHECK(CONmtGetNodeId(broken) == 0);
   }
   CHECK(CONmtGetMode(nullptr) == CO_INVALID);
-  CHECK(callbacks().fatal_errors == 14);
+  CHECK(callbacks().fatal_errors == 15);
   CHECK(CODictGetFault(nullptr, nullptr) == CO_DICT_OK);
   CHECK(CODictObjInit(nullptr, nullptr) == CO_ERR_BAD_ARG);
   CHECK(CODictWrBuffer(nullptr, CO_DEV(0x1000, 0), nullptr, 1) == CO_ERR_BAD_ARG);

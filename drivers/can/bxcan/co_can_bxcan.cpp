@@ -368,7 +368,7 @@ void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) {
 using namespace co;
 using namespace co::bxcan;
 
-const CO_IF_CAN_DRV_EX BxcanCanDriver = {init, enable, read_driver, send, reset, close, filter};
+const CO_IF_CAN_DRV_EX BxcanCanDriver = {init, enable, read_driver, send, reset, close, filter, CONodeCanReport};
 
 extern "C" {
 

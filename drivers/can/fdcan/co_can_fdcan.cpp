@@ -41,9 +41,9 @@ using FixedDriver = Driver<Fixed>;
 using namespace co;
 using namespace co::fdcan;
 
-const CO_IF_CAN_DRV_EX FdcanCanDriver = {FixedDriver::init,  FixedDriver::enable, FixedDriver::read_driver,
-                                         FixedDriver::send,  FixedDriver::reset,  FixedDriver::close,
-                                         FixedDriver::filter};
+const CO_IF_CAN_DRV_EX FdcanCanDriver = {FixedDriver::init,   FixedDriver::enable, FixedDriver::read_driver,
+                                         FixedDriver::send,   FixedDriver::reset,  FixedDriver::close,
+                                         FixedDriver::filter, CONodeCanReport};
 
 extern "C" {
 

@@ -54,7 +54,7 @@ using namespace co::fdcan;
 
 const CO_IF_CAN_DRV_EX McanCanDriver = {
     ConfigurableDriver::init,  ConfigurableDriver::enable, ConfigurableDriver::read_driver, ConfigurableDriver::send,
-    ConfigurableDriver::reset, ConfigurableDriver::close,  ConfigurableDriver::filter};
+    ConfigurableDriver::reset, ConfigurableDriver::close,  ConfigurableDriver::filter,      CONodeCanReport};
 
 extern "C" void COCanMcanInterrupt(CO_CAN_FDCAN* can) {
   ASSERT_PTR(can);

@@ -333,4 +333,4 @@ uint16_t COSlcanRefused(const CO_SLCAN* can) { return load(can->Refused); }
 
 }  // extern "C"
 
-const CO_IF_CAN_DRV_EX SlcanDriver = {init, enable, read, send, reset, close, nullptr};
+const CO_IF_CAN_DRV_EX SlcanDriver = {init, enable, read, send, reset, close, nullptr, CONodeCanReport};

@@ -258,4 +258,5 @@ void filter(void* ctx, const std::uint32_t* ids, std::uint16_t num) { can(ctx).f
 
 }  // namespace co
 
-const CO_IF_CAN_DRV_EX COSocketCanDriver = {co::init, co::enable, co::read, co::send, co::reset, co::close, co::filter};
+const CO_IF_CAN_DRV_EX COSocketCanDriver = {co::init,  co::enable, co::read,   co::send,
+                                            co::reset, co::close,  co::filter, CONodeCanReport};

@@ -18,12 +18,12 @@
 /// before the node has set any, all frames. Frames sent through this socket are not received by it.
 ///
 /// Errors. Read returns error frames of the controller (bus-off, controller problems, restarted) in the coding of
-/// SocketCAN. It reports an overflow of the kernel's receive queue the same way; lost() counts the frames.
-/// Send returns 0 while the transmit queue of the interface is full.
-/// Any other error is -1, with errno in code() and a text in error(): ENETDOWN while the interface is down (Read
-/// reports it once; sending and receiving resume when it is up again), ENODEV when it has vanished (USB adapters). In
-/// this case the socket is closed, fd() is -1, and every Read and Send tries to open the interface again: call fd()
-/// before each poll(). While the interface is missing, Read returns 0 and Send -1.
+/// SocketCAN, which the Report function of the table decodes. Read reports an overflow of the kernel's receive queue
+/// the same way; lost() counts the frames. Send returns 0 while the transmit queue of the interface is full. Any other
+/// error is -1, with errno in code() and a text in error(): ENETDOWN while the interface is down (Read reports it once;
+/// sending and receiving resume when it is up again), ENODEV when it has vanished (USB adapters). In this case the
+/// socket is closed, fd() is -1, and every Read and Send tries to open the interface again: call fd() before each
+/// poll(). While the interface is missing, Read returns 0 and Send -1.
 ///
 /// Context: one thread. Owner: the caller; must outlive the node.
 #ifndef CO_DRIVERS_SOCKETCAN_HPP_

@@ -35,6 +35,7 @@ const CO_IF_CAN_DRV_EX spoilt_driver = {
     [](void* ctx) { can(ctx).reset(); },
     [](void* ctx) { can(ctx).close(); },
     [](void* ctx, const std::uint32_t* ids, std::uint16_t num) { can(ctx).filter(ids, num); },
+    nullptr,
 };
 
 std::function<void(Setting&)> with(const std::function<void(Can&)>& spoil) {

@@ -71,6 +71,7 @@ const CO_IF_CAN_DRV_EX loopback_driver = {
     [](void* ctx) { loopback(ctx).reset(); },
     [](void* ctx) { loopback(ctx).on = false; },
     nullptr,
+    nullptr,
 };
 
 void in_loopback(Setting& s) {

@@ -24,7 +24,7 @@ static int16_t send_can(void *ctx, const CO_IF_FRM *frm) {
   (void)frm;
   return (int16_t)sizeof(CO_IF_FRM);
 }
-static const CO_IF_CAN_DRV_EX can = {init_can, enable_can, read_can, send_can, init_can, init_can, NULL};
+static const CO_IF_CAN_DRV_EX can = {init_can, enable_can, read_can, send_can, init_can, init_can, NULL, NULL};
 
 static void init_timer(void *ctx, uint32_t freq) {
   (void)ctx;
