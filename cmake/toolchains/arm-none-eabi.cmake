@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Bare-metal Arm: -D LEXICAN_CPU=cortex-m0, cortex-m4, …; -D LEXICAN_FLOAT_ABI=hard for a core with floating point.
+# Bare-metal Arm: -D LEXICAN_CPU=cortex-m0, cortex-m4, cortex-a9, …; -D LEXICAN_FLOAT_ABI=hard for a core with
+# floating point.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(LEXICAN_CPU cortex-m0 CACHE STRING "Value of -mcpu")
@@ -10,7 +11,11 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 # If the option were given twice, the compiler would link the libraries of another core.
-set(lexican_flags "-mcpu=${LEXICAN_CPU} -mthumb")
+if(LEXICAN_CPU MATCHES "cortex-a")
+  set(lexican_flags "-mcpu=${LEXICAN_CPU} -marm")
+else()
+  set(lexican_flags "-mcpu=${LEXICAN_CPU} -mthumb")
+endif()
 if(LEXICAN_FLOAT_ABI)
   string(APPEND lexican_flags " -mfloat-abi=${LEXICAN_FLOAT_ABI}")
 endif()

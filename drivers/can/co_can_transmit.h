@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_can_transmit.h
 /// Frames that a driver has accepted and not yet sent, for controllers with three transmit mailboxes. Part of the
-/// contexts of drivers/can/bxcan and drivers/can/fdcan; transmit.hpp has the functions.
+/// contexts of drivers/can/bxcan, fdcan and flexcan; transmit.hpp has the functions.
 #ifndef CO_CAN_TRANSMIT_H_
 #define CO_CAN_TRANSMIT_H_
 

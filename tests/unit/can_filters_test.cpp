@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The acceptance filters and bit rates of drivers/can/bxcan and drivers/can/fdcan.
+// The acceptance filters and bit rates of drivers/can/bxcan, drivers/can/fdcan and drivers/can/flexcan.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,8 +11,11 @@
 #include "bxcan_rates.hpp"
 #include "co_can_bxcan.h"
 #include "co_can_fdcan.h"
+#include "co_can_flexcan.h"
 #include "fdcan_filters.hpp"
 #include "fdcan_rates.hpp"
+#include "flexcan_filters.hpp"
+#include "flexcan_rates.hpp"
 
 namespace {
 
@@ -31,6 +34,18 @@ bool passes(const co::bxcan::Filters& all, std::uint32_t identifier) {
     const auto matches = [&filter](unsigned word) { return ((word ^ filter.word) & filter.mask) == 0; };
     const std::uint16_t data = bxcan_word(identifier);
     return matches(data) && matches(data | 0x10U);
+  });
+}
+
+// Returns the bits of an identifier that the receive FIFO of FlexCAN compares.
+std::uint32_t flexcan_word(std::uint32_t identifier) {
+  const std::uint32_t id = identifier & CO_IF_FRM_ID;
+  return (identifier & CO_IF_FRM_EXT) == 0 ? id << 19 : 0x40000000 | id << 1;
+}
+
+bool passes(const co::flexcan::Filters& all, std::uint32_t identifier) {
+  return std::any_of(all.filter, all.filter + all.number, [identifier](const co::flexcan::Filter& filter) {
+    return ((flexcan_word(identifier) ^ filter.word) & filter.mask) == 0;
   });
 }
 
@@ -77,6 +92,66 @@ TEST_CASE("bxCAN, M_CAN: the filters pass exactly the identifiers of a usual nod
   CHECK(number_of_base_ids(fdcan) == ids.size() - 1);
   CHECK(!passes(bxcan, CO_IF_FRM_EXT | 0x80));
   CHECK(!passes(fdcan, CO_IF_FRM_EXT | 0x80));
+}
+
+constexpr co::flexcan::Capacity flexcan_fifo = {24, 12};  // of a controller with 16 message buffers
+constexpr co::flexcan::Capacity flexcan_mailboxes = {14, 14};
+
+TEST_CASE("FlexCAN: the filters pass exactly the identifiers of a usual node, and few others beside a large one") {
+  const Ids ids = {0x000, 0x080, 0x080, 0x100, 0x185, 0x205, 0x305, 0x405, 0x505, 0x605, 0x701, 0x702, 0x7E5};
+  for (const co::flexcan::Capacity& capacity : {flexcan_fifo, flexcan_mailboxes}) {
+    const auto flexcan = co::flexcan::filters_of(ids.data(), static_cast<unsigned>(ids.size()), capacity);
+    for (const std::uint32_t id : ids) {
+      CAPTURE(id);
+      CHECK(passes(flexcan, id));
+    }
+    CHECK(flexcan.number == ids.size() - 1);
+    CHECK(number_of_base_ids(flexcan) == ids.size() - 1);
+    CHECK(!passes(flexcan, CO_IF_FRM_EXT | 0x80));
+  }
+  const Ids large = ids_of_a_large_node();
+  const auto fifo = co::flexcan::filters_of(large.data(), static_cast<unsigned>(large.size()), flexcan_fifo);
+  CHECK(number_of_base_ids(fifo) <= large.size() + 16);
+  const auto mailboxes = co::flexcan::filters_of(large.data(), static_cast<unsigned>(large.size()), flexcan_mailboxes);
+  CHECK(number_of_base_ids(mailboxes) <= large.size() + 64);
+}
+
+TEST_CASE("FlexCAN: any identifiers pass the filters that are computed from them, those without a mask are the last") {
+  std::mt19937 random(1);
+  for (unsigned round = 0; round < 200; ++round) {
+    Ids ids(random() % 130);
+    for (std::uint32_t& id : ids) {
+      id = random() % 4 != 0 ? random() & 0x7FF : CO_IF_FRM_EXT | (random() & CO_IF_FRM_ID);
+    }
+    std::sort(ids.begin(), ids.end());
+    const auto number = 2 + static_cast<unsigned>(random() % (co::flexcan::filters_at_most - 1));
+    const co::flexcan::Capacity capacity = {number, 2 + static_cast<unsigned>(random() % (number - 1))};
+    const auto all = co::flexcan::filters_of(ids.data(), static_cast<unsigned>(ids.size()), capacity);
+    REQUIRE(all.number <= capacity.number);
+    for (unsigned n = capacity.masked; n < all.number; ++n) {
+      REQUIRE(all.filter[n].mask == co::flexcan::standard_mask);
+      REQUIRE((all.filter[n].word & ~co::flexcan::standard_mask) == 0);
+      REQUIRE((all.filter[n].word & 0x40000000) == 0);
+    }
+    for (const std::uint32_t id : ids) {
+      CAPTURE(id);
+      REQUIRE(passes(all, id));
+    }
+  }
+}
+
+TEST_CASE("FlexCAN: the macros for C compute bit timings like the tables for C++") {
+  constexpr CO_CAN_FLEXCAN_RATE rate = CO_CAN_FLEXCAN_RATE_OF(40000000, 500000, 16);
+  static_assert(CO_CAN_FLEXCAN_RATE_FITS(40000000, 500000, 16) && !CO_CAN_FLEXCAN_RATE_FITS(40000000, 500000, 12));
+  static_assert(CO_CAN_FLEXCAN_RATE_FITS(8000000, 1000000, 8) && !CO_CAN_FLEXCAN_RATE_FITS(8000000, 500000, 21));
+  CHECK(rate.Timing == 0x04610007);  // prescaler 5, segments 8 + 5 and 2, jump 2
+  CHECK(rate.Wide == 0);
+  CHECK(co::flexcan_rates<40000000, 500000>[0].Timing == 0x04610007);
+  constexpr CO_CAN_FLEXCAN_RATE shortest = CO_CAN_FLEXCAN_RATE_OF(8000000, 1000000, 8);
+  CHECK(shortest.Timing == 0x00490002);  // prescaler 1, segments 3 + 2 and 2, jump 2
+  CHECK(co::flexcan_rates<8000000, 1000000>[0].Timing == 0x00490002);
+  CHECK(co::flexcan_wide_rates<80000000, 500000>[0].Wide ==
+        0x8029E929);  // prescaler 2, segments 59 + 10 and 10, jump 10
 }
 
 TEST_CASE("bxCAN, M_CAN: with more identifiers than filters, few others pass") {
