@@ -36,6 +36,13 @@
 #define USE_ASSERT 0
 #endif
 
+/// Callbacks of each node in a table (CO_NODE_EXT.Callbacks, co_callbacks.h): 0 or 1. With 0 only the C functions that
+/// are the same for all nodes are called, and 0 saves 500 bytes of flash
+/// (Cortex-M0+, -Os, preset slave).
+#ifndef USE_CALLBACKS
+#define USE_CALLBACKS 1
+#endif
+
 /// Optimisations for speed: 0 or 1. With 0 the dictionary and the routes of frames are searched linearly, and every
 /// object of a PDO or of an expedited SDO transfer is read and written by the functions of its type. 0 saves 1.5 KB
 /// of flash (Cortex-M0+, -Os) and 28 bytes of RAM.
@@ -252,6 +259,9 @@
 /// called. 1 costs 530 bytes of flash (Cortex-M0+, -Os), or 230 where USE_LSS is 0.
 #ifndef USE_ACCESS_HOOK
 #define USE_ACCESS_HOOK 0
+#endif
+#if USE_ACCESS_HOOK && !USE_CALLBACKS
+#error "USE_ACCESS_HOOK needs USE_CALLBACKS"
 #endif
 
 /// Parameter groups (1010h, 1011h, 1020h): 0 or 1.

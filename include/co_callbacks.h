@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// \file co_callbacks.h
 /// Callbacks of one node: a constant table of functions that CO_NODE_EXT.Callbacks names. Every function receives the
-/// node and CO_NODE_EXT.User, so several nodes in one program need no global variables. Null entries are not called.
+/// node and CO_NODE_EXT.User, so several nodes in one program need no global variables, and a table in a static library
+/// works. Where an entry is null, the C function of the same purpose is called, which the application may define for
+/// all nodes (CONmtModeChange() and others). With USE_CALLBACKS 0 (co_cfg.h) only these C functions are called.
 ///
 /// Context: the loop; with USE_REAL_TIME the mainline. The node lock is held.
 #ifndef CO_CALLBACKS_H_
@@ -10,8 +12,11 @@
 #include "co_types.h"
 
 #include "co_cfg.h"
+#include "co_if_can.h"
 #include "co_nmt.h"
 #include "co_obj.h"
+#include "co_pdo.h"
+#include "co_time_of_day.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -64,8 +69,28 @@ typedef struct CO_ACCESS_LSS_T {
 /// \}
 
 /// Callbacks of a node. Initialise it with zero, then set the functions that the application needs. It must live as
-/// long as the node.
+/// long as the node. A function does what the C function does that its comment names.
 typedef struct CO_CALLBACKS_T {
+  void (*ModeChange)(struct CO_NODE_T* node, void* user, CO_MODE mode);                    ///< see CONmtModeChange()
+  void (*ResetRequest)(struct CO_NODE_T* node, void* user, CO_NMT_RESET reset);            ///< see CONmtResetRequest()
+  void (*HbConsEvent)(struct CO_NODE_T* node, void* user, uint8_t nodeId);                 ///< see CONmtHbConsEvent()
+  void (*HbConsChange)(struct CO_NODE_T* node, void* user, uint8_t nodeId, CO_MODE mode);  ///< see CONmtHbConsChange()
+  void (*LifeGuardEvent)(struct CO_NODE_T* node, void* user, bool occurred);         ///< see CONmtLifeGuardEvent()
+  void (*CanReceive)(struct CO_NODE_T* node, void* user, CO_IF_FRM* frm);            ///< see COIfCanReceive()
+  void (*CanChange)(struct CO_NODE_T* node, void* user, CO_CAN_EVENT event);         ///< see CONodeCanChange()
+  void (*PdoTransmit)(struct CO_NODE_T* node, void* user, CO_IF_FRM* frm);           ///< see COPdoTransmit()
+  int16_t (*PdoReceive)(struct CO_NODE_T* node, void* user, CO_IF_FRM* frm);         ///< see COPdoReceive()
+  void (*PdoSyncUpdate)(struct CO_NODE_T* node, void* user, CO_RPDO* pdo);           ///< see COPdoSyncUpdate()
+  void (*PdoUpdate)(struct CO_NODE_T* node, void* user, CO_RPDO* pdo);               ///< see COPdoUpdate()
+  int16_t (*ParaDefault)(struct CO_NODE_T* node, void* user, struct CO_PARA_T* pg);  ///< see COParaDefault()
+  void (*ParaLost)(struct CO_NODE_T* node, void* user, const struct CO_PARA_T* pg);  ///< see COParaLost()
+  CO_ERR (*LssLoad)(struct CO_NODE_T* node, void* user, uint32_t* baud, uint8_t* nodeId);  ///< see COLssLoad()
+  CO_ERR (*LssStore)(struct CO_NODE_T* node, void* user, uint32_t baud, uint8_t nodeId);   ///< see COLssStore()
+  void (*TimeUpdate)(struct CO_NODE_T* node, void* user, const CO_TIME_OF_DAY* time);      ///< see COTimeUpdate()
+  void (*LedChange)(struct CO_NODE_T* node, void* user, uint8_t leds);                     ///< see COLedChange()
+  /// See COEmcyReceived().
+  void (*EmcyReceived)(struct CO_NODE_T* node, void* user, uint8_t nodeId, uint16_t code, uint8_t reg,
+                       const uint8_t msef[5]);
   /// Called when the newest stored record of a parameter group is damaged and an older one was loaded in its place, by
   /// CONodeInit() and by NMT resets: in CO_INIT, before anything uses the values. No EMCY can be sent then;
   /// docs/storage.md shows how to send one.

@@ -92,15 +92,6 @@ typedef struct CO_NODE_SPEC_T {
   uint8_t* SdoBuf;                 ///< CO_SSDO_N * CO_SDO_BUF_BYTE bytes, or null
 } CO_NODE_SPEC;
 
-/// Events that a CAN controller reports.
-typedef enum CO_CAN_EVENT_T {
-  CO_CAN_OVERRUN = 0,  ///< a received frame was lost
-  CO_CAN_PASSIVE,      ///< error passive
-  CO_CAN_BUS_OFF,      ///< bus-off
-  CO_CAN_RECOVERED,    ///< error active again
-  CO_CAN_EVENT_NUM     ///< number of events
-} CO_CAN_EVENT;
-
 /// Counters of a node since CONodeInit(). All counters saturate.
 typedef struct CO_NODE_COUNTERS_T {
   uint32_t Received;  ///< frames read from the driver

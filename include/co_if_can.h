@@ -10,6 +10,15 @@
 extern "C" {
 #endif
 
+/// Events that a CAN controller reports.
+typedef enum CO_CAN_EVENT_T {
+  CO_CAN_OVERRUN = 0,  ///< a received frame was lost
+  CO_CAN_PASSIVE,      ///< error passive
+  CO_CAN_BUS_OFF,      ///< bus-off
+  CO_CAN_RECOVERED,    ///< error active again
+  CO_CAN_EVENT_NUM     ///< number of events
+} CO_CAN_EVENT;
+
 /// \name Identifier of a frame: CAN-ID in bits 0…28 and these flags. Drivers that do not support a flag leave it 0.
 /// \{
 #define CO_IF_FRM_EXT 0x80000000u  ///< 29-bit identifier

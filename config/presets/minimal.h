@@ -15,6 +15,9 @@
 #ifndef USE_FAST_PATHS
 #define USE_FAST_PATHS 0
 #endif
+#ifndef USE_CALLBACKS
+#define USE_CALLBACKS 0
+#endif
 #ifndef USE_OBJ_EX
 #define USE_OBJ_EX 0
 #endif

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/callbacks.hpp"
 #include "base/count.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
@@ -96,7 +97,7 @@ void run_reset(CO_NODE& node, uint8_t pending) {
     event::forget_resets(node);
   }
   if (commanded && node.Nmt.Mode != CO_INVALID) {
-    CONmtResetRequest(&node.Nmt, type);
+    callback::request_reset(node, type);
   }
 }
 
@@ -198,7 +199,7 @@ void take_over(CO_NODE& node, const CO_NODE_SPEC& spec, const CO_NODE_EXT& ext) 
 [[gnu::noinline]] void report(CO_NODE& node, CO_CAN_EVENT event) {
   count(node.Count.CanEvents[event]);
   event::report_can(node, event);
-  CONodeCanChange(&node, event);
+  callback::change_can(node, event);
 }
 
 // Runs all deferred work, for CONodeProcess(): also the work that is left to the mainline.
@@ -267,7 +268,7 @@ void dispatch(CO_NODE& node, CO_IF_FRM& frame) {
   }
   count(node.Count.Unclaimed);
   if (event::is_allowed(node, CO_NMT_ALLOWED)) {
-    COIfCanReceive(&frame);
+    callback::receive_frame(node, frame);
   }
 }
 

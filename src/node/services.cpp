@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/services.hpp"
 
+#include "base/callbacks.hpp"
 #include "base/count.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
@@ -360,7 +361,7 @@ void event::change_mode(CO_NODE& node, CO_MODE mode) {
   node.State |= changing;
   while (nmt.Mode != nmt.Next) {
     const CO_MODE next = nmt.Next;
-    CONmtModeChange(&nmt, next);
+    callback::change_mode(node, next);
     if (nmt.Next == next) {
       enter(node, next);
     }

@@ -3,6 +3,7 @@
 
 #if USE_PARA
 
+#include "base/callbacks.hpp"
 #include "base/error.hpp"
 #include "base/timer.hpp"
 #include "co_assert.h"
@@ -58,14 +59,15 @@ Located locate(CO_NODE& node, const CO_PARA& group) {
 
 // Sets the first size bytes of a group to the default values of the table, if it has any. Calls COParaDefault() only if
 // the memory holds the request to use the defaults, after a "load".
-CO_ERR use_defaults(const CO_PARA& group, uint32_t size, Found found) {
+CO_ERR use_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
   CO_ASSERT(size <= group.Size);
   if (static_cast<const uint8_t*>(group.Default) != nullptr) {
     __builtin_memcpy(bytes(group), static_cast<const uint8_t*>(group.Default), size);
   }
   // The callback of the application sets the whole group.
   const bool asked = found == Found::defaults && size == group.Size;
-  return asked && COParaDefault(const_cast<CO_PARA*>(&group)) != 0 ? CO_ERR_PARA_RESTORE : CO_ERR_NONE;
+  return asked && callback::set_para_defaults(node, const_cast<CO_PARA&>(group)) != 0 ? CO_ERR_PARA_RESTORE
+                                                                                      : CO_ERR_NONE;
 }
 
 // Returns whether a change of the group is stored autonomously. While the memory holds the request of a "load" to use
@@ -82,13 +84,6 @@ store::Loaded load_record(CO_NODE& node, const CO_PARA& group, const store::Reco
   return is_loaded ? store::load(node, record, bytes(group), size) : store::Loaded{Found::blank, false};
 }
 
-void report_recovered(CO_NODE& node, const CO_PARA& group) {
-  const CO_CALLBACKS* const callbacks = node.Ext->Callbacks;
-  if (callbacks != nullptr && callbacks->ParaRecovered != nullptr) {
-    callbacks->ParaRecovered(&node, node.Ext->User, &group);
-  }
-}
-
 // A store that the budget delays (CO_ERR_OBJ_STATE) is no error: the next round stores the group.
 CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
   const CO_ERR err = save(node, group);
@@ -98,7 +93,7 @@ CO_ERR save_now_or_later(CO_NODE& node, const CO_PARA& group) {
 // Sets the first size bytes of a group to the default values. A reset ends the request of a "load" for an autonomous
 // group by storing the defaults, so that later changes are stored. If the budget is used up, the next reset does.
 CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found found) {
-  const CO_ERR err = use_defaults(group, size, found);
+  const CO_ERR err = use_defaults(node, group, size, found);
   const bool ends_request = found == Found::defaults && size == group.Size && is_saved_autonomously(group);
   return err == CO_ERR_NONE && ends_request ? save_now_or_later(node, group) : err;
 }
@@ -107,16 +102,16 @@ CO_ERR load_defaults(CO_NODE& node, const CO_PARA& group, uint32_t size, Found f
 CO_ERR load(CO_NODE& node, const CO_PARA& group, uint32_t size) {
   const Located located = locate(node, group);
   if (located.is_refused) {
-    (void)use_defaults(group, size, Found::no_place);
+    (void)use_defaults(node, group, size, Found::no_place);
     return CO_ERR_PARA_OVERLAP;
   }
   const store::Loaded loaded = load_record(node, group, located.record, size);
   const CO_ERR err = loaded.found == Found::data ? CO_ERR_NONE : load_defaults(node, group, size, loaded.found);
   if (loaded.is_older) {
-    report_recovered(node, group);
+    callback::recover_para(node, group);
   }
   if (loaded.found == Found::lost) {
-    COParaLost(&node, &group);
+    callback::lose_para(node, group);
     return CO_ERR_PARA_LOAD;
   }
   return loaded.found == Found::no_place ? CO_ERR_PARA_STORE : err;

@@ -4,6 +4,7 @@
 
 #if CO_EMCY_CONS_N > 0
 
+#include "base/callbacks.hpp"
 #include "base/routes.hpp"
 #include "dictionary/dict.hpp"
 #include "dictionary/types/cob_id.hpp"
@@ -46,8 +47,8 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t number) {
   if (frame.DLC != wire::emcy_dlc) {
     return false;
   }
-  COEmcyReceived(&node, static_cast<uint8_t>(number), wire::emcy_code(frame), wire::emcy_register(frame),
-                 wire::emcy_bytes(frame));
+  callback::receive_emcy(node, static_cast<uint8_t>(number), wire::emcy_code(frame), wire::emcy_register(frame),
+                         wire::emcy_bytes(frame));
   return true;
 }
 

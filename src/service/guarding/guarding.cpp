@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/guarding/guarding.hpp"
 
+#include "base/callbacks.hpp"
 #include "base/events.hpp"
 #include "base/timer.hpp"
 #include "base/transmit.hpp"
@@ -33,7 +34,7 @@ void lose_master(void* node_pointer) {
   node.GuardLost = 1;
   event::raise(node, event::Fault::life_guard, 0);
   event::lose_communication(node);
-  CONmtLifeGuardEvent(&node.Nmt, true);
+  callback::guard_life(node, true);
 }
 
 // Called for each remote request: reports that a lost NMT master is present again.
@@ -43,7 +44,7 @@ void find_master(CO_NODE& node) {
   }
   node.GuardLost = 0;
   event::resolve(node, event::Fault::life_guard, 0);
-  CONmtLifeGuardEvent(&node.Nmt, false);
+  callback::guard_life(node, false);
 }
 
 // Starts the life time again; 0 ticks: stops life guarding.

@@ -3,6 +3,7 @@
 // elapses when the first node may be missing, and then checks all of them.
 #include "co_hb_cons.h"
 
+#include "base/callbacks.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
@@ -70,7 +71,7 @@ void miss(CO_NODE& node, CO_HBCONS& cons) {
     event::raise(node, event::Fault::heartbeat, node_id);
     event::lose_communication(node);
   }
-  CONmtHbConsEvent(&node.Nmt, node_id);
+  callback::miss_heartbeat(node, node_id);
 }
 
 // Checks all nodes. The timer is started only after all callbacks have returned, because they may change the entries.
@@ -97,7 +98,7 @@ void hear(CO_NODE& node, CO_HBCONS& cons, int16_t state) {
     event::resolve(node, event::Fault::heartbeat, cons.NodeId);
   }
   const CO_MODE mode = CONmtModeDecode(static_cast<uint8_t>(state));
-  CONmtHbConsChange(&node.Nmt, cons.NodeId, mode);
+  callback::change_heartbeat(node, cons.NodeId, mode);
   if (cons.Tmr == state) {  // the callback has not changed the entry
     cons.State = mode;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/led/led.hpp"
 
+#include "base/callbacks.hpp"
 #include "base/timer.hpp"
 #include "co_assert.h"
 
@@ -89,7 +90,7 @@ CO_LED_STATE state_of(const CO_NODE& node) {
 void show(CO_NODE& node, uint8_t leds) {
   if (node.Led.Shown != leds) {
     node.Led.Shown = leds;
-    COLedChange(&node, leds);
+    callback::change_leds(node, leds);
   }
 }
 

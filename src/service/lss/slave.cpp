@@ -3,6 +3,7 @@
 
 #if USE_LSS
 
+#include "base/callbacks.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
 #include "base/gate.hpp"
@@ -252,7 +253,7 @@ uint32_t code_of(CO_ERR err) {
 // Stores node-ID and bit rate. Returns an error code of LSS.
 uint32_t store_pending(CO_NODE& node) {
   const budget::Command counted(node);
-  const CO_ERR err = COLssStore(node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
+  const CO_ERR err = callback::store_lss(node, node.Lss.CfgBaudrate, node.Lss.CfgNodeId);
   if (err != CO_ERR_NONE) {
     error::report(node, CO_ERR_LSS_STORE);
   }
@@ -384,7 +385,7 @@ void load(CO_NODE& node) {
   CO_LSS& lss = node.Lss;
   uint32_t baud = lss.OwnBaudrate;
   uint8_t id = lss.OwnNodeId;
-  const bool loaded = COLssLoad(&baud, &id) == CO_ERR_NONE && wire::may_be_configured(id);
+  const bool loaded = callback::load_lss(node, baud, id) == CO_ERR_NONE && wire::may_be_configured(id);
   if (!loaded) {
     error::report(node, CO_ERR_LSS_LOAD);
   }

@@ -2,6 +2,7 @@
 // RPDOs. [301:7.2.2.5.1]
 #include <stddef.h>
 
+#include "base/callbacks.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
@@ -154,8 +155,8 @@ void call_sync_callbacks(CO_NODE& node, uint16_t first) {
     const bool is_fresh = has(pdo.Map, fresh);
     clear(pdo.Map, queued | fresh);
     if (is_fresh) {
-      COPdoSyncUpdate(&pdo);
-      COPdoUpdate(&pdo);
+      callback::update_pdo_at_sync(node, pdo);
+      callback::update_pdo(node, pdo);
     }
     link = pdo.Next;
   }
@@ -183,7 +184,7 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
     restart_deadline(pdo);
   }
   CO_IF_FRM copy = frame;
-  if (!has(pdo.Map, served) || COPdoReceive(&copy) != 0 || !has(pdo.Map, served)) {
+  if (!has(pdo.Map, served) || callback::receive_pdo(node, copy) != 0 || !has(pdo.Map, served)) {
     return true;
   }
   if (is_synchronous(pdo)) {
@@ -196,7 +197,7 @@ bool is_switching([[maybe_unused]] const CO_NODE& node) {
     return true;
   }
   send_changed(node);
-  COPdoUpdate(&pdo);
+  callback::update_pdo(node, pdo);
   return true;
 }
 

@@ -2,6 +2,7 @@
 // TPDOs. [301:7.2.2.5.2-3]
 #include <stddef.h>
 
+#include "base/callbacks.hpp"
 #include "base/error.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
@@ -56,7 +57,7 @@ CO_ERR end_of(const CO_TPDO& pdo) { return is_operational(*pdo.Node) ? CO_ERR_TP
 
 // Calls the callback of the application, queues the frame and marks the PDO as sent.
 CO_ERR send(CO_TPDO& pdo, CO_IF_FRM& frame) {
-  COPdoTransmit(&frame);
+  callback::transmit_pdo(*pdo.Node, frame);
   if (!has(pdo.Map, served)) {
     return end_of(pdo);
   }

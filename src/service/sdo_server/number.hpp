@@ -15,7 +15,7 @@ namespace co::sdo_server {
 // Returns whether a callback of the application takes part in transfers.
 inline bool has_callbacks(const CO_NODE& node) {
 #if USE_ACCESS_HOOK
-  if (gate::has(node, &CO_CALLBACKS::AccessSdo)) {
+  if (callback::find(node, &CO_CALLBACKS::AccessSdo) != nullptr) {
     return true;
   }
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/time/time.hpp"
 
+#include "base/callbacks.hpp"
 #include "base/events.hpp"
 #include "base/routes.hpp"
 #include "base/timer.hpp"
@@ -80,7 +81,7 @@ bool on_frame(CO_NODE& node, const CO_IF_FRM& frame, uint16_t) {
   if (frame.DLC != wire::time_bytes || set_clock(node, time) != CO_ERR_NONE) {
     return false;
   }
-  COTimeUpdate(&node, &time);
+  callback::update_time(node, time);
   return true;
 }
 
